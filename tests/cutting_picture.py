@@ -12,7 +12,7 @@ import numpy as np
 from tests.geometry.test_cutting_simulation import rack_profile
 
 from fenics_gears import Gear
-from fenics_gears.geometry.outline import tooth_outline
+from fenics_gears.geometry.outline import tip_corner, tooth_outline
 
 FILE = Path(__file__).parent.parent / "docs/pictures/cutting.png"
 GREY, DARK, RED = "0.75", "#1f2937", "#c2410c"
@@ -30,7 +30,7 @@ def tooth_points(gear):
         [
             outline.fillet,
             outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, 401))[1:],
-            outline.tip_corner,
+            tip_corner(gear),
         ]
     )
     return np.vstack([half, outline.coast(half)[::-1]])

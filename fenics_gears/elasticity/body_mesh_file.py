@@ -1,7 +1,5 @@
 """Reading and writing the mesh of a gear body as a gmsh file."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -21,10 +19,7 @@ PLANE = 1e-6
 
 def read_body_mesh(path) -> BodyMesh:
     """Body from a gmsh file, mm, of first-order triangles or quadrilaterals (not both); its physical curves become the
-    named edges.
-
-    Raises SceneError for a file that cannot be read, is not plane, has other cells or cells turned inside out.
-    """
+    named edges. Raises SceneError for a file that cannot be read, is not plane, has other cells or inverted ones."""
     if not Path(path).is_file():
         raise SceneError(f"body mesh {path}: there is no such file")
     found = mesh_content(path)
@@ -50,10 +45,7 @@ def read_body_mesh(path) -> BodyMesh:
 
 def write_body_mesh(mesh: BodyMesh, path) -> None:
     """Write a body, mm, as a gmsh file of format 4.1; named edges become physical curves, the body the physical surface
-    "gear".
-
-    Raises SceneError where the file cannot be written.
-    """
+    "gear". Raises SceneError where the file cannot be written."""
     try:
         Path(path).touch()
     except OSError as error:
@@ -88,7 +80,7 @@ def _check_plane(points: np.ndarray, path) -> None:
 
 
 def _facing_one_way(points: np.ndarray, cells: np.ndarray, path) -> np.ndarray:
-    """Cells turned counter-clockwise; raises SceneError where not all faced the same way, as the mesh then folds over
+    """Cells turned counter-clockwise; SceneError where not all faced the same way, as the mesh then folds over
     itself."""
     clockwise = corner_areas(points, cells).sum(axis=1) < 0.0
     if 0 < clockwise.sum() < len(cells):

@@ -2,12 +2,10 @@
 axis as a whole.
 
 A motion is ``u_r = u cos(n t)``, ``u_t = v sin(n t)``, ``u_z = w cos(n t)`` over the angle t, with u, v, w of second
-order on the rectangles of a grid, nine nodes each. Harmonic 1 has displacements along x and tilts about y, those along
-y and tilts about x by a quarter of a turn; in harmonic 0 v is a twist by itself, and u, w stretch the body. O. C.
-Zienkiewicz, The Finite Element Method (1977), chapter 15.
+order on the rectangles of a grid. Harmonic 1 has displacements along x and tilts about y, those along y and tilts about
+x by a quarter of a turn; in harmonic 0 v is a twist by itself, and u, w stretch the body. O. C. Zienkiewicz, The Finite
+Element Method (1977), chapter 15.
 """
-
-from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise, product
@@ -17,6 +15,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu
+
+from .face.layers import shapes
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(3)
 # Simpson's rule, exact for what nodes of second order interpolate.
@@ -50,9 +50,8 @@ class BodyOfRevolution:
         row, column = np.nonzero(which >= 0)
         all_radii, all_heights = (np.sort(np.concatenate(each)) for each in ((radii, r), (heights, z)))
         one, other = (each.ravel() for each in np.indices((3, 3)))
-        used, cells = np.unique(
-            (2 * row[:, None] + one) * len(all_heights) + 2 * column[:, None] + other, return_inverse=True
-        )
+        numbers = (2 * row[:, None] + one) * len(all_heights) + 2 * column[:, None] + other
+        used, cells = np.unique(numbers, return_inverse=True)
         self.cells = cells.reshape(-1, 9)
         self.nodes = np.column_stack([all_radii[used // len(all_heights)], all_heights[used % len(all_heights)]])
         self.middles = r[row]
@@ -69,7 +68,7 @@ class BodyOfRevolution:
         law[:, range(6), range(6)] += self.shear[:, None] * np.array([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
         across, along = (half[:, None] for half in self.halves)
         for (x, of_x), (y, of_y) in product(zip(POINTS, WEIGHTS), repeat=2):
-            (in_x, by_x), (in_y, by_y) = _shapes(x), _shapes(y)
+            (in_x, by_x), (in_y, by_y) = shapes(x), shapes(y)
             radius = self.middles[:, None] + across * x
             around = np.outer(in_x, in_y).ravel() / radius
             by_r, by_z = np.outer(by_x, in_y).ravel() / across, np.outer(in_x, by_y).ravel() / along
@@ -105,8 +104,8 @@ class BodyOfRevolution:
         for height in heights:
             first = 2 * int(np.clip(np.searchsorted(z[::2], height) - 1, 0, len(z) // 2 - 1))
             low, middle, high = z[first : first + 3]
-            shapes, _ = _shapes((height - middle) / (0.5 * (high - low)))
-            found.append(self._rows(nodes[first : first + 3], shapes, shapes / radius, order))
+            weights, _ = shapes((height - middle) / (0.5 * (high - low)))
+            found.append(self._rows(nodes[first : first + 3], weights, weights / radius, order))
         return np.concatenate(found)
 
     def _rows(self, nodes: np.ndarray, along: np.ndarray, turned: np.ndarray, order: int) -> np.ndarray:
@@ -138,9 +137,3 @@ def _divided(stops: np.ndarray, size: float) -> np.ndarray:
     apart = [pair for pair in pairwise(stops) if pair[1] - pair[0] > ROUND_OFF]
     parts = [np.linspace(*each, max(ceil((each[1] - each[0]) / size - 1e-6), FEWEST) + 1)[:-1] for each in apart]
     return np.append(np.concatenate(parts), stops[-1])
-
-
-def _shapes(place: float) -> tuple[np.ndarray, np.ndarray]:
-    """Shape functions (3,) of second order from -1 to 1, and their slopes."""
-    values = np.array([0.5 * place * (place - 1.0), 1.0 - place**2, 0.5 * place * (place + 1.0)])
-    return values, np.array([place - 0.5, -2.0 * place, place + 0.5])

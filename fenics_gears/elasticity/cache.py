@@ -1,8 +1,7 @@
-"""Results kept on disk under the hash of all their inputs; beyond a limit of size the entries go first that were unused
-for longest.
+"""Results kept on disk under the hash of all their inputs; beyond a limit of size the longest unused go first.
 
 An entry is one immutable file, made and removed by a single call of the file system. That is safe on the file systems
-of clusters too, where the locks of a database, as in the library `diskcache`, do not hold.
+of clusters too, where the locks of a database, as in `diskcache`, do not hold.
 """
 
 from __future__ import annotations
@@ -30,8 +29,7 @@ SIZE_VARIABLE, DEFAULT_SIZE = "FENICS_GEARS_CACHE_SIZE", "2 GB"
 
 
 def content_key(inputs: dict) -> str:
-    """Hash of inputs made of numbers, strings, lists, dicts and dataclasses; equal inputs have equal keys on every
-    machine."""
+    """Hash of inputs made of numbers, strings, lists, dicts and dataclasses, the same on every machine."""
     return hashlib.sha256(as_json(inputs).encode()).hexdigest()
 
 
@@ -41,40 +39,31 @@ def as_json(inputs: Any) -> str:
 
 
 def _fields_of(data: Any) -> dict[str, Any]:
-    """A dataclass as JSON has it."""
     return {field.name: getattr(data, field.name) for field in fields(data)}
 
 
 def user_cache() -> Cache:
-    """The cache in the directory named by FENICS_GEARS_CACHE, else in the user's cache directory; at most
-    FENICS_GEARS_CACHE_SIZE of it.
-
-    Raises SceneError for a size that cannot be read.
-    """
+    """The cache in the directory named by FENICS_GEARS_CACHE, else in the user's cache directory, of at most
+    FENICS_GEARS_CACHE_SIZE. Raises SceneError for a size that cannot be read."""
     directory = os.environ.get(DIRECTORY_VARIABLE)
     if not directory:
         from platformdirs import user_cache_dir
 
         directory = user_cache_dir("fenics_gears")
-    return Cache(
-        Path(directory), size_in_bytes(os.environ.get(SIZE_VARIABLE) or DEFAULT_SIZE, SIZE_VARIABLE, DEFAULT_SIZE)
-    )
+    limit = os.environ.get(SIZE_VARIABLE) or DEFAULT_SIZE
+    return Cache(Path(directory), size_in_bytes(limit, SIZE_VARIABLE, DEFAULT_SIZE))
 
 
 def kept(
     cache: Cache | None, inputs: dict, compute: Callable[[], tuple[dict, dict]]
 ) -> tuple[dict[str, np.ndarray], dict]:
-    """Arrays that follow from inputs, and the times (s) that they took: read from the cache, else by ``compute()`` and
-    then stored in it."""
+    """Arrays that follow from inputs, and the times (s) that they took: from the cache, else by ``compute()`` and then
+    stored."""
     clock = perf_counter()
     arrays = None if cache is None else cache.load(key := content_key(inputs))
     if arrays is not None:
-        return arrays, {
-            "from_cache": True,
-            "time_mesh": 0.0,
-            "time_compile": 0.0,
-            "time_condense": perf_counter() - clock,
-        }
+        spent = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": perf_counter() - clock}
+        return arrays, {"from_cache": True, **spent}
     arrays, timings = compute()
     if cache is not None:
         cache.store(key, arrays)
@@ -178,7 +167,7 @@ def _mark_as_used(path: Path) -> None:
 
 
 def _file_content(key: str, arrays: dict[str, np.ndarray]) -> bytes:
-    """The HDF5 file as bytes: made in memory, since HDF5 itself does not come back cleanly from a full disk."""
+    """The HDF5 file as bytes: made in memory, since HDF5 does not come back cleanly from a full disk."""
     import h5py
 
     content = io.BytesIO()

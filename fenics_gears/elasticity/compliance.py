@@ -10,9 +10,8 @@ import numpy as np
 from fenics_gears.errors import ComputationError
 
 if TYPE_CHECKING:
-    from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
-
     from .face_compliance_data import FaceCompliance
+    from .whole_body.compliance import WholeBodyCompliance
 
 STAGES = ("time_mesh", "time_compile", "time_condense")
 
@@ -21,8 +20,8 @@ STAGES = ("time_mesh", "time_compile", "time_condense")
 class Reach:
     """Distances, in pitches, between teeth whose flanks interact.
 
-    same: the largest between two drive flanks, or two coast flanks. across: least and largest between a drive flank and
-    a coast flank, positive where the tooth of the drive flank stands counter-clockwise; None where coast flanks are not
+    same: the largest between two drive flanks, or two coast flanks. across: least and largest between a drive and a
+    coast flank, positive where the tooth of the drive flank stands counter-clockwise; None where coast flanks are not
     loaded.
     """
 
@@ -39,14 +38,14 @@ class Reach:
 class FlankCompliance:
     """Displacement of drive-flank nodes per unit line force on drive-flank nodes, hub ring held.
 
-    roll_angle: (n,), rad, strictly increasing from the form circle to the tip: the nodes of the drive flank, element
-    vertices and (second order) the nodes between them. element_order: 1 or 2, the polynomial order of the displacement
-    along a flank element. blocks: (offsets + 1, 2n, 2n), mm per N/mm (plane strain, unit thickness). blocks[m] is the
-    displacement of the flank m pitches ahead (counter-clockwise) of the loaded one. Dofs are interleaved x0, y0, x1,
-    y1, ...; components are those of each tooth's own canonical frame. blocks[0] is symmetric positive definite. alike:
-    all teeth are alike (`WholeBodyCompliance`: they differ). flanks: 1, or 2 where the coast flank is known too: its 2n
-    dofs then follow the drive flank's 2n, in the tooth's frame mirrored at its centreline, in which the coast flank has
-    the drive flank's place. timings: time_mesh, time_compile, time_condense (s), unknowns, from_cache and the like.
+    roll_angle: (n,), rad, increasing from the form circle to the tip: the nodes of the drive flank, element vertices
+    and (second order) the nodes between them. element_order: 1 or 2, of the displacement along a flank element. blocks:
+    (offsets + 1, 2n, 2n), mm per N/mm (plane strain, unit thickness). blocks[m] is the displacement of the flank m
+    pitches ahead (counter-clockwise) of the loaded one. Dofs are interleaved x0, y0, x1, y1, ..., in each tooth's own
+    canonical frame. blocks[0] is symmetric positive definite. alike: all teeth are alike. flanks: 1, or 2 where the
+    coast flank is known too: its 2n dofs then follow the drive flank's, in the tooth's frame mirrored at its
+    centreline, in which the coast flank has the drive flank's place. timings: time_mesh, time_compile, time_condense
+    (s), from_cache and the like.
     """
 
     roll_angle: np.ndarray
@@ -72,11 +71,8 @@ class FlankCompliance:
         return self.offsets
 
     def block(self, offset: int) -> np.ndarray:
-        """Compliance of the flank ``offset`` pitches ahead of the loaded one, (2n, 2n).
-
-        A negative offset is a tooth behind: by reciprocity the transpose of the one ahead.
-        Raises ComputationError for a tooth outside ``offsets``.
-        """
+        """Compliance of the flank ``offset`` pitches ahead of the loaded one, (2n, 2n); of one behind, by reciprocity,
+        the transpose. Raises ComputationError for a tooth outside ``offsets``."""
         self._check_known(offset, -self.offsets, self.offsets)
         return self.blocks[offset] if offset >= 0 else self.blocks[-offset].T
 
@@ -93,11 +89,8 @@ class FlankCompliance:
         return self.roll_angle
 
     def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
-        """Compliance (2n, 2n) of one tooth's flank under forces on another's; teeth are counted counter-clockwise from
-        any one.
-
-        sides: which flank of either tooth, 0 the drive flank, 1 the coast flank where it is known.
-        """
+        """Compliance (2n, 2n) of one tooth's flank under forces on another's, counted counter-clockwise from any one.
+        sides: which flank of either tooth, 0 the drive flank, 1 the coast flank where it is known."""
         dofs = 2 * self.nodes
         rows, columns = (slice(side * dofs, (side + 1) * dofs) for side in sides)
         return self.block(responding - loaded)[rows, columns]
@@ -110,13 +103,10 @@ class FlankCompliance:
 @dataclass(frozen=True)
 class BothFlanksCompliance(FlankCompliance):
     """Compliance of drive and coast flanks; by symmetry about the tooth's centreline half of the blocks give the
-    others.
+    others: in the mirror a coast flank is a drive flank, and a tooth ahead is one behind.
 
-    In the mirror a coast flank is a drive flank, and a tooth ahead is one behind.
-
-    blocks: (offsets + 1, 2n, 2n): of the drive flanks alone; those of the coast flanks are their transposes. across:
-    (k, 2n, 2n), each symmetric: across[m - first_across] is the displacement of the drive flank m pitches ahead of a
-    loaded coast flank.
+    blocks: (offsets + 1, 2n, 2n): of the drive flanks alone. across: (k, 2n, 2n), each symmetric: across[m -
+    first_across] is the displacement of the drive flank m pitches ahead of a loaded coast flank.
     """
 
     across: np.ndarray = field(kw_only=True)
@@ -144,10 +134,7 @@ class BothFlanksCompliance(FlankCompliance):
 @dataclass(frozen=True)
 class Body:
     """A gear: flank compliance of its `section` in plane strain, and where flanks are resolved over the face that of
-    the `solid` in three dimensions, whose contact the finer section corrects.
-
-    timings: seconds that both took, by stage.
-    """
+    the `solid` in three dimensions. timings: seconds that both took, by stage."""
 
     section: FlankCompliance | WholeBodyCompliance
     solid: FaceCompliance | None = None

@@ -1,7 +1,5 @@
 """Condense a meshed body onto chosen parts of its boundary."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -17,9 +15,9 @@ from .stiffness import compile_ahead, displacement_space, nodes_at, nodes_in_cel
 class CondensedBody:
     """Stiffness of a body on named groups of boundary nodes, Young's modulus 1 MPa, unit thickness.
 
-    points: coordinates (k, 2) of each group's nodes, mm; (k, 3) of a body in three dimensions. stiffness: (2 K, 2 K),
-    N/mm per mm, over the groups in the order of ``points``, dofs interleaved x, y, in the mesh's own frame; (3 K, 3 K),
-    N/mm, interleaved x, y, z, in three dimensions. timings: seconds and unknowns.
+    points: coordinates of each group's nodes, mm: (k, 2), or (k, 3) in three dimensions. stiffness: (2 K, 2 K), N/mm
+    per mm, over the groups in the order of ``points``, dofs interleaved x, y, in the mesh's own frame; (3 K, 3 K),
+    N/mm, in three dimensions.
     """
 
     points: dict[str, np.ndarray]
@@ -51,44 +49,36 @@ def condense(
     """
     clock = perf_counter()
     compile_ahead(element)
-    compiled = perf_counter()
+    timings = {"time_compile": perf_counter() - clock}
     space = displacement_space(mesh, element)
     matrix = stiffness_matrix(space, element, poissons_ratio, mesh.web)
-    assembled = perf_counter()
     stiffness = schur_complement(matrix, dofs_of(_nodes(space, points, cells_of or {})))
-    unknowns = matrix.getSize()[0]
     matrix.destroy()
-    timings = {
-        "time_compile": compiled - clock,
-        "time_assemble": assembled - compiled,
-        "time_schur": perf_counter() - assembled,
-        "unknowns": unknowns,
-        "condensed_unknowns": len(stiffness),
-    }
     return CondensedBody(points, stiffness, timings)
 
 
 def _nodes(space, points: dict[str, np.ndarray], cells_of: dict[str, np.ndarray]) -> np.ndarray:
-    """Numbers (K,) of all groups' nodes; one search for those of unique places, as it takes the time of a search tree
-    over all nodes."""
+    """Numbers (K,) of all groups' nodes; one search for those of unique places, each of which makes a search tree."""
     places = {name: group for name, group in points.items() if name not in cells_of}
-    found = np.split(
-        nodes_at(space, np.vstack([*places.values()])), np.cumsum([len(group) for group in places.values()])[:-1]
-    )
-    nodes = dict(zip(places, found))
-    return np.concatenate(
-        [nodes[name] if name in nodes else nodes_in_cells(space, points[name], cells_of[name]) for name in points]
-    )
+    ends = np.cumsum([len(group) for group in places.values()])
+    nodes = dict(zip(places, np.split(nodes_at(space, np.vstack([*places.values()])), ends[:-1])))
+    nodes |= {name: nodes_in_cells(space, points[name], cells) for name, cells in cells_of.items()}
+    return np.concatenate([nodes[name] for name in points])
 
 
 def dofs_of(nodes: np.ndarray, components: int = 2) -> np.ndarray:
-    """Dofs (2 k,) of nodes (k,); of nodes with three components (3 k,)."""
+    """Dofs (components k,) of nodes (k,)."""
     return (components * np.asarray(nodes)[:, None] + np.arange(components)).ravel()
 
 
 def by_radius(points: np.ndarray) -> np.ndarray:
     """Points (k, 2) sorted by their distance from the gear's centre."""
     return points[np.argsort(np.linalg.norm(points, axis=1))]
+
+
+def line_of(mesh: BodyMesh, name: str, order: int) -> np.ndarray:
+    """Nodes (k, 2) of an element of that order on a part of a mesh's boundary, those of the hub excepted, by radius."""
+    return by_radius(without(mesh.edge_nodes(name, order), mesh.edge_nodes("hub", order)))
 
 
 def without(points: np.ndarray, excluded: np.ndarray) -> np.ndarray:

@@ -1,15 +1,10 @@
 """How the cuts of a ring of equal sectors move under forces on one of them, by joining runs of sectors: for gears with
 many teeth.
 
-A run of n sectors is twice as long as two of n/2 with the cut between them eliminated, so that the cost grows with the
-logarithm of the number of teeth. The Fourier transform (`elasticity.ring`) takes one dense inverse for every other
-tooth.
-
-A run is its stiffness (2 c, 2 c) over its clockwise and its counter-clockwise cut, each cut's dofs (c) in its own
-sector's frame.
+A run of n sectors is two of n/2 with the cut between them eliminated, so that the cost grows with the logarithm of the
+number of teeth. The Fourier transform (`elasticity.ring`) takes one dense inverse for every other tooth. A run is its
+stiffness (2 c, 2 c) over its clockwise and its counter-clockwise cut, each cut's dofs (c) in its own sector's frame.
 """
-
-from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from math import log2
@@ -50,10 +45,8 @@ def run_of(link: np.ndarray, count: int) -> np.ndarray:
 
 
 def chain_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
-    """Response of cuts up to `reach` pitches from the loaded one, in a ring of `teeth` sectors; reach < teeth.
-
-    The cuts 0 ... reach are kept; the sectors between them are single, those the long way round one run.
-    """
+    """Response of cuts up to `reach` pitches from the loaded one, in a ring of `teeth` sectors; reach < teeth. The
+    sectors between these cuts are single, those the long way round one run."""
     cut = len(link) // 2
     stiffness = closed_ring([link] * reach + [run_of(link, teeth - reach)], cut)
     columns = _solved(stiffness, np.eye(len(stiffness), cut)).reshape(reach + 1, cut, cut)
@@ -62,27 +55,21 @@ def chain_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
 
 def closed_ring(parts: Sequence[np.ndarray], cut: int) -> np.ndarray:
     """Stiffness of two or more parts that go once around the gear: over the lower cut of each part, then over their
-    other dofs.
-
-    parts: counter-clockwise, each over its lower cut (`cut` dofs), its upper cut in the frame of the part ahead, and
-    other dofs, if any.
-    """
+    other dofs. parts: counter-clockwise, each over its lower cut (`cut` dofs), its upper cut in the frame of the part
+    ahead, and other dofs, if any."""
     inner = np.cumsum([cut * len(parts)] + [len(part) - 2 * cut for part in parts])
     total = np.zeros((inner[-1],) * 2)
     for number, part in enumerate(parts):
         ahead = (number + 1) % len(parts)
-        dofs = np.r_[
-            number * cut : (number + 1) * cut, ahead * cut : (ahead + 1) * cut, inner[number] : inner[number + 1]
-        ]
+        cuts = [slice(each * cut, (each + 1) * cut) for each in (number, ahead)]
+        dofs = np.r_[*cuts, inner[number] : inner[number + 1]]
         total[np.ix_(dofs, dofs)] += part
     return total
 
 
 def chain_is_quicker(teeth: int, reach: int) -> bool:
-    """Whether joining runs takes less than half of the Fourier transform's operations, both in cubes of a cut's dofs.
-
-    Else the transform is kept, whose every bit is the same whatever the reach.
-    """
+    """Whether joining runs takes less than half of the Fourier transform's operations, both in cubes of a cut's dofs;
+    else the transform is kept, whose every bit is the same whatever the reach."""
     chain = (reach + 1) ** 3 / 3.0 + 2.0 * (reach + 1) ** 2 + 6.0 * log2(teeth)
     # A complex inverse, of four real operations each, for half of the harmonics, and its share in every response.
     fourier = 2.5 * teeth

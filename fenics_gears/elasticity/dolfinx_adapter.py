@@ -1,7 +1,5 @@
 """The only module that imports DOLFINx: what the program uses of it, alike on 0.5, 0.9 and 0.11."""
 
-from __future__ import annotations
-
 import inspect
 import logging
 import re
@@ -13,10 +11,7 @@ import numpy as np
 
 
 def _load_vtk_before_old_dolfinx() -> None:
-    """Load VTK first where DOLFINx 0.5 is installed.
-
-    DOLFINx 0.5 exports std::regex symbols that make VTK 9.7 abort when it is loaded after it.
-    """
+    """DOLFINx 0.5 exports std::regex symbols that make VTK 9.7 abort when it is loaded after it."""
     try:
         version = metadata.version("fenics-dolfinx")
     except metadata.PackageNotFoundError:
@@ -48,10 +43,8 @@ _HAS_FUNCTIONSPACE = hasattr(fem, "functionspace")
 
 
 def create_mesh(points, cells):
-    """DOLFINx mesh of straight-sided cells, on this process alone.
-
-    points: (n, 2), mm. cells: (m, 3) or (m, 4), corners counter-clockwise.
-    """
+    """DOLFINx mesh, on this process alone, of points (n, 2), mm, and straight-sided cells (m, 3) or (m, 4), corners
+    counter-clockwise."""
     corners = cells.shape[1]
     domain = ufl.Mesh(_coordinate_element(_CELL_NAME[corners]))
     parameters = inspect.signature(dolfinx.mesh.create_mesh).parameters
@@ -70,16 +63,14 @@ def _coordinate_element(cell_name):
 
 
 def vector_space(mesh, order: int, components: int = 2):
-    """Continuous Lagrange space of displacements in a plane mesh, in its plane (two components) or also out of it
-    (three)."""
+    """Continuous Lagrange space of displacements in a plane mesh, of two components or, out of its plane, of three."""
     if _HAS_FUNCTIONSPACE:
         return fem.functionspace(mesh, ("Lagrange", order, (components,)))
     return fem.VectorFunctionSpace(mesh, ("Lagrange", order), dim=components)
 
 
 def cell_space(mesh, order: int, components: int):
-    """Discontinuous space of quadrilaterals: values of a cell (order 0) or of its corners (order 1), the cells' one
-    after the other."""
+    """Discontinuous space of quadrilaterals: values of a cell (order 0) or of its corners (order 1), cell by cell."""
     if _HAS_FUNCTIONSPACE:
         return fem.functionspace(mesh, ("DG", order) if components == 1 else ("DG", order, (components,)))
     family = "DG" if order == 0 else "DQ"
@@ -97,13 +88,12 @@ def cell_nodes(space) -> np.ndarray:
 
 
 def node_coordinates(space) -> np.ndarray:
-    """Coordinates of the space's nodes, (nodes, 2); node i carries its components one after the other: of two, dofs 2 i
-    and 2 i + 1."""
+    """Coordinates of the space's nodes, (nodes, 2); of two components, node i has dofs 2 i and 2 i + 1."""
     return space.tabulate_dof_coordinates()[:, :2]
 
 
 def lagrange(nodes: np.ndarray, order: int, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Shape functions (p, k) of the nodes (k, 2) of a reference triangle or square, both from 0 to 1, at points (p, 2);
+    """Shape functions (p, k) of the nodes (k, 2) of a reference triangle or square, from 0 to 1, at points (p, 2), and
     their derivatives (p, k, 2)."""
     cell = basix.CellType.triangle if len(nodes) in (3, 6) else basix.CellType.quadrilateral
     element = basix.create_element(basix.ElementFamily.P, cell, order, basix.LagrangeVariant.gll_warped)
@@ -129,11 +119,8 @@ def quiet_compiler():
 
 
 def with_compiled(build):
-    """Call ``build()``, which compiles; where a compile was once killed halfway, remove what it left and call it again.
-
-    The form compiler believes that a killed compile is still under way; it waits 10 s and names the source file in its
-    error.
-    """
+    """Call ``build()``, which compiles; where a compile was once killed halfway, remove what it left and call it again:
+    the form compiler takes it for under way, waits 10 s and names the source file in its error."""
     try:
         return build()
     except TimeoutError as error:

@@ -1,7 +1,5 @@
 """Nodes of a meshed body, numbered from its mesh alone and not as the finite element library numbers them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -74,10 +72,7 @@ def element_nodes(mesh: BodyMesh, element: Element) -> ElementNodes:
 
 
 def numbers_at(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """Numbers (k,) of the nodes (n, 2) at places (k, 2).
-
-    Raises ComputationError where there is no node, or more than one (as on the faces of a crack).
-    """
+    """Numbers (k,) of the nodes (n, 2) at places (k, 2); ComputationError where there is none, or more than one."""
     distance, found = cKDTree(nodes).query(places, k=2)
     tolerance = 1e-9 * np.abs(nodes).max()
     for wrong, what in ((distance[:, 0] > tolerance, "no node"), (distance[:, 1] <= tolerance, "more than one node")):
@@ -90,10 +85,8 @@ def numbers_at(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
 
 
 def node_roll_angles(gear: Gear, vertices: np.ndarray, order: int) -> np.ndarray:
-    """Roll angles (n,), rad, of the flank's nodes from its element vertices (k, 2), form circle to tip.
-
-    A node between two vertices stands midway in arc length.
-    """
+    """Roll angles (n,), rad, of the flank's nodes from its element vertices (k, 2), form circle to tip; a node between
+    two vertices stands midway in arc length."""
     radius = np.linalg.norm(vertices, axis=1)
     # Round-off may put the first vertex a hair below the base circle, where the form circle can lie.
     vertex_angles = gear.roll_angle(np.maximum(radius, gear.base_radius))

@@ -23,10 +23,9 @@ class ElementSizes:
 
     flank: along the working flank, kept down to ``depth`` times itself below it. fillet: along root and fillets. coast:
     along the coast flank and the tip. body: largest size in the tooth and the rim below it; further inside elements go
-    on growing. growth: increase of size per distance. both_flanks: the coast flank is a working flank too, meshed as
-    the drive flank's mirror image. hub_angle: largest angle (rad) of an edge along the bore. mate_tip: roll angles
-    (rad) between which the mate's tip edge may press on the flank. There, and beside the flank's own tip, its elements
-    are finer; None: none are.
+    on growing. growth: increase of size per distance. both_flanks: the coast flank works too, meshed as the drive
+    flank's mirror image. hub_angle: largest angle (rad) of an edge along the bore. mate_tip: roll angles (rad) between
+    which the mate's tip edge may press on the flank; there, and beside the flank's own tip, elements are finer.
     """
 
     flank: float
@@ -43,7 +42,8 @@ class ElementSizes:
         """All sizes but the flank's times `factor`: meshes of several factors are one family, whose error falls with an
         order.
 
-        Growth inwards is limited, so that elements do not become slivers; edges along the bore are never made larger.
+        Growth inwards is limited, and edges along the bore are never made larger, so that elements do not become
+        slivers.
         """
         return replace(
             self, fillet=factor * self.fillet, coast=factor * self.coast, body=factor * self.body,
@@ -72,7 +72,7 @@ class Discretisation:
 
     element: a name of ELEMENTS. flank_element_size, body_element_size: mm, along the working flank and the largest in
     tooth and rim (None: from the module). elastic_teeth: teeth this many pitches apart and further do not feel each
-    other (1: each feels itself alone); None: all do. mate_tip: roll angles (rad), see ElementSizes.
+    other; None: all do. mate_tip: see ElementSizes.
     """
 
     element: str
@@ -82,7 +82,7 @@ class Discretisation:
     mate_tip: tuple[float, float] | None = None
 
     def sizes(self, gear: Gear, both_flanks: bool = False) -> ElementSizes:
-        """Element sizes (mm) of a gear's sector mesh; both_flanks: the coast flank works too."""
+        """Element sizes (mm) of a gear's sector mesh."""
         sizes = element_sizes(gear, element_named(self.element), self.flank_element_size, self.body_element_size)
         return replace(sizes, both_flanks=both_flanks, mate_tip=self.mate_tip)
 
@@ -93,11 +93,8 @@ class Discretisation:
 
 
 def element_sizes(gear: Gear, element: Element, flank: float, body: float | None = None) -> ElementSizes:
-    """Element sizes (mm) of a gear's sector mesh for a wanted size on the flank and, if not None, in the body.
-
-    The body's size scales all others but the flank's by the same factor. Raises SceneError for a
-    size that is not positive and finite.
-    """
+    """Element sizes (mm) of a gear's sector mesh for a wanted size on the flank and, if not None, in the body, which
+    scales all others but the flank's. Raises SceneError for a size that is not positive and finite."""
     for name, size in (("flank_element_size", flank), ("body_element_size", body)):
         if size is not None and not (np.isfinite(size) and size > 0.0):
             raise SceneError(f"{name} is {size} mm, must be positive and finite")
@@ -137,10 +134,8 @@ class SizeField:
         return size
 
     def set_background(self, gmsh, points, tags, scale: float) -> None:
-        """Make ``scale`` times this field the mesh size of the current gmsh model.
-
-        points: (n, 2) and tags: (n,) of the model's geometric points; other points of the sources are ignored.
-        """
+        """Make ``scale`` times this field the mesh size of the current gmsh model with points (n, 2) and their tags
+        (n,); other points of the sources are ignored."""
         lookup, fields = _tree(points), []
         for source in self.sources:
             distance, nearest = lookup.query(np.vstack(source.curves))
@@ -170,10 +165,8 @@ def arc_lengths(curve: np.ndarray) -> np.ndarray:
 
 
 def divided(curve: np.ndarray, size: np.ndarray, fewest: int, multiple: int = 2) -> np.ndarray:
-    """Fractions of the arc length of a curve (m, 2) at which nodes of the wanted size (m,) stand.
-
-    A multiple of ``multiple`` divisions, at least ``fewest``, both ends included.
-    """
+    """Fractions of the arc length of a curve (m, 2) at which nodes of the wanted size (m,) stand, both ends included: a
+    multiple of ``multiple`` divisions, at least ``fewest``."""
     length, steps = arc_lengths(curve), np.linalg.norm(np.diff(curve, axis=0), axis=1)
     density = np.concatenate([[0.0], np.cumsum(steps * 0.5 * (1.0 / size[1:] + 1.0 / size[:-1]))])
     count = multiple * int(np.ceil(max(density[-1], fewest) / multiple - 1e-9))

@@ -1,7 +1,5 @@
 """The finite elements that a body can be made of."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from difflib import get_close_matches
 
@@ -12,7 +10,7 @@ from fenics_gears.errors import SceneError
 class Element:
     """A Lagrange element: its name, corners of its cell, polynomial order, order its products are integrated to.
 
-    ``incompatible_modes``: with Wilson's incompatible modes within each cell (``elasticity.incompatible_modes``).
+    ``incompatible_modes``: with Wilson's modes within each cell (``elasticity.incompatible_modes``).
     """
 
     name: str

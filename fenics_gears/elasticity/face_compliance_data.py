@@ -1,7 +1,4 @@
-"""The flank compliance of a gear over its face: all that contact and dynamics need to know of its body in three
-dimensions."""
-
-from __future__ import annotations
+"""The flank compliance of a gear over its face."""
 
 from dataclasses import dataclass, field
 
@@ -15,12 +12,12 @@ class FaceCompliance:
     """Displacement of drive-flank nodes per unit force on drive-flank nodes over a gear's face, hub held.
 
     roll_angle: (n,), rad, increasing, of the flank nodes of a section. element_order: of the displacement along a flank
-    element, and along the face. heights: (h,), mm from the gear's mid-width, increasing: of the nodes of the layers,
-    with second order also between the layers' ends. blocks: (offsets + 1, 3 n h, 3 n h), mm/N. blocks[m] is the
-    displacement of the flank m pitches ahead (counter-clockwise) of the loaded one. Dofs by height, then flank node,
-    then component (x, y, z) in the tooth's own frame at that height. plane: the plane-strain compliance of the
-    section's mesh. seat: (h, 6, h, 6), mm, rad, N, how the axis of a gear that is cut into its shaft gives way: x, y,
-    z, tilts about x and y, turn; None where the hub is rigid.
+    element, and along the face. heights: (h,), mm from the gear's mid-width, increasing, of the nodes of the layers.
+    blocks: (offsets + 1, 3 n h, 3 n h), mm/N: blocks[m] is the displacement of the flank m pitches ahead
+    (counter-clockwise) of the loaded one. Dofs by height, then flank node, then component (x, y, z) in the tooth's own
+    frame at that height. plane: the plane-strain compliance of the section's mesh. seat: (h, 6, h, 6), mm, rad, N, how
+    the axis of a gear that is cut into its shaft gives way: x, y, z, tilts about x and y, turn; None where the hub is
+    rigid.
     """
 
     roll_angle: np.ndarray

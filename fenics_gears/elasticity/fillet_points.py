@@ -59,14 +59,12 @@ def fillet_curve(gear: Gear, points: int = POINTS) -> FilletCurve:
     length = np.append(length, section)
     tangents = np.column_stack([np.interp(length, along, part) for part in _tangents(samples).T])
     tangents /= np.linalg.norm(tangents, axis=1)[:, None]
-    return FilletCurve(
-        outline, samples, length, tangents, np.append(np.interp(length[:-1], along, angles), section_angle(gear))
-    )
+    tangent_angle = np.append(np.interp(length[:-1], along, angles), section_angle(gear))
+    return FilletCurve(outline, samples, length, tangents, tangent_angle)
 
 
 def section_angle(gear: Gear) -> float:
-    """Angle (rad) in the transverse section of the tangent at SECTION_ANGLE in the normal one: what is across the tooth
-    is wider there by 1/cos(helix angle)."""
+    """Angle (rad) in the transverse section of the tangent at SECTION_ANGLE in the normal one."""
     return float(np.arctan(np.tan(SECTION_ANGLE) * gear.rack_stretch)) if gear.helix_angle else SECTION_ANGLE
 
 
@@ -74,8 +72,8 @@ def fillet_rows(recovery: GearRecovery, curve: FilletCurve, averages: np.ndarray
     """Stress (S 2 p, dofs) at the points of the drive side's fillet, then the coast side's, slice by slice, per
     displacement of a sector in modules, E = 1 MPa; zero where the fillet has no such point.
 
-    Along the fillet's profile and across the tooth's trace, which is the direction that a section normal to the tooth
-    has. averages: (S, h), of slices over the sector's heights.
+    Along the fillet's profile and across the tooth's trace, as in a section normal to the tooth. averages: (S, h), of
+    slices over the sector's heights.
     """
     sector, parts = recovery.sector, []
     twist = 0.0 if sector.sweep is None else sector.sweep.twist
@@ -98,21 +96,15 @@ def fillet_weights(
     curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Nodes (k,) along the root on the drive (0) or coast side (1), their weights (p, k) at the fillet's points, and
-    the tangents (p, 2) there.
-
-    `held`: nodes of the sector's cuts and hub. Not a number where the fillet has no such point.
-    """
+    the tangents (p, 2) there; not a number where the fillet has no such point. `held`: nodes of the sector's cuts and
+    hub."""
     root, place = _root_nodes(curve, nodes, held, side)
-    return (
-        root,
-        _interpolation(place, curve.length),
-        curve.tangents if side == 0 else curve.outline.coast(curve.tangents),
-    )
+    tangents = curve.tangents if side == 0 else curve.outline.coast(curve.tangents)
+    return root, _interpolation(place, curve.length), tangents
 
 
 def _root_nodes(curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side: int) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (k,) along the root on one side without those on the cut, and their lengths (k,) along the curve,
-    ascending."""
+    """Nodes (k,) along the root on one side without those on the cut, and their lengths along the curve, ascending."""
     gear = curve.outline.gear
     free = np.setdiff1d(np.unique(nodes.boundary_sides), held)
     radius = np.linalg.norm(nodes.points[free], axis=1)
@@ -127,8 +119,7 @@ def _root_nodes(curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side:
 
 
 def _interpolation(nodes: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """Weights (p, k) of linear interpolation between ascending places (k,), constant beyond them; `wanted` may hold
-    nan."""
+    """Weights (p, k) of linear interpolation between ascending places (k,), constant beyond them."""
     ahead = np.clip(np.searchsorted(nodes, np.nan_to_num(wanted)), 1, len(nodes) - 1)
     part = np.clip((wanted - nodes[ahead - 1]) / (nodes[ahead] - nodes[ahead - 1]), 0.0, 1.0)
     weights = np.zeros((len(wanted), len(nodes)))
@@ -143,8 +134,7 @@ def _tangents(points: np.ndarray) -> np.ndarray:
 
 
 def _angles(outline: ToothOutline, points: np.ndarray) -> np.ndarray:
-    """Angle (rad) between the curve's tangent and the tooth's centreline, falling from the root on; negative where the
-    tooth widens outwards."""
+    """Angle (rad) between the curve's tangent and the tooth's centreline, falling from the root on."""
     axis = np.array([np.cos(outline.centreline_angle), np.sin(outline.centreline_angle)])
     tangents = _tangents(points)
     angles = np.arctan2(tangents[:, 0] * axis[1] - tangents[:, 1] * axis[0], tangents @ axis)

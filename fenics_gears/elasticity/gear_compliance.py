@@ -1,7 +1,5 @@
 """Flank compliance of a gear from its data: mesh one sector, condense it, join the ring; or read it from the cache."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, replace
 from time import perf_counter
 
@@ -17,19 +15,15 @@ from .compliance import BothFlanksCompliance, FlankCompliance, Reach
 from .element_sizes import Discretisation, ElementSizes
 from .elements import Element, element_named
 
-COUNTS = ("unknowns", "condensed_unknowns")
-
 
 def flank_compliance(
     gear: Gear, material: Material, discretisation: Discretisation, reach: Reach, cache: Cache | None = None
 ) -> FlankCompliance:
     """Flank compliance of a gear in plane strain, from the cache or by meshing and condensing one tooth sector.
 
-    In plane strain similar gears have the same displacement per line force: the gear of module one stands for all of
-    them, and they share an entry of the cache.
-
-    reach: of the teeth whose interaction is wanted, and whether the coast flanks' is. Raises SceneError for an unknown
-    element or an impossible size, ComputationError when a stage fails.
+    Similar gears have the same displacement per line force: the gear of module one stands for all of them, also in the
+    cache. reach: of the teeth whose interaction is wanted, and whether the coast flanks' is. Raises SceneError for an
+    unknown element or an impossible size, ComputationError when a stage fails.
     """
     chosen = element_named(discretisation.element)
     sizes = discretisation.sizes(gear, both_flanks=reach.across is not None)
@@ -42,20 +36,15 @@ def flank_compliance(
     # In place: the arrays are large, and nothing else refers to them.
     for name in {"blocks", "across"} & arrays.keys():
         arrays[name] *= 1.0 / material.youngs_modulus
-    counts = {name: int(arrays.pop(name)) for name in COUNTS}
-    found: FlankCompliance
+    own = arrays["roll_angle"], chosen.order, arrays["blocks"], timings
+    found = FlankCompliance(*own)
     if sizes.both_flanks:
-        first = int(arrays.pop("first_across"))
-        found = BothFlanksCompliance(
-            element_order=chosen.order, timings={**counts, **timings}, first_across=first, **arrays
-        )
-    else:
-        found = FlankCompliance(element_order=chosen.order, timings={**counts, **timings}, **arrays)
+        found = BothFlanksCompliance(*own, across=arrays["across"], first_across=int(arrays["first_across"]))
     return found if coupled == reach else _with_uncoupled_teeth(found, reach.farthest)
 
 
 def similar_inputs(kind: str, gear: Gear, material: Material, discretisation, both_flanks: bool = True) -> dict:
-    """What any quantity of a gear's body follows from, the same for similar gears: key of an entry in the cache."""
+    """What any quantity of a gear's body follows from, the same for similar gears."""
     return {
         "kind": kind,
         "version": NUMBERS_VERSION,
@@ -74,10 +63,8 @@ def _coupled(reach: Reach, elastic_teeth: int | None) -> Reach:
 
 
 def _with_uncoupled_teeth(body: FlankCompliance, offsets: int) -> FlankCompliance:
-    """The compliance over more offsets, zero for teeth farther away than those that are known.
-
-    Raises SceneError where the result is not positive definite: loads on the teeth would then do negative work.
-    """
+    """The compliance over more offsets, zero for teeth farther away than those that are known. Raises SceneError where
+    it is not positive definite: loads on the teeth would then do negative work."""
     known, zeros = body.offsets, np.zeros((offsets - body.offsets, *body.blocks.shape[1:]))
     padded = replace(body, blocks=np.concatenate([body.blocks, zeros]))
     if isinstance(body, BothFlanksCompliance):
@@ -109,34 +96,24 @@ def _computed(
 ) -> tuple[dict, dict]:
     """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
+    from . import mirrored_ring, ring
     from .condensation import by_radius
     from .element_nodes import node_roll_angles
+    from .half_sector import centreline_direction
     from .sector_mesh import half_sector_mesh, sector_mesh
 
     clock = perf_counter()
     mesh = (half_sector_mesh if sizes.both_flanks else sector_mesh)(gear, sizes, element.quadrilateral)
     meshed = perf_counter()
-    sector, parts = (_both_flanks if sizes.both_flanks else _drive_flank)(gear, element, mesh, poissons_ratio, reach)
-    rolls = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), element.order)
-    timings = {
-        **sector.timings,
-        "time_mesh": meshed - clock,
-        "time_condense": perf_counter() - meshed - sector.timings["time_compile"],
-    }
-    return {"roll_angle": rolls, **parts, **{name: np.array(sector.timings[name]) for name in COUNTS}}, timings
-
-
-def _drive_flank(gear, element, mesh, poissons_ratio, reach: Reach):
-    from .ring import condensed_sector, ring_compliance
-
-    sector = condensed_sector(mesh, element, poissons_ratio)
-    return sector, {"blocks": ring_compliance(sector, gear.teeth, reach.same)}
-
-
-def _both_flanks(gear, element, mesh, poissons_ratio, reach: Reach):
-    from .half_sector import centreline_direction
-    from .mirrored_ring import both_flanks_compliance, condensed_half
-
-    sector = condensed_half(mesh, element, poissons_ratio)
-    blocks, across = both_flanks_compliance(sector, centreline_direction(mesh), gear.teeth, reach)
-    return sector, {"blocks": blocks, "across": across, "first_across": np.array(reach.across[0])}
+    if sizes.both_flanks:
+        sector = mirrored_ring.condensed_half(mesh, element, poissons_ratio)
+        axis = centreline_direction(mesh)
+        blocks, across = mirrored_ring.both_flanks_compliance(sector, axis, gear.teeth, reach)
+        arrays = {"blocks": blocks, "across": across, "first_across": np.array(reach.across[0])}
+    else:
+        sector = ring.condensed_sector(mesh, element, poissons_ratio)
+        arrays = {"blocks": ring.ring_compliance(sector, gear.teeth, reach.same)}
+    arrays["roll_angle"] = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), element.order)
+    compiling = sector.timings["time_compile"]
+    timings = {"time_mesh": meshed - clock, "time_condense": perf_counter() - meshed - compiling}
+    return arrays, {**sector.timings, **timings}

@@ -1,7 +1,5 @@
 """gmsh started and ended without side effects on the calling program."""
 
-from __future__ import annotations
-
 import inspect
 import signal
 import threading
@@ -21,10 +19,8 @@ OPTIONS = {
 
 @contextmanager
 def gmsh_model(name: str):
-    """The gmsh module with an empty model of that name and this program's options; removed afterwards.
-
-    A gmsh that the caller has already started stays up, its own models untouched.
-    """
+    """The gmsh module with an empty model of that name and this program's options; removed afterwards. A gmsh that the
+    caller has already started stays up, its own models untouched."""
     import gmsh
 
     started_here = not _is_running(gmsh)

@@ -1,7 +1,5 @@
 """A sector that is symmetric about its tooth's centreline: one half meshed, the other its mirror image."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
@@ -21,7 +19,7 @@ def drive_half(
     """Mesh of a sector's half with the drive flank, from the sector's boundary; its edge "centreline" is the line of
     symmetry.
 
-    fill: meshes the inside of a closed boundary by a size field; the mesh has edges for the named parts.
+    fill: meshes the inside of a closed boundary by a size field, with edges for the named parts.
     """
     half = _half(boundary, field)
     mesh = fill(half, field, (*IMAGES, "centreline"))

@@ -1,14 +1,11 @@
-"""The bilinear quadrilateral with Wilson's two incompatible modes, in the form of Taylor that passes the patch test on
-any cell.
+"""The bilinear quadrilateral with Wilson's two incompatible modes, in Taylor's form that passes the patch test on any
+cell.
 
 The displacement is ``sum N_i u_i + (1 - xi^2) a_1 + (1 - eta^2) a_2``; the modes' derivatives are taken with the
-Jacobian at the cell's centre, ``d(1 - xi^2)/dx = -2 xi (j_0/j) J_0^-T e_xi``, so that their mean over the cell is zero
-and a uniform stress does no work on them. Being a cell's own, the amplitudes `a` are condensed: ``K = K_uu - K_au^T
-K_aa^-1 K_au`` couples what the bilinear element couples. E. L. Wilson et al., Incompatible displacement models, 1973;
-R. L. Taylor, P. J. Beresford, E. L. Wilson, IJNME 10, 1976, 1211-1219.
+Jacobian at the cell's centre, ``d(1 - xi^2)/dx = -2 xi (j_0/j) J_0^-T e_xi``, so that a uniform stress does no work on
+them. Being a cell's own, the amplitudes `a` are condensed: ``K = K_uu - K_au^T K_aa^-1 K_au``. E. L. Wilson et al.,
+Incompatible displacement models, 1973; R. L. Taylor, P. J. Beresford, E. L. Wilson, IJNME 10, 1976, 1211-1219.
 """
-
-from __future__ import annotations
 
 import numpy as np
 import ufl
@@ -21,7 +18,7 @@ XI, ETA = np.array([-1.0, 1.0, -1.0, 1.0]), np.array([-1.0, -1.0, 1.0, 1.0])
 
 
 def condensed_stiffness(space, stress_of_strain, measure):
-    """Assembled PETSc matrix of a bilinear displacement space with the modes condensed; the sparsity is the space's
+    """Assembled PETSc matrix of a bilinear displacement space with the modes condensed; its sparsity is the space's
     own.
 
     stress_of_strain: UFL stress of a UFL strain. measure: cells, with the full Gauss rule.
@@ -77,7 +74,7 @@ def _mode_strain(mesh):
 
 
 def _by_node(cells: np.ndarray, corner_values: np.ndarray) -> np.ndarray:
-    """Values (nodes,) of a discontinuous function whose cells (m, 4) all have the same at their corners (4,)."""
+    """Values (nodes,) of a discontinuous function that is the same at the corners (4,) of all cells (m, 4)."""
     values = np.empty(cells.size)
     values[cells] = corner_values
     return values

@@ -3,8 +3,6 @@
 `python -m fenics_gears.elasticity.mesh_content FILE` is that process: it writes the arrays to the standard output.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import resource
@@ -31,11 +29,10 @@ DAMAGED = "the file is damaged; write it again"
 class MeshContent:
     """Nodes, plane cells and lines of a file.
 
-    tags, points: gmsh's numbers of the nodes, and their places (n, 3).
-    kinds, kind_names: gmsh's numbers and names of the kinds of plane cells.
-    cells: node tags of all cells of the first kind, one after the other.
-    solids: whether there are cells in space.
-    lines, curves: node tags (k, 2) of all lines of physical curves, and the name of each line's curve.
+    tags, points: gmsh's numbers of the nodes, and their places (n, 3). kinds, kind_names: gmsh's numbers and names of
+    the kinds of plane cells. cells: node tags of all cells of the first kind, one after the other. solids: whether
+    there are cells in space. lines, curves: node tags (k, 2) of all lines of physical curves, and the name of each
+    line's curve.
     """
 
     tags: np.ndarray
@@ -73,7 +70,6 @@ def _reason(done: subprocess.CompletedProcess) -> str:
 
 
 def _read(name: str) -> MeshContent:
-    """The content, read here."""
     with gmsh_model("body mesh") as gmsh:
         gmsh.merge(name)
         mesh = gmsh.model.mesh

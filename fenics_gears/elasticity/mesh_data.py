@@ -1,7 +1,5 @@
 """A plane mesh as plain arrays, and the checks of its cells."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,11 +14,11 @@ from fenics_gears.geometry.gear_data import Web
 class BodyMesh:
     """Straight-sided mesh of a gear body or of a sector of it.
 
-    points: (n, 2), mm (modules where a sector was meshed in them), in the canonical frame of the tooth it belongs to
-    (of tooth 0 for a whole gear). cells: (m, 3) triangles or (m, 4) quadrilaterals, corners counter-clockwise. edges:
-    named parts of the boundary, each (k, 2) point indices. A sector has "flank", "hub", "lower cut" and "upper cut"
-    (clockwise and counter-clockwise side); a whole gear has "hub" and "flank 0", "flank 1", ... counted
-    counter-clockwise. web: part of the body that is less wide than the rest, lengths as of the points.
+    points: (n, 2), mm (modules where a sector was meshed in them), in the canonical frame of its tooth (of tooth 0 for
+    a whole gear). cells: (m, 3) triangles or (m, 4) quadrilaterals, corners counter-clockwise. edges: named parts of
+    the boundary, each (k, 2) point indices. A sector has "flank", "hub", "lower cut" and "upper cut" (clockwise and
+    counter-clockwise side); a whole gear has "hub" and "flank 0", "flank 1", ... counted counter-clockwise. web: part
+    of the body that is less wide than the rest.
     """
 
     points: np.ndarray
@@ -44,10 +42,8 @@ class BodyMesh:
 
 
 def corner_areas(points: np.ndarray, cells: np.ndarray) -> np.ndarray:
-    """Twice the signed area of the triangle at each corner of each cell, (cells, corners).
-
-    All are positive exactly when every cell's Jacobian determinant is positive everywhere.
-    """
+    """Twice the signed area of the triangle at each corner of each cell, (cells, corners): all positive exactly when
+    every cell's Jacobian determinant is positive everywhere."""
     corner = points[cells]
     ahead = np.roll(corner, -1, axis=1) - corner
     behind = np.roll(corner, 1, axis=1) - corner
@@ -70,13 +66,13 @@ def oriented(points: np.ndarray, cells: np.ndarray) -> np.ndarray:
 
 
 def sides_of(cells: np.ndarray) -> np.ndarray:
-    """Sides (cells times corners, 2) of cells, one cell's after the other's, as they run counter-clockwise."""
+    """Sides (cells times corners, 2), one cell's after the other's, as they run counter-clockwise."""
     return np.stack([cells, np.roll(cells, -1, axis=1)], axis=-1).reshape(-1, 2)
 
 
 def distinct(sides: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Sides (k, 2) each once, ascending, the smaller point first; and the number of each given side (j, 2) among them
-    (j,)."""
+    """Sides (k, 2) each once, ascending, the smaller point first; and the number among them of each given side (j,
+    2)."""
     # By one number for each side: numpy takes ten times as long to sort rows.
     size = sides.max(initial=0) + 1
     numbers, places = np.unique(np.sort(sides, axis=1) @ [size, 1], return_inverse=True)
@@ -90,7 +86,7 @@ def boundary_sides(cells: np.ndarray) -> np.ndarray:
 
 
 def joined_cells(cells: np.ndarray) -> np.ndarray:
-    """Number of the connected piece (cells,) that each cell belongs to; cells hold together along whole sides."""
+    """Number of the connected piece of each cell (cells,); cells hold together along whole sides."""
     sides, of_cells = distinct(sides_of(cells))
     owner = np.repeat(np.arange(len(cells)), cells.shape[1])
     incidence = coo_matrix((np.ones(len(owner)), (owner, of_cells)), shape=(len(cells), len(sides))).tocsr()
@@ -102,9 +98,8 @@ def split_to_quadrilaterals(
 ) -> tuple[np.ndarray, np.ndarray, dict[tuple[int, int], int]]:
     """Split every triangle into three and every quadrilateral into four quadrilaterals.
 
-    polygons: (k, 3) and (k, 4) arrays of point indices. exact: where the new point of a boundary
-    edge (smaller index first) lies if not midway. Returns the points, the cells and the new
-    point of each edge.
+    polygons: (k, 3) and (k, 4) arrays of point indices. exact: where the new point of a boundary edge (smaller index
+    first) lies if not midway. Returns the points, the cells and the new point of each edge.
     """
     unique_sides, side_of = distinct(np.vstack([sides_of(cells) for cells in polygons]))
     middle = points[unique_sides].mean(axis=1)

@@ -1,20 +1,18 @@
 """A gear of symmetric tooth sectors, both of whose flanks are loaded: half a sector condensed, the other half by
 symmetry.
 
-Every motion of a symmetric sector is the sum of a symmetric and an antisymmetric one. The two are uncoupled, and each
-has a stiffness of half the size: on the centreline the symmetric one does not move across it, the antisymmetric one not
-along it. With v the drive half's motion and v' the coast half's in the mirrored frame, the sector's energy is ``s^T S_s
-s + a^T S_a a`` where ``s = (v + v') / 2`` and ``a = (v - v') / 2``; any response is ``(R_s + R_a) / 2`` within a half
-and ``(R_s - R_a) / 2`` across.
+Every motion is the sum of a symmetric and an antisymmetric one. These are uncoupled, and each has a stiffness of half
+the size: on the centreline the symmetric one does not move across it, the antisymmetric one not along it. With v the
+drive half's motion and v' the coast half's in the mirrored frame, the sector's energy is ``s^T S_s s + a^T S_a a``
+where ``s = (v + v') / 2`` and ``a = (v - v') / 2``; any response is ``(R_s + R_a) / 2`` within a half and ``(R_s - R_a)
+/ 2`` across.
 """
-
-from __future__ import annotations
 
 import numpy as np
 from scipy.linalg.blas import dsyrk, dtrsm
 
 from .compliance import Reach
-from .condensation import CondensedBody, by_radius, condense, without
+from .condensation import CondensedBody, by_radius, condense, line_of
 from .elements import Element
 from .mesh_data import BodyMesh
 from .ring import cut_response, definite_factor, inverse_of_factor, sector_response, turned_nodes
@@ -26,14 +24,12 @@ Parts = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float) -> CondensedBody:
-    """The sector's half (`sector_mesh.half_sector_mesh`) condensed onto "flank", "cut", "centreline" (both without hub
-    nodes) and "hub"."""
-    hub = mesh.edge_nodes("hub", element.order)
+    """The sector's half (`sector_mesh.half_sector_mesh`) condensed onto "flank", "cut", "centreline" and "hub"."""
     points = {
         "flank": by_radius(mesh.edge_nodes("flank", element.order)),
-        "cut": by_radius(without(mesh.edge_nodes("upper cut", element.order), hub)),
-        "centreline": by_radius(without(mesh.edge_nodes("centreline", element.order), hub)),
-        "hub": hub,
+        "cut": line_of(mesh, "upper cut", element.order),
+        "centreline": line_of(mesh, "centreline", element.order),
+        "hub": mesh.edge_nodes("hub", element.order),
     }
     return condense(mesh, element, poissons_ratio, points)
 
@@ -41,10 +37,8 @@ def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float) -> C
 def both_flanks_compliance(
     half: CondensedBody, axis: np.ndarray, teeth: int, reach: Reach
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Compliance of the ring, hub held, Young's modulus 1 MPa: `blocks` and `across` of `BothFlanksCompliance`.
-
-    axis: (2,), unit vector along the centreline. The formula is that of `ring.ring_compliance`.
-    """
+    """Compliance of the ring, hub held, Young's modulus 1 MPa, as of `ring.ring_compliance`: `blocks` and `across` of
+    `BothFlanksCompliance`. axis: (2,), unit vector along the centreline."""
     along = np.asarray(axis)
     parts = [
         flank_free(_constrained(half, direction), len(half.dofs("flank")))
@@ -80,8 +74,8 @@ def unfolded(own: np.ndarray, other: np.ndarray, image, turn) -> np.ndarray:
     """(Minus) a flank's motion (f, 2 c) per motion of the lower and the upper cut, from that per motion of the cut on
     its own side and on the other's.
 
-    image: from motions of the upper cut to those of the lower one, its image; turn: of a pitch, so that both are in the
-    frame of a lower cut.
+    image: from motions of the upper cut to those of the lower one, its image; turn: of a pitch, into the frame of a
+    lower cut.
     """
     return np.hstack([(image @ other.T).T, own @ turn])
 
@@ -94,7 +88,7 @@ def unfolded_link(cut: np.ndarray, cross: np.ndarray, image, turn) -> np.ndarray
 
 def _constrained(half: CondensedBody, direction: np.ndarray) -> np.ndarray:
     """Stiffness (F + C, F + C) over flank and cut where the centreline moves along a direction (2,) only, free of
-    force, and the hub is held."""
+    force, hub held."""
     # Flank and cut come first.
     kept = slice(0, len(half.dofs("flank")) + len(half.dofs("cut")))
     line = half.dofs("centreline").reshape(-1, 2)
@@ -107,7 +101,7 @@ def _constrained(half: CondensedBody, direction: np.ndarray) -> np.ndarray:
 
 
 def flank_free(stiffness: np.ndarray, flank: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Compliance of the flank (its `flank` dofs come first), its response to motions of the cut, stiffness of the cut:
+    """Compliance of the flank (its `flank` dofs come first), its response to motions of the cut, stiffness of the cut,
     the flank free."""
     # Transposed, they are in LAPACK's order.
     factor = definite_factor(stiffness[:flank, :flank].T, "a flank")

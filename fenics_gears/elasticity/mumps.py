@@ -4,8 +4,6 @@ petsc4py (3.18 to 3.25) does not bind ``MatFactorSetSchurIS``; ctypes reaches it
 loaded.
 """
 
-from __future__ import annotations
-
 import ctypes
 
 import numpy as np
@@ -24,8 +22,7 @@ COLUMNS_AT_ONCE = 64
 class Factor:
     """Cholesky factor of a symmetric matrix (scipy's, or PETSc's), positive definite on all dofs but `schur_dofs` (k,).
 
-    `what`: the matrix's name in messages. Raises ComputationError when the factorisation fails. Release the memory by
-    `close`.
+    `what`: the matrix's name in messages. Raises ComputationError where the factorisation fails. Release it by `close`.
     """
 
     def __init__(self, matrix: sparse.csr_matrix | PETSc.Mat, what: str, schur_dofs: np.ndarray | None = None):
@@ -84,13 +81,12 @@ class Factor:
         return result
 
     def schur(self) -> np.ndarray:
-        """Dense stiffness (k, k) on the Schur dofs with all others in equilibrium without load."""
+        """Dense stiffness (k, k) on the Schur dofs, all others in equilibrium without load."""
         schur, entries, status = ctypes.c_void_p(), ctypes.c_void_p(), ctypes.c_int()
         _call("MatFactorGetSchurComplement", _handle(self._factor), ctypes.byref(schur), ctypes.byref(status))
         _call("MatDenseGetArrayRead", schur, ctypes.byref(entries))
-        values = np.ctypeslib.as_array((ctypes.c_double * self._schur_size**2).from_address(entries.value)).reshape(
-            (self._schur_size,) * 2
-        )
+        size = self._schur_size
+        values = np.ctypeslib.as_array((ctypes.c_double * size**2).from_address(entries.value)).reshape(size, size)
         # MUMPS gives the lower triangle by columns. A copy by PETSc would mirror it entry by entry, which takes longer.
         stiffness = symmetric(values.copy())
         _call("MatDenseRestoreArrayRead", schur, ctypes.byref(entries))
@@ -110,7 +106,7 @@ def _petsc_matrix(matrix: sparse.csr_matrix) -> PETSc.Mat:
     return PETSc.Mat().createAIJ(matrix.shape, csr=csr, comm=PETSc.COMM_SELF)
 
 
-def schur_complement(matrix: PETSc.Mat, dofs: np.ndarray) -> np.ndarray:
+def schur_complement(matrix: sparse.csr_matrix | PETSc.Mat, dofs: np.ndarray) -> np.ndarray:
     """`Factor.schur` of a matrix on dofs (k,)."""
     factor = Factor(matrix, "the body's stiffness", dofs)
     try:

@@ -1,12 +1,10 @@
 """Stress at the nodes of a body, plane or swept, from its displacement: taken in each element where it is most
 accurate, averaged where elements meet.
 
-The points of an element where the error of its stress is one order smaller (Barlow, International Journal for Numerical
-Methods in Engineering 10, 1976) are the middle of first-order cells and the 2 x 2 Gauss points of Q2; that of P2 is
-linear and taken at the nodes. The geometry of swept elements is that of `face.swept_stiffness`.
+That is (Barlow, International Journal for Numerical Methods in Engineering 10, 1976) the middle of first-order cells
+and the 2 x 2 Gauss points of Q2; of P2 it is linear and taken at the nodes. Swept elements are those of
+`face.swept_stiffness`.
 """
-
-from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -14,11 +12,10 @@ from dataclasses import replace
 import numpy as np
 from scipy import sparse
 
-from fenics_gears.elasticity.face.layers import Sweep, shapes
-
 from . import dolfinx_adapter as adapter
 from .condensation import dofs_of
 from .element_nodes import ElementNodes
+from .face.layers import Sweep, shapes
 from .ring import rotation
 
 # Of the reference triangle and square: corners counter-clockwise, middles of sides, middle, as of ElementNodes.
@@ -33,9 +30,8 @@ class NodalStress:
     """Stress of a body in plane strain or, with a `sweep`, of the one swept from that section; Young's modulus 1 MPa,
     displacements in the mesh's unit of length.
 
-    weight: (n,), areas of the elements that meet at the section's nodes. On a sector's cut some of its elements are in
-    the neighbouring sector, whose stress counts by its own weight. Beside a web the section is rim and hub alone; where
-    there is no material stress is zero.
+    weight: (n,), areas of the elements that meet at the section's nodes. Beside a web the section is rim and hub alone;
+    where there is no material stress is zero.
     """
 
     def __init__(self, nodes: ElementNodes, poissons_ratio: float, sweep: Sweep | None = None):
@@ -68,11 +64,10 @@ class NodalStress:
     def rows(
         self, nodes: np.ndarray, weights: np.ndarray, directions: np.ndarray, averages: np.ndarray
     ) -> sparse.csr_matrix:
-        """Normal stress (S p, dofs) along `directions` (p, 3) at points between `nodes` (k,) by `weights` (p, k),
-        averaged over the heights by `averages` (S, h).
+        """Normal stress (S p, dofs) per displacement along `directions` (p, 3) at points between `nodes` (k,) by
+        `weights` (p, k), averaged over the heights by `averages` (S, h).
 
-        As of `at_nodes`, per displacement: dofs by height, node, component; directions in the section's frame at each
-        height; rows by average, then point.
+        Dofs by height, node, component; directions in the section's frame at each height; rows by average, then point.
         """
         # t . sigma t over the nine entries of a gradient.
         normal = 2.0 * self._shear * np.einsum("pi,pj->pij", directions, directions) + self._lame * np.eye(3)
@@ -97,8 +92,7 @@ class NodalStress:
         return 2.0 * self._shear * strain + self._lame * trace * np.eye(3)
 
     def _gradients(self) -> Iterator[tuple[range, list[sparse.csr_matrix]]]:
-        """Heights of each layer, and for each of them the displacement's gradient (9 n, dofs of the layer) in the
-        section's frame at that height."""
+        """Heights of each layer, and for each of them the displacement's gradient (9 n, dofs of the layer)."""
         if self.sweep is None:
             yield range(1), [_along_section(self._slopes[True], np.eye(3)[:2], components=2)]
             return
@@ -109,7 +103,7 @@ class NodalStress:
             yield range(2 * layer, 2 * layer + 3), known[kind]
 
     def _of_layer(self, thickness: float, within: bool) -> Iterator[sparse.csr_matrix]:
-        """The gradient at a layer's three heights, from `face.swept_stiffness`: taken in the frame of its middle."""
+        """The gradient at a layer's three heights, taken in the frame of its middle."""
         slopes, there = self._slopes[within], sparse.diags(self._there[within])
         points, angles = self.nodes.points, 0.5 * self.sweep.twist * thickness * np.array([-1.0, 0.0, 1.0])
         frames, turns, axial = [rotation(angle, 3) for angle in angles], np.exp(1j * angles), np.eye(3)[2:]
@@ -128,8 +122,7 @@ class NodalStress:
 
 
 def _along_section(slopes, axes: np.ndarray, components: int = 3) -> sparse.csr_matrix:
-    """Gradients (9 n, components n), displacement by place, from derivatives (n, n) and the axes (j, 3) that each is
-    along."""
+    """Gradients (9 n, components n) from derivatives (n, n) and the axes (j, 3) that each is along."""
     return sum(
         sparse.kron(slope, np.kron(np.eye(3)[:, :components], axis[:, None]), format="csr")
         for slope, axis in zip(slopes, axes)
@@ -143,7 +136,7 @@ def _as_matrix(number: complex) -> np.ndarray:
 
 def _averaged_slopes(nodes: ElementNodes) -> tuple[list[sparse.csr_matrix], np.ndarray]:
     """Operators (n, n) from values at the nodes to their derivatives by x and y there, averaged by area over the
-    elements that meet; those areas' sums (n,)."""
+    elements that meet, and those areas' sums (n,)."""
     gradients, areas = _gradients_in_cells(nodes)
     cells, count = nodes.cells, len(nodes.points)
     weight = np.bincount(cells.ravel(), np.repeat(areas, cells.shape[1]), count)
@@ -154,8 +147,8 @@ def _averaged_slopes(nodes: ElementNodes) -> tuple[list[sparse.csr_matrix], np.n
 
 
 def _gradients_in_cells(nodes: ElementNodes) -> tuple[np.ndarray, np.ndarray]:
-    """Gradients (cells, nodes, nodes, 2) of the shape functions (third index) that count at each node (second), and
-    areas (cells,)."""
+    """Gradients (cells, nodes, nodes, 2) of the shape functions (third index) at each node (second), and areas
+    (cells,)."""
     kind = nodes.corners
     vertices, own = (REFERENCE[kind][:count] for count in (kind, nodes.cells.shape[1]))
     if nodes.order == 1:

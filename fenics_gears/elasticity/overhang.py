@@ -1,19 +1,17 @@
 """Flank compliance of a gear that stands out beyond its mate: near the contact the load spreads over the common face,
 further away over more."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import pi
 
 import numpy as np
 
-from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.involute import arc_length
 
 from .compliance import FlankCompliance
+from .whole_body.compliance import WholeBodyCompliance
 
 # Depth, in normal modules, down to which the load spreads over the common face alone; found together with
 # `geometry.pair.OVERHANG_REACH`.
@@ -23,11 +21,8 @@ Section = FlankCompliance | WholeBodyCompliance
 
 
 def with_overhang(body: Section, gear: Gear, material: Material, share: float) -> Section:
-    """The body as a line load over the common face sees it. `share`: common width over the width that counts, 1 without
-    overhang.
-
-    The body gives way as one of the width that counts, but for the part near the contact: `share` A + (1 - `share`) L.
-    """
+    """The body as a line load over the common face sees it: `share` A + (1 - `share`) L. `share`: common width over the
+    width that counts, 1 without overhang."""
     if share == 1.0:
         return body
     if isinstance(body, WholeBodyCompliance):
@@ -47,10 +42,10 @@ def with_overhang(body: Section, gear: Gear, material: Material, share: float) -
 
 def near_field(gear: Gear, material: Material, roll_angle: np.ndarray) -> np.ndarray:
     """L (2n, 2n), mm per N/mm: how flank nodes give way down to NEAR_DEPTH, by the half-plane's 2 (1 - nu^2)/(pi E)
-    ln(depth/distance).
+    ln(depth/distance), averaged over what each node stands for.
 
-    The same along and across the flank; averaged over what each node stands for. As a convex function that falls to
-    zero the logarithm, cut off at that depth, is positive definite (Polya's criterion).
+    As a convex function that falls to zero the logarithm, cut off at that depth, is positive definite (Polya's
+    criterion).
     """
     depth, arc = NEAR_DEPTH * gear.normal_module, arc_length(gear.base_radius, roll_angle)
     edges = np.concatenate([arc[:1], 0.5 * (arc[1:] + arc[:-1]), arc[-1:]])

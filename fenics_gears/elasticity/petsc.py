@@ -1,5 +1,4 @@
-"""PETSc, started by this process for itself. Started for all ranks of a job, it would wait until the last of them loads
-it, for ever where one never does."""
+"""PETSc, started by this process for itself: for all ranks of a job it would wait until the last of them loads it."""
 
 import petsc4py
 from mpi4py import MPI

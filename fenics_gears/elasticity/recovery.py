@@ -1,10 +1,8 @@
 """Displacement and stress of a gear's body, plane or swept along the face, from the forces on its flanks.
 
 Loads inside a sector move its free cuts by the factored sector; the ring's cyclic system (`elasticity.ring`) joins the
-cuts of all sectors; forces on them that make a sector's cuts move so give its inside by the factored sector again.
+cuts of all sectors; forces that make a sector's cuts move so give its inside by the factored sector again.
 """
-
-from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -13,14 +11,14 @@ from typing import Self
 import numpy as np
 from scipy.sparse import identity, kron
 
-from fenics_gears.elasticity.face.condensed import spanned
-from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_whitened
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 
 from .element_sizes import Discretisation
 from .elements import element_named
+from .face.condensed import spanned
+from .face.discretisation import FaceDiscretisation
+from .face.half_turn import half_turn_basis, half_turn_whitened
 from .nodal_stress import NodalStress
 from .ring import Whitened, cyclic, cyclic_motion, ring_work, rotation, whitened
 from .sector import Sector, plane_sector, swept_sector
@@ -44,8 +42,7 @@ class RecoveredSectors:
 class GearRecovery:
     """A gear whose displacement and stress are recovered from forces on its flanks. Use it in a `with`, or `close` it.
 
-    gear, material: lengths in mm, MPa; over the face the gear is its transverse section. sector: that its compliance
-    was computed on, in modules.
+    gear: over the face its transverse section. sector: that its compliance was computed on, in modules.
     """
 
     def __init__(self, gear: Gear, material: Material, sector: Sector):
@@ -81,8 +78,8 @@ class GearRecovery:
         return self.gear.module * self.sector.heights
 
     def loads(self, force: np.ndarray) -> np.ndarray:
-        """Loads (dofs,) on a sector from forces (flanks, h, f, components) on the nodes of its drive flank, or of its
-        drive and coast flank, in any shape of that order."""
+        """Loads (dofs,) on a sector from forces (flanks, h, f, components), in any shape of that order, on the nodes of
+        its drive flank, or of its drive and coast flank."""
         sector = self.sector
         loads = np.zeros((sector.nodes, sector.components))
         drive = sector.flank_nodes("flank")
@@ -91,8 +88,8 @@ class GearRecovery:
         return loads.ravel()
 
     def recovered(self, forces: dict[int, np.ndarray], sectors: Iterable[int] | None = None) -> RecoveredSectors:
-        """Some sectors, or all of them, under forces on the flanks of some teeth as in `loads`, in each tooth's own
-        frame: N/mm in the plane, N over the face."""
+        """Some sectors, or all, under forces on the flanks of some teeth as in `loads`, in each tooth's own frame: N/mm
+        in the plane, N over the face."""
         sector, teeth = self.sector, self.gear.teeth
         wanted = tuple(range(teeth) if sectors is None else sectors)
         loads: dict[int, np.ndarray] = {}
@@ -100,9 +97,8 @@ class GearRecovery:
             loads[tooth % teeth] = loads.get(tooth % teeth, 0.0) + self.loads(force)
         free = {tooth: sector.free_motion(load[:, None]) for tooth, load in loads.items()}
         motion, rest = self._cut_motion(free), np.zeros((sector.components * sector.nodes, 1))
-        at_cuts = np.hstack(
-            [np.vstack([motion[tooth % teeth], self._pitch @ motion[(tooth + 1) % teeth]]) for tooth in wanted]
-        )
+        both = [(motion[tooth % teeth], self._pitch @ motion[(tooth + 1) % teeth]) for tooth in wanted]
+        at_cuts = np.hstack([np.vstack(each) for each in both])
         inside = np.hstack([free.get(tooth % teeth, rest) for tooth in wanted])
         inside += sector.free_motion(sector.pulled(sector.link @ (at_cuts - sector.at_cuts(inside))))
         unit = inside.T.reshape(len(wanted), len(sector.heights), -1, sector.components)
@@ -114,11 +110,8 @@ class GearRecovery:
 
     def between_teeth(self, responding: np.ndarray, loaded: np.ndarray, reach: int) -> np.ndarray:
         """Reciprocal work (2 reach + 1, k, j) that the ring adds to that within a sector with free cuts, Young's
-        modulus 1 MPa, lengths in modules.
-
-        Of loads on the tooth m pitches ahead, m from -reach to reach, and on the loaded one; given by what they move
-        the free cuts, (2 d, k) and (2 d, j).
-        """
+        modulus 1 MPa, lengths in modules: of loads on the tooth m pitches ahead, m from -reach to reach, and on the
+        loaded one, given by what they move the free cuts, (2 d, k) and (2 d, j)."""
         responding, loaded = (
             np.vstack([each[: self._half], self._pitch.T @ each[self._half :]]) for each in (responding, loaded)
         )
@@ -165,7 +158,7 @@ def gear_recovery(
     """A gear's recovery on the very mesh that `flank_compliance` or `face_compliance` has with the same settings."""
     if isinstance(discretisation, FaceDiscretisation):
         # Imported here: plane gears have none.
-        from fenics_gears.elasticity.face.compliance import swept_section
+        from .face.compliance import swept_section
 
         scaled = discretisation.in_modules_of(gear)
         sector = swept_sector(swept_section(gear.of_module_one, scaled.sizes), scaled.sweep, material.poissons_ratio)

@@ -1,11 +1,8 @@
 """A gear meshed anew so that its flanks have nodes at given places, condensed onto those nodes and the centre.
 
-Only the sectors of loaded teeth change from position to position. They are meshed and condensed one by one; all others
-are the same sector, condensed once. The cuts between sectors are congruent, so that the result equals that of meshing
-and condensing the whole gear each time, to round-off (a test does both).
+Only the sectors of loaded teeth change from position to position; all others are the same sector, condensed once. The
+cuts are congruent, so that the result equals that of meshing the whole gear, to round-off.
 """
-
-from __future__ import annotations
 
 from dataclasses import dataclass
 from time import perf_counter
@@ -29,11 +26,8 @@ NO_NODES = np.empty((0, 2))
 
 @dataclass(frozen=True)
 class LoadedTooth:
-    """A tooth turned counter-clockwise from its own frame by `angle` (rad), with wanted flank vertices at `rolls` (k,),
-    rad.
-
-    The vertices are neighbours: no other lies between two of them.
-    """
+    """A tooth turned counter-clockwise from its own frame by `angle` (rad), with neighbouring flank vertices at `rolls`
+    (k,), rad."""
 
     angle: float
     rolls: np.ndarray
@@ -44,7 +38,7 @@ class RemeshedGear:
 
     def __init__(self, gear: Gear, material: Material, element: Element, sizes: ElementSizes):
         self.gear, self.material, self.element, self.sizes = gear, material, element, sizes
-        self.timings = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0, "sectors_meshed": 0}
+        self.timings = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
         self._unloaded = self._sector(None, NO_NODES)
         self._cut = len(self._unloaded) // 2
         self._runs: dict[int, np.ndarray] = {}
@@ -54,16 +48,14 @@ class RemeshedGear:
 
         teeth: by rising angle, whole pitches apart. A tooth's nodes come in the order of its `rolls`, for second-order
         elements with the node between each two of them; dofs x, y interleaved, in the frame in which the angles are
-        counted.
-        Raises ComputationError when a stage fails.
+        counted. Raises ComputationError when a stage fails.
         """
         ends = [tooth.angle for tooth in teeth[1:]] + [teeth[0].angle + 2.0 * np.pi]
         between = [round((end - tooth.angle) / self.gear.angular_pitch) - 1 for tooth, end in zip(teeth, ends)]
         sectors = [self._loaded(tooth) for tooth in teeth]
         clock = perf_counter()
-        parts = [
-            part for sector, count in zip(sectors, between) for part in (sector, self._run(count)) if part is not None
-        ]
+        pieces = (part for sector, count in zip(sectors, between) for part in (sector, self._run(count)))
+        parts = [part for part in pieces if part is not None]
         ring = closed_ring(parts, self._cut)
         held = eliminated(ring, np.arange(len(parts) * self._cut, len(ring)), np.arange(len(parts) * self._cut))
         points = [self.contact_points(tooth.rolls) @ rotation(tooth.angle).T for tooth in teeth]
@@ -76,7 +68,7 @@ class RemeshedGear:
 
     def contact_points(self, rolls: np.ndarray) -> np.ndarray:
         """Nodes (k, 2), or (2 k - 1, 2) of a second-order element, mm, in the tooth's own frame, of vertices at `rolls`
-        (k,), rad."""
+        (k,)."""
         vertices = canonical_point(self.gear.base_radius, rolls)
         if self.element.order == 1:
             return vertices
@@ -97,8 +89,8 @@ class RemeshedGear:
         return self._runs.get(count)
 
     def _sector(self, rolls: np.ndarray | None, points: np.ndarray) -> np.ndarray:
-        """Stiffness of a sector, its hub held, over its lower cut, its upper cut in the frame of the next sector, and
-        flank nodes at points."""
+        """Stiffness of a sector over its lower cut, its upper cut in the frame of the next sector, and flank nodes at
+        points."""
         clock = perf_counter()
         mesh = sector_mesh(self.gear, self.sizes, self.element.quadrilateral, rolls)
         meshed = perf_counter()
@@ -110,5 +102,4 @@ class RemeshedGear:
         self.timings["time_mesh"] += meshed - clock
         self.timings["time_compile"] += compiling
         self.timings["time_condense"] += perf_counter() - meshed - compiling
-        self.timings["sectors_meshed"] += 1
         return result

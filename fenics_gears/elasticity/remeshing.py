@@ -1,7 +1,5 @@
 """Stiffness of a gear at all positions of a mesh cycle, meshed anew at each; MPI ranks share the positions."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 
@@ -37,7 +35,7 @@ def remeshed_stiffness(
     """Stiffness of a gear at all positions: meshed and condensed, or from the cache.
 
     positions: for each the loaded teeth, tuples of remeshed_gear.LoadedTooth. job: whose ranks share the positions out.
-    report: called with positions done and in all, of this process. Raises ComputationError when a position fails.
+    report: called with positions done and in all, of this process. Raises ComputationError when one fails.
     """
     inputs = {
         "remeshed": NUMBERS_VERSION,

@@ -3,10 +3,8 @@
 Sector s + 1 stands one pitch counter-clockwise of sector s; in the sectors' own frames its lower cut moves as
 ``u_upper[s] = R u_lower[s + 1]`` with ``R`` the rotation by one pitch. A discrete Fourier transform over the sectors,
 ``u[s] = U_k exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1. In gears with
-many teeth runs of sectors are joined instead, which is quicker (`elasticity.cut_chain`).
+many teeth runs of sectors are joined instead (`elasticity.cut_chain`).
 """
-
-from __future__ import annotations
 
 from collections.abc import Callable
 
@@ -17,7 +15,7 @@ from scipy.sparse import csr_matrix
 
 from fenics_gears.errors import ComputationError
 
-from .condensation import CondensedBody, by_radius, condense, without
+from .condensation import CondensedBody, by_radius, condense, line_of
 from .cut_chain import CutResponse, chain_is_quicker, chain_response
 from .elements import Element
 from .mesh_data import BodyMesh
@@ -29,62 +27,55 @@ def condensed_sector(
 ) -> CondensedBody:
     """A sector condensed onto "flank", "lower", "upper" (the cuts without their hub nodes) and "hub".
 
-    flank: (k, 2), mm, nodes to keep of the flank or flanks; all of the drive flank's, by radius, when None.
+    flank: (k, 2), mm, nodes to keep of the flank or flanks; all of the drive flank's, by radius, unless given.
     """
-    hub = mesh.edge_nodes("hub", element.order)
     points = {
         "flank": by_radius(mesh.edge_nodes("flank", element.order)) if flank is None else flank,
-        "lower": by_radius(without(mesh.edge_nodes("lower cut", element.order), hub)),
-        "upper": by_radius(without(mesh.edge_nodes("upper cut", element.order), hub)),
-        "hub": hub,
+        "lower": line_of(mesh, "lower cut", element.order),
+        "upper": line_of(mesh, "upper cut", element.order),
+        "hub": mesh.edge_nodes("hub", element.order),
     }
     return condense(mesh, element, poissons_ratio, points)
 
 
 def check_congruent(lower: np.ndarray, upper: np.ndarray, teeth: int) -> None:
-    """Raise ComputationError unless the upper cut's nodes (k, 2) or (k, 3) are the lower cut's turned by one pitch,
-    node for node."""
-    scale = np.abs(lower).max()
-    if (
-        lower.shape != upper.shape
-        or np.abs(lower @ rotation(2.0 * np.pi / teeth, lower.shape[1]).T - upper).max() > 1e-9 * scale
-    ):
+    """Raise ComputationError unless the upper cut's nodes (k, 2) or (k, 3) are the lower cut's turned by one pitch."""
+    turn, slack = rotation(2.0 * np.pi / teeth, lower.shape[1]), 1e-9 * np.abs(lower).max()
+    if lower.shape != upper.shape or np.abs(lower @ turn.T - upper).max() > slack:
         raise ComputationError("ring of sectors: the two radial cuts of the sector do not match node for node")
 
 
 def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarray:
     """Flank compliance blocks (offsets + 1, 2n, 2n) of the ring, hub held, Young's modulus 1 MPa; see FlankCompliance.
-
-    Of sectors in three dimensions (offsets + 1, 3n, 3n): they may twist along z, as a pitch still turns one cut into
-    the other.
+    Of sectors in three dimensions (offsets + 1, 3n, 3n).
 
     With ``F`` the flank's and ``L`` the lower cut's dofs, harmonic k has the stiffness ``[[S_FF, B_k], [B_k^H, D_k]]``
     with ``B_k = S_FL + S_FU R e^{ik}`` and ``D_k = S_LL + R^T S_UU R + S_LU R e^{ik} + R^T S_UL e^{-ik}``. Its
-    inverse's flank block is ``S_FF^-1 + X_k (D_k - B_k^H S_FF^-1 B_k)^-1 X_k^H`` with ``X_k = S_FF^-1 B_k`` (block
-    inversion): one dense inverse of the flank, and for each harmonic one of the size of a cut. Back from harmonics to
-    teeth, each power of e^{ik} is a shift by one tooth.
+    inverse's flank block is ``S_FF^-1 + X_k (D_k - B_k^H S_FF^-1 B_k)^-1 X_k^H`` with ``X_k = S_FF^-1 B_k``: one dense
+    inverse of the flank, and for each harmonic one of the size of a cut. Back from harmonics to teeth, each power of
+    e^{ik} is a shift by one tooth.
     """
-    cuts, turn = sector_cuts(sector, teeth)
-    coupling = sector.stiffness[np.ix_(sector.dofs("flank"), cuts)] @ turn
-    flank_compliance = definite_inverse(sector.between("flank", "flank"), "a flank")
-    to_cuts = flank_compliance @ coupling
-    # One sector between its cuts, its flank free.
-    link = turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn - coupling.T @ to_cuts
+    held, to_cuts, link = between_cuts(sector, teeth)
     joint = cut_response(link, teeth, offsets + 1)
     blocks = np.stack([to_cuts @ sector_response(joint, offset) @ to_cuts.T for offset in range(offsets + 1)])
-    blocks[0] += flank_compliance
+    blocks[0] += held
     blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
     return blocks
 
 
+def between_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of a sector the flank's compliance with the cuts held, (minus) its motion per motion of the cuts, and the
+    stiffness between these, the flank free; frames as of `sector_cuts`."""
+    cuts, turn = sector_cuts(sector, teeth)
+    coupling = sector.stiffness[np.ix_(sector.dofs("flank"), cuts)] @ turn
+    held = definite_inverse(sector.between("flank", "flank"), "a flank")
+    to_cuts = held @ coupling
+    return held, to_cuts, turn.T @ sector.stiffness[np.ix_(cuts, cuts)] @ turn - coupling.T @ to_cuts
+
+
 def sector_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray]:
-    """Dofs (2 c,) of a sector's lower and upper cut, and what turns them (2 c, 2 c): the upper cut's are in the frame
-    of the next sector.
-
-    In three dimensions, where cuts have thousands of dofs, what turns them is sparse.
-
-    Raises ComputationError for cuts that are not congruent.
-    """
+    """Dofs (2 c,) of a sector's lower and upper cut, and what turns them (2 c, 2 c), sparse in three dimensions: the
+    upper cut's are in the frame of the next sector. Raises ComputationError for cuts that are not congruent."""
     check_congruent(sector.points["lower"], sector.points["upper"], teeth)
     lower, upper = sector.dofs("lower"), sector.dofs("upper")
     components = sector.points["upper"].shape[1]
@@ -106,10 +97,8 @@ def cyclic(link: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def cyclic_motion(same: np.ndarray, ahead: np.ndarray, loads: np.ndarray) -> np.ndarray:
-    """Displacement (teeth, c, k) of the cuts of a ring under loads (teeth, c, k) on them.
-
-    The cyclic system ``ahead^T u[s-1] + same u[s] + ahead u[s+1] = loads[s]``: one small system for each harmonic.
-    """
+    """Displacement (teeth, c, k) of the cuts of a ring under loads (teeth, c, k) on them: of the cyclic system
+    ``ahead^T u[s-1] + same u[s] + ahead u[s+1] = loads[s]``, by harmonics."""
     harmonics = np.fft.rfft(loads, axis=0)
     phase = np.exp(2j * np.pi * np.arange(len(harmonics)) / len(loads))
     for k, turn in enumerate(phase):
@@ -120,16 +109,16 @@ def cyclic_motion(same: np.ndarray, ahead: np.ndarray, loads: np.ndarray) -> np.
 
 
 def cut_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
-    """Response (c, c) of the cut m pitches ahead to forces on a cut, for abs(m) <= reach; `link`: one sector between
-    its cuts."""
+    """Response (c, c) of the cut m pitches ahead to forces on a cut, abs(m) <= reach; `link`: one sector between its
+    cuts."""
     return (chain_response if chain_is_quicker(teeth, reach) else fourier_response)(link, teeth, reach)
 
 
 def fourier_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
     """The same by the discrete Fourier transform.
 
-    The harmonics' stiffness is ``same + ahead e^{ik} + ahead^T e^{-ik}``, Hermitian and positive definite; k and teeth
-    - k are complex conjugates.
+    The harmonics' stiffness is ``same + ahead e^{ik} + ahead^T e^{-ik}``, Hermitian; k and teeth - k are complex
+    conjugates.
     """
     # D_k - B_k^H S_FF^-1 B_k of `ring_compliance`, by the powers 0 and 1 of e^{ik}; power -1 is the transpose of power
     # 1.
@@ -170,10 +159,7 @@ def whitened(link: np.ndarray) -> Whitened:
 
 def ring_work(of_harmonic: Whitened, teeth: int, reach: int, responding: np.ndarray, loaded: np.ndarray) -> np.ndarray:
     """Reciprocal work (2 reach + 1, k, j) in a ring of forces (2 c, k) on the cuts of the sector m pitches ahead, m
-    from -reach to reach, and of forces (2 c, j) on those of a sector.
-
-    By harmonics, whose inverses need not be made: few forces take a fraction of their operations.
-    """
+    from -reach to reach, and of forces (2 c, j) on those of a sector, by harmonics, whose inverses need not be made."""
     offsets, both = np.arange(-reach, reach + 1), np.hstack([responding, loaded])
     found = np.zeros((len(offsets), responding.shape[1], loaded.shape[1]))
     for harmonic in range(teeth // 2 + 1):
@@ -186,17 +172,13 @@ def ring_work(of_harmonic: Whitened, teeth: int, reach: int, responding: np.ndar
 
 
 def definite_inverse(matrix: np.ndarray, what: str) -> np.ndarray:
-    """Inverse of a symmetric or Hermitian positive definite matrix, by Cholesky: three eighths of a general inverse's
-    operations.
-
-    Raises ComputationError as `definite_factor`.
-    """
+    """Inverse of a symmetric or Hermitian positive definite matrix, by Cholesky. Raises ComputationError as
+    `definite_factor`."""
     return inverse_of_factor(definite_factor(matrix, what), what)
 
 
 def inverse_of_factor(factor: np.ndarray, what: str) -> np.ndarray:
-    """Inverse of the matrix that has this factor, which is overwritten. Raises ComputationError as
-    `definite_factor`."""
+    """Inverse of the matrix that has this factor, which is overwritten. Raises as `definite_factor`."""
     upper, failed = get_lapack_funcs(("potri",), (factor,))[0](factor, overwrite_c=True)
     if failed:
         raise _not_definite(what)
@@ -205,10 +187,8 @@ def inverse_of_factor(factor: np.ndarray, what: str) -> np.ndarray:
 
 def definite_factor(matrix: np.ndarray, what: str, overwrite: bool = False) -> np.ndarray:
     """Cholesky factor, upper triangle (the lower one is not zero), of a symmetric or Hermitian positive definite
-    matrix; with `overwrite` in its place, if it is in Fortran's order.
-
-    Raises ComputationError that says the stiffness of `what` is not positive definite.
-    """
+    matrix; with `overwrite` in its place, if it is in Fortran's order. Raises ComputationError where the stiffness of
+    `what` is not definite."""
     upper, failed = get_lapack_funcs(("potrf",), (matrix,))[0](matrix, clean=False, overwrite_a=overwrite)
     if failed:
         raise _not_definite(what)

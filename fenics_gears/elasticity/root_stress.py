@@ -1,12 +1,10 @@
 """Stress in a tooth's fillets per force on the flanks, in the plane or over the face in slices: a row for each fillet
 point and slice, so that a time step's stress is one small product.
 
-The rows come by reciprocity (Betti): one solve serves a fillet point in a slice, and one a dof of a flank in a slice;
-ring and neighbours follow by dense products. A swept section has few elements along a fillet. What it errs by at a
-point hardly depends on the load, so that a finer section in plane strain corrects it.
+The rows come by reciprocity (Betti): one solve serves a fillet point in a slice, and one a dof of a flank in a slice. A
+swept section has few elements along a fillet; what it errs by hardly depends on the load, so that a finer section in
+plane strain corrects it.
 """
-
-from __future__ import annotations
 
 from dataclasses import dataclass
 
@@ -31,8 +29,8 @@ class RootStressRows:
 
     rows: (2 reach + 1, S, 2 p, d): rows[reach + m] are those of the tooth m pitches ahead (counter-clockwise) of the
     loaded one; the drive side's p points, then the coast side's; d dofs of the loaded tooth by flank, slice, node and
-    component in its own frame (at that height), not mirrored. tangent_angle: (p,), rad, between the fillet's tangent
-    and the tooth's centreline; the last point is the one at 30 degrees.
+    component in its own frame, not mirrored. tangent_angle: (p,), rad, between the fillet's tangent and the tooth's
+    centreline; the last point is the one at 30 degrees.
     """
 
     rows: np.ndarray
@@ -54,29 +52,27 @@ def root_stress_rows(
     slices: tuple[np.ndarray, np.ndarray] = ONE_SLICE,
 ) -> RootStressRows:
     """The rows of a gear, or of its transverse section over the face, from the cache or by solving, on the mesh of its
-    compliance. Stress does not depend on Young's modulus.
+    compliance.
 
     discretisation: of the plane section (Discretisation), or of the body over the face (FaceDiscretisation), which
     takes many slices. slices: of the face, middles from the gear's mid-width and widths (S,), mm; stress is averaged
     over a slice, and its force spreads over it.
     """
     over_face = len(slices[0]) > 1
-    inputs = similar_inputs("root stress", gear, material, discretisation, coast_flank) | {
-        "slices": [gear.in_modules(*each.tolist()) for each in (slices if over_face else ())],
-        "reach": reach,
-        "both flanks": coast_flank,
-    }
+    inputs = similar_inputs("root stress", gear, material, discretisation, coast_flank)
+    inputs |= {"slices": [gear.in_modules(*each.tolist()) for each in (slices if over_face else ())]}
+    inputs |= {"reach": reach, "both flanks": coast_flank}
     averages = np.ones((1, 1))
     if over_face:
         # Imported here: plane scenes have none.
         from .slice_averages import slice_averages
 
         averages = slice_averages(gear.module * discretisation.in_modules_of(gear).sweep.heights, 2, *slices)
-    arrays, _ = kept(
-        cache,
-        inputs,
-        lambda: (_computed(gear, discretisation, material.poissons_ratio, averages, reach, coast_flank), {}),
-    )
+
+    def compute() -> tuple[dict, dict]:
+        return _computed(gear, discretisation, material.poissons_ratio, averages, reach, coast_flank), {}
+
+    arrays, _ = kept(cache, inputs, compute)
     # A stress is a force over a length or an area, which is in modules there.
     unit = gear.module**2 if over_face else gear.module
     return RootStressRows(arrays["unit_rows"] / unit, arrays["tangent_angle"])
@@ -101,7 +97,7 @@ def _computed(
     rows[reach] += at_flanks.T
     rows = rows.reshape(len(rows), len(averages), 2 * len(curve.length), -1)
     if over_face:
-        from fenics_gears.elasticity.face.fine_fillet import fine_over_swept
+        from .face.fine_fillet import fine_over_swept
 
         sizes = discretisation.in_modules_of(gear).sizes
         rows *= fine_over_swept(gear.of_module_one, sizes, poissons_ratio, curve)[:, None]

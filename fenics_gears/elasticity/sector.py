@@ -1,15 +1,12 @@
 """A tooth sector factored once, its hub held: its stiffness between the cuts, and its displacement under any load."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy import sparse
-
-from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
 
 from .condensation import by_radius, dofs_of
 from .element_nodes import ElementNodes, element_nodes
 from .elements import Element
+from .face.layers import Sweep, swept_nodes
 from .mesh_data import BodyMesh
 from .mumps import Factor
 from .stiffness import assembled, compile_ahead, displacement_space, nodes_at, stiffness_matrix
@@ -18,11 +15,11 @@ from .stiffness import assembled, compile_ahead, displacement_space, nodes_at, s
 class Sector:
     """A sector, Young's modulus 1 MPa: plane and of unit thickness, or swept along the face by `sweep`.
 
-    Its nodes go by height, then by the section's (ElementNodes); a plane one has one height. Dofs are interleaved: x, y
+    Nodes go by height, then by the section's (ElementNodes); a plane sector has one height. Dofs are interleaved: x, y
     and of a swept sector z, in the section's frame turned with it. cuts: (c,) nodes of the lower and of the upper cut
-    by height and radius; hub: (h,); there: (nodes,), which nodes there are, all unless given; others, beside a web,
-    do not move, and are in no link. link: stiffness (2 d, 2 d) between the dofs of both cuts off the hub. Release the
-    factor by `close`.
+    by height and radius; hub: (h,); there: (nodes,), which nodes there are, all unless given; the others do not move,
+    and are in no link. link: stiffness (2 d, 2 d) between the dofs of both cuts off the hub. Release the factor by
+    `close`.
     """
 
     def __init__(
@@ -87,7 +84,7 @@ class Sector:
         return loads
 
     def _swept(self, part: str) -> np.ndarray:
-        """Nodes (heights k,) of a part of the section's boundary, by height and radius."""
+        """Nodes (heights k,) of a part of the section's boundary."""
         line = by_radius(self.mesh.edge_nodes(part, self.section.order))
         return swept_nodes(self.section.points, line, len(self.heights))
 
@@ -104,7 +101,7 @@ def plane_sector(mesh: BodyMesh, element: Element, poissons_ratio: float) -> Sec
 def swept_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float) -> Sector:
     """A sector in three dimensions."""
     # Imported here: plane gears have none.
-    from fenics_gears.elasticity.face.swept_stiffness import SectionForms, swept_stiffness
+    from .face.swept_stiffness import SectionForms, swept_stiffness
 
     forms = SectionForms(mesh, poissons_ratio, sweep.web)
     return Sector(mesh, forms.nodes, swept_stiffness(forms, sweep), sweep, forms.material(sweep).ravel())

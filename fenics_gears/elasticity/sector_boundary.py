@@ -1,14 +1,12 @@
 """The boundary nodes of one tooth sector, from bore to outline between two tooth-space centres."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, canonical_point, roll_angle_at_arc_length
-from fenics_gears.geometry.outline import ToothOutline, tooth_outline
+from fenics_gears.geometry.outline import ToothOutline, tip_corner, tooth_outline
 
 from .element_sizes import ElementSizes, SizeField, SizeSource, along, divided
 
@@ -27,8 +25,8 @@ SNAP = 1e-6
 class SectorBoundary:
     """Closed boundary of a sector.
 
-    points: (n, 2), mm, clockwise from the bore's counter-clockwise corner, none repeated; every named part
-    starts and ends at an even index. parts: the first and last index of each part (the last may be n).
+    points: (n, 2), mm, clockwise from the bore's counter-clockwise corner, none repeated. parts: the first and last
+    index of each part, both even (the last may be n).
     """
 
     points: np.ndarray
@@ -41,10 +39,8 @@ class SectorBoundary:
 
 
 def flank_roll_angles(gear: Gear, size: float, mate_tip: tuple[float, float] | None = None) -> np.ndarray:
-    """Roll angles (rad) of the flank's element vertices, an even number of elements.
-
-    They are even in arc length; with `mate_tip` (rad, see ElementSizes) closer there and towards the tip.
-    """
+    """Roll angles (rad) of the flank's element vertices, an even number of elements: even in arc length; with
+    `mate_tip` (rad, see ElementSizes) closer there and towards the tip."""
     form, tip = arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle]))
     arcs = np.linspace(form, tip, 2 if mate_tip is None else EDGE_SAMPLES)
     sizes = np.full(len(arcs), size) if mate_tip is None else _size_near_edges(gear, arcs, size, mate_tip)
@@ -56,7 +52,7 @@ def flank_roll_angles(gear: Gear, size: float, mate_tip: tuple[float, float] | N
 
 
 def _size_near_edges(gear: Gear, arcs: np.ndarray, size: float, mate_tip: tuple[float, float]) -> np.ndarray:
-    """Element sizes (n,), mm, at arc lengths (n,), mm, of the flank."""
+    """Element sizes (n,), mm, at arc lengths (n,), mm."""
     start, end = arc_length(gear.base_radius, np.array(mate_tip))
     outside = np.maximum(np.maximum(start - arcs, arcs - end), 0.0)
     return np.minimum(
@@ -66,10 +62,7 @@ def _size_near_edges(gear: Gear, arcs: np.ndarray, size: float, mate_tip: tuple[
 
 def flank_through(gear: Gear, size: float, prescribed: np.ndarray) -> np.ndarray:
     """Ascending roll angles (rad) of flank vertices that hold all prescribed ones (k,), and beyond them others `size`
-    (mm) apart.
-
-    The number of elements is even, unless the prescribed vertices span the whole flank.
-    """
+    (mm) apart. The number of elements is even, unless the prescribed vertices span the whole flank."""
     form, tip = arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle]))
     inner = np.sort(arc_length(gear.base_radius, prescribed))
     inner[inner < form + SNAP * size], inner[inner > tip - SNAP * size] = form, tip
@@ -87,13 +80,13 @@ def sector_boundary(
 ) -> tuple[SectorBoundary, SizeField]:
     """Nodes along the boundary of a sector and the size field that its inside is to follow.
 
-    flank_rolls: roll angles (rad), ascending from form circle to tip, of the flank's vertices where they are
-    prescribed. All else, the cuts above all, stays as without them.
+    flank_rolls: roll angles (rad), ascending, of the flank's vertices where they are prescribed; all else, the cuts
+    above all, stays as without them.
     """
     outline = tooth_outline(gear, FILLET_SAMPLES)
     flank = canonical_point(gear.base_radius, flank_roll_angles(gear, sizes.flank, sizes.mate_tip))
     root = root_curve(outline)
-    corner = outline.tip_corner if gear.tip_chamfer else flank[-1]
+    corner = tip_corner(gear) if gear.tip_chamfer else flank[-1]
     tip = _arc(gear.tip_radius, corner, outline.coast(corner))
     coast = outline.coast(flank[::-1])
     hub_angles = outline.centreline_angle + 0.5 * gear.angular_pitch * np.array([-1.0, 1.0])
@@ -159,7 +152,7 @@ def _size_field(gear, sizes, outline, flank, root, coast, hub) -> SizeField:
 
 
 def _near_edges(gear: Gear, side: np.ndarray, mate_tip: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """The points of a flank (n, 2) on which the mate's tip may press, its ends among them, and the flank's own tip (1,
+    """The points of a flank (n, 2) on which the mate's tip may press, its ends among them, and the flank's tip (1,
     2)."""
     radii, (lowest, highest) = np.linalg.norm(side, axis=1), gear.base_radius * np.hypot(1.0, mate_tip)
     inside = np.flatnonzero((radii > lowest) & (radii < highest))
@@ -167,7 +160,7 @@ def _near_edges(gear: Gear, side: np.ndarray, mate_tip: tuple[float, float]) -> 
 
 
 def _cut_radii(gear: Gear, field: SizeField, hub_angles) -> np.ndarray:
-    """Radii of the nodes of either cut, following the finer of the sizes wanted along the two."""
+    """Radii of the nodes of either cut, by the finer of the sizes wanted along the two."""
     radii = np.linspace(gear.bore_radius, gear.root_radius, CURVE_SAMPLES)
     sides = [radii[:, None] * _directions(hub_angles[i : i + 1]) for i in (0, 1)]
     size = np.minimum(*(field.at(side) for side in sides))
@@ -184,7 +177,7 @@ def root_curve(outline: ToothOutline) -> np.ndarray:
 
 
 def _arc(radius: float, start, end) -> np.ndarray:
-    """Finely sampled arc about the gear's centre between two points on it."""
+    """Finely sampled arc about the gear's centre between two points."""
     turn = np.angle(complex(*end) / complex(*start))
     angles = np.angle(complex(*start)) + np.linspace(0.0, turn, CURVE_SAMPLES)
     arc = radius * _directions(angles)

@@ -1,7 +1,5 @@
 """The mesh of one tooth sector."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.spatial import cKDTree
 
@@ -26,11 +24,11 @@ def sector_mesh(
 ) -> BodyMesh:
     """Mesh of one tooth sector, its two cuts congruent node for node.
 
-    With both flanks working it is symmetric about the tooth's centreline, so that both flanks are equally accurate.
-    Flank vertices stand on the exact involute, even in arc length or at `flank_rolls` (rad, see sector_boundary).
-    Quadrilaterals come from a mesh of twice the size whose every cell is split, so that no triangle is left over in any
-    version of gmsh. gmsh works in modules: similar gears get similar meshes, in any unit of length. Raises
-    ComputationError when gmsh fails, a cell is folded, or quadrilaterals meet an odd number of flank elements.
+    With both flanks working it is symmetric about the tooth's centreline. Flank vertices stand on the exact involute,
+    even in arc length or at `flank_rolls` (rad, see sector_boundary). Quadrilaterals come from a mesh of twice the size
+    whose every cell is split, so that no triangle is left over. gmsh works in modules: similar gears get similar
+    meshes. Raises ComputationError when gmsh fails, a cell is folded, or quadrilaterals meet an odd number of flank
+    elements.
     """
     if sizes.both_flanks:
         return with_image(half_sector_mesh(gear, sizes, quadrilaterals, flank_rolls))
@@ -41,8 +39,8 @@ def sector_mesh(
 def half_sector_mesh(
     gear: Gear, sizes: ElementSizes, quadrilaterals: bool = False, flank_rolls: np.ndarray | None = None
 ) -> BodyMesh:
-    """The half with the drive flank of the symmetric `sector_mesh` of both working flanks: see
-    `half_sector.drive_half`."""
+    """The half with the drive flank of the symmetric `sector_mesh` of both working flanks
+    (`half_sector.drive_half`)."""
     boundary, field = sector_boundary(gear.of_module_one, sizes.in_modules_of(gear), flank_rolls)
     return _scaled(drive_half(boundary, field, _filling(quadrilaterals)), gear)
 
@@ -52,7 +50,6 @@ def _filling(quadrilaterals: bool):
 
 
 def _scaled(mesh: BodyMesh, gear: Gear) -> BodyMesh:
-    """A mesh in modules, in mm."""
     return BodyMesh(gear.module * mesh.points, mesh.cells, mesh.edges, gear.web)
 
 
@@ -87,9 +84,9 @@ def filled(
     """Mesh the inside of a closed polygon (n, 2), in modules, whose edges stay undivided; the same mesh for polygons
     that differ by round-off.
 
-    slit: (k, 2), points of a line that goes inwards from the boundary's point `mouth` and along which cells meet; its
-    edges stay undivided too. Returns points, the boundary's first and in its order, then the slit's, and the cells:
-    triangles, then with ``recombine`` quadrilaterals.
+    slit: (k, 2), points of a line that goes inwards from the boundary's point `mouth`, whose edges stay undivided too.
+    Returns points, the boundary's first and in its order, then the slit's, and the cells: triangles, then with
+    ``recombine`` quadrilaterals.
     """
     with gmsh_model("gear sector") as gmsh:
         try:

@@ -1,10 +1,8 @@
 """Averages over slices of a face of what is known at the nodes of its layers."""
 
-from __future__ import annotations
-
 import numpy as np
 
-from fenics_gears.elasticity.face.layers import shapes
+from .face.layers import shapes
 
 GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
 
@@ -13,8 +11,7 @@ def slice_averages(heights: np.ndarray, order: int, positions: np.ndarray, width
     """Weights (S, h) of the layers' nodes at `heights` (h,), mm, in the averages over slices with middles and widths
     (S,), mm.
 
-    `order`: 1 or 2, of the shape functions along a layer. What has one height is alike along the axes. Raises
-    ValueError for a slice that reaches beyond the layers.
+    `order`: 1 or 2, of the shape functions along a layer. Raises ValueError for a slice that reaches beyond the layers.
     """
     if len(heights) == 1:
         return np.ones((len(positions), 1))
@@ -32,10 +29,8 @@ def slice_averages(heights: np.ndarray, order: int, positions: np.ndarray, width
             if top <= bottom:
                 continue
             points = 0.5 * (top + bottom) + 0.5 * (top - bottom) * GAUSS_POINTS
-            local, share = (
-                (points - ends[layer]) / (ends[layer + 1] - ends[layer]),
-                0.5 * (top - bottom) / width * GAUSS_WEIGHTS,
-            )
+            local = (points - ends[layer]) / (ends[layer + 1] - ends[layer])
+            share = 0.5 * (top - bottom) / width * GAUSS_WEIGHTS
             for node, values in enumerate(shapes(2.0 * local - 1.0)[0] if order == 2 else (1.0 - local, local)):
                 weights[number, order * layer + node] += share @ values
     return weights
@@ -43,7 +38,7 @@ def slice_averages(heights: np.ndarray, order: int, positions: np.ndarray, width
 
 def on_slices(blocks: np.ndarray, weights: np.ndarray, flanks: int = 1) -> np.ndarray:
     """Compliance (k, D, D) of teeth on the nodes of layers as that on slices, of every tooth from k - 1 behind to k - 1
-    ahead: (2 k - 1, F S, F S, d, d), between the d dofs of one flank's section in a slice and those of another.
+    ahead: (2 k - 1, F S, F S, d, d), between the d dofs of a flank's section in one slice and in another.
 
     `weights` (S, h) of `slice_averages`; dofs of layers by flank, then height, then the section's own.
     """

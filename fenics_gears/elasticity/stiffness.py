@@ -1,7 +1,5 @@
 """Plane strain stiffness of a meshed body for Young's modulus 1 MPa and unit thickness."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np
@@ -26,8 +24,8 @@ def stress(displacement, poissons_ratio):
 
 
 def stress_of_strain(strain, poissons_ratio):
-    """UFL stress sigma = lambda tr(eps) I + 2 mu eps, in plane strain (strain 2 by 2) or in three dimensions, Young's
-    modulus 1."""
+    """UFL stress lambda tr(eps) I + 2 mu eps, in plane strain (strain 2 by 2) or in three dimensions, Young's modulus
+    1."""
     shear_modulus = 1.0 / (2.0 * (1.0 + poissons_ratio))
     first_lame = poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))
     return first_lame * ufl.tr(strain) * ufl.Identity(strain.ufl_shape[0]) + 2.0 * shear_modulus * strain
@@ -36,7 +34,7 @@ def stress_of_strain(strain, poissons_ratio):
 def stiffness_matrix(space, element: Element, poissons_ratio: float, web: Web | None = None):
     """Assembled PETSc matrix of the strain energy on a displacement space, no boundary conditions.
 
-    A web that is less wide than the face is in plane strain as the rest is, and stiff by its share of the face width.
+    A web less wide than the face is in plane strain too, and stiff by its share of the face width.
     """
     if element.incompatible_modes:
         from .incompatible_modes import condensed_stiffness
@@ -58,7 +56,7 @@ def stiffness_form(space, element: Element, poissons_ratio: float, web: Web | No
 
 
 def _of_width(web: Web | None, mesh, stress):
-    """UFL stress times the body's width over the face width; a body without web has no such term in its form."""
+    """UFL stress times the body's width over the face width."""
     if web is None:
         return stress
     place = ufl.SpatialCoordinate(mesh)
@@ -80,8 +78,7 @@ def displacement_space(mesh: BodyMesh, element: Element):
 
 @cache
 def compile_ahead(element: Element) -> None:
-    """Compile all that an element needs, on a body of one cell, so that what follows takes no compile time; once in a
-    process."""
+    """Compile all that an element needs, on a body of one cell; once in a process."""
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     cell = BodyMesh(square[: element.corners], np.arange(element.corners)[None], {})
     with adapter.quiet_compiler():
@@ -103,10 +100,7 @@ def nodes_at(space, coordinates: np.ndarray) -> np.ndarray:
 
 def nodes_in_cells(space, coordinates: np.ndarray, centres: np.ndarray) -> np.ndarray:
     """Numbers (k,) of the space's nodes at coordinates (k, 2) in the cells with centres (k, 2), which distinguish nodes
-    in one place.
-
-    Raises ComputationError where there is no such cell or node.
-    """
+    in one place. Raises ComputationError where there is no such cell or node."""
     if not len(coordinates):
         return np.empty(0, dtype=np.int64)
     nodes, cells = adapter.node_coordinates(space), adapter.cell_nodes(space)

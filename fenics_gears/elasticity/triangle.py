@@ -1,7 +1,5 @@
 """Symmetric matrices of which one triangle is known."""
 
-from __future__ import annotations
-
 import numpy as np
 
 # Rows that are transposed at once.

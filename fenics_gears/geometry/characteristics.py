@@ -36,7 +36,6 @@ def _pair_rows(pair: GearPair) -> list[tuple[str, float, str]]:
 
 
 def _helix_rows(pair: GearPair) -> list[tuple[str, float, str]]:
-    """Of helical gears, whose contact ratio and base pitch are those of the transverse section."""
     return [
         ("overlap ratio", pair.overlap_ratio, ""),
         ("total contact ratio", pair.total_contact_ratio, ""),

@@ -1,8 +1,8 @@
 """Gap between the flanks along the face by lead modifications and misalignment.
 
-Amounts are lengths in the transverse section along the line of action, as a measuring machine has them (ISO 1328-1: in
-the base tangent plane, in the transverse section); along the contact normal an opening is ``GearPair.cosine`` times as
-long. z (mm) runs along the axis from the middle of the common face; `left` is -z, `right` is +z.
+Amounts are in the transverse section along the line of action, as a measuring machine has them (ISO 1328-1); along the
+contact normal an opening is ``GearPair.cosine`` times as long. z (mm) runs along the axis from the middle of the common
+face; `left` is -z, `right` is +z.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 def face_opening(
     pair: GearPair, lead_modifications: LeadModifications | None, misalignment: Misalignment | None, z, position=None
 ) -> np.ndarray:
-    """Gap (mm, along the line of action) at places z (mm, any shape) on the face.
+    """Gap (mm, along the line of action, positive where material is gone) at places z (mm, any shape) on the face.
 
-    Removed material makes it positive; misalignment has either sign. `position` (mm from T1, of z's shape): of the
-    contact, on which the gap of misaligned helical gears depends; the pitch point unless given.
+    `position` (mm from T1, of z's shape): of the contact, on which the gap of misaligned helical gears depends; the
+    pitch point unless given.
 
     >>> from fenics_gears import gear_pair, load_scene
     >>> scene = load_scene("demos/misaligned_spur/misaligned.toml")
@@ -46,8 +46,8 @@ def lead_removal(modification: LeadModification, place, face_width: float) -> np
     """Material (mm, along the line of action) that a lead modification removes from a gear at places (mm, any shape)
     from its mid-width, over its own face width b (ISO 21771).
 
-    Crowning is the parabola C (2 z/b)^2; the helix slope grows in proportion to z, from nothing at the left end (right,
-    where negative); end relief with the distance from its start or with its square, to its depth at the end.
+    Crowning is the parabola C (2 z/b)^2; the helix slope grows with z from nothing at the left end (right, where
+    negative); end relief with the distance from its start or with its square.
     """
     share = np.asarray(place, dtype=float) / face_width
     removed = modification.crowning * (2.0 * share) ** 2
@@ -61,12 +61,10 @@ def lead_removal(modification: LeadModification, place, face_width: float) -> np
 
 
 def coast_face_opening(pair: GearPair, misalignment: Misalignment, z, position) -> np.ndarray:
-    """The same between coast flanks along their own line of action, by misaligned axes alone; position: mm from its
-    start."""
+    """The gap of coast flanks along their own line of action by misaligned axes; position: mm from its start."""
     double = 2.0 * pair.operating_pressure_angle
     cosine, sine = np.cos(double), np.sin(double)
-    # In the mirror, the line of centres being the mirror's line: the misalignment as it is there, and the other
-    # hand.
+    # Mirrored about the line of centres, with the other hand.
     mirrored = replace(misalignment, in_plane=-cosine * misalignment.in_plane - sine * misalignment.out_of_plane)
     return misalignment_opening(pair, mirrored, z, position, -pair.slope)
 
@@ -75,19 +73,13 @@ def misalignment_opening(
     pair: GearPair, misalignment: Misalignment, z, position, slope: float | None = None
 ) -> np.ndarray:
     """Gap (mm, along the line of action) by a tilted axis of the wheel, at places z on the face and positions (mm from
-    T1) of the contact.
+    T1) of the contact. `slope`: of the lines of contact, the pair's unless given.
 
-    The wheel turns by small angles about the pitch point in the middle of the common face, so that neither end comes
-    nearer on the whole: about a point of its axis, or about an end of the face, all gaps of a helical pair would open
-    or close alike besides, which only turns the wheel. The point of contact, (position - pitch point, 0, z) from there,
-    moves along the contact normal (c, 0, -c tau) by
-
-    * c (z + tau (position - pitch point)) for an angle of 1 in the plane of action,
-    * nothing for an angle out of it: it moves in the plane of the flanks.
-
-    The angle is the scene's amount over the common face width. Terms of second order (an angle times the flanks' own
-    curvature) are left out.
-    `slope`: of the lines of contact, the pair's unless given.
+    The wheel turns by small angles, the scene's amounts over the common face width, about the pitch point in the middle
+    of the common face: about another point, all gaps of a helical pair would open or close alike besides, which only
+    turns the wheel. The point of contact, (position - pitch point, 0, z) from there, moves along the contact normal (c,
+    0, -c tau) by c (z + tau (position - pitch point)) for an angle of 1 in the plane of action, and by nothing for an
+    angle out of it. Terms of second order are left out.
     """
     slope = pair.slope if slope is None else slope
     leaning = slope * (np.asarray(position, dtype=float) - pair.pitch_point)

@@ -1,10 +1,9 @@
 """Deviations of every tooth of a gear: as a scene gives them, or drawn within a flank tolerance class.
 
-A pitch deviation belongs to the reference circle. Slope and form are deviations from the mean of the flank's used part,
-from the start of active profile to the tip, so that they do not displace the flank as a whole: slope rises by its value
-from end to end, form is one wave, as wide as its value. Those of the helix are the like along the face. A measured
-curve stands in place of both, and is zero at the V point of the profile or at mid-width of the helix, unless in its
-mean: the pitch deviation says where the flank stands, not the measuring machine's zero.
+A pitch deviation belongs to the reference circle. Slope and form are deviations from the mean of the used flank, from
+the start of active profile to the tip, or of the face: slope rises by its value from end to end, form is one wave, as
+wide as its value. A measured curve stands in place of both, and is zero at the V point of the profile or at mid-width
+of the helix, unless in its mean: the pitch deviation says where the flank stands.
 """
 
 from __future__ import annotations
@@ -17,23 +16,15 @@ import numpy as np
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.written import as_written
 
-from .flank_tolerance import FlankTolerance, flank_tolerance, helix_tolerance
+from .flank_tolerance import FlankTolerance, HelixTolerance, flank_tolerance, helix_tolerance
 from .gear import Gear
 from .pair import GearPair
 
 if TYPE_CHECKING:
-    from fenics_gears.effects.flank_errors_sections import (
-        FlankErrors,
-        GearErrors,
-        MeasuredCurve,
-        MeasuredCurves,
-        Waviness,
-    )
+    from fenics_gears.effects import flank_errors_sections as sections
 
-PITCH, SLOPE, FORM, HELIX_SLOPE, HELIX_FORM = range(
-    5
-)  # each has random numbers of its own, so that giving one leaves the others as they are
-
+# Each has random numbers of its own, so that giving one leaves the others as they are.
+PITCH, SLOPE, FORM, HELIX_SLOPE, HELIX_FORM = range(5)
 # Evenly spaced points of a measured curve, from one end of the used part to the other.
 CURVE_POINTS = 201
 
@@ -43,7 +34,7 @@ class HelixDeviations:
     """Deviations along the face (z,), mm, over its ``width`` (mm) with mid-width at the height ``middle`` (mm).
 
     ``slope``: excess of material at the right end over the left one. ``form``: in the middle over both ends. ``curves``
-    (z, CURVE_POINTS): measured excess from left to right, in place of both; None without.
+    (z, CURVE_POINTS): measured excess from left to right, in place of both.
     """
 
     slope: np.ndarray
@@ -60,13 +51,13 @@ class FlankDeviations:
     ``index``: cumulative pitch deviation, the arc on the reference circle by which a tooth comes late; zero for the
     last tooth. ``slope``: excess of material at the tip over the start of active profile. ``form``: in the middle over
     both ends. ``active_profile``: roll angles (rad) of its ends. ``helix``: None in the plane. ``curves`` (z,
-    CURVE_POINTS): measured excess over the active profile, in place of slope and form; None without.
+    CURVE_POINTS): measured excess over the active profile, in place of slope and form.
     """
 
     index: np.ndarray
     slope: np.ndarray
     form: np.ndarray
-    waviness: Waviness | None
+    waviness: sections.Waviness | None
     active_profile: tuple[float, float]
     helix: HelixDeviations | None = None
     curves: np.ndarray | None = None
@@ -78,7 +69,7 @@ class FlankDeviations:
 
 
 def flank_deviations(
-    errors: FlankErrors, pair: GearPair, middles: tuple[float, float] | None = None
+    errors: sections.FlankErrors, pair: GearPair, middles: tuple[float, float] | None = None
 ) -> tuple[FlankDeviations, FlankDeviations]:
     """Deviations of pinion and wheel; `middles` (mm): heights of their mid-widths, None in the plane."""
     gears = zip((pair.pinion, pair.wheel), (errors.pinion, errors.wheel), pair.sap_roll_angles)
@@ -89,75 +80,69 @@ def flank_deviations(
 
 
 def _of_gear(
-    gear: Gear, own: GearErrors, errors: FlankErrors, number: int, start: float, face: tuple[float, float] | None
+    gear: Gear,
+    own: sections.GearErrors,
+    errors: sections.FlankErrors,
+    number: int,
+    start: float,
+    face: tuple[float, float] | None,
 ) -> FlankDeviations:
     if own.problem:
         name, problem = own.problem
         raise SceneError(
             f"flank_errors.{('pinion', 'wheel')[number]}.{name} = {as_written(getattr(own, name))}: {problem}"
         )
-    tolerance = None
-    if errors.tolerance_class is not None:
-        tolerance = flank_tolerance(2.0 * gear.reference_radius, gear.normal_module, errors.tolerance_class)
-
-    def draws(kind: int) -> np.ndarray:
-        return np.random.default_rng((errors.seed, number, kind)).uniform(-1.0, 1.0, gear.teeth)
+    measured, level, diameter = own.measured_profile is not None, np.zeros(gear.teeth), 2.0 * gear.reference_radius
+    active_profile, tolerance_class = (start, gear.tip_roll_angle), errors.tolerance_class
 
     def values(given: tuple[float, ...] | None, drawn) -> np.ndarray:
         if given is not None:
             return np.array(given, dtype=float)
-        return np.zeros(gear.teeth) if tolerance is None else drawn(tolerance)
+        return level if tolerance_class is None else drawn()
+
+    def draws(kind: int) -> np.ndarray:
+        return np.random.default_rng((errors.seed, number, kind)).uniform(-1.0, 1.0, gear.teeth)
+
+    def limits() -> FlankTolerance:
+        return flank_tolerance(diameter, gear.normal_module, tolerance_class)
 
     def along_face(width: float, middle: float) -> HelixDeviations:
         if own.measured_helix is not None:
-            level = np.zeros(gear.teeth)
-            return HelixDeviations(
-                level,
-                level,
-                width,
-                middle,
-                _curves(own.measured_helix, gear, (-0.5 * width, 0.5 * width), None if own.in_the_mean else 0.0),
-            )
-        allowed = (
-            None if tolerance is None else helix_tolerance(2.0 * gear.reference_radius, width, errors.tolerance_class)
-        )
-        slope = values(own.helix_slope, lambda limits: allowed.slope * draws(HELIX_SLOPE))
-        return HelixDeviations(
-            slope, values(own.helix_form, lambda limits: allowed.form * draws(HELIX_FORM)), width, middle
-        )
+            zero = None if own.in_the_mean else 0.0
+            curves = _curves(own.measured_helix, gear, (-0.5 * width, 0.5 * width), zero)
+            return HelixDeviations(level, level, width, middle, curves)
 
-    pitch = values(own.pitch, lambda limits: drawn_pitch(limits, draws(PITCH)))
+        def helix_limits() -> HelixTolerance:
+            return helix_tolerance(diameter, width, tolerance_class)
+
+        slope = values(own.helix_slope, lambda: helix_limits().slope * draws(HELIX_SLOPE))
+        form = values(own.helix_form, lambda: helix_limits().form * draws(HELIX_FORM))
+        return HelixDeviations(slope, form, width, middle)
+
+    pitch = values(own.pitch, lambda: drawn_pitch(limits(), draws(PITCH)))
     # The mean, left by rounding of the values, is taken off, so that after a turn the first tooth stands where it was.
     index = np.cumsum(pitch - pitch.mean())
-    measured, active_profile, level = (
-        own.measured_profile is not None,
-        (start, gear.tip_roll_angle),
-        np.zeros(gear.teeth),
-    )
+    zero = None if own.in_the_mean else v_roll_angle(gear)
     return FlankDeviations(
         index=index - index[-1],
-        slope=level if measured else values(own.profile_slope, lambda limits: limits.profile_slope * draws(SLOPE)),
-        form=level if measured else values(own.profile_form, lambda limits: limits.profile_form * draws(FORM)),
+        slope=level if measured else values(own.profile_slope, lambda: limits().profile_slope * draws(SLOPE)),
+        form=level if measured else values(own.profile_form, lambda: limits().profile_form * draws(FORM)),
         waviness=own.waviness,
         active_profile=active_profile,
         helix=None if face is None else along_face(*face),
-        curves=_curves(own.measured_profile, gear, active_profile, None if own.in_the_mean else v_roll_angle(gear))
-        if measured
-        else None,
+        curves=_curves(own.measured_profile, gear, active_profile, zero) if measured else None,
     )
 
 
 def v_roll_angle(gear: Gear) -> float:
-    """Roll angle (rad) of the V point, on the cylinder of diameter d + 2 x m (ISO 21771), a module below the tip of a
-    tooth that is not shortened."""
+    """Roll angle (rad) of the V point, on the cylinder of diameter d + 2 x m (ISO 21771)."""
     radius = gear.reference_radius + gear.profile_shift * gear.module
     return float(np.sqrt(max((radius / gear.base_radius) ** 2 - 1.0, 0.0)))
 
 
-def _curves(measured: MeasuredCurves, gear: Gear, ends: tuple[float, float], zero: float | None) -> np.ndarray:
+def _curves(measured: sections.MeasuredCurves, gear: Gear, ends: tuple[float, float], zero: float | None) -> np.ndarray:
     """Deviations (z, CURVE_POINTS), mm, at even steps between the ends (rad or mm), the mean curve for a tooth that was
-    not measured. `zero`: where each curve is zero, or the end next to it; None: in its mean.
-    """
+    not measured. `zero`: where each curve is zero, None for its mean."""
     at = np.linspace(*ends, CURVE_POINTS)
     found = {
         each.tooth: np.interp(at, _places(each, measured.along, gear), each.deviations) for each in measured.curves
@@ -166,12 +151,11 @@ def _curves(measured: MeasuredCurves, gear: Gear, ends: tuple[float, float], zer
     curves = np.array([found.get(tooth, mean) for tooth in range(1, gear.teeth + 1)])
     if zero is not None:
         return curves - np.array([np.interp(zero, at, curve) for curve in curves])[:, None]
-    return curves - (curves.mean(axis=1) * CURVE_POINTS - 0.5 * (curves[:, 0] + curves[:, -1]))[:, None] / (
-        CURVE_POINTS - 1
-    )
+    sums = curves.mean(axis=1) * CURVE_POINTS - 0.5 * (curves[:, 0] + curves[:, -1])
+    return curves - sums[:, None] / (CURVE_POINTS - 1)
 
 
-def _places(curve: MeasuredCurve, along: str, gear: Gear) -> np.ndarray:
+def _places(curve: sections.MeasuredCurve, along: str, gear: Gear) -> np.ndarray:
     """Roll angles (rad) of a profile's points, 0 below the base circle; positions on the face (mm) of a helix's."""
     places = np.array(curve.places)
     if along == "roll_length":
@@ -181,20 +165,20 @@ def _places(curve: MeasuredCurve, along: str, gear: Gear) -> np.ndarray:
     return places
 
 
-def measured_share(curve: MeasuredCurve, along: str, pair: GearPair, name: str) -> float:
+def measured_share(curve: sections.MeasuredCurve, along: str, pair: GearPair, name: str) -> float:
     """Share of the active profile, or of the face, of the gear `name` that a curve covers, from 0 to 1."""
     number = ("pinion", "wheel").index(name)
     gear, width = (pair.pinion, pair.wheel)[number], pair.face_widths[number]
-    start, end = (
-        (-0.5 * width, 0.5 * width) if along == "face_position" else (pair.sap_roll_angles[number], gear.tip_roll_angle)
-    )
+    start, end = pair.sap_roll_angles[number], gear.tip_roll_angle
+    if along == "face_position":
+        start, end = -0.5 * width, 0.5 * width
     places = _places(curve, along, gear)
     return max(min(places[-1], end) - max(places[0], start), 0.0) / (end - start)
 
 
 def slope_and_form(deviations: FlankDeviations | HelixDeviations) -> tuple[np.ndarray, np.ndarray]:
-    """Slope and form deviations (z,), mm: as given, or those of measured curves by ISO 1328-1, the rise of the line of
-    least squares and the range of what is left of it."""
+    """Slope and form deviations (z,), mm: as given, or of measured curves by ISO 1328-1, the rise of the line of least
+    squares and the range of what it leaves."""
     if deviations.curves is None:
         return deviations.slope, deviations.form
     along = np.linspace(-0.5, 0.5, CURVE_POINTS)
@@ -203,11 +187,8 @@ def slope_and_form(deviations: FlankDeviations | HelixDeviations) -> tuple[np.nd
 
 
 def drawn_pitch(limits: FlankTolerance, draws: np.ndarray) -> np.ndarray:
-    """Single pitch deviations (z,), mm, of a gear just within its class: the single or the cumulative one reaches its
-    tolerance.
-
-    ``draws`` (z,): random numbers between -1 and 1.
-    """
+    """Single pitch deviations (z,), mm, in proportion to `draws` (z,) less their mean, of a gear just within its class:
+    the single or the cumulative one reaches its tolerance."""
     pitch = draws - draws.mean()
     cumulative = np.ptp(np.cumsum(pitch))
     return pitch * min(limits.single_pitch / np.abs(pitch).max(), limits.cumulative_pitch / cumulative)

@@ -1,8 +1,7 @@
-"""Flank tolerances of ISO 1328-1:2013.
+"""Flank tolerances of ISO 1328-1:2013, formulas (5) to (12), not rounded as the standard prints them.
 
-Formulas (5) to (12) of the standard, taken from published programs that cite them by number, not from the standard
-itself; values are not rounded as it prints them. Check: the values that another such program is tested by (module 3 mm,
-40 teeth, class 6: single pitch 8.94 um, total cumulative pitch 28.80 um).
+Taken from published programs that cite the formulas by number, and checked against the values that another such program
+is tested by (module 3 mm, 40 teeth, class 6: single pitch 8.94 um, total cumulative pitch 28.80 um).
 """
 
 from dataclasses import dataclass
@@ -41,8 +40,7 @@ class HelixTolerance:
 
 
 def helix_tolerance(reference_diameter: float, face_width: float, tolerance_class: int) -> HelixTolerance:
-    """Tolerances of a gear (diameter d and face width b in mm) in a class A from 1 to 11; d from 5 mm to 15 m, b from 4
-    mm to 1.2 m.
+    """Tolerances of a gear, diameter d (5 mm to 15 m) and face width b (4 mm to 1.2 m), in a class A from 1 to 11.
 
     >>> tolerance = helix_tolerance(100.0, 25.0, 5)
     >>> round(1e3 * tolerance.slope, 3), round(1e3 * tolerance.form, 3)  # um
@@ -57,8 +55,6 @@ def helix_tolerance(reference_diameter: float, face_width: float, tolerance_clas
 def flank_tolerance(reference_diameter: float, module: float, tolerance_class: int) -> FlankTolerance:
     """Tolerances of a gear (diameter d and module m in mm) in a class A from 1 to 11; from class to class a factor
     sqrt(2).
-
-    Class 5 of a gear of 100 mm and module 4 mm, and two classes on:
 
     >>> [round(1e3 * flank_tolerance(100.0, 4.0, each).single_pitch, 3) for each in (5, 7)]  # um
     [6.7, 13.4]

@@ -18,7 +18,7 @@ PITCH_LINE_SPEEDS = (1.0, 50.0)
 
 
 class OutOfRange(ValueError):
-    """A formula is asked for what it is not for: what was asked, what is allowed, and why."""
+    """A formula is asked for what it is not for."""
 
 
 def schlenk(pair: GearPair, normal_force: float, pinion_speed: float, viscosity: float, roughness: float) -> float:
@@ -26,8 +26,8 @@ def schlenk(pair: GearPair, normal_force: float, pinion_speed: float, viscosity:
     of mineral oil (X_L = 1).
 
     `normal_force`: N along the line of action; `pinion_speed`: 1/min; `viscosity`: dynamic, mPa s, at the oil's
-    temperature; `roughness`: mean Ra of both flanks, um.
-    Raises OutOfRange below the slowest gears that it was fitted to.
+    temperature; `roughness`: mean Ra of both flanks, um. Raises OutOfRange below the slowest gears that it was fitted
+    to.
     """
     pitch_radius = pair.pinion.base_radius / cos(pair.operating_pressure_angle)
     speed, (slowest, fastest) = 1e-3 * 2.0 * pi * pinion_speed / 60.0 * pitch_radius, PITCH_LINE_SPEEDS
@@ -52,8 +52,7 @@ def benedict_kelley(
     log10(29.66e3 w / (eta v_s v_r^2)).
 
     Arguments as of `schlenk`; w in N/mm, sliding and rolling speed in m/s, S the roughness in microinches, of at most
-    30. Raises OutOfRange where the logarithm is not positive: the discs of the tests ran between boundary and full
-    lubrication, and friction falls to nothing beyond.
+    30. Raises OutOfRange where the logarithm is not positive: beyond the mixed lubrication of the tests.
     """
     path = pair.path_start + (np.arange(POINTS) + 0.5) / POINTS * (pair.path_end - pair.path_start)
     turning = 1e-3 * 2.0 * pi * pinion_speed / 60.0

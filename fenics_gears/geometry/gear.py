@@ -23,10 +23,8 @@ class Gear:
     """A gear cut by a straight-sided rack with a rounded tip; lengths in mm, angles in rad.
 
     Module, pressure angle and profile shift are of the transverse section; `helix_angle` at the reference cylinder,
-    without sign. `rack_tip_radius` is of the normal section; the transverse one sees it stretched along the pitch line
-    by 1/cos(helix angle), as an ellipse. The rack's addendum follows from root radius and profile shift. `tip_chamfer`:
-    radial height. `protuberance`: by which the rack's rounding stands out beyond the flank, normal to it, going back at
-    `protuberance_angle`; both in the normal section.
+    without sign. `rack_tip_radius`, `protuberance` (by which the rack's rounding stands out beyond the flank, normal to
+    it) and `protuberance_angle` (at which it goes back) are of the normal section. `tip_chamfer`: radial height.
     """
 
     teeth: int
@@ -80,17 +78,13 @@ class Gear:
     @property
     def of_module_one(self) -> Gear:
         """The similar gear whose module is the unit of length."""
-        lengths = ("tip_radius", "root_radius", "bore_radius", "rack_tip_radius", "tip_chamfer", "protuberance")
+        names = ("tip_radius", "root_radius", "bore_radius", "rack_tip_radius", "tip_chamfer", "protuberance")
+        lengths = dict(zip(names, self.in_modules(*(getattr(self, name) for name in names))))
         web = self.web
         if web is not None:
             hub, rim = self.in_modules(web.hub_radius, web.rim_radius)
             web = replace(web, hub_radius=hub, rim_radius=rim)
-        return replace(
-            self,
-            module=1.0,
-            web=web,
-            **dict(zip(lengths, self.in_modules(*(getattr(self, length) for length in lengths)))),
-        )
+        return replace(self, module=1.0, web=web, **lengths)
 
     @property
     def angular_pitch(self) -> float:
@@ -119,9 +113,7 @@ class Gear:
         return self.reference_radius - self.root_radius
 
     def rack_half_thickness(self, depth: float) -> float:
-        """Half the thickness (mm) of the rack's tooth between its straight flanks at a depth (mm) below the pitch
-        line.
-        """
+        """Half the thickness (mm) of the rack's tooth between its flanks at a depth (mm) below the pitch line."""
         half_tip_land = 0.25 * pi * self.module - self.dedendum * tan(self.pressure_angle)
         return half_tip_land + (self.rack_depth - depth) * tan(self.pressure_angle)
 
@@ -140,11 +132,10 @@ class Gear:
     @property
     def rack_tip_centre(self) -> tuple[float, float]:
         """Centre of the rack's tip rounding, mm: distance from the rack tooth's centreline, negative where the rounding
-        does not fit, and depth below the pitch line.
-        """
+        does not fit, and depth below the pitch line."""
         alpha, radius = self.normal_pressure_angle, self.rack_tip_radius
-        half_tip_land = self._rack_half_tip_land
-        return half_tip_land - self.rack_stretch * radius * (1.0 - sin(alpha)) / cos(alpha), self.rack_depth - radius
+        across = self._rack_half_tip_land - self.rack_stretch * radius * (1.0 - sin(alpha)) / cos(alpha)
+        return across, self.rack_depth - radius
 
     @property
     def largest_rack_tip_radius(self) -> float:
@@ -157,8 +148,7 @@ class Gear:
     def rack_form_roll_angle(self) -> float:
         """Roll angle (rad) that the end of the rack's straight flank cuts; negative means undercut.
 
-        This point, at depth c below the pitch line, cuts while it crosses the line of action, ``c/sin(alpha)`` before
-        the pitch point.
+        At depth c below the pitch line, it crosses the line of action ``c/sin(alpha)`` before the pitch point.
         """
         alpha = self.pressure_angle
         flank_end = self.rack_depth - self.rack_tip_radius * (1.0 - sin(self.normal_pressure_angle))
@@ -171,7 +161,7 @@ class Gear:
 
     @cached_property
     def fillet_end(self) -> float:
-        """Fillet parameter (rad, see fillet.py) at the form circle; 0 is the root circle."""
+        """Fillet parameter (rad, see outline.py) at the form circle; 0 is the root circle."""
         return crossing(self) if self.undercut else touching_end(self)
 
     @cached_property
@@ -189,7 +179,7 @@ class Gear:
 
     @property
     def tip_form_radius(self) -> float:
-        """Radius (mm) where the involute ends: d_Fa/2 = d_a/2 - h_K of ISO 21771, h_K of the tip's chamfer."""
+        """Radius (mm) where the involute ends, at the tip's chamfer: d_Fa/2 of ISO 21771."""
         return self.tip_radius - self.tip_chamfer
 
     @cached_property
@@ -200,11 +190,9 @@ class Gear:
     @cached_property
     def chamfered_arc(self) -> float:
         """Arc (mm) of the tip circle that the chamfer takes off either side, as long as what it takes off the flank."""
-        return (
-            0.5 * self.base_radius * float(self.roll_angle(self.tip_radius) ** 2 - self.tip_roll_angle**2)
-            if self.tip_chamfer
-            else 0.0
-        )
+        if not self.tip_chamfer:
+            return 0.0
+        return 0.5 * self.base_radius * float(self.roll_angle(self.tip_radius) ** 2 - self.tip_roll_angle**2)
 
     @property
     def tip_thickness(self) -> float:

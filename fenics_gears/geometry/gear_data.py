@@ -1,5 +1,5 @@
-"""Dimensions, width and material of a gear pair, as on its drawing, materials by name, and a rough stiffness of a tooth
-pair, for natural frequencies and defaults; in N, mm and rad."""
+"""Dimensions, width and material of a gear pair, as on its drawing, and a rough stiffness of a tooth pair; in N, mm and
+rad."""
 
 from dataclasses import dataclass, field
 
@@ -15,8 +15,7 @@ RACKS = {
 
 @dataclass(frozen=True)
 class Material:
-    """Isotropic linear elasticity; Young's modulus in MPa, and the yield strength (MPa) up to which it holds, None
-    where that is not known."""
+    """Isotropic linear elasticity: Young's modulus and yield strength in MPa; the latter None where it is not known."""
 
     youngs_modulus: float
     poissons_ratio: float
@@ -25,11 +24,10 @@ class Material:
 
 @dataclass(frozen=True)
 class Web:
-    """A part of the gear's body that is thinner than the face, from the hub's radius to the rim's inner radius (mm);
-    `share`: its width over the face width.
+    """A part of the gear's body that is thinner than the face, from the hub's radius to the rim's inner radius (mm).
 
-    `stiff_share`: its width over that part of the face width that counts in the plane; None where all of it does.
-    `offset`: of its middle from the gear's mid-width, to the right, over the face width.
+    `share`: its width over the face width; `stiff_share`: over that part of the face width that counts in the plane,
+    None where all of it does. `offset`: of its middle from the gear's mid-width, to the right, over the face width.
     """
 
     hub_radius: float
@@ -67,10 +65,9 @@ class GearData:
 class GearPairData:
     """The pair: module and centre distance in mm, pressure angle in rad; rigid without a material.
 
-    `face_width`, mm: over which both gears meet. `material`: of gears that have none of their own. `helix_angle`, rad,
-    at the reference cylinder, 0 for spur gears; module, pressure angle and what is given in modules are then those of
-    the normal section. `pinion_hand`: "right" or "left", the wheel has the other. `axial_offsets`, mm: of the
-    mid-widths of pinion and wheel from a common place.
+    `face_width`, mm: over which both gears meet. `helix_angle`, rad, at the reference cylinder, 0 for spur gears;
+    module, pressure angle and what is given in modules are those of the normal section. `pinion_hand`: "right" or
+    "left", the wheel has the other. `axial_offsets`, mm: of the mid-widths of pinion and wheel from a common place.
     """
 
     module: float

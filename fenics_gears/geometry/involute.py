@@ -13,7 +13,7 @@ NEWTON_STEPS = 60
 def involute_function(roll_angle):
     """Polar angle ``v - atan(v)`` swept by the involute up to a roll angle; rad, any shape.
 
-    In terms of the pressure angle ``a = atan(v)`` this is the textbook's ``inv a = tan a - a``, at 20 degrees:
+    Of the pressure angle ``a = atan(v)`` it is the textbook's ``inv a = tan a - a``, at 20 degrees:
 
     >>> round(float(involute_function(np.tan(np.radians(20.0)))), 6)
     0.014904
@@ -24,8 +24,7 @@ def involute_function(roll_angle):
 def inverse_involute(polar_angle: float) -> float:
     """Roll angle (rad) whose involute function is ``polar_angle`` (rad, not negative).
 
-    Newton on ``v - atan v``, whose slope is ``v^2/(1 + v^2)``. It is convex up to v = 1/sqrt(3) and its own asymptote
-    ``v - pi/2`` lies below it, so that the start is above the root and the steps descend to it.
+    Newton on ``v - atan v``, whose slope is ``v^2/(1 + v^2)``, descends to the root from a start above it.
 
     >>> round(inverse_involute(involute_function(0.5)), 12)
     0.5

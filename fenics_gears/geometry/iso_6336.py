@@ -1,8 +1,7 @@
-"""Tooth stiffness of pairs by ISO 6336-1, method B: solid steel gears, in plane with their face.
+"""Tooth stiffness of pairs by ISO 6336-1, method B: solid steel gears, in plane with their face (C_R = 1).
 
-The standard's formulas: the flexibility q' of an ideal pair (``c'th = 1/q'``), ``c' = 0.8 c'th C_R C_B cos(beta)``
-adjusted to measurements, and for the mesh ``c_gamma_alpha = c' (0.75 eps_alpha + 0.25)``. Gear bodies are solid here
-(C_R = 1).
+The flexibility q' of an ideal pair (``c'th = 1/q'``), ``c' = 0.8 c'th C_R C_B cos(beta)`` adjusted to measurements, and
+for the mesh ``c_gamma_alpha = c' (0.75 eps_alpha + 0.25)``.
 """
 
 from math import cos, degrees, sin
@@ -49,10 +48,8 @@ def pair_stiffness(gears: GearPairData, line_load: float) -> float:
 
 
 def mesh_factor(pairs: float) -> float:
-    """Stiffness of a mesh in parts of c' for a number of pairs: 0.75 pairs + 0.25.
-
-    Of the contact ratio it is c_gamma_alpha/c'; of 1 and 2 pairs, 1 and 1.75, the two levels whose mean over the path
-    that is.
+    """Stiffness of a mesh in parts of c' for a number of pairs: 0.75 pairs + 0.25; of the contact ratio
+    c_gamma_alpha/c'.
 
     >>> mesh_factor(1), mesh_factor(2), mesh_factor(1.5) == (mesh_factor(1) + mesh_factor(2)) / 2
     (1.0, 1.75, True)

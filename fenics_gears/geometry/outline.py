@@ -1,15 +1,14 @@
 """The outline of one tooth in its transverse section: rack-generated fillet and involute, in the tooth's body frame
 (see involute.py).
 
-The rounding of the rack's tip is an ellipse in the transverse section of a helical gear, of semi-axes k rho along the
-pitch line and rho in depth, with rho = rack_tip_radius and k = 1/cos(helix angle). Where its normal has the angle t
-from the depth direction and D = sqrt(1 + (k^2 - 1) sin(t)^2), its point is (k^2 sin(t), cos(t)) rho/D from its centre
-and its radius of curvature k^2 rho/D^3. A spur gear has k = D = 1, a circle.
+The rounding of the rack's tip is an ellipse of semi-axes k rho along the pitch line and rho in depth, with rho =
+rack_tip_radius and k = 1/cos(helix angle). Where its normal has the angle t from the depth direction and D = sqrt(1 +
+(k^2 - 1) sin(t)^2), its point is (k^2 sin(t), cos(t)) rho/D from its centre and its radius of curvature k^2 rho/D^3. A
+spur gear has k = D = 1.
 
-Where the rack cuts deep, the fillet does not touch the involute but crosses it: what is below the crossing is cut away.
-So it is where the rounding protrudes beyond the rack's flank. From the rounding up, at the protuberance angle, a short
-straight flank then goes back; the fillet's parameter goes on along it, t beyond its value at the end of the rounding
-being length in modules.
+Where the rack cuts deep, or its rounding protrudes beyond its flank, the fillet crosses the involute: what is below the
+crossing is cut away. From a protruding rounding up, at the protuberance angle, a short straight flank goes back; the
+fillet's parameter t goes on along it as length in modules.
 """
 
 from __future__ import annotations
@@ -34,9 +33,9 @@ ARC_LENGTH_SAMPLES = 401
 class ToothOutline:
     """Drive side of one tooth; the coast side is its mirror image about the centreline.
 
-    fillet: (n, 2), mm, from the root circle (first point) to the form circle (last point), evenly spaced along the
-    curve. centreline_angle, space_angle: polar angles (rad) of the tooth's centreline and of the centre of the tooth
-    space beside the drive flank; the root circle runs from the fillet's first point to the space angle.
+    fillet: (n, 2), mm, from the root circle to the form circle, evenly spaced along the curve. centreline_angle,
+    space_angle: polar angles (rad) of the tooth's centreline and of the centre of the tooth space beside the drive
+    flank.
     """
 
     gear: Gear
@@ -47,11 +46,6 @@ class ToothOutline:
     def involute(self, roll_angle) -> np.ndarray:
         """Drive-flank points (..., 2), mm, at roll angles (...) in rad."""
         return canonical_point(self.gear.base_radius, roll_angle)
-
-    @property
-    def tip_corner(self) -> np.ndarray:
-        """As `tip_corner`."""
-        return tip_corner(self.gear)
 
     def coast(self, points) -> np.ndarray:
         """Mirror images (..., 2) about the tooth's centreline of points (..., 2)."""
@@ -73,13 +67,11 @@ def tip_corner(gear: Gear) -> np.ndarray:
 
 
 def tooth_outline(gear: Gear, fillet_points: int = 41) -> ToothOutline:
-    """Outline of one tooth. Raises GeometryError for a gear without involute above its fillet, or with overlapping
-    fillets.
-    """
+    """Outline of one tooth; GeometryError for a gear without involute above its fillet, or with overlapping fillets."""
     if gear.tip_form_radius <= gear.form_radius:
         raise GeometryError(
-            f"no involute: the tip circle of the gear with {gear.teeth} teeth, radius {gear.tip_radius:.6g} mm, must"
-            f" lie above its fillet, which reaches up to {gear.form_radius:.6g} mm"
+            f"no involute: the fillet of the gear with {gear.teeth} teeth reaches up to radius"
+            f" {gear.form_radius:.6g} mm, its tip circle has {gear.tip_radius:.6g} mm"
         )
     if gear.rack_tip_centre[0] < 0.0:
         raise GeometryError(
@@ -107,9 +99,9 @@ def fillet_point(gear: Gear, parameter) -> np.ndarray:
     """Points (..., 2), mm, that the rounded tip of the rack cuts.
 
     parameter: (...), rad, angle of the rack rounding's normal from the tooth depth direction; 0 (root circle) to
-    ``gear.fillet_end`` (form circle). The point is cut when that normal passes through the pitch point, which is
-    ``l = rack_tip_radius/D + depth/cos(parameter)`` away (law of gearing; Litvin & Fuentes, Gear Geometry and Applied
-    Theory, ch. 6).
+    ``gear.fillet_end`` (form circle). The point is cut when that normal passes through the pitch point, ``l =
+    rack_tip_radius/D + depth/cos(parameter)`` away (law of gearing; Litvin & Fuentes, Gear Geometry and Applied Theory,
+    ch. 6).
     """
     angle, along = _on_rack(gear, parameter)
     distance = _distance_from_pitch_point(gear, angle) - along * np.tan(angle)
@@ -150,7 +142,6 @@ def _on_rack(gear: Gear, parameter) -> tuple[np.ndarray, np.ndarray | float]:
 
 
 def _distance_from_pitch_point(gear: Gear, angle):
-    """Distance (mm) along the normal from the pitch point to the point being cut."""
     return gear.rack_tip_radius / _flattening(gear, angle) + gear.rack_tip_centre[1] / np.cos(angle)
 
 
@@ -165,10 +156,8 @@ def _flattening(gear: Gear, angle):
 
 
 def _body_angle(gear: Gear, angle, along=0.0):
-    """Angle (rad) from the generating pose into the tooth's body frame while ``angle`` is being cut.
-
-    The space lies over the rack's tooth at first; the gear has then rolled the rack's travel over its reference radius.
-    """
+    """Angle (rad) from the generating pose, the space over the rack's tooth, into the tooth's body frame while
+    ``angle`` is being cut: the gear has rolled the rack's travel over its reference radius."""
     across, depth = gear.rack_tip_centre
     # Where the normal meets the pitch line: from the ellipse's centre it is aside of a circle's.
     aside = _excess(gear) * np.sin(angle) / _flattening(gear, angle)
@@ -190,18 +179,21 @@ def touching_end(gear: Gear) -> float:
 def crossing(gear: Gear) -> float:
     """Fillet parameter (rad) where the fillet of an undercut gear comes out of its involute, to the last digit.
 
-    The fillet rises steadily: inside the tooth where its rack's normal is that of the flank, or at the base circle,
-    outside at its end.
+    The fillet rises steadily: it is inside the tooth where its rack's normal is that of the flank, or at the base
+    circle, and outside at its end.
     """
-    touching, last = touching_end(gear), _last(gear)
-    inside = touching if gear.protuberance and _radius(gear, touching) > gear.base_radius else _at_base_circle(gear)
+
+    def above_base_circle(parameter: float) -> bool:
+        return float(np.hypot(*fillet_point(gear, parameter))) >= gear.base_radius
+
+    last, inside = _last(gear), touching_end(gear)
+    if not (gear.protuberance and above_base_circle(inside)):
+        inside = halved(above_base_circle, 0.0, last)
     return halved(lambda parameter: _outside(gear, parameter) >= 0.0, inside, last)
 
 
 def _last(gear: Gear) -> float:
-    """Parameter at the end of what cuts the fillet: of the rounding, or where the protuberance has gone back to the
-    flank.
-    """
+    """Parameter at the end of what cuts the fillet: of the rounding, or where the protuberance is back at the flank."""
     if not gear.protuberance:
         return touching_end(gear)
     angle, flank = gear.transverse_protuberance_angle, gear.pressure_angle
@@ -217,17 +209,8 @@ def _last(gear: Gear) -> float:
     return end + length if length > 0.0 and fillet_speed(gear, end + 0.5 * length) > 0.0 else end
 
 
-def _at_base_circle(gear: Gear) -> float:
-    return halved(lambda parameter: _radius(gear, parameter) >= gear.base_radius, 0.0, _last(gear))
-
-
-def _radius(gear: Gear, parameter: float) -> float:
-    return float(np.hypot(*fillet_point(gear, parameter)))
-
-
 def _outside(gear: Gear, parameter: float) -> float:
-    """Angle (rad) from the drive flank's involute, out of the tooth, to a point of the fillet on or above the base
-    circle."""
+    """Angle (rad) from the drive flank's involute out of the tooth to a point of the fillet above the base circle."""
     x, y = fillet_point(gear, parameter)
     roll = np.sqrt(max((x**2 + y**2) / gear.base_radius**2 - 1.0, 0.0))
     return float(np.arctan2(x, -y) + involute_function(roll))

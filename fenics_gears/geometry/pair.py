@@ -1,8 +1,8 @@
 """A pinion and a wheel on their centres: the line of action and the points on it.
 
 Positions on the line of action are distances ``xi`` (mm) from T1, where it leaves the pinion's base circle. The pinion
-drives, so that contact runs from the wheel's tip (path_start) to the pinion's tip (path_end), unless the mate is cut
-away there.
+drives: contact runs from the wheel's tip (path_start) to the pinion's tip (path_end), unless the mate is cut away
+there.
 """
 
 from dataclasses import dataclass, replace
@@ -38,8 +38,8 @@ class Helix:
 class GearPair:
     """Two gears in mesh, in their transverse section; lengths in mm, angles in rad. Built and checked by ``gear_pair``.
 
-    `face_width`: over which they meet; `own_face_widths`: of pinion and wheel, None where both have that width.
-    `helix`: None for spur gears; `axial_offsets`: mid-widths of pinion and wheel along the axis, from a common place.
+    `face_width`: over which they meet; `own_face_widths`: None where both gears have that width. `helix`: None for spur
+    gears; `axial_offsets`: mid-widths of pinion and wheel along the axis, from a common place.
     """
 
     pinion: Gear
@@ -178,9 +178,8 @@ class GearPair:
 
     @property
     def hpstc(self) -> float:
-        """Position (mm) of the pinion's highest point of single tooth contact, the wheel's lowest. With a contact ratio
-        above 2, where contact by the fewest pairs ends.
-        """
+        """Position (mm) of the pinion's highest point of single tooth contact, the wheel's lowest; with a contact ratio
+        above 2, where contact by the fewest pairs ends."""
         return self.path_start + self.fewest_pairs * self.base_pitch
 
     @property
@@ -218,9 +217,8 @@ class GearPair:
 
     @property
     def backlash(self) -> float:
-        """Gap (mm) along the line of action between the coast flanks while the drive flanks touch: the base pitch less
-        both base-circle thicknesses at the operating pressure angle; negative when teeth overlap.
-        """
+        """Gap (mm) along the line of action between the coast flanks while the drive flanks touch: base pitch less both
+        base-circle thicknesses at the operating pressure angle; negative when teeth overlap."""
         swept = involute_function(tan(self.operating_pressure_angle))
         pinion, wheel = self.pinion, self.wheel
         pinion_tooth = pinion.base_radius * (pinion.tooth_half_angle_at_base - swept)
@@ -255,9 +253,7 @@ class GearPair:
 # Cost, warnings, the run and its quasi-static companion ask for the same pair.
 @lru_cache(maxsize=16)
 def gear_pair(data: GearPairData) -> GearPair:
-    """The pair that a scene describes, checked.
-
-    Raises GeometryError, which names what is wrong, on which gear, by how much, and what to change.
+    """The pair that a scene describes, checked; GeometryError for one that cannot be.
 
     >>> from fenics_gears import load_scene
     >>> pair = gear_pair(load_scene("demos/lundvall2004.toml").gears)

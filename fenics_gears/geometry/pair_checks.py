@@ -1,6 +1,4 @@
-"""Checks of a gear pair: one that cannot run is refused, with what is wrong, the value, the limit, and the field to
-change.
-"""
+"""Checks of a gear pair: one that cannot run is refused, with the value, the limit and the field to change."""
 
 from __future__ import annotations
 
@@ -10,8 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.errors import GeometryError
+
 from .gear import Gear
-from .gear_checks import ROUNDING, in_degrees, refuse
+from .gear_checks import ROUNDING, in_degrees
 from .involute import involute_function
 from .outline import fillet_point
 
@@ -23,19 +23,17 @@ if TYPE_CHECKING:
 THIN_TIP = 0.2
 # Each gear and its mate.
 NAMES = (("pinion", "wheel"), ("wheel", "pinion"))
-
 # Overlap, in modules, that four printed decimals of both profile shifts leave in a pair without backlash.
 PRINTED_DIGITS = 1e-4
+# Of the path of a tip's corner and of the fillet, where their clearance is sampled; the error is of second order.
+SAMPLES = 1001
 
 
 def check_pair(pair: GearPair) -> None:
     """Refuse a pair that cannot run; raises GeometryError."""
-    _check_centres(pair)
-    _check_backlash(pair)
-    _check_tip_clearance(pair)
-    _check_contact_ratio(pair)
-    _check_interference(pair)
-    _check_fillet_clearance(pair)
+    for check in (_centres, _backlash, _tip_clearance, _contact_ratio, _interference, _fillet_clearance):
+        for problem in check(pair):
+            raise GeometryError(problem)
 
 
 def design_warnings(pair: GearPair) -> list[str]:
@@ -58,48 +56,43 @@ def design_warnings(pair: GearPair) -> list[str]:
     return found
 
 
-def _check_centres(pair: GearPair) -> None:
+def _centres(pair: GearPair) -> Iterator[str]:
     bases = pair.pinion.base_radius + pair.wheel.base_radius
     if not (isfinite(pair.centre_distance) and pair.centre_distance > bases):
-        refuse(
-            "pair",
-            f"centre distance {pair.centre_distance:.6g} mm, but the base circles overlap below {bases:.6g} mm: "
-            "raise gears.centre_distance, or check gears.module and the teeth",
+        yield (
+            f"pair: centre distance {pair.centre_distance:.6g} mm, but the base circles overlap below {bases:.6g} mm:"
+            " raise gears.centre_distance, or check gears.module and the teeth"
         )
     if pair.axial_offsets != (0.0, 0.0) and pair.face_width <= 0.0:
-        first, second = pair.axial_offsets
-        refuse(
-            "pair",
-            f"the gears do not overlap axially: pinion {pair.face_widths[0]:.6g} mm wide at axial offset {first:.6g}"
-            f" mm, wheel {pair.face_widths[1]:.6g} mm wide at {second:.6g} mm; their middles may be less than"
-            f" {0.5 * sum(pair.face_widths):.6g} mm apart: change gears.pinion.axial_offset or"
-            " gears.wheel.axial_offset",
+        (first, second), widths = pair.axial_offsets, pair.face_widths
+        yield (
+            f"pair: the gears do not overlap axially: pinion {widths[0]:.6g} mm wide at axial offset {first:.6g} mm,"
+            f" wheel {widths[1]:.6g} mm wide at {second:.6g} mm; their middles may be less than"
+            f" {0.5 * sum(widths):.6g} mm apart: change gears.pinion.axial_offset or gears.wheel.axial_offset"
         )
     if not (isfinite(pair.face_width) and pair.face_width > 0.0):
-        refuse("pair", f"gears.face_width must be a positive length, not {pair.face_width}")
+        yield f"pair: gears.face_width must be a positive length, not {pair.face_width}"
 
 
-def _check_backlash(pair: GearPair) -> None:
+def _backlash(pair: GearPair) -> Iterator[str]:
     if pair.backlash < -PRINTED_DIGITS * pair.pinion.module:
-        refuse(
-            "pair",
-            f"no backlash: the teeth overlap by {-pair.backlash:.4g} mm along the line of action at centre distance "
-            f"{pair.centre_distance:.6g} mm; they fit from {pair.centre_distance_without_backlash:.6g} mm up: raise "
-            "gears.centre_distance or lower gears.pinion.profile_shift or gears.wheel.profile_shift",
+        yield (
+            f"pair: no backlash: the teeth overlap by {-pair.backlash:.4g} mm along the line of action at centre"
+            f" distance {pair.centre_distance:.6g} mm; they fit from {pair.centre_distance_without_backlash:.6g} mm up:"
+            " raise gears.centre_distance or lower gears.pinion.profile_shift or gears.wheel.profile_shift"
         )
 
 
-def _check_tip_clearance(pair: GearPair) -> None:
+def _tip_clearance(pair: GearPair) -> Iterator[str]:
     for (name, other), clearance in zip(NAMES, pair.tip_clearances):
         if clearance < -ROUNDING:
-            refuse(
-                name,
-                f"no tip clearance: its tip circle reaches {-clearance:.4g} mm into the {other}'s root circle: lower "
-                f"gears.{name}.tip_diameter or gears.{other}.root_diameter, or raise gears.centre_distance",
+            yield (
+                f"{name}: no tip clearance: its tip circle reaches {-clearance:.4g} mm into the {other}'s root circle:"
+                f" lower gears.{name}.tip_diameter or gears.{other}.root_diameter, or raise gears.centre_distance"
             )
 
 
-def _check_contact_ratio(pair: GearPair) -> None:
+def _contact_ratio(pair: GearPair) -> Iterator[str]:
     if pair.contact_ratio < 1.0:
         short = [name for name, *_ in _shortened(pair) if getattr(pair, name).undercut]
         cut = "".join(f", shortened by the undercut {name}" for name in short)
@@ -108,22 +101,41 @@ def _check_contact_ratio(pair: GearPair) -> None:
         if pair.helix:
             kind = "transverse "
             why = f"pairs that their overlap alone carries (here {pair.overlap_ratio:.4g}) are not simulated"
-        refuse(
-            "pair",
-            f"{kind}contact ratio {pair.contact_ratio:.4g}{cut}, must be at least 1, {why}: raise"
+        yield (
+            f"pair: {kind}contact ratio {pair.contact_ratio:.4g}{cut}, must be at least 1, {why}: raise"
             " gears.pinion.tip_diameter or gears.wheel.tip_diameter, or lower gears.centre_distance"
-            f" ({pair.centre_distance:.6g} mm){undercut}",
+            f" ({pair.centre_distance:.6g} mm){undercut}"
         )
 
 
-def _less_undercut(pair: GearPair, name: str) -> str:
-    protuberance = "lower protuberance of its rack, or " if getattr(pair, name).protuberance else ""
-    return f"{protuberance}raise gears.{name}.profile_shift together with its diameters, or gears.{name}.teeth"
+def _interference(pair: GearPair) -> Iterator[str]:
+    for name, other, lowest in _shortened(pair):
+        gear, mate = getattr(pair, name), getattr(pair, other)
+        if not gear.undercut:
+            form = gear.form_roll_angle
+            mates_roll = (pair.line_of_action_length - form * gear.base_radius) / mate.base_radius
+            yield (
+                f"{name}: interference: the {other}'s tip reaches its fillet: contact down to roll angle"
+                f" {in_degrees(lowest)}, but the involute begins at {in_degrees(form)}: lower"
+                f" gears.{other}.tip_diameter to {2.0 * mate.radius(mates_roll):.6g} mm or less, or lower"
+                f" gears.{name}.root_diameter or gears.{name}.rack_tip_radius"
+            )
+
+
+def _fillet_clearance(pair: GearPair) -> Iterator[str]:
+    for name, other in NAMES:
+        clearance = fillet_clearance(getattr(pair, name), getattr(pair, other), pair.centre_distance)
+        if clearance < -ROUNDING:
+            yield (
+                f"{name}: interference: the {other}'s tip corner cuts {-clearance:.4g} mm into its fillet, off the line"
+                f" of action: lower gears.{other}.tip_diameter, gears.{name}.root_diameter or"
+                f" gears.{name}.rack_tip_radius"
+            )
 
 
 def _shortened(pair: GearPair) -> Iterator[tuple[str, str, float]]:
-    """Gears whose involute ends above the mate's tip: their name, the mate's and the roll angle (rad) that the mate's
-    tip would reach."""
+    """Gears whose involute ends above the mate's tip: name, the mate's name and the roll angle (rad) that its tip
+    would reach."""
     start, end = pair.tip_positions
     for (name, other), lowest in zip(NAMES, (pair.pinion_roll_angle(start), pair.wheel_roll_angle(end))):
         gear = getattr(pair, name)
@@ -131,55 +143,23 @@ def _shortened(pair: GearPair) -> Iterator[tuple[str, str, float]]:
             yield name, other, lowest
 
 
-def _check_interference(pair: GearPair) -> None:
-    for name, other, lowest in _shortened(pair):
-        gear = getattr(pair, name)
-        if not gear.undercut:
-            largest_tip = 2.0 * _largest_mating_tip_radius(pair, other, gear)
-            refuse(
-                name,
-                f"interference: the {other}'s tip reaches its fillet: contact down to roll angle {in_degrees(lowest)},"
-                f" but the involute begins at {in_degrees(gear.form_roll_angle)}: lower gears.{other}.tip_diameter to"
-                f" {largest_tip:.6g} mm or less, or lower gears.{name}.root_diameter or gears.{name}.rack_tip_radius",
-            )
-
-
-def _check_fillet_clearance(pair: GearPair) -> None:
-    for name, other in NAMES:
-        clearance = fillet_clearance(getattr(pair, name), getattr(pair, other), pair.centre_distance)
-        if clearance < -ROUNDING:
-            refuse(
-                name,
-                f"interference: the {other}'s tip corner cuts {-clearance:.4g} mm into its fillet, off the line of"
-                f" action (clearance must not be negative): lower gears.{other}.tip_diameter,"
-                f" gears.{name}.root_diameter or gears.{name}.rack_tip_radius",
-            )
-
-
-def _largest_mating_tip_radius(pair: GearPair, other: str, gear: Gear) -> float:
-    mate = getattr(pair, other)
-    roll = (pair.line_of_action_length - gear.form_roll_angle * gear.base_radius) / mate.base_radius
-    return float(mate.radius(roll))
-
-
-PATH_POINTS = 1001
-FILLET_POINTS = 1001
+def _less_undercut(pair: GearPair, name: str) -> str:
+    protuberance = "lower protuberance of its rack, or " if getattr(pair, name).protuberance else ""
+    return f"{protuberance}raise gears.{name}.profile_shift together with its diameters, or gears.{name}.teeth"
 
 
 def fillet_clearance(gear: Gear, mate: Gear, centre_distance: float) -> float:
     """Least radial distance (mm) from the path of the mate's tip corner down to the gear's fillet, drive flanks in
-    contact; infinite where it never comes over the fillet, negative where it would cut into it. Of an undercut gear see
-    `_clearance_along_circles`. Sampling errs in second order only.
-    """
-    if gear.undercut:
-        return min(_clearance_along_circles(gear, mate, centre_distance, corner) for corner in _corners(mate))
-    return min(_clearance_of_corner(gear, mate, centre_distance, corner) for corner in _corners(mate))
+    contact; infinite where it never comes over the fillet, negative where it would cut in. Of an undercut gear the
+    least arc."""
+    clearance = _clearance_along_circles if gear.undercut else _clearance_of_corner
+    return min(clearance(gear, mate, centre_distance, corner) for corner in _corners(mate))
 
 
 def _clearance_of_corner(gear: Gear, mate: Gear, centre_distance: float, corner: tuple[float, float]) -> float:
     at_contact = atan(mate.tip_roll_angle) - _operating_angle(gear, mate, centre_distance)
-    radius, angle = _tip_corner_path(gear, mate, centre_distance, np.linspace(at_contact, 0.0, PATH_POINTS), corner)
-    fillet = fillet_point(gear, np.linspace(gear.fillet_end, 0.0, FILLET_POINTS))
+    radius, angle = _tip_corner_path(gear, mate, centre_distance, np.linspace(at_contact, 0.0, SAMPLES), corner)
+    fillet = fillet_point(gear, np.linspace(gear.fillet_end, 0.0, SAMPLES))
     fillet_radius = np.hypot(fillet[:, 0], fillet[:, 1])
     # From straight down, as that of the path.
     fillet_angle = np.arctan2(fillet[:, 1], fillet[:, 0]) + 0.5 * pi
@@ -190,9 +170,8 @@ def _clearance_of_corner(gear: Gear, mate: Gear, centre_distance: float, corner:
 
 
 def _corners(gear: Gear) -> list[tuple[float, float]]:
-    """Radius (mm) of each corner of a tip's drive side, two of a chamfer, and the angle (rad) by which it lies behind
-    the end of the involute.
-    """
+    """Radius (mm) of each corner of a tip's drive side, two of a chamfer, and angle (rad) behind the end of the
+    involute."""
     if not gear.tip_chamfer:
         return [(gear.tip_radius, 0.0)]
     behind = (
@@ -204,15 +183,13 @@ def _corners(gear: Gear) -> list[tuple[float, float]]:
 
 
 def _clearance_along_circles(gear: Gear, mate: Gear, centre_distance: float, corner: tuple[float, float]) -> float:
-    """Least arc (mm) about the gear's centre from its fillet and involute to the path of the mate's tip corner, from
-    where this comes below the gear's tip: an undercut fillet has up to two points at a polar angle, but one at a
-    radius.
-    """
+    """Least arc (mm) about the gear's centre from its fillet and involute to the path of the mate's tip corner below
+    the gear's tip: an undercut fillet has up to two points at a polar angle, but one at a radius."""
     above = acos((centre_distance**2 + corner[0] ** 2 - gear.tip_radius**2) / (2.0 * centre_distance * corner[0]))
     radius, angle = _tip_corner_path(
-        gear, mate, centre_distance, np.linspace(above + corner[1], corner[1], PATH_POINTS), corner
+        gear, mate, centre_distance, np.linspace(above + corner[1], corner[1], SAMPLES), corner
     )
-    fillet = fillet_point(gear, np.linspace(0.0, gear.fillet_end, FILLET_POINTS))
+    fillet = fillet_point(gear, np.linspace(0.0, gear.fillet_end, SAMPLES))
     involute = -involute_function(gear.roll_angle(np.maximum(radius, gear.form_radius)))
     cut = np.interp(radius, np.hypot(fillet[:, 0], fillet[:, 1]), np.arctan2(fillet[:, 0], -fillet[:, 1]))
     arcs = radius * (angle - np.where(radius < gear.form_radius, cut, involute))
@@ -229,7 +206,6 @@ def _tip_corner_path(
     """Radius (mm) and polar angle from straight down (rad) of a corner of the mate's tip in the gear's tooth frame.
 
     ``mate_angle`` (n,), rad: of the end of the mate's involute from the line of centres, seen from the mate's centre.
-    Where that end is on the line of action it lies on the gear's involute.
     """
     operating = _operating_angle(gear, mate, centre_distance)
     contact_roll = np.tan(operating) * (1.0 + mate.base_radius / gear.base_radius)

@@ -1,8 +1,5 @@
-"""Crowning and slope of the profile: how much material is gone at each roll angle.
-
-ISO 21771 has both, as C_alpha and C_Halpha, over the usable flank; here they are over its used part, from the start of
-active profile to the tip.
-"""
+"""Crowning and slope of the profile, C_alpha and C_Halpha of ISO 21771, over its used part, from the start of active
+profile to the tip."""
 
 from __future__ import annotations
 
@@ -20,8 +17,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ProfileCurve:
-    """Material removed along the flank's normal between two roll angles (rad); of crowning and slope (mm) nothing is
-    added to the involute."""
+    """Material removed along the flank's normal between two roll angles (rad) by crowning and slope (mm), which add
+    nothing."""
 
     modification: ProfileModification
     start_roll_angle: float

@@ -13,6 +13,7 @@ from fenics_gears.errors import GeometryError
 from fenics_gears.inputs.tree import GEARS
 
 from .gear import Gear
+from .involute import arc_length
 from .pair import GearPair
 
 if TYPE_CHECKING:
@@ -21,10 +22,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ReliefCurve:
-    """Material removed along the flank's normal: nothing up to the start, ``depth`` (mm) at the end; roll angles in
-    rad.
-
-    ``depth ((v - start)/(end - start))^power``, whichever way the end lies; ``power`` 1 or more.
+    """Material removed along the flank's normal, mm: nothing up to the start, then
+    ``depth ((v - start)/(end - start))^power``, whichever way the end lies; roll angles in rad, ``power`` 1 or more.
     """
 
     depth: float
@@ -89,20 +88,25 @@ class _Side:
     usual_start: float
 
     @property
-    def field(self) -> str:
-        """The gear's section."""
-        return f"{self.section}.{self.name}"
+    def at_tip(self) -> bool:
+        """Whether the end is the tip, not the form circle."""
+        return self.section == "tip_relief"
 
     @property
-    def words(self) -> str:
-        """The section's name in a sentence."""
-        return self.section.replace("_", " ")
+    def written_end(self) -> str:
+        """The end as messages name it."""
+        return "tip" if self.at_tip else "form circle"
+
+    def refused(self, problem: str, field: str) -> GeometryError:
+        """The error of a relief that this end cannot have."""
+        return GeometryError(f"{self.name}: {problem}: change {self.section}.{self.name}.{field}")
 
 
 def tip_reliefs(pair: GearPair, reliefs: Reliefs) -> tuple[ReliefCurve | None, ReliefCurve | None]:
     """Relief of pinion and wheel from HPSTC, unless the scene gives another start, to the tip; None for a gear without.
 
-    Raises GeometryError as ``relief_curve`` does.
+    Raises GeometryError for a relief that starts off the involute or at its own end, or whose depth is negative or more
+    than half the tooth's thickness.
     """
     ends = pair.pinion.tip_roll_angle, pair.wheel.tip_roll_angle
     return _curves(pair, reliefs, "tip_relief", ends, pair.hpstc_roll_angles)
@@ -117,71 +121,53 @@ def root_reliefs(pair: GearPair, reliefs: Reliefs) -> tuple[ReliefCurve | None, 
 def _curves(pair: GearPair, reliefs: Reliefs, section: str, ends, usual_starts):
     sides = (_Side(getattr(pair, name), name, section, *angles) for name, *angles in zip(GEARS, ends, usual_starts))
     own = ((getattr(reliefs, side.name), side) for side in sides)
-    return tuple(None if relief is None else relief_curve(relief, side) for relief, side in own)
+    return tuple(None if relief is None else _curve(relief, side) for relief, side in own)
 
 
-def relief_curve(relief: Relief, side: _Side) -> ReliefCurve:
-    """Relief at one end of a gear's flank.
-
-    Raises GeometryError when it would start off the involute or at its own end, or when its depth is negative or more
-    than half the tooth's thickness.
-    """
+def _curve(relief: Relief, side: _Side) -> ReliefCurve:
     _check_depth(relief, side)
-    start, gear = _start(relief, side), side.gear
+    start, written, field = _start(relief, side)
+    gear = side.gear
     lowest, highest = gear.form_roll_angle, gear.tip_roll_angle
     if not lowest <= start <= highest or start == side.end:
-        raise GeometryError(
-            f"{side.name}: {side.words} starts at {_written_start(relief, start, side)}, but its involute runs from"
+        raise side.refused(
+            f"{side.section.replace('_', ' ')} starts at {written}, but its involute runs from"
             f" {degrees(lowest):.4g} deg (form circle) to {degrees(highest):.4g} deg (tip), diameters"
             f" {2.0 * gear.form_radius:.6g} to {2.0 * gear.tip_radius:.6g} mm,"
             f" {gear.base_radius * (highest - lowest):.4g} mm on the path of contact,"
-            f" {0.5 * gear.base_radius * (highest**2 - lowest**2):.4g} mm along the flank: change"
-            f" {side.field}.{_changed(relief)}"
+            f" {arc_length(gear.base_radius, highest) - arc_length(gear.base_radius, lowest):.4g} mm along the flank",
+            field,
         )
     return ReliefCurve(relief.depth, start, side.end, relief.power)
 
 
 def _check_depth(relief: Relief, side: _Side) -> None:
     if not (isfinite(relief.depth) and relief.depth >= 0.0):
-        raise GeometryError(
-            f"{side.name}: {side.section} depth {relief.depth} mm; it must be zero or a positive length"
-        )
+        raise side.refused(f"{side.section} depth {relief.depth} mm must be zero or a positive length", "depth")
     thickness = float(side.gear.tooth_thickness(side.gear.radius(side.end)))
     if relief.depth > 0.5 * thickness:
-        end = "tip" if side.section == "tip_relief" else "form circle"
-        left = "no tip would be left" if end == "tip" else "nothing of the tooth would be left there"
-        raise GeometryError(
-            f"{side.name}: {side.section} depth {relief.depth:.4g} mm is more than half the tooth's thickness at the"
-            f" {end}, {thickness:.4g} mm: {left}; lower {side.field}.depth"
+        raise side.refused(
+            f"{side.section} depth {relief.depth:.4g} mm is more than half the tooth's thickness at the"
+            f" {side.written_end}, {thickness:.4g} mm",
+            "depth",
         )
 
 
-def _start(relief: Relief, side: _Side) -> float:
-    """Roll angle (rad) of the start; negative for a diameter or a length that leads off the involute."""
-    gear, from_end = side.gear, 1.0 if side.section == "root_relief" else -1.0
-    if relief.length_on_path is not None:
-        return side.end + from_end * relief.length_on_path / gear.base_radius
-    if relief.length_on_flank is not None:
+def _start(relief: Relief, side: _Side) -> tuple[float, str, str]:
+    """Roll angle (rad) of the start, negative for a diameter or a length that leads off the involute; the start as the
+    scene has it, and the field that says so."""
+    gear, from_end = side.gear, -1.0 if side.at_tip else 1.0
+    if (length := relief.length_on_path) is not None:
+        written = f"{length:.6g} mm from the {side.written_end} on the path of contact"
+        return side.end + from_end * length / gear.base_radius, written, "length_on_path"
+    if (length := relief.length_on_flank) is not None:
         # An involute's arc from its base circle is rb v^2 / 2.
-        square = side.end**2 + from_end * 2.0 * relief.length_on_flank / gear.base_radius
-        return sqrt(square) if square >= 0.0 else -1.0
-    if relief.start_diameter is None:
-        return side.usual_start if relief.start_roll_angle is None else relief.start_roll_angle
-    radius = 0.5 * relief.start_diameter
-    return float(gear.roll_angle(radius)) if radius >= gear.base_radius else -1.0
-
-
-def _written_start(relief: Relief, start: float, side: _Side) -> str:
-    end = "tip" if side.section == "tip_relief" else "form circle"
-    if relief.length_on_path is not None:
-        return f"{relief.length_on_path:.6g} mm from the {end} on the path of contact"
-    if relief.length_on_flank is not None:
-        return f"{relief.length_on_flank:.6g} mm from the {end} along the flank"
+        square = side.end**2 + from_end * 2.0 * length / gear.base_radius
+        written = f"{length:.6g} mm from the {side.written_end} along the flank"
+        return sqrt(square) if square >= 0.0 else -1.0, written, "length_on_flank"
     if relief.start_diameter is not None:
-        return f"diameter {relief.start_diameter:.6g} mm"
-    return f"roll angle {degrees(start):.4g} deg"
-
-
-def _changed(relief: Relief) -> str:
-    lengths = (name for name in ("length_on_path", "length_on_flank") if getattr(relief, name) is not None)
-    return next(lengths, "start")
+        radius = 0.5 * relief.start_diameter
+        start = float(gear.roll_angle(radius)) if radius >= gear.base_radius else -1.0
+        return start, f"diameter {relief.start_diameter:.6g} mm", "start"
+    start = side.usual_start if relief.start_roll_angle is None else relief.start_roll_angle
+    return start, f"roll angle {degrees(start):.4g} deg", "start"

@@ -1,8 +1,7 @@
-"""Area and polar second moment of a gear's cross-section, between bore and outline.
+"""Area and polar second moment of a gear's cross-section, between bore and outline; reliefs and errors are left out.
 
 By Green's theorem over the boundary, A = 1/2 of the integral of r^2 dtheta, and I_p = 1/4 of that of r^4 dtheta. Along
-an involute of roll angle v these are rb^2 v^2 dv and rb^4 v^2 (1 + v^2) dv, exactly, as circles are; radial lines
-contribute nothing; the fillet goes by Gauss quadrature. Micro-geometry (reliefs, errors) is left out.
+an involute of roll angle v these are rb^2 v^2 dv and rb^4 v^2 (1 + v^2) dv; the fillet goes by Gauss quadrature.
 """
 
 from dataclasses import dataclass
@@ -29,12 +28,10 @@ class CrossSection:
 def gear_section(gear: Gear) -> CrossSection:
     """The cross-section of a gear from bore to tip; a web counts by its share of the face width."""
     tip, form = gear.tip_roll_angle, gear.form_roll_angle
-    half_tip = (
-        0.5 * gear.tip_thickness / gear.tip_radius
-        if gear.tip_chamfer
-        else gear.tooth_half_angle_at_base - float(involute_function(tip))
-    )
-    chamfer = _straight(tip_corner(gear), canonical_point(gear.base_radius, tip)) if gear.tip_chamfer else 0.0
+    half_tip, chamfer = gear.tooth_half_angle_at_base - float(involute_function(tip)), 0.0
+    if gear.tip_chamfer:
+        half_tip = 0.5 * gear.tip_thickness / gear.tip_radius
+        chamfer = _straight(tip_corner(gear), canonical_point(gear.base_radius, tip))
     half_tooth = (
         _arc(gear.tip_radius, half_tip)
         + chamfer

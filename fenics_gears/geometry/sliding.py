@@ -1,7 +1,7 @@
 """Sliding of the flanks along the path of contact, from the rigid pair's nominal motion (ISO 21771, Niemann/Winter).
 
-At a distance xi (mm) from T1 the flanks' radii of curvature are rho1 = xi and rho2 = T1T2 - xi, and their points move
-across the line of action with omega1 rho1 and omega2 rho2. Positions are arrays of any shape.
+At xi (mm, any shape) from T1 the flanks' radii of curvature are rho1 = xi and rho2 = T1T2 - xi, and their points move
+across the line of action with omega1 rho1 and omega2 rho2.
 """
 
 import numpy as np
@@ -18,19 +18,16 @@ def contact_points(pair: GearPair) -> np.ndarray:
 
 
 def sliding_per_rotation(pair: GearPair, position):
-    """Sliding speed over the pinion's angular speed, mm: v_g / omega1 = rho1 - rho2 z1/z2.
-
-    Of the pinion's flank over the wheel's, positive towards the pinion's tip: negative before the pitch point, positive
-    after it.
-    """
+    """Sliding speed over the pinion's angular speed, mm: v_g / omega1 = rho1 - rho2 z1/z2, of the pinion's flank over
+    the wheel's, towards the pinion's tip: negative before the pitch point."""
     return position - pair.rotation_ratio * (pair.line_of_action_length - position)
 
 
 def specific_sliding(pair: GearPair, position) -> tuple[np.ndarray, np.ndarray]:
     """Sliding speed over the speed of the flank's own point across the line of action, of pinion and wheel.
 
-    zeta1 = 1 - rho2 z1/(rho1 z2), zeta2 = 1 - rho1 z2/(rho2 z1): negative in a dedendum, positive in an addendum,
-    largest in size at the start of a gear's active profile; minus infinity at its base circle.
+    zeta1 = 1 - rho2 z1/(rho1 z2), zeta2 = 1 - rho1 z2/(rho2 z1): negative in a dedendum; minus infinity at a gear's
+    base circle.
     """
     position = np.asarray(position, dtype=float)
     across = pair.rotation_ratio * (pair.line_of_action_length - position)

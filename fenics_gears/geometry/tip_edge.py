@@ -35,11 +35,10 @@ class TipEdge:
 
 
 def tip_edge(gear: Gear, radius: float) -> TipEdge:
-    """The tip edge of the drive flank.
+    """The tip edge of the drive flank; GeometryError for a radius that leaves no tip or flank.
 
-    The curve parallel to an involute is an involute of the same base circle: the arc's centre, `radius` inside the
-    flank and inside the tip circle, is at rb^2 + (rb v - radius)^2 = (ra - radius)^2. Raises GeometryError for a radius
-    that leaves no tip or flank.
+    The curve parallel to an involute is an involute of the same base circle: the arc's centre, `radius` inside flank
+    and tip circle, is at rb^2 + (rb v - radius)^2 = (ra - radius)^2.
     """
     if gear.tip_chamfer and radius >= 0.0:
         return _chamfered(gear, radius)
@@ -53,8 +52,8 @@ def tip_edge(gear: Gear, radius: float) -> TipEdge:
     roll = (radius + np.sqrt(max(inner**2 - base**2, 0.0))) / base if radius else gear.tip_roll_angle
     if inner <= base or roll <= gear.form_roll_angle:
         raise GeometryError(
-            f"tip edge radius {radius:.4g} mm of the gear with {gear.teeth} teeth leaves no involute below it; "
-            "lower corner_contact.edge_radius"
+            f"tip edge radius {radius:.4g} mm of the gear with {gear.teeth} teeth leaves no involute below it; lower"
+            " corner_contact.edge_radius"
         )
     normal = canonical_normal(roll)
     centre = canonical_point(base, roll) - radius * normal
@@ -69,11 +68,9 @@ def _chamfered(gear: Gear, radius: float) -> TipEdge:
     def centre(roll: float) -> np.ndarray:
         return canonical_point(base, roll) - radius * canonical_normal(roll)
 
-    roll = (
-        halved(lambda at: (centre(at) - foot) @ outward >= -radius, gear.form_roll_angle, gear.tip_roll_angle)
-        if radius
-        else gear.tip_roll_angle
-    )
+    roll = gear.tip_roll_angle
+    if radius:
+        roll = halved(lambda at: (centre(at) - foot) @ outward >= -radius, gear.form_roll_angle, roll)
     if roll <= gear.form_roll_angle * (1.0 + 1e-9) or (centre(roll) - end) @ along > 0.0:
         raise GeometryError(
             f"tip edge radius {radius:.4g} mm of the gear with {gear.teeth} teeth does not fit between its involute and"

@@ -1,9 +1,9 @@
 """Tooth thickness as drawings give it: base tangent length, dimension over balls, normal thickness; each way between
-them and the profile shift.
+them and the profile shift, in normal modules.
 
-Angles in rad, lengths in mm; profile shifts in normal modules. All measure the half angle psi_b of a tooth at the base
-circle (DIN 3960, ISO 21771): W_k = cos(beta_b) [(k - 1) p_bt + d_b psi_b], and for the centre of a ball between two
-teeth inv(alpha_K) = D_M/(d_b cos(beta_b)) + psi_b - pi/z.
+Angles in rad, lengths in mm. All measure the half angle psi_b of a tooth at the base circle (DIN 3960, ISO 21771): W_k
+= cos(beta_b) [(k - 1) p_bt + d_b psi_b], and for the centre of a ball between two teeth inv(alpha_K) = D_M/(d_b
+cos(beta_b)) + psi_b - pi/z.
 """
 
 from math import acos, atan, cos, hypot, pi, sqrt, tan
@@ -58,18 +58,9 @@ def spanned_teeth(gear: Gear) -> int:
     """Teeth over which a caliper touches the flanks nearest to the shifted reference circle: k of ISO 21771."""
     shift = gear.profile_shift * gear.rack_stretch
     involute = tan(gear.pressure_angle) - gear.pressure_angle
-    roll = gear.roll_angle(max(_middle_radius(gear), gear.base_radius))
-    count = (
-        gear.teeth
-        / pi
-        * (
-            roll / cos(base_helix_angle(gear)) ** 2
-            - involute
-            - 2.0 * shift * tan(gear.normal_pressure_angle) / gear.teeth
-        )
-        + 0.5
-    )
-    return max(2, round(float(count)))
+    roll = gear.roll_angle(max(_middle_radius(gear), gear.base_radius)) / cos(base_helix_angle(gear)) ** 2
+    spanned = roll - involute - 2.0 * shift * tan(gear.normal_pressure_angle) / gear.teeth
+    return max(2, round(float(gear.teeth / pi * spanned + 0.5)))
 
 
 def tangent_contact_radius(gear: Gear, length: float) -> float:
@@ -79,11 +70,7 @@ def tangent_contact_radius(gear: Gear, length: float) -> float:
 
 def ball_centre(gear: Gear, ball_diameter: float) -> float:
     """Radius of the centre of a ball between two teeth; the base radius where it is too small to touch both flanks."""
-    swept = (
-        ball_diameter / (2.0 * gear.base_radius * cos(base_helix_angle(gear)))
-        + gear.tooth_half_angle_at_base
-        - pi / gear.teeth
-    )
+    swept = _ball_angle(gear, ball_diameter) + gear.tooth_half_angle_at_base - pi / gear.teeth
     return float(gear.radius(inverse_involute(swept)))
 
 
@@ -104,9 +91,7 @@ def shift_of_dimension_over_balls(gear: Gear, dimension: float, ball_diameter: f
     if centre <= gear.base_radius:
         return None
     swept = float(involute_function(tan(acos(gear.base_radius / centre))))
-    return shift_of_half_angle(
-        gear, swept - ball_diameter / (2.0 * gear.base_radius * cos(base_helix_angle(gear))) + pi / gear.teeth
-    )
+    return shift_of_half_angle(gear, swept - _ball_angle(gear, ball_diameter) + pi / gear.teeth)
 
 
 def ball_diameter(gear: Gear) -> float:
@@ -116,8 +101,12 @@ def ball_diameter(gear: Gear) -> float:
     return max(1, round(40.0 * gear.base_radius * (centre - roll) * cos(base_helix_angle(gear)))) / 20.0
 
 
+def _ball_angle(gear: Gear, ball_diameter: float) -> float:
+    return ball_diameter / (2.0 * gear.base_radius * cos(base_helix_angle(gear)))
+
+
 def _middle_radius(gear: Gear) -> float:
-    """Radius of the shifted reference circle, r + x m_n, in the middle of the tooth."""
+    """Radius of the shifted reference circle, in the middle of the tooth."""
     return gear.reference_radius + gear.profile_shift * gear.module
 
 

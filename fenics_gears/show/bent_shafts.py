@@ -35,7 +35,7 @@ class Line(NamedTuple):
 
 
 def bent_shafts(run: Run) -> list[Chart]:
-    """Shafts, gears and bearings, the shafts' deflection in the plane of action magnified; and the deflection in either
+    """Shafts, gears and bearings, the deflection in the plane of action magnified; and the deflection in either
     direction."""
     if "shaft_deflection_x" not in run.dataset or not run.dataset.sizes["contact_time"] or run.pair is None:
         return []
@@ -77,9 +77,8 @@ def _to_scale(run: Run, lines: list[Line]) -> Chart:
         corners = line.seat[[0, 1, 1, 0]]
         tips = moved(corners) + gear.tip_radius * np.array([1.0, 1.0, -1.0, -1.0])
         curves.append(_closed(line.gear, corners, tips, colour))
-        curves.append(
-            Curve(f"{line.gear}'s bearings", line.bearings, moved(line.bearings), colour, mode=MARKERS, width=8.0)
-        )
+        at_bearings = moved(line.bearings)
+        curves.append(Curve(f"{line.gear}'s bearings", line.bearings, at_bearings, colour, mode=MARKERS, width=8.0))
     for number, gear in enumerate(GEARS):
         if gear not in {line.gear for line in lines}:
             half, tip = 0.5 * run.pair.face_widths[number], getattr(run.pair, gear).tip_radius

@@ -86,16 +86,9 @@ class Cases:
         for name, coordinate in self.dataset.coords.items():
             if name in ("case", "mesh_phase", "gear") or not set(coordinate.dims) <= set(shape.dims):
                 continue
-            spread = coordinate.broadcast_like(shape).transpose(*shape.dims)
-            unit = str(coordinate.attrs.get("units", ""))
-            found.append(
-                SweptField(
-                    str(name),
-                    str(coordinate.attrs.get("long_name", name)),
-                    "" if unit == "1" else unit.replace("um", "µm"),
-                    spread.values.ravel(),
-                )
-            )
+            values = coordinate.broadcast_like(shape).transpose(*shape.dims).values.ravel()
+            unit, path = (str(coordinate.attrs.get(*each)) for each in (("units", ""), ("long_name", name)))
+            found.append(SweptField(str(name), path, "" if unit == "1" else unit.replace("um", "µm"), values))
         order = {dimension: place for place, dimension in enumerate(shape.dims)}
         return sorted(found, key=lambda field: order.get(field.name, 0))
 
@@ -110,25 +103,18 @@ class Cases:
     @cached_property
     def states(self) -> list[str]:
         """The state of each case: one of `STATES`."""
-        done, failed, warned = (
-            np.isfinite(self.numbers("peak_to_peak_transmission_error")),
-            self.dataset["failed"].values.ravel(),
-            self.texts("warnings"),
-        )
+        done = np.isfinite(self.numbers("peak_to_peak_transmission_error"))
+        failed = self.dataset["failed"].values.ravel()
         return [
             STATES[1] if ready and said else STATES[0] if ready else STATES[2] if wrong else STATES[3]
-            for ready, wrong, said in zip(done, failed, warned)
+            for ready, wrong, said in zip(done, failed, self.texts("warnings"))
         ]
 
     def far_off(self, values: np.ndarray) -> np.ndarray:
         """Which cases (n,) have a value that is many times all others' and belongs to a result without meaning."""
         without_meaning = np.array([NO_MEANING in each for each in self.texts("warnings")]) & np.isfinite(values)
         sound = np.isfinite(values) & ~without_meaning
-        return (
-            without_meaning & (np.abs(values) > FAR_OFF * np.abs(values[sound]).max())
-            if sound.any()
-            else np.zeros(self.count, dtype=bool)
-        )
+        return without_meaning & (np.abs(values) > FAR_OFF * np.abs(values[sound]).max(initial=0.0)) & sound.any()
 
     def far_off_in_words(self, far_off: np.ndarray) -> str:
         """A note on cases that are not drawn; empty without any."""
@@ -162,14 +148,13 @@ class Cases:
         file = self.file.parent / name
         page = file.with_suffix(".html")
         found = next((each for each in (page, file) if each.is_file()), None)
-        return (
-            "" if found is None else urllib.parse.quote(os.path.relpath(found.resolve(), self.output.parent.resolve()))
-        )
+        if found is None:
+            return ""
+        return urllib.parse.quote(os.path.relpath(found.resolve(), self.output.parent.resolve()))
 
     @cached_property
     def error_scale(self) -> tuple[float, str]:
-        """What a transmission error in rad is multiplied with, and the unit it then has: lengths where all cases have
-        the same gears."""
+        """Factor and unit of a transmission error in rad: lengths where all cases have the same gears."""
         if not any(field.path.startswith("gears") for field in self.fields):
             done = next((case for case, state in enumerate(self.states) if state in STATES[:2]), None)
             radius = None if done is None else self._base_radius(done)
@@ -187,17 +172,9 @@ class Cases:
     @cached_property
     def measures(self) -> dict[str, tuple[np.ndarray, str, str]]:
         """What is compared between cases: values (n,), unit, name."""
-        scale, unit = self.error_scale
-        return {
-            "peak_to_peak_transmission_error": (
-                self.numbers("peak_to_peak_transmission_error") * scale,
-                unit,
-                "Transmission error, peak to peak",
-            ),
-            "mean_transmission_error": (
-                self.numbers("mean_transmission_error") * scale,
-                unit,
-                "Transmission error, mean",
-            ),
-            "max_normal_force": (self.numbers("max_normal_force"), "N", "Largest mesh force"),
+        measures = {
+            "peak_to_peak_transmission_error": (*self.error_scale, "Transmission error, peak to peak"),
+            "mean_transmission_error": (*self.error_scale, "Transmission error, mean"),
+            "max_normal_force": (1.0, "N", "Largest mesh force"),
         }
+        return {name: (self.numbers(name) * scale, unit, words) for name, (scale, unit, words) in measures.items()}

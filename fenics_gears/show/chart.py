@@ -1,7 +1,7 @@
 """Charts as data: curves, bars, bands and a coloured field over two axes, with units, captions and colours.
 
-Two modules draw them: ``show.drawing`` by matplotlib, for files and paper, and ``show.report.interactive`` by plotly,
-for zooming. How much room a chart and the ticks of an axis take in a picture is in inches.
+``show.drawing`` draws them by matplotlib, for files and paper, ``show.report.interactive`` by plotly, for zooming. Room
+in a picture is in inches.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ PART_OF_LETTER = 0.0105
 
 @dataclass(frozen=True)
 class Curve:
-    """Values (n,) over places (n,) of the first axis, numbers or, for places, words; a band has values (2, n), its
-    lower and upper edge.
+    """Values (n,) over places (n,) of the first axis, numbers or words; a band has values (2, n), its lower and upper
+    edge.
 
     width: of the line in pixels, or of bars along the first axis. fill: colour inside a closed line. words: beside each
     place, on the side `beside` ("right", "top right").
@@ -50,10 +50,7 @@ class Curve:
 @dataclass(frozen=True)
 class Field:
     """Values (m, n), not a number where there are none, in cells between edges (n + 1,) of the first and (m + 1,) of
-    the second axis.
-
-    limit: where the colours end. colours: from low to high.
-    """
+    the second axis. limit: where the colours end, from low to high."""
 
     x: np.ndarray
     y: np.ndarray
@@ -85,9 +82,8 @@ class Flag:
 @dataclass(frozen=True)
 class Chart:
     """Curves over one axis. `note`: a sentence below; `least`: the smallest span that the second axis shows; `linked`:
-    charts of a page with the same word here are zoomed together; `logarithmic`: the axes ("x", "y", "xy") so divided;
-    `equal`: a length is as long on either axis.
-    """
+    charts of a page with the same word are zoomed together; `logarithmic`: the axes ("x", "y", "xy") so divided;
+    `equal`: a length is as long on either axis."""
 
     caption: str
     curves: Sequence[Curve]
@@ -126,12 +122,16 @@ class Chart:
     def _shown(self, curve: Curve) -> np.ndarray:
         values = np.asarray(curve.y, dtype=float)
         if self.x_range is not None and np.asarray(curve.x).dtype.kind in "fiu":
-            values = values[..., (curve.x >= self.x_range[0] - 1e-9) & (curve.x <= self.x_range[1] + 1e-9)]
+            values = values[..., self.in_range(curve.x)]
         return values.ravel()
+
+    def in_range(self, x: np.ndarray) -> np.ndarray:
+        """Which places (n,) are in the range of the first axis."""
+        return (x >= self.x_range[0] - 1e-9) & (x <= self.x_range[1] + 1e-9)
 
     @property
     def flag_rows(self) -> list[int]:
-        """The row above the curves in which each flag's words stand right of its line: no words over others or over
+        """The row above the curves in which each flag's words stand right of its line: no words over others or
         another's line."""
         first, last = self.x_range
         rows = [0] * len(self.flags)
@@ -145,8 +145,7 @@ class Chart:
 
 
 def over_time(run, caption: str, y_title: str, curves: Sequence[tuple[str, np.ndarray, str]], **options) -> Chart:
-    """Curves of name, values (time,) and colour over the mesh cycles of a run; charts of this kind are zoomed
-    together."""
+    """Curves of name, values (time,) and colour over the mesh cycles of a run; such charts are zoomed together."""
     drawn = [Curve(name, run.phase, values, colour) for name, values, colour in curves]
     return Chart(caption, drawn, MESH_CYCLES, y_title, linked=TIME, x_range=run.window, **options)
 
@@ -162,38 +161,31 @@ def of_variables(
     **options,
 ) -> list[Chart]:
     """A chart of those of these variables, by name and words, that a run's result has, in this unit; none without any.
-    Variables of both
-    gears have a curve for either. least: the smallest span that is shown; without, a part of the largest value."""
+    Those of both gears have a curve for either. least: the smallest span shown, else a part of the largest value."""
     curves = []
     for (name, words), colour in zip(names.items(), colours):
         if name in run.dataset:
             values = run.values(name, unit)
-            of_gears = (
-                zip(run.dataset["gear"].values, values.T, PALETTE[2:4])
-                if values.ndim == 2
-                else [(words, values, colour)]
-            )
-            curves += [(str(each), part, own) for each, part, own in of_gears]
-    return (
-        [over_time(run, caption, f"{what} ({unit})", curves, least=least or span(curves), **{"height": 240, **options})]
-        if curves
-        else []
-    )
+            if values.ndim == 2:
+                curves += zip(run.dataset["gear"].values.tolist(), values.T, PALETTE[2:4])
+            else:
+                curves.append((words, values, colour))
+    if not curves:
+        return []
+    options = {"least": least or span(curves), "height": 240, **options}
+    return [over_time(run, caption, f"{what} ({unit})", curves, **options)]
 
 
 def span(curves: Sequence[tuple[str, np.ndarray, str]]) -> float:
-    """Smallest span that an axis shows of curves, so that round-off fills no chart: a part of their largest value; 1
-    for nothing but zeros."""
-    return (
-        LEAST_SHARE * max(float(np.abs(values[np.isfinite(values)]).max(initial=0.0)) for _, values, _ in curves) or 1.0
-    )
+    """Smallest span that an axis shows of curves, so that round-off fills no chart; 1 for nothing but zeros."""
+    largest = max(float(np.abs(values[np.isfinite(values)]).max(initial=0.0)) for _, values, _ in curves)
+    return LEAST_SHARE * largest or 1.0
 
 
 def stems(places: np.ndarray, heights: np.ndarray, foot: float) -> tuple[np.ndarray, np.ndarray]:
     """A line that goes up and down at each place (n,) from its foot."""
-    return np.repeat(places, 3), np.stack(
-        [np.full(len(places), foot), heights, np.full(len(places), foot)], axis=1
-    ).ravel()
+    feet = np.full(len(places), foot)
+    return np.repeat(places, 3), np.stack([feet, heights, feet], axis=1).ravel()
 
 
 WIDTH, GAP = 10.0, 0.12
@@ -245,31 +237,28 @@ class Panel:
     def overhang(self) -> float:
         """Width of a flag's words beyond the end of the first axis."""
         first, last = self.chart.x_range or (0.0, 1.0)
-        return max(
-            (
-                FLAG_LETTER * (len(flag.words) + 2) - 0.8 * WIDTH * (last - flag.x) / (last - first)
-                for flag in self.chart.flags
-            ),
-            default=0.0,
+        beyond = (
+            FLAG_LETTER * (len(flag.words) + 2) - 0.8 * WIDTH * (last - flag.x) / (last - first)
+            for flag in self.chart.flags
         )
+        return max(beyond, default=0.0)
 
     @property
     def legend_columns(self) -> int:
-        """Names beside each other; as wide as the widest where they are not all in one row."""
+        """Names beside each other, as wide as the widest where they are not all in one row."""
         widths = [LEGEND_HANDLE + LEGEND_LETTER * len(curve.name) for curve in self.chart.curves if curve.listed]
         return len(widths) if sum(widths) <= 0.82 * WIDTH else max(1, int(0.82 * WIDTH / max(widths)))
 
     @property
     def legend_rows(self) -> int:
         """Rows of these; none without a legend."""
-        return (
-            -(-sum(curve.listed for curve in self.chart.curves) // self.legend_columns) if self.chart.has_legend else 0
-        )
+        listed = sum(curve.listed for curve in self.chart.curves)
+        return -(-listed // self.legend_columns) if self.chart.has_legend else 0
 
 
 @dataclass(frozen=True)
 class Scale:
-    """Ticks of an axis of `axes`: places (n,) on it and their labels; the axis' title."""
+    """Ticks of an axis of `axes`: their places (n,) and labels; the axis' title."""
 
     axes: Axes
     places: np.ndarray

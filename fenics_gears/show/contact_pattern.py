@@ -1,5 +1,4 @@
-"""The contact pattern: the largest pressure at each point of a flank while it is in mesh, over face and height of the
-tooth."""
+"""The contact pattern: the largest pressure at each point of a flank while it is in mesh."""
 
 import numpy as np
 import xarray as xr
@@ -12,7 +11,7 @@ from fenics_gears.results.pairs import carrying_side
 
 from .chart import Chart, Curve, Field
 from .panels import DARK, GREY
-from .pressure import COLOURS, colour_limit, has_pressure, node_edges
+from .pressure import COLOURS, colour_limit, counted_on, has_pressure, node_edges
 from .run import Run
 
 ACROSS = "Distance along the axes from the middle of the common face (mm)"
@@ -28,10 +27,8 @@ def contact_patterns(run: Run) -> list[Chart]:
     if not has_pressure(run) or run.pair is None:
         return []
     side = carrying_side(run.dataset)
-    order = ("contact_time", "slot", "face_position", "contact_node")
     part = run.last_fields
-    pressure, rolls = (part[f"{side}contact_{name}"].transpose(*order).values for name in ("pressure", "roll_angle"))
-    pressure = read_off(pressure, rolls)
+    pressure, rolls = over_face(part, side)
     found = pressure[(pressure > 0.0) & np.isfinite(rolls)]
     if not found.size:
         return []
@@ -41,16 +38,20 @@ def contact_patterns(run: Run) -> list[Chart]:
     return [_pattern(run, gear, side, pressure, of_gear, limit, beyond) for gear, of_gear in enumerate(both)]
 
 
+def over_face(part: xr.Dataset, side: str) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure (MPa) and the pinion's roll angle (rad) of the contact nodes, both (step, slot, slice, node)."""
+    order = ("contact_time", "slot", "face_position", "contact_node")
+    pressure, rolls = (part[f"{side}contact_{name}"].transpose(*order).values for name in ("pressure", "roll_angle"))
+    return read_off(pressure, rolls), rolls
+
+
 def rolls_on_wheel(pair: GearPair, part: xr.Dataset, side: str, rolls: np.ndarray) -> np.ndarray:
     """Roll angles (rad) on the wheel's flank of contact nodes from those on the pinion's: they stand as far from the
     point of contact, on the other side."""
     numbers = part["contact_pair_number"]
     since = part["contact_mesh_phase"].values[:, None] - (numbers.values - numbers.attrs["number_at_phase_0"])
-    xi = (
-        pair.path_start
-        + since[..., None, None] * pair.base_pitch
-        + (pair.slope * part["face_position"].values)[:, None]
-    )
+    ahead = (pair.slope * part["face_position"].values)[:, None]
+    xi = pair.path_start + since[..., None, None] * pair.base_pitch + ahead
     of_pinion, of_wheel = (coast_roll_angles if side else contact_roll_angles)(pair, xi)
     along = 0.5 * pair.pinion.base_radius * (rolls**2 - of_pinion**2)
     return np.sqrt(np.maximum(of_wheel**2 - 2.0 * along / pair.wheel.base_radius, 0.0))
@@ -60,19 +61,10 @@ def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyo
     pair, name = run.pair, GEARS[gear]
     data = getattr(pair, name)
     ends = data.form_roll_angle, data.tip_roll_angle
-    field = pattern(
-        pressure,
-        rolls,
-        run.last_fields["contact_pair_number"].values,
-        ends,
-        data.radius,
-        slice_ends(run.dataset),
-        limit,
-    )
+    numbers = run.last_fields["contact_pair_number"].values
+    field = pattern(pressure, rolls, numbers, ends, data.radius, slice_ends(run.dataset), limit)
     pitch = 2.0 * data.radius(contact_roll_angles(pair, pair.pitch_point)[gear])
-    active = 2.0 * data.radius(
-        (contact_roll_angles(pair, pair.path_start)[0], contact_roll_angles(pair, pair.path_end)[1])[gear]
-    )
+    active = 2.0 * data.radius(pair.sap_roll_angles[gear])
     face = np.array(pair.common_face)
     lines = [("pitch cylinder", pitch, DARK, "dash"), ("start of the active profile", active, GREY, "dot")]
     flank = " (coast flank)" if side else ""
@@ -90,21 +82,16 @@ def pattern(pressure, rolls, numbers, ends: tuple[float, float], radius, slices:
     node) of pairs with numbers (step, slot).
 
     Nodes reach half-way to their neighbours; the peak of a pair in a slice goes straight from step to step. ends: roll
-    angles between which the cells lie;
-    radius: mm, of a roll angle; slices: their ends (S + 1,), mm.
+    angles between which the cells lie; radius: mm, of a roll angle; slices: their ends (S + 1,), mm.
     """
     diameters = np.linspace(2.0 * radius(ends[0]), 2.0 * radius(ends[1]), ROWS + 1)
     values = np.full((ROWS, len(slices) - 1), -np.inf)
 
     def fill(begin, end, first, last, column) -> None:
         """Pressures from `begin` to `end` (n,) into the cells between diameters `first` and `last` of columns (n,)."""
-        low, high = (
-            np.clip(np.searchsorted(diameters, each) - 1, 0, ROWS - 1)
-            for each in (np.minimum(first, last), np.maximum(first, last))
-        )
-        count = high - low + 1
-        each = np.repeat(np.arange(len(count)), count)
-        row = low[each] + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
+        bounds = np.minimum(first, last), np.maximum(first, last)
+        low, high = (np.clip(np.searchsorted(diameters, each) - 1, 0, ROWS - 1) for each in bounds)
+        each, row = counted_on(low, high - low + 1)
         way = np.where(first == last, 1.0, last - first)[each]
         part = np.clip((0.5 * (diameters[row] + diameters[row + 1]) - first[each]) / way, 0.0, 1.0)
         np.maximum.at(values, (row, column[each]), (1.0 - part) * begin[each] + part * end[each])
@@ -113,13 +100,11 @@ def pattern(pressure, rolls, numbers, ends: tuple[float, float], radius, slices:
     pressed = (pressure > 0.0) & np.isfinite(edges[0]) & np.isfinite(edges[1])
     fill(pressure[pressed], pressure[pressed], edges[0][pressed], edges[1][pressed], np.nonzero(pressed)[2])
     node = np.where(pressed, pressure, 0.0).argmax(axis=-1)[..., None]
-    peak, place = (
-        np.take_along_axis(each, node, -1)[..., 0] for each in (pressure, 2.0 * radius(np.clip(rolls, *ends)))
-    )
+    places = 2.0 * radius(np.clip(rolls, *ends))
+    peak, place = (np.take_along_axis(each, node, -1)[..., 0] for each in (pressure, places))
     # The peak of an edge, many times that of the flank, is no larger at the steps between.
     alike = np.maximum(peak[1:], peak[:-1]) < EDGE_PEAK * np.minimum(peak[1:], peak[:-1])
     goes_on = alike & (numbers[1:] == numbers[:-1])[..., None] & np.isfinite(place[1:] + place[:-1])
     fill(peak[:-1][goes_on], peak[1:][goes_on], place[:-1][goes_on], place[1:][goes_on], np.nonzero(goes_on)[2])
-    return Field(
-        slices, diameters, np.where(np.isfinite(values), values, np.nan), "Contact pressure (MPa)", limit, COLOURS
-    )
+    values[np.isneginf(values)] = np.nan
+    return Field(slices, diameters, values, "Contact pressure (MPa)", limit, COLOURS)

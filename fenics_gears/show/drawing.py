@@ -1,7 +1,6 @@
 """Draws charts by matplotlib: below each other as the picture of a run, or alone as a still image in a page.
 
-Panels, ticks and labels are placed here, by numbers: matplotlib's own layouts and ticks take most of the time of a
-picture. Lengths are in inches.
+Panels, ticks and labels are placed here, by numbers in inches: matplotlib's own layouts take most of a picture's time.
 """
 
 import io
@@ -42,7 +41,7 @@ from .chart import (
     Panel,
     Scale,
 )
-from .panels import DARK, GRID, styled, thinned, tick_labels, ticks
+from .panels import DARK, GRID, legend, styled, thinned, tick_labels, ticks
 
 DASHES = {"solid": "-", "dash": (0, (5, 2.5)), "dot": (0, (1, 1.6))}
 STILL_POINTS = 1000  # of a curve; a still image is 900 points wide
@@ -58,16 +57,8 @@ def picture(heading: str, charts: Sequence[Chart], colour: str = DARK) -> Figure
     ]
     figure = _figure(panels, HEADING_LINE * (heading.count("\n") + 1) + GAP)
     # A title may hold dollar signs that are no formula.
-    figure.suptitle(
-        heading,
-        x=0.012,
-        y=1.0 - GAP / figure.get_figheight(),
-        ha="left",
-        va="top",
-        fontsize=14,
-        color=colour,
-        parse_math=False,
-    )
+    at_corner = {"x": 0.012, "y": 1.0 - GAP / figure.get_figheight(), "ha": "left", "va": "top"}
+    figure.suptitle(heading, fontsize=14, color=colour, parse_math=False, **at_corner)
     return figure
 
 
@@ -77,9 +68,8 @@ def still(chart: Chart) -> bytes:
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     content = io.BytesIO()
-    with matplotlib.rc_context(
-        {"svg.fonttype": "none", "svg.hashsalt": "fenics_gears", "path.simplify_threshold": 0.3}
-    ):
+    settings = {"svg.fonttype": "none", "svg.hashsalt": "fenics_gears", "path.simplify_threshold": 0.3}
+    with matplotlib.rc_context(settings):
         FigureCanvasSVG(_figure([Panel(chart)])).print_svg(content, metadata={"Date": None, "Creator": None})
     return content.getvalue()
 
@@ -89,19 +79,13 @@ def _figure(panels: Sequence[Panel], heading: float = 0.0) -> Figure:
     figure, bottom, every = Figure(figsize=(WIDTH, height)), height - heading, []
     with matplotlib.rc_context({"axes.grid": False}):
         for panel in panels:
-            every.append(
-                figure.add_axes((0.1, (bottom - panel.above - panel.inside) / height, 0.8, panel.inside / height))
-            )
+            foot = bottom - panel.above - panel.inside
+            every.append(figure.add_axes((0.1, foot / height, 0.8, panel.inside / height)))
             bottom -= panel.height
         scales = [_draw(axes, panel) for axes, panel in zip(every, panels)]
     left = GAP + max(own.width for own, *_ in scales)
-    right = WIDTH - max(
-        [
-            HALF_LABEL,
-            *(panel.overhang for panel in panels),
-            *(GAP + sum(each.width for each in beside) for _, *beside in scales if beside),
-        ]
-    )
+    widths = [GAP + sum(scale.width for scale in others) for _, *others in scales if others]
+    right = WIDTH - max(HALF_LABEL, *(panel.overhang for panel in panels), *widths)
     for axes, panel, (own, *beside) in zip(every, panels, scales):
         _, bottom, _, high = axes.get_position().bounds
         axes.set_position((left / WIDTH, bottom, (right - left) / WIDTH, high))
@@ -130,15 +114,7 @@ def _draw(axes: Axes, panel: Panel) -> list[Scale]:
     # A title whose height is given is not moved out of the way of others, which takes long to find out.
     axes.set_title(panel.title, y=1.0, pad=72.0 * (0.6 * GAP + LEGEND_ROW * panel.legend_rows), parse_math=False)
     if chart.has_legend:
-        axes.legend(
-            loc="lower left",
-            bbox_to_anchor=(0.0, 1.0),
-            ncol=panel.legend_columns,
-            borderaxespad=0.1,
-            handlelength=1.6,
-            columnspacing=1.4,
-            labelspacing=0.25,
-        )
+        legend(axes, panel.legend_columns, "lower left", labelspacing=0.25)
     if chart.flags:
         _draw_flags(axes, panel)
     for axis in (axes.xaxis, axes.yaxis):
@@ -167,11 +143,8 @@ def _set_ends(axes: Axes, chart: Chart) -> None:
 
 def _draw_level(axes: Axes, panel: Panel, width: float) -> None:
     chart = panel.chart
-    labels = list(
-        dict.fromkeys(
-            str(each) for curve in chart.curves if np.asarray(curve.x).dtype.kind not in "fiu" for each in curve.x
-        )
-    )
+    in_words = [curve.x for curve in chart.curves if np.asarray(curve.x).dtype.kind not in "fiu"]
+    labels = list(dict.fromkeys(str(each) for places in in_words for each in places))
     logarithmic = "x" in chart.logarithmic
     places = np.arange(len(labels)) if labels else ticks(axes.get_xlim(), width / APART_LEVEL, logarithmic)
     across = axes.get_xaxis_transform()
@@ -188,28 +161,15 @@ def _draw_upright(scale: Scale, side: int, room: float) -> None:
     axes, end = scale.axes, 0.5 + 0.5 * side
     inch, across = side / (axes.get_position().width * WIDTH), axes.get_yaxis_transform()
     _draw_lines(axes, [((end, place), (end + TICK * inch, place)) for place in scale.places], across)
+    away, back = ("left", "right") if side > 0 else ("right", "left")
     for place, label in zip(scale.places, scale.labels):
-        axes.text(
-            end + 2.0 * TICK * inch,
-            place,
-            label,
-            transform=across,
-            ha="left" if side > 0 else "right",
-            va="center_baseline",
-        )
-    axes.text(
-        end + room * inch,
-        0.5,
-        scale.title,
-        transform=axes.transAxes,
-        rotation="vertical",
-        ha="right" if side > 0 else "left",
-        va="center",
-    )
+        axes.text(end + 2.0 * TICK * inch, place, label, transform=across, ha=away, va="center_baseline")
+    upright = {"transform": axes.transAxes, "rotation": "vertical", "va": "center"}
+    axes.text(end + room * inch, 0.5, scale.title, ha=back, **upright)
 
 
 def _draw_lines(axes: Axes, ends: list, transform, colour: str = DARK) -> None:
-    """Lines of a grid or ticks, below the curves; these do not set an axis' ends."""
+    """Lines of a grid or ticks, below the curves."""
     lines = LineCollection(ends, colors=colour, linewidths=0.8, transform=transform, clip_on=False, zorder=0.5)
     axes.add_collection(lines, autolim=False)
 
@@ -229,7 +189,7 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
         axes.add_collection(PolyCollection(corners, facecolors=curve.colour, edgecolors="none", label=label))
         return
     if chart.x_range is not None and not chart.equal:
-        near = (x >= chart.x_range[0] - 1e-9) & (x <= chart.x_range[1] + 1e-9)
+        near = chart.in_range(x)
         x, y = x[near], y[near]
     places = thinned(y, len(y) if chart.equal else STILL_POINTS)
     marker = "o" if curve.mode in (MARKERS, MARKED_LINES) else ""
@@ -241,8 +201,8 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
     )  # fmt: skip
     if curve.fill:
         axes.fill(x, y, color=curve.fill, zorder=0.9)
+    up, right = ("top" in curve.beside) - ("bottom" in curve.beside), 1 if "right" in curve.beside else -1
     for words, place, height in zip(curve.words, x, y):
-        up, right = ("top" in curve.beside) - ("bottom" in curve.beside), 1 if "right" in curve.beside else -1
         axes.annotate(
             words, (place, height), xytext=(6 * right, 6 * up), textcoords="offset points", fontsize=10.5,
             ha="left" if right > 0 else "right", va=("center", "bottom", "top")[up],
@@ -255,25 +215,16 @@ def _draw_field(axes: Axes, panel: Panel) -> Scale:
     colours = LinearSegmentedColormap.from_list("field", list(field.colours))
     beyond = np.nanmax(field.values, initial=0.0) > field.limit * (1 + 1e-9)
     lowest = min(0.0, float(np.nanmin(field.values, initial=0.0)))
-    drawn = axes.pcolormesh(
-        field.x,
-        field.y,
-        np.ma.masked_invalid(field.values),
-        cmap=colours,
-        vmin=lowest,
-        vmax=field.limit,
-        rasterized=True,
-    )
+    look = {"cmap": colours, "vmin": lowest, "vmax": field.limit, "rasterized": True}
+    drawn = axes.pcolormesh(field.x, field.y, np.ma.masked_invalid(field.values), **look)
     beside = axes.figure.add_axes((0.9, 0.1, 0.02, 0.8), label=BAR_NAME)
-    axes.figure.colorbar(
-        drawn, cax=beside, extend="max" if beyond else "neither", ticks=NullLocator()
-    ).outline.set_visible(False)
+    bar = axes.figure.colorbar(drawn, cax=beside, extend="max" if beyond else "neither", ticks=NullLocator())
+    bar.outline.set_visible(False)
     places = ticks((lowest, field.limit), panel.inside / APART_UPRIGHT)
     return Scale(beside, places, tick_labels(places), field.title)
 
 
 def _draw_flags(axes: Axes, panel: Panel) -> None:
-    """Words above all curves, each right of the line that leads down to its place."""
     chart, rows = panel.chart, panel.chart.flag_rows
     low, high = axes.get_ylim()
     room = 1.0 - FLAG_ROW * (max(rows) + 1) / panel.inside
@@ -281,15 +232,7 @@ def _draw_flags(axes: Axes, panel: Panel) -> None:
     axes.set_ylim(low, low * (high / low) ** (1.0 / room) if stretched else low + (high - low) / room)
     for flag, row in zip(chart.flags, rows):
         top = 1.0 - FLAG_ROW * (max(rows) - row + 1) / panel.inside
-        axes.annotate(
-            f" {flag.words}",
-            (flag.x, max(flag.y, low)),
-            xytext=(flag.x, top),
-            textcoords=("data", "axes fraction"),
-            fontsize=11,
-            color=flag.colour,
-            va="bottom",
-            arrowprops=dict(
-                arrowstyle="-", color=flag.colour, linewidth=0.8, relpos=(0.0, 0.0), shrinkA=0.0, shrinkB=0.0
-            ),
-        )
+        line = {"arrowstyle": "-", "linewidth": 0.8, "relpos": (0.0, 0.0), "shrinkA": 0.0, "shrinkB": 0.0}
+        at = {"xytext": (flag.x, top), "textcoords": ("data", "axes fraction"), "va": "bottom"}
+        line["color"] = at["color"] = flag.colour
+        axes.annotate(f" {flag.words}", (flag.x, max(flag.y, low)), fontsize=11, arrowprops=line, **at)

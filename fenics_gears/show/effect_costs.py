@@ -30,8 +30,7 @@ LABEL = {
 
 @styled
 def effect_costs(report: EffectReport) -> Figure:
-    """Unknowns and time of a step on the left, transmission error and peak force on the right; whiskers are the rounds'
-    least and most."""
+    """Unknowns and time of a step on the left, transmission error and peak force on the right."""
     rows = report.rows
     # Less leaves no room between heading and footnotes.
     height = max(2.8 + LINE_HEIGHT * len(rows), 4.6)
@@ -40,9 +39,8 @@ def effect_costs(report: EffectReport) -> Figure:
     figure.get_layout_engine().set(w_pad=0.1, h_pad=0.1, rect=(0, 0.6 / height, 1, 1 - 0.6 / height))
     panels = [(name, OF_FACE[name]) for name in report.of_face]
     figure.set_figwidth(15.0 + 3.4 * len(panels))
-    axes = figure.subplots(
-        1, 4 + len(panels), sharey=True, gridspec_kw={"width_ratios": (1.0, *[1.1] * (3 + len(panels)))}
-    )
+    widths = (1.0, *[1.1] * (3 + len(panels)))
+    axes = figure.subplots(1, len(widths), sharey=True, gridspec_kw={"width_ratios": widths})
     places = _places(rows)
     _unknowns(axes[0], rows, places)
     _bars(axes[1], report, places, "step_time", MICRO, "Time per step (µs, median)")
@@ -80,8 +78,7 @@ def _unknowns(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
 
 
 def _bars(axes: Axes, report: EffectReport, places: np.ndarray, name: str, factor: float, title: str) -> None:
-    """One number of every row that has it, with its change, and the bare and the full scene's as lines to compare
-    with."""
+    """One number of every row that has it, with its change, and the bare and the full scene's as lines."""
     rows = report.rows
     values = np.nan_to_num([getattr(row, name) * factor for row in rows])
     axes.barh(places, values, color=[COLOURS.get(row.subset.kind, GREY) for row in rows], height=0.7)
@@ -112,7 +109,7 @@ def _whiskers(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
 
 def measured_heading(figure: Figure, what: str, scene: Scene) -> None:
     """What was measured of a scene, its title and its conditions, above a figure."""
-    title = textwrap.shorten(" ".join(scene.title.split()), 80, placeholder=" …")
+    title = textwrap.shorten(scene.title, 80, placeholder=" …")
     words = f"{what}: {title}\n{conditions(scene)}"
     figure.suptitle(words, x=0.008, ha="left", fontsize=14, color=DARK, parse_math=False)
 
@@ -126,10 +123,5 @@ def _words(figure: Figure, report: EffectReport) -> None:
     ]
     if any(own_remarks(report, row) for row in report.rows):
         entries.append("* with a remark that the whole scene does not have, see effects.csv")
-    figure.text(
-        0.008,
-        0.1 / figure.get_figheight(),
-        f"{colours}\n{'; '.join(entries)}\n{in_words(report.machine)}",
-        fontsize=9.5,
-        color=DARK,
-    )
+    words = f"{colours}\n{'; '.join(entries)}\n{in_words(report.machine)}"
+    figure.text(0.008, 0.1 / figure.get_figheight(), words, fontsize=9.5, color=DARK)

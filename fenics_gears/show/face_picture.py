@@ -17,7 +17,8 @@ from fenics_gears.system.virtual_display import ensure_display
 from .chart import MARKED_LINES, Chart, Curve
 from .contact_pattern import ACROSS
 from .flank_pressure import PressedTiles, pressed_tiles
-from .panels import DARK, GREY, PALETTE, styled
+from .loaded_contact import stored_place
+from .panels import DARK, GREY, PALETTE, framed, styled
 from .pressure import COLOURS as PRESSURE_COLOURS
 from .stress_grid import surface
 from .stress_picture import COLOURS, colour_bar, heading, rounded_up
@@ -55,10 +56,7 @@ def face_picture(
     mesh: GearsInMesh, dataset: xr.Dataset, scale: float, limit: float, beyond: bool, dpi: float
 ) -> Figure:
     """Both gears in mesh, and the loaded teeth of each alone; `scale`: of the displacements of the teeth from the hubs.
-
-    limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there. Raises ComputationError without
-    pyvista.
-    """
+    limit, beyond: as of `stress_picture`. Raises ComputationError without pyvista."""
     figure = Figure(figsize=(16.0, 9.0), dpi=dpi)
     tiles = [pressed_tiles(mesh, dataset, gear, scale) for gear in (0, 1)]
     highest = rounded_up(dataset.attrs.get("peak_contact_pressure", 0.0) or float(tiles[0].pressure.max(initial=0.0)))
@@ -66,14 +64,10 @@ def face_picture(
         axes = figure.add_axes(sight.place, xticks=[], yticks=[])
         axes.imshow(_rendered(mesh, sight, scale, limit, tiles, highest), aspect="auto")
         axes.set_title(sight.title)
-        axes.grid(False)
-        for spine in axes.spines.values():
-            spine.set_visible(True)
-            spine.set_color("#BBBBBB")
+        framed(axes)
     colour_bar(figure, limit, beyond, place=(0.08, 0.33))
-    colour_bar(
-        figure, highest, bool((tiles[0].pressure > highest).any()), "contact pressure (MPa)", (0.49, 0.33), PRESSURES
-    )
+    above = bool((tiles[0].pressure > highest).any())
+    colour_bar(figure, highest, above, "contact pressure (MPa)", (0.49, 0.33), PRESSURES)
     heading(figure, mesh, dataset)
     _words(figure, mesh, dataset, scale)
     return figure
@@ -90,21 +84,13 @@ def sights(mesh: GearsInMesh) -> tuple[Sight, Sight, Sight]:
     half = 0.5 * (pair.centre_distance + pair.pinion.tip_radius + pair.wheel.tip_radius) + 0.15 * pair.face_width
     side, axis = (-1.0 if mesh.coast else 1.0) * across, np.array([0.0, 0.0, 1.0])
     close, deep = 0.45 * pair.face_width + 2.6 * pair.pinion.module, 0.9 * pair.pinion.module * along
-    whole = Sight(
-        "The pair in mesh",
-        (0.015, 0.12, 0.36, 0.74),
-        (0, 1),
-        middle,
-        0.45 * across + 0.25 * along + 0.9 * axis,
-        1.01 * half,
+    from_above = 0.45 * across + 0.25 * along + 0.9 * axis
+    places = [(left, 0.12, 0.265, 0.74) for left in (0.385, 0.66)]
+    return (
+        Sight("The pair in mesh", (0.015, 0.12, 0.36, 0.74), (0, 1), middle, from_above, 1.01 * half),
+        Sight("Pinion alone", places[0], (0,), pitch + deep, 0.7 * side - 0.7 * along + 0.45 * axis, close),
+        Sight("Wheel alone", places[1], (1,), pitch - deep, -0.7 * side + 0.7 * along + 0.45 * axis, close),
     )
-    pinion = Sight(
-        "Pinion alone", (0.385, 0.12, 0.265, 0.74), (0,), pitch + deep, 0.7 * side - 0.7 * along + 0.45 * axis, close
-    )
-    wheel = Sight(
-        "Wheel alone", (0.66, 0.12, 0.265, 0.74), (1,), pitch - deep, -0.7 * side + 0.7 * along + 0.45 * axis, close
-    )
-    return whole, pinion, wheel
 
 
 def root_tension(mesh: GearsInMesh) -> Chart:
@@ -135,9 +121,7 @@ def _rendered(
     try:
         import pyvista
     except ImportError as error:
-        raise ComputationError(
-            "a picture of gears in three dimensions needs pyvista, which is not installed"
-        ) from error
+        raise ComputationError("a picture in three dimensions needs pyvista, which is not installed") from error
     # pyvista's own start_xvfb waits three seconds and leaves the server running.
     ensure_display(pyvista.vtk_version_info)
     if hasattr(pyvista, "vtk_verbosity"):
@@ -155,9 +139,8 @@ def _rendered(
         plotter.camera.focal_point = sight.focus
         plotter.camera.position = sight.focus + 10.0 * sight.half * direction
         plotter.camera.up = _upright(mesh.pair)[1]
-        plotter.camera.parallel_scale = (
-            sight.half * max(1.0, size[1] / size[0]) if len(sight.gears) == 1 else sight.half
-        )
+        alone = len(sight.gears) == 1
+        plotter.camera.parallel_scale = sight.half * (max(1.0, size[1] / size[0]) if alone else 1.0)
         plotter.reset_camera_clipping_range()
         return plotter.screenshot(return_img=True)
     finally:
@@ -165,8 +148,8 @@ def _rendered(
 
 
 def _add_gear(plotter, gear: GearInSpace, scale: float, limit: float, tiles: PressedTiles, highest: float) -> None:
-    """One gear: stress on its recovered teeth but on their flanks that carry, there the contact pressure; the other
-    teeth and all edges."""
+    """One gear: stress on its recovered teeth, the contact pressure on their flanks that carry; the other teeth, all
+    edges."""
     from pyvista import PolyData
 
     moved = gear.points + scale * gear.elastic
@@ -176,41 +159,28 @@ def _add_gear(plotter, gear: GearInSpace, scale: float, limit: float, tiles: Pre
     stressed.point_data["stress"] = gear.von_mises.ravel()
     plotter.add_mesh(stressed, scalars="stress", cmap=COLOURS, clim=(0.0, limit), show_scalar_bar=False, **LIGHT)
     plotter.add_mesh(PolyData.from_regular_faces(points, sides[flank]), color=FLANK, **LIGHT)
-    if len(tiles.pressure):
-        pressed = PolyData.from_regular_faces(
-            tiles.corners.reshape(-1, 3), np.arange(4 * len(tiles.pressure)).reshape(-1, 4)
-        )
+    if count := len(tiles.pressure):
+        pressed = PolyData.from_regular_faces(tiles.corners.reshape(-1, 3), np.arange(4 * count).reshape(-1, 4))
         pressed.cell_data["pressure"] = tiles.pressure
-        plotter.add_mesh(
-            pressed, scalars="pressure", cmap=PRESSURES, clim=(0.0, highest), show_scalar_bar=False, lighting=False
-        )
+        colours = {"scalars": "pressure", "cmap": PRESSURES, "clim": (0.0, highest)}
+        plotter.add_mesh(pressed, show_scalar_bar=False, lighting=False, **colours)
     drawn = [PolyData.from_regular_faces(points, sides)]
     if len(gear.others):
         drawn.append(PolyData.from_regular_faces(gear.others.reshape(-1, 3), surface(gear.others, gear)))
         plotter.add_mesh(drawn[-1], color=UNLOADED, **LIGHT)
+    smooth = dict.fromkeys(("boundary_edges", "manifold_edges", "non_manifold_edges"), False)
     for each in drawn:
-        plotter.add_mesh(
-            each.clean().extract_feature_edges(
-                40.0, boundary_edges=False, manifold_edges=False, non_manifold_edges=False
-            ),
-            color=EDGES,
-            line_width=1.5,
-        )
+        plotter.add_mesh(each.clean().extract_feature_edges(40.0, **smooth), color=EDGES, line_width=1.5)
 
 
 def _words(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, scale: float) -> None:
-    stored = contact_times(dataset)
-    index = int(np.argmin(np.abs(stored["contact_mesh_phase"].values - mesh.mesh_phase)))
-    name = "coast_normal_force" if mesh.coast else "normal_force"
-    roots = [f"{name_of_gear} {_largest_tension(gear)}" for name_of_gear, gear in zip(NAMES, mesh.gears)]
-    figure.text(
-        0.015,
-        0.073,
-        f"Displacements × {scale:g}. Mesh force {float(stored[name].values[index]):.0f} N. Largest tension in the"
-        f" roots: {', '.join(roots)}.",
-        fontsize=12,
-        color=DARK,
+    force = contact_times(dataset)["coast_normal_force" if mesh.coast else "normal_force"].values
+    roots = [f"{name} {_largest_tension(gear)}" for name, gear in zip(NAMES, mesh.gears)]
+    words = (
+        f"Displacements × {scale:g}. Mesh force {float(force[stored_place(mesh, dataset)]):.0f} N. Largest tension in"
+        f" the roots: {', '.join(roots)}."
     )
+    figure.text(0.015, 0.073, words, fontsize=12, color=DARK)
     figure.text(0.015, 0.018, CAPTION, fontsize=11, color=GREY, linespacing=1.4)
 
 

@@ -10,10 +10,9 @@ from fenics_gears.contact.window import coast_roll_angles, contact_roll_angles
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.results.face_ends import slice_ends
-from fenics_gears.results.mesh_curves import read_off
 from fenics_gears.simulation.run_stresses import GearsInMesh
 
-from .contact_pattern import rolls_on_wheel
+from .contact_pattern import over_face, rolls_on_wheel
 from .loaded_contact import stored_place
 from .pressure import node_edges
 
@@ -35,9 +34,7 @@ def pressed_tiles(mesh: GearsInMesh, dataset: xr.Dataset, gear: int, scale: floa
     """The tiles of a gear at the time of a mesh, moved as its teeth are; `scale`: of their displacements."""
     side, pair = "coast_" if mesh.coast else "", mesh.pair
     part = dataset.isel(contact_time=[stored_place(mesh, dataset)])
-    order = ("contact_time", "slot", "face_position", "contact_node")
-    pressure, rolls = (part[f"{side}contact_{name}"].transpose(*order).values for name in ("pressure", "roll_angle"))
-    pressure = read_off(pressure, rolls)
+    pressure, rolls = over_face(part, side)
     low, high = node_edges(rolls_on_wheel(pair, part, side, rolls) if gear else rolls)
     pressed = (pressure > 0.0) & np.isfinite(low) & np.isfinite(high)
     _, slots, slices, _ = np.nonzero(pressed)
@@ -52,9 +49,8 @@ def pressed_tiles(mesh: GearsInMesh, dataset: xr.Dataset, gear: int, scale: floa
     def corners(edge: np.ndarray, z: np.ndarray) -> np.ndarray:
         # Along the line of contact a node's roll angle changes as that of the contact does.
         touching = contact_roll(z)
-        return np.column_stack(
-            [_placed(pair, gear, mesh.coast, edge[pressed] + touching - contact_roll(middles[slices]), touching), z]
-        )
+        rolls = edge[pressed] + touching - contact_roll(middles[slices])
+        return np.column_stack([_placed(pair, gear, mesh.coast, rolls, touching), z])
 
     around = [(low, ends[slices]), (high, ends[slices]), (high, ends[slices + 1]), (low, ends[slices + 1])]
     points = np.stack([corners(*each) for each in around], axis=1)
@@ -64,17 +60,14 @@ def pressed_tiles(mesh: GearsInMesh, dataset: xr.Dataset, gear: int, scale: floa
 def _placed(pair: GearPair, gear: int, coast: bool, rolls: np.ndarray, touching: np.ndarray) -> np.ndarray:
     """Points (n, 2) of a gear's flank at roll angles (n,), a little off it, where the flank touches at others (n,)."""
     x, height = flank_point((pair.pinion, pair.wheel)[gear].base_radius, rolls, touching)
-    x = x + STAND_OFF * pair.pinion.module
+    x, bases = x + STAND_OFF * pair.pinion.module, pair.pinion.base_radius + pair.wheel.base_radius
     if gear:
-        x, height = pair.line_of_action_length - x, pair.pinion.base_radius + pair.wheel.base_radius - height
+        x, height = pair.line_of_action_length - x, bases - height
     points = np.column_stack([x, -height])
     if not coast:
         return points
     # Coast flanks are the mirror image at the line of centres.
-    along = (
-        np.array([pair.line_of_action_length, -(pair.pinion.base_radius + pair.wheel.base_radius)])
-        / pair.centre_distance
-    )
+    along = np.array([pair.line_of_action_length, -bases]) / pair.centre_distance
     return 2.0 * np.outer(points @ along, along) - points
 
 

@@ -26,7 +26,7 @@ def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "") -> Chart:
 
     result: a variable in a unit of length; or a dataset with `transmission_error` in a unit of length, or in rad of the
     wheel beside the attribute `base_radius_wheel` (mm). The coordinate `load` has units. Curves of one mesh cycle are
-    drawn twice; of more than two the first two are drawn; a load without a result (not a number) has no curve. Raises
+    drawn twice; of more than two the first two; a load without a result (not a number) has no curve. Raises
     ComputationError for a result without these dimensions and units.
     """
     error = result["transmission_error"] if isinstance(result, xr.Dataset) else result
@@ -36,28 +36,17 @@ def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "") -> Chart:
             f" {', '.join(map(str, error.dims)) or 'none'}"
         )
     error = error.transpose("load", "mesh_phase").sortby("load").dropna("load", how="all")
-    values, unit = _micrometres(error, result.attrs), _unit_of(error["load"])
+    values = _micrometres(error, result.attrs)
+    unit = "kW" if error["load"].attrs.get("units") == "kW" else "N m"
     loads = in_unit(error["load"], unit)
     phase = error["mesh_phase"].values
     curves = [
         Curve(f"{digits(load)} {unit}", *_two_cycles(phase, each), colour, listed=False)
         for load, each, colour in zip(loads, values, shades(len(loads)))
     ]
-    drawn = [*curves, *_names(curves)]
-    return Chart(
-        caption,
-        drawn,
-        "Mesh phase (mesh cycles)",
-        "Transmission error along the line of action (µm)",
-        "",
-        520,
-        least=LEAST_LENGTH,
-        x_range=(0.0, CYCLES + ROOM),
-    )
-
-
-def _unit_of(loads: xr.DataArray) -> str:
-    return "kW" if loads.attrs.get("units") == "kW" else "N m"
+    drawn, y_title = [*curves, *_names(curves)], "Transmission error along the line of action (µm)"
+    options = {"height": 520, "least": LEAST_LENGTH, "x_range": (0.0, CYCLES + ROOM)}
+    return Chart(caption, drawn, "Mesh phase (mesh cycles)", y_title, **options)
 
 
 def _micrometres(error: xr.DataArray, attributes: dict) -> np.ndarray:
@@ -81,18 +70,11 @@ def _two_cycles(phase: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.n
 
 
 def _names(curves: list[Curve]) -> list[Curve]:
-    named = (
-        [
-            curves[place]
-            for place in np.unique(np.linspace(0, len(curves) - 1, min(len(curves), MOST_NAMED)).round().astype(int))
-        ]
-        if curves
-        else []
-    )
-    if not named:
+    if not curves:
         return []
-    every = np.concatenate([curve.y for curve in curves])
-    ends = [(CYCLES, float(curve.y[-1]), curve.name) for curve in named]
+    every, count = np.concatenate([curve.y for curve in curves]), len(curves)
+    named = np.unique(np.linspace(0, count - 1, min(count, MOST_NAMED)).round().astype(int))
+    ends = [(CYCLES, float(curves[place].y[-1]), curves[place].name) for place in named]
     return [words_apart(ends, APART * (np.ptp(every[np.isfinite(every)]) or 1.0), "right")]
 
 
@@ -102,13 +84,5 @@ def words_apart(ends: Sequence[tuple[float, float, str]], apart: float, beside: 
     heights = np.array([height for _, height, _ in ends])
     for place in range(1, len(heights)):
         heights[place] = max(heights[place], heights[place - 1] + apart)
-    return Curve(
-        "words",
-        np.array([x for x, _, _ in ends]),
-        heights,
-        DARK,
-        mode=WORDS,
-        listed=False,
-        words=[words for *_, words in ends],
-        beside=beside,
-    )
+    x, words = np.array([x for x, *_ in ends]), [words for *_, words in ends]
+    return Curve("words", x, heights, DARK, mode=WORDS, listed=False, words=words, beside=beside)

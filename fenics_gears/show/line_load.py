@@ -22,18 +22,13 @@ def line_loads(run: Run) -> list[Chart]:
     if name not in run.dataset or run.dataset.sizes["contact_time"] < 2 or run.pair is None:
         return []
     part = run.last_fields
-    loads, phase = (
-        in_unit(part[name].transpose("contact_time", "slot", "face_position"), "N/mm"),
-        part["contact_mesh_phase"].values,
-    )
+    loads = in_unit(part[name].transpose("contact_time", "slot", "face_position"), "N/mm")
+    phase = part["contact_mesh_phase"].values
     if not loads.any():
         return []
     slices, z = slice_ends(run.dataset), part["face_position"].values
-    return [
-        _of_mesh(side, loads, phase, slices),
-        _of_pair(run, side, loads, phase, slices),
-        _over_face(run, side, loads, z),
-    ]
+    mesh, pair = _of_mesh(side, loads, phase, slices), _of_pair(run, side, loads, phase, slices)
+    return [mesh, pair, _over_face(run, side, loads, z)]
 
 
 def _of_mesh(side: str, loads: np.ndarray, phase: np.ndarray, slices: np.ndarray) -> Chart:
@@ -48,8 +43,7 @@ def _of_mesh(side: str, loads: np.ndarray, phase: np.ndarray, slices: np.ndarray
 
 
 def _of_pair(run: Run, side: str, loads: np.ndarray, phase: np.ndarray, slices: np.ndarray) -> Chart:
-    """Line load from the start to the end of contact, put together of all pairs, so that a single mesh cycle is enough;
-    of unlike pairs the largest."""
+    """Line load from the start to the end of contact, put together of all pairs, of unlike ones the largest."""
     pair, numbers = run.pair, run.last_fields["contact_pair_number"]
     entered = numbers.values - numbers.attrs["number_at_phase_0"]
     step = float(np.diff(phase).min())
@@ -59,32 +53,16 @@ def _of_pair(run: Run, side: str, loads: np.ndarray, phase: np.ndarray, slices: 
     own = np.zeros((int(since[known].max()) - first + 1, loads.shape[2]))
     np.maximum.at(own, since[known] - first, loads[known])
     # Phases of the steps are those of the last one and whole steps before it.
-    start, pitch, end = sorted(
-        passing(pair, position, side) for position in (pair.path_start, pair.pitch_point, pair.path_end)
-    )
-    places = (
-        step * (first + np.arange(len(own)))
-        + float(phase[-1])
-        - step * round(float(phase[-1]) / step)
-        - (start - pair.path_start) / pair.base_pitch
-    )
-    ends = np.array([slices[0], slices[-1]])
-    lines = [
-        Curve(
-            words,
-            (position - start - pair.slope * ends) / pair.base_pitch,
-            ends,
-            DARK,
-            dash,
-            1.0,
-            listed=position < end,
-        )
-        for words, position, dash in (
-            ("start and end of contact", start, "dash"),
-            ("pitch point", pitch, "dot"),
-            ("", end, "dash"),
-        )
-    ]
+    positions = pair.path_start, pair.pitch_point, pair.path_end
+    start, pitch, end = sorted(passing(pair, position, side) for position in positions)
+    last = float(phase[-1]) - step * round(float(phase[-1]) / step)
+    places = step * (first + np.arange(len(own))) + last - (start - pair.path_start) / pair.base_pitch
+    ends, lines = np.array([slices[0], slices[-1]]), []
+    for words, position, dash in (
+        ("start and end of contact", start, "dash"), ("pitch point", pitch, "dot"), ("", end, "dash"),
+    ):  # fmt: skip
+        at = (position - start - pair.slope * ends) / pair.base_pitch
+        lines.append(Curve(words, at, ends, DARK, dash, 1.0, listed=position < end))
     return Chart(
         "Line load of a tooth pair from the start to the end of its contact", lines,
         "Time (mesh cycles since contact starts in the middle of the face)",
@@ -126,10 +104,8 @@ def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
 
 
 def _correction(found) -> str:
-    amounts = " and ".join(
-        f"{words} {found[f'proposed_{name}']:.1f} µm"
-        for words, name in (("helix slope", "helix_slope"), ("crowning", "crowning"))
-    )
+    slope, crowning = found["proposed_helix_slope"], found["proposed_crowning"]
+    amounts = f"helix slope {slope:.1f} µm and crowning {crowning:.1f} µm"
     return f"mesh, mean, proposed for the pinion: {amounts} (factor {found['proposed_face_load_factor']:.3f})"
 
 

@@ -37,10 +37,8 @@ def loaded_contact(mesh: GearsInMesh, dataset: xr.Dataset) -> LoadedContact | No
     slot = int(np.argmax(forces))
     if forces[slot] <= 0.0:
         return None
-    prefix = "coast_" if coast else ""
-    pressure, rolls = (
-        dataset[prefix + name].values[index, slot] for name in ("contact_pressure", "contact_roll_angle")
-    )
+    names = [("coast_" if coast else "") + name for name in ("contact_pressure", "contact_roll_angle")]
+    pressure, rolls = (dataset[name].values[index, slot] for name in names)
     numbers = dataset["contact_pair_number"]
     entered = int(numbers.values[index, slot]) - numbers.attrs["number_at_phase_0"]
     xi = pair.path_start + (mesh.mesh_phase - entered) * pair.base_pitch

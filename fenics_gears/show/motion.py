@@ -1,5 +1,5 @@
-"""Charts of motion and forces: transmission error over a few and over all mesh cycles, shafts, load and speed where
-they vary; forces of the mesh, of each tooth pair, and their reactions on the shafts."""
+"""Charts of motion and forces: transmission error, shafts, load and speed where they vary; forces of the mesh, of each
+tooth pair, and their reactions on the shafts."""
 
 from collections.abc import Iterator
 
@@ -20,8 +20,7 @@ def motion_charts(run: Run) -> list[Chart]:
 
 
 def error_values(run: Run) -> tuple[np.ndarray, str]:
-    """Transmission error (time,) and its unit: micrometres on the wheel's base circle, microradians where that is not
-    known."""
+    """Transmission error (time,) and its unit: µm on the wheel's base circle, µrad where that is not known."""
     if np.isfinite(run.micrometres):
         return run.values("transmission_error", "rad") * run.micrometres, "µm"
     return run.values("transmission_error", "µrad"), "µrad"
@@ -38,10 +37,8 @@ def transmission_error(run: Run) -> Chart:
         )
         second, place = Second("Angle of the wheel (µrad)", turned), " on the wheel's base circle"
     least = LEAST_SHARE * float(np.abs(values).max())
-    caption, curves = (
-        f"{ERROR}{place}: {_peak_to_peak(run, values, unit)}",
-        [("transmission error", values, PALETTE[0])],
-    )
+    caption = f"{ERROR}{place}: {_peak_to_peak(run, values, unit)}"
+    curves = [("transmission error", values, PALETTE[0])]
     return over_time(run, caption, f"{ERROR} ({unit})", curves, least=least, note=note, second=second, height=380)
 
 
@@ -56,7 +53,7 @@ def _peak_to_peak(run: Run, values: np.ndarray, unit: str) -> str:
 
 
 def error_by_cycle(run: Run) -> list[Chart]:
-    """Least and largest transmission error of every mesh cycle of the whole record, where cycles are not all shown."""
+    """Least and largest transmission error of every mesh cycle of the record, where cycles are not all shown."""
     if run.shows_all or len(run.whole_cycles) < 2:
         return []
     values, unit = error_values(run)
@@ -67,16 +64,8 @@ def error_by_cycle(run: Run) -> list[Chart]:
         Curve("from least to largest of a mesh cycle", middle, edges, PALETTE[0], width=1.0, mode=BAND),
         Curve("mean of a mesh cycle", middle, mean, DARK),
     ]
-    return [
-        Chart(
-            f"{ERROR} over all {len(middle)} mesh cycles",
-            curves,
-            title,
-            f"{ERROR} ({unit})",
-            least=LEAST_SHARE * float(np.abs(values).max()),
-            height=280,
-        )
-    ]
+    caption, least = f"{ERROR} over all {len(middle)} mesh cycles", LEAST_SHARE * float(np.abs(values).max())
+    return [Chart(caption, curves, title, f"{ERROR} ({unit})", least=least, height=280)]
 
 
 def wheels_shaft(run: Run) -> list[Chart]:
@@ -85,10 +74,8 @@ def wheels_shaft(run: Run) -> list[Chart]:
     if name not in run.dataset:
         return []
     values = run.values(name, "µm")[:, run.dataset["gear"].values.tolist().index("wheel")]
-    caption = f"Displacement of the wheel's shaft {words} the line of action"
-    return [
-        over_time(run, caption, "Displacement (µm)", [("wheel", values, PALETTE[1])], least=LEAST_LENGTH, height=240)
-    ]
+    caption, curves = f"Displacement of the wheel's shaft {words} the line of action", [("wheel", values, PALETTE[1])]
+    return [over_time(run, caption, "Displacement (µm)", curves, least=LEAST_LENGTH, height=240)]
 
 
 def _shafts(run: Run) -> list[Chart]:
@@ -127,15 +114,9 @@ SHARES_UNKNOWN = "Where several rigid pairs touch at once their shares are not d
 
 def force_charts(run: Run) -> list[Chart]:
     """All forces that the result has."""
-    openings = of_variables(
-        run,
-        "Smallest distance of the flanks",
-        "Distance",
-        "µm",
-        {"drive_flank_opening": "drive flanks", "coast_flank_opening": "coast flanks"},
-        least=0.1,
-        height=300,
-    )
+    names = {"drive_flank_opening": "drive flanks", "coast_flank_opening": "coast flanks"}
+    options = {"least": 0.1, "height": 300}
+    openings = of_variables(run, "Smallest distance of the flanks", "Distance", "µm", names, **options)
     return [*mesh_forces(run), *pair_forces(run), *_reactions(run), *openings]
 
 
@@ -151,19 +132,10 @@ def mesh_forces(run: Run) -> list[Chart]:
             ("coast flanks (drawn downwards)", -run.values("coast_normal_force", "N"), PALETTE[1]),
         ]
         note = COAST_NOTE
-    normal = over_time(
-        run, "Normal force of the mesh", "Normal force (N)", curves, least=span(curves), height=240, note=note
-    )
-    return [
-        normal,
-        *of_variables(
-            run,
-            "Friction force of the mesh",
-            "Friction force",
-            "N",
-            {"friction_force": "drive flanks", "coast_friction_force": "coast flanks"},
-        ),
-    ]
+    options = {"least": span(curves), "height": 240, "note": note}
+    normal = over_time(run, "Normal force of the mesh", "Normal force (N)", curves, **options)
+    names = {"friction_force": "drive flanks", "coast_friction_force": "coast flanks"}
+    return [normal, *of_variables(run, "Friction force of the mesh", "Friction force", "N", names)]
 
 
 def pair_forces(run: Run) -> Iterator[Chart]:

@@ -1,4 +1,4 @@
-"""Charts of orders: spectra of transmission error and mesh force by their source, and the mesh orders from cycle to
+"""Charts of orders: spectra of transmission error and mesh force by their source, and mesh orders from cycle to
 cycle."""
 
 from dataclasses import dataclass, replace
@@ -32,12 +32,8 @@ MESH_ORDERS_SHOWN, DECADES, LEAST_AMPLITUDE = 4.5, 3, 1e-4
 # Lines below this part of the largest are the solver's tolerance.
 LEAST_PART = 1e-5
 COLOURS = {MESH: PALETTE[0], PINION: PALETTE[1], WHEEL: PALETTE[2], BOTH: PALETTE[5], HUNTING: GREY}
-ERROR, FORCE, BETWEEN, OF_ERROR = (
-    "Transmission error",
-    "Mesh force",
-    "between mesh orders",
-    "Orders of the transmission error",
-)
+ERROR, FORCE, BETWEEN = "Transmission error", "Mesh force", "between mesh orders"
+OF_ERROR = "Orders of the transmission error"
 
 
 @dataclass(frozen=True)
@@ -81,14 +77,8 @@ def order_spectrum(run: Run) -> Chart | None:
         curves = _by_origin(lines, kinds, seen, 0.004 * highest, 0.0025 * highest)
     else:
         caption += f" (Hann's window; repeats after {lcm(*teeth)})"
-        curves = [
-            Curve(
-                "amplitude",
-                lines.orders[lines.orders <= highest],
-                lines.amplitudes[lines.orders <= highest],
-                PALETTE[0],
-            )
-        ]
+        low = lines.orders <= highest
+        curves = [Curve("amplitude", lines.orders[low], lines.amplitudes[low], PALETTE[0])]
     return Chart(
         caption, curves, "Order (events a turn of the pinion)", f"Amplitude ({unit})", logarithmic="y", height=500,
         x_range=(0.0, highest), y_range=(bottom, 1.5 * top), flags=_flags(lines, teeth[0], known, bottom, highest),
@@ -104,27 +94,17 @@ def _flags(lines: OrderLines, teeth: int, known: list[tuple[float, str]], bottom
     ]
     flags += [Flag(order, lines.at(order), words) for order, words in known]
     sides = {teeth - 1.0: "mesh − 1", teeth + 1.0: "mesh + 1"} if lines.exact else {}
-    return flags + [
-        Flag(order, lines.at(order), words, COLOURS[PINION])
-        for order, words in sides.items()
-        if lines.at(order) > bottom
-    ]
+    beside = [(order, lines.at(order), words) for order, words in sides.items()]
+    return flags + [Flag(order, height, words, COLOURS[PINION]) for order, height, words in beside if height > bottom]
 
 
 def _by_origin(lines: OrderLines, kinds: np.ndarray, seen: np.ndarray, wide: float, narrow: float) -> list[Curve]:
-    colours = {**COLOURS, BETWEEN: GREY}
-    return [
-        Curve(
-            kind,
-            lines.orders[seen & (kinds == kind)],
-            lines.amplitudes[seen & (kinds == kind)],
-            colour,
-            width=wide if kind == MESH else narrow,
-            mode=BARS,
-        )
-        for kind, colour in colours.items()
-        if (seen & (kinds == kind)).any()
-    ]
+    curves = []
+    for kind, colour in {**COLOURS, BETWEEN: GREY}.items():
+        if (own := seen & (kinds == kind)).any():
+            width = wide if kind == MESH else narrow
+            curves.append(Curve(kind, lines.orders[own], lines.amplitudes[own], colour, width=width, mode=BARS))
+    return curves
 
 
 def mesh_order_chart(run: Run, name: str, unit: str, found: Spectrum) -> Chart:
@@ -133,21 +113,11 @@ def mesh_order_chart(run: Run, name: str, unit: str, found: Spectrum) -> Chart:
     shown = (lines.orders <= MESH_ORDERS) & (lines.amplitudes > LEAST_PART * lines.amplitudes.max(initial=0.0))
     spacing = lines.orders[0] if len(lines.orders) else 1.0
     width = min(0.12, 0.8 * spacing)
-    sides = (
-        ", drive flanks positive, coast flanks negative"
-        if "coast_normal_force" in run.dataset and name == FORCE
-        else ""
-    )
+    both = "coast_normal_force" in run.dataset and name == FORCE
+    sides = ", drive flanks positive, coast flanks negative" if both else ""
     note = f"Amplitudes of the harmonics, without the mean{sides}; {found.record}.{_beyond(lines)}"
-    return Chart(
-        name,
-        _by_origin(lines, found.origins, shown, width, width),
-        "Mesh order (events a mesh cycle)",
-        f"Amplitude ({unit})",
-        note=note,
-        height=320,
-        x_range=(0.0, MESH_ORDERS),
-    )
+    curves, title = _by_origin(lines, found.origins, shown, width, width), "Mesh order (events a mesh cycle)"
+    return Chart(name, curves, title, f"Amplitude ({unit})", note, height=320, x_range=(0.0, MESH_ORDERS))
 
 
 def spectrum(run: Run, values: np.ndarray) -> Spectrum:
@@ -160,36 +130,28 @@ def spectrum(run: Run, values: np.ndarray) -> Spectrum:
         if found is not None and found.exact:
             periods = int(run.cycles * (1 + 1e-9)) // lcm(*teeth)
             record = f"of {periods} hunting tooth period{'s' if periods > 1 else ''} ({lcm(*teeth)} mesh cycles each)"
-            return Spectrum(
-                replace(found, orders=found.orders / teeth[0]),
-                np.array([origin(order, teeth) for order in found.orders]),
-                record,
-            )
+            origins = np.array([origin(order, teeth) for order in found.orders])
+            return Spectrum(replace(found, orders=found.orders / teeth[0]), origins, record)
     lines = order_lines(values, run.cycles, (1, 1))
     origins = np.where(np.abs(lines.orders - np.round(lines.orders)) < 1e-6, MESH, BETWEEN)
     whole = int(run.cycles * (1 + 1e-9))
-    words = (
-        f"of {whole} whole mesh cycle{'s' if whole > 1 else ''}"
-        if lines.exact
-        else f"of {run.cycles:.4g} mesh cycles in Hann's window, where a line spreads over its neighbours"
-    )
-    return Spectrum(lines, origins, words)
+    record = f"of {run.cycles:.4g} mesh cycles in Hann's window, where a line spreads over its neighbours"
+    if lines.exact:
+        record = f"of {whole} whole mesh cycle{'s' if whole > 1 else ''}"
+    return Spectrum(lines, origins, record)
 
 
 def _beyond(lines: OrderLines) -> str:
     if not len(lines.orders):
         return ""
     order = lines.orders[np.argmax(lines.amplitudes)]
-    return (
-        f" The largest of all is at order {order:.4g}, beyond the picture: {lines.amplitudes.max():.4g}."
-        if order > MESH_ORDERS
-        else ""
-    )
+    if order <= MESH_ORDERS:
+        return ""
+    return f" The largest of all is at order {order:.4g}, beyond the picture: {lines.amplitudes.max():.4g}."
 
 
 def orders_by_cycle(run: Run, signals: dict[str, tuple[np.ndarray, str]]) -> list[Chart]:
-    """Amplitudes of the first mesh orders in each mesh cycle of a long record, over its mesh frequency where that
-    changes."""
+    """Amplitudes of the first mesh orders in each mesh cycle of a long record."""
     cycles = run.whole_cycles
     if len(cycles) < CYCLES_TO_FOLLOW or cycles[0].stop - 1 < 2 * FOLLOWED_ORDERS:
         return []

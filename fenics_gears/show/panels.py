@@ -1,5 +1,5 @@
-"""What all pictures share: palette, fonts, ends and ticks of axes, long curves with fewer points; and numbers and units
-as people read them: micrometres instead of mm, microradians instead of rad, four digits."""
+"""What all pictures share: palette, fonts, ends and ticks of axes, long curves with fewer points; numbers and units as
+people read them."""
 
 import functools
 from collections.abc import Callable, Sequence
@@ -63,40 +63,42 @@ def shades(count: int) -> list[str]:
 
 
 def limits(values: np.ndarray, least: float) -> tuple[float, float]:
-    """Ends of an axis around the finite values; not closer than ``least``, so that rounding errors do not fill a
-    panel."""
+    """Ends of an axis around the finite values, not closer than ``least``."""
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
     half = 0.5 * max(1.12 * (high - low), least)
     return 0.5 * (low + high) - half, 0.5 * (low + high) + half
 
 
-def legend(axes, columns: int, location: str = "lower right") -> None:
-    """Legend above the panel, where no curve can be; the demonstrations' pictures use it."""
-    side = 1.0 if location.endswith("right") else 0.0
-    axes.legend(
-        loc=location, bbox_to_anchor=(side, 1.0), ncol=columns, borderaxespad=0.1, handlelength=1.6, columnspacing=1.4
-    )
+def legend(axes, columns: int, location: str = "lower right", **options) -> None:
+    """Legend above the panel, where no curve can be."""
+    anchor = (1.0 if location.endswith("right") else 0.0, 1.0)
+    options |= {"bbox_to_anchor": anchor, "borderaxespad": 0.1, "handlelength": 1.6, "columnspacing": 1.4}
+    axes.legend(loc=location, ncol=columns, **options)
+
+
+def framed(axes) -> None:
+    """A panel without a grid, in a pale frame."""
+    axes.grid(False)
+    for spine in axes.spines.values():
+        spine.set_visible(True)
+        spine.set_color("#BBBBBB")
 
 
 def ticks(ends: Sequence[float], most: float, logarithmic: bool = False) -> np.ndarray:
     """Round numbers (n,) between an axis' ends."""
     low, high = sorted(ends)
     if logarithmic:
-        places, beyond = LogLocator(subs=(1.0,) if high > 100.0 * low else (1.0, 2.0, 5.0)).tick_values(low, high), 0.0
+        locator, beyond = LogLocator(subs=(1.0,) if high > 100.0 * low else (1.0, 2.0, 5.0)), 0.0
     else:
-        places, beyond = (
-            MaxNLocator(max(2, min(10, int(most))), steps=[1, 2, 2.5, 5, 10]).tick_values(low, high),
-            1e-9 * (high - low),
-        )
+        locator = MaxNLocator(max(2, min(10, int(most))), steps=[1, 2, 2.5, 5, 10])
+        beyond = 1e-9 * (high - low)
+    places = locator.tick_values(low, high)
     return places[(places >= low - beyond) & (places <= high + beyond)]
 
 
 def tick_labels(places: np.ndarray, logarithmic: bool = False) -> list[str]:
-    """Numbers with as many decimals as the finest of them needs; with powers of ten where they are large or small.
-
-    Places that differ by round-off alone have the same one.
-    """
+    """Numbers with as many decimals as the finest of them needs; with powers of ten where they are large or small."""
     step = places[1] - places[0] if len(places) > 1 else 0.0
     told = (count for count in range(12) if np.abs(np.round(places, count) - places).max() < 1e-3 * step)
     if logarithmic or not 1e-4 <= np.abs(places).max(initial=0.0) < 1e6 or (decimals := next(told, None)) is None:
@@ -111,9 +113,8 @@ MOST_POINTS = 2000
 
 
 def thinned(values: np.ndarray, most: int = MOST_POINTS) -> np.ndarray:
-    """Places (k,) of the values (n,) that a curve is drawn through: all of them up to `most`; beyond, of each of most/2
-    slices the smallest and the largest value, and a place that is not a number where there is one, so that gaps stay;
-    both ends of the curve."""
+    """Places (k,) of the values (n,) that a curve is drawn through: all up to `most`; beyond, of each of most/2 slices
+    the smallest and the largest value, a place that is not a number where there is one, and both ends of the curve."""
     count = len(values)
     if count <= most:
         return np.arange(count)
@@ -157,7 +158,7 @@ def in_unit(variable: xr.DataArray, wanted: str) -> np.ndarray:
 
 
 def digits(value: float) -> str:
-    """Four digits, as measurements have them; three and a power of ten where a tile is too narrow for the number."""
+    """Four digits; three and a power of ten where a tile is too narrow for the number."""
     if abs(value) >= 1e6:
         mantissa, _, exponent = f"{value:.2e}".partition("e")
         return f"{mantissa}e{int(exponent)}"

@@ -26,34 +26,18 @@ def line_of_action(axes: Axes, mesh: GearsInMesh, coast: bool, labelled: bool) -
     for colour, wider in (("white", 1.6), (DARK, 0.0)):
         axes.plot(*ends.T, color=colour, linewidth=1.0 + wider, solid_capstyle="butt", linestyle="-")
         axes.plot(*path.T, color=colour, linewidth=2.4 + wider, solid_capstyle="butt")
-    axes.plot(
-        *pitch,
-        "o",
-        markersize=8 if labelled else 5,
-        markerfacecolor="white",
-        markeredgecolor="black",
-        markeredgewidth=1.4,
-    )
+    look = {"markerfacecolor": "white", "markeredgecolor": "black", "markeredgewidth": 1.4}
+    axes.plot(*pitch, "o", markersize=8 if labelled else 5, **look)
     if labelled:
-        side = -1 if coast else 1
+        side, before = -1 if coast else 1, frame(np.array([pair.path_start - 0.12 * pair.base_pitch, height]))
         _note(axes, "pitch point", pitch, (side * 14, 16))
-        _note(
-            axes, "line of action", frame(np.array([pair.path_start - 0.12 * pair.base_pitch, height])), (side * 12, 30)
-        )
+        _note(axes, "line of action", before, (side * 12, 30))
 
 
 def _note(axes: Axes, words: str, point, offset) -> None:
     box = {"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": "#BBBBBB", "alpha": 0.92}
-    axes.annotate(
-        words,
-        point,
-        xytext=offset,
-        textcoords="offset points",
-        fontsize=11.5,
-        color=DARK,
-        bbox=box,
-        ha="left" if offset[0] > 0 else "right",
-    )
+    place = {"xytext": offset, "textcoords": "offset points", "ha": "left" if offset[0] > 0 else "right"}
+    axes.annotate(words, point, fontsize=11.5, color=DARK, bbox=box, **place)
 
 
 def name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
@@ -71,14 +55,12 @@ def name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
         tip = np.radians(end if turns > 0 else start)
         head = centre + radius * np.array([np.cos(tip), np.sin(tip)])
         back = centre + radius * np.array([np.cos(tip - turns * 0.06), np.sin(tip - turns * 0.06)])
-        axes.add_patch(
-            FancyArrowPatch(back, head, arrowstyle="-|>", mutation_scale=14, color=DARK, shrinkA=0, shrinkB=0)
-        )
+        look = {"arrowstyle": "-|>", "mutation_scale": 14, "shrinkA": 0, "shrinkB": 0}
+        axes.add_patch(FancyArrowPatch(back, head, color=DARK, **look))
 
 
 def place_of_name(gear, point: float) -> tuple[np.ndarray, str, str]:
-    """Where a gear's name stands from its centre (mm), with its alignment: in the bore, above it in the body, or left
-    of the teeth."""
+    """Where a gear's name stands from its centre (mm), with its alignment."""
     if gear.bore_radius >= LEAST_BORE * point:
         return np.zeros(2), "center", "center"
     if gear.root_radius - gear.bore_radius > 2.0 * LEAST_BORE * point:
@@ -90,10 +72,9 @@ def frame_in(axes: Axes, enlarged: Axes, moved: np.ndarray | None = None) -> Non
     """Where in one panel another one is."""
     (left, right), (bottom, top) = enlarged.get_xlim(), enlarged.get_ylim()
     x, y = (0.0, 0.0) if moved is None else moved
-    for colour, width in (("black", 2.6), ("white", 1.2)):
-        axes.add_patch(
-            Rectangle((left + x, bottom + y), right - left, top - bottom, fill=False, edgecolor=colour, linewidth=width)
-        )
+    corner, width, height = (left + x, bottom + y), right - left, top - bottom
+    for colour, line in (("black", 2.6), ("white", 1.2)):
+        axes.add_patch(Rectangle(corner, width, height, fill=False, edgecolor=colour, linewidth=line))
 
 
 def length_bar(axes: Axes) -> None:
@@ -103,13 +84,7 @@ def length_bar(axes: Axes) -> None:
     power = 10.0 ** np.floor(np.log10(wanted))
     length = max(step * power for step in (1.0, 2.0, 5.0) if step * power <= wanted)
     x, y = left + 0.06 * (right - left), bottom + 0.06 * (top - bottom)
-    axes.plot([x, x + length], [y, y], color="black", linewidth=5.0, solid_capstyle="butt")
-    axes.plot([x, x + length], [y, y], color="white", linewidth=2.5, solid_capstyle="butt")
-    axes.text(
-        x,
-        y + 0.03 * (top - bottom),
-        f"{length:g} mm",
-        fontsize=11.0,
-        color="black",
-        path_effects=[withStroke(linewidth=3.0, foreground="white")],
-    )
+    for colour, width in (("black", 5.0), ("white", 2.5)):
+        axes.plot([x, x + length], [y, y], color=colour, linewidth=width, solid_capstyle="butt")
+    bright = [withStroke(linewidth=3.0, foreground="white")]
+    axes.text(x, y + 0.03 * (top - bottom), f"{length:g} mm", fontsize=11.0, color="black", path_effects=bright)

@@ -65,11 +65,9 @@ ROWS_AT_ONCE = 16
 
 
 def draw_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
-    """Draw all pictures for which the result has data, as PNG, and return the files.
-
-    They appear in ``directory`` together, when all are drawn. Raises ComputationError where fewer than two steps are
-    stored, a variable's units do not fit it, or the directory cannot be written.
-    """
+    """Draw all pictures for which the result has data, as PNG, and return the files, which appear in ``directory``
+    together. Raises ComputationError where fewer than two steps are stored, units do not fit, or the directory cannot
+    be written."""
     return save_figures(run_figures(dataset), Path(directory))
 
 
@@ -80,22 +78,20 @@ def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
     pictures = PICTURES | dict(zip(FACE_PICTURE_FILES, run.over_face.items()))
     subjects = {name: (subject, list(charts(run))) for name, (subject, charts) in pictures.items()}
     colour = DARK if run.complete else WARNING
-    return {
-        name: picture(_heading(run, subject), charts, colour) for name, (subject, charts) in subjects.items() if charts
-    }
+    found = ((name, *subject) for name, subject in subjects.items())
+    return {name: picture(_heading(run, subject), charts, colour) for name, subject, charts in found if charts}
 
 
 def _heading(run: Run, subject: str) -> str:
     more = [] if run.scene is None else [conditions(run.scene)]
     if not run.complete:
         more.append(f"INCOMPLETE RUN: stopped at mesh cycle {run.phase[-1]:.2f}")
-    return heading(subject, str(run.dataset.attrs.get("title", "")), *more)
+    return heading(subject, run.title, *more)
 
 
 def heading(subject: str, title: str, *more: str) -> str:
     """Subject and title in lines that fit a picture's width."""
-    title = " ".join(title.split())
-    first = textwrap.shorten(f"{subject}: {title}" if title else subject, LETTERS, placeholder=" …")
+    first = textwrap.shorten(f"{subject}: {title}" if title.strip() else subject, LETTERS, placeholder=" …")
     return "\n".join([first, *(line for each in more for line in textwrap.wrap(each, LETTERS, break_long_words=False))])
 
 
@@ -103,18 +99,12 @@ def _check_steps(run: Run) -> None:
     if run.has_curves:
         return
     stored = "no step is stored" if run.steps == 0 else "only one step is stored"
-    remedy = "Run the scene again."
-    if not run.complete:
-        remedy = (
-            "The run ended before or just as its recorded mesh cycles began. Run the scene again, or record more of its"
-            " cycles."
-        )
-    raise ComputationError(f"There is nothing to draw: {stored}, and a curve needs two. {remedy}")
+    remedy = "" if run.complete else ", or record more of its mesh cycles"
+    raise ComputationError(f"There is nothing to draw: {stored}, and a curve needs two. Run the scene again{remedy}.")
 
 
 def draw_study(file: Path) -> list[Path]:
-    """Draw what a study's cases are compared by over its parameters, as PNG beside its file, and return the files; none
-    where no case has a result."""
+    """Draw what a study's cases are compared by over its parameters, as PNG beside its file, and return the files."""
     from fenics_gears.studies.combine import load_combined
 
     from .cases import Cases
@@ -122,14 +112,11 @@ def draw_study(file: Path) -> list[Path]:
 
     cases = Cases(load_combined(file), file)
     title = str(cases.dataset.attrs.get("title", "")) or file.parent.name
-    charts = result_charts(cases)
-    return save_figures(
-        {
-            f"{name}.png": picture(heading("Study", title, chart.caption, chart.note), [replace(chart, caption="")])
-            for name, chart in charts.items()
-        },
-        file.parent,
-    )
+    figures = {
+        f"{name}.png": picture(heading("Study", title, chart.caption, chart.note), [replace(chart, caption="")])
+        for name, chart in result_charts(cases).items()
+    }
+    return save_figures(figures, file.parent)
 
 
 def save_figures(figures: dict[str, Figure], directory: Path) -> list[Path]:
@@ -153,8 +140,8 @@ def save_figure(figure: Figure, path: Path | BinaryIO) -> None:
 
 
 def png(pixels: np.ndarray, dots_per_inch: float) -> bytes:
-    """Pixels (height, width, 4) as PNG. Rows are not filtered: of curves on white paper that makes the file no smaller,
-    and takes twice as long."""
+    """Pixels (height, width, 4) as PNG. Rows are not filtered: that would take twice as long and make the file no
+    smaller."""
     height, width, _ = pixels.shape
     # The same few rows again and again: fresh memory for a second copy of a picture is slower than the copying.
     rows, packer, packed = np.zeros((ROWS_AT_ONCE, 1 + 4 * width), dtype=np.uint8), zlib.compressobj(1), []

@@ -1,5 +1,4 @@
-"""Charts of the contact pressure: its largest value over time, and the pressure of the contact nodes as a map over
-flank and time."""
+"""Charts of the contact pressure: its largest value over time, and that of the contact nodes over flank and time."""
 
 import numpy as np
 
@@ -27,33 +26,25 @@ _DEGREES = factor("rad", "deg")
 
 def has_pressure(run: Run) -> bool:
     """Whether the result has contact fields."""
-    return (
-        "contact_pressure" in run.dataset
-        and "contact_roll_angle" in run.dataset
-        and run.dataset.sizes["contact_time"] > 1
-    )
+    return {"contact_pressure", "contact_roll_angle"} <= {*run.dataset} and run.dataset.sizes["contact_time"] > 1
 
 
 def largest_pressures(run: Run) -> list[Chart]:
-    """Largest contact pressure away from edges and kinks at every step, and those at either; none of results without
-    them."""
+    """Largest contact pressure at every step, away from edges and kinks and at these."""
     names = {
         "largest_contact_pressure": "away from edges and kinks",
         "largest_edge_pressure": "at edges",
         "largest_kink_pressure": "at kinks of relief",
     }
-    names = {
-        name: words
-        for name, words in names.items()
-        if name == "largest_contact_pressure" or name in run.dataset and run.dataset[name].any()
-    }
+    for name in ("largest_edge_pressure", "largest_kink_pressure"):
+        if name not in run.dataset or not run.dataset[name].any():
+            del names[name]
     note = "Averaged over five contact nodes." + (APART_NOTE if len(names) > 1 else "")
     return of_variables(run, "Largest contact pressure", "Pressure", "MPa", names, note=note, height=300)
 
 
 def pressure_maps(run: Run) -> list[Chart]:
-    """Pressure over mesh cycles and the pinion's roll angle, for each side of the teeth that carries; of the drive
-    flanks where none does."""
+    """Pressure over mesh cycles and the pinion's roll angle, for each side of the teeth that carries."""
     if not has_pressure(run):
         return []
     cells = {side: run.fields(side) for side in SIDES if f"{side}contact_pressure" in run.dataset}
@@ -77,11 +68,9 @@ def _map(
         pair = run.pair
         roll = float(pair.pinion_roll_angle(pair.pitch_point)) * _DEGREES
         curves.append(Curve("pitch point", np.array(window), np.array([roll, roll]), DARK, "dash", 1.0))
-        ratio, length = (
-            pair.pinion.base_radius / pair.wheel.base_radius,
-            pair.line_of_action_length / pair.wheel.base_radius,
-        )
-        second = Second("Roll angle on the wheel's flank (deg)", -ratio, length * _DEGREES)
+        ratio, length = pair.pinion.base_radius, pair.line_of_action_length * _DEGREES
+        radius = pair.wheel.base_radius
+        second = Second("Roll angle on the wheel's flank (deg)", -ratio / radius, length / radius)
     heights = (float(field.y[0]), float(field.y[-1]))
     return Chart(
         caption, [*curves, *_names(pressure, place, phase, number, window)], MESH_CYCLES,
@@ -95,42 +84,38 @@ def _peaks(run: Run) -> str:
     attributes = run.dataset.attrs
     if "peak_contact_pressure" not in attributes:
         return ""
-    words = (
-        "The peak contact pressure of the settled run, averaged over five nodes, is"
-        f" {digits(attributes['peak_contact_pressure'])} MPa"
-    )
-    places = {"edge": "at edges", "kink": "at kinks of relief"}
-    apart = [
-        f"{digits(attributes[f'peak_{name}_pressure'])} MPa {at}"
-        for name, at in places.items()
-        if f"peak_{name}_pressure" in attributes
-    ]
+    peak = digits(attributes["peak_contact_pressure"])
+    words = f"The peak contact pressure of the settled run, averaged over five nodes, is {peak} MPa"
+    places = {"peak_edge_pressure": "at edges", "peak_kink_pressure": "at kinks of relief"}
+    apart = [f"{digits(attributes[name])} MPa {at}" for name, at in places.items() if name in attributes]
     return f"{words} away from edges and kinks, {' and '.join(apart)}." if apart else f"{words}."
 
 
 def pressure_field(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, limit: float) -> Field:
     """The largest pressure (MPa) in each cell of a raster over steps and flank, from pressure and roll angle (step,
-    pair, node) and the steps' mesh cycles (step,): each node under pressure reaches half-way to its neighbours and to
-    the steps before and after. `limit`: where the colours end."""
+    pair, node) and the steps' mesh cycles (step,): nodes reach half-way to their neighbours and to the steps before and
+    after. `limit`: where the colours end."""
     low, high = node_edges(place)
     known = (pressure > 0.0) & np.isfinite(low) & np.isfinite(high)
     finite = place[np.isfinite(place)]
-    rows = (
-        np.linspace(finite.min() - 0.5, finite.max() + 0.5, ROWS + 1)
-        if finite.size
-        else np.linspace(0.0, 1.0, ROWS + 1)
-    )
+    ends = (finite.min() - 0.5, finite.max() + 0.5) if finite.size else (0.0, 1.0)
+    rows = np.linspace(*ends, ROWS + 1)
     group = -(-len(phase) // MOST_COLUMNS)
     middle = 0.5 * (phase[1:] + phase[:-1])
     columns = np.append(np.append(phase[0], middle)[::group], phase[-1])
     values = np.full((ROWS, len(columns) - 1), -np.inf)
     first = np.searchsorted(rows, low[known]) - 1
-    count = np.maximum(np.searchsorted(rows, high[known]) - 1 - first, 1)
-    each = np.repeat(np.arange(len(first)), count)
-    row = first[each] + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
+    each, row = counted_on(first, np.maximum(np.searchsorted(rows, high[known]) - 1 - first, 1))
     step = np.nonzero(known)[0][each] // group
     np.maximum.at(values, (np.clip(row, 0, ROWS - 1), step), pressure[known][each])
-    return Field(columns, rows, np.where(np.isfinite(values), values, np.nan), "Contact pressure (MPa)", limit, COLOURS)
+    values[np.isneginf(values)] = np.nan
+    return Field(columns, rows, values, "Contact pressure (MPa)", limit, COLOURS)
+
+
+def counted_on(first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Of runs of so many numbers (n,) from their `first` (n,) on, one after the other: the run of each, and itself."""
+    each = np.repeat(np.arange(len(first)), count)
+    return each, first[each] + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
 
 
 def colour_limit(run: Run, pressures: np.ndarray) -> float:
@@ -143,8 +128,8 @@ def colour_limit(run: Run, pressures: np.ndarray) -> float:
 
 
 def node_edges(place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Lower and upper edge of each node's cell, both of the shape of ``place``; a node without a neighbour mirrors the
-    other edge."""
+    """Lower and upper edge of each node's cell, of the shape of ``place``; without a neighbour they mirror each
+    other."""
     missing = np.full(place.shape[:-1] + (1,), np.nan)
     half = 0.5 * np.diff(place, axis=-1)
     back, forth = np.concatenate([missing, half], axis=-1), np.concatenate([half, missing], axis=-1)
@@ -167,8 +152,6 @@ def _names(
             words.append(f"pair {pair}")
             x.append(phase[steps[nearest]])
             y.append(top[steps[nearest], rows[nearest]])
-    return (
-        [Curve("pairs", np.array(x), np.array(y), DARK, mode=WORDS, listed=False, words=words, beside="top left")]
-        if words
-        else []
-    )
+    if not words:
+        return []
+    return [Curve("pairs", np.array(x), np.array(y), DARK, mode=WORDS, listed=False, words=words, beside="top left")]

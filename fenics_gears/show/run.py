@@ -1,8 +1,4 @@
-"""A stored run for charts, pictures and the report: the cycles shown, curves of tooth pairs, contact fields.
-
-What `contact_pattern`, `line_load` and `loaded_contact` do not read by themselves of the layout of a result
-(docs/result.md) is read here.
-"""
+"""A stored run for charts, pictures and the report: the cycles shown, curves of tooth pairs, contact fields."""
 
 from __future__ import annotations
 
@@ -56,6 +52,11 @@ class Run:
     def scene(self) -> Scene | None:
         """The scene that was run; None where its text is no scene of this version."""
         return scene_of(self.dataset)
+
+    @property
+    def title(self) -> str:
+        """The scene's title in one line, empty where it has none."""
+        return " ".join(str(self.dataset.attrs.get("title", "")).split())
 
     @cached_property
     def pair(self) -> GearPair | None:
@@ -118,14 +119,13 @@ class Run:
 
     @property
     def micrometres(self) -> float:
-        """What a transmission error in rad is multiplied with to be micrometres on the wheel's base circle."""
+        """µm on the wheel's base circle of a transmission error of 1 rad."""
         radius = self.dataset.attrs.get("base_radius_wheel")
         return float(radius) * factor("mm", "µm") if radius else float("nan")
 
     def values(self, name: str, unit: str) -> np.ndarray:
         """A variable (time,), or (time, gear), in a unit."""
-        variable = self.dataset[name]
-        return in_unit(variable.transpose("time", ...), unit)
+        return in_unit(self.dataset[name].transpose("time", ...), unit)
 
     @cached_property
     def whole_cycles(self) -> list[slice]:
@@ -147,13 +147,8 @@ class Run:
     def varies(self, values: np.ndarray) -> bool:
         """Whether the settled mesh cycles of values (time,) differ."""
         first = float(self.settled.phase[0])
-        ends = np.array(
-            [
-                (values[each].min(), values[each].max())
-                for each in self.whole_cycles
-                if self.phase[each][0] >= first - 1e-9
-            ]
-        )
+        settled = (values[each] for each in self.whole_cycles if self.phase[each][0] >= first - 1e-9)
+        ends = np.array([(each.min(), each.max()) for each in settled])
         return len(ends) > 1 and bool(np.ptp(ends, axis=0).max() > ALIKE * np.ptp(ends))
 
     def of_pairs(self, name: str, unit: str, **place) -> list[tuple[str, np.ndarray, int]]:
@@ -173,7 +168,7 @@ class Run:
 
     @property
     def over_face(self) -> dict[str, Callable[[Run], list[Chart]]]:
-        """What draws the charts of flanks that are resolved over the face, by subject; empty of a plane run."""
+        """What draws the charts of flanks that are resolved over the face, by subject."""
         if "face_position" not in self.dataset.dims:
             return {}
         # Imported here: plane runs have none.
@@ -196,8 +191,7 @@ class Run:
     def fields(self, side: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Contact pressure (MPa) and the pinion's roll angle (deg) of the contact nodes, both (step, slot, node), in
         the middle of the face if they are resolved over it; the steps' mesh cycles (step,) and the pairs' numbers
-        (step, slot), in the last cycles whose fields are stored; side:
-        how the result's variables of that side begin."""
+        (step, slot). side: how the result's variables of that side begin."""
         part = in_middle_slice(self.last_fields)
         order = ("contact_time", "slot", "contact_node")
         pressure = in_unit(part[f"{side}contact_pressure"].transpose(*order), "MPa")
@@ -222,8 +216,7 @@ def scene_of(dataset: xr.Dataset) -> Scene | None:
 
 
 def conditions(scene: Scene) -> str:
-    """Load, speed, friction, modifications, errors and ripple of a scene: what tells apart two pictures of the same
-    gears."""
+    """Load, speed and `design` of a scene: what tells apart two pictures of the same gears."""
     ramp = "" if scene.speed_ramp is None else f" to {scene.speed_ramp.end_frequency:g}"
     speed = "quasi-static" if scene.inertia is None else f"{scene.motion.mesh_frequency:g}{ramp} Hz mesh frequency"
     return f"{load_in_words(scene)}, {speed}, {design(scene)}"
@@ -238,23 +231,13 @@ def load_in_words(scene: Scene) -> str:
 
 def design(scene: Scene) -> str:
     """Friction, modifications, errors and ripple of a scene, whatever its load and speed."""
-    friction = (
-        "no friction"
-        if scene.friction is None
-        else "friction "
-        + (
-            scene.friction.formula
-            and f"after {scene.friction.formula}"
-            or f"coefficient {scene.friction.coefficient:g}"
-        )
-    )
+    friction = "no friction"
+    if (own := scene.friction) is not None:
+        friction = f"friction after {own.formula}" if own.formula else f"friction coefficient {own.coefficient:g}"
     helix = f", helix angle {scene.gears.helix_angle * factor('rad', 'deg'):g}°" if scene.gears.helix_angle else ""
     aligned = "misalignment" if scene.misalignment is not None and scene.misalignment.is_none else ""
-    shaping = (
-        each
-        for each in effects_on(scene)
-        if (each.removal or each.gaps or each.section in ALONG_THE_FACE) and each.section != aligned
-    )
-    shapes = helix + "".join(f", {each.section.replace('_', ' ')}" for each in shaping)
+    effects = effects_on(scene)
+    shaping = [each.section for each in effects if each.removal or each.gaps or each.section in ALONG_THE_FACE]
+    shapes = helix + "".join(f", {section.replace('_', ' ')}" for section in shaping if section != aligned)
     ripple = "" if scene.torque_ripple is None else ", torque ripple"
     return f"{friction}{shapes}{ripple}"

@@ -1,5 +1,5 @@
 """The stored mesh cycles as a moving picture: GIF, or MP4 where ffmpeg is installed; and for ParaView: a .vtu file for
-each step, and the .pvd file that lists them with their times."""
+each step, and the .pvd file that lists them."""
 
 import shutil
 import subprocess
@@ -41,8 +41,8 @@ def check_suffix(path: Path) -> None:
 def animate(runs, dataset: xr.Dataset, path: Path, scale: float | None, report: Callable[[int, int], None]) -> None:
     """Write the moving picture of a run's stresses; `report(done, all)` is called for every frame.
 
-    scale: of the displacements, None for a suitable one. The first and the last stored step are the same position in
-    the mesh where whole cycles are stored, so that the last is left out and the turn has no seam.
+    scale: of the displacements, None for a suitable one. The last stored step is left out, as it is where the first one
+    is in the mesh.
     """
     steps = frame_steps(dataset)
     drawn = frames(dataset, scale, [runs.at(index) for index in steps[:: max(1, len(steps) // SAMPLED)]])
@@ -73,24 +73,14 @@ def _write_gif(frames: list[np.ndarray], path: Path) -> None:
 
     # One palette for all frames, or flat colours would flicker; made of the colours of stress and greys, since one made
     # from the frames would spend itself on the pale bodies.
-    colours = np.vstack(
-        [
-            COLOURS(np.linspace(0.0, 1.0, STRESS_COLOURS))[:, :3],
-            np.linspace(0.0, 1.0, 256 - STRESS_COLOURS)[:, None] * np.ones(3),
-        ]
-    )
+    greys = np.linspace(0.0, 1.0, 256 - STRESS_COLOURS)[:, None] * np.ones(3)
+    colours = np.vstack([COLOURS(np.linspace(0.0, 1.0, STRESS_COLOURS))[:, :3], greys])
     palette = Image.new("P", (1, 1))
     palette.putpalette(np.round(255.0 * colours).astype(np.uint8).tobytes())
     images = [Image.fromarray(frame) for frame in frames]
-    quantised = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
-    quantised[0].save(
-        path,
-        save_all=True,
-        append_images=quantised[1:],
-        duration=round(1000 / FRAMES_PER_SECOND),
-        loop=0,
-        optimize=False,
-    )
+    first, *others = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images)
+    duration = round(1000 / FRAMES_PER_SECOND)
+    first.save(path, save_all=True, append_images=others, duration=duration, loop=0, optimize=False)
 
 
 def _write_mp4(frames: list[np.ndarray], path: Path) -> None:
@@ -99,9 +89,8 @@ def _write_mp4(frames: list[np.ndarray], path: Path) -> None:
         "ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}",
         "-r", str(FRAMES_PER_SECOND), "-i", "-", "-pix_fmt", "yuv420p", "-f", "mp4", str(path),
     ]  # fmt: skip
-    done = subprocess.run(
-        command, input=b"".join(frame[:height, :width].tobytes() for frame in frames), capture_output=True
-    )
+    content = b"".join(frame[:height, :width].tobytes() for frame in frames)
+    done = subprocess.run(command, input=content, capture_output=True)
     if done.returncode:
         raise ComputationError(
             f"{path}: ffmpeg could not write the moving picture: {done.stderr.decode(errors='replace').strip()}"
@@ -109,11 +98,8 @@ def _write_mp4(frames: list[np.ndarray], path: Path) -> None:
 
 
 def save_series(runs: RunStresses, dataset: xr.Dataset, collection: Path, report: Callable[[int, int], None]) -> None:
-    """Write a .pvd file and the .vtu files that it lists, beside it and named after it; `report(done, all)` is called
-    for each.
-
-    The steps are those of the moving picture, their times in s as the run has them. Raises what `save_vtu` raises.
-    """
+    """Write a .pvd file and the .vtu files that it lists, beside it and named after it, of the moving picture's steps;
+    `report(done, all)` is called for each. Raises what `save_vtu` raises."""
     root = ElementTree.Element("VTKFile", {"type": "Collection", "version": "0.1"})
     listed = ElementTree.SubElement(root, "Collection")
     steps = frame_steps(dataset)

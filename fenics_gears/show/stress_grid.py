@@ -28,11 +28,8 @@ MIRROR = np.array([-1.0, 1.0])
 
 
 def upright(pair: GearPair, points: np.ndarray, coast: bool = False) -> np.ndarray:
-    """Points or vectors (..., 2) in the frame of the line of action as the picture has them, with the line of centres
-    upright.
-
-    coast: on the line of action of the coast flanks, which is the mirror image at the line of centres.
-    """
+    """Points or vectors (..., 2) in the frame of the line of action as the picture has them, the line of centres
+    upright. coast: of the coast flanks' line of action, its mirror image at the line of centres."""
     shown = np.asarray(points) @ rotation(-pair.operating_pressure_angle).T
     return shown * MIRROR if coast else shown
 
@@ -45,8 +42,8 @@ def in_plane(values: np.ndarray) -> np.ndarray:
 def shown_points(mesh: GearsInMesh, gear: int, scale: float) -> np.ndarray:
     """Nodes (m, 2), mm, of a plane gear in the picture, their displacement `scale` times as large as it is.
 
-    The hubs stay on their nominal centres and either gear turns by half of the approach of the flanks, which their
-    teeth give way to: so flanks that touch are drawn touching at any scale.
+    The hubs stay on their nominal centres and either gear turns by half of the approach of the flanks: so flanks that
+    touch are drawn touching at any scale.
     """
     body = mesh.gears[gear]
     radius, points = (mesh.pair.pinion, mesh.pair.wheel)[gear].base_radius, in_plane(body.points)
@@ -102,8 +99,8 @@ def fitted(view: View, width: float, height: float) -> View:
 
 
 def surface(points: np.ndarray, gear: GearInSpace) -> np.ndarray:
-    """Triangles (k, 3) of the surface of sectors whose nodes are points (s, h, n, 3): sides swept over the heights, and
-    end faces, those of a web too."""
+    """Triangles (k, 3), counter-clockwise from outside, of the surface of sectors whose nodes are points (s, h, n,
+    3)."""
     sectors, heights, nodes = points.shape[:3]
     parts = []
     # Seen from outside, all are counter-clockwise.
@@ -131,14 +128,11 @@ def _cells_of(gear: GearInSpace, layer: int) -> np.ndarray:
 def wedges(gear: GearInSpace) -> np.ndarray:
     """Cells (k, 18) of VTK's wedge of second order over all nodes, by sector and layer."""
     sectors, heights, nodes = gear.points.shape[:3]
-    layers = np.concatenate(
-        [
-            np.column_stack(
-                [nodes * (2 * layer + height) + gear.of_layer(layer)[0].cells[:, node] for height, node in WEDGE_NODES]
-            )
-            for layer in range(heights // 2)
-        ]
-    )
+    layers = []
+    for layer in range(heights // 2):
+        cells = gear.of_layer(layer)[0].cells
+        layers.append(np.column_stack([nodes * (2 * layer + h) + cells[:, node] for h, node in WEDGE_NODES]))
+    layers = np.concatenate(layers)
     return (layers[None] + heights * nodes * np.arange(sectors)[:, None, None]).reshape(-1, 18)
 
 
@@ -146,8 +140,8 @@ def save_vtu(mesh: GearsInMesh, path: Path, *, precision: type = np.float64) -> 
     """Both gears' displacement (mm) and stress (MPa) as a .vtu file, in the frame of the line of action.
 
     In the plane whole gears, whose points are the same material points at every stored time; over the face the
-    recovered sectors as wedges of second order, displaced from where their hubs are held. `precision` is that of what
-    is written. Raises ComputationError without pyvista.
+    recovered sectors as wedges of second order. `precision`: of what is written. Raises ComputationError without
+    pyvista.
     """
     try:
         import pyvista
@@ -181,8 +175,7 @@ def _fields(body: GearInSpace, number: int, over_face: bool) -> dict[str, np.nda
 
 
 def in_tooth_order(mesh: GearsInMesh, gear: int) -> GearInSpace:
-    """A plane gear whose sectors stand in the order of its teeth, which turn with it: tooth j is the one that tooth
-    pair j loads; `sectors` are the numbers of teeth.
+    """A plane gear whose sectors stand in the order of its teeth: tooth j is the one that tooth pair j loads.
 
     The sectors of a `GearInSpace` begin anew in each mesh cycle, with the tooth that last reached the start of contact.
     """

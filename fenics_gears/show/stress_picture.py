@@ -1,5 +1,5 @@
-"""The gears of a run in mesh at one time, deformed and coloured by von Mises stress: in the plane here, over the face
-in three dimensions by `face_picture`."""
+"""The gears of a run in mesh at one time, deformed and coloured by von Mises stress, in the plane; over the face by
+`face_picture`."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -21,9 +21,9 @@ from fenics_gears.simulation.run_stresses import GearsInMesh
 from .chart import Chart
 from .drawn_scale import automatic_scale
 from .loaded_contact import LoadedContact, loaded_contact, stored_place
-from .panels import DARK, WARNING, styled
+from .panels import DARK, WARNING, framed, styled
 from .picture_marks import frame_in, length_bar, line_of_action, name_gears
-from .run import conditions, scene_of
+from .run import Run, conditions
 from .stress_grid import View, fitted, shown_points, teeth_view, whole_view
 
 # Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots
@@ -51,7 +51,7 @@ FRAME_WIDTH = 9.6
 
 def colour_limit(meshes: list[GearsInMesh]) -> float:
     """Stress (MPa) at which the colours end: the largest, or a multiple of that in the fillets where contact exceeds it
-    by far; over the face, where the pressure has colours of its own, the largest in the roots."""
+    by far; over the face the largest in the roots."""
     roots = max(_stress_of_roots(mesh) for mesh in meshes)
     if meshes[0].over_face:
         return rounded_up(roots)
@@ -72,14 +72,12 @@ def _stress_of_roots(mesh: GearsInMesh) -> float:
 
 
 def still(mesh: GearsInMesh, dataset: xr.Dataset, scale: float | None = None) -> Figure:
-    """The picture of one time; `scale` of the displacements: unless given the largest suitable one, in three dimensions
-    true."""
+    """The picture of one time; `scale` of the displacements: unless given the largest suitable one, over the face 1."""
     return frames(dataset, scale, [mesh], moving=False)(mesh)
 
 
 def charts_of(mesh: GearsInMesh) -> tuple[str, list[Chart]]:
-    """What the picture of one time shows, in words, and charts beside it: over the face the tension of the roots along
-    it."""
+    """What the picture of one time shows, in words, and charts beside it."""
     if not mesh.over_face:
         return "Von Mises stress", []
     from .face_picture import root_tension
@@ -118,8 +116,8 @@ def stress_picture(
 ) -> Figure:
     """Both gears, their teeth in contact enlarged, and with `close_up` the most loaded contact itself.
 
-    scale: of the displacement. limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there whether
-    this mesh exceeds it or not. width: inches of a figure 16 to 9.
+    scale: of the displacement. limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there in any
+    case. width: inches of a figure 16 to 9.
     """
     figure = Figure(figsize=(16.0, 9.0), dpi=100.0 * width / 16.0)
     loaded = loaded_contact(mesh, dataset)
@@ -153,13 +151,8 @@ def contact_view(contact: LoadedContact) -> View:
 def _moved(mesh: GearsInMesh, point: np.ndarray, scale: float) -> np.ndarray:
     """How far the bodies at a point of the picture are drawn from where they are at scale 1."""
     nearest = [np.argmin(((shown_points(mesh, gear, 0.0) - point) ** 2).sum(axis=1)) for gear in (0, 1)]
-    return np.mean(
-        [
-            shown_points(mesh, gear, scale)[node] - shown_points(mesh, gear, 1.0)[node]
-            for gear, node in enumerate(nearest)
-        ],
-        axis=0,
-    )
+    drawn, true = ([shown_points(mesh, gear, each)[node] for gear, node in enumerate(nearest)] for each in (scale, 1.0))
+    return np.mean(np.subtract(drawn, true), axis=0)
 
 
 def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float, limit: float) -> Axes:
@@ -172,28 +165,23 @@ def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float,
             x, y, stress = _triangles(points, cells, body.von_mises.ravel()).reshape(-1, 3).T
             # `tripcolor` does the same and takes three times as long, for the edges of all triangles.
             triangles = Triangulation(x, y, np.arange(len(x)).reshape(-1, 3))
-            axes.add_collection(
-                TriMesh(triangles, array=stress, cmap=COLOURS, norm=Normalize(0.0, limit)), autolim=False
-            )
+            coloured = TriMesh(triangles, array=stress, cmap=COLOURS, norm=Normalize(0.0, limit))
+            axes.add_collection(coloured, autolim=False)
             # Sides apart from each other in one line.
             x, y = np.insert(points[sides], 2, np.nan, axis=1).reshape(-1, 2).T
             axes.plot(x, y, color=DARK, linewidth=0.9, solid_capstyle="round")
     axes.set_xlim(view.extent[:2])
     axes.set_ylim(view.extent[2:])
-    axes.grid(False)
-    for spine in axes.spines.values():
-        spine.set_visible(True)
-        spine.set_color("#BBBBBB")
+    framed(axes)
     return axes
 
 
 def _triangles(points: np.ndarray, cells: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Cells as triangles (k, 3, 3), at each corner x, y and value; divided until there are many, since colours are
-    blended between corners."""
+    """Cells as triangles (k, 3, 3), at each corner x, y and value; divided until their edges are not seen in the
+    colours."""
     # Four corners are two triangles.
-    corners = np.column_stack([points, values])[
-        np.vstack([cells[:, [0, second, second + 1]] for second in range(1, cells.shape[1] - 1)])
-    ]
+    triangles = np.vstack([cells[:, [0, second, second + 1]] for second in range(1, cells.shape[1] - 1)])
+    corners = np.column_stack([points, values])[triangles]
     while len(corners) < LEAST_TRIANGLES:
         a, b, c = corners.transpose(1, 0, 2)
         ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
@@ -209,11 +197,8 @@ def _in_view(points: np.ndarray, parts: np.ndarray, view: View) -> np.ndarray:
 
 def _numbers(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, place) -> None:
     index, dataset = stored_place(mesh, dataset), contact_times(dataset)
-    values = {
-        name: float(dataset[name].values[index])
-        for name in ("normal_force", "coast_normal_force", *PRESSURES)
-        if name in dataset
-    }
+    names = ("normal_force", "coast_normal_force", *PRESSURES)
+    values = {name: float(dataset[name].values[index]) for name in names if name in dataset}
     peaks = [float(body.von_mises.max()) for body in mesh.gears]
     lines = [
         f"mesh force {max(values['normal_force'], values.get('coast_normal_force', 0.0)):.0f} N",
@@ -243,37 +228,22 @@ def colour_bar(
     """Colours up to a limit, MPa, with an arrow there where some is `beyond`; `place`: lower end and height in the
     figure."""
     axes = figure.add_axes((0.931, place[0], 0.013, place[1]))
-    bar = figure.colorbar(
-        ScalarMappable(Normalize(0.0, limit), colours), cax=axes, extend="max" if beyond else "neither"
-    )
-    bar.set_label(words, labelpad=8.0)
+    coloured, extend = ScalarMappable(Normalize(0.0, limit), colours), "max" if beyond else "neither"
+    figure.colorbar(coloured, cax=axes, extend=extend).set_label(words, labelpad=8.0)
     axes.grid(False)
 
 
 def heading(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset) -> None:
     """Title of the run, its conditions, and the time of the picture."""
-    title = " ".join(str(dataset.attrs.get("title", "")).split())
-    complete = bool(dataset.attrs.get("complete", 1))
-    scene = scene_of(dataset)
-    figure.text(
-        0.015,
-        0.955,
-        f"Stress in the gears: {title}",
-        fontsize=18,
-        color=DARK if complete else WARNING,
-        parse_math=False,
-    )
+    run = Run(dataset)
+    scene, look = run.scene, {"color": DARK if run.complete else WARNING, "parse_math": False}
+    figure.text(0.015, 0.955, f"Stress in the gears: {run.title}", fontsize=18, **look)
     timed = f", time {_time(mesh.time)}" if scene is None or scene.motion.speed_given else ""
-    said = f"mesh phase {mesh.mesh_phase:.3f} (mesh cycles since the start){timed}"
-    words = f"{conditions(scene)}  ·  {said}" if scene is not None else said
-    figure.text(
-        0.015,
-        0.917,
-        words if complete else f"{words}  ·  INCOMPLETE RUN",
-        fontsize=13,
-        color=DARK if complete else WARNING,
-        parse_math=False,
-    )
+    words = [] if scene is None else [conditions(scene)]
+    words.append(f"mesh phase {mesh.mesh_phase:.3f} (mesh cycles since the start){timed}")
+    if not run.complete:
+        words.append("INCOMPLETE RUN")
+    figure.text(0.015, 0.917, "  ·  ".join(words), fontsize=13, **look)
 
 
 def _time(seconds: float) -> str:

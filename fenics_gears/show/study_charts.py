@@ -1,5 +1,6 @@
-"""Results over a study's parameters: lines over the field with most values, one for each combination of the others; a
-map for many."""
+"""Results over a study's parameters: lines over the field with most values; a map for many."""
+
+from itertools import product
 
 import numpy as np
 
@@ -45,15 +46,10 @@ def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note:
     others = [field for field in cases.fields if field is not axis and not _zipped(cases)]
     lines = _lines(cases, axis, others)
     y_title = f"{name} ({unit})" if unit else name
-    if (
-        len(lines) > MOST_LINES
-        and len(others) == 1
-        and axis.numeric
-        and others[0].numeric
-        and np.isfinite(others[0].values).all()
-    ):
-        return _map(axis, others[0], values, y_title, name, note)
     if len(lines) > MOST_LINES:
+        two = len(others) == 1 and axis.numeric and others[0].numeric
+        if two and np.isfinite(others[0].values).all():
+            return _map(axis, others[0], values, y_title, name, note)
         kept = np.unique(np.linspace(0, len(lines) - 1, MOST_LINES).round().astype(int))
         note = f"{note} {len(kept)} of {len(lines)} combinations are drawn; the table of cases has all.".strip()
         lines = [lines[place] for place in kept]
@@ -63,27 +59,23 @@ def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note:
         together = ", ".join(field.called for field in cases.fields if field is not axis)
         note = f"{note} {together} changes along with it.".strip()
     mode = MARKED_LINES if max(map(len, (places for _, places in lines)), default=0) <= MARKED_POINTS else LINES
+    looks = product(DASHES, PALETTE)
     curves = [
-        Curve(
-            words,
-            axis.values[places],
-            values[places],
-            PALETTE[turn % len(PALETTE)],
-            DASHES[turn // len(PALETTE)],
-            mode=mode,
-        )
-        for turn, (words, places) in enumerate(lines)
+        Curve(words, axis.values[places], values[places], colour, dash, mode=mode)
+        for (words, places), (dash, colour) in zip(lines, looks)
     ]
     divided = "x" if logarithmic(axis) else ""
     return Chart(f"{name} over {axis.called}", curves, axis.title, y_title, note, HEIGHT, logarithmic=divided)
 
 
 def main_field(cases: Cases) -> SweptField:
-    """The swept field with most different numbers; with most different words where none has numbers."""
+    """The swept field with most different numbers, or words where none has numbers."""
     numeric = [field for field in cases.fields if field.numeric]
-    return max(
-        numeric or cases.fields, key=lambda field: len({value for value in field.values.tolist() if value == value})
-    )
+
+    def different(field: SweptField) -> int:
+        return len({value for value in field.values.tolist() if value == value})
+
+    return max(numeric or cases.fields, key=different)
 
 
 def logarithmic(field: SweptField) -> bool:
@@ -106,11 +98,13 @@ def _lines(cases: Cases, axis: SweptField, others: list[SweptField]) -> list[tup
     for case in range(cases.count):
         if not axis.numeric or np.isfinite(axis.values[case]):
             groups.setdefault(", ".join(field.setting(case) for field in others), []).append(case)
-    in_order = [(words, np.array(places)) for words, places in groups.items()]
-    return [
-        (words or "cases", places[np.argsort(axis.values[places], kind="stable")] if axis.numeric else places)
-        for words, places in in_order
-    ]
+    lines = []
+    for words, cases_of_line in groups.items():
+        places = np.array(cases_of_line)
+        if axis.numeric:
+            places = places[np.argsort(axis.values[places], kind="stable")]
+        lines.append((words or "cases", places))
+    return lines
 
 
 def _map(axis: SweptField, other: SweptField, values: np.ndarray, title: str, name: str, note: str) -> Chart:
@@ -122,25 +116,16 @@ def _map(axis: SweptField, other: SweptField, values: np.ndarray, title: str, na
         divided += letter if logarithmic(field) else ""
         edges.append(np.exp(_edges(np.log(places))) if logarithmic(field) else _edges(places))
     drawn = Field(edges[0], edges[1], grid, title, float(np.nanmax(values)), LOW_TO_HIGH)
-    ends = [(float(each[0]), float(each[-1])) for each in edges]
+    options = {f"{letter}_range": (float(each[0]), float(each[-1])) for letter, each in zip("xy", edges)}
+    options |= {"logarithmic": divided, "field": drawn}
     words = f"{note} {'Blank where a case has no result.' if np.isnan(grid).any() else ''}".strip()
-    return Chart(
-        f"{name} over {axis.called} and {other.called}",
-        [],
-        axis.title,
-        other.title,
-        words,
-        420,
-        x_range=ends[0],
-        y_range=ends[1],
-        logarithmic=divided,
-        field=drawn,
-    )
+    caption = f"{name} over {axis.called} and {other.called}"
+    return Chart(caption, [], axis.title, other.title, words, 420, **options)
 
 
 def _edges(places: np.ndarray) -> np.ndarray:
     """Half-way between places (n,), and as far beyond the first and the last."""
-    half = 0.5 * np.diff(places) if len(places) > 1 else np.array([0.5])
-    return np.concatenate(
-        [[places[0] - half[0]], places[:-1] + half if len(places) > 1 else [], [places[-1] + half[-1]]]
-    )
+    if len(places) == 1:
+        return places[0] + np.array([-0.5, 0.5])
+    half = 0.5 * np.diff(places)
+    return np.concatenate([[places[0] - half[0]], places[:-1] + half, [places[-1] + half[-1]]])

@@ -1,5 +1,4 @@
-"""The picture of `gears accuracy`: error against time of whole settings and cheaper models, and of every setting's
-values alone."""
+"""The picture of `gears accuracy`: error against time of whole settings, cheaper models and every setting alone."""
 
 import textwrap
 from collections.abc import Iterable
@@ -28,7 +27,7 @@ LEAST_SHOWN = 1e-6
 @styled
 def work_precision(report: AccuracyReport) -> Figure:
     """Left: whole settings with the front labelled, the scene's own, those of targets, cheaper models. Right: each
-    setting alone, the others fine. Over the face also single numbers of the whole settings, in the middle."""
+    setting alone, the others fine. Over the face, in the middle, also single numbers of the whole settings."""
     over_face = report.scene.three_dimensional
     figure = Figure(figsize=(20.5 if over_face else 15.0, 9.2), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1, rect=(0, 0.09, 1, 0.91))
@@ -75,15 +74,9 @@ def _whole(axes: Axes, report: AccuracyReport) -> None:
 
 def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
     lines = []
+    look = {"xytext": (6, 5), "textcoords": "offset points", "fontsize": 11, "color": PALETTE[0]}
     for number, each in enumerate(front, 1):
-        axes.annotate(
-            str(number),
-            (each.times.total, each.total_error),
-            xytext=(6, 5),
-            textcoords="offset points",
-            fontsize=11,
-            color=PALETTE[0],
-        )
+        axes.annotate(str(number), (each.times.total, each.total_error), **look)
         lines.append(f"{number}  {each.setting.words if each.setting else each.name}; limited by {limits_it(each)}")
     axes.text(
         0.985, 0.985, "\n".join(lines), transform=axes.transAxes, ha="right", va="top", fontsize=8.0, color=DARK,

@@ -18,7 +18,7 @@ WORDS = "no more chalk"
 STAGES = {
     "reading": "commands.run:checked_model_and_directory",
     "model": "simulation.simulate:memory_for_operators",
-    "plane sections": "elasticity.gear_compliance:_drive_flank",
+    "plane sections": "elasticity.gear_compliance:_computed",
     "section mesh": "elasticity.face.condensed:SectionForms",
     "condensing": "elasticity.face.condensed:condensed_halves",
     "ring": "elasticity.face.half_turn:definite_factor",

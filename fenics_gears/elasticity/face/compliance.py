@@ -1,5 +1,4 @@
-"""Flank compliance of a gear over its face: sweep one tooth sector, condense it, join the ring; or read it from the
-cache."""
+"""Flank compliance of a gear over its face: sweep one tooth sector, condense it, join the ring; or from the cache."""
 
 from __future__ import annotations
 
@@ -8,21 +7,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.elasticity.cache import Cache, kept
-from fenics_gears.elasticity.compliance import FlankCompliance, Reach
-from fenics_gears.elasticity.face_compliance_data import FaceCompliance
-from fenics_gears.elasticity.gear_compliance import COUNTS, check_inputs, similar_inputs
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.outline import centreline_angle
 from fenics_gears.system.job import Job, together
 from fenics_gears.system.second_process import SecondProcess
 
+from ..cache import Cache, kept
+from ..compliance import FlankCompliance, Reach
+from ..face_compliance_data import FaceCompliance
+from ..gear_compliance import check_inputs, similar_inputs
 from .discretisation import FaceDiscretisation
 
 if TYPE_CHECKING:
-    from fenics_gears.elasticity.element_sizes import ElementSizes
-    from fenics_gears.elasticity.mesh_data import BodyMesh
+    from ..element_sizes import ElementSizes
+    from ..mesh_data import BodyMesh
 
 # Not a choice: heights of the nodes, here and in FaceCompliance, follow from it.
 ORDER = 2
@@ -39,19 +38,17 @@ def face_compliance(
     """Flank compliance of a gear over its face, from the cache or by condensing one swept tooth sector, hub held, end
     faces free.
 
-    gear: its transverse section. Similar gears share an entry of the cache. With `reach.across` the coast flank's dofs
-    follow the drive flank's, in the tooth's frame mirrored at its centreline at that height: x and y as of the mirrored
-    section, heights and z as they are. job: whose ranks share the work, or the process that does it. Raises SceneError
-    for an impossible size, ComputationError when a stage fails.
+    gear: its transverse section. With `reach.across` the coast flank's dofs follow the drive flank's, in the tooth's
+    frame mirrored at its centreline at that height: x and y as of the mirrored section, heights and z as they are. job:
+    whose ranks share the work, or the process that does it. Raises SceneError for an impossible size, ComputationError
+    when a stage fails.
     """
     check_inputs(gear, material, reach)
     discretisation.check()
     similar, scaled = gear.of_module_one, discretisation.in_modules_of(gear)
     farthest, both = reach.farthest, reach.across is not None
-    inputs = similar_inputs("over the face", gear, material, discretisation) | {
-        "farthest": farthest,
-        "both flanks": both,
-    }
+    inputs = similar_inputs("over the face", gear, material, discretisation)
+    inputs |= {"farthest": farthest, "both flanks": both}
 
     def compute() -> tuple[dict, dict]:
         return together(job, _computed, similar, scaled, material.poissons_ratio, farthest, both)[0]
@@ -60,7 +57,6 @@ def face_compliance(
     # In place: the arrays are large, and nothing else refers to them.
     arrays["blocks"] *= 1.0 / (material.youngs_modulus * gear.module)
     arrays["plane"] *= 1.0 / material.youngs_modulus
-    counts = {name: int(arrays[name]) for name in COUNTS}
     rolls, flanks = arrays["roll_angle"], 2 if both else 1
     return FaceCompliance(
         roll_angle=rolls,
@@ -68,7 +64,7 @@ def face_compliance(
         heights=gear.module * arrays["heights"],
         blocks=arrays["blocks"],
         plane=FlankCompliance(rolls, ORDER, arrays["plane"], flanks=flanks),
-        timings={**counts, **timings},
+        timings=timings,
         flanks=flanks,
     )
 
@@ -76,13 +72,11 @@ def face_compliance(
 def _computed(
     gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, comm
 ) -> tuple[dict, dict] | None:
-    """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took; None on all ranks of a
-    communicator but 0, which share the work."""
+    """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took; None on ranks other than 0."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
-    from fenics_gears.elasticity.condensation import by_radius
-    from fenics_gears.elasticity.element_nodes import node_roll_angles
-    from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
-
+    from ..condensation import by_radius
+    from ..element_nodes import node_roll_angles
+    from ..ring import condensed_sector, ring_compliance
     from .condensed import condensed_swept_sector
     from .half_turn import ring_blocks
     from .swept_stiffness import ELEMENT
@@ -94,7 +88,6 @@ def _computed(
         sector = condensed_swept_sector(
             mesh, face.sweep, poissons_ratio, centreline_angle(gear), gear.teeth, both, comm
         )
-        condensed = perf_counter()
         found, blocks = sector.timings, ring_blocks(sector, gear.teeth, farthest, comm)
         del sector
     else:
@@ -104,35 +97,25 @@ def _computed(
         if comm is not None and comm.rank > 0:
             return None
         whole = condensed_whole_sector(mesh, face.sweep, poissons_ratio, both)
-        condensed = perf_counter()
         found, blocks = whole.timings, whole_ring_blocks(whole, gear.teeth, farthest)
         del whole
     if blocks is None:
         return None
     blocks = _in_mirrored_frame(blocks, gear, both)
-    joined = perf_counter()
-    flank = np.vstack(
-        [by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in (("flank", "coast") if both else ("flank",))]
-    )
+    flanks = ("flank", "coast") if both else ("flank",)
+    flank = np.vstack([by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in flanks])
     section = condensed_sector(mesh, ELEMENT, poissons_ratio, flank)
     plane = _in_mirrored_frame(ring_compliance(section, gear.teeth, farthest), gear, both, components=2)
     rolls = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), ELEMENT.order)
-    timings = {
-        **found,
-        "time_mesh": meshed - clock,
-        "time_ring": joined - condensed,
-        "time_plane": perf_counter() - joined,
-        "time_condense": perf_counter() - meshed - found["time_compile"],
-    }
-    arrays = {"roll_angle": rolls, "heights": face.sweep.heights, "blocks": blocks, "plane": plane}
-    return {**arrays, **{name: np.array(found[name]) for name in COUNTS}}, timings
+    timings = {**found, "time_mesh": meshed - clock, "time_condense": perf_counter() - meshed - found["time_compile"]}
+    return {"roll_angle": rolls, "heights": face.sweep.heights, "blocks": blocks, "plane": plane}, timings
 
 
 def swept_section(gear: Gear, sizes: ElementSizes) -> BodyMesh:
     """The section that is swept."""
     if gear.web is None:
         # Imported here: a run whose gears are all in the cache needs no gmsh.
-        from fenics_gears.elasticity.sector_mesh import sector_mesh
+        from ..sector_mesh import sector_mesh
 
         return sector_mesh(gear, sizes)
     # Imported here: gears without web have none of it.
@@ -142,7 +125,7 @@ def swept_section(gear: Gear, sizes: ElementSizes) -> BodyMesh:
 
 
 def _in_mirrored_frame(blocks: np.ndarray, gear: Gear, both: bool, components: int = 3) -> np.ndarray:
-    """Blocks (k, d, d) with the coast flank's dofs, the second half of them, in the tooth's frame mirrored at its
+    """Blocks (k, d, d) with the coast flank's dofs, their second half, in the tooth's frame mirrored at its
     centreline."""
     if not both:
         return blocks

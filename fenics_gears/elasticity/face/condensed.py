@@ -1,7 +1,5 @@
 """A swept tooth sector condensed onto its flanks and cuts: each of the two halves that it is folded into."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -9,10 +7,9 @@ import numpy as np
 from scipy import sparse
 from scipy.linalg.blas import dtrsm
 
-from fenics_gears.elasticity.condensation import by_radius, without
-from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.ring import check_congruent, definite_factor
-
+from ..condensation import line_of
+from ..mesh_data import BodyMesh
+from ..ring import check_congruent, definite_factor
 from .fold import EVEN, ODD, Fold
 from .layers import Sweep
 from .swept_stiffness import ELEMENT, SectionForms
@@ -27,12 +24,11 @@ TRIED = 8
 
 @dataclass(frozen=True)
 class Half:
-    """The even or the odd motions of a sector (`fold`): of the drive flank (f) and of the upper cut (c), in the
-    section's frame turned with it.
+    """The even or the odd motions of a sector (`fold`): of the drive flank (f) and of the upper cut (c).
 
     flank: (f, f), compliance with the cuts held; empty on all ranks of a communicator but 0. shapes: (f, r),
-    orthonormal, and to_cut: (r, c): (minus) the flank's motion per motion of the cut is shapes @ to_cut; a cut moves
-    the flank in fewer ways than either has dofs. cut: (c, c), stiffness with the flank free.
+    orthonormal, and to_cut: (r, c): (minus) the flank's motion per motion of the cut is shapes @ to_cut. cut: (c, c),
+    stiffness with the flank free.
     """
 
     flank: np.ndarray
@@ -72,8 +68,8 @@ def condensed_swept_sector(
     """A sector of a gear of `teeth`, its section symmetric about a line at the polar angle `centreline` (rad); `both`:
     with its coast flank.
 
-    comm: communicator whose first two ranks share the work: rank 0 has the even motions and rank 1 the odd ones. Every
-    rank calls this and gets the result, rank 0 alone the flank's compliances.
+    comm: communicator whose first two ranks share the work. Every rank calls this and gets the result, rank 0 alone the
+    flank's compliances.
     """
     clock = perf_counter()
     section = SectionForms(mesh, poissons_ratio, sweep.web)
@@ -86,17 +82,12 @@ def condensed_swept_sector(
         found = [in_shapes(*each) for each in condensed_halves(mesh, poissons_ratio, sweep, fold, signs, pair)]
     if not alone:
         found = [_of_rank(found[0], comm, rank) for rank in (0, 1)]
-    condensed = perf_counter()
     timings = {
         "time_compile": compiled - clock,
-        "time_schur": condensed - compiled,
         "unknowns": 2 * fold.unknowns,
         "condensed_unknowns": (2 if both else 1) * len(fold.flank) + 2 * len(fold.cut),
     }
-    cuts = [
-        by_radius(without(mesh.edge_nodes(f"{name} cut", ELEMENT.order), mesh.edge_nodes("hub", ELEMENT.order)))
-        for name in ("lower", "upper")
-    ]
+    cuts = [line_of(mesh, f"{name} cut", ELEMENT.order) for name in ("lower", "upper")]
     check_congruent(cuts[0], cuts[1], teeth)
     places = np.tile(cuts[0], (fold.heights, 1)), np.repeat(sweep.heights, len(cuts[0]))
     lower = np.column_stack(places)[fold.on_cut]
@@ -111,7 +102,7 @@ def spanned(
 
     Products of the matrix with random columns span its range (Halko, Martinsson, Tropp 2011); others tell what is
     missing. tried_first: so many columns; a quarter of all when 0. energy: (k, k), upper triangle U; the part is then
-    of ``matrix @ U^-1``, which takes solutions for the random columns alone.
+    of ``matrix @ U^-1``.
     """
     # The same numbers in every run.
     generator, most = np.random.default_rng(0), min(matrix.shape)
@@ -143,7 +134,7 @@ def in_shapes(flank: np.ndarray, to_cut: np.ndarray, cut: np.ndarray, to_neck: n
 
     The ring adds to a flank's compliance ``response D^-1 response^T`` with D above the cut's own stiffness, so that
     motions of the cut count by the strain energy that they take: with ``cut = U^T U`` the shapes are those of
-    ``response U^-1``. There are a quarter fewer than of the response itself.
+    ``response U^-1``, a quarter fewer than of the response itself.
     """
     energy = definite_factor(cut, "a cut")
     if to_neck is None:

@@ -1,13 +1,10 @@
-"""Expected size of a gear's body in three dimensions, and the memory that its condensation takes: nothing is meshed for
-it."""
-
-from __future__ import annotations
+"""Expected size of a gear's body in three dimensions, and the memory that its condensation takes."""
 
 from functools import lru_cache
 
-from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.geometry.gear import Gear
 
+from ..sector_boundary import sector_boundary
 from .discretisation import FaceDiscretisation
 
 # Nodes of a section by those of its outline, within 15 % for 16 to 80 teeth and sections of 0.15 to 0.4 modules.
@@ -38,7 +35,7 @@ def expected_size(gear: Gear, face: FaceDiscretisation, both_flanks: bool = Fals
 
 
 def expected_memory(unknowns: int, condensed_unknowns: int, halves: bool = True) -> float:
-    """Bytes that a process takes at most while it condenses a sector and joins the ring; `halves`: of a sector that is
-    folded (`fold`)."""
+    """Bytes that a process takes at most while it condenses a sector and joins the ring; `halves`: of a folded
+    sector."""
     of_unknown, of_entry = (0.0, PER_ENTRY) if halves else (WHOLE_UNKNOWN, WHOLE_ENTRY)
     return LIBRARIES + of_unknown * unknowns + of_entry * condensed_unknowns**2

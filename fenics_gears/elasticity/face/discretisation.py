@@ -6,10 +6,10 @@ from dataclasses import asdict, astuple, dataclass, replace
 
 import numpy as np
 
-from fenics_gears.elasticity.element_sizes import ElementSizes
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear
 
+from ..element_sizes import ElementSizes
 from .layers import Sweep, SweptWeb, layers_of_face, layers_with_web
 
 # Rad, of a layer: its nodes' heights stand on a helix, and parabolas are between them.
@@ -20,11 +20,10 @@ LARGEST_TURN = 0.5
 class FaceDiscretisation:
     """A section of elements, second order, that is swept along the face in layers.
 
-    section_size: mm, of the elements along the flanks; those of fillet and body follow from it. layers: over the face.
-    face_width: mm. twist: rad/mm, of the section along z, counter-clockwise positive. overhang: mm, at either end of
-    the face, beyond that on which the mate touches; it has overhang_layers of the layers at either end, and layers are
-    of one thickness in it and beside it. The outermost at a free end is cut in two. web: lengths in mm, its sides are
-    boundaries of layers too.
+    section_size: mm, of the elements along the flanks. layers: over the face. face_width: mm. twist: rad/mm, of the
+    section along z, counter-clockwise positive. overhang: mm, at either end of the face, beyond that on which the mate
+    touches; it has overhang_layers of the layers, which are of one thickness in it and beside it. The outermost at a
+    free end is cut in two. web: lengths in mm, its sides are boundaries of layers too.
     """
 
     section_size: float
@@ -37,8 +36,7 @@ class FaceDiscretisation:
 
     @property
     def sizes(self) -> ElementSizes:
-        """Element sizes (mm) of the section; it is symmetric about the tooth's centreline, which the ring makes use
-        of."""
+        """Element sizes (mm) of the section, which is symmetric about the tooth's centreline."""
         # What the section misses without variation along the face, a fine section adds: elements half as large in
         # fillet, rim and hub change the sum by less than 0.05 %.
         size = self.section_size
@@ -68,7 +66,7 @@ class FaceDiscretisation:
         return replace(self, section_size=size, face_width=width, twist=twist, overhang=overhang, web=web)
 
     def inputs(self, gear: Gear, both_flanks: bool = True) -> dict:
-        """What a gear's mesh follows from besides the gear, with lengths in modules; it always has both flanks."""
+        """What a gear's mesh follows from besides the gear, with lengths in modules."""
         scaled = self.in_modules_of(gear)
         # The rule that lays the layers may change while their number does not.
         boundaries = scaled.sweep.boundaries.tolist()

@@ -1,19 +1,18 @@
 """How much larger the stress at a fillet's points is on a fine section than on the one that is swept along a face."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 
-from fenics_gears.elasticity.element_sizes import Discretisation, ElementSizes
-from fenics_gears.elasticity.elements import element_named
-from fenics_gears.elasticity.fillet_points import FilletCurve, fillet_rows
-from fenics_gears.elasticity.recovery import GearRecovery
-from fenics_gears.elasticity.sector import plane_sector
-from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
+
+from ..element_sizes import Discretisation, ElementSizes
+from ..elements import element_named
+from ..fillet_points import FilletCurve, fillet_rows
+from ..recovery import GearRecovery
+from ..sector import plane_sector
+from ..sector_mesh import sector_mesh
 
 # The plane route's sizes in the fillet; on the flank, in modules, what the points next to it need.
 ELEMENT, FLANK_SIZE = "P2", 0.1
@@ -21,11 +20,8 @@ ELEMENT, FLANK_SIZE = "P2", 0.1
 
 def fine_over_swept(gear: Gear, swept: ElementSizes, poissons_ratio: float, curve: FilletCurve) -> np.ndarray:
     """Ratios (2 p,) at the points of both fillets, in plane strain under a force on the tip of the drive flank; gear
-    and sizes in modules.
-
-    One where the fillet has no such point. Under forces on the middle of the flank they differ from these by 0.5 %
-    where stress is large.
-    """
+    and sizes in modules. One where the fillet has no such point. Under forces on the middle of the flank they differ by
+    0.5 % where stress is large."""
     # A web is in the swept body; both sections of the ratio are without it.
     gear = replace(gear, web=None)
     angle, found = curve.outline.centreline_angle, []

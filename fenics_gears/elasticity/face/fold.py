@@ -11,16 +11,14 @@ of the other, and either kind is given by its values on the drive flank's half: 
 harmonics of its cuts become real.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy import sparse
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.condensation import by_radius, dofs_of, without
-from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.errors import ComputationError
 
+from ..condensation import by_radius, dofs_of, line_of
+from ..mesh_data import BodyMesh
 from .layers import swept_nodes
 from .swept_stiffness import ELEMENT
 
@@ -31,20 +29,17 @@ class Fold:
     """Which nodes of a swept sector stand for all of them, hub held, and how the others follow.
 
     nodes: (n, 2), of the section; height by height they are the sector's. unknowns: dofs of the nodes kept, 3 each: of
-    the drive flank's side, and at the section's centreline from mid-width on. Half the unknowns are these; at mid-width
-    on the centreline some of them are dead.
-    flank, cut: dofs (f,), (c,) of the drive flank's and the upper cut's nodes in the half, by height, then radius.
-    on_cut: which nodes of the section's cut at all heights these are. lines: the section's places (k, 2) of both; hub:
-    (h, 2), held. axes: (3, 3), columns along the centreline, across it and along z; across: (2,), towards the drive
-    flank.
-    cut_turned, flank_turned: sparse (c, c), (f, f), from motions of the upper cut and the drive flank to those of the
-    lower cut and the coast flank, their images.
+    the drive flank's side, and at the section's centreline from mid-width on. flank, cut: dofs (f,), (c,) of the drive
+    flank's and the upper cut's nodes in the half, by height, then radius. on_cut: which nodes of the section's cut at
+    all heights these are. lines: the section's places (k, 2) of both; hub: (h, 2), held. axes: (3, 3), columns along
+    the centreline, across it and along z; across: (2,), towards the drive flank. cut_turned, flank_turned: sparse (c,
+    c), (f, f), from motions of the upper cut and the drive flank to those of the lower cut and the coast flank, their
+    images.
     """
 
     def __init__(self, mesh: BodyMesh, nodes: np.ndarray, material: np.ndarray, centreline: float):
-        """material: (h, n), which of the section's nodes there are at each height, alike towards both end faces.
-        centreline: polar angle (rad) of the tooth's centreline. Raises ComputationError for a section that is not
-        symmetric about it."""
+        """material: (h, n), which of the section's nodes there are at each height. centreline: polar angle (rad) of the
+        tooth's centreline. Raises ComputationError for a section that is not symmetric about it."""
         self.nodes, self.heights = nodes, len(material)
         heights = self.heights
         along = np.array([np.cos(centreline), np.sin(centreline)])
@@ -55,8 +50,8 @@ class Fold:
         distance, image = cKDTree(nodes).query(nodes @ self._mirror[:2, :2])
         if distance.max() > 1e-9 * np.abs(nodes).max():
             raise ComputationError("swept sector: its section is not symmetric about the tooth's centreline")
-        flank, cut, hub = (mesh.edge_nodes(name, ELEMENT.order) for name in ("flank", "upper cut", "hub"))
-        self.lines, self.hub = (by_radius(flank), by_radius(without(cut, hub))), hub
+        flank, hub = (mesh.edge_nodes(name, ELEMENT.order) for name in ("flank", "hub"))
+        self.lines, self.hub = (by_radius(flank), line_of(mesh, "upper cut", ELEMENT.order)), hub
         self.across = self.axes[:2, 1] * np.sign((flank @ self.axes[:2, 1]).sum())
         side = nodes @ self.across
         own = np.arange(len(nodes))

@@ -12,18 +12,16 @@ the odd one i times that of ``sin(k/2) u`` and ``cos(k/2) u``: both halves of a 
 real matrices.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy import sparse
 from scipy.linalg import block_diag
 from scipy.linalg.blas import dsyrk, dtrsm
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.ring import Whitened, cyclic, definite_factor, harmonic_of, rotation
-from fenics_gears.elasticity.triangle import symmetric
 from fenics_gears.errors import ComputationError
 
+from ..ring import Whitened, cyclic, definite_factor, harmonic_of, rotation
+from ..triangle import symmetric
 from .condensed import MISSING, SweptSector, spanned
 
 # Of entries that the symmetry makes zero, in the largest entry.
@@ -35,10 +33,7 @@ FEWEST_OFFSETS, MOST_OF_TEETH, AROUND = 3, 0.35, 1e-13
 
 def half_turn_basis(lower: np.ndarray) -> tuple[sparse.csr_matrix, int]:
     """Orthonormal eigenvectors (3k, 3k) of half a turn about a radial cut's middle line, and how many have the
-    eigenvalue 1; they come first.
-
-    lower: (k, 3), X, Y, z of the cut's nodes, those at opposite heights alike.
-    """
+    eigenvalue 1; they come first. lower: (k, 3), X, Y, z of the cut's nodes, those at opposite heights alike."""
     nodes = np.arange(len(lower))
     partner = cKDTree(lower).query(lower * [1.0, 1.0, -1.0])[1]
     alone, pair = nodes[nodes == partner], nodes[nodes < partner]
@@ -89,8 +84,8 @@ def half_turn_whitened(link: np.ndarray, basis: tuple[sparse.csr_matrix, int]) -
 def ring_blocks(sector: SweptSector, teeth: int, offsets: int, comm=None) -> np.ndarray | None:
     """Flank compliance blocks (offsets + 1, f, f) of a ring of swept sectors, as `ring.ring_compliance`.
 
-    comm: communicator over whose ranks harmonics and offsets are shared out; every rank calls this, rank 0 gets the
-    result, the others None. Raises ComputationError where half a turn does not map the ring on itself.
+    comm: over whose ranks harmonics and offsets are shared out; every rank calls this, rank 0 gets the result, the
+    others None. Raises ComputationError where half a turn does not map the ring on itself.
     """
     basis = half_turn_basis(sector.lower)
     over_cut = _over_cut(sector, teeth, basis)
@@ -122,7 +117,7 @@ def ring_blocks(sector: SweptSector, teeth: int, offsets: int, comm=None) -> np.
 
 def _over_cut(sector: SweptSector, teeth: int, basis: tuple[sparse.csr_matrix, int]) -> sparse.csr_matrix:
     """The basis of a lower cut as motions (c, c) of the upper cut, a pitch ahead, in the sector's frame. Raises
-    ComputationError where half a turn about the tooth's centreline does not bring them back."""
+    ComputationError where half a turn does not bring them back."""
     vectors, even = basis
     pitch = sparse.kron(sparse.eye(vectors.shape[0] // 3), rotation(2.0 * np.pi / teeth, 3), format="csr")
     over_cut = pitch @ vectors
@@ -136,11 +131,11 @@ def _joined_through_cuts(
     cuts: list[np.ndarray], to_cuts: list[np.ndarray], even: int, teeth: int, offsets: int, comm=None
 ) -> np.ndarray:
     """What the ring adds to the compliance (offsets + 1, r, r) between the shapes of the even and of the odd half; on
-    rank `offset` of a communicator (counted on from 0 again beyond its last) that offset alone.
+    rank `offset` of a communicator (modulo its size) that offset alone.
 
     cuts: (c, c), to_cuts: (r, c), of both halves over the basis of a cut. With many teeth, all shapes in a ring of few
-    teeth, which is right but for what goes round it; that takes few shapes, those by which the farthest of these teeth
-    move each other: with these the ring is joined again.
+    teeth, which is right but for what goes round it; that takes few shapes, by which the farthest of these teeth move
+    each other: with these the ring is joined again.
     """
     reach, first = max(offsets, FEWEST_OFFSETS), len(to_cuts[0])
     few = 2 * reach + 1

@@ -1,13 +1,11 @@
 """The layers that a section is swept through along the face, and the polynomials of a layer."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
 
-from fenics_gears.elasticity.element_nodes import numbers_at
+from ..element_nodes import numbers_at
 
 # Gauss's rule of three points on (-1, 1): exact to the fifth power, which the patch test of a twisted layer needs.
 POINTS = (-sqrt(0.6), 0.0, sqrt(0.6))
@@ -36,7 +34,7 @@ class SweptWeb:
 @dataclass(frozen=True)
 class Sweep:
     """How a section becomes a body: boundaries of the layers (layers + 1,), mm, increasing, and the twist, rad/mm,
-    counter-clockwise along z; a web, whose sides are boundaries of layers (`layers_with_web`)."""
+    counter-clockwise along z; a web, whose sides are boundaries of layers."""
 
     boundaries: np.ndarray
     twist: float = 0.0
@@ -83,8 +81,7 @@ FEWEST_WITH_FINER_ENDS = 4
 
 def layers_of_face(layers: int, width: float, overhang_layers: int = 0, overhang: float = 0.0) -> np.ndarray:
     """Boundaries, mm from mid-width, each the exact opposite of another, of layers of one thickness over a width (mm),
-    the outermost cut in two, or of
-    `overhang_layers` over an `overhang` (mm) beyond it at either end."""
+    the outermost cut in two, or of `overhang_layers` over an `overhang` (mm) beyond it at either end."""
     inner = 0.5 * width * (np.arange(-layers, layers + 1, 2) / layers)
     if layers >= FEWEST_WITH_FINER_ENDS and not overhang_layers:
         half = 0.5 * (inner[-1] + inner[-2])
@@ -94,7 +91,7 @@ def layers_of_face(layers: int, width: float, overhang_layers: int = 0, overhang
 
 
 def layers_with_web(boundaries: np.ndarray, low: float, high: float) -> np.ndarray:
-    """Boundaries of layers (mm) with the sides of a web among them, and two layers or more between these."""
+    """Boundaries of layers (mm) with the sides of a web among them, and at least two layers between these."""
     near, ends = NEAR_WEB * np.diff(boundaries).max(), boundaries[[0, -1]]
     slack = 1e-9 * (ends[1] - ends[0])
     nearest = [min(ends, key=lambda end: abs(end - side)) for side in (low, high)]
@@ -107,7 +104,7 @@ def layers_with_web(boundaries: np.ndarray, low: float, high: float) -> np.ndarr
 
 
 def shapes(place: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Second-order shape functions (3, ...) of a layer's lower, middle and upper node at places in (-1, 1), and their
+    """Second-order shape functions (3, ...) of a layer's lower, middle and upper node in (-1, 1), and their
     derivatives."""
     values = np.array([0.5 * place * (place - 1.0), 1.0 - place**2, 0.5 * place * (place + 1.0)])
     return values, np.array([place - 0.5, -2.0 * place, place + 0.5])

@@ -1,11 +1,9 @@
 """A swept section condensed onto lines along the face, by joining runs of layers.
 
-Layers of one kind are alike but for a rotation, which their dofs share (`swept_stiffness`). Runs of the same kinds of
-layers therefore have one stiffness, wherever they are, and it is made once: of two shorter runs, with what is inside of
-their common height eliminated. All of it is dense algebra; of N equal layers some 2 log2(N) runs are made.
+Layers of one kind are alike but for a rotation, which their dofs share (`swept_stiffness`). Runs of the same kinds
+therefore have one stiffness, made once: of two shorter runs, with what is inside of their common height eliminated. All
+of it is dense; of N equal layers some 2 log2(N) runs are made.
 """
-
-from __future__ import annotations
 
 from dataclasses import dataclass
 
@@ -13,9 +11,8 @@ import numpy as np
 from scipy import sparse
 from scipy.linalg.blas import dsyrk, dtrsm
 
-from fenics_gears.elasticity.condensation import dofs_of
-from fenics_gears.elasticity.ring import definite_factor
-
+from ..condensation import dofs_of
+from ..ring import definite_factor
 from .layers import Sweep
 from .swept_stiffness import SectionForms, layer_of_kind
 
@@ -39,8 +36,8 @@ def condensed_onto_lines(
 ) -> np.ndarray:
     """Stiffness (d, d), in Fortran's order, its upper triangle, of a swept section on lines (k,), nodes of the section.
 
-    Its dofs go by height, line, then axis, where there is material; all else is in equilibrium. held: (j,), nodes that
-    do not move. axes: (n, 3, 3), columns, of each of the section's nodes in its frame.
+    Dofs go by height, line, then axis, where there is material. held: (j,), nodes that do not move. axes: (n, 3, 3),
+    columns, of each of the section's nodes in its frame.
     """
     kinds, known = sweep.kinds, {}
     nodes = np.arange(3 * len(axes) + 1)
@@ -70,10 +67,7 @@ def condensed_onto_lines(
 
 def eliminated(free: np.ndarray, coupling: np.ndarray, kept: np.ndarray) -> np.ndarray:
     """Schur complement (k, k), its upper triangle, in the place of that of `kept`: of stiffness (m, m) of `free` dofs
-    and their `coupling` (m, k). All are in Fortran's order and overwritten.
-
-    Raises ComputationError as `ring.definite_factor`.
-    """
+    and their `coupling` (m, k), all in Fortran's order and overwritten. Raises as `ring.definite_factor`."""
     half = dtrsm(1.0, definite_factor(free, "a layer", overwrite=True), coupling, trans_a=1, overwrite_b=1)
     return dsyrk(-1.0, half, 1.0, kept, trans=1, overwrite_c=1)
 
@@ -81,7 +75,7 @@ def eliminated(free: np.ndarray, coupling: np.ndarray, kept: np.ndarray) -> np.n
 def _layer(
     stiffness: sparse.csr_matrix, there: np.ndarray, ends: tuple[bool, bool], lines: np.ndarray, held: np.ndarray
 ) -> _Run:
-    """A layer of a stiffness (9 n, 9 n) that has nodes `there` (n,); at `ends` of the body what is off the lines is
+    """A layer of a stiffness (9 n, 9 n) with nodes `there` (n,); at `ends` of the body what is off the lines is
     eliminated."""
     line = dofs_of(lines[there[lines]], 3)
     there[held] = there[lines] = False

@@ -15,13 +15,13 @@ import ufl
 from scipy import sparse
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
-from fenics_gears.elasticity.condensation import dofs_of
-from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes, numbers_at
-from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.ring import rotation
-from fenics_gears.elasticity.stiffness import assembled, nodes_at, stress_of_strain
 
+from ..condensation import dofs_of
+from ..element_nodes import ElementNodes, element_nodes, numbers_at
+from ..elements import ELEMENTS
+from ..mesh_data import BodyMesh
+from ..ring import rotation
+from ..stiffness import assembled, nodes_at, stress_of_strain
 from .layers import POINTS, WEIGHTS, Sweep, SweptWeb, shapes
 
 ELEMENT = ELEMENTS["P2"]
@@ -84,10 +84,8 @@ def _forms(space, poisson, a, b, c, d):
     inverse, sweep = ufl.as_matrix([[a, -b], [b, a]]), ufl.as_matrix([[c, -d], [d, c]])
 
     def along_section(u):
-        plane, axial = (
-            ufl.dot(ufl.grad(u), inverse),
-            -ufl.dot(ufl.grad(u), ufl.dot(sweep, ufl.SpatialCoordinate(space.mesh))),
-        )
+        plane = ufl.dot(ufl.grad(u), inverse)
+        axial = -ufl.dot(ufl.grad(u), ufl.dot(sweep, ufl.SpatialCoordinate(space.mesh)))
         return ufl.sym(ufl.as_matrix([[plane[i, 0], plane[i, 1], axial[i]] for i in range(3)]))
 
     def along_height(u):
@@ -103,7 +101,7 @@ def _forms(space, poisson, a, b, c, d):
 
 def swept_stiffness(section: SectionForms, sweep: Sweep) -> sparse.csr_matrix:
     """Stiffness (3 n h, 3 n h), N/mm, of the swept body: dofs by height, then the section's node, then x, y, z in the
-    section's frame turned with it."""
+    section's frame."""
     heights, size = len(sweep.heights), 3 * len(section.nodes.points)
     # A block in every row and column, so that the matrix has all.
     rows = [[sparse.csr_matrix((size, size)) if 0 in (i, j) else None for j in range(heights)] for i in range(heights)]

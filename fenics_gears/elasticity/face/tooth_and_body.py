@@ -1,28 +1,25 @@
 """Half a swept sector in two parts: its tooth, with the flank, and its body, with the cut.
 
-They meet in the tooth's neck, in fewer nodes than flank or cut have. What the body's cut and the flank have to do with
-each other goes through the neck: of the tooth its flank's compliance with the neck held, the flank's motion per motion
-of the neck, and its stiffness on the neck; of the body, with this stiffness added, the neck's compliance, its motion
-per motion of the cut, and the stiffness of the cut. Each is the part's Schur complement (`mirrored_ring.flank_free`).
+They meet in the tooth's neck, in fewer nodes than flank or cut have, and act on each other through it alone: of the
+tooth come its flank's compliance with the neck held, the flank's motion per motion of the neck, and its stiffness on
+the neck; of the body, with this stiffness added, the neck's compliance, its motion per motion of the cut, and the
+stiffness of the cut (`mirrored_ring.flank_free`).
 
 A part is the half on the drive flank's side, its centreline free, condensed onto lines along the face
-(`runs_of_layers`) once. On the centreline an even or odd motion (`fold`) at a height gives that at the opposite one,
-which leaves the half of its dofs.
+(`runs_of_layers`). On the centreline an even or odd motion (`fold`) at a height gives that at the opposite one, which
+leaves the half of its dofs.
 """
-
-from __future__ import annotations
 
 import numpy as np
 from scipy.linalg.blas import dsyrk, dtrmm
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.condensation import dofs_of
-from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes, numbers_at
-from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.mirrored_ring import flank_free
-from fenics_gears.elasticity.ring import definite_factor
-from fenics_gears.elasticity.triangle import symmetric
-
+from ..condensation import dofs_of
+from ..element_nodes import ElementNodes, element_nodes, numbers_at
+from ..mesh_data import BodyMesh
+from ..mirrored_ring import flank_free
+from ..ring import definite_factor
+from ..triangle import symmetric
 from .fold import Fold
 from .layers import Sweep
 from .runs_of_layers import condensed_onto_lines, eliminated
@@ -137,8 +134,8 @@ class _Part:
         pair.Bcast(self._stiffness, root=rank)
 
     def folded(self, sign: float) -> tuple[np.ndarray, int]:
-        """Stiffness of the EVEN or ODD motions on both groups, one after the other, each by height, then place; and
-        dofs of the first one."""
+        """Stiffness of the EVEN or ODD motions on both groups, each by height, then place; and dofs of the first
+        one."""
         first, second, inner = (self._dofs(group, sign) for group in self._groups)
         dofs, free = [np.concatenate(each) for each in zip(inner, first, second)], len(inner[0])
         kept = len(dofs[0]) - free
@@ -157,7 +154,7 @@ class _Part:
 
     def _dofs(self, lines: np.ndarray, sign: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Dofs (k,) of some lines that stand for all, those at the opposite height that move with them (k,), -1 where
-        none does, and by which factor (k,); where none does, the factor of their own motion."""
+        none does, and by which factor (k,), then that of their own motion."""
         heights, number = len(self._there), np.cumsum(self._there).reshape(self._there.shape) - 1
         height, line = np.nonzero(self._there[:, lines])
         line = lines[line]

@@ -1,5 +1,5 @@
-"""A gear with a web over its face: rim and hub as wide as the face, between them a web that is thinner, in its middle
-or towards one end. Loaded by wheel and pinion gears that name a web alone.
+"""A gear with a web over its face: rim and hub as wide as the face, between them a web that is thinner. Loaded by gears
+with a web alone.
 
 The body is no prism, but each of its layers is. With W the cells of the section between hub and rim, and the web from
 z_1 to z_2, layers between z_1 and z_2 are swept from the whole section, the others from the section without W:
@@ -7,18 +7,15 @@ z_1 to z_2, layers between z_1 and z_2 are swept from the whole section, the oth
     K = sum over layers of K_layer(whole section)           where the layer is in the web
                         or K_layer(section without W)       where it is not
 
-z_1 and z_2 are boundaries of layers, and the circles of hub and rim are lines of the section's mesh. Nodes of no layer
-do not exist: cuts have their nodes where there is material. Turning by a pitch still maps one cut on the other, so
-that the ring of sectors (`elasticity.ring`) joins the sectors exactly, and the Schur complement is that of any gear:
+z_1 and z_2 are boundaries of layers, and the circles of hub and rim are lines of the section's mesh. Cuts have their
+nodes where there is material. Turning by a pitch still maps one cut on the other, so that the ring of sectors
+(`elasticity.ring`) joins the sectors exactly, and the Schur complement is that of any gear:
 
     A = flank block of the inverse of (sum over sectors of S),  S = K_aa - K_ad K_dd^-1 K_da,  a = flanks and cuts
 
-with the bore held, whose motion is the centre's. Membrane and plate stiffness of the web, its tilting, the bending and
-twisting of the rim and all their couplings to the teeth are in K: a web that stands apart from mid-width by e turns the
-rim by M = F e, which opens the flanks along the face. Harmonics are those of the ring.
-
-A web at mid-width keeps the half turn about a tooth's centreline (`fold`): two halves, real harmonics. Another web does
-not: the whole sector is condensed (`whole_sector`), and harmonics are complex.
+with the bore held. Membrane and plate stiffness of the web, its tilting, bending and twisting of the rim and all their
+couplings to the teeth are in K. A web at mid-width keeps the half turn about a tooth's centreline (`fold`): two halves,
+real harmonics. Of another web the whole sector is condensed (`whole_sector`), and harmonics are complex.
 """
 
 from __future__ import annotations
@@ -29,12 +26,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.elasticity.element_sizes import ElementSizes
-from fenics_gears.elasticity.mesh_data import BodyMesh, oriented
-from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import centreline_angle
 
+from ..element_sizes import ElementSizes
+from ..mesh_data import BodyMesh, oriented
+from ..sector_boundary import sector_boundary
 from .layers import SweptWeb
 
 if TYPE_CHECKING:
@@ -47,9 +44,9 @@ GROWTH, LARGEST = 1.4, 0.5
 
 def webbed_section(gear: Gear, sizes: ElementSizes) -> BodyMesh:
     """Section of a sector whose mesh has lines along the circles of hub and rim: teeth and rim as of a gear whose bore
-    is the rim's, and inwards of it rows of cells on the nodes of that bore."""
+    is the rim's, and inwards rows of cells on the nodes of that bore."""
     # Imported here: to tell the size of a section needs no gmsh.
-    from fenics_gears.elasticity.sector_mesh import sector_mesh
+    from ..sector_mesh import sector_mesh
 
     rim = sector_mesh(_rim(gear), sizes)
     turned = rim.points @ np.array([1.0, -1.0j]) * np.exp(-1j * centreline_angle(gear)).conj()
@@ -72,14 +69,11 @@ def _rim(gear: Gear) -> Gear:
 
 
 def _radii(gear: Gear, arcs: int) -> tuple[np.ndarray, np.ndarray]:
-    """Radii of the rows of nodes of web and hub, from the outside; `arcs`: elements along a sector's part of the
-    rim's inner circle."""
-    web, size = gear.web, gear.web.rim_radius * gear.angular_pitch / arcs
-    return _rows(web.rim_radius, web.hub_radius, size, gear.angular_pitch), (
-        _rows(web.hub_radius, gear.bore_radius, size, gear.angular_pitch)
-        if web.hub_radius > gear.bore_radius
-        else np.array([gear.bore_radius])
-    )
+    """Radii of the rows of nodes of web and hub, from the outside; `arcs`: elements along a sector's inner rim."""
+    web, pitch, bore = gear.web, gear.angular_pitch, gear.bore_radius
+    size = web.rim_radius * pitch / arcs
+    of_hub = _rows(web.hub_radius, bore, size, pitch) if web.hub_radius > bore else np.array([bore])
+    return _rows(web.rim_radius, web.hub_radius, size, pitch), of_hub
 
 
 def _rows(outer: float, inner: float, first: float, pitch: float) -> np.ndarray:

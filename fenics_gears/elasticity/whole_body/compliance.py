@@ -1,7 +1,5 @@
 """Flank compliance of a gear whose teeth are not all alike."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import ClassVar
 
@@ -14,11 +12,10 @@ from fenics_gears.errors import ComputationError
 class WholeBodyCompliance:
     """Displacement of drive-flank nodes per unit line force on drive-flank nodes of every tooth, hub ring held.
 
-    Teeth are counted counter-clockwise. roll_angles: of each tooth's flank nodes (n,), rad, strictly increasing.
-    element_order: 1 or 2. blocks: blocks[t][m] (2n', 2n), mm per N/mm (plane strain, unit thickness), is the
-    displacement of the flank m pitches ahead of tooth t under forces on tooth t; dofs and components as in
-    `FlankCompliance`. openings: of a body with cracks, by the loaded tooth, (k, 2n), mm per N/mm: how far the faces are
-    moved apart at k places; of teeth within `offsets` of a crack. timings: as there.
+    Teeth are counted counter-clockwise. roll_angles: of each tooth's flank nodes (n,), rad, increasing. element_order:
+    1 or 2. blocks: blocks[t][m] (2n', 2n), mm per N/mm (plane strain, unit thickness), is the displacement of the flank
+    m pitches ahead of tooth t under forces on tooth t; dofs as in `FlankCompliance`. openings: of a body with cracks,
+    by the loaded tooth within `offsets` of one, (k, 2n), mm per N/mm: how far the faces are moved apart at k places.
     """
 
     roll_angles: tuple[np.ndarray, ...]
@@ -41,11 +38,8 @@ class WholeBodyCompliance:
 
     def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
         """Compliance (2n', 2n) of the flank of one tooth under forces on another; any whole numbers, teeth repeat after
-        a turn.
-
-        sides: as of `FlankCompliance`. Raises ComputationError for coast flanks, and for teeth further apart than
-        `offsets`.
-        """
+        a turn. sides: as of `FlankCompliance`. Raises ComputationError for coast flanks, and for teeth further apart
+        than `offsets`."""
         if any(sides):
             raise ComputationError(
                 "flank compliance: of a gear that is meshed as a whole only the drive flanks are known"

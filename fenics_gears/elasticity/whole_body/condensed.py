@@ -6,8 +6,6 @@ S_IF S_FF^-1 S_FI)`` is the interfaces' own stiffness. For a gear of equal secto
 Fourier transform.
 """
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 from hashlib import sha256
 from time import perf_counter
@@ -15,18 +13,17 @@ from time import perf_counter
 import numpy as np
 from scipy import sparse
 
-from fenics_gears.elasticity.cache import Cache, kept
-from fenics_gears.elasticity.condensation import by_radius, condense, dofs_of
-from fenics_gears.elasticity.element_nodes import node_roll_angles
-from fenics_gears.elasticity.elements import Element, element_named
-from fenics_gears.elasticity.gear_compliance import COUNTS
-from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.mumps import Factor
-from fenics_gears.elasticity.ring import definite_inverse, rotation
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.numbers_version import NUMBERS_VERSION
 
+from ..cache import Cache, kept
+from ..condensation import by_radius, condense, dofs_of
+from ..element_nodes import node_roll_angles
+from ..elements import Element, element_named
+from ..mesh_data import BodyMesh
+from ..mumps import Factor
+from ..ring import definite_inverse, rotation
 from .compliance import WholeBodyCompliance
 from .parts import DividedBody, Part, divided_body
 
@@ -41,10 +38,8 @@ def whole_body_compliance(
     cache: Cache | None = None,
 ) -> WholeBodyCompliance:
     """Flank compliance of every tooth of a meshed gear (`whole_body.outline`), from the cache or computed.
-
     tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. Raises ComputationError when a
-    stage fails.
-    """
+    stage fails."""
     chosen = element_named(element)
     tooth_offsets = min(tooth_offsets, gear.teeth - 1)
     inputs = {
@@ -56,24 +51,20 @@ def whole_body_compliance(
         "tooth_offsets": tooth_offsets,
     }
     arrays, timings = kept(cache, inputs, lambda: _computed(mesh, gear, material.poissons_ratio, chosen, tooth_offsets))
+    teeth, modulus = range(gear.teeth), material.youngs_modulus
     return WholeBodyCompliance(
-        roll_angles=tuple(arrays[f"roll_angle_{tooth}"] for tooth in range(gear.teeth)),
+        roll_angles=tuple(arrays[f"roll_angle_{tooth}"] for tooth in teeth),
         element_order=chosen.order,
         blocks=tuple(
-            tuple(arrays[_block_name(tooth, ahead)] / material.youngs_modulus for ahead in range(tooth_offsets + 1))
-            for tooth in range(gear.teeth)
+            tuple(arrays[_block_name(tooth, ahead)] / modulus for ahead in range(tooth_offsets + 1)) for tooth in teeth
         ),
-        openings={
-            tooth: arrays[f"opening_{tooth}"] / material.youngs_modulus
-            for tooth in range(gear.teeth)
-            if f"opening_{tooth}" in arrays
-        },
-        timings={**timings, **{name: int(arrays[name]) for name in COUNTS}},
+        openings={tooth: arrays[f"opening_{tooth}"] / modulus for tooth in teeth if f"opening_{tooth}" in arrays},
+        timings=timings,
     )
 
 
 def _digest(mesh: BodyMesh) -> str:
-    """Hash of points and cells by their bytes: as text the mesh would take megabytes."""
+    """Of bytes: as text the mesh would take megabytes."""
     return sha256(mesh.points.tobytes() + mesh.cells.astype(np.int64).tobytes()).hexdigest()
 
 
@@ -86,8 +77,8 @@ class _CondensedPart:
     """A part of the body, Young's modulus 1 MPa, by its surface F and its interface I.
 
     The surface is the flank (`flank` dofs), then the faces of cracks, all in the tooth's frame. own: (F, F), S_FF^-1.
-    to_interface: (F, I), X.
-    link: (I, I), stiffness of the interface, the surface free. dofs: (I,), the interface's among those of all parts.
+    to_interface: (F, I), X. link: (I, I), stiffness of the interface, the surface free. dofs: (I,), the interface's
+    among those of all parts.
     """
 
     own: np.ndarray
@@ -108,8 +99,6 @@ def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Elemen
     for tooth in range(gear.teeth):
         corners = by_radius(mesh.points[mesh.edge_points(f"flank {tooth}")])
         arrays[f"roll_angle_{tooth}"] = node_roll_angles(gear, corners, element.order)
-    arrays["unknowns"] = np.array(2 * len(body.nodes.points))
-    arrays["condensed_unknowns"] = np.array(2 * len(body.interface) + sum(part.flank for part in parts))
     compiling = sum(part.compiling for part in parts)
     return arrays, {"time_mesh": 0.0, "time_compile": compiling, "time_condense": perf_counter() - clock - compiling}
 
@@ -136,8 +125,7 @@ def _in_frame(rows: np.ndarray, angle: float) -> np.ndarray:
 
 
 def _blocks(gear: Gear, body: DividedBody, parts: list[_CondensedPart], tooth_offsets: int) -> dict[str, np.ndarray]:
-    """Compliance blocks in the teeth's own frames, and how flank forces open the cracks; Young's modulus 1 MPa, by
-    name."""
+    """Compliance blocks in the teeth's own frames, and how flank forces open the cracks, by name."""
     size = 2 * len(body.interface)
     places = np.hstack([[np.repeat(part.dofs, len(part.dofs)), np.tile(part.dofs, len(part.dofs))] for part in parts])
     joined = sparse.coo_matrix((np.concatenate([part.link.ravel() for part in parts]), places), shape=(size, size))

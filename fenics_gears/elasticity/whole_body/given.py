@@ -1,32 +1,28 @@
 """The gear body in a mesh file of a scene, read and checked once."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 from pathlib import Path
 
-from fenics_gears.elasticity.body_mesh_file import read_body_mesh
-from fenics_gears.elasticity.elements import element_named
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.system import user_file
 
+from ..body_mesh_file import read_body_mesh
+from ..elements import element_named
 from .outline import WholeBody, whole_body
 
 
 @lru_cache(maxsize=8)
 def given_body(path: str, digest: str, gear: Gear, element: str, field: str) -> WholeBody:
     """The body of a gear in a file; `digest`: of the file's content, empty where it cannot be read; `field`: what
-    messages call it.
-
-    Raises SceneError where the file is not there, is no mesh, not of this gear, or of other cells than the element has.
-    """
+    messages call it. Raises SceneError where the file is not there, is no mesh, not of this gear, or of other cells
+    than the element has."""
     if not digest:
         raise SceneError(f"{field}: {_why_not_read(Path(path))} Nothing was computed or written.")
     try:
         mesh = read_body_mesh(path)
         _check_cells(mesh.cells.shape[1], element)
-        return whole_body(mesh, gear, "the mesh")
+        return whole_body(mesh, gear)
     except SceneError as error:
         raise SceneError(f"{field}: {_without_path(str(error), path)}\nNothing was computed or written.") from None
 
@@ -46,9 +42,8 @@ def _why_not_read(path: Path) -> str:
 def _check_cells(corners: int, element: str) -> None:
     chosen = element_named(element)
     if corners != chosen.corners:
-        kind, fitting = {3: ("triangles", '"P1" or "P2"'), 4: ("quadrilaterals", '"Q1", "Q1 incompatible" or "Q2"')}[
-            corners
-        ]
+        triangles, quadrilaterals = ("triangles", '"P1" or "P2"'), ("quadrilaterals", '"Q1", "Q1 incompatible" or "Q2"')
+        kind, fitting = triangles if corners == 3 else quadrilaterals
         raise SceneError(f"the mesh has {kind}, accuracy.element is {chosen.name}. Take {fitting}, for both gears")
 
 

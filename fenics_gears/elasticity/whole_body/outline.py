@@ -1,11 +1,8 @@
 """Bore, tips and drive flanks on the boundary of a meshed gear, found by their position: the mesh needs no names.
 
-The gear's centre is the origin; the mesh may stand at any angle about it. It is turned so that the tooth whose drive
-flank stands nearest to the body frame of a tooth (`geometry.involute`: the tooth points downwards) is tooth 0. Drive
-flanks are the counter-clockwise sides of the teeth.
+The gear's centre is the origin; the mesh is turned so that the tooth whose drive flank stands nearest to the body frame
+of a tooth (`geometry.involute`) is tooth 0. Drive flanks are the counter-clockwise sides of the teeth.
 """
-
-from __future__ import annotations
 
 from dataclasses import dataclass
 
@@ -14,12 +11,13 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.mesh_data import BodyMesh, boundary_sides, joined_cells
-from fenics_gears.elasticity.ring import rotation
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, involute_function
 from fenics_gears.geometry.outline import centreline_angle
+
+from ..mesh_data import BodyMesh, boundary_sides, joined_cells
+from ..ring import rotation
 
 # How far points of bore, tips and flanks may lie off the gear data, in modules; gaps are computed from true involutes.
 OUTLINE_TOLERANCE = 2e-3
@@ -35,32 +33,29 @@ UNITS = {1e-3: "metres", 1.0 / 25.4: "inches", 1e3: "micrometres"}
 @dataclass(frozen=True)
 class WholeBody:
     """A meshed gear, mm, whose edges are "hub" and "flank 0", "flank 1", ... counted counter-clockwise, tooth 0 in its
-    body frame.
-
-    coarsest_flank: the longest element along a flank, mm.
-    """
+    body frame. coarsest_flank: the longest element along a flank, mm."""
 
     mesh: BodyMesh
     coarsest_flank: float
 
 
-def whole_body(mesh: BodyMesh, gear: Gear, name: str) -> WholeBody:
-    """Find bore and flanks of a gear in its mesh (mm, about the origin); `name`: what messages call the mesh.
+def whole_body(mesh: BodyMesh, gear: Gear) -> WholeBody:
+    """Find bore and flanks of a gear in its mesh (mm, about the origin).
 
     Raises SceneError where the mesh is not one connected gear of these data.
     """
-    _check_connected(mesh, name)
+    _check_connected(mesh)
     sides = boundary_sides(mesh.cells)
     outer = np.linalg.norm(mesh.points[sides], axis=-1)
     tolerance = OUTLINE_TOLERANCE * gear.module
-    _check_size(float(outer.max()), gear, tolerance, name)
-    _check_teeth(sides[np.abs(outer - gear.tip_radius).max(axis=1) <= tolerance], gear, name)
+    _check_size(float(outer.max()), gear, tolerance)
+    _check_teeth(sides[np.abs(outer - gear.tip_radius).max(axis=1) <= tolerance], gear)
     hub = sides[np.abs(outer - gear.bore_radius).max(axis=1) <= tolerance]
-    _check_bore(mesh.points, hub, outer, gear, name)
-    _check_whole(mesh.points, np.unique(hub), name)
-    turned = mesh.points @ rotation(_standing_angle(mesh.points[np.unique(sides)], gear, name))
-    flanks = _flanks(turned, sides, gear, tolerance, name)
-    _check_thickness(turned[np.unique(sides)], gear, tolerance, name)
+    _check_bore(mesh.points, hub, outer, gear)
+    _check_whole(mesh.points, np.unique(hub))
+    turned = mesh.points @ rotation(_standing_angle(mesh.points[np.unique(sides)], gear))
+    flanks = _flanks(turned, sides, gear, tolerance)
+    _check_thickness(turned[np.unique(sides)], gear, tolerance)
     longest = max(np.linalg.norm(turned[flank[:, 0]] - turned[flank[:, 1]], axis=1).max() for flank in flanks)
     edges = {"hub": hub, **{f"flank {tooth}": flank for tooth, flank in enumerate(flanks)}}
     return WholeBody(BodyMesh(turned, mesh.cells, edges), float(longest))
@@ -72,84 +67,76 @@ def drive_flank_angle(gear: Gear, radius: np.ndarray) -> np.ndarray:
     return -0.5 * np.pi - involute_function(gear.roll_angle(np.maximum(radius, gear.base_radius)))
 
 
-def _check_connected(mesh: BodyMesh, name: str) -> None:
+def _check_connected(mesh: BodyMesh) -> None:
     piece = joined_cells(mesh.cells)
     counts = np.bincount(piece)
     if len(counts) > 1:
         smallest = np.flatnonzero(piece == np.argmin(counts))
         where = mesh.points[mesh.cells[smallest]].mean(axis=(0, 1))
         raise SceneError(
-            f"{name}: the mesh has {len(counts)} parts that do not hold together; the smallest, of {len(smallest)}"
+            f"the mesh has {len(counts)} parts that do not hold together; the smallest, of {len(smallest)}"
             f" cells, lies about x = {where[0]:.4g} mm, y = {where[1]:.4g} mm. A tooth that a crack has cut off carries"
             " nothing; parts that should be one need their common points to be the same points"
         )
 
 
-def _check_size(largest: float, gear: Gear, tolerance: float, name: str) -> None:
+def _check_size(largest: float, gear: Gear, tolerance: float) -> None:
     if abs(largest - gear.tip_radius) <= tolerance:
         return
     ratio = largest / gear.tip_radius
     units = {**UNITS, 1.0 / gear.module: "modules"}
-    unit = next(
-        (
-            f" Is it in {words}? Lengths of a mesh are in mm."
-            for factor, words in units.items()
-            if abs(ratio / factor - 1.0) < 0.01
-        ),
-        "",
-    )
+    probable = next((words for factor, words in units.items() if abs(ratio / factor - 1.0) < 0.01), None)
+    unit = f" Is it in {probable}? Lengths of a mesh are in mm." if probable else ""
     raise SceneError(
-        f"{name}: the farthest point of the mesh is {largest:.6g} mm from the origin, the gear's tip radius is"
+        f"the farthest point of the mesh is {largest:.6g} mm from the origin, the gear's tip radius is"
         f" {gear.tip_radius:.6g} mm.{unit} Allowed: {tolerance:.2g} mm of difference, the gear's centre at the origin"
     )
 
 
-def _check_teeth(tips: np.ndarray, gear: Gear, name: str) -> None:
+def _check_teeth(tips: np.ndarray, gear: Gear) -> None:
     points = np.unique(tips)
     ends = np.searchsorted(points, tips)
     links = coo_matrix((np.ones(len(tips)), (ends[:, 0], ends[:, 1])), shape=(len(points), len(points)))
     teeth = connected_components(links, directed=False)[0] if len(points) else 0
     if teeth != gear.teeth:
         raise SceneError(
-            f"{name}: the mesh has {teeth} tooth tips on its tip circle, the gear of the scene has {gear.teeth} teeth;"
+            f"the mesh has {teeth} tooth tips on its tip circle, the gear of the scene has {gear.teeth} teeth;"
             " each must have its tip"
         )
 
 
-def _check_bore(points: np.ndarray, hub: np.ndarray, radii: np.ndarray, gear: Gear, name: str) -> None:
+def _check_bore(points: np.ndarray, hub: np.ndarray, radii: np.ndarray, gear: Gear) -> None:
     ends = points[hub]
     turns = np.angle((ends[:, 1] @ [1.0, 1.0j]) / (ends[:, 0] @ [1.0, 1.0j])) if len(hub) else np.zeros(0)
     covered = np.abs(turns).sum() / (2.0 * np.pi)
     if abs(covered - 1.0) > 1e-6:
         raise SceneError(
-            f"{name}: no bore of radius {gear.bore_radius:.6g} mm (the scene's bore_diameter is"
+            f"no bore of radius {gear.bore_radius:.6g} mm (the scene's bore_diameter is"
             f" {2.0 * gear.bore_radius:.6g} mm): its circle is covered to {covered:.0%}; the innermost point of the"
             f" boundary is {radii.min():.6g} mm from the origin"
         )
 
 
-def _check_whole(points: np.ndarray, bore: np.ndarray, name: str) -> None:
-    """Raise SceneError where a crack opens on the bore: points of it are there twice."""
+def _check_whole(points: np.ndarray, bore: np.ndarray) -> None:
+    """Raise SceneError where a crack opens on the bore."""
     distance, _ = cKDTree(points).query(points[bore], k=2)
     twice = bore[distance[:, 1] <= 1e-9 * np.abs(points).max()]
     if len(twice):
         x, y = points[twice[0]]
         raise SceneError(
-            f"{name}: a crack opens on the bore near x = {x:.4g} mm, y = {y:.4g} mm; the bore is held as a whole and"
+            f"a crack opens on the bore near x = {x:.4g} mm, y = {y:.4g} mm; the bore is held as a whole and"
             " has each point once"
         )
 
 
-def _standing_angle(points: np.ndarray, gear: Gear, name: str) -> float:
-    """Angle (rad) by which the mesh stands turned: boundary points (k, 2) of all drive flanks agree on it, up to whole
+def _standing_angle(points: np.ndarray, gear: Gear) -> float:
+    """Angle (rad) by which the mesh stands turned: that of the points (k, 2) of all drive flanks, up to whole
     pitches."""
     radius = np.linalg.norm(points, axis=1)
     tolerance = OUTLINE_TOLERANCE * gear.module
     between = (radius > gear.form_radius) & (radius < gear.tip_form_radius - tolerance)
     if not between.any():
-        raise SceneError(
-            f"{name}: the boundary of the mesh has no points on the flanks, between form circle and tip circle"
-        )
+        raise SceneError("the boundary of the mesh has no points on the flanks, between form circle and tip circle")
     pitch, window = gear.angular_pitch, 2.0 * tolerance / gear.base_radius
     angle = np.arctan2(points[between, 1], points[between, 0]) - drive_flank_angle(gear, radius[between])
     angle = np.sort(np.mod(angle, pitch))
@@ -160,7 +147,7 @@ def _standing_angle(points: np.ndarray, gear: Gear, name: str) -> float:
     return (found + 0.5 * pitch) % pitch - 0.5 * pitch
 
 
-def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float, name: str) -> list[np.ndarray]:
+def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float) -> list[np.ndarray]:
     """Sides (k, 2) of each drive flank, from the form circle to the tip."""
     boundary = np.unique(sides)
     radius = np.linalg.norm(points[boundary], axis=1)
@@ -174,20 +161,15 @@ def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float,
             on_flank = own & (radius > gear.form_radius + tolerance) & (radius < gear.tip_form_radius - tolerance)
             worst = float(np.max(off[on_flank & (off <= NEARLY * gear.module)], initial=0.0))
             raise SceneError(
-                f"{name}: the drive flank of tooth {each}, counted counter-clockwise,"
-                f" {problem}{_deviation(worst, tolerance)}"
+                f"the drive flank of tooth {each}, counted counter-clockwise, {problem}{_deviation(worst, tolerance)}"
             )
         found.append(chain)
     return found
 
 
 def _off_involute(points: np.ndarray, gear: Gear) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of points (k, 2): the tooth they belong to, whether they are on its counter-clockwise side, and how far off its
-    drive flank, mm.
-
-    The distance is counter-clockwise along the involute's normal: an involute turned by an angle stands off by that of
-    its base circle.
-    """
+    """Of points (k, 2): the tooth they belong to, whether they are on its counter-clockwise side, and how far
+    counter-clockwise off its drive flank, mm: an involute turned by an angle stands off by that of its base circle."""
     angle = np.arctan2(points[:, 1], points[:, 0])
     ahead = np.mod(angle - centreline_angle(gear), 2.0 * np.pi) / gear.angular_pitch
     tooth = np.floor(ahead + 0.5).astype(int) % gear.teeth
@@ -195,9 +177,8 @@ def _off_involute(points: np.ndarray, gear: Gear) -> tuple[np.ndarray, np.ndarra
     return tooth, np.mod(ahead, 1.0) < 0.5, gear.base_radius * ((off + np.pi) % (2.0 * np.pi) - np.pi)
 
 
-def _check_thickness(points: np.ndarray, gear: Gear, tolerance: float, name: str) -> None:
-    """Raise SceneError where the coast flanks are out of place: the drive flanks alone do not give the thickness of the
-    teeth."""
+def _check_thickness(points: np.ndarray, gear: Gear, tolerance: float) -> None:
+    """Raise SceneError where the coast flanks are out of place."""
     radius = np.linalg.norm(points, axis=1)
     between = points[(radius > gear.form_radius + tolerance) & (radius < gear.tip_form_radius - tolerance)]
     axis = 2.0 * centreline_angle(gear)
@@ -206,7 +187,7 @@ def _check_thickness(points: np.ndarray, gear: Gear, tolerance: float, name: str
     stands_off = float(np.median(off[on_drive_side])) if on_drive_side.any() else 0.0
     if abs(stands_off) > tolerance:
         raise SceneError(
-            f"{name}: the teeth are {'thicker' if stands_off > 0.0 else 'thinner'} than those of the scene"
+            f"the teeth are {'thicker' if stands_off > 0.0 else 'thinner'} than those of the scene"
             f" (profile_shift): the flanks opposite the drive flanks stand {1e3 * abs(stands_off):.4g} um off their"
             f" involutes; allowed are {1e3 * tolerance:.3g} um"
         )
@@ -225,7 +206,7 @@ def _deviation(worst: float, tolerance: float) -> str:
 def _chain(
     points: np.ndarray, known: set, candidates: np.ndarray, gear: Gear, tolerance: float
 ) -> tuple[np.ndarray, str]:
-    """Sides of one flank from points that lie on its involute, and what is wrong with them, empty where nothing is."""
+    """Sides of one flank from points that lie on its involute, and what is wrong with them."""
     radius = np.linalg.norm(points[candidates], axis=1)
     order = np.argsort(radius)
     candidates, radius = candidates[order], radius[order]
@@ -239,11 +220,9 @@ def _chain(
     length = arc_length(gear.base_radius, gear.roll_angle(np.maximum(radius[first:], gear.base_radius)))
     form, tip = arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle]))
     if length[0] - form > UNCOVERED * (length[1] - length[0]) + tolerance or tip - length[-1] > 2.0 * tolerance:
-        return (
-            chain,
-            (
-                f"has points on the involute from radius {radius[first]:.5g} mm to {radius[-1]:.5g} mm only; it goes"
-                f" from the form circle, radius {gear.form_radius:.5g} mm, to the tip, radius {gear.tip_radius:.5g} mm"
-            ),
+        problem = (
+            f"has points on the involute from radius {radius[first]:.5g} mm to {radius[-1]:.5g} mm only; it goes"
+            f" from the form circle, radius {gear.form_radius:.5g} mm, to the tip, radius {gear.tip_radius:.5g} mm"
         )
+        return chain, problem
     return chain, ""

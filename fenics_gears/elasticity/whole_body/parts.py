@@ -1,11 +1,8 @@
-"""A meshed gear divided into its teeth: cells by the tooth sector they lie in, so that each part is condensed by
-itself; and its cracks.
+"""A meshed gear divided by tooth sectors into parts that are condensed by themselves; and its cracks, sides of the
+boundary that lie on each other.
 
-Any division gives the same result; by teeth the parts are small and meet in short lines of nodes. Cracks are sides of
-the boundary that lie on each other.
+Any division gives the same result; by teeth the parts are small and meet in short lines of nodes.
 """
-
-from __future__ import annotations
 
 from dataclasses import dataclass
 
@@ -14,11 +11,12 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes
-from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import centreline_angle
+
+from ..element_nodes import ElementNodes, element_nodes
+from ..elements import Element
+from ..mesh_data import BodyMesh
 
 
 @dataclass(frozen=True)
@@ -40,10 +38,7 @@ class Part:
 @dataclass(frozen=True)
 class CrackNodes:
     """Nodes (k,) on one face of a body's cracks, those that face them (k,), and the normals (k, 2) out of the first
-    face.
-
-    The faces stand apart by (u[other] - u[one]) . normal, negative where they would pass through each other.
-    """
+    face: the faces stand apart by (u[other] - u[one]) . normal."""
 
     one: np.ndarray
     other: np.ndarray
@@ -99,11 +94,7 @@ def _centres_of(nodes: ElementNodes, chosen: np.ndarray) -> np.ndarray:
 
 def part_of_cells(mesh: BodyMesh, gear: Gear) -> np.ndarray:
     """Number of the part (cells,): that of the tooth; all cells on one face of a crack together, and those on a flank
-    with its tooth.
-
-    The two faces of a crack have nodes in the same places. If two parts shared such a node, it could not be
-    distinguished from its twin.
-    """
+    with its tooth. Parts that shared a node on a crack could not distinguish it from its twin on the other face."""
     centre = mesh.points[mesh.cells].mean(axis=1)
     ahead = np.arctan2(centre[:, 1], centre[:, 0]) - centreline_angle(gear)
     owner = np.floor(np.mod(ahead, 2.0 * np.pi) / gear.angular_pitch + 0.5).astype(int) % gear.teeth
@@ -116,7 +107,7 @@ def part_of_cells(mesh: BodyMesh, gear: Gear) -> np.ndarray:
 
 
 def crack_faces(mesh: BodyMesh) -> list[np.ndarray]:
-    """Cells at each face of each crack: those that touch points which have a twin in the same place, joined by such
+    """Cells at each face of each crack: those that touch points with a twin in the same place, joined by such
     points."""
     twins = np.unique(cKDTree(mesh.points).query_pairs(1e-9 * np.abs(mesh.points).max(), output_type="ndarray"))
     touching = np.isin(mesh.cells, twins)

@@ -3,19 +3,19 @@
 from dataclasses import replace
 
 from fenics_gears.results.spectrum import OrderLines
-from fenics_gears.show.motion import force_charts, motion_charts
-from fenics_gears.show.orders import FORCE, mesh_order_chart, order_spectrum, orders_by_cycle, signals_of, spectrum
-from fenics_gears.show.panels import MOST_POINTS
-from fenics_gears.show.pressure import has_pressure, largest_pressures, pressure_maps
-from fenics_gears.show.run import TOO_FEW, Run
 
-from .page import Block, Section, Table, Words
+from ..motion import force_charts, motion_charts
+from ..orders import FORCE, mesh_order_chart, order_spectrum, orders_by_cycle, signals_of, spectrum
+from ..panels import MOST_POINTS
+from ..pressure import has_pressure, largest_pressures, pressure_maps
+from ..run import TOO_FEW, Run
+from .page import Block, Section, Table, Words, sentence
 
 LISTED_ORDERS = 10
 
 
 def motion(run: Run) -> Section:
-    """Curves of all motions that the result has; first, which of its cycles are seen here and in what follows."""
+    """Curves of all motions; first, which of the result's cycles are seen here and in what follows."""
     section = _section("motion", "Transmission error and motion", run, motion_charts)
     return replace(section, blocks=[*_cycles_shown(run), *section.blocks]) if run.has_curves else section
 
@@ -30,23 +30,17 @@ def pressure(run: Run) -> Section:
     section = _section("pressure", "Contact pressure", run, lambda run: [*largest_pressures(run), *pressure_maps(run)])
     if has_pressure(run) or not run.has_curves:
         return section
-    none = (
-        "There is none: this run's flanks are rigid or its mesh is one of springs, so that contact is not spread over"
-        " the flank."
-    )
+    none = "There is none: this run's flanks are rigid or its mesh is one of springs."
     if run.scene is not None and run.scene.resolves_contact:
         none = "There is no map over the flank: the run has stored no contact fields (`[output] contact_fields`)."
     return replace(section, blocks=[*section.blocks, Words(none)])
 
 
 def _section(name: str, heading: str, run: Run, charts) -> Section:
-    if not run.has_curves:
-        return Section(name, heading, [Words(TOO_FEW, warns=True)])
-    return Section(name, heading, list(charts(run)))
+    return Section(name, heading, list(charts(run))) if run.has_curves else sentence(name, heading, TOO_FEW, True)
 
 
 def _cycles_shown(run: Run) -> list[Block]:
-    """Which cycles are seen in this section and the next ones; nothing where it is all that is stored."""
     first, last = run.window
     part = (
         f"Charts over time show the mesh cycles {first:g} to {last:g} of {run.phase[0]:g} to {last:g}; on screen, a"
@@ -65,35 +59,26 @@ def spectra(run: Run) -> Section:
     run = run.settled
     if not run.has_curves or run.cycles < 1.0 - 1e-9:
         short = "Less than one mesh cycle is stored; its harmonics cannot be separated."
-        return Section("spectra", heading, [Words(short, warns=not run.complete)])
+        return sentence("spectra", heading, short, not run.complete)
     signals = signals_of(run)
     found = {name: spectrum(run, values) for name, (values, _) in signals.items()}
     followed = orders_by_cycle(run, signals)
     blocks: list[Block] = []
     if run.scene is not None and run.scene.speed_ramp is not None:
-        where = (
-            "See the orders cycle by cycle."
-            if followed
-            else "Records of 8 mesh cycles and more have the orders cycle by cycle."
-        )
-        blocks.append(
-            Words(
-                "The mesh frequency changes through the record: orders stay in place, resonances pass through them."
-                f" {where}"
-            )
-        )
+        where = "See" if followed else "Records of 8 mesh cycles and more have"
+        said = "The mesh frequency changes through the record: orders stay in place, resonances pass through them."
+        blocks.append(Words(f"{said} {where} the orders cycle by cycle."))
     blocks += [mesh_order_chart(run, name, unit, found[name]) for name, (_, unit) in signals.items()]
     if FORCE not in signals:
         blocks.append(Words("The force of the mesh does not vary: nothing but a constant torque acts on it."))
     by_turns = order_spectrum(run)
     blocks += [by_turns] if by_turns is not None else []
-    return Section(
-        "spectra", heading, [*blocks, _table(signals, {name: each.lines for name, each in found.items()}), *followed]
-    )
+    table = _table(signals, [each.lines for each in found.values()])
+    return Section("spectra", heading, [*blocks, table, *followed])
 
 
-def _table(signals: dict, lines: dict[str, OrderLines]) -> Table:
+def _table(signals: dict, lines: list[OrderLines]) -> Table:
     headings = ["Mesh order", *(f"{name} ({unit})" for name, (_, unit) in signals.items())]
-    highest = int(min(LISTED_ORDERS, max(each.orders[-1] for each in lines.values())))
-    rows = [[str(order), *(f"{each.at(order):.4g}" for each in lines.values())] for order in range(1, highest + 1)]
+    highest = int(min(LISTED_ORDERS, max(each.orders[-1] for each in lines)))
+    rows = [[str(order), *(f"{each.at(order):.4g}" for each in lines)] for order in range(1, highest + 1)]
     return Table(headings, rows, "Amplitudes of the mesh orders")

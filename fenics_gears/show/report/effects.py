@@ -5,11 +5,11 @@ import math
 
 from fenics_gears.effects import effects_on
 from fenics_gears.model.description import effect_states
-from fenics_gears.show.run import NO_SCENE, Run
 from fenics_gears.studies.effect_costs.subsets import ALL
 from fenics_gears.studies.effect_costs.table import MILLI
 
-from .page import Block, Fold, Picture, Section, Table, Words
+from ..run import NO_SCENE, Run
+from .page import Block, Fold, Picture, Section, Table, Words, sentence
 
 MEASURED_TABLE, MEASURED_PICTURE = "effects.csv", "effects.png"
 # Relative; the same scene gives the same transmission error, on another processor to round-off.
@@ -19,7 +19,7 @@ SAME_ANSWER = 1e-3
 def effects(run: Run) -> Section:
     """Each effect with what the model has by it or without it; below, what was measured."""
     if run.scene is None:
-        return Section("effects", "Effects", [Words(NO_SCENE, warns=True)])
+        return sentence("effects", "Effects", NO_SCENE, True)
     states = effect_states(run.scene)
     on = [(f"[{state.effect.written}]", state.words) for state in states if state.on]
     off = [(f"[{state.effect.written}]", state.words) for state in states if not state.on]
@@ -34,10 +34,7 @@ def _measured(run: Run) -> list[Block]:
     """The picture that `gears effects` wrote into the run's directory, where it is of this scene."""
     file, picture = run.file.with_name(MEASURED_TABLE), run.file.with_name(MEASURED_PICTURE)
     if not (file.is_file() and picture.is_file()):
-        said = (
-            "What each effect costs and changes was not measured; the report's option `--effects` does it (it runs the"
-            " scene with and without each)."
-        )
+        said = "What each effect costs and changes was not measured; the report's option `--effects` does it."
         return [Words(said)]
     try:
         with open(file, encoding="utf-8", newline="") as opened:
@@ -52,12 +49,9 @@ def _measured(run: Run) -> list[Block]:
             " `--effects` measures anew."
         )
         return [Words(said, warns=True)]
-    return [
-        Picture("What each effect costs and changes", picture.read_bytes(), f"All numbers: `{MEASURED_TABLE}`."),
-        Words(
-            f"Measured on {whole['processor']}, load {whole['load']}; threads: {whole['threads']}; {whole['versions']}."
-        ),
-    ]
+    machine = f"{whole['processor']}, load {whole['load']}; threads: {whole['threads']}; {whole['versions']}"
+    drawn = Picture("What each effect costs and changes", picture.read_bytes(), f"All numbers: `{MEASURED_TABLE}`.")
+    return [drawn, Words(f"Measured on {machine}.")]
 
 
 def _same_scene(run: Run, whole: dict[str, str]) -> bool:

@@ -1,12 +1,14 @@
 """The energy account: energy stored, work put in, work done and lost, and the unexplained rest."""
 
+from functools import partial
+
 import numpy as np
 
 from fenics_gears.results.contact_variables import transmitted
-from fenics_gears.show.chart import over_time, span
-from fenics_gears.show.panels import DARK, PALETTE, digits, factor, in_unit
-from fenics_gears.show.run import TOO_FEW, Run
 
+from ..chart import over_time, span
+from ..panels import DARK, PALETTE, digits, factor, in_unit
+from ..run import TOO_FEW, Run
 from .page import Facts, Section, sentence
 
 PARTS = {
@@ -45,24 +47,14 @@ def _rows(run: Run) -> list[tuple[str, str, str]]:
         share = f" ({100.0 * shown / drive:.4g} % of the drive's work)" if drive else ""
         return label, digits(shown), UNIT + share
 
-    sides = (
-        ("the wheel's shaft", "the pinion's shaft")
-        if work.wheel_drives
-        else ("the pinion's shaft", "the wheel's shaft")
-    )
-    rows = [(f"work of the drive, {sides[0]}", digits(work.drive * to_unit), UNIT)]
-    rows.append(row(f"work done on the load, {sides[1]}", work.load * to_unit))
+    driving, driven = ("wheel", "pinion") if work.wheel_drives else ("pinion", "wheel")
+    rows = [(f"work of the drive, the {driving}'s shaft", digits(work.drive * to_unit), UNIT)]
+    rows.append(row(f"work done on the load, the {driven}'s shaft", work.load * to_unit))
     rows += [row(f"lost to {words}", last[name]) for name, words in TAKEN.items() if name in last]
     rows.append(row("put in by the time stepping where contact changes", last["work_contact_changes"]))
     rows.append(row("more energy held at the end than at the beginning", float(held[-1] - held[0])))
-    rows.append(
-        (
-            "not explained by any of these",
-            f"{float(np.abs(_since_first(run.dataset['energy_defect'])).max()):.2g}",
-            f"{UNIT} at most, at any of their steps",
-        )
-    )
-    return rows
+    rest = float(np.abs(_since_first(run.dataset["energy_defect"])).max())
+    return [*rows, ("not explained by any of these", f"{rest:.2g}", f"{UNIT} at most, at any of their steps")]
 
 
 def _since_first(work) -> np.ndarray:
@@ -73,25 +65,20 @@ def _since_first(work) -> np.ndarray:
 
 def _curves(run: Run) -> list:
     dataset = run.dataset
-    held = [
-        (words, in_unit(dataset[name], UNIT), colour)
-        for (name, words), colour in zip(PARTS.items(), PALETTE)
-        if name in dataset
-    ]
+
+    def stored(names: dict[str, str], values) -> list[tuple[str, np.ndarray, str]]:
+        named = zip(names.items(), PALETTE)
+        return [(words, values(dataset[name]), colour) for (name, words), colour in named if name in dataset]
+
+    held = stored(PARTS, partial(in_unit, wanted=UNIT))
     held.append(("all", in_unit(dataset["energy"], UNIT), DARK))
-    taken = [
-        (words, _since_first(dataset[name]), colour)
-        for (name, words), colour in zip(TAKEN.items(), PALETTE)
-        if name in dataset
-    ]
+    taken = stored(TAKEN, _since_first)
     taken.append(("contact changes, by the time stepping", -_since_first(dataset["work_contact_changes"]), PALETTE[3]))
-    defect = _since_first(dataset["energy_defect"])
+    defect = [("defect", _since_first(dataset["energy_defect"]), DARK)]
     # A plot of one curve has no legend.
     alone = f": {taken[0][0]}" if len(taken) == 1 else ""
     return [
         over_time(run, "Energy held", "Energy (N m)", held, least=1e-6 * span(held)),
         over_time(run, f"Work lost since the first settled step{alone}", "Work (N m)", taken, least=1e-6 * span(taken)),
-        over_time(
-            run, "What the account does not explain: round-off", "Energy (N m)", [("defect", defect, DARK)], least=1e-15
-        ),
+        over_time(run, "What the account does not explain: round-off", "Energy (N m)", defect, least=1e-15),
     ]

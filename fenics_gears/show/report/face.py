@@ -1,8 +1,7 @@
 """Contact over the face: pattern and line load, where the flanks are resolved over it."""
 
-from fenics_gears.show.run import TOO_FEW, Run
-
-from .page import Section, Words
+from ..run import TOO_FEW, Run
+from .page import Section, Words, sentence
 
 HEADING = "Contact over the face"
 # The load factors along the face, by their attributes.
@@ -27,21 +26,10 @@ def face(run: Run) -> Section | None:
     if not run.over_face:
         return None
     if not run.has_curves:
-        return Section("face", HEADING, [Words(TOO_FEW, warns=True)])
-    charts = [chart for draw in run.over_face.values() for chart in draw(run)]
-    said = [
-        Words(sentence.format(run.dataset.attrs[name]))
-        for name, sentence in FACTORS.items()
-        if name in run.dataset.attrs
-    ]
-    return Section(
-        "face",
-        HEADING,
-        [*charts, *said]
-        or [
-            Words(
-                "There are none: the run has stored no contact fields (`[output] contact_fields`), or no flank is"
-                " loaded."
-            )
-        ],
-    )
+        return sentence("face", HEADING, TOO_FEW, True)
+    charts, found = [chart for draw in run.over_face.values() for chart in draw(run)], run.dataset.attrs
+    said = [Words(words.format(found[name])) for name, words in FACTORS.items() if name in found]
+    if not charts and not said:
+        none = "There are none: no contact fields are stored (`[output] contact_fields`), or no flank is loaded."
+        return sentence("face", HEADING, none)
+    return Section("face", HEADING, [*charts, *said])

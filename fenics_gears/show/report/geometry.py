@@ -4,9 +4,9 @@ from math import degrees
 
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.gear_data import GearPairData
-from fenics_gears.show.run import NO_SCENE, Run
 
-from .page import Beside, Facts, Section, Table, Words
+from ..run import NO_SCENE, Run
+from .page import Beside, Facts, Section, Table, sentence
 from .pair_drawing import drawings
 
 GEARS = ("pinion", "wheel")
@@ -17,7 +17,7 @@ MEASURED = ("(W_k)", "(M_d)")
 def geometry(run: Run) -> Section:
     """What the scene gives of the gears, what follows, and both gears drawn in mesh."""
     if run.pair is None:
-        return Section("geometry", "Geometry", [Words(NO_SCENE, warns=True)])
+        return sentence("geometry", "Geometry", NO_SCENE, True)
     given, rows = run.scene.gears, characteristics(run.pair)
     normal = "normal " if given.helix_angle else ""
     of_pair: list[tuple[str, object, str]] = [
@@ -28,22 +28,14 @@ def geometry(run: Run) -> Section:
         (label, _figure(label, value, unit), unit)
         for label, value, unit in (*of_pair, *(row for row in rows if not row[0].startswith(GEARS)))
     ]
-    return Section(
-        "geometry",
-        "Geometry of the pair",
-        [*drawings(run.pair, run.on_coast_flanks), Beside([_both(run, rows), Facts(of_pair, "Both gears together")])],
-    )
+    tables = Beside([_both(run, rows), Facts(of_pair, "Both gears together")])
+    return Section("geometry", "Geometry of the pair", [*drawings(run.pair, run.on_coast_flanks), tables])
 
 
 def _both(run: Run, rows: list[tuple[str, float, str]]) -> Table:
     given = run.scene.gears
-    names = {
-        "teeth": "",
-        "tip_diameter": "mm",
-        "root_diameter": "mm",
-        "bore_diameter": "mm",
-        "rack_tip_radius": "modules",
-    }
+    names = {"teeth": "", "tip_diameter": "mm", "root_diameter": "mm", "bore_diameter": "mm"}
+    names["rack_tip_radius"] = "modules"
     found: dict[tuple[str, str], dict[str, float]] = {}
     for name, unit in names.items():
         found[name.replace("_", " "), unit] = {gear: getattr(getattr(given, gear), name) for gear in GEARS}
@@ -53,18 +45,15 @@ def _both(run: Run, rows: list[tuple[str, float, str]]) -> Table:
         gear, _, what = label.partition(" ")
         if gear in GEARS:
             found.setdefault((what, unit), {})[gear] = value
-    cells = [
-        (
-            f"{what} ({unit})" if unit else what,
-            *(_figure(what, values[gear], unit) if gear in values else "" for gear in GEARS),
-        )
-        for (what, unit), values in found.items()
-    ]
+    cells = []
+    for (what, unit), values in found.items():
+        of_gears = [_figure(what, values[gear], unit) if gear in values else "" for gear in GEARS]
+        cells.append((f"{what} ({unit})" if unit else what, *of_gears))
     return Table(("", "Pinion", "Wheel"), cells, "Either gear")
 
 
 def _profile_shifts(given: GearPairData) -> dict[tuple[str, str], dict[str, float]]:
-    """x of the drawing, and x_E of the tooth thickness where that is another: of thinner teeth, or of measured ones."""
+    """x of the drawing, and x_E of the tooth thickness where that is another."""
     cut = {gear: getattr(given, gear).profile_shift for gear in GEARS}
     nominal = {
         gear: cut[gear] if (own := getattr(given, gear).nominal_profile_shift) is None else own for gear in GEARS

@@ -1,5 +1,4 @@
-"""Charts drawn by plotly, to be zoomed in a browser: light ground, units on both axes, colours that any eye tells
-apart.
+"""Charts drawn by plotly, to be zoomed in a browser.
 
 Only its browser library is used: plotly's Python objects take longer to make than everything else of a page.
 """
@@ -9,8 +8,8 @@ import math
 
 import numpy as np
 
-from fenics_gears.show.chart import BAND, BARS, WORDS, Chart, Curve
-from fenics_gears.show.panels import DARK, GREY, MOST_POINTS, thinned
+from ..chart import BAND, BARS, WORDS, Chart, Curve
+from ..panels import DARK, GREY, MOST_POINTS, thinned
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif"
 GRID = "#E9ECEF"
@@ -41,25 +40,13 @@ def figure(chart: Chart) -> dict:
         lowest = min(0.0, float(np.nanmin(field.values, initial=0.0)))
         bar = {"title": {"text": escaped(field.title), "side": "right"}, "thickness": 14}
         cells = {"x": numbers(field.x), "y": numbers(field.y), "z": [numbers(row, 4) for row in field.values]}
-        traces.insert(
-            0,
-            {
-                "type": "heatmap",
-                "colorscale": scale,
-                "zmin": lowest,
-                "zmax": field.limit,
-                "colorbar": bar,
-                "hoverongaps": False,
-                "name": "",
-            }
-            | cells,
-        )
+        look = {"colorscale": scale, "zmin": lowest, "zmax": field.limit, "colorbar": bar, "hoverongaps": False}
+        traces.insert(0, {"type": "heatmap", "name": ""} | look | cells)
     layout = _layout(chart)
     if chart.flags:
         _flag(layout, chart)
-    layout["annotations"] = layout.get("annotations", []) + [
-        each for curve in chart.curves if len(curve.words) for each in _words(curve)
-    ]
+    beside = [each for curve in chart.curves if len(curve.words) for each in _words(curve)]
+    layout["annotations"] = layout.get("annotations", []) + beside
     return {"data": traces, "layout": layout}
 
 
@@ -68,11 +55,9 @@ def _layout(chart: Chart) -> dict:
         "gridcolor": GRID, "linecolor": GREY, "showline": True, "ticks": "outside", "tickcolor": GREY, "ticklen": 4,
         "zerolinecolor": "#C4C9CE", "zerolinewidth": 1, "exponentformat": "none", "separatethousands": True,
     }  # fmt: skip
-    x = axis | {"title": {"text": escaped(chart.x_title), "font": {"size": 13.5}, "standoff": 8}, "hoverformat": ".5~g"}
-    y = axis | {
-        "title": {"text": escaped(chart.y_title), "font": {"size": 13.5}, "standoff": 6},
-        "hoverformat": ",.5~g",
-    }
+    titles = [{"text": escaped(words), "font": {"size": 13.5}} for words in (chart.x_title, chart.y_title)]
+    x = axis | {"title": titles[0] | {"standoff": 8}, "hoverformat": ".5~g"}
+    y = axis | {"title": titles[1] | {"standoff": 6}, "hoverformat": ",.5~g"}
     if chart.x_range is not None:
         x["range"] = list(chart.x_range)
     bars = any(curve.mode == BARS for curve in chart.curves)
@@ -93,6 +78,7 @@ def _layout(chart: Chart) -> dict:
     if chart.equal:
         y |= {"scaleanchor": "x", "scaleratio": 1}
     extra = {"barmode": "overlay", "updatemenus": [_scales(chart)]} if bars else {}
+    legend = {"orientation": "h", "x": 0, "xanchor": "left", "y": 1.02, "yanchor": "bottom", "font": {"size": 12.5}}
     return {
         "template": "none",
         "font": {"family": FONT, "size": 13, "color": DARK},
@@ -100,14 +86,7 @@ def _layout(chart: Chart) -> dict:
         # plotly's buttons and the legend below them.
         "margin": {"l": 80, "r": 16, "t": max(48 if bars else 26, 21 + LEGEND_ROW * legend_rows(chart)), "b": 46},
         "showlegend": chart.has_legend,
-        "legend": {
-            "orientation": "h",
-            "x": 0,
-            "xanchor": "left",
-            "y": 1.02,
-            "yanchor": "bottom",
-            "font": {"size": 12.5},
-        },
+        "legend": legend,
         "hovermode": "closest" if chart.field is not None or chart.equal else "x",
         "paper_bgcolor": "white",
         "plot_bgcolor": "white",
@@ -138,14 +117,8 @@ def _flag(layout: dict, chart: Chart) -> None:
     tops = [1.0 - FLAG_ROW * (max(rows) - row + 1) / inside for row in rows]
     place = {"xref": "x", "yref": "paper"}
     layout["shapes"] = [
-        {
-            "type": "line",
-            "x0": flag.x,
-            "x1": flag.x,
-            "y0": end - 0.06,
-            "y1": top,
-            "line": {"color": flag.colour, "width": 0.8},
-        }
+        {"type": "line", "x0": flag.x, "x1": flag.x, "y0": end - 0.06, "y1": top}
+        | {"line": {"color": flag.colour, "width": 0.8}}
         | place
         for flag, top in zip(chart.flags, tops)
     ]
@@ -157,16 +130,12 @@ def _flag(layout: dict, chart: Chart) -> None:
 
 
 def _words(curve: Curve) -> list[dict]:
-    """Words beside the points of a curve, on paper, so that lines below do not cross them."""
+    """Words beside the points of a curve."""
     up, right = ("top" in curve.beside) - ("bottom" in curve.beside), 1 if "right" in curve.beside else -1
-    at = {
-        "xanchor": "left" if right > 0 else "right",
-        "yanchor": ("middle", "bottom", "top")[up],
-        "xshift": 7 * right,
-        "yshift": 5 * up,
-        "showarrow": False,
-    }
+    at = {"xanchor": "left" if right > 0 else "right", "yanchor": ("middle", "bottom", "top")[up]}
+    at |= {"xshift": 7 * right, "yshift": 5 * up}
     look = {"font": {"size": 12, "color": DARK}, "bgcolor": "rgba(255, 255, 255, 0.8)", "borderpad": 1}
+    look["showarrow"] = False
     return [
         {"x": x, "y": y, "text": escaped(words)} | at | look
         for words, x, y in zip(curve.words, numbers(curve.x), numbers(curve.y))
@@ -207,12 +176,8 @@ def _traces(curve: Curve, chart: Chart) -> list[dict]:
         marker = {"size": 9, "color": "white", "line": {"color": curve.colour, "width": 1.6}}
     filled = {"fill": "toself", "fillcolor": curve.fill} if curve.fill else {}
     hover = {"hoverinfo": "skip"} if chart.equal else {}
-    return [
-        {"type": "scatter", "x": x, "y": y, "mode": curve.mode, "line": line, "marker": marker, "connectgaps": False}
-        | filled
-        | hover
-        | named
-    ]
+    drawn = {"type": "scatter", "x": x, "y": y, "mode": curve.mode, "line": line, "marker": marker}
+    return [drawn | {"connectgaps": False} | filled | hover | named]
 
 
 def _places(curve: Curve, chart: Chart) -> np.ndarray:
@@ -220,5 +185,5 @@ def _places(curve: Curve, chart: Chart) -> np.ndarray:
     y = np.asarray(curve.y, dtype=float)
     if chart.x_range is None or len(y) <= MOST_POINTS:
         return thinned(y)
-    shown = np.flatnonzero((curve.x >= chart.x_range[0]) & (curve.x <= chart.x_range[1]))
+    shown = np.flatnonzero(chart.in_range(curve.x))
     return np.union1d(thinned(y), shown) if len(shown) <= MOST_POINTS else thinned(y)

@@ -3,9 +3,9 @@
 import math
 
 from fenics_gears.results.summary import result_rows
-from fenics_gears.show.panels import digits
-from fenics_gears.show.run import Run
 
+from ..panels import digits
+from ..run import Run
 from .page import Beside, Facts, Section, Table, Words
 
 # What the summary that `gears run` prints leaves out.
@@ -39,15 +39,9 @@ def _round_off(name: str, attributes) -> bool:
 
 def _contact_points(run: Run) -> Table:
     dataset, timed = run.dataset, "sliding_speed" in run.dataset
-    headings = (
-        "Point",
-        "Pinion (mm)",
-        "Wheel (mm)",
-        *(("Sliding speed (m/s)",) if timed else ()),
-        "Specific sliding, pinion",
-        "Specific sliding, wheel",
-        "Share in the mesh force",
-    )
+    speed = ("Sliding speed (m/s)",) if timed else ()
+    sliding = "Specific sliding, pinion", "Specific sliding, wheel"
+    headings = ("Point", "Pinion (mm)", "Wheel (mm)", *speed, *sliding, "Share in the mesh force")
     words = dict(zip("ABCDE", ("start of contact", "LPSTC", "pitch point", "HPSTC", "end of contact")))
     rows = []
     for point in dataset["path_point"].values.tolist():

@@ -24,12 +24,8 @@ def version_section(attributes: dict, file: Path) -> Section:
     ]
     blocks = [Facts(rows)]
     if computed != fenics_gears.__version__:
-        blocks.append(
-            Words(
-                f"The result was computed by version {computed}, this page is made by {fenics_gears.__version__}.",
-                warns=True,
-            )
-        )
+        made = f"The result was computed by version {computed}, this page is made by {fenics_gears.__version__}."
+        blocks.append(Words(made, warns=True))
     return Section("versions", "Versions", blocks)
 
 

@@ -4,12 +4,10 @@ import math
 from collections.abc import Iterator
 
 from fenics_gears.results.contact_variables import largest_normal_force
-from fenics_gears.show.panels import digits, factor
-from fenics_gears.show.run import Run, load_in_words
 
+from ..panels import digits, factor
+from ..run import Run, load_in_words
 from .page import Section, Tile, Tiles, Words, sentence
-
-GEARS = ("pinion", "wheel")
 
 
 def summary(run: Run) -> Section:
@@ -40,19 +38,13 @@ def _tiles(run: Run) -> Iterator[Tile]:
     ):
         angle = attributes.get(name, math.nan)
         if math.isfinite(angle) and math.isfinite(run.micrometres):
-            yield Tile(
-                label + part,
-                digits(angle * run.micrometres),
-                "µm",
-                f"{digits(angle * factor('rad', 'µrad'))} µrad of the wheel",
-            )
+            note = f"{digits(angle * factor('rad', 'µrad'))} µrad of the wheel"
+            yield Tile(label + part, digits(angle * run.micrometres), "µm", note)
     if "normal_force" in dataset:
         largest, note = largest_normal_force(dataset), ""
         # Both along the contact normal, which leans by the base helix angle from the transverse line of action.
-        nominal = (
-            0.0 if run.pair is None else abs(run.scene.load.wheel_torque) / run.pair.wheel.base_radius / run.pair.cosine
-        )
-        if nominal:
+        if run.pair is not None and run.scene.load.wheel_torque:
+            nominal = abs(run.scene.load.wheel_torque) / run.pair.wheel.base_radius / run.pair.cosine
             note = f"{largest / nominal:.3f} times that of the torque without friction, {digits(nominal)} N"
         yield Tile("Largest mesh force", digits(largest), "N", note)
     if "peak_contact_pressure" in attributes:
@@ -61,12 +53,8 @@ def _tiles(run: Run) -> Iterator[Tile]:
         yield Tile("Peak contact pressure", digits(attributes["peak_contact_pressure"]), "MPa", where)
     if "root_stress_maximum" in dataset:
         largest = dataset["root_stress_maximum"].max(["time", "slot"]).values
-        yield Tile(
-            "Largest root stress",
-            digits(float(largest.max())),
-            "MPa",
-            f"pinion {digits(largest[0])}, wheel {digits(largest[1])}",
-        )
+        note = f"pinion {digits(largest[0])}, wheel {digits(largest[1])}"
+        yield Tile("Largest root stress", digits(float(largest.max())), "MPa", note)
     if "dynamic_factor_by_force" in attributes:
         yield Tile("Dynamic factor", f"{attributes['dynamic_factor_by_force']:.3f}", "", "by force of a tooth pair")
     if "friction_loss" in attributes:
@@ -78,14 +66,12 @@ def _tiles(run: Run) -> Iterator[Tile]:
     if "face_load_factor" in attributes:
         yield Tile("Face load factor", f"{attributes['face_load_factor']:.3f}")
     if attributes.get("contact_loss_count"):
-        share = 100.0 * attributes["contact_loss_share"]
-        wheel_drives = run.scene is not None and run.scene.load.wheel_torque < 0.0
-        yield Tile(
-            "Contact of the drive flanks lost" if "coast_normal_force" in dataset else "Contact lost",
-            *counted(attributes["contact_loss_count"], "time").split(),
-            f"{share:.3g} % of the time{_longest(run)}, by up to {1e3 * attributes['contact_loss_opening']:.3g} µm"
-            + ("; the wheel drives, on the coast flanks" if wheel_drives else ""),
-        )
+        share, opening = 100.0 * attributes["contact_loss_share"], 1e3 * attributes["contact_loss_opening"]
+        note = f"{share:.3g} % of the time{_longest(run)}, by up to {opening:.3g} µm"
+        if run.scene is not None and run.scene.load.wheel_torque < 0.0:
+            note += "; the wheel drives, on the coast flanks"
+        label = "Contact of the drive flanks lost" if "coast_normal_force" in dataset else "Contact lost"
+        yield Tile(label, *counted(attributes["contact_loss_count"], "time").split(), note)
 
 
 def _longest(run: Run) -> str:
@@ -96,23 +82,18 @@ def _longest(run: Run) -> str:
 def _conditions(run: Run) -> Iterator[Tile]:
     if run.scene is None:
         return
-    teeth, motion, ramp = (
-        [getattr(run.scene.gears, gear).teeth for gear in GEARS],
-        run.scene.motion,
-        run.scene.speed_ramp,
-    )
+    gears, motion, ramp = run.scene.gears, run.scene.motion, run.scene.speed_ramp
+    teeth = gears.pinion.teeth, gears.wheel.teeth
     torque = run.scene.load.wheel_torque * factor("N mm", "N m")
     power = f", {load_in_words(run.scene)}" if run.scene.load.given == "power" else ""
-    yield Tile(
-        "Torque on the wheel", digits(torque), "N m", f"{digits(torque * teeth[0] / teeth[1])} N m on the pinion{power}"
-    )
+    note = f"{digits(torque * teeth[0] / teeth[1])} N m on the pinion{power}"
+    yield Tile("Torque on the wheel", digits(torque), "N m", note)
     if ramp is not None:
         yield Tile("Mesh frequency", f"{digits(motion.mesh_frequency)} to {digits(ramp.end_frequency)}", "Hz")
     elif motion.speed_given:
         turns = [digits(motion.mesh_frequency / count * factor("1/s", "1/min")) for count in teeth]
-        yield Tile(
-            "Mesh frequency", digits(motion.mesh_frequency), "Hz", f"pinion {turns[0]} rpm, wheel {turns[1]} rpm"
-        )
+        note = f"pinion {turns[0]} rpm, wheel {turns[1]} rpm"
+        yield Tile("Mesh frequency", digits(motion.mesh_frequency), "Hz", note)
 
 
 def counted(number: int, thing: str) -> str:

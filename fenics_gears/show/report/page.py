@@ -1,10 +1,10 @@
 """The parts of a report's page: sections of words, tables, charts and pictures. The template decides how they look."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from fenics_gears.show.chart import Chart
+from ..chart import Chart
 
 
 @dataclass(frozen=True)
@@ -34,8 +34,7 @@ class Tiles:
 
 @dataclass(frozen=True)
 class Cell:
-    """A table's cell: its text, a number to sort by, a page beside this one that it leads to, and whether it is a word
-    of warning."""
+    """A table's cell: its text, a number to sort by, a page that it leads to, and whether it is a word of warning."""
 
     text: str
     value: float | None = None
@@ -60,12 +59,8 @@ class Table:
         return [[self._cell(each, column) for column, each in enumerate(row)] for row in self.rows]
 
     def _cell(self, each: Cell | str, column: int) -> Cell:
-        number = column >= self.numbers
-        return (
-            Cell(each, number=number)
-            if isinstance(each, str)
-            else Cell(each.text, each.value, each.link, each.warns, number)
-        )
+        cell = Cell(each) if isinstance(each, str) else each
+        return replace(cell, number=column >= self.numbers)
 
 
 @dataclass(frozen=True)
@@ -127,7 +122,7 @@ def sentence(name: str, heading: str, text: str, warns: bool = False) -> Section
 @dataclass(frozen=True)
 class Page:
     """A whole report; `subject`: of what ("Run", "Study"); `subtitle`: its conditions; `alarm`: what must be known
-    before anything."""
+    first."""
 
     subject: str
     title: str

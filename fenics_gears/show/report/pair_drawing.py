@@ -6,47 +6,42 @@ import numpy as np
 
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.outline import tooth_outline
+from fenics_gears.geometry.outline import tip_corner, tooth_outline
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.show.chart import MARKERS, Chart, Curve
-from fenics_gears.show.panels import DARK, GREY, PALETTE
-from fenics_gears.show.stress_grid import upright
 from fenics_gears.simulation.run_stresses import standing
+
+from ..chart import MARKERS, Chart, Curve
+from ..panels import DARK, GREY, PALETTE
+from ..stress_grid import upright
 
 FILLET_POINTS, INVOLUTE_POINTS, CIRCLE_POINTS = 9, 14, 181
 FILLS = ("#DCE9F3", "#F3E6DA")
 
 
 def drawings(pair: GearPair, coast: bool = False) -> list[Chart]:
-    """The whole pair, and the teeth along the path of contact, a tooth pair touching at the pitch point with its drive
-    or coast flanks."""
+    """The whole pair, and the teeth along the path of contact, a pair touching at the pitch point with drive or coast
+    flanks."""
     phase = (pair.pitch_point - pair.path_start) / pair.base_pitch
     teeth = [gear_outline(pair, gear, phase, coast) for gear in (0, 1)]
     drawn = "Line of centres upright, the pinion above; flanks without relief and errors, which are micrometres."
     note = f"{drawn} Drag to zoom, double click to come back."
     caption = "Teeth along the path of contact" + (" of the coast flanks, which carry" if coast else "")
+    whole, close = (_curves(pair, teeth, coast, labels) for labels in (False, True))
     return [
-        _drawing("The pair", note, 620, _curves(pair, teeth, coast, labels=False), *_whole(pair)),
-        _drawing(
-            caption, _points_in_words(pair, coast), 560, _curves(pair, teeth, coast, labels=True), *_teeth(pair, coast)
-        ),
+        _drawing("The pair", note, 620, whole, *_whole(pair)),
+        _drawing(caption, _points_in_words(pair, coast), 560, close, *_teeth(pair, coast)),
     ]
 
 
 def _drawing(caption: str, note: str, height: int, curves: list[Curve], middle: np.ndarray, half: float) -> Chart:
     (left, bottom), (right, top) = middle - half, middle + half
-    return Chart(
-        caption, curves, "x (mm)", "y (mm)", note, height, x_range=(left, right), y_range=(bottom, top), equal=True
-    )
+    ends = {"x_range": (left, right), "y_range": (bottom, top)}
+    return Chart(caption, curves, "x (mm)", "y (mm)", note, height, equal=True, **ends)
 
 
 def gear_outline(pair: GearPair, gear: int, phase: float, coast: bool = False) -> np.ndarray:
-    """Outline (n, 2), mm, of a gear where it stands at a phase of the mesh cycle, tooth after tooth, closed; line of
-    centres upright.
-
-    coast: with the coast flanks where the drive flanks are at that phase, which is the mirror image at the line of
-    centres.
-    """
+    """Outline (n, 2), mm, of a gear at a phase of the mesh cycle, tooth after tooth, closed; line of centres upright.
+    coast: with the coast flanks where the drive flanks are at that phase."""
     centre, angles = standing(pair, gear, phase)
     tooth = _tooth((pair.pinion, pair.wheel)[gear])
     # A tooth's outline runs from its drive side, which lies ahead, to its coast side.
@@ -58,14 +53,10 @@ def _tooth(gear: Gear) -> np.ndarray:
     """One tooth (n, 2) from the middle of the space beside its drive flank to the middle of the other."""
     outline = tooth_outline(gear, FILLET_POINTS)
     involute = outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, INVOLUTE_POINTS))[1:]
-    foot = np.arctan2(outline.fillet[0, 1], outline.fillet[0, 0])
-    space = (
-        outline.centreline_angle
-        + np.remainder(outline.space_angle - outline.centreline_angle + np.pi, 2 * np.pi)
-        - np.pi
-    )
+    foot, middle = np.arctan2(outline.fillet[0, 1], outline.fillet[0, 0]), outline.centreline_angle
+    space = middle + np.remainder(outline.space_angle - middle + np.pi, 2 * np.pi) - np.pi
     land = _arc(gear.root_radius, space, space + np.remainder(foot - space + np.pi, 2 * np.pi) - np.pi)
-    chamfer = [outline.tip_corner] if gear.tip_chamfer else []
+    chamfer = [tip_corner(gear)] if gear.tip_chamfer else []
     half = np.vstack([land[:-1], outline.fillet, involute, *chamfer])
     return np.vstack([half, outline.coast(half)[::-1]])
 
@@ -94,21 +85,10 @@ def _curves(pair: GearPair, teeth: list[np.ndarray], coast: bool, labels: bool) 
     at, names = _on_line(pair, list(places.values()), coast), list(places)
     # The pitch point lies close to its neighbours, and the path's end has room below alone.
     below = np.array([name in ("pitch point", names[-1]) for name in names])
-    for own, side in (
-        (~below, "top left" if coast else "top right"),
-        (below, "bottom right" if coast else "bottom left"),
-    ):
+    for own, side in zip((~below, below), ("top left", "bottom right") if coast else ("top right", "bottom left")):
         if own.any():
-            line(
-                "points",
-                at[own],
-                DARK,
-                1.6,
-                mode=MARKERS,
-                listed=False,
-                words=np.array(names)[own].tolist(),
-                beside=side,
-            )
+            words = np.array(names)[own].tolist()
+            line("points", at[own], DARK, 1.6, mode=MARKERS, listed=False, words=words, beside=side)
     return curves
 
 
@@ -126,10 +106,8 @@ def _on_line(pair: GearPair, positions: list[float], coast: bool = False) -> np.
 
 
 def _points(pair: GearPair, coast: bool) -> dict[str, float]:
-    """Positions (mm from T1) of the points on the path of contact; with a contact ratio above 2 no pair is ever alone.
-
-    Coast flanks go along their path the other way, from the pinion's tip to its root.
-    """
+    """Positions (mm from T1) of the points on the path of contact; with a contact ratio above 2 no pair is ever
+    alone."""
     alone = pair.fewest_pairs == 1
     ends = ("end of contact", "start of contact") if coast else ("start of contact", "end of contact")
     names = (ends[0], "LPSTC" if alone else "", "pitch point", "HPSTC" if alone else "", ends[1])
@@ -138,15 +116,12 @@ def _points(pair: GearPair, coast: bool) -> dict[str, float]:
 
 
 def _points_in_words(pair: GearPair, coast: bool) -> str:
-    words = "; ".join(
-        f"{name} {place:.2f} mm ({degrees(pair.pinion_roll_angle(place)):.2f}°)"
-        for name, place in _points(pair, coast).items()
-    )
-    meaning = "LPSTC and HPSTC: lowest and highest point of single tooth contact, of the pinion."
-    return (
-        f"From T1 on the line of action, with the pinion's roll angle: {words}."
-        f" {meaning if pair.fewest_pairs == 1 else ''}".strip()
-    )
+    points = _points(pair, coast).items()
+    words = [f"{name} {place:.2f} mm ({degrees(pair.pinion_roll_angle(place)):.2f}°)" for name, place in points]
+    said = f"From T1 on the line of action, with the pinion's roll angle: {'; '.join(words)}."
+    if pair.fewest_pairs > 1:
+        return said
+    return f"{said} LPSTC and HPSTC: lowest and highest point of single tooth contact, of the pinion."
 
 
 def _whole(pair: GearPair) -> tuple[np.ndarray, float]:

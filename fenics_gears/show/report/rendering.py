@@ -1,5 +1,4 @@
-"""A page as HTML: the template filled, plotly's library and all pictures inside, nothing to be fetched from
-anywhere."""
+"""A page as HTML: the template filled, plotly's library and all pictures inside."""
 
 import base64
 import gzip
@@ -8,10 +7,9 @@ from functools import cache
 from importlib import resources
 from typing import Any
 
-from fenics_gears.show.chart import Chart
-from fenics_gears.show.drawing import still
-from fenics_gears.show.panels import digits
-
+from ..chart import Chart
+from ..drawing import still
+from ..panels import digits
 from .interactive import figure, height
 from .page import Beside, Block, Fold, Page
 
@@ -43,8 +41,7 @@ def rendered(page: Page) -> str:
 
 @cache
 def plotly_library() -> str:
-    """Plotly's browser library, gzip in base64: Debian ships it without white space removed, 9 MB, which a page should
-    not have. Empty where plotly is not installed: charts stay images then."""
+    """Plotly's browser library, gzip in base64; empty where plotly is not installed: charts stay images then."""
     try:
         from plotly.offline import get_plotlyjs
     except ImportError:
@@ -68,8 +65,7 @@ def _figure(chart: Chart):
 
 
 def _still(chart: Chart) -> str:
-    """The same chart as an image, for paper, for browsers without scripts and for whoever photographs the page at
-    once."""
+    """The same chart as an image, for paper and browsers without scripts."""
     return _base64(still(chart))
 
 

@@ -3,10 +3,10 @@
 import numpy as np
 
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.show.chart import MARKED_LINES, Chart, Curve, over_time, span
-from fenics_gears.show.panels import PALETTE, factor, in_unit
-from fenics_gears.show.run import TOO_FEW, Run
 
+from ..chart import MARKED_LINES, Chart, Curve, over_time, span
+from ..panels import PALETTE, factor, in_unit
+from ..run import TOO_FEW, Run
 from .page import Section, sentence
 
 HEADING = "Root stress"
@@ -33,15 +33,8 @@ def _over_time(run: Run) -> list[Chart]:
             (words, each, PALETTE[number % len(PALETTE)])
             for words, each, number in run.of_pairs("root_stress_maximum", "MPa", gear=gear)
         ]
-        plots.append(
-            over_time(
-                run,
-                f"Largest tension in the fillets of the {gear}, tooth by tooth",
-                "Stress (MPa)",
-                curves,
-                least=least,
-            )
-        )
+        caption = f"Largest tension in the fillets of the {gear}, tooth by tooth"
+        plots.append(over_time(run, caption, "Stress (MPa)", curves, least=least))
     section = run.dataset["root_stress_at_30_degrees"].transpose("time", "gear", "fillet", "slot")
     at_section = in_unit(section, "MPa")
     curves = [
@@ -91,15 +84,8 @@ def _along_fillets(run: Run) -> list[Chart]:
             "From the form circle, left, to the root circle, right, where the tangent lies across the tooth; tension"
             " positive."
         )
-        plots.append(
-            Chart(
-                caption,
-                curves,
-                "Angle between the fillet's tangent and the tooth's centreline (°)",
-                "Stress (MPa)",
-                note=note,
-            )
-        )
+        title = "Angle between the fillet's tangent and the tooth's centreline (°)"
+        plots.append(Chart(caption, curves, title, "Stress (MPa)", note=note))
     return plots
 
 
@@ -108,10 +94,5 @@ def _over_face(run: Run, gear: str, largest: np.ndarray) -> Chart:
     z = run.dataset["face_position"].values
     curve = Curve(gear, z, largest, PALETTE[0], mode=MARKED_LINES)
     caption = f"Over the face of the {gear}, of the tooth and at the time of its largest tension"
-    return Chart(
-        caption,
-        [curve],
-        "Place along the face, from its middle (mm)",
-        "Tension (MPa)",
-        note="Of each slice of the face the largest in both fillets.",
-    )
+    note = "Of each slice of the face the largest in both fillets."
+    return Chart(caption, [curve], "Place along the face, from its middle (mm)", "Tension (MPa)", note=note)

@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 from fenics_gears.results.carried_scene import changed_files
 from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.show.run import Run, conditions
 from fenics_gears.system.progress import Progress, SilentProgress
 
+from ..run import Run, conditions
 from .curves import forces, motion, pressure, spectra
 from .effects import effects
 from .energy import energy
@@ -22,21 +22,9 @@ from .stress import stress
 
 # Pictures before tables: who reads the page looks first.
 SECTIONS: tuple[Callable[[Run], Section | None], ...] = (
-    summary,
-    warnings,
-    motion,
-    forces,
-    pressure,
-    face,
-    stress,
-    root_stress,
-    spectra,
-    geometry,
-    numbers,
-    effects,
-    energy,
+    summary, warnings, motion, forces, pressure, face, stress, root_stress, spectra, geometry, numbers, effects, energy,
     solver,
-)
+)  # fmt: skip
 
 
 def run_page(run: Run, progress: Progress | None = None) -> Page:
@@ -50,18 +38,14 @@ def run_page(run: Run, progress: Progress | None = None) -> Page:
             sections.append(section)
     attributes = run.dataset.attrs
     remarks = [] if run.scene is None else changed_files(run.dataset, run.scene)
-    sections += [
-        version_section(attributes, run.file),
-        scene_section(str(attributes.get("scene", "")), remarks=remarks),
-    ]
+    scene = scene_section(str(attributes.get("scene", "")), remarks=remarks)
+    sections += [version_section(attributes, run.file), scene]
     progress.update(len(SECTIONS), len(SECTIONS))
-    title = " ".join(str(attributes.get("title", "")).split()) or run.file.stem
     subtitle = conditions(run.scene) if run.scene is not None else ""
-    return Page("Gear pair: report on a run", title, subtitle, sections, made_by(), _alarm(run))
+    return Page("Gear pair: report on a run", run.title or run.file.stem, subtitle, sections, made_by(), _alarm(run))
 
 
 def _alarm(run: Run) -> str:
-    """What must be known before any number: that steps are missing, that the numbers have no meaning."""
     said = str(run.dataset.attrs.get("warnings", "")).splitlines()
     without_meaning = [f"NO MEANING: {each}." for each in said if NO_MEANING in each]
     return " ".join([*_incomplete(run), *without_meaning])

@@ -4,10 +4,10 @@ from fenics_gears.errors import GearsError
 from fenics_gears.model.description import describe
 from fenics_gears.results.numbers import RUNG
 from fenics_gears.results.summary import solver_rows, stage_rows
-from fenics_gears.show.chart import over_time
-from fenics_gears.show.panels import PALETTE
-from fenics_gears.show.run import Run
 
+from ..chart import over_time
+from ..panels import PALETTE
+from ..run import Run
 from .page import Beside, Block, Facts, Section, Table, Words
 
 # What `gears check` says of a scene that is not said elsewhere on the page.
@@ -20,11 +20,8 @@ def solver(run: Run) -> Section:
     attributes = run.dataset.attrs
     methods = [(name.removeprefix(RUNG), int(count)) for name, count in attributes.items() if name.startswith(RUNG)]
     of_run = {"steps": "steps of the whole run", "newton_iterations_total": "Newton iterations of the whole run"}
-    rows = (
-        _extent(run)
-        + solver_rows(run.dataset)
-        + [(words, f"{attributes[name]:,}", "") for name, words in of_run.items() if name in attributes]
-    )
+    rows = _extent(run) + solver_rows(run.dataset)
+    rows += [(words, f"{attributes[name]:,}", "") for name, words in of_run.items() if name in attributes]
     statistics: list[Block] = [Facts(rows, "The run"), Facts(stage_rows(run.dataset), "Wall time by stage")]
     if methods:
         every = sum(count for _, count in methods)
@@ -37,16 +34,8 @@ def solver(run: Run) -> Section:
             "closed_nodes": ("Closed contact nodes", "Nodes"),
         }
         for (name, (caption, y_title)), colour in zip(counts.items(), (PALETTE[0], PALETTE[2])):
-            blocks.append(
-                over_time(
-                    run,
-                    caption,
-                    y_title,
-                    [(y_title, run.dataset[name].values.astype(float), colour)],
-                    least=2.0,
-                    height=240,
-                )
-            )
+            curves = [(y_title, run.dataset[name].values.astype(float), colour)]
+            blocks.append(over_time(run, caption, y_title, curves, least=2.0, height=240))
     return Section("solver", "Model and solver", blocks)
 
 
@@ -59,13 +48,10 @@ def _extent(run: Run) -> list[tuple[str, str, str]]:
 
 
 def _described(run: Run) -> Block:
-    """Model, accuracy and natural frequencies; why not, where the scene needs what is not here, such as files of
-    meshes."""
+    """Model, accuracy and natural frequencies; why not, where files of the scene are missing."""
     try:
         sections = () if run.scene is None else describe(run.scene)
     except GearsError as error:
-        return Words(
-            "Model and accuracy cannot be described without the files that the scene was run with:"
-            f" {str(error).splitlines()[0]}"
-        )
+        missing = "Model and accuracy cannot be described without the files that the scene was run with"
+        return Words(f"{missing}: {str(error).splitlines()[0]}")
     return Beside([Facts(rows, heading) for heading, rows in sections if heading.startswith(DESCRIBED)])

@@ -7,10 +7,10 @@ import xarray as xr
 
 from fenics_gears.errors import GearsError
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.show.chart import Chart
-from fenics_gears.show.run import NO_SCENE, Run
 from fenics_gears.simulation.stored_forces import stored_index
 
+from ..chart import Chart
+from ..run import NO_SCENE, Run
 from .page import Picture, Section, sentence
 
 HEADING = "Stress in the gears"
@@ -54,8 +54,9 @@ def _most_loaded(dataset: xr.Dataset) -> int:
 
 
 def _drawn(run: Run, index: int) -> tuple[bytes, str, list[Chart]]:
-    from fenics_gears.show.stress_picture import charts_of, save_picture, still
     from fenics_gears.simulation.run_stresses import RunStresses
+
+    from ..stress_picture import charts_of, save_picture, still
 
     with RunStresses(run.dataset, run.scene) as stresses:
         mesh = stresses.at(index)

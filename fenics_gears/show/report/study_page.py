@@ -6,19 +6,20 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from fenics_gears.show.cases import LISTED_CASES, STATES, Cases
-from fenics_gears.show.chart import Chart, Curve
-from fenics_gears.show.panels import PALETTE, digits
-from fenics_gears.show.study_charts import effort_charts, result_charts
 from fenics_gears.system.progress import Progress, SilentProgress
 
+from ..cases import LISTED_CASES, STATES, Cases
+from ..chart import Chart, Curve
+from ..panels import PALETTE, digits
+from ..study_charts import effort_charts, result_charts
 from .origin import made_by, scene_section, version_section
 from .overview import counted
-from .page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words
+from .page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words, sentence
 
 # A browser sorts and lays out this many rows at once.
 MOST_ROWS = 2000
 MOST_FAILURES = 200
+NO_RESULT = "No case has a result yet."
 STATE_WORDS = dict(zip(STATES, ("done without warnings", "done with warnings", "failed", "not computed yet")))
 
 
@@ -33,50 +34,32 @@ def study_page(dataset: xr.Dataset, file: Path, output: Path, progress: Progress
         scene_section(str(attributes.get("scene", "")), "Base scene"),
     ]  # fmt: skip
     title = " ".join(str(attributes.get("title", "")).split()) or file.parent.name
-    swept = ", ".join(
-        f"{field.called} ({counted(len(set(map(str, field.values.tolist()))), 'value')})" for field in cases.fields
-    )
-    return Page(
-        "Gear pair: report on a study",
-        title,
-        f"{counted(cases.count, 'case')} over {swept}",
-        sections,
-        made_by(),
-        _alarm(cases),
-    )
+    values = {field.called: len(set(map(str, field.values.tolist()))) for field in cases.fields}
+    swept = ", ".join(f"{name} ({counted(count, 'value')})" for name, count in values.items())
+    subtitle = f"{counted(cases.count, 'case')} over {swept}"
+    return Page("Gear pair: report on a study", title, subtitle, sections, made_by(), _alarm(cases))
 
 
 def _alarm(cases: Cases) -> str:
     counts = Counter(cases.states)
-    parts = [f"{counts[state]} {STATE_WORDS[state]}" for state in STATES[2:] if counts[state]]
-    return (
-        f"INCOMPLETE STUDY: of {cases.count} cases {', '.join(parts)}. Run the study again for these." if parts else ""
-    )
+    parts = ", ".join(f"{counts[state]} {STATE_WORDS[state]}" for state in STATES[2:] if counts[state])
+    return f"INCOMPLETE STUDY: of {cases.count} cases {parts}. Run the study again for these." if parts else ""
 
 
 def _summary(cases: Cases) -> Section:
     counts = Counter(cases.states)
-    tiles = [
-        Tile(
-            "Cases",
-            f"{cases.count:,}",
-            "",
-            ", ".join(f"{counts[state]:,} {words}" for state, words in STATE_WORDS.items() if counts[state]),
-        )
-    ]
+    states = ", ".join(f"{counts[state]:,} {words}" for state, words in STATE_WORDS.items() if counts[state])
+    tiles = [Tile("Cases", f"{cases.count:,}", "", states)]
     for values, unit, name in cases.measures.values():
         far_off = cases.far_off(values)
         known = values[np.isfinite(values) & ~far_off]
         if len(known):
             least, largest = digits(known.min()), digits(known.max())
-            median = f"median {digits(np.median(known))} {unit}" if least != largest else ""
-            note = ", ".join(
-                filter(
-                    None,
-                    [median, f"without {counted(int(far_off.sum()), 'case')} of no meaning" if far_off.any() else ""],
-                )
-            )
-            tiles.append(Tile(name, f"{least} – {largest}" if median else least, unit, note))
+            notes = [f"median {digits(np.median(known))} {unit}"] if least != largest else []
+            shown = f"{least} – {largest}" if notes else least
+            if far_off.any():
+                notes.append(f"without {counted(int(far_off.sum()), 'case')} of no meaning")
+            tiles.append(Tile(name, shown, unit, ", ".join(notes)))
     rows = []
     for field in cases.fields:
         values = list(dict.fromkeys(field.words(case) for case in range(cases.count)))
@@ -88,7 +71,7 @@ def _summary(cases: Cases) -> Section:
 def _failures(cases: Cases) -> Section:
     failed = [case for case, state in enumerate(cases.states) if state == STATES[2]]
     if not failed:
-        return Section("failures", "Failures", [Words("None.")])
+        return sentence("failures", "Failures", "None.")
     reasons = cases.texts("failure")
     rows = [(str(case), cases.words(case), Cell(reasons[case], warns=True)) for case in failed[:MOST_FAILURES]]
     blocks: list[Block] = [Table(("Case", "Values", "Why"), rows, numbers=9)]
@@ -104,60 +87,40 @@ def _warnings(cases: Cases) -> Section:
     said: dict[str, list[tuple[int, str]]] = {}
     for case, text in enumerate(cases.texts("warnings")):
         for line in text.splitlines():
-            said.setdefault("".join(each for each in line if not each.isdigit() and each not in ".+-e"), []).append(
-                (case, line)
-            )
+            kind = "".join(each for each in line if not each.isdigit() and each not in ".+-e")
+            said.setdefault(kind, []).append((case, line))
     blocks = []
     for found in sorted(said.values(), key=len, reverse=True):
-        listed = ", ".join(
-            [str(case) for case, _ in found[:LISTED_CASES]] + (["…"] if len(found) > LISTED_CASES else [])
-        )
-        of = (
-            f"In all {cases.count} cases"
-            if len(found) == cases.count
-            else f"In {len(found)} of {cases.count} cases ({listed})"
-        )
+        of = f"In all {cases.count} cases"
+        if len(found) < cases.count:
+            listed = [str(case) for case, _ in found[:LISTED_CASES]] + ["…"] * (len(found) > LISTED_CASES)
+            of = f"In {len(found)} of {cases.count} cases ({', '.join(listed)})"
         others = " (numbers of the first)" if len({line for _, line in found}) > 1 else ""
         blocks.append(Words(f"{of}: {found[0][1]}{others}", warns=True))
     return Section("warnings", "Warnings", blocks or [Words("None: every run stayed within what the model assumes.")])
 
 
 def _results(cases: Cases) -> Section:
-    return Section(
-        "results",
-        "Results over the parameters",
-        list(result_charts(cases).values()) or [Words("No case has a result yet.", warns=True)],
-    )
+    charts = list(result_charts(cases).values())
+    return Section("results", "Results over the parameters", charts or [Words(NO_RESULT, warns=True)])
 
 
 def _standing_out(cases: Cases) -> Section:
     heading, scale, unit = "Cases that stand out", *cases.error_scale
-    chosen = [
-        (case, why, run)
-        for case, why in standing_out(cases).items()
-        if (run := cases.run(case)) is not None and run.sizes.get("time", 0)
-    ]
+    found = ((case, why, cases.run(case)) for case, why in standing_out(cases).items())
+    chosen = [(case, why, run) for case, why, run in found if run is not None and run.sizes.get("time", 0)]
     if not chosen:
-        return Section("outstanding", heading, [Words("There is no file of a case to show one from.")])
+        return sentence("outstanding", heading, "There is no file of a case to show one from.")
     curves, links = [], []
     for (case, why, run), colour in zip(chosen, PALETTE):
-        phase = run["mesh_phase"].values
-        curves.append(
-            Curve(f"case {case}", phase - np.floor(phase[0]), run["transmission_error"].values * scale, colour)
-        )
+        phase, error = run["mesh_phase"].values, run["transmission_error"].values * scale
+        curves.append(Curve(f"case {case}", phase - np.floor(phase[0]), error, colour))
         file = Cell(cases.texts("case_file")[case], link=cases.link(case))
         links.append((str(case), cases.words(case), ", ".join(why), file))
-    drawn = Chart(
-        "Transmission error",
-        curves,
-        "Time (mesh cycles since the first recorded one)",
-        f"Transmission error ({unit})",
-        height=360,
-    )
+    title = "Time (mesh cycles since the first recorded one)"
+    drawn = Chart("Transmission error", curves, title, f"Transmission error ({unit})", height=360)
     said = Table(("Case", "Values", "Has the", "File"), links, numbers=9)
-    command = Words(
-        "`gears report DIR/cases/FILE.nc` makes a whole report on a case; the table of cases then leads to it."
-    )
+    command = Words("`gears report DIR/cases/FILE.nc` makes a report on a case; the table of cases then leads to it.")
     return Section("outstanding", heading, [said, drawn, command])
 
 
@@ -180,17 +143,11 @@ def standing_out(cases: Cases) -> dict[int, list[str]]:
 
 
 def _table(cases: Cases) -> Section:
-    measures = {name: (values, unit) for name, (values, unit, _) in cases.measures.items()} | {
-        "wall_time": (cases.numbers("wall_time"), "s")
-    }
+    measures = [(values, unit) for values, unit, _ in cases.measures.values()]
+    measures.append((cases.numbers("wall_time"), "s"))
     names = ("T_EPP", "Mean error", "Largest force", "Wall time")
-    headings = [
-        "Case",
-        *(field.title for field in cases.fields),
-        "State",
-        *(f"{name} ({unit})" for name, (_, unit) in zip(names, measures.values())),
-        "Newton iterations",
-    ]
+    measured = [f"{name} ({unit})" for name, (_, unit) in zip(names, measures)]
+    headings = ["Case", *(field.title for field in cases.fields), "State", *measured, "Newton iterations"]
     rows, states, iterations = [], cases.states, cases.numbers("newton_iterations")
     for case in range(min(cases.count, MOST_ROWS)):
         swept = [
@@ -199,7 +156,7 @@ def _table(cases: Cases) -> Section:
         state = Cell(states[case], warns=states[case] in STATES[1:3])
         numbers = [
             Cell(f"{values[case]:#.4g}".rstrip(".") if np.isfinite(values[case]) else "", float(values[case]))
-            for values, _ in measures.values()
+            for values, _ in measures
         ]
         count = Cell(f"{iterations[case]:.0f}" if np.isfinite(iterations[case]) else "", float(iterations[case]))
         rows.append([Cell(str(case), float(case), cases.link(case)), *swept, state, *numbers, count])
@@ -211,18 +168,16 @@ def _table(cases: Cases) -> Section:
         )
     ]
     if cases.count > MOST_ROWS:
-        blocks.append(
-            Words(f"The first {MOST_ROWS:,} of {cases.count:,} cases; the file {cases.file.name} has all.", warns=True)
-        )
-    return Section(
-        "cases", "Table of cases", [*blocks, Table(headings, rows, sortable=True, numbers=len(cases.fields) + 2)]
-    )
+        fewer = f"The first {MOST_ROWS:,} of {cases.count:,} cases; the file {cases.file.name} has all."
+        blocks.append(Words(fewer, warns=True))
+    blocks.append(Table(headings, rows, sortable=True, numbers=len(cases.fields) + 2))
+    return Section("cases", "Table of cases", blocks)
 
 
 def _effort(cases: Cases) -> Section:
     times, iterations = cases.numbers("wall_time"), cases.numbers("newton_iterations")
     if not np.isfinite(times).any():
-        return Section("effort", "Solver and effort", [Words("No case has a result yet.", warns=True)])
+        return sentence("effort", "Solver and effort", NO_RESULT, True)
     steps = cases.numbers("steps_per_mesh_cycle")
     known = steps[np.isfinite(steps)]
     rows = [

@@ -23,7 +23,7 @@ def standing_anywhere(mesh: BodyMesh) -> BodyMesh:
 @pytest.mark.parametrize("name", ["P2", "Q1 incompatible"])
 def test_a_whole_gear_of_equal_teeth_is_a_ring_of_sectors(name):
     """Exact identity: the same mesh, once as a ring, once as a whole whose flanks had to be found."""
-    body = whole_body(standing_anywhere(whole_gear_mesh(coarse_sector_mesh(name), PINION.teeth)), PINION, "gear")
+    body = whole_body(standing_anywhere(whole_gear_mesh(coarse_sector_mesh(name), PINION.teeth)), PINION)
     found = whole_body_compliance(body.mesh, PINION, STEEL, element=name, tooth_offsets=2)
     ring = ring_compliance(coarse_condensed_sector(name), PINION.teeth, 2) / STEEL.youngs_modulus
     for tooth in (0, 7, 15):
@@ -36,7 +36,7 @@ def test_a_whole_gear_of_equal_teeth_is_a_ring_of_sectors(name):
 
 def test_a_cracked_gear_equals_brute_force():
     """Exact identity: the whole gear's stiffness condensed at once, for the cracked tooth and its neighbours loaded."""
-    body = whole_body(cracked_gear_mesh(PINION, COARSE, {8: RootCrack(3.0)}), PINION, "gear")
+    body = whole_body(cracked_gear_mesh(PINION, COARSE, {8: RootCrack(3.0)}), PINION)
     found = whole_body_compliance(body.mesh, PINION, STEEL, element="P1", tooth_offsets=2)
     for loaded in (7, 8):
         brute = whole_gear_compliance(body.mesh, PINION, STEEL, element="P1", loaded_tooth=loaded, tooth_offsets=2)
@@ -50,7 +50,7 @@ def test_a_cracked_gear_equals_brute_force():
 @pytest.mark.nightly
 def test_the_cache_knows_a_body_by_its_mesh(tmp_path):
     """What is kept is what was computed, in another material too; a point moved by a hair is another body."""
-    mesh = whole_body(whole_gear_mesh(coarse_sector_mesh("P1"), PINION.teeth), PINION, "gear").mesh
+    mesh = whole_body(whole_gear_mesh(coarse_sector_mesh("P1"), PINION.teeth), PINION).mesh
     options = {"element": "P1", "tooth_offsets": 1, "cache": Cache(tmp_path)}
     first = whole_body_compliance(mesh, PINION, STEEL, **options)
     again = whole_body_compliance(mesh, PINION, STEEL, **options)

@@ -44,7 +44,7 @@ def work(crack: RootCrack | None) -> np.ndarray:
     """Work of the loads at PLACES on the displacement of their own tooth, cracked or not, from the whole gear's
     compliance."""
     mesh = cracked_gear_mesh(PINION, SIZES, {} if crack is None else {0: crack})
-    found = whole_body_compliance(whole_body(mesh, PINION, "gear").mesh, PINION, STEEL, tooth_offsets=0)
+    found = whole_body_compliance(whole_body(mesh, PINION).mesh, PINION, STEEL, tooth_offsets=0)
     loads = [load_about(place, found.rolls_of(0)) for place in PLACES]
     return np.array([load @ found.between(0, 0) @ load for load in loads])
 

@@ -30,7 +30,7 @@ def cracked_tooth(mesh, gear) -> int:
 def test_the_repositorys_mesh_is_the_papers_pinion_with_its_ninth_tooth_cracked():
     """What the demonstration says of it: 3 mm in tooth 8."""
     pair = model_of(load_scene(SCENE)).pair
-    mesh = whole_body(read_body_mesh(ROOT / "meshes" / "cracked_pinion.msh"), pair.pinion, "mesh").mesh
+    mesh = whole_body(read_body_mesh(ROOT / "meshes" / "cracked_pinion.msh"), pair.pinion).mesh
     assert cracked_tooth(mesh, pair.pinion) == 8
     around = np.unique(mesh.cells[np.concatenate(crack_faces(mesh))])
     points, times = np.unique(np.round(mesh.points[around], 9), axis=0, return_counts=True)
@@ -50,7 +50,7 @@ def test_a_mesh_is_written_for_either_gear(gear, tooth, depth, found, tmp_path, 
     words = [str(SCENE), str(file), "--gear", gear, "--tooth", str(tooth), "--flank-size", "0.8 mm"]
     assert main(words + (["--depth", depth] if depth else [])) == 0
     said, body = capsys.readouterr().out, getattr(model_of(load_scene(SCENE)).pair, gear)
-    mesh = whole_body(read_body_mesh(file), body, "mesh").mesh
+    mesh = whole_body(read_body_mesh(file), body).mesh
     assert f"{len(mesh.points)} points, {len(mesh.cells)} triangles, 0.8 mm along the drive flanks" in said
     assert cracked_tooth(mesh, body) == found
 

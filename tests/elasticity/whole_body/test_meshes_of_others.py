@@ -77,7 +77,7 @@ def bending(rolls: np.ndarray, block: np.ndarray) -> float:
 
 
 def compliance_of(path):
-    mesh = whole_body(read_body_mesh(path), PINION, "gear").mesh
+    mesh = whole_body(read_body_mesh(path), PINION).mesh
     return whole_body_compliance(mesh, PINION, STEEL, tooth_offsets=1)
 
 

@@ -29,7 +29,7 @@ def unnamed(mesh: BodyMesh, points: np.ndarray | None = None) -> BodyMesh:
 @pytest.mark.parametrize("angle", [0.0, 0.15, -0.19, 0.3, 2.0, -3.0])
 def test_the_outline_is_found_at_any_angle_and_tooth_0_is_the_nearest(whole, angle):
     """Exact: the sides that the mesh was made with; the mesh is turned back by less than half a pitch."""
-    found = whole_body(unnamed(whole, whole.points @ rotation(angle).T), PINION, "gear").mesh
+    found = whole_body(unnamed(whole, whole.points @ rotation(angle).T), PINION).mesh
     pitch = PINION.angular_pitch
     steps = round(angle / pitch)
     assert np.abs(found.points - whole.points @ rotation(steps * pitch).T).max() < 1e-9
@@ -93,7 +93,7 @@ def moved(mesh: BodyMesh, part: str, shift: float) -> BodyMesh:
 def test_a_mesh_that_is_not_this_gear_is_named_for_what_it_is(whole, change, message):
     """Each says what, where, and what is allowed."""
     with pytest.raises(SceneError, match=message):
-        whole_body(change(whole), PINION, "gear")
+        whole_body(change(whole), PINION)
 
 
 @pytest.mark.parametrize(
@@ -111,16 +111,16 @@ def test_a_mesh_that_is_not_this_gear_is_named_for_what_it_is(whole, change, mes
 def test_a_mesh_of_another_gear_is_refused(whole, change, message):
     """The scene's gear has another bore, other teeth, thicker teeth."""
     with pytest.raises(SceneError, match=message):
-        whole_body(unnamed(whole), replace(PINION, **change), "gear")
+        whole_body(unnamed(whole), replace(PINION, **change))
 
 
 def test_a_flank_within_the_tolerance_is_taken(whole):
     """Points of a flank half the tolerance off the involute are those of the flank still; twice as far they are not."""
     tolerance = OUTLINE_TOLERANCE * PINION.module
     near = moved(whole, "flank 5", -0.5 * tolerance / PINION.base_radius)
-    assert sides(whole_body(near, PINION, "gear").mesh.edges["flank 5"]) == sides(whole.edges["flank 5"])
+    assert sides(whole_body(near, PINION).mesh.edges["flank 5"]) == sides(whole.edges["flank 5"])
     with pytest.raises(SceneError, match="off the gear's involute"):
-        whole_body(moved(whole, "flank 5", -2.0 * tolerance / PINION.base_radius), PINION, "gear")
+        whole_body(moved(whole, "flank 5", -2.0 * tolerance / PINION.base_radius), PINION)
 
 
 def test_a_crack_that_opens_on_a_flank_is_refused(whole):
@@ -133,7 +133,7 @@ def test_a_crack_that_opens_on_a_flank_is_refused(whole):
         SceneError,
         match="flank of tooth 3, .* is not one line of elements from form circle to tip: it is broken near radius 37",
     ):
-        whole_body(BodyMesh(np.vstack([whole.points, whole.points[middle]]), cells, {}), PINION, "gear")
+        whole_body(BodyMesh(np.vstack([whole.points, whole.points[middle]]), cells, {}), PINION)
 
 
 def test_teeth_need_not_be_meshed_alike():
@@ -146,7 +146,7 @@ def test_teeth_need_not_be_meshed_alike():
     one = sector_mesh(PINION, sizes)
     rolls = np.linspace(PINION.form_roll_angle, PINION.tip_roll_angle, 8)
     other = sector_mesh(PINION, sizes, flank_rolls=rolls)
-    body = whole_body(unnamed(joined_sectors([one, other] * 8)), PINION, "gear")
+    body = whole_body(unnamed(joined_sectors([one, other] * 8)), PINION)
     counts = [len(body.mesh.edges[f"flank {tooth}"]) for tooth in range(16)]
     assert counts == [len(one.edges["flank"]), 7] * 8
 
