@@ -22,7 +22,8 @@ class Arrays(NamedTuple):
     """Those of a contact operator (n nodes, m = n or with friction 2 n, k coordinates) in compiled code, named as
     there: `on_drive_flanks` (n,), `node_pair` (n,), `node_before` (n,) as of a Position.
 
-    `rigid_slip` (n,), `previous_jacobian` (n, k) and `previous_columns` (m before, n), the previous compliance by
+    Jacobians have the columns (`columns`, c) of the coordinates that contact moves, the first of all.
+    `rigid_slip` (n,), `previous_jacobian` (n, c) and `previous_columns` (m before, n), the previous compliance by
     columns, have no rows without friction; `sliding` (n,) has none unless the flanks are rigid as well. `rows` and
     `rows_before`: addresses of what forms rows of the compliance and of those columns (`contact.formed_rows`), 0 where
     all of them are there.
@@ -40,6 +41,7 @@ class Arrays(NamedTuple):
     sliding: np.ndarray
     rows: int = 0
     rows_before: int = 0
+    columns: int = 0
 
 
 # A row: how many contact nodes there are, and the address of each array, 0 where it is not there.
@@ -151,23 +153,24 @@ def close_as_factored(address, status):
 
 
 @njit(cache=True)
-def arrays_of(row, kinds, coordinates, nodes_before):
+def arrays_of(row, kinds, nodes_before):
     """The arrays of a row; `kinds`: forces of a contact node; `nodes_before`: how many there were a step before."""
-    n, k = row.nodes, coordinates
+    n, c = row.nodes, row.columns
     slides = 0 if row.rigid_slip == 0 else n
     return Arrays(
         carray(to_number(row.compliance), (kinds * n, kinds * n)),
-        carray(to_number(row.jacobian), (kinds * n, k)),
+        carray(to_number(row.jacobian), (kinds * n, c)),
         carray(to_number(row.gap), n),
         carray(to_flag(row.on_drive_flanks), n),
         carray(to_integer(row.node_pair), n),
         carray(to_integer(row.node_before), n),
         carray(to_number(row.rigid_slip), slides),
-        carray(to_number(row.previous_jacobian), (slides, k)),
+        carray(to_number(row.previous_jacobian), (slides, c)),
         carray(to_number(row.previous_columns), (kinds * nodes_before, slides)),
         carray(to_number(row.sliding), 0 if row.sliding == 0 else n),
         row.rows,
         row.rows_before,
+        c,
     )
 
 

@@ -54,10 +54,11 @@ class Position:
         """
         operator = self.operator
         (rows, forms), (columns, forms_before) = operator.stored, operator.stored_before or (None, 0)
+        now, before = operator.stored_jacobians
         return row_of(operator.nodes, (
-            rows, operator.jacobian, operator.gap, operator.on_drive_flanks, operator.node_pair,
-            self.node_before, operator.rigid_slip, operator.previous_jacobian, columns, operator.sliding,
-            forms, forms_before,
+            rows, now, operator.gap, operator.on_drive_flanks, operator.node_pair,
+            self.node_before, operator.rigid_slip, before, columns, operator.sliding,
+            forms, forms_before, now.shape[1],
         ))  # fmt: skip
 
     @property

@@ -299,8 +299,8 @@ def relative_displacement(equations, iterate, first, end):
 
 @njit(cache=True, inline="always")
 def product(row, vector):
-    """Product of two vectors."""
+    """Product of a row with as many numbers of a vector."""
     total = 0.0
-    for c in range(len(vector)):
+    for c in range(len(row)):
         total += row[c] * vector[c]
     return total

@@ -53,6 +53,25 @@ class _FormedWhenRead:
         return held if held is None or isinstance(held, np.ndarray) else held.whole()
 
 
+class _OfAllCoordinates:
+    """A jacobian of an operator, as it is read: with columns of zeros of the coordinates that move no contact."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __set__(self, operator: ContactOperator, jacobian: np.ndarray | None) -> None:
+        operator.__dict__[self._name] = jacobian
+
+    def __get__(self, operator: ContactOperator | None, owner: type | None = None):
+        if operator is None:
+            # The field has no default.
+            raise AttributeError(self._name)
+        held, more = operator.__dict__[self._name], operator.coordinates
+        if held is None or held.shape[1] >= more:
+            return held
+        return np.pad(held, ((0, 0), (0, more - held.shape[1])))
+
+
 class Stored(NamedTuple):
     """A compliance as it lies in memory, by rows (m, m'), mm/N, those of nodes that were closed at least; and the
     `address` of what forms the others, 0 where all are there."""
@@ -75,20 +94,22 @@ class ContactOperator:
 
     `dependent_rows`: rows of the compliance that are combinations of others, see `contact.pairing`. `face`: whose
     slices the pairs are in. `sliding` (n,): sign of the nominal motion's, where friction follows it, else None.
+    `coordinates`: k, where jacobians are stored without the last columns, of coordinates that move no contact.
     """
 
     pairs: tuple[PairNodes, ...]
     base_radii: tuple[float, float]
     normal_lever_arms: tuple[np.ndarray, np.ndarray]
     compliance: np.ndarray = _FormedWhenRead()  # type: ignore[assignment]
-    jacobian: np.ndarray
+    jacobian: np.ndarray = _OfAllCoordinates()  # type: ignore[assignment]
     gap: np.ndarray
     rigid_slip: np.ndarray | None
     previous_compliance: np.ndarray | None = _FormedWhenRead()  # type: ignore[assignment]
-    previous_jacobian: np.ndarray | None
+    previous_jacobian: np.ndarray | None = _OfAllCoordinates()  # type: ignore[assignment]
     dependent_rows: int = 0
     face: Face = IN_THE_PLANE
     sliding: np.ndarray | None = None
+    coordinates: int = 0
 
     @property
     def nodes(self) -> int:
@@ -110,6 +131,11 @@ class ContactOperator:
         return (
             Stored(np.ascontiguousarray(held.T)) if isinstance(held, np.ndarray) else Stored(held.matrix, held.address)
         )
+
+    @property
+    def stored_jacobians(self) -> tuple[np.ndarray, np.ndarray | None]:
+        """G (m, c) and the previous jacobian (n, c) over the coordinates that contact moves, as they lie in memory."""
+        return self.__dict__["jacobian"], self.__dict__["previous_jacobian"]
 
     @cached_property
     def node_pair(self) -> np.ndarray:
@@ -272,6 +298,7 @@ def contact_operator(
         dependent_rows=response.dependent_rows,
         face=face,
         sliding=response.sliding,
+        coordinates=len(coordinates),
     )
 
 
@@ -282,10 +309,8 @@ def turned(gears: GearPair, advance: float) -> tuple[float, float]:
 
 
 def _of_unknowns(rows: np.ndarray, coordinates: list[int]) -> np.ndarray:
-    """The columns of those coordinates; zero of those beyond the last."""
-    known = sum(each < len(COORDINATES) for each in coordinates)
-    found = rows.take(coordinates[:known], axis=1)
-    return found if known == len(coordinates) else np.pad(found, ((0, 0), (0, len(coordinates) - known)))
+    """The columns of those coordinates that contact moves."""
+    return rows.take([each for each in coordinates if each < len(COORDINATES)], axis=1)
 
 
 def slip_of_rigid_flanks(lines: Lines, turned: tuple[float, float]) -> np.ndarray:

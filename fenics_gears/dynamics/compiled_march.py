@@ -24,6 +24,7 @@ from .average_acceleration import with_history
 from .backward_euler import advanced as advanced_backward
 from .backward_euler import history as backward_history
 from .drivetrain import Drivetrain
+from .eliminated_modes import eliminated, left_load, put_modes
 from .steps import Steps, in_block
 
 STATIC, AVERAGE_ACCELERATION, BACKWARD_EULER = range(3)
@@ -62,10 +63,8 @@ class Motion(NamedTuple):
             for matrix in (drivetrain.stiffness, drivetrain.mass, drivetrain.damping)
         )
         free = drivetrain.free_motion if method == STATIC else np.empty(0)
-        modes = sum(len(shaft.modes) for shaft in drivetrain.elastic)
-        return cls(
-            method, stiffness, mass, damping, free, float(friction), tolerance.length, tolerance.force, rigid, modes
-        )  # fmt: skip
+        numbers = float(friction), tolerance.length, tolerance.force, rigid, drivetrain.modes
+        return cls(method, stiffness, mass, damping, free, *numbers)
 
     @property
     def packed(self) -> np.ndarray:
@@ -73,15 +72,6 @@ class Motion(NamedTuple):
         numba longer than a step."""
         numbers = self.method, self.friction, self.length_tolerance, self.force_tolerance, self.rigid, self.modes
         return np.concatenate([numbers, *(array.ravel() for array in self[1:4]), self.free_motion])
-
-
-class Eliminated(NamedTuple):
-    """Modes that are eliminated from equations of motion over c other coordinates and m modes: the `stiffness` (c, c)
-    that is left, how the modes `follow` (m, c) the others, and their own `flexibility` (m, m)."""
-
-    stiffness: np.ndarray
-    follow: np.ndarray
-    flexibility: np.ndarray
 
 
 class Course(NamedTuple):
@@ -108,6 +98,9 @@ def solve_steps(steps: Steps, first: int, end: int, motion: Motion, course: Cour
     return int(places[0])
 
 
+_eliminated, _left_load, _put_modes = (njit(cache=True)(each) for each in (eliminated, left_load, put_modes))
+
+
 @njit(cache=True)
 def _unpacked(numbers, k):
     matrices, free_motion = numbers[6 : 6 + 3 * k * k].reshape(3, k, k), numbers[6 + 3 * k * k :]
@@ -130,21 +123,21 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
     steps, motion = in_block(block), _unpacked(packed, loads.shape[1])
     starts, kinds, states, status = steps.starts, steps.kinds, steps.states, steps.status
     k, duration, moved = len(motion.stiffness), -1.0, len(motion.stiffness) - motion.modes
-    modes = _eliminated(motion.stiffness, motion.modes)
     history = np.zeros((3, k, k))
     # A number that is written out has `newton` compiled once more.
     method = Method(1.0, np.int64(ALL_AT_ONCE), motion.length_tolerance, motion.force_tolerance)
     residuals, most = np.empty((MOST_ITERATIONS, 5)), np.diff(starts).max()
     all_sets, coordinates = np.empty(MOST_ITERATIONS * most, dtype=np.int8), np.empty(k)
     for s in range(places[0], places[1]):
-        if durations[s] != duration and motion.method != STATIC:
+        if durations[s] != duration:
             duration = durations[s]
-            history = _history(motion, duration)
+            if motion.method != STATIC:
+                history = _history(motion, duration)
             modes = _eliminated(motion.stiffness + history[0], motion.modes)
         outer = loads[s]
         load = outer if motion.method == STATIC else with_history(outer, history, states[s - 1])
         now, before = slice(starts[s], starts[s + 1]), slice(starts[s - 1], starts[s])
-        contact = arrays_of(steps.rows[s], kinds, k, starts[s] - starts[s - 1])
+        contact = arrays_of(steps.rows[s], kinds, starts[s] - starts[s - 1])
         nodes, n = status[now], starts[s + 1] - starts[s]
         before_then = status[before] if at_rest else cycle_before[before]
         begin(nodes, status[before], contact.node_before, cycle_before[now], before_then)
@@ -156,8 +149,8 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
                 states[s - 1, 0], forces_before,
             )  # fmt: skip
         equations = Equations(
-            modes.stiffness, _left_load(load, modes), contact.compliance, _left_jacobian(contact.jacobian, moved),
-            contact.gap, slip_before, motion.friction, _turned(motion.free_motion, outer)[:moved], contact.rows,
+            modes.stiffness, _left_load(load, modes), contact.compliance, contact.jacobian, contact.gap,
+            slip_before, motion.friction, _turned(motion.free_motion, outer)[:moved], contact.rows,
         )  # fmt: skip
         both = slice(kinds * starts[s], kinds * starts[s + 1])
         iterate = Iterate(nodes, steps.forces[both], coordinates[:moved], steps.displacement[both])
@@ -169,34 +162,9 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
             outcome, steps.iterations[s] = newton(solver, equations, iterate, method, residuals, sets)
         if outcome != CONVERGED:
             return
-        if motion.modes:
-            coordinates[moved:] = modes.flexibility @ load[moved:] - modes.follow @ coordinates[:moved]
+        _put_modes(coordinates, load, modes)
         states[s] = _advanced(motion.method, duration, states[s - 1], coordinates)
         places[0] = s + 1
-
-
-@njit(cache=True)
-def _eliminated(stiffness, modes):
-    """Eliminate the last coordinates, which contact does not move."""
-    c = len(stiffness) - modes
-    if modes == 0:
-        return Eliminated(stiffness, np.empty((0, c)), np.empty((0, 0)))
-    flexibility = np.ascontiguousarray(np.linalg.inv(np.ascontiguousarray(stiffness[c:, c:])))
-    follow = flexibility @ np.ascontiguousarray(stiffness[c:, :c])
-    return Eliminated(stiffness[:c, :c] - np.ascontiguousarray(stiffness[:c, c:]) @ follow, follow, flexibility)
-
-
-@njit(cache=True)
-def _left_load(load, modes):
-    """The load (c,) on the other coordinates, with what modes hand on to them."""
-    c = len(modes.stiffness)
-    return load[:c] - load[c:] @ modes.follow if c < len(load) else load
-
-
-@njit(cache=True)
-def _left_jacobian(jacobian, moved):
-    """The columns of coordinates that contact moves."""
-    return np.ascontiguousarray(jacobian[:, :moved]) if moved < jacobian.shape[1] else jacobian
 
 
 @njit(cache=True)

@@ -91,6 +91,11 @@ class Drivetrain:
         return sum(len(shaft.bearings) for shaft in self.elastic)
 
     @property
+    def modes(self) -> int:
+        """How many of the coordinates, the last ones, are modes of shafts, which contact does not move."""
+        return sum(len(shaft.modes) for shaft in self.elastic)
+
+    @property
     def on_rolling_bearings(self) -> bool:
         """Whether a bearing's stiffness depends on its load."""
         return any(bearing.rolling is not None for shaft in self.elastic for bearing in shaft.bearings)

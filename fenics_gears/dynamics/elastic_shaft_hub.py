@@ -41,14 +41,15 @@ class Hub:
         return max(ring.outer for ring in self.gear)
 
 
-def hub_flexibility(hub: Hub, heights: np.ndarray) -> np.ndarray:
-    """Motions (h + 1, 6, h + 1, 6), over MOTIONS and the twist, of the rim at `heights` (h,), mm from mid-width, and of
-    the shaft at the right end of the face, per load there, with the shaft held at the left end of the face."""
-    return _flexibility(hub, tuple(heights.tolist()))
+def hub_flexibility(hub: Hub, heights: np.ndarray, axis: np.ndarray) -> np.ndarray:
+    """Motions (h + a + 1, 6, h + a + 1, 6), over MOTIONS and the twist, of the rim at `heights` (h,), mm from
+    mid-width, and of the shaft at those of its `axis` (a,) and at the right end of the face, per load there, with the
+    shaft held at the left end of the face."""
+    return _flexibility(hub, tuple(heights.tolist()), tuple(axis.tolist()))
 
 
 @lru_cache(maxsize=8)
-def _flexibility(hub: Hub, heights: tuple[float, ...]) -> np.ndarray:
+def _flexibility(hub: Hub, heights: tuple[float, ...], axis: tuple[float, ...]) -> np.ndarray:
     shaft, circles = hub.shaft, np.array(heights)
     beside, size = BESIDE * shaft.outer, SIZE * shaft.outer
     left, right = shaft.low - beside, shaft.high + beside
@@ -57,14 +58,14 @@ def _flexibility(hub: Hub, heights: tuple[float, ...]) -> np.ndarray:
     for order in (1, 0):
         stiffness = body.stiffness(order)
         rim = body.of_circles(hub.outer, circles, order)
-        ends = [body.of_section(end, shaft.outer, order) for end in (left, right)]
-        found = flexibility(stiffness, ends[0], np.concatenate([rim, ends[1]]))
+        held, *free = (body.of_section(each, shaft.outer, order) for each in (left, *axis, right))
+        found = flexibility(stiffness, held, np.concatenate([rim, *free]))
         within = body.nodes[:, 0] < shaft.outer + 1e-9
         found[: len(rim), : len(rim)] -= flexibility_outside(stiffness, within, rim)
         harmonics.append(found)
     found, piece = _over_motions(*harmonics), _piece(shaft, beside, size)
     # The left end of the body carries all places, and the right end is carried by that of the face.
-    carry = np.stack([carried_with_twist(each - shaft.low) for each in (*heights, right)])
+    carry = np.stack([carried_with_twist(each - shaft.low) for each in (*heights, *axis, right)])
     found -= np.einsum("pia,ab,qjb->piqj", carry, piece, carry)
     found[-1, :, -1] -= piece
     back = carried_with_twist(-beside)

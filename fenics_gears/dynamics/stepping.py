@@ -19,6 +19,7 @@ from .average_acceleration import AverageAcceleration, State
 from .clock import FOLLOWING, Clock, SteadyClock, TimeScales
 from .compiled_march import NO_SETS, begin, slip_at_start
 from .drivetrain import Drivetrain
+from .eliminated_modes import eliminated, left_load, put_modes
 from .steps import Record
 
 if TYPE_CHECKING:
@@ -248,16 +249,21 @@ class Stepper:
         """The step of `scheme` from `state`, solved from the sets `status` (n,); `last`: the solution before, if there
         is one."""
         operator, load = position.operator, scheme.load(state, self.load(step))
-        compliance, rows = operator.stored
+        (compliance, rows), (jacobian, _) = operator.stored, operator.stored_jacobians
+        modes = eliminated(scheme.stiffness, self.drivetrain.modes)
+        coordinates, moved = np.zeros_like(load), len(modes.stiffness)
         problem = StepProblem(
-            scheme.stiffness, load, compliance, operator.jacobian, operator.gap, slip_before,
-            self.friction, self._moved_freely(scheme, load), self.tolerance, self._free_words, rows,
+            modes.stiffness, left_load(load, modes), compliance, jacobian, operator.gap, slip_before,
+            self.friction, self._moved_freely(scheme, load)[:moved], self.tolerance, self._free_words, rows,
         )  # fmt: skip
         try:
-            return self.cycle.solve(position, problem, status, last)
+            solution = self.cycle.solve(position, problem, status, last)
         except ContactNotConverged as failure:
             failure.time, failure.step = self.clock.time(step), step
             raise
+        coordinates[:moved] = solution.coordinates
+        put_modes(coordinates, load, modes)
+        return replace(solution, coordinates=coordinates)
 
     def _moved_freely(self, scheme, load: np.ndarray) -> np.ndarray:
         """How a load (k,) moves the drivetrain where only contact holds it; a varying load may change its sign."""

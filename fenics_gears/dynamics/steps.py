@@ -251,7 +251,7 @@ def in_block(block):
 def operator_at(steps, s):
     """The arrays of the contact operator at a step of those `in_memory`."""
     before = steps.starts[s] - steps.starts[s - 1] if s else 0
-    return arrays_of(steps.rows[s], steps.kinds, steps.states.shape[2], before)
+    return arrays_of(steps.rows[s], steps.kinds, before)
 
 
 @njit(cache=True)

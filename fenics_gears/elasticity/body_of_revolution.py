@@ -88,13 +88,17 @@ class BodyOfRevolution:
         """Rows (2, d) of the mean motions of a cross section as far out as a radius: of harmonic 1 displacement along x
         and tilt about y, of harmonic 0 displacement along the axis and twist."""
         radii, heights = self.nodes.T
-        nodes = np.flatnonzero((abs(heights - height) < ROUND_OFF) & (radii < outer + ROUND_OFF))
-        nodes = nodes[np.argsort(radii[nodes])]
-        r, weights = radii[nodes], np.zeros(len(nodes))
-        for first in range(0, len(nodes) - 2, 2):
-            weights[first : first + 3] += (r[first + 2] - r[first]) * SIMPSON
-        moved = weights * r / (weights @ r), weights * r**2 / (weights @ r**3)
-        return self._rows(nodes, *moved, order)
+        within, found = radii < outer + ROUND_OFF, np.zeros((2, 3 * len(self.nodes)))
+        z = np.unique(heights[within])
+        for place, share in zip(*_shares(z, height)):
+            nodes = np.flatnonzero((heights == z[place]) & within)
+            nodes = nodes[np.argsort(radii[nodes])]
+            r, weights = radii[nodes], np.zeros(len(nodes))
+            for first in range(0, len(nodes) - 2, 2):
+                weights[first : first + 3] += (r[first + 2] - r[first]) * SIMPSON
+            moved = weights * r / (weights @ r), weights * r**2 / (weights @ r**3)
+            found += share * self._rows(nodes, *moved, order)
+        return found
 
     def of_circles(self, radius: float, heights: np.ndarray, order: int) -> np.ndarray:
         """The same (2 h, d) of circles at heights (h,) on the cylinder of a radius."""
@@ -102,10 +106,8 @@ class BodyOfRevolution:
         nodes = nodes[np.argsort(self.nodes[nodes, 1])]
         z, found = self.nodes[nodes, 1], []
         for height in heights:
-            first = 2 * int(np.clip(np.searchsorted(z[::2], height) - 1, 0, len(z) // 2 - 1))
-            low, middle, high = z[first : first + 3]
-            weights, _ = shapes((height - middle) / (0.5 * (high - low)))
-            found.append(self._rows(nodes[first : first + 3], weights, weights / radius, order))
+            places, shares = _shares(z, height)
+            found.append(self._rows(nodes[places], shares, shares / radius, order))
         return np.concatenate(found)
 
     def _rows(self, nodes: np.ndarray, along: np.ndarray, turned: np.ndarray, order: int) -> np.ndarray:
@@ -137,3 +139,10 @@ def _divided(stops: np.ndarray, size: float) -> np.ndarray:
     apart = [pair for pair in pairwise(stops) if pair[1] - pair[0] > ROUND_OFF]
     parts = [np.linspace(*each, max(ceil((each[1] - each[0]) / size - 1e-6), FEWEST) + 1)[:-1] for each in apart]
     return np.append(np.concatenate(parts), stops[-1])
+
+
+def _shares(heights: np.ndarray, height: float) -> tuple[np.ndarray, np.ndarray]:
+    """Places (3,) of the nodes of an element among heights (n,), increasing, and their shares in a height between."""
+    first = 2 * int(np.clip(np.searchsorted(heights[::2], height) - 1, 0, len(heights) // 2 - 1))
+    low, middle, high = heights[first : first + 3]
+    return np.arange(first, first + 3), shapes((height - middle) / (0.5 * (high - low)))[0]

@@ -6,7 +6,9 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS
+from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, SIX, ElasticShaft
+from fenics_gears.dynamics.elastic_shaft_seat import BentBySeat, bent_by_seat, carried_with_twist
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import SHAFT_POINTS
 
@@ -15,6 +17,8 @@ from .numbers import mean_where_positive
 from .side_by_side import SideBySide
 
 MICROMETRES = 1e3
+# Gauss points of a slice, in parts of its width from its middle: loads are even over a slice.
+GAUSS = 0.5 / np.sqrt(3.0)
 # What MOTIONS are called in the result.
 OF_GEARS = ("centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y")
 LOADS = ("bearing_force_x", "bearing_force_y", "bearing_force_z", "bearing_moment_x", "bearing_moment_y")
@@ -28,6 +32,7 @@ class BentShafts(AlongTheFace):
         super().__init__(cycle)
         self.model, self.drivetrain = model, model.drivetrain
         self._lines = {each.gear: each.deflection(self.points(each.length)) for each in self.drivetrain.elastic}
+        self._seats = {each.gear: self._seat(each) for each in self.drivetrain.elastic if each.yields_within}
 
     @staticmethod
     def points(length: float) -> np.ndarray:
@@ -37,17 +42,23 @@ class BentShafts(AlongTheFace):
     def curves(self, curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
         """Departures of the axes in the middle of the common face, um, and loads of the bearings (steps, bearings)."""
         states = nodes.steps.states[:, 0]
-        x, y, _, tilt_x, tilt_y = np.moveaxis(self._motions(states), -1, 0)
+        motions = self._motions(states)
+        loads = [
+            (each.motions(self.drivetrain, states) @ each.bearing_loads.T).reshape(len(states), -1, len(MOTIONS))
+            for each in self.drivetrain.elastic
+        ]
+        for place, each in enumerate(self.drivetrain.elastic):
+            if each.gear in self._seats:
+                seat, teeth = self._seats[each.gear], self._loads(nodes, each.gear)
+                motions[:, GEARS.index(each.gear)] += np.tensordot(teeth, seat.teeth, ((1, 2), (1, 2)))
+                loads[place] += np.tensordot(teeth, seat.bearings, ((1, 2), (1, 2))).reshape(loads[place].shape)
+        x, y, _, tilt_x, tilt_y = np.moveaxis(motions, -1, 0)
         heights = np.array(self.pair.gear_middles)
         leaning = {"in_plane": tilt_y, "out_of_plane": -tilt_x}
         offset = {"in_plane": x - heights * tilt_y, "out_of_plane": y + heights * tilt_x}
         width = MICROMETRES * self.pair.face_width
         departures = {f"axis_inclination_{name}": width * np.diff(of)[:, 0] for name, of in leaning.items()}
         departures |= {f"axis_offset_{name}": MICROMETRES * np.diff(of)[:, 0] for name, of in offset.items()}
-        loads = [
-            (each.motions(self.drivetrain, states) @ each.bearing_loads.T).reshape(len(states), -1, len(MOTIONS))
-            for each in self.drivetrain.elastic
-        ]
         return (
             super().curves(curves, nodes)
             | departures
@@ -59,8 +70,11 @@ class BentShafts(AlongTheFace):
         states = nodes.steps.states[:, 0]
         found = np.full((2, len(states), len(NUMBERS), SHAFT_POINTS), np.nan)
         for each in self.drivetrain.elastic:
-            lines = np.einsum("pmn,sn->mps", self._lines[each.gear][:, :2], each.motions(self.drivetrain, states))
-            found[:, :, list(NUMBERS).index(each.gear)] = np.moveaxis(lines, 2, 1)
+            lines = np.einsum("pmn,sn->msp", self._lines[each.gear][:, :2], each.motions(self.drivetrain, states))
+            if each.gear in self._seats:
+                line = self._seats[each.gear].line[:, :2]
+                lines += np.einsum("pmzi,szi->msp", line, self._loads(nodes, each.gear), optimize=True)
+            found[:, :, GEARS.index(each.gear)] = lines
         return super().fields(nodes) | {"shaft_deflection_x": found[0], "shaft_deflection_y": found[1]}
 
     def coordinates(self) -> dict[str, tuple]:
@@ -70,7 +84,7 @@ class BentShafts(AlongTheFace):
         places = [bearing.at for each in elastic for bearing in each.bearings]
         points = np.full((len(NUMBERS), SHAFT_POINTS), np.nan)
         for each in elastic:
-            points[list(NUMBERS).index(each.gear)] = self.points(each.length)
+            points[GEARS.index(each.gear)] = self.points(each.length)
         from_end = {"units": "mm", "long_name": "distance from the left end of the shaft"}
         return super().coordinates() | {
             "bearing": ("bearing", names, {"long_name": "bearing of a shaft with sections"}),
@@ -86,6 +100,36 @@ class BentShafts(AlongTheFace):
         forces = np.sqrt(sum(counted[name] ** 2 for name in LOADS[:3]))
         found |= {"largest_bearing_force": float(forces.max())}
         return super().numbers(counted) | found | self._rolling_elements(counted) | self._vibrations(counted)
+
+    def _seat(self, shaft: ElasticShaft) -> BentBySeat:
+        """What a seat does under loads (S, 6) in the slices of the face, at their own heights: of its teeth, motions
+        (5, S, 6) of the straight axis that is nearest to them over the common face, in the middle of the gear."""
+        z, widths = self.face.positions - self.pair.gear_middles[GEARS.index(shaft.gear)], self.face.widths
+        heights = np.concatenate([z - GAUSS * widths, z + GAUSS * widths])
+        found = bent_by_seat(shaft, heights, self.points(shaft.length))
+        teeth, line, bearings = (each.reshape(*each.shape[:-2], 2, len(z), SIX).mean(axis=-3) for each in found)
+        teeth = teeth.reshape(2, len(z), SIX, len(z), SIX).mean(axis=0)
+        moved, straight = np.zeros((len(MOTIONS), len(z), SIX)), np.stack([np.ones_like(z), z], axis=1)
+        nearest = np.linalg.solve((straight.T * widths) @ straight, straight.T * widths)
+        # A positive tilt about x moves what lies further along the axis to negative y.
+        for axis, rows, sense in ((0, [0, 4], 1.0), (1, [1, 3], -1.0)):
+            moved[rows] = np.tensordot(np.diag([1.0, sense]) @ nearest, teeth[:, axis], 1)
+        return BentBySeat(moved, line, bearings)
+
+    def _loads(self, nodes: SideBySide, gear: str) -> np.ndarray:
+        """Loads (steps, S, 6) of the teeth on a gear in the slices of the face, at their own heights, over MOTIONS and
+        the twist."""
+        number, loaded = GEARS.index(gear), np.flatnonzero(nodes.normal)
+        rows = np.array([0, 1, 6, 7, 8, 2]) + 3 * number
+        place = nodes.step[loaded] * self.face.slices + nodes.of("slice")[loaded]
+        forces = nodes.of("rows_of_normals")[rows][:, loaded] * nodes.normal[loaded]
+        if nodes.tangential is not None:
+            forces += nodes.of("rows_of_tangents")[rows][:, loaded] * nodes.tangential[loaded]
+        size = len(nodes.steps) * self.face.slices
+        found = np.stack([np.bincount(place, each, minlength=size) for each in forces], axis=1)
+        found = found.reshape(-1, self.face.slices, SIX)
+        heights = self.face.positions - self.pair.gear_middles[number]
+        return np.einsum("szi,zij->szj", found, [carried_with_twist(-each) for each in heights])
 
     def _vibrations(self, counted: xr.Dataset) -> dict[str, str]:
         """Natural frequencies with the mesh as it was, a line each; nothing without inertia or contact."""

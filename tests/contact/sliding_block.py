@@ -35,7 +35,7 @@ class SlidingBlock:
         """Part of a step."""
         problem, n = self.problem, len(self.problem.gap)
         operator = SimpleNamespace(
-            nodes=n, compliance=problem.compliance, jacobian=problem.jacobian, gap=problem.gap,
+            nodes=n, compliance=problem.compliance, stored_jacobians=(problem.jacobian, None), gap=problem.gap,
             rigid_slip=(step - before) * problem.slip_before,
             previous_compliance=problem.compliance[n:], previous_jacobian=problem.jacobian[n:],
             stored=Stored(problem.compliance), stored_before=Stored(np.ascontiguousarray(problem.compliance[n:].T)),

@@ -11,7 +11,7 @@ from scipy.sparse.linalg import splu
 
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_hub import Hub
-from fenics_gears.dynamics.elastic_shaft_seat import carried_with_twist, seat_compliance
+from fenics_gears.dynamics.elastic_shaft_seat import bent_by_seat, carried_with_twist
 from fenics_gears.effects.bearings import Bearing
 from fenics_gears.effects.shafts import ShaftSection
 from fenics_gears.elasticity.body_of_revolution import BodyOfRevolution, Ring, flexibility, flexibility_outside
@@ -19,6 +19,8 @@ from fenics_gears.elasticity.body_of_revolution import BodyOfRevolution, Ring, f
 STEEL = (206e3, 0.3)
 BORED, BORE, HUB, RIM, OUTER, HALF = 4.0, 14.0, 20.0, 30.0, 36.0, 10.0
 HEIGHTS = np.linspace(-0.9, 0.9, 5) * HALF
+# Of the shaft: its ends, on either side of the face, and under it.
+PLACES = np.array([0.0, 30.0, 53.0, 58.5, 66.0, 90.0, 140.0])
 # Ends of the shaft and middle of the gear; a web that is off mid-width.
 LENGTH, AT, SPRING, TILTING, SIZE = 140.0, 60.0, 3e5, 1e8, 2.0
 GEAR = (Ring(BORE, HUB, -HALF, HALF, *STEEL), Ring(HUB, RIM, 1.0, 6.0, *STEEL), Ring(RIM, OUTER, -HALF, HALF, *STEEL))
@@ -38,8 +40,9 @@ def test_a_tube_bends_twists_and_stretches_as_closed_forms_have_it():
 
 
 def test_body_on_its_bore_rigid_seat_and_hub_make_up_one_solid():
-    """Brute force: the same elements over the whole shaft, whose ends are held in the mean. Beams beside the face are
-    what differs, by Timoshenko's shear. The remainder is never negative."""
+    """Brute force: the same elements over the whole shaft, whose ends are held in the mean: also the shaft's own line
+    and the loads of its bearings, which hold tilts. Beams beside the face are what differs, by Timoshenko's shear. The
+    remainder is never negative."""
     whole = BodyOfRevolution([Ring(BORED, BORE, -AT, LENGTH - AT, *STEEL), *GEAR], SIZE)
     held = Bearing(0.0, SPRING, SPRING, TILTING), Bearing(LENGTH, SPRING, 0.0, TILTING)
     sections = (ShaftSection(LENGTH, 2.0 * BORE, bore=2.0 * BORED),)
@@ -47,15 +50,26 @@ def test_body_on_its_bore_rigid_seat_and_hub_make_up_one_solid():
     shaft = ElasticShaft("wheel", sections, STEEL, AT, 2.0 * HALF, 0.0, held, hub=hub)
     rigid = block_diag(np.linalg.inv(shaft.stiffness), 1.0 / shaft.torsional_stiffness)
     carry = np.array([carried_with_twist(z) for z in HEIGHTS])
-    seat = seat_compliance(shaft, HEIGHTS)
+    seat, line, bearings = bent_by_seat(shaft, HEIGHTS, PLACES)
     found = seat + np.einsum("sia,ab,tjb->sitj", carry, rigid, carry)
+    gear = np.einsum("ab,tjb->atj", rigid, carry)[:5]
+    line = line + np.einsum("pma,atj->pmtj", shaft.deflection(PLACES), gear)
+    bearings = (bearings + np.einsum("ba,atj->btj", shaft.bearing_loads, gear)).reshape(2, 5, len(HEIGHTS), 6)
     for order, motions in ((1, [0, 4]), (0, [2, 5])):
         stiffness, rim = whole.stiffness(order), whole.of_circles(OUTER, HEIGHTS, order)
         left, right = (whole.of_section(end, BORE, order) for end in (-AT, LENGTH - AT))
         if order:
             rows = csc_matrix(np.concatenate([left, right]))
             springs = rows.T @ diags([SPRING, TILTING] * 2) @ rows
-            free = rim @ splu((stiffness + springs).tocsc()).solve(rim.T)
+            solid = splu((stiffness + springs).tocsc()).solve(rim.T)
+            free = rim @ solid
+            moved = np.array([whole.of_section(each - AT, BORE, order) @ solid for each in PLACES])
+            moved = moved.reshape(len(PLACES), 2, len(HEIGHTS), 2)
+            loads = moved[[0, -1]] * np.array([SPRING, TILTING])[:, None, None]
+            pairs = (line[:, :1][..., motions], moved[:, :1]), (bearings[:, motions][..., motions], loads)
+            for parts, by_solid in pairs:
+                off, size = (np.abs(each).max(axis=(0, 2)) for each in (parts - by_solid, by_solid))
+                assert (off / size).max() <= 0.01
         else:
             free = flexibility(stiffness, left, rim)
             free[::2, ::2] += 1.0 / SPRING

@@ -21,10 +21,19 @@ from fenics_gears.simulation.elastic_route import mesh_cycle
 STEEL = (206e3, 0.3)
 WIDTH, DIAMETER, BORE = 40.0, 35.0, 10.0
 SECTIONS = (ShaftSection(35.0, 28.0), ShaftSection(WIDTH, DIAMETER, bore=BORE), ShaftSection(45.0, 22.0))
+SKEW = (
+    (4e5, 1e5, 0.0, 0.0, 2e5),
+    (1e5, 2e5, 0.0, 1e5, 0.0),
+    (0.0, 0.0, 1e5, 0.0, 0.0),
+    (0.0, 1e5, 0.0, 1e8, 3e7),
+    (2e5, 0.0, 0.0, 3e7, 4e7),
+)
 HEIGHTS = np.linspace(-0.5, 0.5, 17) * WIDTH
 BEARINGS = {
     "between": (Bearing(10.0, 3e5, 1e5), Bearing(100.0, 2e5, 0.0, 3e7)),
     "overhung": (Bearing(5.0, 3e5), Bearing(30.0, 4e5, 1e5)),
+    # Not alike in all directions, which changes nothing of the seat where all are on one side.
+    "overhung, not alike": (Bearing(5.0, 3e5), Bearing(30.0, stiffness_matrix=SKEW)),
     "three": (Bearing(10.0, 3e5, 1e5), Bearing(80.0, 1e5, 2e4), Bearing(115.0, 2e5)),
 }
 
@@ -66,6 +75,12 @@ def test_rigid_seat_and_remainder_make_up_the_whole_compliance(name):
     assert np.abs((seat - wanted) / size).max() <= 1e-9
     assert rigid.T @ np.linalg.solve(whole, rigid) == pytest.approx(found.stiffness, rel=1e-6, abs=1e-3)
     assert np.linalg.eigvalsh(seat / size)[0] >= -1e-12
+
+
+def test_an_overhung_seat_gives_way_alike_whatever_the_bearings():
+    """Identity: what carries on one side alone moves a rigid seat and no more, also where it is stiffer one way."""
+    one, other = (seat_compliance(shaft(BEARINGS[f"overhung{more}"]), HEIGHTS) for more in ("", ", not alike"))
+    assert one == pytest.approx(other, rel=1e-12, abs=1e-12 * np.abs(one).max())
 
 
 @pytest.mark.parametrize(("helix", "shafts"), [(0.0, CUT), (15.0, CUT), (15.0, PRESSED)])

@@ -89,7 +89,10 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
             ROLLING.replace("gear_at", 'material = { density = "7.85 g/cm^3" }\ngear_at') + INERTIA,
             "bearings.pinion: rolling beside .inertia.: how stiff",
         ),
-        (ROLLING.replace("torque_at", 'seat = "integral"\ntorque_at'), "has a stiffness_matrix or rolling"),
+        (
+            ROLLING.replace("114 mm", "60 mm").replace("torque_at", 'seat = "integral"\ntorque_at'),
+            "has a stiffness_matrix or rolling; allowed on both sides",
+        ),
     ],
 )
 def test_what_does_not_fit_is_refused_before_any_computation(more, said):

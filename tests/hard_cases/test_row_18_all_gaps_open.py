@@ -66,7 +66,8 @@ def test_a_position_where_nothing_can_touch_is_named(paper_scene, paper_pair, st
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-4)
     start, k = marcher.start(), len(shafts.coordinates)
     empty = SimpleNamespace(
-        nodes=0, stored=Stored(np.zeros((0, 0))), jacobian=np.zeros((0, k)), gap=np.empty(0), rigid_slip=None,
+        nodes=0, stored=Stored(np.zeros((0, 0))), stored_jacobians=(np.zeros((0, k)), None), gap=np.empty(0),
+        rigid_slip=None,
     )  # fmt: skip
     marcher.cycle.position = lambda step: Position(empty, np.empty(0, dtype=np.int64))
     with pytest.raises(NoStaticEquilibrium) as failure:
