@@ -51,7 +51,7 @@ def result_of(checkout: Path, scene: Path, directory: Path) -> xr.Dataset:
 
 
 def differences(old: xr.Dataset, new: xr.Dataset) -> dict[str, float]:
-    """Largest difference of each variable and numeric attribute, relative to its largest value; infinite where one is
+    """Largest difference of each variable and numeric attribute over its largest value; infinite where one is
     missing."""
     found = {}
     for name in sorted({*old.variables, *new.variables}):

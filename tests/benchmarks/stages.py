@@ -9,7 +9,9 @@ and its gears in the cache of the user.
 
 import argparse
 import json
+import os
 import statistics
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -70,6 +72,28 @@ def serve(scene: Path, root_stress: bool, condense: bool) -> None:
         print(json.dumps(stages(model, condense)), flush=True)
 
 
+def answers_in_turns(checkouts: list[Path], arguments: list[str], turns: int) -> list[list[dict]]:
+    """What `serve` answers, by checkout and turn: checkouts take turns, so that what else the machine does meets
+    all."""
+    processes = []
+    for checkout in checkouts:
+        environment = {**os.environ, "PYTHONPATH": str(checkout), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+        processes.append(subprocess.Popen(
+            [sys.executable, "-P", __file__, *arguments, "--serve"], env=environment, text=True,
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        ))  # fmt: skip
+    found: list[list[dict]] = [[] for _ in processes]
+    for _ in range(turns):
+        for process, answers in zip(processes, found):
+            process.stdin.write("\n")
+            process.stdin.flush()
+            answers.append(json.loads(process.stdout.readline()))
+    for process in processes:
+        process.stdin.close()
+        process.wait()
+    return found
+
+
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -82,13 +106,10 @@ def main() -> None:
     options = parser.parse_args()
     if options.serve:
         return serve(options.scene, options.root_stress, options.condense)
-    # Imported here: another checkout, which `serve` measures, may not have it.
-    from tests.benchmarks.in_turns import answers_in_turns
-
     checkouts = [options.other.resolve(), HERE] if options.other else [HERE]
     arguments = ["--scene", str(options.scene.resolve()), *(["--root-stress"] * options.root_stress)]
     arguments += ["--condense"] * options.condense
-    by_checkout = answers_in_turns(__file__, checkouts, arguments, options.turns)
+    by_checkout = answers_in_turns(checkouts, arguments, options.turns)
     for stage in by_checkout[0][0]:
         taken = [[turn[stage] for turn in turns] for turns in by_checkout]
         words = "".join(f"  {1e3 * statistics.median(each):8.1f} (least {1e3 * min(each):7.1f})" for each in taken)

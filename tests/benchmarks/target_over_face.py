@@ -1,12 +1,7 @@
-"""Does `[accuracy] target` keep its promise over the face, and at what cost: ten helical pairs drawn at random.
-
-    python -m tests.benchmarks.target_over_face [FIRST [LAST]]
-
-Prints and writes a line for each pair: the settings chosen, the true errors against flank elements, contact nodes,
-slices and layers twice as fine and body elements by 1.5, and the counted cost beside that of the cheapest settings
-that still reach the target. These are found from the chosen ones: mesh, slices or layers are made coarser, the one
-first that saves most, as long as the true error allows it. A pair takes a quarter of a minute to two.
-"""
+"""Does `[accuracy] target` keep its promise over the face, and at what cost: `python -m
+tests.benchmarks.target_over_face [FIRST [LAST]]`, ten helical pairs at random, against settings twice as fine. The
+cheapest settings are found from the chosen ones by making mesh, slices or layers coarser as long as the true error
+allows it."""
 
 import csv
 import sys

@@ -1,4 +1,4 @@
-"""What two gear packages of PyPI say of the pair that standard input gives; as JSON. Run by a Python that has them."""
+"""What two gear packages of PyPI say of a pair; JSON in, JSON out, by a Python that has them."""
 
 import json
 import math
