@@ -44,8 +44,7 @@ UNITS = {
 
 @dataclass(frozen=True)
 class Field:
-    """A field of a scene: its path, what it allows, whether it must be there, and its bounds in N, mm, s, rad (None
-    without)."""
+    """A field of a scene; bounds in N, mm, s, rad, None without."""
 
     path: tuple[str, ...]
     allowed: Allowed
@@ -186,7 +185,7 @@ def plane_scene_with_webs() -> dict[str, Any]:
 
 
 def scene_with(path: tuple[str, ...], literal: str | None, name: str | None = None, tree: dict | None = None) -> str:
-    """The text of a scene (`tree`, or the whole one) with `literal` (TOML) at a path, nothing there where that is None;
+    """The text of a scene (`tree`, or the whole one) with `literal` (TOML) at a path, nothing where that is None,
     under another `name` if given."""
     tree = tree or (whole_scene() if "web" not in path else plane_scene_with_webs())
     for other in INSTEAD.get(path, ()):

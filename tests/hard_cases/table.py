@@ -60,8 +60,7 @@ def table(measured: dict) -> list[str]:
 
 
 def spread(values: list[str]) -> str:
-    """One measurement as it is; of several under one name the smallest and the largest, or all that differ where they
-    are words."""
+    """One measurement as it is; of several the smallest and the largest, or all that differ where they are words."""
     different = list(dict.fromkeys(values))
     if len(different) == 1:
         return different[0]

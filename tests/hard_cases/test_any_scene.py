@@ -1,11 +1,5 @@
-"""Rows 1 to 3 at every step of scenes drawn at random: any valid gears, loads over six decades, springs over nine, any
-set of effects.
-
-A step converges, or the run ends with a typed error; without friction the step is a convex problem, whose solution
-exists wherever the load closes the contact, and no error is accepted but that of rigid teeth which are wider than the
-spaces between them. Each law's limit is that of hard_cases.md; the exact ones are round-off of what a residual is the
-difference of.
-"""
+"""Rows 1 to 3 at every step of scenes drawn at random. A step converges, or the run ends with a typed error that it
+may end with; without friction, a convex problem, none but that of rigid teeth wider than the spaces between them."""
 
 import pytest
 from hypothesis import event, given, settings
@@ -39,7 +33,7 @@ LAWS = {
 
 
 def obeys_the_laws(found):
-    """Rows 1 to 3 at every step; returns the largest penetration, um."""
+    """Rows 1 to 3 at every step; the largest penetration, um."""
     worst = worst_of(found)
     for name, value in worst.items():
         assert value <= LAWS[name][2], f"{name}: {value}"
@@ -119,25 +113,23 @@ def judged(tally, measured, gears, compliances_of, examples, scenes=valid_scenes
 
 @pytest.mark.parametrize("examples", [3, pytest.param(40, marks=pytest.mark.nightly)])
 def test_every_step_of_any_scene_on_stand_in_teeth(measured, examples):
-    """The contact laws and Newton's third law, from the equations; teeth without finite elements, so that many can be
-    drawn."""
+    """The contact laws and Newton's third law, from the equations."""
     judged(Tally(), measured, "stand-in teeth", on_stand_ins, examples)
 
 
 def test_every_step_of_any_scene(measured, tmp_path):
-    """As above, on finite elements of the drawn gears."""
+    """As above, on finite elements."""
     judged(Tally(), measured, "finite elements", on_elements(Cache(tmp_path)), 1)
 
 
 @pytest.mark.parametrize("examples", [2, pytest.param(30, marks=pytest.mark.nightly)])
 def test_every_step_of_any_frictionless_scene_without_load(measured, examples):
-    """As above. One scene in fifteen had failed: with no load to measure by, round-off of stiff springs and teeth was
-    taken for a force that nothing balances."""
+    """As above: with no load to measure by, round-off is no force that nothing balances."""
     scenes = valid_scenes(torques=st.just(0.0)).filter(lambda scene: scene.friction is None)
     judged(Tally(), measured, "stand-in teeth, no load, no friction", on_stand_ins, examples, scenes)
 
 
 @pytest.mark.nightly
 def test_every_step_of_hundreds_of_scenes(measured, tmp_path):
-    """Authority: as above, by the hundred."""
+    """As above, by the hundred."""
     judged(Tally(), measured, "finite elements, by night", on_elements(Cache(tmp_path)), 150)

@@ -1,6 +1,4 @@
-"""Rows 1 to 3 at every step of pairs whose flanks are resolved over the face, drawn at random: helix angles to 35
-degrees, hands, widths, misalignment of either sign, crowning, loads over five decades, gears that tilt on springs over
-six decades, coast flanks, inertia."""
+"""Rows 1 to 3 at every step of random pairs whose flanks are resolved over the face."""
 
 from collections import Counter
 
@@ -85,7 +83,7 @@ def test_every_step_of_any_scene_over_the_face(measured, examples):
 
 @pytest.mark.nightly
 def test_every_step_with_strong_friction(measured):
-    """Authority: as above, with friction up to 1."""
+    """As above, with friction up to 1."""
     judged(
         MethodsToo(),
         measured,

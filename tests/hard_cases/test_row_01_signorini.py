@@ -21,5 +21,5 @@ def test_any_step_obeys_signorini(measured):
 
 @pytest.mark.nightly
 def test_many_steps_obey_signorini(measured):
-    """Authority: as above, ten thousand times."""
+    """As above, ten thousand times."""
     judged_steps(measured, steps(FRICTIONS), LIMITS, 10000)

@@ -15,11 +15,11 @@ LIMITS = {
 
 
 def test_any_step_obeys_coulomb(measured):
-    """Authority: Coulomb's law, from forces and coordinates."""
+    """Coulomb's law, from forces and coordinates."""
     judged_steps(measured, steps(st.floats(1e-3, 2.0)), LIMITS, 120)
 
 
 @pytest.mark.nightly
 def test_many_steps_obey_coulomb(measured):
-    """Authority: as above, ten thousand times."""
+    """As above, ten thousand times."""
     judged_steps(measured, steps(st.floats(1e-3, 2.0)), LIMITS, 10000)

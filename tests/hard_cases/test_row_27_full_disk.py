@@ -1,7 +1,4 @@
-"""Row 27: a full disk.
-
-Authority throughout: as of test_row_27_damage.py.
-"""
+"""Row 27: a full disk."""
 
 import errno
 import json
@@ -23,8 +20,7 @@ from fenics_gears.elasticity.cache import Cache
 
 
 def within(size):
-    """A process's files may have so many bytes and no more: what a full disk does to a file, in every C library and
-    file system alike."""
+    """A process's files may have so many bytes and no more, as on a full disk."""
     return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
 
@@ -35,8 +31,7 @@ IN_ONE_PROCESS = (
 
 
 def limited(folder, size, *calls):
-    """Calls of `gears` one after another in a process with a limit on its files: their exit codes, and what was said of
-    errors."""
+    """Calls of `gears` one after another in a process with a limit on its files: exit codes, and what was said."""
     call = [sys.executable, "-c", IN_ONE_PROCESS, json.dumps(calls)]
     ended = subprocess.run(
         call, cwd=folder, env=environment(), capture_output=True, text=True, timeout=120, preexec_fn=within(size)
@@ -52,11 +47,8 @@ def run_into(directory):
 @pytest.mark.nightly
 @pytest.mark.parametrize("size", [100, 8192])
 def test_a_full_disk_leaves_no_half_result(folder, undrawn, measured, size):
-    """`gears run` and `gears study` on a full disk: exit code 3, the reason in words, nothing half under a final name,
-    an earlier result bit for bit as it was; with room again both run, and the study is the undisturbed one.
-
-    The gears are in the cache: what MPI does without room for its own files is not this program's.
-    """
+    """Exit code 3, nothing half under a final name, an earlier result bit for bit as it was; with room again the
+    undisturbed results. The gears are in the cache: what MPI does without room is not this program's."""
     study = write_study(folder, TWO)
     in_study = ["study", str(study), "--quiet", "--output", "study"]
     assert main(run_into("earlier")) == main([*in_study[:-1], "usual"]) == 0

@@ -1,7 +1,5 @@
-"""Row 27: kill -9 at any moment, and several runs at once on one cache.
-
-Authority throughout: as of test_row_27_damage.py.
-"""
+"""Row 27: kill -9 at any moment, and several runs at once on one cache: never half a result, the undisturbed run's
+bits."""
 
 import os
 import signal
@@ -82,9 +80,8 @@ def lengthened(folder, cycles):
 @pytest.mark.nightly
 @pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.nightly)])
 def test_a_run_killed_while_it_marches_has_its_steps_on_disk(folder, measured, capsys, kills):
-    """kill -9 at moments drawn at random: every step that is there is the undisturbed run's to the last bit, `gears
-    plot` and `gears report` draw them and say that the run did not end. The run keeps a journal from its first block of
-    steps on, not only after two seconds."""
+    """At random moments: every step that is there is the undisturbed run's; `gears plot` and `gears report` draw
+    them and say that the run did not end."""
     scene = lengthened(folder, 400)
     program = (
         "import sys\nfrom fenics_gears.results import journal\njournal.SECONDS_WITHOUT = 0.0\nfrom"
@@ -146,8 +143,7 @@ def test_a_run_killed_while_it_marches_has_its_steps_on_disk(folder, measured, c
     "pauses", [(0.011,), pytest.param((0.0, 0.003, 0.007, 0.017, 0.023), marks=pytest.mark.nightly)]
 )
 def test_writers_killed_while_they_write(tmp_path, measured, pauses):
-    """Processes that do nothing but store one large cache entry and one result again and again, killed: readers see
-    whole ones."""
+    """Processes that store a large cache entry and a result again and again, killed: readers see whole ones."""
     program = (
         "import sys, numpy, xarray\nfrom pathlib import Path\nfrom fenics_gears import results\nfrom"
         " fenics_gears.elasticity.cache import Cache\nnumber, steps = 0.0, numpy.arange(400_000.0)\nwhile True:\n   "
@@ -208,8 +204,7 @@ def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, undrawn, meas
 @pytest.mark.nightly
 @pytest.mark.parametrize("count", [2, 5])
 def test_runs_at_once_on_one_empty_cache(folder, measured, tmp_path, count):
-    """Processes condense the same gears into one cache at the same time: each has the number of a run alone, to the
-    bit."""
+    """Each has the number of a run alone, to the bit."""
     own = tmp_path / "shared"
     calls = [
         command("run", "pair.toml", "--output", f"out{number}", "--quiet", "--no-pictures") for number in range(count)

@@ -1,8 +1,5 @@
-"""Row 28: a rank of an MPI study fails. Its case is recorded with the reason, the others finish, nothing hangs, the
-exit code says so.
-
-Authority throughout: hard case 28 and the exit codes of docs/promises.md.
-"""
+"""Row 28 and the exit codes of docs/promises.md: the case of a failing rank is recorded, the others finish, nothing
+hangs."""
 
 import signal
 import subprocess
@@ -31,12 +28,8 @@ def in_the_way(study, index, directory="here"):
 @pytest.mark.nightly
 @pytest.mark.parametrize("failing", [(1,), (0,), (0, 2)])
 def test_the_case_of_a_failing_rank_is_recorded_and_the_others_finish(folder, measured, capsys, failing):
-    """Whichever of two ranks has the case, or both one each: rank 0 takes them from the last on, rank 1 from the first
-    on. At the end the dataset is that of a study alone: a case's run does not depend on where it runs.
-
-    `gears study -n 2` starts mpirun itself, as root too, where mpirun alone would refuse: the settings are the
-    program's.
-    """
+    """The dataset of a study alone, whichever rank has the case: rank 0 takes them from the last on, rank 1 from the
+    first. `-n 2` starts mpirun itself, as root too."""
     study = write_study(folder, THREE)
     cases = [in_the_way(study, index) for index in failing]
     plain = {name: value for name, value in environment().items() if not name.startswith(("OMPI_", "PRTE_"))}
@@ -89,8 +82,7 @@ def test_a_killed_rank_loses_nothing_that_was_done(folder, measured, capsys):
 
 @pytest.mark.nightly
 def test_an_outcome_that_cannot_be_reported_is_the_failure_of_its_case(folder, measured):
-    """A worker's answer travels to rank 0 as bytes; one that cannot be sent, or is no exception that can be made again,
-    is a failure, not a rank waiting for ever."""
+    """One that cannot be sent, or made again, is a failure, not a rank waiting for ever."""
     program = (
         "import time\n"
         "from fenics_gears.system import environment; environment.prepare()\n"
