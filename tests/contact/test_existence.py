@@ -1,4 +1,4 @@
-"""Whether a frictional step has a solution, and only one: certificate and errors against exact and enumerated cases."""
+"""Whether a frictional step has a solution, and only one."""
 
 import itertools
 from dataclasses import replace
@@ -16,7 +16,6 @@ from fenics_gears.contact.uniqueness import is_only_solution
 
 
 def solutions(problem, sigma):
-    """Every solution that slips along `sigma` (n,), by trying each set of closed nodes."""
     n, found = len(sigma), []
     slips = np.where(sigma > 0, SLIP_FORWARD, SLIP_BACKWARD)
     for closed in itertools.product((False, True), repeat=n):
@@ -41,8 +40,8 @@ def certified(problem, sigma, stiffness=None):
 
 @pytest.mark.parametrize("free", [False, True], ids=["held", "free"])
 def test_a_certified_solution_is_the_only_one(free):
-    """Brute force: with the slip directions given, all 2^4 sets of closed nodes of 500 problems leave at most one
-    solution where the certificate says so, and sometimes two where it does not."""
+    """Brute force: all 2^4 sets of closed nodes of 500 problems leave at most one solution where the certificate
+    says so, and sometimes two where not."""
     most = {True: 0, False: 0}
     count = {True: 0, False: 0}
     for seed in range(500):
@@ -61,8 +60,7 @@ def test_a_certified_solution_is_the_only_one(free):
 
 
 def one_node(friction, coupling=0.0, load=100.0, stiffness=0.0, arm=0.0, gap=0.0):
-    """One node that slips backward, so far by 1 mm; `arm`: of friction against the load; `coupling`: elastic, normal to
-    tangential."""
+    """One node that slips backward; `arm`: of friction against the load; `coupling`: elastic, normal to tangential."""
     free = stiffness == 0.0
     return StepProblem(
         stiffness=np.array([[stiffness]]),
@@ -79,8 +77,7 @@ def one_node(friction, coupling=0.0, load=100.0, stiffness=0.0, arm=0.0, gap=0.0
 
 @pytest.mark.parametrize("friction", [1.0, 1.5, 2.0])
 def test_friction_that_undoes_the_normal_force_locks(friction):
-    """Exact: from mu a = 1 on the node sticks and jams, with the force that the slip asks for, 1 mm over 3e-6 mm/N, not
-    the load."""
+    """Exact: from mu a = 1 on the node jams, with 1 mm over 3e-6 mm/N, not the load."""
     problem = one_node(friction, arm=1.0)
     solution = solve_step(problem, all_open(problem))
     assert solution.status[0] == STICK
@@ -100,11 +97,8 @@ def test_friction_that_undoes_the_normal_force_locks(friction):
     ],
 )
 def test_a_step_that_locks_without_a_solution_is_named(seed, nodes, words):
-    """Of 100 000 random problems (test_step_solver) the 18 without a solution say self-locking; two of them, by either
-    reason.
-
-    The arms of forces say so by themselves: friction along the slip outweighs the normal forces.
-    """
+    """The 18 of 100 000 random problems without a solution (test_step_solver) say self-locking; friction outweighs
+    the normal forces."""
     problem = random_problem(seed, nodes, 2.0, coordinates=2, free=True)
     with pytest.raises(SelfLocking, match="self-locking: with a friction coefficient of 2 ") as failure:
         solve_step(problem, all_open(problem))
@@ -114,8 +108,7 @@ def test_a_step_that_locks_without_a_solution_is_named(seed, nodes, words):
 
 
 def test_two_solutions_are_not_certified():
-    """Exact: where friction pulls the flanks together by more than the normal force parts them (mu c_nt > c_nn) an open
-    gap of g has two solutions, p = 0 and p = g/(mu c_nt - c_nn - 1/k)."""
+    """Exact: for mu c_nt > c_nn an open gap of g has two solutions, p = 0 and p = g/(mu c_nt - c_nn - 1/k)."""
     problem = one_node(2.0, coupling=1.2, load=0.0, stiffness=1e9, gap=1e-3)
     problem = replace(problem, tolerance=Tolerance.of_load(1e3))
     assert not certified(problem, np.array([-1.0]))

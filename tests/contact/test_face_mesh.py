@@ -21,7 +21,6 @@ GRID = ContactGrid(3.0, 45, closer_at_edges=True)
 
 @pytest.fixture(scope="module", params=[False, True], ids=["frictionless", "friction"])
 def model(request, paper_scene):
-    """The paper's pair on rigid shafts and bearings, quasi-static."""
     alone = replace(paper_scene, inertia=None, damping=None, shafts=None, bearings=None)
     return model_of(alone if request.param else replace(alone, friction=None))
 
@@ -57,7 +56,7 @@ def errors(records):
 
 
 def test_a_shorter_window_where_no_edge_is_near_changes_nothing(model):
-    """Exact: flanks do not touch outside it, so that the same nodes carry."""
+    """Exact: flanks do not touch outside it."""
     face = face_of(5, slope=0.2)
     whole, inner = (
         marched(model, face_cycle(model, face, grid=grid)) for grid in (GRID, replace(GRID, inner_length=1.6))
@@ -67,7 +66,7 @@ def test_a_shorter_window_where_no_edge_is_near_changes_nothing(model):
 
 
 def test_hands_mirror_each_other(model):
-    """Symmetry: seen in a mirror across the axes a right-hand pinion is a left-hand one, and slices change sides."""
+    """Symmetry: seen in a mirror across the axes."""
 
     def opening(sign):
         return lambda heights, positions: 2e-4 * (1.0 + sign * heights / WIDTH)
@@ -88,8 +87,7 @@ def by_slice(record, slices):
 
 
 def test_any_start_and_a_whole_cycle_ahead(model):
-    """Identity: a face so wide that its ends are whole mesh cycles apart has the same pairs at either end, under other
-    numbers."""
+    """Identity: ends that are whole mesh cycles apart have the same pairs, under other numbers."""
     positions = np.array([-7.25, 7.25])
     cycle = face_cycle(model, Face(positions, np.array([0.5, 0.5]), model.pair.base_pitch / np.ptp(positions)))
     by_slice = [[pair for pair in cycle.pairs_at(5) if pair.place.slice == number] for number in (0, 1)]
@@ -99,7 +97,7 @@ def test_any_start_and_a_whole_cycle_ahead(model):
 
 
 def test_slices_refined(model):
-    """Known order: the mean over slices of what varies along the face is the midpoint rule, of second order."""
+    """Known order: the mean over slices is the midpoint rule."""
     if model.scene.friction is not None:
         pytest.skip("without friction")
 

@@ -1,4 +1,4 @@
-"""The contact step against other methods and the laws themselves."""
+"""The contact step against other methods."""
 
 import itertools
 
@@ -17,7 +17,7 @@ from fenics_gears.contact.step_solver import StepProblem, solve_step
 
 @given(st.integers(0, 10**9), st.integers(1, 12))
 def test_frictionless_step_is_the_minimum_of_the_energy(seed, nodes):
-    """Other method: with q eliminated, p solves min 1/2 p^T W p - p^T d over p >= 0; SciPy's NNLS does that."""
+    """SciPy's NNLS: with q eliminated, p solves min 1/2 p^T W p - p^T d over p >= 0."""
     problem = random_problem(seed, nodes)
     flexibility = problem.jacobian @ np.linalg.solve(problem.stiffness, problem.jacobian.T) + problem.compliance
     drive = problem.jacobian @ np.linalg.solve(problem.stiffness, problem.load) - problem.gap
@@ -28,8 +28,7 @@ def test_frictionless_step_is_the_minimum_of_the_energy(seed, nodes):
 
 
 def test_frictional_step_against_enumeration_of_all_sets():
-    """Brute force: of all 4^4 sets the solution is one that satisfies every law; with small friction it is the only
-    one."""
+    """Brute force: of all 4^4 sets one satisfies every law; with small friction only one does."""
     for seed in range(12):
         problem = random_problem(seed, nodes=4, friction=0.05)
         found = []
@@ -58,8 +57,7 @@ def test_warm_start_at_the_solution_takes_one_iteration():
 
 
 def test_frictionless_cycle_is_solved_one_change_at_a_time():
-    """Contact nodes closer than the elements are nearly dependent and make all-at-once changes cycle; Murty's rule
-    ends, at NNLS's answer."""
+    """NNLS: nearly dependent nodes make all-at-once changes cycle; Murty's rule ends."""
     solved_by_last = 0
     for seed in range(40):
         rng = np.random.default_rng(seed)

@@ -20,8 +20,7 @@ from fenics_gears.geometry.pair import Helix
 @pytest.mark.parametrize("coast", [False, True])
 @pytest.mark.parametrize("interpolation", [AVERAGED, COLLOCATED])
 def test_positions_are_those_of_a_mesh_cycle_of_the_same_flanks(paper_pair, coast, interpolation):
-    """Exact identity; whatever the other cycle's own reliefs are, also where operators are made again for want of
-    memory, and between steps."""
+    """Exact identity, also where operators are made again for want of memory."""
     bodies = tuple(stand_in_compliance(gear, coast_flank=coast) for gear in (paper_pair.pinion, paper_pair.wheel))
     flanks, grid = Flanks(paper_pair, bodies, (lambda roll: 0.03 * roll**2, None)), ContactGrid(1.5, 20, interpolation)
     other = replace(flanks, removal=(lambda roll: 0.01 * roll, lambda roll: 0.02 * np.cos(roll)))
@@ -41,8 +40,7 @@ def test_positions_are_those_of_a_mesh_cycle_of_the_same_flanks(paper_pair, coas
 
 
 def test_over_a_face_as_flanks_from_which_it_is_taken(paper_pair, stand_in_flanks):
-    """Exact identity: in the slices of a helical pair, at steps and between them, the gaps of flanks that are relieved
-    themselves."""
+    """Exact identity: gaps of flanks that are relieved themselves."""
     pair = replace(paper_pair, helix=Helix(np.deg2rad(20.0), "left"))
     face = Face(*even_slices(pair.face_width, 4), pair.slope, pair.gear_middles)
     bodies = tuple(stand_in_body(gear, width) for gear, width in zip((pair.pinion, pair.wheel), pair.face_widths))

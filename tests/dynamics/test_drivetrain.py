@@ -1,4 +1,4 @@
-"""The drivetrain's matrices against the paper's own, and what an absent section leaves out."""
+"""The drivetrain's matrices."""
 
 from dataclasses import replace
 
@@ -10,14 +10,14 @@ from fenics_gears.model.drivetrain import drivetrain
 
 
 def from_twist(coordinates):
-    """The program's coordinates per phi1, phi2, phi3 of the paper: its last one is the twist phi3 - phi2."""
+    """Coordinates per phi1, phi2, phi3 of the paper: the last one is the twist phi3 - phi2."""
     change = np.eye(len(coordinates))
     change[coordinates.index("shaft_twist"), coordinates.index("rotation_2")] = -1.0
     return change
 
 
 def test_effective_stiffness_is_the_papers(paper_scene, paper_pair):
-    """[17] and [20]: undamped, with phi3 eliminated, the effective stiffness of either gear."""
+    """[17] and [20]: undamped, with phi3 eliminated."""
     scene = replace(paper_scene, damping=None)
     shafts, step = drivetrain(scene, paper_pair), 5e-5
     scheme = AverageAcceleration(shafts, step)

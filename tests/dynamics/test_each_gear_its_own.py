@@ -1,4 +1,4 @@
-"""Inertia, shafts and damping of each gear its own: closed forms, and the short form to the last bit."""
+"""Inertia, shafts and damping of each gear its own."""
 
 import re
 from dataclasses import replace
@@ -25,7 +25,6 @@ UNEQUAL = Inertia(
 
 @pytest.fixture
 def torsional(paper_scene):
-    """The paper's pair without bearings, every inertia and either shaft another."""
     return replace(
         paper_scene,
         bearings=None,
@@ -36,7 +35,7 @@ def torsional(paper_scene):
 
 
 def test_a_chain_of_unequal_inertias_and_shafts(torsional, paper_pair):
-    """Brute force: the chain's roots of det(K - w^2 M) in plain angles, written out by hand; a cubic in w^2."""
+    """Brute force: roots of det(K - w^2 M) in plain angles, a cubic in w^2."""
     rb1, rb2 = paper_pair.pinion.base_radius, paper_pair.wheel.base_radius
     a, b, c = INPUT + MESH * rb1**2, OUTPUT + MESH * rb2**2, MESH * rb1 * rb2
     # (a - J1 s)[(b - J2 s)(k - J3 s) - k^2] - c^2 (k - J3 s) = 0 with s = w^2 and k the output shaft's stiffness.
@@ -47,7 +46,7 @@ def test_a_chain_of_unequal_inertias_and_shafts(torsional, paper_pair):
 
 
 def test_the_short_form_is_both_gears_own_to_the_last_bit(paper_scene, paper_pair):
-    """Identity: what [inertia], [shafts] and [damping] say of both, said of each."""
+    """Identity: what the sections say of both, said of each."""
     inertia, shafts, damping = paper_scene.inertia, paper_scene.shafts, paper_scene.damping
     gear = GearInertia(inertia.mass, inertia.moment_of_inertia)
     rayleigh = Rayleigh(damping.stiffness_proportional, damping.mass_proportional)
@@ -63,8 +62,7 @@ def test_the_short_form_is_both_gears_own_to_the_last_bit(paper_scene, paper_pai
 
 
 def test_rayleigh_damping_of_each_shaft(paper_scene, paper_pair):
-    """Exact: alpha K + beta M of the pinion's side by its own factors, of the wheel's by its own; nothing couples the
-    two."""
+    """Exact: alpha K + beta M of either side by its own factors."""
     own = replace(paper_scene, damping=Damping(0.4e-3, 0.5e-3, wheel=Rayleigh(mass_proportional=7.0)))
     shafts = drivetrain(own, paper_pair)
     wheel = np.arange(7) >= 3
@@ -75,7 +73,7 @@ def test_rayleigh_damping_of_each_shaft(paper_scene, paper_pair):
 
 @pytest.mark.parametrize("elastic", [True, False], ids=["elastic flanks", "rigid flanks"])
 def test_every_mode_has_its_ratio(paper_scene, paper_pair, elastic):
-    """Definition: with one tooth pair in mesh (rigid flanks: tied) mode i has ratio i, all beyond the list its last."""
+    """Definition: with one tooth pair in mesh mode i has ratio i, all beyond the list its last."""
     scene = replace(paper_scene, inertia=UNEQUAL, damping=Damping(ratios=(0.02, 0.3, 0.07)))
     scene = scene if elastic else replace(scene, friction=None, gears=replace(scene.gears, material=None))
     shafts = drivetrain(scene, paper_pair)
@@ -86,7 +84,7 @@ def test_every_mode_has_its_ratio(paper_scene, paper_pair, elastic):
 
 
 def test_a_damped_mode_decays_by_its_ratio(torsional, paper_pair):
-    """Exact: eigenvalues of the damped system are -zeta w +- i w sqrt(1 - zeta^2), all modes decoupled."""
+    """Exact: eigenvalues are -zeta w +- i w sqrt(1 - zeta^2)."""
     shafts = drivetrain(replace(torsional, damping=Damping(ratios=(0.05,))), paper_pair)
     normal = np.array([1.0, 1.0, 0.0])
     stiffness = shafts.stiffness + mesh_stiffness(torsional) * np.outer(normal, normal)
@@ -109,8 +107,7 @@ moment_of_inertia = "0.2 kg m^2"
 
 
 def test_density_gives_mass_and_moment_of_inertia_of_each_gear_by_its_own_width(paper_scene, paper_pair):
-    """Definition: density times width times area and polar moment; `gears check` prints them, and what was given
-    stays."""
+    """Definition: density times width times area and polar moment."""
     text = re.sub(r"\[inertia\].*?(?=^\[)", DENSITY, paper_scene.text, flags=re.M | re.S)
     scene = scene_from_text(
         text.replace("teeth = 16", 'teeth = 16\nface_width = "18 mm"').replace(

@@ -18,8 +18,7 @@ def finished(more, helix):
 
 
 def test_the_straight_part_is_the_inclination_of_the_axes():
-    """Identity: on rigid seats an even line load opens a straight gap, and its slope is a run's inclination of the axes
-    where the line load is even: with a helix slope that closes the gap."""
+    """Identity: an even line load opens a straight gap; a helix slope that closes it makes the line load even."""
     model, bent = finished(ELASTIC, 0.0)
     z, pair = middles_of_slices(model.pair), model.pair
     compliance = face_compliance_of_shafts(model.drivetrain.elastic, pair, z)

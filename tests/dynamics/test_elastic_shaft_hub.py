@@ -1,5 +1,4 @@
-"""A hub that gives way with its shaft: bodies of revolution against closed forms, and shaft and body put together
-against the whole by the same elements."""
+"""A hub that gives way with its shaft."""
 
 from math import pi
 
@@ -25,7 +24,7 @@ GEAR = (Ring(BORE, HUB, -HALF, HALF, *STEEL), Ring(HUB, RIM, 1.0, 6.0, *STEEL), 
 
 
 def test_a_tube_bends_twists_and_stretches_as_closed_forms_have_it():
-    """Exact: L / E I and L^2 / 2 E I under an end moment, L / E A, L / G J: strains that the elements have."""
+    """Exact: L / E I and L^2 / 2 E I under an end moment, L / E A, L / G J."""
     length, (modulus, ratio) = 50.0, STEEL
     tube = BodyOfRevolution([Ring(BORED, BORE, 0.0, length, *STEEL)], 2.0)
     bent, stretched = (
@@ -38,8 +37,7 @@ def test_a_tube_bends_twists_and_stretches_as_closed_forms_have_it():
 
 
 def test_body_on_its_bore_rigid_seat_and_hub_make_up_one_solid():
-    """Brute force: the same elements over the whole shaft, whose ends are held in the mean. Beams beside the face are
-    what differs, by Timoshenko's shear. The remainder is never negative."""
+    """Brute force: the same elements over the whole shaft; beams beside the face differ, by Timoshenko's shear."""
     whole = BodyOfRevolution([Ring(BORED, BORE, -AT, LENGTH - AT, *STEEL), *GEAR], SIZE)
     held = Bearing(0.0, SPRING, SPRING, TILTING), Bearing(LENGTH, SPRING, 0.0, TILTING)
     sections = (ShaftSection(LENGTH, 2.0 * BORE, bore=2.0 * BORED),)

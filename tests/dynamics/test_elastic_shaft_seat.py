@@ -1,5 +1,4 @@
-"""A gear that is cut into its shaft: twist in closed form, elements of a textbook, and the flanks' compliance by the
-rows that move them."""
+"""A gear that is cut into its shaft."""
 
 import re
 from math import pi
@@ -35,8 +34,7 @@ def shaft(bearings, torque_at=0.0):
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_the_twist_under_an_even_torque_is_that_of_the_closed_form(sense):
-    """Exact: t (b s - s^2 / 2) / G J, s from the face's end on the coupling's side; beyond a single torque nothing
-    twists."""
+    """Exact: t (b s - s^2 / 2) / G J, s from the face's end on the coupling's side."""
     found = seat_compliance(shaft(BEARINGS["between"], 60.0 - sense * 60.0), HEIGHTS)[:, 5, :, 5]
     polar = 206e3 / 2.6 * pi / 32.0 * (DIAMETER**4 - BORE**4)
     along = 0.5 * WIDTH + sense * HEIGHTS
@@ -49,8 +47,8 @@ def test_the_twist_under_an_even_torque_is_that_of_the_closed_form(sense):
 
 @pytest.mark.parametrize("name", BEARINGS)
 def test_rigid_seat_and_remainder_make_up_the_whole_compliance(name):
-    """Brute force: elements of a textbook over the whole shaft, inverted; the stiffness of a rigid seat is R^T C^-1 R
-    of them, and the remainder is never negative."""
+    """Brute force: elements of a textbook, inverted; the seat's stiffness is R^T C^-1 R, the remainder never
+    negative."""
     found = shaft(BEARINGS[name])
 
     def shear(outer, bore):
@@ -70,8 +68,7 @@ def test_rigid_seat_and_remainder_make_up_the_whole_compliance(name):
 
 @pytest.mark.parametrize(("helix", "shafts"), [(0.0, CUT), (15.0, CUT), (15.0, PRESSED)])
 def test_flanks_give_way_as_their_rows_say(helix, shafts):
-    """Identity: what a gear that is cut into its shaft, or gives way with it, adds to the compliance of contact nodes
-    is J D J^T, J being the rows by which the motions of gears move these nodes, shifted to each node's height."""
+    """Identity: the compliance of contact nodes grows by J D J^T, J the rows by which gears move them."""
     accuracy = "slices = 6\ncontact_nodes = 9\nsteps_per_mesh_cycle = 4"
     models = [
         model_of(helical_scene(each + "[friction]\ncoefficient = 0.1\n", helix=helix, accuracy=accuracy))
