@@ -1,5 +1,4 @@
-"""Gears on shafts that bend, in whole runs on bodies without finite elements: statics, and the condensed compliance by
-hand."""
+"""Gears on shafts that bend, on bodies without finite elements."""
 
 import numpy as np
 import pytest
@@ -24,7 +23,6 @@ def shear(outer, bore):
     scope="module", params=[(0.0, ELASTIC), (15.0, ELASTIC), (15.0, CUT)], ids=["spur", "helical", "cut into shafts"]
 )
 def run(request):
-    """The model of a run with friction on two elastic shafts, and its result."""
     helix, shafts = request.param
     more = shafts + "[friction]\ncoefficient = 0.05\n[lead_modifications.pinion]\ncrowning = '4 um'\n"
     model = model_of(helical_scene(more, helix=helix, offset=2.0, accuracy=FEW))
@@ -38,8 +36,7 @@ def near(found, wanted, part=1e-10):
 
 
 def test_bearings_carry_what_the_gear_puts_on_its_shaft(run):
-    """Exact: forces and moments of all bearings of a shaft balance those of the contact on its gear, about its
-    mid-width; the torque of the contact is the load's where nothing but friction and contact act on the wheel."""
+    """Exact: bearings balance the contact's forces and moments; the torque is the load's."""
     model, result = run
     for shaft in model.drivetrain.elastic:
         own = [name.startswith(shaft.gear) for name in result["bearing"].values]
@@ -57,8 +54,7 @@ def test_bearings_carry_what_the_gear_puts_on_its_shaft(run):
 
 
 def test_gears_move_by_the_compliance_of_elements_under_their_own_reactions(run):
-    """Brute force: the compliance of a textbook's elements, applied to the forces and moments of the recorded contact,
-    gives the recorded motions of the gears. What the gear sits on is extrapolated to rigid."""
+    """Brute force: a textbook's elements under the recorded contact; the seat is extrapolated to rigid."""
     model, result = run
     for shaft in model.drivetrain.elastic:
         gear = result.sel(gear=shaft.gear)
@@ -71,8 +67,8 @@ def test_gears_move_by_the_compliance_of_elements_under_their_own_reactions(run)
 
 
 def test_axes_and_lines_are_those_of_the_gears(run):
-    """Identity: inclination and offset are the difference of both gears' tilts and displacements in the middle of the
-    common face; the lines pass the gears' middles with the gears' displacement; the energy account closes."""
+    """Identity: differences of both gears' tilts and displacements in the middle of the face; the energy account
+    closes."""
     model, result = run
     width, middles = model.pair.face_width, np.array(model.pair.gear_middles)
     tilt = {axis: result[f"tilt_{axis}"].values for axis in "xy"}
@@ -91,8 +87,7 @@ def test_axes_and_lines_are_those_of_the_gears(run):
 
 
 def test_the_drawing_shows_gears_bearings_and_deflection_to_scale(run):
-    """Identity: the drawn shafts are as long and as thick as the scene's, and off their axes by the magnified
-    deflection; bearings stand on the lines, and a picture is drawn of it."""
+    """Identity: as long and thick as the scene's, off their axes by the magnified deflection."""
     model, result = run
     scale, *lines = bent_shafts(Run(result))
     times = float(scale.caption.split("magnified ")[1].split()[0])
@@ -111,7 +106,7 @@ def test_the_drawing_shows_gears_bearings_and_deflection_to_scale(run):
 
 
 def test_the_scene_is_written_and_read_again():
-    """Identity: a scene made of the data alone reads as the same."""
+    """Identity."""
     scene = helical_scene(ELASTIC, accuracy=FEW)
     scene.__dict__.pop("text")
     again = scene_from_text(text_of(scene), scene.name)
@@ -120,7 +115,7 @@ def test_the_scene_is_written_and_read_again():
 
 
 def test_a_side_that_names_nothing_is_rigid():
-    """Authority: docs/scene.md. The other side may have sections, a torsional stiffness or a support of its own."""
+    """docs/scene.md."""
     alone = model_of(helical_scene(INPUT + PINION, accuracy=FEW)).drivetrain
     of_pinion = {"centre_x1", "centre_y1", "axial_1", "tilt_x1", "tilt_y1", "rotation_1"}
     assert set(alone.coordinates) == of_pinion | {"rotation_2"}

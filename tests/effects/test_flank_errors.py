@@ -1,4 +1,4 @@
-"""Errors of single teeth: where they are felt, by how much, and over which period."""
+"""Errors of single teeth."""
 
 from dataclasses import replace
 from math import cos, pi
@@ -33,14 +33,13 @@ def rigid(paper_scene):
 
 @pytest.fixture(scope="module")
 def both_flanks(paper_pair):
-    """A mesh cycle of drive and coast flanks without finite elements."""
     gears = paper_pair.pinion, paper_pair.wheel
     flanks = Flanks(paper_pair, tuple(stand_in_compliance(gear, coast_flank=True) for gear in gears))
     return Cycle(elastic_mesh(flanks, ContactGrid(1.5, 20)), STEPS, [5], tangential=False)
 
 
 def length(result, pair):
-    """T_E (n,) as a length on the wheel's base circle, mm."""
+    """T_E (n,) on the wheel's base circle, mm."""
     return result.transmission_error.values * pair.wheel.base_radius
 
 
@@ -50,7 +49,6 @@ def spectrum(error):
 
 
 def one_tooth(teeth, tooth, error):
-    """Pitches of a gear with one tooth out of place."""
     pitches = np.zeros(teeth)
     pitches[tooth], pitches[tooth + 1] = error, -error
     return tuple(pitches)
@@ -58,10 +56,9 @@ def one_tooth(teeth, tooth, error):
 
 @pytest.mark.parametrize(("gear", "teeth", "first"), [("pinion", 16, -1.0), ("wheel", 24, 1.0)])
 def test_a_tooth_out_of_place_displaces_the_rigid_pair_while_it_leads(rigid, paper_pair, gear, teeth, first):
-    """Exact: a pitch deviation f is f cos(alpha) along the line of action. A tooth that stands nearer to its mate leads
-    all the way along the path of contact, one that stands back only leaves its mark where no other tooth is in mesh,
-    nor its tip within 10 um of it;
-    others do not feel it. A pitch too long brings the pinion's tooth late, the wheel's near."""
+    """Exact: a pitch deviation f is f cos(alpha) along the line of action. A tooth nearer to its mate leads all
+    along the path of contact, one that stands back is felt only where it is alone; a pitch too long brings the
+    pinion's tooth late, the wheel's near."""
     along = ERROR * cos(paper_pair.pinion.pressure_angle)
     ratio, tooth = paper_pair.contact_ratio, 5
     for sign in (first, -first):
@@ -90,9 +87,7 @@ def test_a_tooth_out_of_place_displaces_the_rigid_pair_while_it_leads(rigid, pap
     ],
 )
 def test_waves_give_their_own_order_and_go_on_from_tooth_to_tooth(rigid, paper_pair, gear, turns, waves):
-    """Known answer: on the line of action all pairs in mesh see the same phase of the wave, so that the rigid pair has
-    one order, k of its gear's turn, as large as the wave is high; what contact gains beside the line of action is of
-    second order in the height."""
+    """Known answer: all pairs in mesh see the same phase, so that there is one order, as large as the wave is high."""
     small, amplitude = 1e-7, 1e-4
     found = []
     for height in (small, amplitude):
@@ -118,7 +113,7 @@ ALL = GearErrors(
 
 
 def moved(name, change):
-    """Errors of the pinion with one kind of them changed on every tooth by `change` (mm, rad for the phase)."""
+    """Errors of the pinion with one kind of them changed by `change` (mm, rad)."""
     if name in ("amplitude", "phase"):
         waves = replace(ALL.waviness, **{name: getattr(ALL.waviness, name) + change})
         return FlankErrors(pinion=replace(ALL, waviness=waves))
@@ -128,7 +123,7 @@ def moved(name, change):
 
 
 def excess_per_unit(name, roll, tooth, pair):
-    """Material in excess on the pinion's flank for a unit of a deviation, by its definition."""
+    """Material in excess on the pinion's flank for a unit of a deviation."""
     start, end = pair.sap_roll_angles[0], pair.pinion.tip_roll_angle
     along = (roll - start) / (end - start)
     turned = 37 * (roll + tooth * pair.pinion.angular_pitch) + 0.4
@@ -143,8 +138,8 @@ def excess_per_unit(name, roll, tooth, pair):
 
 @pytest.mark.parametrize("name", ["pitch", "profile_slope", "profile_form", "amplitude", "phase"])
 def test_gaps_follow_each_deviation(both_flanks, paper_pair, name):
-    """Finite differences against the definition: the gap's derivative is less the excess on the flank, averaged over a
-    node's hat by adaptive quadrature; coast flanks have true profiles, but stand where their tooth stands."""
+    """Finite differences: the gap's derivative is less the excess, averaged by quadrature; coast flanks have true
+    profiles, but stand where their tooth stands."""
     change, step = 1e-7, 3 * STEPS + 11
     position = both_flanks.position(step)
     ends = [flank_gaps(moved(name, sign * change), paper_pair, STEPS)(step, position) for sign in (1, -1)]
@@ -171,7 +166,7 @@ def _excess_at(name, offset, pair, tooth, gear_pair):
 
 
 def test_waves_that_the_steps_do_not_sample_are_refused(paper_pair):
-    """House rule on errors: what, the value, what is allowed, the remedy."""
+    """What, the value, what is allowed, the remedy."""
     errors = FlankErrors(wheel=GearErrors(waviness=Waviness(0.001, 241, 0.0)))
     with pytest.raises(SceneError) as refused:
         flank_gaps(errors, paper_pair, STEPS)

@@ -1,5 +1,4 @@
-"""Crowning and slope of the profile, and the exponent of a relief: their curves, and what they do to the transmission
-error."""
+"""Crowning and slope of the profile, and the exponent of a relief."""
 
 import numpy as np
 import pytest
@@ -16,8 +15,7 @@ ELASTIC = BASE + EXAMPLES["tooth_elasticity"]
 
 
 def test_curves_are_what_the_fields_say(paper_pair):
-    """Definition: crowning is removed at both ends and slope at the tip, where they are negative in the middle and at
-    the start; nothing is ever added."""
+    """Definition: crowning at both ends, slope at the tip; nothing is ever added."""
     start, end = paper_pair.sap_roll_angles[1], paper_pair.wheel.tip_roll_angle
     places = np.array([start, 0.5 * (start + end), end])
     for modification, removed in (
@@ -31,7 +29,7 @@ def test_curves_are_what_the_fields_say(paper_pair):
 
 
 def test_exponents_of_one_and_two_are_the_shapes(paper_pair):
-    """Identity: to the last digit; an exponent of 1.5 lies between them."""
+    """Identity; an exponent of 1.5 lies between them."""
     rolls = np.linspace(paper_pair.hpstc_roll_angles[0], paper_pair.pinion.tip_roll_angle, 20)
 
     def removed(**how):
@@ -55,6 +53,6 @@ def test_exponents_of_one_and_two_are_the_shapes(paper_pair):
     ],
 )
 def test_wrong_modifications_are_refused(section, words):
-    """Authority: docs/scene.md."""
+    """docs/scene.md."""
     with pytest.raises(SceneError, match=words):
         scene_from_text(ELASTIC + section)

@@ -16,8 +16,7 @@ from fenics_gears.simulation.bearings_at_work import mean_loads, with_bearings_a
 
 
 def test_rolling_bearings_carry_by_their_law_in_the_run():
-    """The bearings' own law at the motions of the shaft in the run, on the average; the run knows linear springs alone,
-    which it repeats until they agree."""
+    """The bearings' own law at the shaft's mean motions."""
     model = model_of(helical_scene(ROLLING + OUTPUT + WHEEL, offset=2.0, accuracy=FEW))
     bodies = on_stand_in_bodies(model)
     shaft = model.drivetrain.elastic[0]
@@ -40,7 +39,7 @@ def test_rolling_bearings_carry_by_their_law_in_the_run():
 
 @pytest.mark.parametrize("torque", [3e5, -3e5], ids=["drive", "coast"])
 def test_the_even_load_is_the_force_of_a_run_on_the_flanks_that_carry(torque):
-    """Statics; without friction forces have the direction of the flanks' normal, whatever the line load."""
+    """Statics: without friction forces have the direction of the flanks' normal."""
     model = model_of(helical_scene(ELASTIC + "\n[coast_flanks]\n", offset=2.0, accuracy=FEW, torque=torque))
     recorder = Recorder(model, cycle_of(model, on_stand_in_bodies(model)))
     Marcher(recorder.cycle, model.equations_of_motion).run(model.steps, 1, observe=recorder.take)

@@ -1,4 +1,4 @@
-"""Relief towards tip and root: its curve, what it does to the gaps and to the transmission error."""
+"""Relief towards tip and root."""
 
 from dataclasses import replace
 from math import radians
@@ -27,7 +27,7 @@ KINDS = {"tip_relief": (TipRelief, tip_reliefs), "root_relief": (RootRelief, roo
 
 @pytest.mark.parametrize("section", KINDS)
 def test_relief_runs_from_single_contact_to_the_end_of_the_flank(paper_pair, section):
-    """Definition: nothing before HPSTC (LPSTC), the depth at the tip (form circle), linear or parabolic between."""
+    """Definition: nothing before HPSTC (LPSTC), the depth at the tip (form circle)."""
     (kind, curves), fractions = KINDS[section], np.array([-1.0, 0.0, 0.25, 0.5, 1.0])
     point, end = ("hpstc", "tip") if section == "tip_relief" else ("lpstc", "form")
     gears = tuple(zip((paper_pair.pinion, paper_pair.wheel), getattr(paper_pair, f"{point}_roll_angles")))
@@ -40,7 +40,7 @@ def test_relief_runs_from_single_contact_to_the_end_of_the_flank(paper_pair, sec
 
 @pytest.mark.parametrize("section", KINDS)
 def test_a_start_may_be_a_roll_angle_or_a_diameter(paper_pair, section):
-    """Identity: r = rb sqrt(1 + v^2); each gear has its own."""
+    """Identity: r = rb sqrt(1 + v^2)."""
     kind, curves = KINDS[section]
     roll = radians(22.0)
     diameter = 2.0 * float(paper_pair.pinion.radius(roll))
@@ -55,8 +55,7 @@ def test_a_start_may_be_a_roll_angle_or_a_diameter(paper_pair, section):
 
 @pytest.mark.parametrize("section", KINDS)
 def test_a_start_may_be_a_length_from_the_end(paper_pair, section):
-    """Identities: the path of contact is rb v long; the involute's arc is the integral of |dr| over the flank's points,
-    here a fine polygon."""
+    """Identities: the path is rb v long; the arc is the integral of |dr|, by a fine polygon."""
     kind, curves = KINDS[section]
     for fields in ({"length_on_path": 3.0}, {"length_on_flank": 1.5}):
         for curve, gear in zip(
@@ -76,7 +75,7 @@ def test_a_start_may_be_a_length_from_the_end(paper_pair, section):
     ("field", "words"), [("length_on_path", "on the path of contact"), ("length_on_flank", "along the flank")]
 )
 def test_a_relief_longer_than_the_flank_is_refused(paper_pair, field, words):
-    """House rule on errors: what, which gear, the value, what is allowed, the field."""
+    """What, which gear, the value, what is allowed, the field."""
     with pytest.raises(GeometryError) as refused:
         tip_reliefs(paper_pair, TipRelief(None, Relief(DEPTH, None, **{field: 40.0})))
     for said in ("wheel: ", f"starts at 40 mm from the tip {words}", f"change tip_relief.wheel.{field}"):
@@ -85,8 +84,7 @@ def test_a_relief_longer_than_the_flank_is_refused(paper_pair, field, words):
 
 @pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
 def test_a_gears_own_growth_goes_before_that_of_both(paper_scene, section, word):
-    """docs/scene.md; fields that a gear's own section leaves out are those of both, and shape and exponent say the
-    same."""
+    """docs/scene.md; shape and exponent say the same."""
     text = f'[{section}]\ndepth = "20 um"\nstart = "{word}"\nexponent = 1.5\n[{section}.wheel]\nshape = "parabolic"\n'
     found = getattr(scene_from_text(f"{paper_scene.text}\n{text}"), section)
     assert (found.pinion.power, found.wheel.power) == (1.5, 2)
@@ -94,8 +92,7 @@ def test_a_gears_own_growth_goes_before_that_of_both(paper_scene, section, word)
 
 @pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
 def test_a_start_means_one_place(paper_scene, section, word):
-    """Definition of the scene's fields: a diameter belongs to one gear, unless the gears are alike; lengths and roll
-    angles to both; one of them."""
+    """Definition: a diameter belongs to one gear, lengths and roll angles to both."""
     depth, diameter = f'[{section}]\ndepth = "20 um"\n', 'start = "80 mm"\n'
 
     def relief(text, scene=paper_scene.text):
@@ -132,10 +129,8 @@ def test_a_start_means_one_place(paper_scene, section, word):
 
 @pytest.mark.parametrize("section", KINDS)
 def test_gaps_open_by_the_removal_there(paper_scene, paper_pair, stand_in_flanks, section):
-    """Finite differences: the gap's derivative with the depth is the removal per depth averaged over the node's hat, by
-    adaptive quadrature;
-    four Gauss points see the kink at the relief's start to 3e-3 of the relief that one cell has. Elsewhere the gap does
-    not change."""
+    """Finite differences: the removal averaged over the node's hat, by adaptive quadrature, to 3e-3 of the relief
+    that one cell has."""
     change = 1e-6
     scenes = [
         replace(paper_scene, **{section: KINDS[section][0](Relief(DEPTH + sign * change, None), None)})
@@ -180,7 +175,7 @@ def _operator(pair, flanks, scene, grid, step):
     ],
 )
 def test_relief_off_the_flank_is_refused(paper_pair, relief, said):
-    """House rule on errors: what, which gear, the value, what is allowed, the field."""
+    """What, which gear, the value, what is allowed, the field."""
     with pytest.raises(GeometryError) as refused:
         tip_reliefs(paper_pair, TipRelief(relief, None))
     assert str(refused.value).startswith("pinion: tip")

@@ -1,4 +1,4 @@
-"""Shafts that bend and vibrate, in whole runs on bodies without finite elements."""
+"""Shafts that bend and vibrate, on bodies without finite elements."""
 
 import numpy as np
 import pytest
@@ -13,8 +13,7 @@ from fenics_gears.results.summary import summary_rows
 
 
 def test_a_shaft_that_vibrates_keeps_the_balance_of_energy():
-    """Exact: the energy account of a run with inertia, friction and damping closes to round-off, and the result has
-    natural frequencies, of which the mesh's is one."""
+    """Exact: the account closes; the mesh's natural frequency is there."""
     more = VIBRATING + "[friction]\ncoefficient = 0.05\n[damping]\nratio = 0.05\n"
     model = model_of(helical_scene(more, offset=2.0, accuracy=FEW.replace("= 8", "= 64"), frequency=800.0))
     found = run_of(model, on_stand_in_bodies(model))
@@ -29,8 +28,8 @@ def test_a_shaft_that_vibrates_keeps_the_balance_of_energy():
 
 
 def test_what_is_said_of_shafts_that_vibrate():
-    """Authority: `gears check` has closed forms, density times volume and the reduced mass of two gears along the line
-    of action, and the compliance of the condensed shaft; a summary has the numbers of its result."""
+    """Closed forms: density times volume, the reduced mass along the line of action, the condensed shaft's
+    compliance."""
     scene = helical_scene(VIBRATING, accuracy=FEW, frequency=800.0)
     said = {label: value for _, rows in describe(scene) for label, value, _ in rows}
     volume = 0.25 * np.pi * ((28.0**2 - 8.0**2) * 40.0 + 35.0**2 * 90.0)
@@ -54,7 +53,7 @@ def test_what_is_said_of_shafts_that_vibrate():
 
 
 def test_a_slow_run_with_inertia_is_the_quasi_static_one():
-    """Limit: at a hundredth of a mesh cycle a second inertia does nothing."""
+    """Limit: a hundredth of a mesh cycle a second."""
     runs = []
     for more in (VIBRATING, VIBRATING.replace(INERTIA, "")):
         model = model_of(helical_scene(more, offset=2.0, accuracy=FEW, frequency=0.01))
@@ -67,8 +66,7 @@ def test_a_slow_run_with_inertia_is_the_quasi_static_one():
 
 @pytest.mark.parametrize("more", ["", "[friction]\ncoefficient = 0.05\n"])
 def test_a_march_that_eliminates_modes_is_the_one_that_keeps_them(more):
-    """Brute force: plain steps solve for modes with all else. A velocity is a difference of positions over a step, and
-    is as exact as they are."""
+    """Brute force: plain steps solve for modes with all else."""
     model = model_of(helical_scene(VIBRATING + more, accuracy=FEW.replace("= 8", "= 64"), frequency=800.0))
     cycle, found = cycle_of(model, on_stand_in_bodies(model)), []
     for plain in (False, True):

@@ -1,4 +1,4 @@
-"""Wobble and helix deviations in a scene: where they are allowed, and a whole run with them."""
+"""Wobble and helix deviations in a scene."""
 
 from dataclasses import replace
 
@@ -43,14 +43,14 @@ CLASS = "[flank_errors]\ntolerance_class = 6\n"
     ],
 )
 def test_what_needs_a_face_or_does_not_fit_it_is_refused(lines, said):
-    """Authority: house rule 7; what, where, what is allowed."""
+    """House rule 7."""
     with pytest.raises(SceneError) as refused:
         scene_from_text(ELASTIC + lines)
     assert said in str(refused.value)
 
 
 def test_a_class_is_for_face_widths_of_the_standard():
-    """ISO 1328-1:2013, scope: face widths from 4 mm to 1.2 m; a plane scene draws nothing along the face."""
+    """ISO 1328-1:2013: face widths from 4 mm to 1.2 m; a plane scene draws nothing along the face."""
     narrow = ELASTIC.replace('face_width = "15 mm"', 'face_width = "3 mm"')
     scene_from_text(narrow + CLASS)
     with pytest.raises(SceneError, match="face widths from 4 mm to 1200 mm"):
@@ -58,7 +58,7 @@ def test_a_class_is_for_face_widths_of_the_standard():
 
 
 def test_a_table_with_helix_deviations_is_of_a_scene_with_a_face(tmp_path, monkeypatch):
-    """Authority: house rule 7, for what stands in a file."""
+    """House rule 7."""
     from fenics_gears.model.model import model_of
 
     (tmp_path / "pinion.csv").write_text(
@@ -73,11 +73,7 @@ def test_a_table_with_helix_deviations_is_of_a_scene_with_a_face(tmp_path, monke
 
 
 def test_constant_helix_slope_is_a_misalignment(paper_scene):
-    """Identity: material in excess towards the right end of all teeth of a spur pinion is as much taken off the gap
-    there as a misalignment takes.
-
-    Both are linear along the face; of a slope the mean is zero.
-    """
+    """Identity: linear along the face, the mean zero."""
     scene = frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1)))
     accuracy = replace(COARSE, steps_per_mesh_cycle=5, contact_nodes=14, slices=4, layers=2, body_element_size=2.5)
     scene = replace(scene, accuracy=accuracy, load=Load(0.3 * scene.load.wheel_torque), motion=Motion(200.0, 1, 1))

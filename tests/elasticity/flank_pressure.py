@@ -1,4 +1,4 @@
-"""A given pressure on a tooth's flank as consistent forces on its nodes."""
+"""A pressure on a tooth's flank as consistent forces on its nodes."""
 
 import numpy as np
 
@@ -9,14 +9,14 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
 def flank_arcs(recovery) -> np.ndarray:
-    """Arc lengths (f,), mm, from the base circle of the drive flank's nodes, in the order of its forces."""
+    """Arc lengths (f,), mm, of the drive flank's nodes from the base circle."""
     gear, order = recovery.gear, recovery.sector.section.order
     points = recovery.points[recovery.sector.flank_nodes("flank")]
     return arc_length(gear.base_radius, node_roll_angles(gear, points[::order], order))
 
 
 def pressed(recovery, pressure) -> np.ndarray:
-    """Line forces (2 f,), N/mm, of a pressure (MPa), a function of the arc length (mm), on the drive flank's nodes."""
+    """Line forces (2 f,), N/mm, of a pressure (MPa), a function of the arc length (mm)."""
     arcs, order = flank_arcs(recovery), recovery.sector.section.order
     forces = np.zeros((len(arcs), 2))
     for first in range(0, len(arcs) - 1, order):

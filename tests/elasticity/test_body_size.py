@@ -1,5 +1,4 @@
-"""The body's element size: a family of meshes whose error falls with an order, the flank's elements left as they
-are."""
+"""The body's element size: a family of meshes of known order."""
 
 import numpy as np
 import pytest
@@ -13,7 +12,7 @@ FLANK = 0.3
 
 
 def stretched(gear, steel, element, factor):
-    """Mean displacement along x under a force along x that is spread over the whole flank, mm per N/mm."""
+    """Mean displacement along x under a force spread over the whole flank, mm per N/mm."""
     order = element_named(element).order
     body = gear.module * DEFAULT_SIZES[order].body * factor
     found = flank_compliance(gear, steel, Discretisation(element, FLANK, body), Reach(0))
@@ -28,8 +27,7 @@ def stretched(gear, steel, element, factor):
 
 @pytest.mark.parametrize("element, factors", [("P2", (2.0, 1.0, 0.5, 0.25)), ("Q2", (2.0, 1.0, 0.5))])
 def test_the_error_falls_with_the_square_of_the_size(pinion, steel, element, factors):
-    """Theory (Strang and Berger 1973): straight sides along a curved outline leave h^2, though elements of second order
-    could do better."""
+    """Strang and Berger 1973: straight sides along a curved outline leave h^2."""
     changes = np.diff([stretched(pinion, steel, element, factor) for factor in factors])
     assert (changes > 0.0).all()
     orders = np.log2(changes[:-1] / changes[1:])
@@ -37,6 +35,6 @@ def test_the_error_falls_with_the_square_of_the_size(pinion, steel, element, fac
 
 
 def test_an_element_of_third_order_is_refused():
-    """House rule 7; five modules number nodes at corners and middles of sides only, and would stop with a KeyError."""
+    """House rule 7: nodes are numbered at corners and middles of sides only."""
     with pytest.raises(ValueError, match="order = 3.*Allowed: 1 or 2"):
         Element("P3", 3, 3, 4)

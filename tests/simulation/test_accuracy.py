@@ -1,4 +1,4 @@
-"""What the default accuracy is worth: halved in everything, against Hertz, across hand-over, wherever the grid lies."""
+"""What the default accuracy is worth."""
 
 from dataclasses import replace
 
@@ -11,13 +11,12 @@ from fenics_gears.scene.data import Accuracy
 
 @pytest.fixture(scope="module")
 def default_scene(quasi_static_scene):
-    """The paper's pair, frictionless, quasi-static, with everything under [accuracy] left to the program."""
+    """The paper's pair, frictionless, quasi-static, with the program's own [accuracy]."""
     return replace(quasi_static_scene, friction=None, accuracy=Accuracy())
 
 
 @pytest.fixture(scope="module")
 def bare_scene(default_scene):
-    """The same with rigid shafts and bearings: the transmission error is that of the teeth alone."""
     return replace(default_scene, shafts=None, bearings=None)
 
 
@@ -36,8 +35,7 @@ def relative_change(value, reference):
 @pytest.mark.nightly
 @pytest.mark.parametrize("name", ["bare_scene", "default_scene"])
 def test_halving_everything_moves_mean_and_peak_to_peak_by_less_than_half_a_per_cent(name, request):
-    """Asked for: flank elements, contact spacing and time step halved; also without the drivetrain's share of the
-    mean."""
+    """Flank elements, contact spacing and time step halved; also without the drivetrain's share."""
     scene = request.getfixturevalue(name)
     result, resolution = simulate(scene), model_of(scene).resolution
     finer = replace(
@@ -55,8 +53,7 @@ def test_halving_everything_moves_mean_and_peak_to_peak_by_less_than_half_a_per_
 
 
 def test_a_longer_window_changes_nothing_at_any_phase(bare_scene, bare):
-    """model.md section 1: lengthening the default window moves no phase by more than the 0.1 % ripple of the grid; 0.8
-    mm cuts hand-over off."""
+    """model.md section 1: no phase moves by more than the 0.1 % ripple of the grid; 0.8 mm cuts hand-over off."""
     grid = model_of(bare_scene).resolution.contact_grid
     change = {}
     for nodes in (grid.nodes + 40, round(0.8 / grid.spacing) + 1):

@@ -1,4 +1,4 @@
-"""Settings of `[accuracy]`: the default is the limit that each approaches."""
+"""Settings of `[accuracy]`."""
 
 from dataclasses import replace
 
@@ -16,7 +16,7 @@ from fenics_gears.simulation.bodies import body_key
 
 @pytest.fixture
 def error_of(paper_scene):
-    """Transmission error (12,), rad, of the paper's teeth alone without friction, with accuracy settings."""
+    """Transmission error (12,), rad, of the paper's teeth alone without friction."""
 
     def run(scene=None, **accuracy):
         static = replace(scene or frictionless(teeth_alone(coarse_scene(paper_scene))), motion=Motion(200.0, 1, 1))
@@ -27,7 +27,7 @@ def error_of(paper_scene):
 
 
 def test_defaults_are_the_limits_to_the_last_bit(paper_scene):
-    """Exact: naming what is there by default changes no bit of a run with friction and inertia."""
+    """Exact: naming a default changes no bit."""
     scene = coarse_scene(paper_scene, cycles=1)
     named = {
         "body_element_size": scene.gears.module * DEFAULT_SIZES[1].body, "interpolation": AVERAGED, "elastic_teeth": 15,
@@ -41,8 +41,7 @@ def test_defaults_are_the_limits_to_the_last_bit(paper_scene):
 
 @pytest.mark.nightly
 def test_teeth_that_feel_each_other(error_of, paper_scene):
-    """Limit: with as many teeth as are loaded together the result is the default's; with fewer the error falls from one
-    to the next."""
+    """Limit: as many teeth as are loaded together."""
     scene = frictionless(teeth_alone(coarse_scene(paper_scene)))
     module, teeth = 4.5, (40, 60)
     pinion, wheel = (
@@ -60,7 +59,7 @@ def test_teeth_that_feel_each_other(error_of, paper_scene):
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_collocation_takes_values_at_points(order):
-    """Exact: a polynomial of the element's order in the arc length is met at the contact nodes, to round-off."""
+    """Exact: a polynomial of the element's order is met at the contact nodes."""
     flank = np.sqrt(np.linspace(0.01, 0.36, 20 * order + 1))
     rolls = np.sqrt(np.linspace(0.011, 0.35, 37))
     ends = np.array([0, len(rolls)])
@@ -74,7 +73,7 @@ def test_collocation_takes_values_at_points(order):
 
 @pytest.mark.parametrize("change", [{"body_element_size": 1.0}, {"elastic_teeth": 1}, {"interpolation": COLLOCATED}])
 def test_studies_keep_apart_what_differs(change, paper_scene):
-    """From the task: what changes the operators changes the keys under which a study keeps them."""
+    """What changes the operators changes a study's keys."""
     scene = coarse_scene(paper_scene)
     model, other = model_of(scene), model_of(replace(scene, accuracy=replace(scene.accuracy, **change)))
     assert cycle_key(model) != cycle_key(other)
@@ -83,7 +82,7 @@ def test_studies_keep_apart_what_differs(change, paper_scene):
 
 @pytest.mark.parametrize("line", ['interpolation = "collocated"', "elastic_teeth = 2"])
 def test_remeshing_refuses_what_it_does_not_have(line, paper_scene):
-    """Rule of the house: no option is ignored silently."""
+    """House rule: no option is ignored silently."""
     text = paper_scene.text.replace('condensation = "once"', f'condensation = "every step"\n{line}')
     with pytest.raises(SceneError, match='has no meaning beside condensation = "every step"'):
         scene_from_text(text)

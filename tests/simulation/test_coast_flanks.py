@@ -1,4 +1,4 @@
-"""Contact on the coast flanks: their place against the tooth outlines, and their forces against the drive flanks'."""
+"""Contact on the coast flanks."""
 
 from dataclasses import replace
 from math import radians
@@ -32,8 +32,7 @@ def quasi_static(scene, **changes):
 
 @pytest.mark.parametrize("part", [0.1, 0.5, 0.9])
 def test_coast_flanks_stand_where_the_tooth_outlines_have_them(paper_pair, part):
-    """Exact: the outlines' coast points with the place's roll angles lie on the mirrored line of action, a backlash
-    apart."""
+    """Exact: the outlines' coast points lie on the mirrored line of action, a backlash apart."""
     xi = paper_pair.path_start + part * (paper_pair.path_end - paper_pair.path_start)
     place, drive = coast_place(paper_pair, 0, xi), drive_place(paper_pair, 0, xi)
     behind = drive_place(paper_pair, -1, xi - paper_pair.base_pitch)
@@ -60,8 +59,7 @@ def test_coast_flanks_stand_where_the_tooth_outlines_have_them(paper_pair, part)
 
 
 def test_a_pair_that_stays_in_contact_does_not_feel_its_coast_flanks(both_flanks):
-    """Omitted equals not touched: the same transmission error but for the finer mesh along the coast flank; no coast
-    force."""
+    """The same transmission error but for the finer mesh; no coast force."""
     with_coast = simulate(quasi_static(both_flanks))
     without = simulate(quasi_static(both_flanks, coast_flanks=None))
     assert np.all(with_coast.coast_normal_force.values == 0.0)
@@ -70,8 +68,7 @@ def test_a_pair_that_stays_in_contact_does_not_feel_its_coast_flanks(both_flanks
 
 
 def test_run_out_beyond_the_backlash_wedges_the_teeth_and_is_named(both_flanks, paper_pair):
-    """Geometry. Run-out of the backlash and more closes it; with none both flanks press, along lines of action that the
-    load holds apart."""
+    """Geometry: run-out of the backlash presses both flanks."""
     towards = Eccentricity(
         Offset(2.0 * paper_pair.backlash, radians(-90.0) + paper_pair.operating_pressure_angle), None
     )

@@ -1,4 +1,4 @@
-"""A pair with a contact ratio above 2: two or three tooth pairs carry at any time."""
+"""A pair with a contact ratio above 2."""
 
 from dataclasses import replace
 
@@ -11,8 +11,7 @@ from fenics_gears.scene.data import Accuracy, GearData, GearPairData, Material, 
 
 
 def test_two_to_three_pairs_carry_the_load(paper_scene):
-    """Definition of the contact ratio (load lets teeth touch a little earlier and later than rigid gears would);
-    equilibrium: the pairs' forces sum to T/rb2; and hand-over from 3 to 2 pairs disturbs less than from 2 to 1."""
+    """Definition of the contact ratio; T/rb2; hand-over from 3 to 2 pairs disturbs less than from 2 to 1."""
     teeth = ((40, 128.1, 110.4), (60, 188.1, 170.4))
     gears = GearPairData(
         3.0, np.radians(20.0), 150.1, 15.0, *(GearData(z, 0.0, tip, root, 0.7 * root, 0.2) for z, tip, root in teeth),

@@ -1,5 +1,4 @@
-"""[output] root_stress: stress in the fillets over time, against full recovery, the standards, finer meshes and the
-slow limit."""
+"""[output] root_stress: stress in the fillets over time."""
 
 from dataclasses import replace
 
@@ -33,7 +32,6 @@ def wanted(scene):
 
 @pytest.fixture(scope="module", params=["friction and inertia", "driven from the wheel on coast flanks"])
 def run(request, paper_scene):
-    """A scene on a coarse mesh, and its result with root stress."""
     scene = wanted(coarse_scene(paper_scene, cycles=1))
     if request.param.startswith("driven"):
         scene = replace(quasi_static(scene), coast_flanks=CoastFlanks(), load=Load(-scene.load.wheel_torque))
@@ -41,7 +39,7 @@ def run(request, paper_scene):
 
 
 def test_rows_give_what_the_full_recovery_gives(run):
-    """Exact identity (Betti): at sampled times, both gears, all loaded teeth, both fillets, to 1e-9 of the largest."""
+    """Exact identity (Betti): at sampled times, both gears, all loaded teeth, both fillets."""
     scene, result = run
     with RunStresses(result, scene) as stresses:
         for index in (0, 21):
@@ -64,8 +62,7 @@ def test_rows_give_what_the_full_recovery_gives(run):
 
 
 def test_largest_stress_is_that_of_the_points_and_tension_is_on_the_loaded_side(run):
-    """Definition of the maximum, of points that are not beside the involute; beam theory: the fillet below the loaded
-    flank is pulled, the other pressed."""
+    """Definition; beam theory: the fillet below the loaded flank is pulled."""
     scene, result = run
     points, angles = result["root_stress"].values, result["fillet_tangent_angle"].values
     known, of_bending = np.isfinite(points).all(axis=-1), (angles >= np.radians(15.0))[:, None, :]
@@ -81,8 +78,7 @@ def test_largest_stress_is_that_of_the_points_and_tension_is_on_the_loaded_side(
 
 
 def test_dynamic_factors_are_ratios_to_the_quasi_static_run(run):
-    """Definition: the same scene simulated without inertia has the largest force and stress that the factors are of; it
-    has no factors itself."""
+    """Definition: of the same scene without inertia, which has none."""
     scene, result = run
     if scene.inertia is None:
         assert not [name for name in result.attrs if "dynamic_factor" in name]
@@ -105,8 +101,7 @@ def highest_single_contact(gear) -> float:
 
 
 def stresses_of_a_narrow_load(gear, roll: float, element: str = "P2") -> np.ndarray:
-    """Stress (50,), MPa, in the fillets under 1 N/mm over a tenth of a module of the flank around a roll angle
-    (rad)."""
+    """MPa in the fillets (50,) under 1 N/mm over a tenth of a module around a roll angle (rad)."""
     discretisation = Discretisation(element, 0.04 * gear.module)
     with gear_recovery(gear, STEEL, discretisation) as recovery:
         middle, half = arc_length(gear.base_radius, roll), 0.05 * gear.module
@@ -125,12 +120,8 @@ def stresses_of_a_narrow_load(gear, roll: float, element: str = "P2") -> np.ndar
     "gear", [PINION, *(standard_gear(teeth) for teeth in (20, 100))], ids=lambda gear: f"z={gear.teeth}"
 )
 def test_stress_is_near_that_of_the_standards(gear):
-    """Literature: F_t/(b m) Y_F Y_S of ISO 6336-3 method B and DIN 3990-3, load at the outer point of single tooth
-    contact.
-
-    The standard's 30 degree chord and Y_S were fitted to stress analyses and measurements that scatter by 20 to 25 %
-    around it.
-    """
+    """F_t/(b m) Y_F Y_S of ISO 6336-3 method B and DIN 3990-3, whose fit to analyses and measurements scatters by 20
+    to 25 %."""
     roll = highest_single_contact(gear)
     stress, nominal = stresses_of_a_narrow_load(gear, roll), nominal_root_stress(gear, roll, 1.0)
     assert stress[:POINTS].max() == pytest.approx(nominal, rel=0.2)
@@ -146,6 +137,6 @@ def test_stress_is_near_that_of_the_standards(gear):
     (lambda text: text.replace("root_stress = true", 'root_stress = "yes"'), "neither true nor false"),
 ])  # fmt: skip
 def test_scenes_it_cannot_be_had_of_are_refused(paper_scene, edit, said):
-    """Rule: said before anything is computed, with the remedy."""
+    """Before anything is computed, with the remedy."""
     with pytest.raises(SceneError, match=said):
         scene_from_text(edit(paper_scene.text + "\n[output]\nroot_stress = true\n"))

@@ -1,4 +1,4 @@
-"""Both gears of a run recovered at stored times: they touch where the run says, and stand where their geometry says."""
+"""Both gears of a run recovered at stored times."""
 
 from dataclasses import replace
 from functools import partial
@@ -24,7 +24,7 @@ from fenics_gears.simulation.stored_forces import stored_forces, stored_index
 
 @pytest.fixture(scope="module")
 def driving(paper_scene):
-    """A scene on a coarse mesh with friction and inertia, its result, and the stresses of it."""
+    """A scene on a coarse mesh with friction and inertia, its result, and its stresses."""
     scene = coarse_scene(paper_scene, cycles=1)
     result = simulate(scene, cache=user_cache())
     with RunStresses(result, scene) as stresses:
@@ -33,7 +33,7 @@ def driving(paper_scene):
 
 @pytest.fixture(scope="module")
 def driven(paper_scene):
-    """The same of a scene that is driven from the wheel, on coast flanks."""
+    """The same driven from the wheel, on coast flanks."""
     scene = coarse_scene(paper_scene, cycles=1)
     scene = replace(quasi_static(scene), coast_flanks=CoastFlanks(), load=Load(-scene.load.wheel_torque))
     result = simulate(scene, cache=user_cache())
@@ -46,9 +46,8 @@ either_way = pytest.mark.parametrize("of_run", ["driving", "driven"])
 
 @either_way
 def test_flanks_touch_where_the_pressure_is(of_run, request):
-    """Signorini: averaged over the hats of the contact nodes, the recovered displacement closes the gap at every node
-    under pressure (N u = g), and leaves none open that is negative elsewhere. Nothing of the run's own displacements is
-    used, only its forces and hubs."""
+    """Signorini: the recovered displacement closes the gap at every node under pressure (N u = g), and leaves none
+    negative."""
     scene, result, stresses = request.getfixturevalue(of_run)
     for index in (0, 13, 29):
         stored = stored_forces(result, stresses.model, stresses.cycle, index)
@@ -85,8 +84,7 @@ def test_flanks_touch_where_the_pressure_is(of_run, request):
 
 @either_way
 def test_gears_stand_on_their_centres_and_touch_at_the_most_loaded_contact(of_run, request):
-    """Geometry: distance of the centres; tips on their circles; the displaced outlines meet within the mesh where the
-    largest force is."""
+    """Geometry: centres, tips, and outlines that meet where the largest force is."""
     scene, result, stresses = request.getfixturevalue(of_run)
     mesh = stresses.at(13)
     assert np.linalg.norm(mesh.gears[1].centre - mesh.gears[0].centre) == pytest.approx(
@@ -110,7 +108,7 @@ def test_gears_stand_on_their_centres_and_touch_at_the_most_loaded_contact(of_ru
 
 
 def test_what_has_no_stress_is_refused(driving, paper_scene):
-    """Rigid flanks; the paper's own route, whose flank nodes are others at every step; a time that was not stored."""
+    """Rigid flanks; the paper's own route; a time that was not stored."""
     scene, result, _ = driving
     rigid = replace(frictionless(scene), gears=replace(scene.gears, material=None))
     with pytest.raises(SceneError, match="rigid"):

@@ -27,21 +27,19 @@ PINION_BODY = FaceDiscretisation(2.7, 2, 15.0, tan(radians(15.0)) / PINION.refer
 
 @pytest.fixture(scope="module")
 def recovery():
-    """The paper's pinion with a helix, coarsely meshed."""
     with gear_recovery(PINION, STEEL, PINION_BODY) as found:
         yield found
 
 
 def test_flanks_move_as_their_compliance_says(recovery):
-    """Identity: what is recovered at the flanks of the loaded tooth and its neighbours is the condensed compliance
-    times the forces."""
+    """Identity: the condensed compliance times the forces, on the loaded tooth and its neighbours."""
     check_flanks(recovery, face_compliance(PINION, STEEL, PINION_BODY, Reach(1)))
 
 
 @pytest.mark.nightly
 @pytest.mark.parametrize("low", [-3.0, -7.5])
 def test_flanks_beside_a_web_move_as_their_compliance_says(low):
-    """The same identity, of a web in the middle and of one at the left end."""
+    """The same, of a web in the middle and of one at the left end."""
     web, width = SweptWeb(18.0, 25.0, low, low + 6.0), PINION_BODY.face_width
     gear = replace(PINION, web=Web(18.0, 25.0, 6.0 / width, offset=(low + 3.0) / width))
     body = replace(PINION_BODY, web=web)
@@ -50,7 +48,6 @@ def test_flanks_beside_a_web_move_as_their_compliance_says(low):
 
 
 def check_flanks(recovery, compliance):
-    """That recovered motions of the flanks are the compliance times the forces."""
     flank = recovery.sector.flank_nodes("flank")
     forces = np.random.default_rng(1).normal(size=(1, len(compliance.heights), len(compliance.roll_angle), 3))
     found = recovery.recovered({0: forces}, range(-1, 2)).displacement.reshape(3, -1, 3)[:, flank].reshape(3, -1)
@@ -59,8 +56,7 @@ def check_flanks(recovery, compliance):
 
 
 def test_loads_of_several_teeth_superpose(recovery):
-    """Linear: two loaded teeth move and are stressed as by each load alone, also where one has the number of a tooth a
-    whole turn on."""
+    """Linear: also where one tooth has the number of a tooth a whole turn on."""
     shape = (1, len(recovery.heights), len(recovery.sector.flank_nodes("flank")) // len(recovery.heights), 3)
     one, other = np.random.default_rng(2).normal(size=(2, *shape))
     together = recovery.recovered({0: one, 1 + PINION.teeth: other}, range(2))
@@ -71,7 +67,7 @@ def test_loads_of_several_teeth_superpose(recovery):
 
 
 def webbed():
-    """The pinion of module one with a web from its one end, twisted: forms, mesh and sweep."""
+    """The pinion of module one with a web from its one end, twisted."""
     gear = replace(PINION, web=Web(18.0, 25.0, 0.25)).of_module_one
     web = SweptWeb(gear.web.hub_radius, gear.web.rim_radius, -1.5, -0.5)
     mesh = webbed_section(gear, SIZES)
@@ -80,8 +76,7 @@ def webbed():
 
 @pytest.mark.parametrize("with_web", [False, True])
 def test_uniform_strain_has_its_stress(with_web):
-    """Exact: a displacement linear in space has one stress at all nodes of a twisted body, Hooke's, turned into each
-    height's frame; beside a web, where there is material."""
+    """Exact: Hooke's stress of a displacement linear in space, at all nodes, turned into each height's frame."""
     forms, _, sweep = webbed() if with_web else (section(), mesh(), TWISTED)
     there = forms.material(sweep)
     points = swept_points(forms.nodes.points, sweep)
@@ -100,8 +95,7 @@ def test_uniform_strain_has_its_stress(with_web):
 
 
 def test_the_surface_beside_a_web_encloses_its_body():
-    """Divergence theorem: the surface of all sectors, seen from outside, encloses the volume of the layers' cells; as
-    many wedges are written as there are cells."""
+    """Divergence theorem: the volume of the layers' cells; as many wedges as cells."""
     forms, mesh, sweep = webbed()
     nodes, sweep = forms.nodes, replace(sweep, twist=0.0)
     in_web, beside = layers_of(SimpleNamespace(section=nodes, sweep=sweep, mesh=mesh))

@@ -1,4 +1,4 @@
-"""The stiffness of a swept section: exact fields, the plane section within it, rigid motions, hands."""
+"""The stiffness of a swept section."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ def relative(difference, reference) -> float:
 
 @pytest.mark.parametrize("twist", [0.0, TWIST])
 def test_patch_test(twist):
-    """Patch test, Irons and Razzaque 1972: a uniform strain leaves every inner node without force, twisted or not."""
+    """Patch test, Irons and Razzaque 1972: a uniform strain leaves every inner node without force."""
     sweep, nodes = Sweep(np.linspace(-1.5, 1.5, 4), twist), section().nodes
     points = swept_points(nodes.points, sweep)
     gradient = np.random.default_rng(1).normal(size=(3, 3))
@@ -31,8 +31,7 @@ def test_patch_test(twist):
 
 @pytest.mark.parametrize("twist", [0.0, TWIST])
 def test_energy_of_uniform_strain(twist):
-    """Exact: energy density times volume, which a layer's parabolas make smaller by its turn^4 / 480 (integral of
-    abs(w)^2)."""
+    """Exact: energy density times volume, which parabolas make smaller by turn^4 / 480 (integral of abs(w)^2)."""
     sweep = Sweep(np.linspace(-1.5, 1.5, 4), twist)
     points = swept_points(section().nodes.points, sweep)
     strain = np.diag([1.0, -0.4, 0.7]) + 0.3 * (np.ones((3, 3)) - np.eye(3))
@@ -45,8 +44,7 @@ def test_energy_of_uniform_strain(twist):
 
 
 def test_body_without_variation_along_the_face_is_the_plane_section():
-    """Exact identity: with u_z held and loads even along z, displacements are those in plane strain of the section's
-    own mesh at any height."""
+    """Exact identity: with u_z held and even loads, plane strain of the section's own mesh."""
     sweep, nodes = Sweep(np.array([-1.5, -1.0, 0.2, 1.5])), section().nodes.points
     hub = mesh().edge_nodes("hub", ELEMENT.order)
     flank = by_radius(without(mesh().edge_nodes("flank", ELEMENT.order), hub))

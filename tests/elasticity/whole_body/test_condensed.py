@@ -1,5 +1,4 @@
-"""A gear meshed as a whole and condensed by its teeth: equal to a ring of sectors where it is one, to brute force where
-it is not."""
+"""A gear meshed as a whole and condensed by its teeth."""
 
 import numpy as np
 import pytest
@@ -22,7 +21,7 @@ def standing_anywhere(mesh: BodyMesh) -> BodyMesh:
 
 @pytest.mark.parametrize("name", ["P2", "Q1 incompatible"])
 def test_a_whole_gear_of_equal_teeth_is_a_ring_of_sectors(name):
-    """Exact identity: the same mesh, once as a ring, once as a whole whose flanks had to be found."""
+    """Exact identity: the same mesh, whose flanks had to be found."""
     body = whole_body(standing_anywhere(whole_gear_mesh(coarse_sector_mesh(name), PINION.teeth)), PINION, "gear")
     found = whole_body_compliance(body.mesh, PINION, STEEL, element=name, tooth_offsets=2)
     ring = ring_compliance(coarse_condensed_sector(name), PINION.teeth, 2) / STEEL.youngs_modulus
@@ -35,7 +34,7 @@ def test_a_whole_gear_of_equal_teeth_is_a_ring_of_sectors(name):
 
 
 def test_a_cracked_gear_equals_brute_force():
-    """Exact identity: the whole gear's stiffness condensed at once, for the cracked tooth and its neighbours loaded."""
+    """Exact identity: the whole gear condensed at once."""
     body = whole_body(cracked_gear_mesh(PINION, COARSE, {8: RootCrack(3.0)}), PINION, "gear")
     found = whole_body_compliance(body.mesh, PINION, STEEL, element="P1", tooth_offsets=2)
     for loaded in (7, 8):
@@ -49,7 +48,7 @@ def test_a_cracked_gear_equals_brute_force():
 
 @pytest.mark.nightly
 def test_the_cache_knows_a_body_by_its_mesh(tmp_path):
-    """What is kept is what was computed, in another material too; a point moved by a hair is another body."""
+    """The same in another material; a point moved by a hair is another body."""
     mesh = whole_body(whole_gear_mesh(coarse_sector_mesh("P1"), PINION.teeth), PINION, "gear").mesh
     options = {"element": "P1", "tooth_offsets": 1, "cache": Cache(tmp_path)}
     first = whole_body_compliance(mesh, PINION, STEEL, **options)

@@ -1,11 +1,7 @@
-"""How much softer a crack makes its tooth, from the whole tooth's stress alone: no mesh of a crack, no compliance of a
-cracked gear.
-
-Superposition (Bueckner): a crack opens under the stress that stood across it before. Each depth's stress intensities
-come from that stress and the weight function of an edge crack in a half-plane (Tada, Paris, Irwin), K = 2/sqrt(pi a)
-times the integral of s(x) (1.3 - 0.3 (x/a)^(5/4))/sqrt(1 - (x/a)^2) dx; Irwin's energy release (K_I^2 + K_II^2)/E' over
-all depths is half the work that the load does more than on the whole tooth.
-"""
+"""How much softer a crack makes its tooth, from the whole tooth's stress (Bueckner). Stress intensities by the
+weight function of an edge crack in a half-plane (Tada, Paris, Irwin), K = 2/sqrt(pi a) times the integral of s(x)
+(1.3 - 0.3 (x/a)^(5/4))/sqrt(1 - (x/a)^2) dx; Irwin's release (K_I^2 + K_II^2)/E' over all depths is half the load's
+additional work."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -34,15 +30,14 @@ PLACES = (0.3, 0.4, 0.5)
 
 
 def load_about(place: float, rolls: np.ndarray) -> np.ndarray:
-    """Line forces (2n,) of resultant 1 N/mm, normal to the flank, spread smoothly about a roll angle; outwards."""
+    """Line forces (2n,) of resultant 1 N/mm, normal to the flank, about a roll angle."""
     weight = np.exp(-(((rolls - place) / 0.1) ** 2)) * np.gradient(0.5 * PINION.base_radius * rolls**2)
     return (weight[:, None] * np.column_stack([np.cos(rolls), -np.sin(rolls)]) / weight.sum()).ravel()
 
 
 @lru_cache
 def work(crack: RootCrack | None) -> np.ndarray:
-    """Work of the loads at PLACES on the displacement of their own tooth, cracked or not, from the whole gear's
-    compliance."""
+    """Work of the loads at PLACES on their own tooth's displacement."""
     mesh = cracked_gear_mesh(PINION, SIZES, {} if crack is None else {0: crack})
     found = whole_body_compliance(whole_body(mesh, PINION, "gear").mesh, PINION, STEEL, tooth_offsets=0)
     loads = [load_about(place, found.rolls_of(0)) for place in PLACES]
@@ -51,8 +46,7 @@ def work(crack: RootCrack | None) -> np.ndarray:
 
 @lru_cache
 def whole_tooth():
-    """Stress components at points of the uncracked tooth under the loads at PLACES, on a mesh of its own: for each
-    three functions."""
+    """Stress components at points of the uncracked tooth under the loads at PLACES."""
     sizes = replace(element_sizes(PINION, P2, 0.4, 0.45), fillet=0.09)
     mesh = sector_mesh(PINION.of_module_one, sizes.in_modules_of(PINION))
     corners = PINION.module * mesh.points[mesh.edge_points("flank")]
@@ -67,7 +61,7 @@ def whole_tooth():
 
 
 def released(crack: RootCrack, stress) -> float:
-    """Twice the energy (N mm per mm) that a crack sets free under a load whose stress, without the crack, is given."""
+    """Twice the energy (N mm per mm) that a crack sets free under a stress that stood there."""
     mouth, along = crack_line(PINION, crack)
     across = np.array([-along[1], along[0]])
     places, weights = np.polynomial.legendre.leggauss(24)
@@ -90,9 +84,7 @@ def released(crack: RootCrack, stress) -> float:
 
 @pytest.mark.parametrize("angle", [pytest.param(45.0, marks=pytest.mark.nightly), 90.0])
 def test_a_crack_softens_its_tooth_as_its_stress_intensities_say(angle):
-    """Above; measured +4 to +9 %: the weight function is that of a half-plane, not of a fillet (+12 % at half this
-    depth, whose mouth sees more of the fillet), and no tooth ends opposite (-11 % at twice this depth and 45
-    degrees)."""
+    """Above; measured +4 to +9 %, since the weight function is that of a half-plane, not of a fillet."""
     crack = RootCrack(1.5, np.radians(angle))
     softer = work(crack) - work(None)
     expected = [released(crack, stress) for stress in whole_tooth()]

@@ -1,5 +1,4 @@
-"""A crack is a slit that gives way as fracture mechanics says, and a cracked tooth's sector still fits its
-neighbours."""
+"""A crack is a slit, and its sector still fits the neighbours."""
 
 import numpy as np
 import pytest
@@ -18,8 +17,7 @@ LENGTH, HEIGHT = 6.0, 1.0
 
 
 def strip(depth: float) -> BodyMesh:
-    """A strip along x, between y = 0 and HEIGHT, with a crack of some depth (none for zero) down from the middle of its
-    upper side."""
+    """A strip along x between y = 0 and HEIGHT, cracked down from the middle of its upper side."""
     step = 0.125
     right, left = np.arange(0.0, LENGTH, step), np.arange(LENGTH, 0.0, -step)
     up = np.arange(0.0, HEIGHT, step)
@@ -46,8 +44,7 @@ def strip(depth: float) -> BodyMesh:
 
 
 def rotation_under_couple(mesh: BodyMesh) -> float:
-    """Rotation of a strip's right end, its left end held, per couple there, E = 1, nu = 0.3, plane strain: from the
-    couple's work."""
+    """Rotation of a strip's right end per couple there, E = 1, nu = 0.3, plane strain."""
     ends = [np.array([[x, y] for y in np.arange(0.0, HEIGHT + 0.01, 0.125)]) for x in (0.0, LENGTH)]
     body = condense(mesh, ELEMENTS["P2"], 0.3, {"held": ends[0], "loaded": ends[1]})
     arms = ends[1][:, 1] - 0.5 * HEIGHT
@@ -57,9 +54,8 @@ def rotation_under_couple(mesh: BodyMesh) -> float:
 
 @pytest.mark.parametrize("depth", [0.3, 0.6])
 def test_a_crack_lets_a_bent_strip_turn_as_fracture_mechanics_says(depth):
-    """K_I = sigma sqrt(pi a) F(a/W) of an edge crack in pure bending, F by Brown and Srawley (ASTM STP 410, 1966) to
-    0.2 % up to a/W = 0.6; by energy release (Irwin) the additional rotation is 12 pi sigma/(E' W^2) times the integral
-    of a F^2."""
+    """K_I = sigma sqrt(pi a) F(a/W), F by Brown and Srawley (ASTM STP 410, 1966); the rotation is 12 pi sigma/(E'
+    W^2) times the integral of a F^2 (Irwin)."""
     shape = np.polynomial.Polynomial([1.122, -1.40, 7.33, -13.08, 14.0])
     integral = (np.polynomial.Polynomial([0.0, 1.0]) * shape**2).integ()(depth / HEIGHT)
     expected = 12.0 * np.pi * integral * (6.0 / HEIGHT**2) * (1.0 - 0.3**2)
@@ -68,8 +64,7 @@ def test_a_crack_lets_a_bent_strip_turn_as_fracture_mechanics_says(depth):
 
 
 def test_a_cracked_sector_has_two_faces_and_the_cuts_of_a_whole_one():
-    """Exact: cuts, bore and flank are the whole tooth's; the boundary is longer by both faces of the crack; the area is
-    the same."""
+    """Exact: cuts, bore, flank and area are the whole tooth's; the boundary is longer by both faces."""
     crack = RootCrack(3.0)
     whole, cracked = coarse_sector_mesh("P2"), cracked_sector_mesh(PINION, COARSE, crack)
     for part in ("flank", "hub", "lower cut", "upper cut"):
@@ -87,7 +82,7 @@ def test_a_cracked_sector_has_two_faces_and_the_cuts_of_a_whole_one():
 
 
 def test_a_crack_begins_where_the_fillet_has_the_angle_and_goes_into_the_tooth():
-    """The definition; at 30 degrees of the fillet to the centreline, and 45 degrees between centreline and crack."""
+    """Definition: 30 degrees of the fillet to the centreline, 45 between centreline and crack."""
     mouth, direction = crack_line(PINION, RootCrack(3.0))
     outline = tooth_outline(PINION, 4001)
     axis = np.array([np.cos(outline.centreline_angle), np.sin(outline.centreline_angle)])
@@ -118,12 +113,10 @@ def test_a_crack_begins_where_the_fillet_has_the_angle_and_goes_into_the_tooth()
     ],
 )
 def test_a_crack_that_leaves_no_tooth_is_refused(crack, message):
-    """The message says where, and what is allowed."""
     with pytest.raises(SceneError, match=message):
         cracked_sector_mesh(PINION, COARSE, crack)
 
 
 def test_a_tooth_that_is_not_there_is_refused():
-    """Teeth are counted from 0."""
     with pytest.raises(SceneError, match="tooth 16: the gear has teeth 0 to 15"):
         cracked_gear_mesh(PINION, COARSE, {16: RootCrack(3.0)})

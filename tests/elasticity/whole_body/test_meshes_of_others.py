@@ -1,5 +1,4 @@
-"""Meshes as a user makes them in gmsh: one outline, no symmetry, no names, holes in the web; read from the formats that
-gmsh writes."""
+"""Meshes as a user makes them in gmsh: no symmetry, no names, holes."""
 
 import gmsh
 import numpy as np
@@ -20,8 +19,7 @@ HOLE_RADIUS, HOLE_CIRCLE = 2.5, 22.0
 
 
 def gear_in_gmsh(path, holes: int = 0, standing: float = 0.4) -> None:
-    """Mesh the pinion's outline, turned by an angle (rad), and `holes` round holes in its web; elements grow from the
-    flanks."""
+    """The pinion's outline turned by an angle (rad), with round `holes` in its web."""
     outline, turned = tooth_outline(PINION, 12), rotation(standing)
     flank = outline.involute(np.linspace(PINION.form_roll_angle, PINION.tip_roll_angle, 16))
     drive = np.vstack([outline.fillet[:-1], flank])
@@ -49,7 +47,6 @@ def gear_in_gmsh(path, holes: int = 0, standing: float = 0.4) -> None:
 
 
 def written_as(version: float, binary: bool, source, path) -> None:
-    """Write a mesh file in another format of gmsh."""
     start(gmsh)
     try:
         gmsh.option.setNumber("General.Terminal", 0)
@@ -69,8 +66,7 @@ def circle(geo, centre, radius: float, size: float) -> int:
 
 
 def bending(rolls: np.ndarray, block: np.ndarray) -> float:
-    """Work of a smooth normal load of 1 N/mm about the middle of a flank on the displacement of the same part of a
-    flank."""
+    """Work of a smooth load of 1 N/mm about the middle of a flank."""
     weight = np.exp(-(((rolls - 0.45) / 0.12) ** 2)) * np.gradient(rolls**2)
     load = (weight[:, None] * np.column_stack([np.cos(rolls), -np.sin(rolls)]) / weight.sum()).ravel()
     return float(load @ block @ load)
@@ -94,8 +90,7 @@ def solid(solid_file):
 
 
 def test_a_solid_gear_meshed_as_a_whole_has_the_compliance_of_a_ring(solid):
-    """The ring of sectors on its own mesh; all 16 unlike meshes of the teeth agree with it within 0.2 %, which is the
-    error of straight sides along fillets of twelve points."""
+    """The ring of sectors: all 16 unlike meshes of teeth within 0.2 %, the error of straight sides along fillets."""
     ring = flank_compliance(PINION, STEEL, Discretisation("P2", 0.3), Reach(1))
     own, beside = (bending(ring.roll_angle, ring.block(ahead)) for ahead in (0, 1))
     for tooth in range(PINION.teeth):
@@ -105,8 +100,7 @@ def test_a_solid_gear_meshed_as_a_whole_has_the_compliance_of_a_ring(solid):
 
 @pytest.mark.nightly
 def test_holes_in_the_web_soften_the_teeth_above_them(solid, tmp_path):
-    """Eight holes under sixteen teeth: every second tooth stands beside a hole in the same way, and all are softer than
-    on a solid web."""
+    """Eight holes under sixteen teeth: every second tooth is alike, all are softer."""
     gear_in_gmsh(tmp_path / "gear.msh", holes=8)
     pierced, whole = (
         np.array([bending(body.rolls_of(tooth), body.between(tooth, tooth)) for tooth in range(PINION.teeth)])
@@ -119,7 +113,7 @@ def test_holes_in_the_web_soften_the_teeth_above_them(solid, tmp_path):
 
 
 def test_another_format_of_gmsh_is_read(solid_file, tmp_path):
-    """Exact: the same body as from format 4.1 in text, but for the digits that are written."""
+    """Exact, but for the digits that are written."""
     written_as(2.2, True, solid_file, tmp_path / "gear.msh")
     found, expected = (read_body_mesh(path) for path in (tmp_path / "gear.msh", solid_file))
     assert np.array_equal(found.cells, expected.cells) and np.abs(found.points - expected.points).max() < 1e-12
