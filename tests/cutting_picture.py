@@ -1,5 +1,4 @@
-"""Draws docs/pictures/cutting.png: teeth between the positions of the rack that cuts them. ``python -m
-tests.cutting_picture``"""
+"""Draws docs/pictures/cutting.png: ``python -m tests.cutting_picture``."""
 
 from math import pi, radians
 from pathlib import Path
@@ -19,12 +18,10 @@ GREY, DARK, RED = "0.75", "#1f2937", "#c2410c"
 
 
 def standard(teeth, **others):
-    """A gear of module 4 mm cut by the rack of ISO 53 A."""
     return Gear(teeth, 4.0, radians(20.0), 0.0, 2.0 * teeth + 4.0, 2.0 * teeth - 5.0, 10.0, 0.38 * 4.0, **others)
 
 
 def tooth_points(gear):
-    """One tooth (n, 2), mm, from fillet to fillet."""
     outline = tooth_outline(gear, 401)
     half = np.vstack(
         [
@@ -37,15 +34,14 @@ def tooth_points(gear):
 
 
 def upright(gear, points):
-    """Points turned so that the tooth's centreline points up."""
     turn = 0.5 * pi - tooth_outline(gear).centreline_angle
     sine, cosine = np.sin(turn), np.cos(turn)
     return points @ np.array([[cosine, sine], [-sine, cosine]])
 
 
 def rack_in_body(gear, rotation):
-    """The rack's tooth in the space beside the drive flank (n, 2), mm, in the tooth's frame when the gear has rolled by
-    an angle."""
+    """The rack's tooth in the space beside the drive flank (n, 2), mm, in the tooth's frame when the gear has rolled
+    by an angle."""
     profile = rack_profile(gear)
     x, depth = np.concatenate([-profile[::-1, 0], profile[:, 0]]), np.concatenate([profile[::-1, 1], profile[:, 1]])
     r = gear.reference_radius
@@ -56,7 +52,7 @@ def rack_in_body(gear, rotation):
 
 
 def draw(axes, gear, title, middle, half, step):
-    """One tooth, dark, and the rack's positions, grey, around a point (mm)."""
+    """One tooth, dark, and the rack's positions, grey."""
     for rotation in np.arange(-1.4, 1.4, step):
         for mirrored in (False, True):
             rack = rack_in_body(gear, rotation)

@@ -1,4 +1,4 @@
-"""The text of the paper's scene, and a scene's text without some of its sections."""
+"""The text of the paper's scene, and a scene's text without some sections."""
 
 import re
 from pathlib import Path
@@ -7,6 +7,6 @@ PAPER = (Path(__file__).parents[1] / "demos" / "lundvall2004.toml").read_text(en
 
 
 def without(text: str, *sections: str) -> str:
-    """The text without sections of these names, whose subsections stay."""
+    """Without sections of these names, whose subsections stay."""
     names = "|".join(map(re.escape, sections))
     return re.sub(rf"^\[({names})\].*?(?=^\[|\Z)", "", text, flags=re.M | re.S)

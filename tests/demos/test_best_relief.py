@@ -1,5 +1,4 @@
-"""The demonstration of the best relief: searches against maps by brute force, and what its README says of friction and
-tolerances; on coarse teeth."""
+"""The demonstration of the best relief, on coarse teeth."""
 
 import re
 
@@ -40,14 +39,14 @@ def every(tmp_path_factory):
 
 
 def test_what_is_found_is_as_good_as_the_best_of_the_map(every):
-    """Authority: brute force; the README's statement."""
+    """Brute force; the README's statement."""
     for each in every.values():
         assert each.found.chosen.goals[ERROR] <= each.least_of_map[2]
         assert each.found.chosen.goals[ERROR] < each.found.before.goals[ERROR]
 
 
 def test_picture_and_table_have_every_condition(every, tmp_path):
-    """Authority: the README."""
+    """The README."""
     picture, table = compare.written(every, tmp_path)
     assert picture.stat().st_size > 50_000
     text = table.read_text(encoding="utf-8")

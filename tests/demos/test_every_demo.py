@@ -1,4 +1,4 @@
-"""Every demonstration has its script, its README, its picture, its place in docs/demos.md, and a test that runs it."""
+"""Every demonstration has its script, README, picture, place in docs/demos.md, and test."""
 
 import ast
 import os
@@ -14,7 +14,6 @@ OVERVIEW = DEMOS.parent / "docs" / "demos.md"
 
 
 def pictures(page: Path) -> list[Path]:
-    """The pictures that a page shows."""
     return [
         (page.parent / name).resolve()
         for name in re.findall(r"!\[[^]]+\]\(([^)]+)\)", page.read_text(encoding="utf-8"))
@@ -22,7 +21,7 @@ def pictures(page: Path) -> list[Path]:
 
 
 def test_every_folder_is_a_demonstration():
-    """docs/demos.md: a folder with a script that runs it. Python's own folders do not count."""
+    """docs/demos.md: a folder with a script."""
     folders = {
         path.name for path in DEMOS.iterdir() if path.is_dir() and any(path.glob("*.*")) and path.name != "__pycache__"
     }
@@ -31,7 +30,7 @@ def test_every_folder_is_a_demonstration():
 
 @pytest.mark.parametrize("demo", FOLDERS)
 def test_it_is_tested_and_shown(demo):
-    """docs/demos.md: a test runs each; its README and the overview show a picture that is there."""
+    """docs/demos.md."""
     test = Path(__file__).parent / f"test_{demo}.py"
     assert test.is_file(), f"no test runs demos/{demo}: write {test.name}"
     source = test.read_text(encoding="utf-8")
@@ -48,7 +47,7 @@ def test_it_is_tested_and_shown(demo):
 
 @pytest.mark.parametrize("demo", FOLDERS)
 def test_its_script_calls_a_module_that_is_there(demo):
-    """The shell; the script can be executed, is free of mistakes in its syntax, and names a module of its folder."""
+    """The shell: executable, without mistakes in its syntax."""
     script = DEMOS / demo / "run"
     assert os.access(script, os.X_OK)
     assert subprocess.run(["bash", "-n", script], capture_output=True).returncode == 0
@@ -57,7 +56,7 @@ def test_its_script_calls_a_module_that_is_there(demo):
 
 
 def test_scripts_take_one_argument(capsys):
-    """demos/arguments.py; a directory, `results/<name>` unless given, and words on wrong calls."""
+    """demos/arguments.py."""
     from demos.arguments import output_directory
 
     assert output_directory("tip_relief", "Words.", []) == Path("results/tip_relief")

@@ -12,8 +12,7 @@ from fenics_gears.commands.cli import main
 
 
 def test_widths_are_overlap_ratios_at_the_same_load_per_width():
-    """Definition: epsilon_beta = b sin(beta)/(pi m_n) of the base scene is 1; the study's widths and torques are
-    multiples of a quarter of it."""
+    """Definition: epsilon_beta = b sin(beta)/(pi m_n) of the base scene is 1."""
     assert gear_pair(load_scene(widths.STUDY.parent / "pair.toml").gears).overlap_ratio == pytest.approx(1.0, abs=1e-4)
     lines = [re.findall(r'"([\d.]+) ', line) for line in widths.STUDY.read_text(encoding="utf-8").splitlines()]
     swept = [list(map(float, values)) for values in lines if len(values) == 10]
@@ -24,7 +23,7 @@ def test_widths_are_overlap_ratios_at_the_same_load_per_width():
 
 @pytest.mark.nightly
 def test_a_whole_overlap_ratio_has_less_ripple(tmp_path):
-    """The demonstration's own words, on coarse bodies and two widths; table and picture have both."""
+    """The demonstration's own words, on coarse bodies."""
     text = widths.STUDY.read_text(encoding="utf-8").replace('"pair.toml"', f'"{widths.STUDY.parent / "pair.toml"}"')
 
     # The third and the fourth of each swept field's values, on half as many slices and layers.

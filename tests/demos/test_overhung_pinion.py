@@ -18,7 +18,7 @@ flank_element_size = "0.3 mm"
 
 @pytest.mark.nightly
 def test_the_proposal_is_for_one_torque_and_the_search_for_all(tmp_path, monkeypatch):
-    """The README's own words; table and picture have every flank."""
+    """The README's own words."""
     monkeypatch.setattr("fenics_gears.extensions.optimization.optimize.VALUES", 2)
     monkeypatch.setattr("fenics_gears.extensions.optimization.optimize.TORQUES", (1.0,))
     scene, design = (

@@ -37,7 +37,7 @@ def stiffness(_: str) -> Numbers:
 
 
 def roots(_: str) -> Numbers:
-    """Largest stress in the fillet under 1 N/mm, MPa."""
+    """MPa under 1 N/mm."""
     found = {}
     for teeth in (20, 100):
         gear = standard_gear(teeth)

@@ -13,8 +13,7 @@ from fenics_gears.geometry.section import cells_section, gear_section
 
 
 def polygon(gear, points=4001):
-    """Half a tooth's outline (n, 2), mm, densely: from the middle of the tip over involute, fillet and root to the
-    middle of the space."""
+    """Half a tooth's outline (n, 2), mm, from the middle of the tip to that of the space."""
     outline = tooth_outline(gear, points)
     fillet, involute = outline.fillet, outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, points))
     tip, root = (np.arctan2(*point[::-1]) for point in (involute[-1], fillet[0]))
@@ -30,7 +29,7 @@ def polygon(gear, points=4001):
 
 
 def brute_force(gear):
-    """Fans of thin triangles from the centre to the outline's polygon, less the bore's exact circle."""
+    """Triangles from the centre to the outline's polygon, less the bore."""
     half = polygon(gear)
     corners = np.vstack([np.zeros((1, 2)), half])
     cells = np.column_stack([np.zeros(len(half) - 1, int), np.arange(1, len(half)), np.arange(2, len(half) + 1)])
@@ -41,16 +40,14 @@ def brute_force(gear):
 @settings(max_examples=15)
 @given(st.one_of(valid_pairs(), valid_pairs(helix_angles=(1.0, 40.0))))
 def test_any_gear_is_its_outline_s_polygon(pair):
-    """Brute force: triangles to a polygon of sixteen thousand sides on half a tooth, whose chords cut off less than
-    1e-7."""
+    """Brute force: a polygon of sixteen thousand sides on half a tooth, within 1e-7."""
     for gear in (pair.pinion, pair.wheel):
         found, expected = gear_section(gear), brute_force(gear)
         assert (found.area, found.polar_moment) == pytest.approx(expected, rel=1e-7)
 
 
 def test_cells_of_a_regular_polygon():
-    """Exact: of n corners on radius R the area is n/2 R^2 sin(2 pi/n), the polar moment A R^2 (2 + cos(2 pi/n))/6; and
-    that of a disc in the limit."""
+    """Exact: n/2 R^2 sin(2 pi/n), A R^2 (2 + cos(2 pi/n))/6; a disc in the limit."""
     for corners, radius in ((5, 3.0), (100_000, 20.0)):
         at = 2.0 * pi * np.arange(corners) / corners
         points = np.vstack([[0.0, 0.0], radius * np.column_stack([np.cos(at), np.sin(at)])])

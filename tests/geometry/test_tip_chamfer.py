@@ -1,4 +1,4 @@
-"""Gears with a chamfer between flank and tip circle, and what the mesh makes of it and of flanks that are cut away."""
+"""Gears with a chamfer between flank and tip circle."""
 
 from dataclasses import replace
 
@@ -17,13 +17,11 @@ CHAMFER = 0.4
 
 @pytest.fixture
 def chamfered(paper_data):
-    """The paper's pair with both tips chamfered."""
     return gear_pair(changed(paper_data, {"pinion.tip_chamfer": CHAMFER, "wheel.tip_chamfer": CHAMFER}))
 
 
 def test_contact_ends_at_the_tip_form_circle(paper_data, chamfered):
-    """ISO 21771: d_Fa = d_a - 2 h_K ends the usable flank, so that the path of contact is that of tips turned down to
-    it; tip clearances are those of the tips."""
+    """ISO 21771: d_Fa = d_a - 2 h_K ends the usable flank; tip clearances are those of the tips."""
     turned_down = gear_pair(
         changed(paper_data, {"pinion.tip_diameter": 82.64 - 2 * CHAMFER, "wheel.tip_diameter": 118.64 - 2 * CHAMFER})
     )
@@ -33,7 +31,7 @@ def test_contact_ends_at_the_tip_form_circle(paper_data, chamfered):
 
 
 def test_the_chamfer_is_as_long_on_the_tip_circle_as_on_the_flank(chamfered):
-    """Definition; lengths of the sharp tip's two sides by fine polygons."""
+    """Definition, by fine polygons."""
     for gear in (chamfered.pinion, chamfered.wheel):
         sharp = replace(gear, tip_chamfer=0.0)
         flank = canonical_point(gear.base_radius, np.linspace(gear.tip_roll_angle, sharp.tip_roll_angle, 2001))
@@ -46,7 +44,7 @@ def test_the_chamfer_is_as_long_on_the_tip_circle_as_on_the_flank(chamfered):
 
 @pytest.mark.parametrize("radius", [0.0, 0.05, 0.3])
 def test_the_edge_of_corner_contact_is_between_flank_and_chamfer(radius, chamfered):
-    """Definition: the arc is tangent to the involute and to the chamfer."""
+    """Definition: tangent to both."""
     gear = chamfered.pinion
     edge, foot, end = tip_edge(gear, radius), canonical_point(gear.base_radius, gear.tip_roll_angle), tip_corner(gear)
     first, last = edge.points(np.array([0.0, 1.0]))
@@ -65,7 +63,7 @@ def test_the_edge_of_corner_contact_is_between_flank_and_chamfer(radius, chamfer
     ],
 )
 def test_a_chamfer_that_does_not_fit_is_refused(paper_data, changes, said):
-    """House rule on errors: which gear, the value, the limit, the field."""
+    """House rule: which gear, the value, the limit, the field."""
     with pytest.raises(GeometryError) as refused:
         gear_pair(changed(paper_data, changes))
     for part in said:
@@ -73,7 +71,7 @@ def test_a_chamfer_that_does_not_fit_is_refused(paper_data, changes, said):
 
 
 def test_a_chamfer_takes_the_tip_corner_out_of_a_fillet(paper_data, chamfered):
-    """Limit and order: a vanishing chamfer leaves the clearance of the sharp corner; a chamfer opens it."""
+    """Limit and order."""
     pair = gear_pair(paper_data)
     hair = replace(pair.wheel, tip_chamfer=1e-9)
     sharp, almost, open_ = (

@@ -1,4 +1,4 @@
-"""Rounded tip edges: tangent to what they join."""
+"""Rounded tip edges."""
 
 import numpy as np
 import pytest
@@ -13,8 +13,7 @@ from fenics_gears.geometry.tip_edge import tip_edge
 
 @given(valid_pairs(), st.floats(0.001, 0.04))
 def test_the_arc_is_tangent_to_flank_and_tip_circle(pair, share):
-    """Definition: at its ends the arc has the point and the normal of the involute, and of the tip circle; it lies
-    inside that circle."""
+    """Definition: points and normals of involute and tip circle, inside that circle."""
     for gear in (pair.pinion, pair.wheel):
         edge = tip_edge(gear, share * min(gear.tip_thickness, gear.module))
         start, end = edge.points(np.array([0.0, 1.0]))
@@ -26,7 +25,7 @@ def test_the_arc_is_tangent_to_flank_and_tip_circle(pair, share):
 
 
 def test_without_radius_the_edge_is_where_flank_and_tip_circle_meet(paper_pair):
-    """Limit: radius zero is the sharp tip, and a small radius tends to it."""
+    """Limit."""
     gear = paper_pair.pinion
     sharp, rounded = tip_edge(gear, 0.0), tip_edge(gear, 1e-6)
     assert sharp.flank_roll == gear.tip_roll_angle
@@ -36,6 +35,6 @@ def test_without_radius_the_edge_is_where_flank_and_tip_circle_meet(paper_pair):
 
 @pytest.mark.parametrize("radius", [-0.1, 1.5, np.nan])
 def test_a_radius_that_does_not_fit_is_refused(radius, paper_pair):
-    """An edge needs half the tooth's thickness at the tip at most, 1.33 mm on this pinion; the error says so."""
+    """Half the tooth's thickness at the tip at most, 1.33 mm."""
     with pytest.raises(GeometryError, match="corner_contact.edge_radius"):
         tip_edge(paper_pair.pinion, radius)

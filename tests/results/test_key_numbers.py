@@ -1,4 +1,4 @@
-"""The numbers of a run against theory, standards and other results of the same run."""
+"""The numbers of a run."""
 
 from dataclasses import replace
 
@@ -16,14 +16,12 @@ from fenics_gears.scene.data import Motion
 
 @pytest.fixture(scope="module")
 def static(paper_scene):
-    """The paper's pair without inertia and friction."""
     scene = frictionless(quasi_static(paper_scene))
     return simulate(replace(scene, motion=Motion(200.0, 1, 1)))
 
 
 def test_mesh_stiffness_beside_iso_6336(static, paper_scene):
-    """ISO 6336-1, method B: c_gamma within 3 %, and c' of one pair between the standard's c', which 0.8 brings down to
-    measurements, and c'th."""
+    """ISO 6336-1, method B: c_gamma within 3 %, c' of one pair between c' and c'th."""
     theoretical, single = single_stiffness(paper_scene.gears)
     assert static.attrs["mean_mesh_stiffness"] == pytest.approx(
         single * mesh_factor(model_of(paper_scene).pair.contact_ratio), rel=0.03
@@ -32,8 +30,7 @@ def test_mesh_stiffness_beside_iso_6336(static, paper_scene):
 
 
 def test_the_printed_stiffness_is_the_tangent(paper_scene):
-    """Definition: a gap that opens the flanks alike at all steps, here by a slope of the profile, is deflection to the
-    secant alone; the tangent hardly moves."""
+    """Definition: a gap alike at all steps is deflection to the secant alone."""
     scene = replace(
         frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1))),
         accuracy=replace(COARSE, steps_per_mesh_cycle=20),
@@ -48,7 +45,7 @@ def test_the_printed_stiffness_is_the_tangent(paper_scene):
 
 
 def test_peak_pressure_is_that_of_hertz(static, paper_scene):
-    """Hertz: at the place that the result names, p = sqrt(F' E*/(pi rho)) under the pair's force then, within 2 %."""
+    """Hertz: p = sqrt(F' E*/(pi rho)) at the place that the result names, within 2 %."""
     attributes, pair = static.attrs, model_of(paper_scene).pair
     at = static.sel(time=attributes["peak_contact_pressure_time"])
     force = at.pair_normal_force.values[at.pair_number.values == attributes["peak_contact_pressure_pair"]].item()
@@ -60,8 +57,7 @@ def test_peak_pressure_is_that_of_hertz(static, paper_scene):
 
 
 def test_efficiency_by_the_energy_account(paper_scene):
-    """Energy account: with friction and without damping what comes out, is stored or is the time stepping's own is what
-    friction leaves."""
+    """Energy account: with friction and without damping."""
     result = simulate(replace(quasi_static(paper_scene), accuracy=COARSE, motion=Motion(200.0, 2, 1)))
     names = ("work_input", "work_output", "work_friction", "work_contact_changes", "energy_defect", "energy")
     work, attributes = {name: float(result[name][-1] - result[name][0]) for name in names}, result.attrs
@@ -75,8 +71,7 @@ def test_efficiency_by_the_energy_account(paper_scene):
 
 
 def test_dynamic_factor_without_root_stress(paper_scene):
-    """Definition: the largest force of a tooth pair over that of a run of the same scene without inertia, which has
-    none itself."""
+    """Definition: of a run of the same scene without inertia, which has none."""
     scene = coarse_scene(paper_scene, cycles=4)
     moving, still = simulate(scene), simulate(quasi_static(scene))
     assert moving.attrs["quasi_static_pair_normal_force"] == pytest.approx(still.attrs["largest_pair_force"], rel=1e-6)
@@ -86,16 +81,14 @@ def test_dynamic_factor_without_root_stress(paper_scene):
 
 
 def test_cycles_that_differ_are_not_run_twice_unasked(paper_scene):
-    """Definition: with torque ripple a quasi-static march as long as the run's own is left out, and the result says
-    why."""
+    """Definition: with torque ripple the quasi-static march is left out, and the result says why."""
     scene = replace(coarse_scene(paper_scene), torque_ripple=TorqueRipple((Harmonic(1, 1e4, 0.0),)))
     attributes = simulate(scene).attrs
     assert "mesh cycles differ" in attributes["dynamic_factor_unknown"] and "dynamic_factor_by_force" not in attributes
 
 
 def test_load_shares_at_the_contact_points(static):
-    """Definition of the contact ratio: A and D, B and E are a base pitch apart, so their shares add up to all; at C one
-    pair carries."""
+    """Definition: A and D, B and E are a base pitch apart; at C one pair carries."""
     share = {str(point): float(value) for point, value in zip(static.path_point.values, static.load_share.values)}
     assert share["A"] + share["D"] == pytest.approx(1.0, abs=0.02) and share["B"] + share["E"] == pytest.approx(
         1.0, abs=0.02

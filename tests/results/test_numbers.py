@@ -1,4 +1,4 @@
-"""The numbers that a pair is judged by, from curves whose numbers are known."""
+"""The numbers that a pair is judged by, from known curves."""
 
 import numpy as np
 import pytest
@@ -8,8 +8,7 @@ from fenics_gears.results.numbers import harmonics, shares_at
 
 @pytest.mark.parametrize("cycles", [1, 3])
 def test_harmonics_of_a_curve_that_is_made_of_them(cycles):
-    """Exact: amplitudes, phases and mean chosen; a tone between two harmonics leaves them as they are over whole
-    cycles."""
+    """Exact; a tone between two harmonics leaves them."""
     phase = np.arange(40 * cycles) / 40
     amplitudes = np.array([3.0, 0.0, 1.5, 0.25, 0.125])
     curve = 7.0 + sum(a * np.cos(2.0 * np.pi * n * phase + n) for n, a in enumerate(amplitudes, 1))
@@ -19,8 +18,7 @@ def test_harmonics_of_a_curve_that_is_made_of_them(cycles):
 
 
 def test_shares_of_pairs_that_hand_over_in_a_straight_line():
-    """Exact: a contact ratio of 1.5; a pair's share rises from 1/3 to 2/3, is 1 alone, and falls the other way;
-    positions in cycles."""
+    """Exact: a contact ratio of 1.5, from 1/3 to 2/3, 1 alone, and the other way."""
     phase = np.linspace(2.0, 4.0, 81)
     numbers = np.tile(np.arange(0, 5), (len(phase), 1))
     passed = phase[:, None] - numbers

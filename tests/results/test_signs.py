@@ -8,8 +8,7 @@ from fenics_gears import model_of, simulate
 
 
 def test_signs_of_forces_torques_and_rotations(paper_scene):
-    """Statics: without friction and inertia F = T/rb2; action and reaction on both shafts; the load holds the wheel
-    back."""
+    """Statics: F = T/rb2; action and reaction on both shafts."""
     scene = frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1)))
     result, pair = simulate(scene), model_of(scene).pair
     force = scene.load.wheel_torque / pair.wheel.base_radius

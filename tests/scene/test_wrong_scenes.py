@@ -1,8 +1,5 @@
-"""Wrong scenes are refused before any computation, in words that a person can act on: how each mistake is worded.
-
-Authority of every test here: hard case 26 and docs/promises.md's scene format. A refusal names file, field, value as
-written, what is allowed and the nearest known name; the exit code is 2; nothing is written.
-"""
+"""How each mistake is worded (hard case 26 and docs/promises.md): file, field, value, what is allowed, the nearest
+known name; exit code 2, nothing written."""
 
 import re
 from functools import partial
@@ -19,7 +16,6 @@ RELIEF = '\n[tip_relief]\ndepth = "31 um"\nstart = "HPSTC"\n'
 
 
 def with_line(text, section, key, line):
-    """The scene with the line of ``key`` in ``section`` replaced by ``line`` (added where the key is absent)."""
     head, header, rest = text.partition(f"[{section}]\n")
     assert header, f"no section {section}"
     body, following, tail = rest.partition("\n[")
@@ -30,8 +26,7 @@ def with_line(text, section, key, line):
 
 @pytest.fixture
 def refusal(tmp_path, monkeypatch, capsys):
-    """A function that runs a scene text and returns the refusal; it fails unless that is complete and nothing was
-    written."""
+    """Runs a scene text and returns the refusal; fails unless that is complete and nothing was written."""
     monkeypatch.chdir(tmp_path)
 
     def refuse(text):
@@ -282,7 +277,7 @@ def test_sections_that_do_not_fit_are_refused(refusal, text, fragments):
 
 
 def test_every_mistake_is_named_at_once(refusal):
-    """The interface; a person corrects a file once."""
+    """A person corrects a file once."""
     text = paper_text.without(DEMO + RELIEF, "inertia")
     for section, key, value in [
         ("gears", "module", "4.5"),
@@ -328,14 +323,13 @@ def test_the_line_is_that_of_the_field():
     ],
 )
 def test_control_characters_are_refused(refusal, line, said):
-    """ECMA-48: a terminal would obey them, and a text of HDF5 ends at NUL, so that the run would be computed and
-    lost."""
+    """ECMA-48; and a text of HDF5 ends at NUL."""
     found = refusal("\n" + line + "\n" + UNTITLED)
     assert said in found and "\0" not in found and "\x1b" not in found
 
 
 def test_of_many_mistakes_the_first_are_told_and_the_others_counted(refusal):
-    """The first twenty in the order of their lines; the others cost no search for what they may mean."""
+    """The first twenty in the order of their lines."""
     found = refusal("".join(f"frictoin{number} = 1\n" for number in range(2000)) + DEMO)
     assert (
         found.count("is not a known section or field of a scene.") == 20

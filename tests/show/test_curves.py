@@ -1,4 +1,4 @@
-"""Curves show the dataset's own values, converted by exact SI prefixes; what a result lacks has no panel."""
+"""Curves show the dataset's own values."""
 
 import numpy as np
 import pytest
@@ -10,28 +10,25 @@ from fenics_gears.show.plots import run_figures
 
 
 def transmission_error(run):
-    """That picture of a run."""
     return run_figures(run)["transmission_error.png"]
 
 
 def mesh_forces(run):
-    """That picture of a run; None where it has none."""
     return run_figures(run).get("mesh_forces.png")
 
 
 def load_sharing(run):
-    """That picture of a run; None where it has none."""
     return run_figures(run).get("load_sharing.png")
 
 
 def curve(axes, which=-1):
-    """The data of one of the panel's curves; lines across the panel are no curves."""
+    """Data of one of the panel's curves; lines across the panel are none."""
     lines = [line for line in axes.get_lines() if len(np.asarray(line.get_xdata())) > 2]
     return np.asarray(lines[which].get_xdata()), np.asarray(lines[which].get_ydata())
 
 
 def test_transmission_error_and_the_wheels_sideways_motion():
-    """The dataset's values times exact prefixes; the length axis is rb2 T_E (model.md, section 4)."""
+    """Exact prefixes; the length axis is rb2 T_E (model.md, section 4)."""
     run = made_up_run()
     above, below = transmission_error(run).get_axes()
     for axes, name, values in [
@@ -50,7 +47,7 @@ def test_transmission_error_and_the_wheels_sideways_motion():
 
 
 def test_the_peak_to_peak_is_named():
-    """400 µrad by construction (amplitude 200 µrad, extremes on steps), 20 µm on a base radius of 50 mm."""
+    """400 µrad by construction, 20 µm on a base radius of 50 mm."""
     above, _ = transmission_error(made_up_run(steps=41)).get_axes()
     assert above.get_title(loc="left") == "Transmission error on the wheel's base circle: peak to peak 20.00 µm"
 
@@ -64,8 +61,7 @@ def test_a_motion_of_rounding_errors_is_shown_as_none():
 
 
 def test_without_friction_the_shaft_is_shown_along_the_line_of_action():
-    """Without friction the motion off the line of action is exactly zero (model.md, claim 1): a line of nothing shows
-    nothing."""
+    """model.md, claim 1: the motion off the line of action is zero."""
     run = made_up_run()
     run["centre_x"] = (2.0 * run["centre_y"]).assign_attrs(units="mm")
     for friction, name, title in ((True, "centre_y", "off"), (False, "centre_x", "along")):
@@ -76,8 +72,7 @@ def test_without_friction_the_shaft_is_shown_along_the_line_of_action():
 
 
 def test_a_long_run_shows_its_last_cycles_and_all_of_them_cycle_by_cycle():
-    """The dataset: the last four mesh cycles; below, least and largest value of each of the twelve, where they are not
-    alike."""
+    """The last four mesh cycles; below, least and largest value of each of the twelve."""
     run = made_up_run(steps=241, cycles=12.0)
     assert [axes.get_xlim() for axes in transmission_error(run).get_axes()] == [(36.0, 40.0)] * 2
     growing = run["transmission_error"] * (1.0 + 0.1 * (run["mesh_phase"] - 28.0))
@@ -91,7 +86,7 @@ def test_a_long_run_shows_its_last_cycles_and_all_of_them_cycle_by_cycle():
 
 
 def test_load_sharing_of_a_long_run_names_the_pairs_that_are_seen():
-    """The dataset: of 47 cycles' pairs those that carry in the last four."""
+    """Of 47 cycles' pairs those that carry in the last four."""
     run = made_up_run(steps=941, cycles=47.0)
     names = [line.get_label() for line in load_sharing(run).get_axes()[0].get_lines()]
     last = int(run["pair_number"].max())
@@ -99,7 +94,7 @@ def test_load_sharing_of_a_long_run_names_the_pairs_that_are_seen():
 
 
 def test_mesh_forces():
-    """Authority: the dataset's values; N mm become N m."""
+    """The dataset; N mm become N m."""
     run = made_up_run()
     normal, friction, torques = mesh_forces(run).get_axes()
     np.testing.assert_array_equal(curve(normal)[1], run["normal_force"].values)
@@ -114,7 +109,7 @@ def test_mesh_forces():
 
 
 def test_load_sharing():
-    """Each curve is its pair's force while it carries, and the pairs' sum is the mesh's normal force."""
+    """Each pair's force while it carries; their sum is the mesh's."""
     run = made_up_run()
     (axes,) = load_sharing(run).get_axes()
     lines = {line.get_label(): line for line in axes.get_lines()}
@@ -142,8 +137,7 @@ def test_load_sharing():
     ((20.0, 150.0), True, ["20", "50", "100"]),
 ])  # fmt: skip
 def test_ticks_are_round_numbers_written_with_the_decimals_they_need(ends, logarithmic, expected):
-    """Arithmetic: multiples of 1, 2, 2.5 or 5 times a power of ten within the ends; what is written is the place
-    itself."""
+    """Arithmetic: multiples of 1, 2, 2.5 or 5 times a power of ten."""
     places = ticks(ends, 5.0, logarithmic)
     assert tick_labels(places, logarithmic) == expected
     np.testing.assert_allclose([float(each.replace("−", "-")) for each in expected], places, atol=1e-9 * np.ptp(ends))

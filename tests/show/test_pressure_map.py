@@ -1,4 +1,4 @@
-"""The map of contact pressure: a raster of flank and time that has the pressure of the nodes at their places."""
+"""The map of contact pressure, a raster of flank and time."""
 
 import math
 
@@ -13,7 +13,6 @@ from fenics_gears.show.run import Run
 
 
 def contact_pressure(run):
-    """That picture of a run; None where it has none."""
     return run_figures(run).get("contact_pressure.png")
 
 
@@ -29,8 +28,7 @@ def field_of(run):
 
 @pytest.mark.parametrize("steps", [21, 2000])
 def test_every_node_under_pressure_is_in_the_raster(steps):
-    """The dataset: the cell at a node's place has its pressure, or that of a higher one which falls into it; no cell
-    has another."""
+    """The cell at a node's place has its pressure, or a higher one that falls into it; no cell has another."""
     field, pressure, place, phase = field_of(made_up_run(steps=steps))
     assert field.values.shape[1] <= MOST_COLUMNS and field.x[0] == phase[0] and field.x[-1] == phase[-1]
     step, slot, node = np.nonzero(pressure > 0.0)
@@ -43,7 +41,7 @@ def test_every_node_under_pressure_is_in_the_raster(steps):
 
 @pytest.mark.parametrize("falling", [False, True])
 def test_cells_tile_uneven_nodes_without_gap_or_overlap(falling):
-    """half-way points. Edges of neighbouring nodes are shared, whichever way the nodes are counted; the ends mirror."""
+    """Half-way points; the ends mirror."""
     rolls, edges = np.array([1.0, 1.2, 1.6, 2.4, 4.0]), np.array([0.9, 1.1, 1.4, 2.0, 3.2, 4.8])
     low, high = node_edges(rolls[::-1] if falling else rolls)
     np.testing.assert_allclose(np.sort(low), edges[:-1], rtol=1e-13)
@@ -51,8 +49,7 @@ def test_cells_tile_uneven_nodes_without_gap_or_overlap(falling):
 
 
 def test_a_peak_far_above_all_others_is_said_and_leaves_the_scale_alone():
-    """By construction one cell of 9000 MPa among cells below 1700 MPa; the peak away from edges decides where the
-    result has it."""
+    """By construction: 9000 MPa among cells below 1700 MPa; the peak away from edges decides."""
     run = made_up_run(steps=101)
     there = np.flatnonzero(run["contact_pressure"].values[50, :, 2] > 0.0)[0]
     run["contact_pressure"][50, there, 2] = 9000.0
@@ -63,7 +60,7 @@ def test_a_peak_far_above_all_others_is_said_and_leaves_the_scale_alone():
 
 
 def test_pitch_point_and_the_wheels_axis(paper_scene):
-    """At the pitch point either roll angle is tan(alpha_w) (exact); the paper's alpha_w is 22.44 deg."""
+    """Exact: either roll angle is tan(alpha_w), 22.44 deg."""
     (axes, _) = contact_pressure(made_up_run(scene=paper_scene.text)).get_axes()
     line = next(each for each in axes.get_lines() if each.get_label() == "pitch point")
     roll = float(line.get_ydata()[0])
@@ -75,7 +72,7 @@ def test_pitch_point_and_the_wheels_axis(paper_scene):
 
 
 def test_no_contact_at_all_and_no_pressure_variable():
-    """Free flight has no pressure (hard_cases.md, 18): an empty flank, no failure; no variable, no picture."""
+    """hard_cases.md, 18: an empty flank; no variable, no picture."""
     run = made_up_run()
     run["contact_pressure"][:] = 0.0
     assert mesh(contact_pressure(run)).get_array().count() == 0
@@ -83,7 +80,7 @@ def test_no_contact_at_all_and_no_pressure_variable():
 
 
 def test_pressure_on_the_coast_flanks_has_a_panel_of_its_own():
-    """The dataset. A pair that the wheel drives presses on its coast flanks only, another one on both in turn."""
+    """A pair that the wheel drives presses on its coast flanks only, another one on both in turn."""
     run = made_up_run()
     zero = run["contact_pressure"] * 0.0
     run["coast_contact_roll_angle"] = run["contact_roll_angle"]

@@ -1,7 +1,4 @@
-"""Where results are written.
-
-Authority: hard cases 26 and 27: refused before any computation; no half result, and nothing of somebody else's removed.
-"""
+"""Where results are written (hard cases 26 and 27)."""
 
 import os
 import subprocess
@@ -14,14 +11,13 @@ from fenics_gears.system import output
 
 
 def dead_process():
-    """The number of a process that has ended."""
     process = subprocess.Popen([sys.executable, "-I", "-S", "-c", ""])
     process.wait()
     return process.pid
 
 
 def test_what_a_killed_process_left_is_removed_and_nothing_else(tmp_path):
-    """Of this machine and of a process that has ended. Not of a live one, of another machine, or in a folder within."""
+    """Of this machine and of a process that has ended; not of a live one, another machine, or a folder within."""
     here, dead = f"{output.UNFINISHED}{output._machine()}-", dead_process()
     left, alive, elsewhere = (
         f"{here}{dead}-abc",
@@ -43,7 +39,7 @@ def test_what_a_killed_process_left_is_removed_and_nothing_else(tmp_path):
 
 
 def test_a_killed_writer_is_recognised(tmp_path):
-    """A process that kills itself while it writes leaves a folder that the next writer removes."""
+    """A process that kills itself while it writes."""
     program = "import os, signal, sys; from pathlib import Path; from fenics_gears.system.output import write_whole\n"
     program += "write_whole(Path(sys.argv[1], 'a'), lambda path: os.kill(os.getpid(), signal.SIGKILL))"
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
@@ -54,7 +50,6 @@ def test_a_killed_writer_is_recognised(tmp_path):
 
 
 def places(folder):
-    """Directories that take no result, by why."""
     (folder / "file").touch()
     (folder / "dangling").symlink_to("/nowhere/at/all")
     (folder / "own" / "run.nc").mkdir(parents=True)
@@ -78,13 +73,13 @@ WHY = ("is a file", "is a link to /nowhere/at/all", "is no file", "levels of sym
 
 @pytest.mark.parametrize("why", WHY)
 def test_places_that_take_no_result_are_refused(tmp_path, why):
-    """Each with what it is and the remedy."""
+    """What it is, and the remedy."""
     with pytest.raises(SceneError, match=rf"(?i){why}.*--output"):
         output.check_writable(places(tmp_path)[why], "run.nc")
 
 
 def test_places_that_take_a_result_are_left_as_they_are(tmp_path):
-    """There or not; also where a file of the name is replaced."""
+    """There or not; also where a file is replaced."""
     (tmp_path / "run.nc").touch()
     for directory in (tmp_path, tmp_path / "new" / "one"):
         output.check_writable(directory, "run.nc", "a.png")

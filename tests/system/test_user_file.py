@@ -1,7 +1,4 @@
-"""Files that users name: what is no file, or too large, is refused before it is read.
-
-Authority: POSIX's kinds of files, and the limits that ``user_file`` states.
-"""
+"""Files that users name: POSIX's kinds of files, and the limits of ``user_file``."""
 
 import os
 
@@ -11,7 +8,6 @@ from fenics_gears.system import user_file
 
 
 def kinds(folder):
-    """Paths by what they are."""
     made = {name: folder / name for name in WORDS if name != "a name with NUL"}
     os.mkfifo(made["a pipe"])
     made["a folder"].mkdir()
@@ -39,14 +35,13 @@ WORDS = {
 
 @pytest.mark.parametrize("kind", WORDS)
 def test_what_is_no_text_is_refused_in_words(tmp_path, kind):
-    """A pipe without a writer would be waited for, a device or gigabytes would fill the memory: the test would not
-    end."""
+    """A pipe would be waited for, a device would fill the memory."""
     with pytest.raises(user_file.Unreadable, match=WORDS[kind]):
         user_file.text_of(kinds(tmp_path)[kind], user_file.LARGEST_SCENE)
 
 
 def test_a_file_that_grows_while_it_is_read_is_refused(tmp_path, monkeypatch):
-    """Its length is read once more, with its content."""
+    """Its length is read once more."""
     (tmp_path / "grows").write_bytes(b"x" * 11)
     monkeypatch.setattr(user_file, "check_file", lambda path, largest: None)
     with pytest.raises(user_file.Unreadable, match="has more than 0 MB"):

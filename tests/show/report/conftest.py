@@ -1,4 +1,4 @@
-"""Runs and a study on coarse meshes, made by the commands that people make them by."""
+"""Runs and a study on coarse meshes, made by commands."""
 
 import pytest
 
@@ -19,8 +19,7 @@ steps_per_mesh_cycle = 20
 
 
 def scene_text(paper_scene, *, without=(), more="", cycles=2):
-    """The paper's scene on a coarse mesh, less some sections, with more of them before the accuracy; `cycles` mesh
-    cycles, one stored."""
+    """The paper's scene on a coarse mesh, less some sections, with more of them before the accuracy."""
     head = paper_scene.text[: paper_scene.text.index("[accuracy]")]
     head = head.replace("mesh_cycles = 30", f"mesh_cycles = {cycles}").replace(
         "recorded_cycles = 2", "recorded_cycles = 1"
@@ -32,7 +31,7 @@ def scene_text(paper_scene, *, without=(), more="", cycles=2):
 
 @pytest.fixture(scope="session")
 def made(tmp_path_factory):
-    """A function that runs a scene's text and returns the run's directory."""
+    """Runs a scene's text and returns the run's directory."""
 
     def make(text, name):
         directory = tmp_path_factory.mktemp(name)
@@ -50,13 +49,12 @@ def made(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def run(made, paper_scene):
-    """The directory of a dynamic run with friction and root stress."""
     return made(scene_text(paper_scene, more="[output]\nroot_stress = true\n"), "dynamic")
 
 
 @pytest.fixture(scope="session")
 def report(run, request):
-    """The page of that run; by day one of its charts is drawn as an image, by night all."""
+    """The page of that run; by day one of its charts is drawn as an image."""
     draw, by_night = rendering.still, request.config.option.markexpr == "nightly"
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(rendering, "still", lambda each: draw(each) if by_night or each.caption == DRAWN else b"<svg/>")
@@ -66,14 +64,12 @@ def report(run, request):
 
 @pytest.fixture
 def without_stills(monkeypatch):
-    """Pages of this test have an empty image before each chart: drawing them takes longer than all else, and one page's
-    are looked at."""
+    """Charts have an empty image, which takes less time."""
     monkeypatch.setattr(rendering, "still", lambda chart: b"<svg/>")
 
 
 @pytest.fixture(scope="session")
 def study(paper_scene, tmp_path_factory):
-    """The directory of a study of three frequencies, with friction and without."""
     directory = tmp_path_factory.mktemp("study")
     (directory / "pair.toml").write_text(scene_text(paper_scene), encoding="utf-8")
     sweep = '[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz", "300 Hz"]\nfriction = ["absent", "present"]\n'
