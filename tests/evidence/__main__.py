@@ -1,6 +1,8 @@
-"""Measure rows of docs/evidence/index.md and write the page. python -m tests.evidence [NAMES] [--python PYTHON of
-other programs] [--draw from the numbers kept]. A part whose program is not there keeps its numbers; the exit code is
-then 1."""
+"""Measure rows of docs/evidence/index.md and write the page.
+
+`python -m tests.evidence [NAMES] [--python PYTHON of other programs] [--draw from the numbers kept]`: a part whose
+program is not there keeps its numbers; the exit code is then 1.
+"""
 
 import argparse
 import subprocess

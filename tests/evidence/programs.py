@@ -4,8 +4,8 @@ import numpy as np
 from tests.benchmarks import against_calculix
 from tests.benchmarks.against_exudyn import pair as exudyn
 from tests.benchmarks.against_exudyn import shaft, tilting
-from tests.benchmarks.against_getfem import __main__ as getfem
-from tests.benchmarks.against_ross import __main__ as ross
+from tests.benchmarks.against_getfem import pair as getfem
+from tests.benchmarks.against_ross import shafts as ross
 from tests.benchmarks.third_dimension.pairs import scene_of, standard_pair
 from tests.corner_contact_reference import approach, reference
 from tests.evidence.claim import PROGRAMS, Claim, Numbers, Part, within
@@ -38,16 +38,16 @@ def calculix(_: str) -> Numbers:
     """µrad, of a helical pair."""
     gears = standard_pair(against_calculix.FACE_WIDTH, against_calculix.HELIX_ANGLE)
     scene = scene_of(gears, Accuracy(steps_per_mesh_cycle=against_calculix.STEPS), against_calculix.LINE_LOAD)
-    own, _ = against_calculix.by_this_program(scene)
+    own = against_calculix.by_this_program(scene)
     return {
-        f"{phase:g}": (1e6 * against_calculix.by_calculix(scene, gear_pair(gears), phase, mine, 1.0)[0], 1e6 * mine)
+        f"{phase:g}": (1e6 * against_calculix.by_calculix(scene, gear_pair(gears), phase, mine), 1e6 * mine)
         for phase, mine in zip(against_calculix.PHASES, own)
     }
 
 
 def by_getfem(python: str) -> Numbers:
     """µrad, of the paper's pair."""
-    own, other = getfem.by_this_program()[0], getfem.by_getfem(python)
+    own, other = getfem.by_this_program(), getfem.by_getfem(python)
     return {
         f"{phase:g}": (1e6 * there["rotation"], 1e6 * mine) for phase, mine, there in zip(getfem.PHASES, own, other)
     }

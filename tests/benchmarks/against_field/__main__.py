@@ -1,14 +1,10 @@
-"""This program beside gear packages, a rotor program, a multi-body program and finite elements on the same input: one
-table of quantities, both values, both times of a processor.
+"""This program beside gear packages of PyPI on the same input, into docs/evidence/other_programs.md: both values, both
+times of a processor. PYTHON is that of an environment that has them.
 
-    pip install python-gearbox py-gearworks exudyn ross-rotordynamics 'plotly<6'  # into an environment of its own
-    python -m tests.benchmarks.against_field PYTHON [--calculix]          # PYTHON: that environment's
-
-Writes the table into docs/evidence/other_programs.md. Programs that PYTHON lacks are left out, and said. CalculiX
-(Debian's calculix-ccx) takes three minutes.
+    pip install python-gearbox py-gearworks
+    python -m tests.benchmarks.against_field PYTHON
 """
 
-import argparse
 import json
 import subprocess
 import sys
@@ -17,14 +13,10 @@ from math import radians
 from pathlib import Path
 
 import numpy as np
-from tests.benchmarks import against_calculix
-from tests.benchmarks.against_exudyn import pair as exudyn
-from tests.benchmarks.against_ross import __main__ as ross
 from tests.benchmarks.marked_section import markers, write_section
 from tests.benchmarks.third_dimension.pairs import in_plane, scene_of, standard_pair
 
 from fenics_gears import gear_pair, mesh_factor, simulate, single_stiffness
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft
 from fenics_gears.scene.data import Accuracy
 
 PAGE = Path(__file__).parents[3] / "docs" / "evidence" / "other_programs.md"
@@ -34,10 +26,9 @@ Row = tuple[str, str, float, float, float, float]
 
 
 def timed(function, *given):
-    """What a function gives, and the processor's seconds, those of its processes too."""
-    begun = against_calculix.seconds_of_processor()
-    found = function(*given)
-    return found, against_calculix.seconds_of_processor() - begun
+    """What a function gives, and the processor's seconds."""
+    begun = time.process_time()
+    return function(*given), time.process_time() - begun
 
 
 def by_packages(python: str, helix: float, radii: list[float]) -> dict:
@@ -83,40 +74,6 @@ def packages(python: str) -> list[Row]:
     return rows
 
 
-def rotor(python: str) -> list[Row]:
-    """Deflection of shafts at the gear."""
-    rows = []
-    for name, (sections, gear_at, pieces) in ross.SHAFTS.items():
-        shaft = ElasticShaft("pinion", sections, (206e3, 0.3), gear_at, 0.0, 0.0, ross.BEARINGS)
-        mine, own = timed(lambda shaft=shaft: np.linalg.inv(shaft.stiffness))
-        there, its = timed(ross.by_ross, python, shaft, pieces)
-        rows.append((f"deflection: {name}, µm/kN", "ROSS", 1e6 * there[0, 0], 1e6 * mine[0, 0], its, own))
-    return rows
-
-
-def bodies(python: str) -> list[Row]:
-    """The natural frequency that differs most, and the times of it with a response of 5000 steps."""
-    (frequencies, _, given), own = timed(exudyn.by_this_program)
-    found, its = timed(exudyn.asked, python, "exudyn_pair.py", given)
-    theirs = np.array(found["frequencies"])
-    worst = int(np.abs(frequencies / theirs - 1.0).argmax())
-    words = "natural frequency on a constant mesh stiffness that differs most of 7, and 5000 steps, Hz"
-    return [(words, "Exudyn", theirs[worst], frequencies[worst], its, own)]
-
-
-def elements(_: str) -> list[Row]:
-    """Transmission error of a helical pair at two positions."""
-    gears = standard_pair(against_calculix.FACE_WIDTH, against_calculix.HELIX_ANGLE)
-    scene = scene_of(gears, Accuracy(steps_per_mesh_cycle=against_calculix.STEPS), against_calculix.LINE_LOAD)
-    (own, _), seconds = timed(against_calculix.by_this_program, scene)
-    rows = []
-    for phase, mine in zip(against_calculix.PHASES, own):
-        there, _, its = against_calculix.by_calculix(scene, gear_pair(gears), phase, mine, 1.0)
-        rows.append((f"transmission error, 20 deg, phase {phase:g}, µrad (20 positions here, one there)", "CalculiX",
-                     1e6 * there, 1e6 * mine, its, seconds))  # fmt: skip
-    return rows
-
-
 def table(rows: list[Row]) -> str:
     """In Markdown."""
     lines = ["| quantity | program | its value | here | difference | its time, s | time here, s |"]
@@ -128,26 +85,14 @@ def table(rows: list[Row]) -> str:
     return "\n".join(lines)
 
 
-def main() -> int:
+def main(python: str) -> None:
     """Measure, print, write."""
-    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.against_field")
-    parser.add_argument("python", help="a Python that has the other programs")
-    parser.add_argument("--calculix", action="store_true", help="CalculiX too, three minutes")
-    given, rows, missing = parser.parse_args(), [], 0
     # What is compiled or imported at the first call is no part of the times.
     simulate(in_plane(scene_of(standard_pair(WIDTH), Accuracy(steps_per_mesh_cycle=20))))
-    for part in (packages, rotor, bodies, *([elements] if given.calculix else [])):
-        begun = time.monotonic()
-        try:
-            rows += part(given.python)
-        except (OSError, subprocess.CalledProcessError) as error:
-            missing = 1
-            print(f"{part.__name__} left out: {getattr(error, 'stderr', '') or error}"[-300:], file=sys.stderr)
-        print(f"{part.__name__}: {time.monotonic() - begun:.0f} s", flush=True)
+    rows = packages(python)
     print(table(rows))
     write_section(PAGE, *markers("field"), table(rows))
-    return missing
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main(sys.argv[1])
