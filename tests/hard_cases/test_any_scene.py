@@ -117,9 +117,13 @@ def test_every_step_of_any_scene_on_stand_in_teeth(measured, examples):
     judged(Tally(), measured, "stand-in teeth", on_stand_ins, examples)
 
 
-def test_every_step_of_any_scene(measured, tmp_path):
+@pytest.mark.parametrize(
+    ("gears", "examples"),
+    [("finite elements", 1), pytest.param("finite elements, by night", 150, marks=pytest.mark.nightly)],
+)
+def test_every_step_of_any_scene(measured, tmp_path, gears, examples):
     """As above, on finite elements."""
-    judged(Tally(), measured, "finite elements", on_elements(Cache(tmp_path)), 1)
+    judged(Tally(), measured, gears, on_elements(Cache(tmp_path)), examples)
 
 
 @pytest.mark.parametrize("examples", [2, pytest.param(30, marks=pytest.mark.nightly)])
@@ -127,9 +131,3 @@ def test_every_step_of_any_frictionless_scene_without_load(measured, examples):
     """As above: with no load to measure by, round-off is no force that nothing balances."""
     scenes = valid_scenes(torques=st.just(0.0)).filter(lambda scene: scene.friction is None)
     judged(Tally(), measured, "stand-in teeth, no load, no friction", on_stand_ins, examples, scenes)
-
-
-@pytest.mark.nightly
-def test_every_step_of_hundreds_of_scenes(measured, tmp_path):
-    """As above, by the hundred."""
-    judged(Tally(), measured, "finite elements, by night", on_elements(Cache(tmp_path)), 150)

@@ -13,19 +13,15 @@ from tests.elasticity.face.swept import GEAR, TWIST, TWISTED, condense_swept, me
 from tests.elasticity.face.test_face_compliance import flank_nodes
 from tests.elasticity.face.test_face_compliance import sector as sector  # a fixture
 from tests.elasticity.test_coast_flank import difference
-from tests.hard_cases.invariants import cycle_of
-from tests.hard_cases.test_over_the_face_on_elements import TEETH, accuracy, bodies_of
+from tests.hard_cases.test_over_the_face_on_elements import TEETH, accuracy
 from tests.hard_cases.test_over_the_face_on_elements import run as run  # a fixture
 from tests.hard_cases.test_over_the_face_static import misaligned
 from tests.hard_cases.test_row_05_schur_complement import check_kernel
 from tests.hard_cases.test_row_13_unit_systems import SYSTEMS, in_units
-from tests.hard_cases.test_row_27_damage import empty, foreign, truncated
 from tests.helical import CROWNED, FRICTION, helical_scene
 from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears import model_of, simulate
-from fenics_gears.dynamics.march import Marcher
-from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.condensation import by_radius, dofs_of, without
 from fenics_gears.elasticity.face.half_turn import ring_blocks
 from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
@@ -160,22 +156,3 @@ def test_units_scale_out(system, measured):
         row=13,
     )
     assert change <= 1e-9 and iterations == 0
-
-
-@pytest.mark.nightly
-@pytest.mark.parametrize("damage", [truncated, empty, foreign])
-def test_damaged_bodies_are_computed_again(damage, tmp_path, measured):
-    """Row 27. Bodies whose cache entries were damaged give the same run to the last bit."""
-    model, cache = model_of(helical_scene(CROWNED, teeth=TEETH, accuracy=accuracy())), Cache(tmp_path)
-
-    def run_again():
-        marcher = Marcher(cycle_of(model, bodies_of(cache)(model)), model.equations_of_motion)
-        return np.array([each.state.position for each in marcher.run(model.steps, model.steps + 1).records])
-
-    first, entries = run_again(), [each for each in tmp_path.rglob("*") if each.is_file()]
-    for entry in entries:
-        damage(entry)
-    same = np.array_equal(run_again(), first)
-    words = "computed again, the same to the last bit" if same else "another number"
-    measured(f"{len(entries)} entries of bodies {damage.__name__}", words, "the same to the last bit", row=27)
-    assert same and entries

@@ -99,19 +99,6 @@ def test_order_of_the_half_width(element, errors, measured):
     assert orders.min() >= 1.0
 
 
-@NIGHTLY
-@pytest.mark.parametrize("element", ["P1", "Q1"])
-def test_first_order_elements(element, errors, measured):
-    """On record; the peak converges, with order 1 at least from b/h = 2 to 8."""
-    worst = [errors(element, ratio, 1.0)[:, 1].max() for ratio in LIMITS]
-    measured(
-        f"{element}, nodes one element apart: peak at b/h = 2, 4, 8",
-        ", ".join(f"{100 * error:.2g} %" for error in worst),
-        "recorded",
-    )
-    assert worst[2] <= 0.25 * worst[0]
-
-
 def test_average_keeps_cubics_and_removes_what_alternates():
     """Exact: weights (-1, 4, 10, 4, -1)/16 reproduce cubics and vanish on (-1)^j; ends stay."""
     places = np.arange(12.0)

@@ -13,7 +13,6 @@ import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
 from tests.programs import command, environment
 from tests.studies.conftest import folder, stamps, undrawn, write_study  # noqa: F401
-from tests.studies.test_run_study import FIVE, load, stopped_in_the_middle
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
@@ -138,40 +137,6 @@ def test_a_run_killed_while_it_marches_has_its_steps_on_disk(folder, measured, c
         )
 
 
-@pytest.mark.nightly
-@pytest.mark.parametrize(
-    "pauses", [(0.011,), pytest.param((0.0, 0.003, 0.007, 0.017, 0.023), marks=pytest.mark.nightly)]
-)
-def test_writers_killed_while_they_write(tmp_path, measured, pauses):
-    """Processes that store a large cache entry and a result again and again, killed: readers see whole ones."""
-    program = (
-        "import sys, numpy, xarray\nfrom pathlib import Path\nfrom fenics_gears import results\nfrom"
-        " fenics_gears.elasticity.cache import Cache\nnumber, steps = 0.0, numpy.arange(400_000.0)\nwhile True:\n   "
-        " number += 1.0\n    values = numpy.full(400_000, number)\n    Cache(Path('cache')).store('key', {'values':"
-        " values})\n    results.save(xarray.Dataset({'transmission_error': ('time', values), 'mesh_phase': ('time',"
-        " steps)}, {'time': steps}, {'scene': ''}), 'run.nc')\n"
-    )
-    seen = 0
-    for pause in pauses:
-        process = subprocess.Popen([sys.executable, "-c", program], cwd=tmp_path, env=environment())
-        deadline = time.monotonic() + 60
-        (tmp_path / "run.nc").unlink(missing_ok=True)
-        while not (tmp_path / "run.nc").exists() and time.monotonic() < deadline:
-            time.sleep(0.002)
-        time.sleep(pause)
-        for killed in (False, True):
-            if killed:
-                os.kill(process.pid, signal.SIGKILL)
-                process.wait(timeout=60)
-            stored, saved = (
-                Cache(tmp_path / "cache").load("key")["values"],
-                results.load(tmp_path / "run.nc").transmission_error.values,
-            )
-            assert len(stored) == len(saved) == 400_000 and np.ptp(stored) == np.ptp(saved) == 0.0
-            seen += 2
-    measured("files read while a writer is killed", f"{seen} of {seen} complete", "all")
-
-
 def test_an_interrupted_write_leaves_no_file(tmp_path, monkeypatch, measured):
     """Ctrl-C between writing aside and renaming."""
 
@@ -183,22 +148,6 @@ def test_an_interrupted_write_leaves_no_file(tmp_path, monkeypatch, measured):
         Cache(tmp_path).store(KEY, ARRAYS)
     measured("Ctrl-C before the cache's rename", f"{len(list(tmp_path.iterdir()))} files left", "none")
     assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.nightly
-def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, undrawn, measured, capsys):
-    """kill -9: nothing lost, nothing computed twice, nothing left half-written."""
-    study = write_study(folder, FIVE)
-    assert stopped_in_the_middle(folder, study, signal.SIGKILL).returncode == -signal.SIGKILL
-    before = stamps("here")
-    again = main(["study", str(study), "--output", "here"])
-    after = stamps("here")
-    repeated = sum(after[name] != before[name] for name in before)
-    measured("study killed: cases computed again", f"{repeated} of {len(before)} done", "none")
-    assert len(before) == 3 and repeated == 0
-    assert again == 0 and "3 kept, 2 to be computed" in capsys.readouterr().err
-    assert len(after) == 5 and left_over("here")[1] == []
-    assert load("here").attrs["complete"] == 1
 
 
 @pytest.mark.nightly

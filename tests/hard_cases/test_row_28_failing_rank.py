@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.hard_cases.kept_files import left_over
 from tests.programs import command, environment, python
 from tests.studies.conftest import folder, stamps, undrawn, write_study  # noqa: F401
 from tests.studies.test_run_study import FIVE, THREE, load, stopped_in_the_middle
@@ -64,19 +65,21 @@ def test_the_case_of_a_failing_rank_is_recorded_and_the_others_finish(folder, me
 
 
 @pytest.mark.nightly
-def test_a_killed_rank_loses_nothing_that_was_done(folder, measured, capsys):
-    """kill -9 of one rank ends the job, without a hang; run again it computes only what is missing."""
+@pytest.mark.parametrize(("ranks", "who"), [(2, "a rank"), (0, "study")])
+def test_a_killed_process_loses_nothing_that_was_done(folder, measured, capsys, ranks, who):
+    """Also row 27: kill -9 of one rank ends the job, without a hang; run again it computes only what is missing."""
     study = write_study(folder, FIVE)
-    ended = stopped_in_the_middle(folder, study, signal.SIGKILL, ranks=2)
+    ended = stopped_in_the_middle(folder, study, signal.SIGKILL, ranks=ranks)
     before = stamps("here")
     again = main(["study", str(study), "--output", "here"])
     after = stamps("here")
     repeated = sum(after[name] != before[name] for name in before)
-    measured("a rank killed: cases computed again", f"{repeated} of {len(before)} done", "none, no hang")
+    words, row = f"{repeated} of {len(before)} done", 28 if ranks else 27
+    measured(f"{who} killed: cases computed again", words, "none, no hang", row=row)
     # The killed rank had done two, the other at most as many.
-    assert ended.returncode != 0 and 2 <= len(before) <= 4
+    assert ended.returncode != 0 and (2 <= len(before) <= 4 if ranks else len(before) == 3)
     assert again == 0 and f"{len(before)} kept" in capsys.readouterr().err
-    assert len(after) == 5 and repeated == 0
+    assert len(after) == 5 and repeated == 0 and left_over("here")[1] == []
     assert load("here").attrs["complete"] == 1
 
 
