@@ -10,12 +10,9 @@ import pytest
 from matplotlib import pyplot
 from matplotlib.image import imread
 from tests.conftest import DEMOS
+from tests.paper_text import COARSE, coarse_text
 
 SCRIPT = DEMOS / "python_interface" / "first_steps.py"
-COARSE = (
-    '[accuracy]\nelement = "P1"\nflank_element_size = "0.12 mm"\ncontact_length = "3 mm"\ncontact_nodes ='
-    " 26\nsteps_per_mesh_cycle = 40\n"
-)
 
 
 @pytest.fixture(scope="module")
@@ -23,8 +20,7 @@ def ran(tmp_path_factory):
     """Every name of the script after it has run beside a coarse scene, and its folder."""
     folder = tmp_path_factory.mktemp("checkout")
     (folder / "demos").mkdir()
-    text = (DEMOS / "lundvall2004.toml").read_text(encoding="utf-8")
-    (folder / "demos" / "lundvall2004.toml").write_text(text[: text.index("[accuracy]")] + COARSE, encoding="utf-8")
+    (folder / "demos" / "lundvall2004.toml").write_text(coarse_text(cycles=30, accuracy=COARSE), encoding="utf-8")
     with pytest.MonkeyPatch.context() as patched:
         patched.chdir(folder)
         patched.setenv("MPLBACKEND", "agg")

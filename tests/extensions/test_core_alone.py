@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 from tests.docs.blocks import ROOT
-from tests.programs import DEMO
-from tests.studies.conftest import ACCURACY
+from tests.paper_text import coarse_text
 
 # Tests of the whole program, or of its installation.
 OF_THE_WHOLE = ("extensions", "docs", "demos", "setup", "benchmarks", "debians", "hard_cases", "evidence")
@@ -52,8 +51,7 @@ def python(folder, *arguments, timeout=300):
 @pytest.mark.nightly
 def test_its_modules_load_and_a_scene_runs(core):
     """The contract that the core imports no extension, by doing."""
-    scene = DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 2 ").partition("[accuracy]")[0]
-    (core / "pair.toml").write_text(scene + ACCURACY, encoding="utf-8")
+    (core / "pair.toml").write_text(coarse_text(), encoding="utf-8")
     done = python(core, "-c", MODULES_AND_COMMANDS)
     assert done.returncode == 0 and done.stderr == "" and (core / "out" / "run.nc").exists(), done.stderr
     assert "parameter study" in done.stdout and "optimize" not in done.stdout

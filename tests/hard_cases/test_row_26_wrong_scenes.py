@@ -19,8 +19,7 @@ from tests.hard_cases.scene_fields import (
     scene_with,
     whole_scene,
 )
-from tests.paper_text import without
-from tests.studies.conftest import ACCURACY
+from tests.paper_text import ACCURACY, without
 
 import fenics_gears.simulation.simulate
 from fenics_gears import GeometryError, Scene, SceneError, scene_from_text

@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from tests.paper_text import coarse_text
 
 from fenics_gears import results, scene_from_text
 from fenics_gears.commands.cli import main
@@ -19,17 +20,17 @@ pyvista = pytest.importorskip("pyvista")
 
 
 @pytest.fixture(scope="module")
-def run(paper_scene, tmp_path_factory):
+def run(tmp_path_factory):
     """Two stored mesh cycles, four steps each, and its scene as in the file."""
     from fenics_gears.simulation.simulate import simulate
 
     directory = tmp_path_factory.mktemp("run")
-    head = paper_scene.text[: paper_scene.text.index("[shafts]")].replace("mesh_cycles = 30", "mesh_cycles = 2")
     coarse = (
         '[accuracy]\nelement = "P1"\nflank_element_size = "0.3 mm"\nbody_element_size = "3 mm"\ncontact_length = "4'
         ' mm"\ncontact_nodes = 14\nsteps_per_mesh_cycle = 4\n'
     )
-    scene = scene_from_text(head + coarse)
+    effects = ("shafts", "bearings", "inertia", "damping", "friction")
+    scene = scene_from_text(coarse_text(*effects, accuracy=coarse))
     results.save(simulate(scene), directory / "run.nc")
     return directory, scene
 

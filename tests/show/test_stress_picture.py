@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 from tests.coarse import coarse_scene
+from tests.paper_text import COARSE, coarse_text
 from tests.programs import python
 
 from fenics_gears import results, scene_from_text
@@ -18,16 +19,7 @@ def run(paper_scene, tmp_path_factory):
     from fenics_gears.simulation.simulate import simulate
 
     directory = tmp_path_factory.mktemp("run")
-    text = (
-        paper_scene.text[: paper_scene.text.index("[accuracy]")]
-        .replace("mesh_cycles = 30", "mesh_cycles = 1")
-        .replace("recorded_cycles = 2", "recorded_cycles = 1")
-    )
-    coarse = (
-        '[accuracy]\nelement = "P1"\nflank_element_size = "0.12 mm"\ncontact_length = "3 mm"\ncontact_nodes ='
-        " 26\nsteps_per_mesh_cycle = 40\n"
-    )
-    scene = scene_from_text(text + coarse)
+    scene = scene_from_text(coarse_text(cycles=1, recorded=1, accuracy=COARSE))
     assert scene.accuracy == coarse_scene(paper_scene).accuracy
     results.save(simulate(scene), directory / "run.nc")
     return directory

@@ -3,22 +3,14 @@
 from pathlib import Path
 
 import pytest
-from tests.programs import DEMO
-
-ACCURACY = """[accuracy]
-flank_element_size = "0.3 mm"
-contact_length = "2.4 mm"
-contact_nodes = 9
-steps_per_mesh_cycle = 20
-"""
+from tests.paper_text import coarse_text
 
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """A folder with the coarse scene `pair.toml`, as the present directory."""
     monkeypatch.chdir(tmp_path)
-    text = DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 2 ")
-    (tmp_path / "pair.toml").write_text(text[: text.index("[accuracy]")] + ACCURACY, encoding="utf-8")
+    (tmp_path / "pair.toml").write_text(coarse_text(), encoding="utf-8")
     return tmp_path
 
 

@@ -10,18 +10,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from tests.paper_text import coarse_text
 from tests.programs import DEMO, environment, gears, mpirun
-from tests.studies.conftest import ACCURACY
 from tests.system.failing_rank import WORDS
 
 from fenics_gears.results import load
 
 pytestmark = pytest.mark.ranks
 
-PLANE = (
-    DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 2 ").partition("[accuracy]")[0]
-    + ACCURACY
-)
+PLANE = coarse_text()
 EVERY_STEP = PLANE.replace("steps_per_mesh_cycle = 20", 'steps_per_mesh_cycle = 2\ncondensation = "every step"')
 FACE = (
     (DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text(encoding="utf-8").partition("[accuracy]")[0]

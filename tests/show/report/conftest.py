@@ -1,6 +1,7 @@
 """Runs and a study on coarse meshes, made by commands."""
 
 import pytest
+from tests.paper_text import coarse_text
 
 from fenics_gears.commands.cli import main
 from fenics_gears.show.report import rendering
@@ -9,24 +10,6 @@ from fenics_gears.system import environment
 environment.prepare()
 
 DRAWN = "Normal force of the mesh"
-COARSE = """[accuracy]
-element = "P1"
-flank_element_size = "0.3 mm"
-contact_length = "2.4 mm"
-contact_nodes = 9
-steps_per_mesh_cycle = 20
-"""
-
-
-def scene_text(paper_scene, *, without=(), more="", cycles=2):
-    """The paper's scene on a coarse mesh, less some sections, with more of them before the accuracy."""
-    head = paper_scene.text[: paper_scene.text.index("[accuracy]")]
-    head = head.replace("mesh_cycles = 30", f"mesh_cycles = {cycles}").replace(
-        "recorded_cycles = 2", "recorded_cycles = 1"
-    )
-    parts = head.split("\n[")
-    kept = [part for part in parts if part.partition("]")[0] not in without]
-    return "\n[".join(kept).rstrip("#\n ") + f"\n\n{more}\n{COARSE}"
 
 
 @pytest.fixture(scope="session")
@@ -48,8 +31,8 @@ def made(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
-def run(made, paper_scene):
-    return made(scene_text(paper_scene, more="[output]\nroot_stress = true\n"), "dynamic")
+def run(made):
+    return made(coarse_text(more="[output]\nroot_stress = true\n", recorded=1), "dynamic")
 
 
 @pytest.fixture(scope="session")
@@ -69,9 +52,9 @@ def without_stills(monkeypatch):
 
 
 @pytest.fixture(scope="session")
-def study(paper_scene, tmp_path_factory):
+def study(tmp_path_factory):
     directory = tmp_path_factory.mktemp("study")
-    (directory / "pair.toml").write_text(scene_text(paper_scene), encoding="utf-8")
+    (directory / "pair.toml").write_text(coarse_text(recorded=1), encoding="utf-8")
     sweep = '[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz", "300 Hz"]\nfriction = ["absent", "present"]\n'
     (directory / "study.toml").write_text('title = "Three speeds <i>"\nscene = "pair.toml"\n' + sweep, encoding="utf-8")
     assert main(["study", str(directory / "study.toml"), "--output", str(directory / "out"), "--quiet"]) == 0

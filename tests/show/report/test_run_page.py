@@ -10,7 +10,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.show.report.conftest import DRAWN, scene_text
+from tests.paper_text import coarse_text
+from tests.show.report.conftest import DRAWN
 from tests.show.report.pages import seen
 
 from fenics_gears import results
@@ -112,9 +113,9 @@ def test_nothing_is_loaded_from_anywhere(report):
     assert "Plotly.newPlot" in own and not re.search(r"fetch\(|XMLHttpRequest|import\(|https?://", own)
 
 
-def test_a_scene_without_effects_has_neither_their_curves_nor_their_words(made, paper_scene):
+def test_a_scene_without_effects_has_neither_their_curves_nor_their_words(made):
     """House rule 9."""
-    bare = made(scene_text(paper_scene, without=("shafts", "bearings", "inertia", "damping", "friction")), "bare")
+    bare = made(coarse_text("shafts", "bearings", "inertia", "damping", "friction", recorded=1), "bare")
     assert main(["report", str(bare), "--quiet", "--no-stress"]) == 0
     page = seen(bare / "report.html")
     said = set(captions(page))

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from tests.benchmarks.target_pairs import pairs
 from tests.coarse import teeth_alone
+from tests.paper_text import coarse_text
 
 from fenics_gears import SceneError, expected_cost, model_of, scene_from_text, simulate
 from fenics_gears.commands.cli import main
@@ -21,19 +22,12 @@ from fenics_gears.studies.accuracy.trial_runs import MESH, STEPS, Sizes, TargetN
 from fenics_gears.system.progress import SilentProgress
 
 TARGET = 0.1
-TEXT_TARGET = '\n[accuracy]\ntarget = "10 %"\n'
 
 
 @pytest.fixture(scope="module")
-def text(paper_scene):
-    plain = paper_scene.text.partition("[accuracy]")[0]
-    for section in ("shafts", "bearings", "inertia", "damping", "friction"):
-        before, _, after = plain.partition(f"[{section}]")
-        plain = before + ("[" + after.partition("\n[")[2] if "\n[" in after else "")
-    return (
-        plain.replace("mesh_cycles = 30", "mesh_cycles = 1").replace("recorded_cycles = 2", "recorded_cycles = 1")
-        + TEXT_TARGET
-    )
+def text():
+    effects = ("shafts", "bearings", "inertia", "damping", "friction")
+    return coarse_text(*effects, cycles=1, recorded=1, accuracy='[accuracy]\ntarget = "10 %"\n')
 
 
 @pytest.fixture(scope="module")
