@@ -40,7 +40,7 @@ def loaded(tmp_path_factory):
 
     folder = tmp_path_factory.mktemp("plane")
     scene = folder / "plane.toml"
-    scene.write_text(text_of(*EFFECTS), encoding="utf-8")
+    scene.write_text(text_of(*EFFECTS))
     done = python("-P", "-c", PLANE_RUN, scene, folder / "run")
     return {name.removeprefix("fenics_gears.") for name in done.stderr.split() if name.startswith("fenics_gears")}
 

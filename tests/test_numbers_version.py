@@ -11,7 +11,7 @@ from fenics_gears.numbers_version import NUMBERS_VERSION
 def test_numbers_are_those_of_their_version():
     """Numbers of the version to 1e-9, more than machines differ by. Whoever changes numbers on purpose raises
     `NUMBERS_VERSION` in fenics_gears/numbers_version.py and calls `python -m tests.pinned_numbers`."""
-    kept, found = json.loads(FILE.read_text(encoding="utf-8")), pinned()
+    kept, found = json.loads(FILE.read_text()), pinned()
     assert kept["numbers_version"] == NUMBERS_VERSION, (
         "the pinned numbers are of another version: python -m tests.pinned_numbers"
     )

@@ -17,7 +17,7 @@ def small_result(complete=1):
         {"time": np.arange(3.0), "mesh_phase": (steps, np.arange(3.0) / 2.0)},
         attrs={
             "complete": complete,
-            "scene": DEMO.read_text(encoding="utf-8"),
+            "scene": DEMO.read_text(),
             "mean_transmission_error": 5e-5,
             "peak_to_peak_transmission_error": 2e-4,
             "base_radius_wheel": 50.0,

@@ -183,12 +183,12 @@ def test_a_command_leaves_no_settings_behind(monkeypatch, capsys):
 
 def test_python_has_the_program_and_runs_in_the_folder_of_the_call(tmp_path):
     """The README; arguments are the script's."""
-    (tmp_path / "beside.py").write_text("NAME = 'beside'\n", encoding="utf-8")
+    (tmp_path / "beside.py").write_text("NAME = 'beside'\n")
     said = (
         "import sys, os, beside, fenics_gears\nprint(beside.NAME, sys.argv[1:], os.getcwd(),"
         " callable(fenics_gears.load_scene), 'simulate' in dir(fenics_gears))\nsys.exit(7)\n"
     )
-    (tmp_path / "first.py").write_text(said, encoding="utf-8")
+    (tmp_path / "first.py").write_text(said)
     run = python("-P", "-m", "fenics_gears", "python", "first.py", "-v", "x", folder=tmp_path, ends=7)
     assert run.stdout == f"beside ['-v', 'x'] {tmp_path} True True\n"
 

@@ -24,12 +24,12 @@ CALLS = {
 def test_a_folder_under_the_results_name(tmp_path, monkeypatch, capsys, call):
     """Named, with the remedy; what was there is all that is there."""
     monkeypatch.chdir(tmp_path)
-    Path("study.toml").write_text(STUDY, encoding="utf-8")
+    Path("study.toml").write_text(STUDY)
     check_refusal(call.split(), CALLS[call], capsys)
 
 
 def check_refusal(words, name, capsys):
-    Path("pair.toml").write_text(SCENE, encoding="utf-8")
+    Path("pair.toml").write_text(SCENE)
     taken = Path("out", name)
     taken.mkdir(parents=True)
     assert main([*words, "--output", "out"]) == 2

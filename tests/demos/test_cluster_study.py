@@ -25,7 +25,7 @@ def folder(tmp_path_factory):
     if not shutil.which("mpirun"):
         pytest.skip("no mpirun")
     directory = tmp_path_factory.mktemp("cluster")
-    text = speed_and_load.STUDY.read_text(encoding="utf-8")
+    text = speed_and_load.STUDY.read_text()
     for name, value in (
         ("scene", f'"{speed_and_load.STUDY.parents[1] / "lundvall2004.toml"}"'),
         ("accuracy.contact_nodes", '26\naccuracy.element = "P1"\naccuracy.flank_element_size = "0.12 mm"'),
@@ -35,7 +35,7 @@ def folder(tmp_path_factory):
     ):
         text, count = re.subn(rf"^{re.escape(name)} = .*$", f"{name} = {value}", text, flags=re.MULTILINE)
         assert count == 1
-    (directory / "study.toml").write_text(text, encoding="utf-8")
+    (directory / "study.toml").write_text(text)
     return directory
 
 

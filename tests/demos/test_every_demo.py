@@ -14,10 +14,7 @@ OVERVIEW = DEMOS.parent / "docs" / "demos.md"
 
 
 def pictures(page: Path) -> list[Path]:
-    return [
-        (page.parent / name).resolve()
-        for name in re.findall(r"!\[[^]]+\]\(([^)]+)\)", page.read_text(encoding="utf-8"))
-    ]
+    return [(page.parent / name).resolve() for name in re.findall(r"!\[[^]]+\]\(([^)]+)\)", page.read_text())]
 
 
 def test_every_folder_is_a_demonstration():
@@ -33,7 +30,7 @@ def test_it_is_tested_and_shown(demo):
     """docs/demos.md."""
     test = Path(__file__).parent / f"test_{demo}.py"
     assert test.is_file(), f"no test runs demos/{demo}: write {test.name}"
-    source = test.read_text(encoding="utf-8")
+    source = test.read_text()
     assert f"demos.{demo}" in source or f'"{demo}"' in source
     assert any(
         isinstance(node, ast.FunctionDef) and node.name.startswith("test_") for node in ast.walk(ast.parse(source))
@@ -41,7 +38,7 @@ def test_it_is_tested_and_shown(demo):
     readme = DEMOS / demo / "README.md"
     shown = pictures(readme)
     assert shown and all(picture.is_file() for picture in shown)
-    assert f"../demos/{demo}/README.md" in OVERVIEW.read_text(encoding="utf-8")
+    assert f"../demos/{demo}/README.md" in OVERVIEW.read_text()
     assert set(shown) & set(pictures(OVERVIEW))
 
 
@@ -51,7 +48,7 @@ def test_its_script_calls_a_module_that_is_there(demo):
     script = DEMOS / demo / "run"
     assert os.access(script, os.X_OK)
     assert subprocess.run(["bash", "-n", script], capture_output=True).returncode == 0
-    (module,) = re.findall(rf'/launch" demos\.{demo}\.(\w+)', script.read_text(encoding="utf-8"))
+    (module,) = re.findall(rf'/launch" demos\.{demo}\.(\w+)', script.read_text())
     assert (DEMOS / demo / f"{module}.py").is_file()
 
 

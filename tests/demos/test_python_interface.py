@@ -20,7 +20,7 @@ def ran(tmp_path_factory):
     """Every name of the script after it has run beside a coarse scene, and its folder."""
     folder = tmp_path_factory.mktemp("checkout")
     (folder / "demos").mkdir()
-    (folder / "demos" / "lundvall2004.toml").write_text(coarse_text(cycles=30, accuracy=COARSE), encoding="utf-8")
+    (folder / "demos" / "lundvall2004.toml").write_text(coarse_text(cycles=30, accuracy=COARSE))
     with pytest.MonkeyPatch.context() as patched:
         patched.chdir(folder)
         patched.setenv("MPLBACKEND", "agg")
@@ -31,7 +31,7 @@ def ran(tmp_path_factory):
 
 def cells():
     """Cells by the format that Jupytext and VS Code share: (title, text) from each `# %%`."""
-    parts = re.split(r"^# %%(.*)\n", SCRIPT.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    parts = re.split(r"^# %%(.*)\n", SCRIPT.read_text(), flags=re.MULTILINE)
     assert parts[0] == ""
     return list(zip((title.strip() for title in parts[1::2]), parts[2::2]))
 

@@ -26,11 +26,7 @@ from fenics_gears.simulation.elastic_route import mesh_cycle
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.progress import SilentProgress
 
-DEMOS = sorted(
-    path
-    for path in (Path(__file__).parents[2] / "demos").rglob("*.toml")
-    if "[gears" in path.read_text(encoding="utf-8")
-)
+DEMOS = sorted(path for path in (Path(__file__).parents[2] / "demos").rglob("*.toml") if "[gears" in path.read_text())
 RIGID = Accuracy(model=RIGID_TEETH, steps_per_mesh_cycle=20)
 SCENES = {
     "friction": lambda scene: scene,

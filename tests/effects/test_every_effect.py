@@ -98,7 +98,7 @@ def test_check_names_it_on_with_what_it_adds_and_off_with_what_is_without_it(sec
     lines = {}
     for state, sections in (("on", with_needs(section)), ("off", ())):
         file = tmp_path / f"{state}.toml"
-        file.write_text(text_of(*sections), encoding="utf-8")
+        file.write_text(text_of(*sections))
         assert main(["check", str(file)]) == 0
         after = capsys.readouterr().out.partition("\nEffects\n")[2].splitlines()
         lines[state] = next(line for line in after if line.split()[:1] == [section])

@@ -23,9 +23,7 @@ def scene_with(tmp_path):
     def read(table, more=""):
         if table is not None:
             (tmp_path / "pinion.csv").write_bytes(table if isinstance(table, bytes) else table.encode())
-        (tmp_path / "pair.toml").write_text(
-            f'{PAPER}\n[flank_errors.pinion]\nfile = "pinion.csv"\n{more}\n', encoding="utf-8"
-        )
+        (tmp_path / "pair.toml").write_text(f'{PAPER}\n[flank_errors.pinion]\nfile = "pinion.csv"\n{more}\n')
         return checked_model(tmp_path / "pair.toml").scene
 
     return read

@@ -58,14 +58,12 @@ roughness = "0.8 um"
 def test_a_formula_outside_its_range_is_refused_by_name(tmp_path):
     """Benedict and Kelley's logarithm is negative where a full film carries; ISO/TR 13989-2 for Schlenk's slowest
     gears."""
-    (tmp_path / "light.toml").write_text(FAST_AND_LIGHT, encoding="utf-8")
+    (tmp_path / "light.toml").write_text(FAST_AND_LIGHT)
     with pytest.raises(
         SceneError, match=r'^friction.formula = "Benedict and Kelley": .* more than 1. Here that is 0\.'
     ):
         checked_model(tmp_path / "light.toml")
-    (tmp_path / "slow.toml").write_text(
-        FAST_AND_LIGHT.replace("Benedict and Kelley", "Schlenk").replace("4000", "100"), encoding="utf-8"
-    )
+    (tmp_path / "slow.toml").write_text(FAST_AND_LIGHT.replace("Benedict and Kelley", "Schlenk").replace("4000", "100"))
     with pytest.raises(SceneError, match=r'^friction.formula = "Schlenk": .* from 1 to 50 m/s .* this pair has 0.3'):
         checked_model(tmp_path / "slow.toml")
 

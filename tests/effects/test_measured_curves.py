@@ -42,7 +42,7 @@ def curve(teeth, places, deviation, heading="roll_length (mm)"):
 
 
 def measured(tmp_path, text, gear="pinion", name="profile_curves", anchor=MEAN):
-    (tmp_path / "curves.csv").write_text(text, encoding="utf-8")
+    (tmp_path / "curves.csv").write_text(text)
     return located(FlankErrors(**{gear: GearErrors(**{name: "curves.csv", "anchor": anchor})}), tmp_path)
 
 
@@ -140,9 +140,9 @@ def test_measured_helices_are_the_deviations_they_show(paper_pair, tmp_path):
 
 def scene_with(tmp_path, text, more="", name="profile_curves", face=""):
     """The checked scene of the paper's elastic teeth whose pinion has curves."""
-    (tmp_path / "curves.csv").write_text(text, encoding="utf-8")
+    (tmp_path / "curves.csv").write_text(text)
     (tmp_path / "pair.toml").write_text(
-        f'{text_of("tooth_elasticity")}{face}\n[flank_errors.pinion]\n{name} = "curves.csv"\n{more}\n', encoding="utf-8"
+        f'{text_of("tooth_elasticity")}{face}\n[flank_errors.pinion]\n{name} = "curves.csv"\n{more}\n'
     )
     return checked_model(tmp_path / "pair.toml").scene
 

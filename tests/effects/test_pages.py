@@ -19,15 +19,11 @@ GUIDE = effects_table.PAGE.with_name("adding_an_effect.md")
 
 def test_the_table_of_effects_is_up_to_date():
     """`python -m tests.effects_table` writes it anew."""
-    assert effects_table.PAGE.read_text(encoding="utf-8") == effects_table.page()
+    assert effects_table.PAGE.read_text() == effects_table.page()
 
 
 def block(language, holding):
-    found = [
-        code
-        for code in re.findall(rf"```{language}\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.S)
-        if holding in code
-    ]
+    found = [code for code in re.findall(rf"```{language}\n(.*?)```", GUIDE.read_text(), re.S) if holding in code]
     assert len(found) == 1
     return found[0]
 
@@ -39,18 +35,15 @@ def extended(tmp_path_factory):
     # With its compiled kernels, which know their source by its time.
     shutil.copytree(PACKAGE, folder / "fenics_gears")
     effects = folder / "fenics_gears" / "effects"
-    (effects / "brake.py").write_text(block("python", "EFFECT = Effect("), encoding="utf-8")
-    text = (effects / "__init__.py").read_text(encoding="utf-8")
+    (effects / "brake.py").write_text(block("python", "EFFECT = Effect("))
+    text = (effects / "__init__.py").read_text()
     entry = block("python", '    "brake",').rstrip()
     text, listed = re.subn(r"(\nAT_THE_TOP = .*?)\n\)", rf"\1\n{entry}\n)", text, count=1, flags=re.S)
     assert listed == 1
-    (effects / "__init__.py").write_text(text, encoding="utf-8")
+    (effects / "__init__.py").write_text(text)
     scene = folder / "fenics_gears" / "scene" / "data.py"
     text, imported = re.subn(
-        r"\n    from fenics_gears",
-        f"\n{block('python', 'import Brake')}\\g<0>",
-        scene.read_text(encoding="utf-8"),
-        count=1,
+        r"\n    from fenics_gears", f"\n{block('python', 'import Brake')}\\g<0>", scene.read_text(), count=1
     )
     text, added = re.subn(
         r"(\nclass Scene:.*?)(\n\n    @property)",
@@ -60,7 +53,7 @@ def extended(tmp_path_factory):
         flags=re.S,
     )
     assert imported == added == 1
-    scene.write_text(text, encoding="utf-8")
+    scene.write_text(text)
     return folder
 
 
@@ -118,7 +111,7 @@ def printed(extended, plain):
         "wrong": text_of("coast_flanks").replace('"437 N m"', '"-437 N m"') + brake,
     }
     for name, text in scenes.items():
-        (extended / f"{name}.toml").write_text(text, encoding="utf-8")
+        (extended / f"{name}.toml").write_text(text)
     brake = brake.replace("20 N m", "37 N m")
     bare, shafts = text_of("tooth_elasticity"), text_of("tooth_elasticity", "shafts")
     less, whole = bare.replace('"437 N m"', '"400 N m"'), bare

@@ -62,7 +62,7 @@ def test_a_table_with_helix_deviations_is_of_a_scene_with_a_face(tmp_path, monke
     from fenics_gears.model.model import model_of
 
     (tmp_path / "pinion.csv").write_text(
-        "tooth, helix_form (um)\n" + "".join(f"{tooth}, 3\n" for tooth in range(1, 17)), encoding="utf-8"
+        "tooth, helix_form (um)\n" + "".join(f"{tooth}, 3\n" for tooth in range(1, 17))
     )
     table = f'[flank_errors.pinion]\nfile = "{tmp_path}/pinion.csv"\n'
     assert model_of(scene_from_text(ELASTIC + FACE + table)).scene.flank_errors.pinion.helix_form == pytest.approx(

@@ -24,12 +24,12 @@ def install(tmp_path):
     """Puts a module where pip puts a package, with its entry points."""
 
     def put(name, code, **entry_points):
-        (tmp_path / f"{name}.py").write_text(code, encoding="utf-8")
+        (tmp_path / f"{name}.py").write_text(code)
         metadata = tmp_path / f"{name}-1.0.dist-info"
         metadata.mkdir()
-        (metadata / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n", encoding="utf-8")
+        (metadata / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
         lines = [f"[{GROUP}]", *(f"{entry} = {module}" for entry, module in entry_points.items())]
-        (metadata / "entry_points.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        (metadata / "entry_points.txt").write_text("\n".join(lines) + "\n")
         return tmp_path
 
     return put
@@ -64,7 +64,7 @@ def test_one_that_fails_is_left_out_and_named(install):
     taken = "def add(commands, shared):\n    commands.add_parser('map')\n"
     folder = install("taken", taken, absent="no_such_module", fourth="loud", second="taken", third="math")
     # Its command is not called.
-    (folder / "loud.py").write_text('"""``gears loud``: fail."""\n\nraise RuntimeError("loaded")\n', encoding="utf-8")
+    (folder / "loud.py").write_text('"""``gears loud``: fail."""\n\nraise RuntimeError("loaded")\n')
     done = gears(folder, "cache")
     assert done.returncode == 0 and "cache" in done.stdout.lower()
     lines = done.stderr.splitlines()
@@ -92,7 +92,7 @@ def test_what_everybody_may_use_is_documented(name):
 
 def test_names_of_the_guide_are_offered():
     """`fenics_gears.__all__` and the modules in it."""
-    table = re.search(r"\| for \| take \|\n(.*)", GUIDE.read_text(encoding="utf-8"), re.S)[1]
+    table = re.search(r"\| for \| take \|\n(.*)", GUIDE.read_text(), re.S)[1]
     for name in re.findall(r"`([\w.]+)`", table):
         first, *rest = name.split(".")
         assert first in fenics_gears.__all__

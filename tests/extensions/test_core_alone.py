@@ -51,7 +51,7 @@ def python(folder, *arguments, timeout=300):
 @pytest.mark.nightly
 def test_its_modules_load_and_a_scene_runs(core):
     """The contract that the core imports no extension, by doing."""
-    (core / "pair.toml").write_text(coarse_text(), encoding="utf-8")
+    (core / "pair.toml").write_text(coarse_text())
     done = python(core, "-c", MODULES_AND_COMMANDS)
     assert done.returncode == 0 and done.stderr == "" and (core / "out" / "run.nc").exists(), done.stderr
     assert "parameter study" in done.stdout and "optimize" not in done.stdout

@@ -17,5 +17,5 @@ CALLS = {"map.nc": ["map", "pair.toml", "--loads", "100 N m"], "best.toml": ["op
 @pytest.mark.parametrize("name", CALLS)
 def test_a_folder_under_the_results_name(tmp_path, monkeypatch, capsys, name):
     monkeypatch.chdir(tmp_path)
-    Path("design.toml").write_text(DESIGN, encoding="utf-8")
+    Path("design.toml").write_text(DESIGN)
     check_refusal(CALLS[name], name, capsys)

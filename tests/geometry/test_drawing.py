@@ -48,14 +48,14 @@ def test_every_figure_of_a_published_pair_follows_from_its_drawing(title, figure
 @pytest.mark.parametrize("title", PAIRS)
 def test_the_page_shows_these_figures(title):
     """Identity with ``python -m tests.drawn_pairs``."""
-    page = (ROOT / "docs" / "evidence" / "geometry.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "evidence" / "geometry.md").read_text()
     assert "\n".join(table(PAIRS[title])) in page
 
 
 def test_the_page_s_scene_is_the_demo():
     """Identity; 15 kW at 1500 rpm of the pinion are 95.49 N m."""
     demo = load_scene(ROOT / "demos" / "from_a_drawing.toml")
-    page = (ROOT / "docs" / "drawing.md").read_text(encoding="utf-8").partition("```toml\n")[2].partition("```")[0]
+    page = (ROOT / "docs" / "drawing.md").read_text().partition("```toml\n")[2].partition("```")[0]
     of_page = build_scene(tomllib.loads(page))
     assert (of_page.gears, of_page.load, of_page.derived) == (demo.gears, demo.load, demo.derived)
     assert demo.load.wheel_torque == pytest.approx(2.0 * 95.493e3, rel=1e-5)

@@ -45,7 +45,7 @@ def outcome(tmp_path, monkeypatch, capsys):
 
     def run(text):
         file = tmp_path / "pair.toml"
-        file.write_text(text, encoding="utf-8")
+        file.write_text(text)
         try:
             code = main(["run", "pair.toml"])
         except Computed:
@@ -239,7 +239,7 @@ def test_either_end_of_every_range_is_a_scene_or_refused(tmp_path, monkeypatch, 
     for field, literal in tries_of(every, lambda field: bounds_of(field) if field.bounds else [])[
         :: 1 if every else 40
     ]:
-        (tmp_path / "pair.toml").write_text(scene_with(field.path, literal), encoding="utf-8")
+        (tmp_path / "pair.toml").write_text(scene_with(field.path, literal))
         code, said = main(["check", "pair.toml"]), capsys.readouterr()
         outcomes.append((field.name, literal, code, "nan" in said.out.lower().split(), said.err))
     taken = sum(code == 0 for _, _, code, _, _ in outcomes)
@@ -282,7 +282,7 @@ def test_either_end_of_every_range_can_be_run(tmp_path, monkeypatch, capsys, mea
     for field in fields():
         for literal in bounds_of(field) if field.bounds and field.name not in COSTLY else []:
             text = scene_with(field.path, literal, tree=quick_scene(field))
-            (tmp_path / "pair.toml").write_text(text, encoding="utf-8")
+            (tmp_path / "pair.toml").write_text(text)
             codes.append(main(["run", "pair.toml", "--output", "here", "--quiet", "--no-pictures"]))
             said = capsys.readouterr().err
             if codes[-1] not in (0, 2, 3, 4) or (codes[-1] > 0) != (said != ""):
@@ -327,7 +327,7 @@ def test_any_value_in_any_field_is_taken_or_refused(every):
             assert isinstance(scene, Scene)
 
 
-LINES = DEMO.read_text(encoding="utf-8").splitlines()
+LINES = DEMO.read_text().splitlines()
 WRITTEN = [number for number, line in enumerate(LINES) if re.match(r"\w+ *=", line)]
 ANY_LINE = st.integers(0, len(LINES) - 1)
 EDIT = st.one_of(
@@ -379,7 +379,7 @@ def check_edited(place: Path, edits, capsys) -> int:
     for edit in edits:
         lines = edited(lines, edit)
     file = place / "pair.toml"
-    file.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    file.write_text("\n".join(lines) + "\n")
     code = main(["check", str(file)])
     said = capsys.readouterr()
     assert (code == 0 and said.out and not said.err) or (code == 2 and said.err and not said.out)

@@ -68,11 +68,11 @@ def lengthened(folder, cycles):
     """The coarse scene with more mesh cycles, fields of the last one recorded; its name."""
     text = (
         Path("pair.toml")
-        .read_text(encoding="utf-8")
+        .read_text()
         .replace("mesh_cycles = 2 ", f"mesh_cycles = {cycles} ")
         .replace("recorded_cycles = 2", "recorded_cycles = 1")
     )
-    (folder / "long.toml").write_text(text, encoding="utf-8")
+    (folder / "long.toml").write_text(text)
     return "long.toml"
 
 

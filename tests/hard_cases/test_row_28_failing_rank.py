@@ -51,7 +51,7 @@ def test_the_case_of_a_failing_rank_is_recorded_and_the_others_finish(folder, me
     assert all(case.name in ended.stderr for case in cases) and f"{len(cases)} of 3 cases failed" in ended.stderr
     notes = list(Path("here/cases").glob("*.failed.txt"))
     assert {note.name for note in notes} == {f"{case.name}.failed.txt" for case in cases}
-    assert all("Traceback" in note.read_text(encoding="utf-8") for note in notes)
+    assert all("Traceback" in note.read_text() for note in notes)
     # With the obstacles gone only the failed cases are computed.
     for case in cases:
         (Path("here/cases") / f"{case.name}.nc" / "of somebody else").rmdir()

@@ -45,9 +45,9 @@ def test_tables_are_found_again_from_elsewhere(measured, tmp_path, monkeypatch, 
 def test_tables_that_have_changed_are_named(measured, caplog):
     """The hash of what was read: another number, and no file."""
     result, table = result_of(measured), Path(measured.folder) / "pinion.csv"
-    lines = table.read_text(encoding="utf-8").splitlines()
+    lines = table.read_text().splitlines()
     cells = lines[-1].split(",")
-    table.write_text("\n".join([*lines[:-1], ",".join([*cells[:-1], "0.7"])]), encoding="utf-8")
+    table.write_text("\n".join([*lines[:-1], ",".join([*cells[:-1], "0.7"])]))
     carried_scene(result)
     table.unlink()
     carried_scene(result)

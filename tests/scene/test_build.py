@@ -12,8 +12,8 @@ import fenics_gears
 from fenics_gears import SceneError, build_scene, load_scene, scene_from_text
 
 DEMOS = sorted((Path(__file__).parents[2] / "demos").glob("*.toml"))
-SCENES = [path for path in DEMOS if "sweep" not in tomllib.loads(path.read_text(encoding="utf-8"))]
-DEMO = tomllib.loads((DEMOS[0].parent / "lundvall2004.toml").read_text(encoding="utf-8"))
+SCENES = [path for path in DEMOS if "sweep" not in tomllib.loads(path.read_text())]
+DEMO = tomllib.loads((DEMOS[0].parent / "lundvall2004.toml").read_text())
 
 
 def facts(scene):
@@ -24,7 +24,7 @@ def facts(scene):
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
 def test_dictionaries_make_the_scene_that_the_file_makes(path):
     """`load_scene`, over every demo; the carried text makes it again."""
-    built = build_scene(tomllib.loads(path.read_text(encoding="utf-8")), path.stem, directory=path.parent)
+    built = build_scene(tomllib.loads(path.read_text()), path.stem, directory=path.parent)
     assert facts(built) == facts(load_scene(path))
     assert scene_from_text(built.text, path.stem, directory=path.parent) == built
 

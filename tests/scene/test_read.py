@@ -12,7 +12,7 @@ from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.scene import data
 
 DEMO_FILE = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
-DEMO = DEMO_FILE.read_text(encoding="utf-8")
+DEMO = DEMO_FILE.read_text()
 ROUND_OFF = 4e-16
 
 

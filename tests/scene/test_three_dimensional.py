@@ -153,7 +153,7 @@ def test_gears_that_do_not_overlap_axially_are_refused():
 def test_check_shows_the_third_dimension(tmp_path, capsys):
     """ISO 21771: eps_beta = 28 sin(15 deg)/(3 pi) = 0.769, beta_b = 14.08 deg."""
     file = tmp_path / "pair.toml"
-    file.write_text(HELICAL + LEAD + MISALIGNED, encoding="utf-8")
+    file.write_text(HELICAL + LEAD + MISALIGNED)
     assert main(["check", str(file)]) == 0
     lines = {line.strip() for line in capsys.readouterr().out.splitlines()}
     shown = [" ".join(line.split()) for line in lines]

@@ -31,7 +31,7 @@ def refusal(tmp_path, monkeypatch, capsys):
 
     def refuse(text):
         file = tmp_path / "pair.toml"
-        file.write_text(text, encoding="utf-8")
+        file.write_text(text)
         assert main(["run", "pair.toml"]) == 2
         assert [each.name for each in tmp_path.rglob("*")] == ["pair.toml"]
         output = capsys.readouterr()

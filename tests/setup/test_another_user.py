@@ -54,7 +54,7 @@ def test_every_command_runs(as_another):
     study = (
         'scene = "lundvall2004.toml"\nwithout = ["inertia", "damping"]\n[sweep]\nfriction.coefficient = [0.05, 0.1]\n'
     )
-    (folder / "study.toml").write_text(study, encoding="utf-8")
+    (folder / "study.toml").write_text(study)
     made = "results/lundvall2004"
     for command in (
         "check lundvall2004.toml",

@@ -12,7 +12,7 @@ SETUP = Path(__file__).parents[2] / "setup"
 
 
 def wheels(suite):
-    lines = (SETUP / f"{suite}.pip").read_text(encoding="utf-8").splitlines()
+    lines = (SETUP / f"{suite}.pip").read_text().splitlines()
     return dict(line.split("==") for line in lines if not line.startswith("#"))
 
 

@@ -94,7 +94,7 @@ def test_teeth_that_have_parted_move_and_are_reported(parted, tmp_path, monkeypa
     assert main(["picture", str(tmp_path), "--animate", "--pvd", str(tmp_path / "turn.pvd"), "--quiet"]) == 0
     assert (tmp_path / "stress.gif").is_file() and len(list(tmp_path.glob("turn_*.vtu"))) == 2
     assert main(["report", str(tmp_path), "--at", "0.25", "--quiet"]) == 0
-    assert "It could not be drawn" not in (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "It could not be drawn" not in (tmp_path / "report.html").read_text()
 
 
 def test_animation_goes_through_the_cycle_once(run, tmp_path, monkeypatch):

@@ -10,7 +10,7 @@ from tests.paper_text import coarse_text
 def folder(tmp_path, monkeypatch):
     """A folder with the coarse scene `pair.toml`, as the present directory."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "pair.toml").write_text(coarse_text(), encoding="utf-8")
+    (tmp_path / "pair.toml").write_text(coarse_text())
     return tmp_path
 
 
@@ -22,7 +22,7 @@ def undrawn(monkeypatch):
 
 def write_study(folder, text, name="study.toml"):
     path = Path(folder) / name
-    path.write_text('scene = "pair.toml"\n' + text, encoding="utf-8")
+    path.write_text('scene = "pair.toml"\n' + text)
     return path
 
 

@@ -184,13 +184,13 @@ def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monke
     """Tables and the sentence on the terminal, DIR/accuracy.csv and DIR/accuracy.png."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(reports, "measure", lambda *arguments, **options: report)
-    (tmp_path / "small.toml").write_text(text_of(TEETH), encoding="utf-8")
+    (tmp_path / "small.toml").write_text(text_of(TEETH))
     assert main(["accuracy", "small.toml", "--quick", "--output", "there"]) == 0
     output = capsys.readouterr().out
     assert sorted(file.name for file in (tmp_path / "there").iterdir()) == ["accuracy.csv", "accuracy.png"]
     assert (tmp_path / "there" / "accuracy.png").read_bytes().startswith(b"\x89PNG")
     assert "The scene's own settings have an error of" in output and "rigid teeth" in output
-    with open(tmp_path / "there" / "accuracy.csv", encoding="utf-8", newline="") as file:
+    with open(tmp_path / "there" / "accuracy.csv", newline="") as file:
         lines = list(csv.DictReader(file))
     assert {line["kind"] for line in lines} == {"single setting", "setting", "model", "reference"}
     own = next(line for line in lines if line["name"] == reports.OWN)
@@ -214,7 +214,7 @@ def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
         return result
 
     monkeypatch.setattr(runs, "solved", interrupted)
-    (tmp_path / "small.toml").write_text(text_of(TEETH), encoding="utf-8")
+    (tmp_path / "small.toml").write_text(text_of(TEETH))
     assert main(["accuracy", "small.toml", "--quick", "--output", "there"]) == 130
     assert "Interrupted" in capsys.readouterr().err
     assert not (tmp_path / "there").exists()

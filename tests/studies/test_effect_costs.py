@@ -128,7 +128,7 @@ def test_remeshing_at_every_step_is_refused_with_the_remedy():
 def test_csv_holds_every_row_with_units_in_its_names(report, tmp_path):
     """Identity."""
     table.write_csv(report, tmp_path / "effects.csv")
-    with open(tmp_path / "effects.csv", encoding="utf-8", newline="") as file:
+    with open(tmp_path / "effects.csv", newline="") as file:
         reader = csv.DictReader(file)
         lines = list(reader)
     assert tuple(reader.fieldnames) == table.CSV_COLUMNS  # by which the report knows the file
@@ -143,7 +143,7 @@ def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monke
     """A table on the terminal, DIR/effects.csv and DIR/effects.png."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(measured, "measure", lambda scene, progress: report)
-    (tmp_path / "small.toml").write_text(text_of(*PAPER), encoding="utf-8")
+    (tmp_path / "small.toml").write_text(text_of(*PAPER))
     assert main(["effects", "small.toml", "--output", "there"]) == 0
     output = capsys.readouterr().out
     assert sorted(file.name for file in (tmp_path / "there").iterdir()) == ["effects.csv", "effects.png"]

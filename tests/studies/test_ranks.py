@@ -89,7 +89,7 @@ def test_ranks_of_a_study_condense_each_body_over_the_face_once(folder):
         "sys.exit(main(['study', 'study.toml', '--output', 'here']))\n"
     )
     Path("program.py").write_text(program)
-    Path("pair.toml").write_text(FACE, encoding="utf-8")
+    Path("pair.toml").write_text(FACE)
     write_study(folder, '[sweep]\nmisalignment.in_plane = ["0 um", "10 um", "20 um"]\n')
     python("program.py", folder=folder, ranks=3, FENICS_GEARS_CACHE=str(folder / "cache"))
     assert Path("computed").read_text().splitlines() == ["a body"] * 2

@@ -53,7 +53,7 @@ def test_every_case_is_what_a_run_of_its_scene_gives(folder):
         )
     assert np.isnan(combined["friction_force"].sel(friction="absent")).all()
     assert np.isfinite(combined["friction_force"].sel(friction="present")).all()
-    assert combined.attrs["complete"] == 1 and combined.attrs["study"] == study.read_text(encoding="utf-8")
+    assert combined.attrs["complete"] == 1 and combined.attrs["study"] == study.read_text()
     assert all(combined[name].attrs["units"] == "rad" for name in ("transmission_error", "mean_transmission_error"))
 
 
@@ -91,11 +91,11 @@ def test_a_changed_base_scene_is_noticed_and_so_are_other_numbers(folder, capsys
     main(["study", str(study), "--quiet", "--output", "here"])
     before, old = stamps("here"), load("here")
     scene = folder / "pair.toml"
-    text = scene.read_text(encoding="utf-8")
-    scene.write_text("# a comment\n" + text, encoding="utf-8")
+    text = scene.read_text()
+    scene.write_text("# a comment\n" + text)
     main(["study", str(study), "--output", "here"])
     assert "has changed" not in capsys.readouterr().err and stamps("here") == before
-    scene.write_text(text.replace('face_width = "15 mm"', 'face_width = "16 mm"'), encoding="utf-8")
+    scene.write_text(text.replace('face_width = "15 mm"', 'face_width = "16 mm"'))
     assert main(["study", str(study), "--output", "here"]) == 0
     assert "2 to be computed. The base scene has changed" in capsys.readouterr().err
     after = stamps("here")
@@ -138,7 +138,7 @@ def test_a_failed_case_is_a_record_and_the_others_go_on(folder, capsys, monkeypa
     assert "contact did not converge" in str(combined["failure"].values[1]) and str(combined["failure"].values[0]) == ""
     assert combined.attrs["complete"] == 0 and combined.attrs["cases_failed"] == 1
     (note,) = Path("here/cases").glob("*.failed.txt")
-    text = note.read_text(encoding="utf-8")
+    text = note.read_text()
     assert "contact did not converge" in text and "Traceback" in text and "coefficient = 0.3" in text
     before = stamps("here")
     assert main(["study", str(study), "--output", "here"]) == 3

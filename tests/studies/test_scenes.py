@@ -18,7 +18,7 @@ from fenics_gears.studies import scenes
 from fenics_gears.studies.scenes import Models, NoScene, model_of_tree
 
 DEMOS = Path(__file__).parents[2] / "demos"
-BASE = tomllib.loads((DEMOS / "lundvall2004.toml").read_text(encoding="utf-8")) | {
+BASE = tomllib.loads((DEMOS / "lundvall2004.toml").read_text()) | {
     "tip_relief": {"depth": "20 um", "length_on_path": "5 mm", "wheel": {"depth": "15 um"}},
     "profile_modifications": {"pinion": {"slope": "2 um"}},
 }

@@ -106,7 +106,7 @@ def test_a_case_is_known_by_what_it_says_not_by_how_it_is_written(folder):
     """200 Hz are 0.2 kHz, and a comment changes nothing."""
     first = swept(folder, 'motion.mesh_frequency = ["200 Hz", "100 Hz"]')
     scene = folder / "pair.toml"
-    scene.write_text("# another comment\n" + scene.read_text(encoding="utf-8"), encoding="utf-8")
+    scene.write_text("# another comment\n" + scene.read_text())
     second = swept(folder, 'motion.mesh_frequency = ["0.2 kHz"]')
     assert first.cases[0].key == second.cases[0].key != first.cases[1].key
 
@@ -205,7 +205,7 @@ def test_a_wrong_base_scene_is_told_as_the_scenes_own_mistake(folder, capsys):
     """Hard case 26."""
     study = write_study(folder, "[sweep]\n" + FREQUENCIES)
     scene = folder / "pair.toml"
-    scene.write_text(scene.read_text(encoding="utf-8").replace('"4.5 mm"', '"4.5"'), encoding="utf-8")
+    scene.write_text(scene.read_text().replace('"4.5 mm"', '"4.5"'))
     assert main(["study", str(study)]) == 2
     assert "pair.toml:" in capsys.readouterr().err
 

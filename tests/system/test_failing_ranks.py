@@ -21,7 +21,7 @@ pytestmark = pytest.mark.ranks
 PLANE = coarse_text()
 EVERY_STEP = PLANE.replace("steps_per_mesh_cycle = 20", 'steps_per_mesh_cycle = 2\ncondensation = "every step"')
 FACE = (
-    (DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text(encoding="utf-8").partition("[accuracy]")[0]
+    (DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text().partition("[accuracy]")[0]
     + '[accuracy]\nflank_element_size = "0.6 mm"\nbody_element_size = "9 mm"\nlayers = 1\nslices = 2\ncontact_length '
     '= "3 mm"\ncontact_nodes = 9\nsteps_per_mesh_cycle = 4\n'
 )
@@ -80,7 +80,7 @@ def ended(folder: Path, command, stage: str, rank: int, how: str, *more: str, sh
     """A command of two ranks of which one fails at a stage, until its end."""
     arguments, files = command
     for name, text in files.items():
-        (folder / name).write_text(text, encoding="utf-8")
+        (folder / name).write_text(text)
     comes = rank if stage in shared else 0
     call = [
         *mpirun(2),
@@ -132,7 +132,7 @@ def check_end(end, how):
 
 def test_a_run_that_does_not_fit_ends_all_ranks(tmp_path):
     """Rank 0 alone says it, once."""
-    (tmp_path / "pair.toml").write_text(FACE, encoding="utf-8")
+    (tmp_path / "pair.toml").write_text(FACE)
     done = gears(tmp_path, "run", "pair.toml", "--memory", "100 MB", ranks=2)
     assert done.returncode == 3 and done.stderr.count("0.1 GB are allowed. Nothing was computed.") == 1, done.stderr
 
@@ -140,9 +140,7 @@ def test_a_run_that_does_not_fit_ends_all_ranks(tmp_path):
 @pytest.mark.nightly
 def test_ranks_share_a_run_whose_settings_are_chosen_by_a_target(tmp_path):
     """Definition: the bodies of the chosen settings, which rank 0 alone knows."""
-    (tmp_path / "pair.toml").write_text(
-        FACE.partition("[accuracy]")[0] + '[accuracy]\ntarget = "20 %"\n', encoding="utf-8"
-    )
+    (tmp_path / "pair.toml").write_text(FACE.partition("[accuracy]")[0] + '[accuracy]\ntarget = "20 %"\n')
     done = gears(tmp_path, "run", "pair.toml", "--no-pictures", "--output", "here", ranks=2)
     assert done.returncode == 0, done.stderr
     assert load(tmp_path / "here" / "run.nc").attrs["target"] == pytest.approx(0.2)

@@ -36,7 +36,7 @@ sys.exit(job.led(lead))
 def test_an_error_of_one_rank_is_an_error_of_all(tmp_path):
     """Definitions; a SceneError of rank 1 is rank 0's, and the work goes on. Where rank 0 waits inside MPI, Abort
     ends both with the error's words and exit code."""
-    (tmp_path / "program.py").write_text(PROGRAM, encoding="utf-8")
+    (tmp_path / "program.py").write_text(PROGRAM)
     done = python("program.py", folder=tmp_path, ranks=2, ends=2, timeout=60)
     assert done.stdout.splitlines() == ["[19, 10] 2", "rank 1: no more chalk exit code 2"], done.stderr
     assert "rank 1: no more chalk" in done.stderr

@@ -33,7 +33,7 @@ def mapped(loads=(), speeds=(), most=1000, **changes):
 def test_a_map_sweeps_the_load_that_the_scene_names(tmp_path, load, loads, other):
     """T_2 = T_1 z_2/z_1 and T_2 = P/(2 pi n_2), a power being the same at every speed."""
     file = tmp_path / "pair.toml"
-    file.write_text(load_scene(DEMO).text.replace('wheel_torque = "437 N m"', load), encoding="utf-8")
+    file.write_text(load_scene(DEMO).text.replace('wheel_torque = "437 N m"', load))
     wanted = load_map(file, load_scene(file), (), ("100 Hz", "400 Hz"), 10)
     assert wanted.loads == loads and wanted.numbers == [float(loads[0].split()[0])]
     cases = {name: [case.scene for case in study.cases] for name, study in wanted.studies.items()}

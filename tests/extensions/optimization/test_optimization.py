@@ -53,7 +53,7 @@ SCATTER = (
 
 def write(folder, text, name="design.toml"):
     path = Path(folder) / name
-    path.write_text(text, encoding="utf-8")
+    path.write_text(text)
     return path
 
 
@@ -97,7 +97,7 @@ def test_the_chosen_design_is_a_scene_that_gives_its_goal(folder):
     )
     assert 1e3 * scene.tip_relief.pinion.depth == pytest.approx(float(best["tip_relief.depth"]), rel=1e-12)
     assert float(best[ERROR]) == float(designs[ERROR].min())
-    with open("results/design/designs.csv", encoding="utf-8") as file:
+    with open("results/design/designs.csv") as file:
         rows = list(csv.DictReader(file))
     assert [float(row[f"{ERROR} (um)"]) for row in rows] == designs[ERROR].values.tolist()
     quasi_static = designs["transmission_error"].sel(choice="best", load=437.0)
@@ -201,7 +201,7 @@ def test_page_and_pictures_show_what_was_found(folder):
         scene = build_scene(scattered(chosen_tree, design.tolerances.scatters, deviation))
         numbers.append(f"{simulate(scene).attrs[ERROR] * 1e3 * gear_pair(scene.gears).wheel.base_radius:.4g}")
     assert rows["tip relief depth"] == ("± 4 um", *numbers)
-    page = write_page(outcome).read_text(encoding="utf-8")
+    page = write_page(outcome).read_text()
     assert all(f">{number}<" in page for number in numbers)
     assert f"The {len(outcome.front)} designs of the Pareto front" in page
     pictures = {file.stem: imread(file) for file in write_pictures(outcome)}

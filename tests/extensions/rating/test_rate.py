@@ -28,7 +28,7 @@ def test_rows_have_both_columns(run, capsys):
     """Formula and run agree within 15 % on teeth as the standard has them; safety is limit over stress."""
     assert COARSE and main(["rate", str(run), "--flank-limit", "1300 MPa"]) == 0
     assert "sigma_H, contact stress of the pinion, MPa" in capsys.readouterr().out
-    with open(run / "rating.csv", encoding="utf-8") as file:
+    with open(run / "rating.csv") as file:
         rows = {row["quantity"]: row for row in csv.DictReader(file)}
     stress, safety = rows["sigma_H, contact stress of the pinion"], rows["S_H, safety against pitting of the pinion"]
     assert float(stress["this run"]) == pytest.approx(float(stress["ISO 6336"]), rel=0.15)
@@ -84,7 +84,7 @@ def test_misalignment_over_the_face_is_counted_and_told(tmp_path, capsys):
         results.save(result.assign_attrs(scene=helical_scene(more).text), tmp_path / "run.nc")
         assert main(["rate", str(tmp_path)]) == 0
         assert said in capsys.readouterr().out
-        with open(tmp_path / "rating.csv", encoding="utf-8") as file:
+        with open(tmp_path / "rating.csv") as file:
             row = next(row for row in csv.DictReader(file) if row["quantity"].startswith("F_betax"))
         assert (float(row["ISO 6336"]), float(row["this run"])) == pytest.approx((standard, computed), abs=0.01)
     beside = {"scene": helical_scene(CROWNED).text, "peak_contact_pressure_beside": "end"}
@@ -102,7 +102,7 @@ def test_the_inclination_of_shafts_that_bend_is_counted(tmp_path, capsys):
     results.save(result, tmp_path / "run.nc")
     assert main(["rate", str(tmp_path)]) == 0
     assert "is of the axes' inclination in this run" in capsys.readouterr().out
-    with open(tmp_path / "rating.csv", encoding="utf-8") as file:
+    with open(tmp_path / "rating.csv") as file:
         rows = {row["quantity"]: row for row in csv.DictReader(file)}
     misaligned = abs(result.attrs["mean_axis_inclination_in_plane"] + 4.0)
     assert float(rows["F_betax, misalignment over the face"]["ISO 6336"]) == pytest.approx(misaligned, rel=1e-6)
@@ -120,6 +120,6 @@ def test_the_inclination_of_shafts_that_bend_is_counted(tmp_path, capsys):
 def test_a_scene_is_no_run(tmp_path, capsys):
     """Exit code 2, and what to do."""
     scene = tmp_path / "mine.toml"
-    scene.write_text(helical_scene().text, encoding="utf-8")
+    scene.write_text(helical_scene().text)
     assert main(["rate", str(scene)]) == 2
     assert f"is a scene, this command takes a run: `gears run {scene}`" in capsys.readouterr().err

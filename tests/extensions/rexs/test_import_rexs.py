@@ -26,9 +26,7 @@ def test_scene_is_written_beside_nothing_else_and_can_be_checked(here, paper_sce
     assert "Next: gears check lundvall2004.toml" in said and "motion.mesh_cycles = 1" in said
     assert load_scene("lundvall2004.toml").gears == paper_scene.gears
     fields = [
-        line
-        for line in (here / "lundvall2004.toml").read_text(encoding="utf-8").splitlines()
-        if " = " in line and line[0] not in "#t["
+        line for line in (here / "lundvall2004.toml").read_text().splitlines() if " = " in line and line[0] not in "#t["
     ]
     assert len(fields) > 15 and all("  # " in line for line in fields)
     assert main(["check", "lundvall2004.toml"]) == 0

@@ -18,7 +18,7 @@ def made(tmp_path_factory):
 
     def make(text, name):
         directory = tmp_path_factory.mktemp(name)
-        (directory / f"{name}.toml").write_text(text, encoding="utf-8")
+        (directory / f"{name}.toml").write_text(text)
         assert (
             main(
                 ["run", str(directory / f"{name}.toml"), "--output", str(directory / "run"), "--quiet", "--no-pictures"]
@@ -54,8 +54,8 @@ def without_stills(monkeypatch):
 @pytest.fixture(scope="session")
 def study(tmp_path_factory):
     directory = tmp_path_factory.mktemp("study")
-    (directory / "pair.toml").write_text(coarse_text(recorded=1), encoding="utf-8")
+    (directory / "pair.toml").write_text(coarse_text(recorded=1))
     sweep = '[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz", "300 Hz"]\nfriction = ["absent", "present"]\n'
-    (directory / "study.toml").write_text('title = "Three speeds <i>"\nscene = "pair.toml"\n' + sweep, encoding="utf-8")
+    (directory / "study.toml").write_text('title = "Three speeds <i>"\nscene = "pair.toml"\n' + sweep)
     assert main(["study", str(directory / "study.toml"), "--output", str(directory / "out"), "--quiet"]) == 0
     return directory / "out"

@@ -144,7 +144,7 @@ def test_an_incomplete_run_says_so(run, tmp_path, steps):
     whole = contact_times(results.load(run / "run.nc"))
     cut = whole.isel(time=slice(0, steps), contact_time=slice(0, steps)).assign_attrs(complete=0, stopped="interrupted")
     page = page_of(cut, tmp_path)
-    text = (tmp_path / "report.html").read_text(encoding="utf-8")
+    text = (tmp_path / "report.html").read_text()
     assert "INCOMPLETE RUN. It was interrupted." in text and list(page.sections) == SECTIONS and page.faults == []
     assert any(each.startswith("Transmission error on") for each in captions(page)) == (steps == 8)
     assert "of what is stored" in page.sections["summary"] or steps == 0
@@ -153,7 +153,7 @@ def test_an_incomplete_run_says_so(run, tmp_path, steps):
 def test_a_result_without_meaning_says_so_before_anything(run, tmp_path):
     """The run's own warning, above all sections."""
     page_of(results.load(run / "run.nc").assign_attrs(warnings="a word\nthe result has no meaning: jammed"), tmp_path)
-    text = (tmp_path / "report.html").read_text(encoding="utf-8")
+    text = (tmp_path / "report.html").read_text()
     assert "NO MEANING: the result has no meaning: jammed." in text.partition('id="summary"')[0]
 
 
@@ -175,7 +175,7 @@ def measured_lines(dataset, error):
 
 
 def write_measured(directory, lines):
-    with open(directory / "effects.csv", "w", encoding="utf-8", newline="") as opened:
+    with open(directory / "effects.csv", "w", newline="") as opened:
         writer = csv.DictWriter(opened, CSV_COLUMNS)
         writer.writeheader()
         writer.writerows(lines)
@@ -246,9 +246,7 @@ def test_wrong_calls_are_refused_before_anything_is_written(run, tmp_path, capsy
 
 def test_an_installed_copy_has_the_template():
     """package-data names each file that is no module."""
-    wanted = tomllib.loads((CHECKOUT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"][
-        "package-data"
-    ]["*"]
+    wanted = tomllib.loads((CHECKOUT / "pyproject.toml").read_text())["tool"]["setuptools"]["package-data"]["*"]
     files = [
         file
         for file in (CHECKOUT / "fenics_gears" / "show" / "report").iterdir()

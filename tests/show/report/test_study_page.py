@@ -107,7 +107,7 @@ def test_failed_and_missing_cases_are_named(study, tmp_path):
         "no <equilibrium> & no end" in page.sections["failures"]
         and "mesh frequency 100 Hz, without friction" in page.sections["failures"]
     )
-    assert "of 6 cases 1 failed, 1 not computed yet" in (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "of 6 cases 1 failed, 1 not computed yet" in (tmp_path / "report.html").read_text()
     assert "missing" in page.sections["cases"] and page.faults == []
     curves = figures(page)["Transmission error, peak to peak over mesh frequency"]["data"]
     assert curves[0]["y"][0] is None and curves[1]["y"][2] is None

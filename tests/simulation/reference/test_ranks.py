@@ -12,7 +12,7 @@ pytestmark = pytest.mark.ranks
 
 @pytest.fixture(scope="module")
 def scene_file(tmp_path_factory):
-    text = (CHECKOUT / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
+    text = (CHECKOUT / "demos" / "lundvall2004.toml").read_text()
     for old, new in (
         ('condensation = "once"', 'condensation = "every step"'),
         ("steps_per_mesh_cycle = 100", "steps_per_mesh_cycle = 2"),
@@ -23,7 +23,7 @@ def scene_file(tmp_path_factory):
         assert old in text
         text = text.replace(old, new)
     path = tmp_path_factory.mktemp("ranks") / "every_step.toml"
-    path.write_text(text, encoding="utf-8")
+    path.write_text(text)
     return path
 
 
