@@ -1,4 +1,4 @@
-"""A gear that is cut into its shaft."""
+"""A gear that is cut into its shaft, and the gaps that shafts open over the face."""
 
 import re
 from math import pi
@@ -6,11 +6,13 @@ from math import pi
 import numpy as np
 import pytest
 from tests.beam_elements import assembled
-from tests.elastic_shaft_scenes import CUT, PRESSED
+from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, PRESSED
+from tests.hard_cases.invariants import run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, carried, shear_coefficient
+from fenics_gears.dynamics.elastic_shaft_face import face_compliance_of_shafts, middles_of_slices
 from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
 from fenics_gears.effects.bearings import Bearing
 from fenics_gears.effects.shafts import ShaftSection
@@ -99,3 +101,29 @@ def test_flanks_give_way_as_their_rows_say(helix, shafts):
         # What is left is the interpolation between flank nodes, and the turn of a helix within a slice.
         assert len(found) and np.abs(found - added).max() <= 3e-6 * np.abs(added).max()
     assert {each.gear for each in model.drivetrain.elastic} == {"pinion", "wheel"}
+
+
+def finished(more, helix):
+    model = model_of(helical_scene(more, helix=helix, offset=2.0, accuracy=FEW.replace("5", "10")))
+    found = run_of(model, on_stand_in_bodies(model))
+    assert found.failure is None
+    return model, found.result
+
+
+def test_the_straight_part_is_the_inclination_of_the_axes():
+    """Identity: an even line load opens a straight gap; a helix slope that closes it makes the line load even."""
+    model, bent = finished(ELASTIC, 0.0)
+    z, pair = middles_of_slices(model.pair), model.pair
+    compliance = face_compliance_of_shafts(model.drivetrain.elastic, pair, z)
+    gap = compliance.mean(axis=1) * model.scene.load.wheel_torque / pair.wheel.base_radius
+    slope, middle = np.polyfit(z, gap, 1)
+    assert gap == pytest.approx(middle + slope * z, abs=1e-12)
+    amount = -1e3 * slope * pair.face_widths[0]
+    _, straight = finished(ELASTIC + f'[lead_modifications.pinion]\nhelix_slope = "{float(amount)!r} um"\n', 0.0)
+    assert straight.attrs["mean_axis_inclination_in_plane"] == pytest.approx(
+        1e3 * slope * model.pair.face_width, rel=1e-3
+    )
+    # Bodies load the face unevenly by themselves.
+    _, even = finished('[misalignment]\nin_plane = "0 um"\n', 0.0)
+    assert straight.attrs["face_load_factor"] == pytest.approx(even.attrs["face_load_factor"], rel=5e-3)
+    assert bent.attrs["face_load_factor"] > 1.02 * even.attrs["face_load_factor"]

@@ -1,18 +1,26 @@
-"""Gears on shafts that bend, on bodies without finite elements."""
+"""Gears on shafts that bend and vibrate, in whole runs on bodies without finite elements."""
 
 import numpy as np
 import pytest
 from tests.beam_elements import condensed
-from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, INPUT, PINION
-from tests.hard_cases.invariants import run_of
+from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, INERTIA, INPUT, OUTPUT, PINION, ROLLING, VIBRATING, WHEEL
+from tests.hard_cases.invariants import cycle_of, run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of, scene_from_text
 from fenics_gears.dynamics.elastic_shaft import shear_coefficient
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.rolling_bearing import reaction
+from fenics_gears.dynamics.shaft_at_work import even_load
+from fenics_gears.model.description import describe
+from fenics_gears.results.dataset import RunResult
+from fenics_gears.results.recorder import Recorder
+from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.write import section_trees, text_of
 from fenics_gears.show.bent_shafts import bent_shafts
 from fenics_gears.show.plots import run_figures
 from fenics_gears.show.run import Run
+from fenics_gears.simulation.bearings_at_work import mean_loads, with_bearings_at_work
 
 
 def shear(outer, bore):
@@ -122,3 +130,104 @@ def test_a_side_that_names_nothing_is_rigid():
     beside = '[shafts.output]\ntorsional_stiffness = "1e8 N mm/rad"\n[bearings.wheel]\nstiffness = "1e5 N/mm"\n'
     both = model_of(helical_scene(INPUT + PINION + beside, accuracy=FEW)).drivetrain
     assert set(both.coordinates) - set(alone.coordinates) == {"centre_x2", "centre_y2", "shaft_twist"}
+
+
+def test_rolling_bearings_carry_by_their_law_in_the_run():
+    """The bearings' own law at the shaft's mean motions."""
+    model = model_of(helical_scene(ROLLING + OUTPUT + WHEEL, offset=2.0, accuracy=FEW))
+    bodies = on_stand_in_bodies(model)
+    shaft = model.drivetrain.elastic[0]
+
+    def marched(model, stage=""):
+        recorder = Recorder(model, cycle_of(model, bodies))
+        return recorder, Marcher(recorder.cycle, model.equations_of_motion).run(model.steps, 1, observe=recorder.take)
+
+    recorder, march = with_bearings_at_work(model, marched)
+    model, result = recorder.model, RunResult(recorder, march).dataset
+    assert result.attrs["largest_rolling_element_force"] > 0.0
+    working = model.drivetrain.elastic[0]
+    gear = np.linalg.solve(working.stiffness, mean_loads(model, recorder)[0])
+    for number, motion in enumerate((working.at_bearings @ gear).reshape(2, 5)):
+        law = reaction(shaft.bearings[number].rolling, motion).loads
+        for axis, load in zip("xyz", law):
+            found = result[f"bearing_force_{axis}"].values[1:, number].mean()
+            assert abs(found - load) <= 2e-4 * np.abs(law[:3]).max()
+
+
+@pytest.mark.parametrize("torque", [3e5, -3e5], ids=["drive", "coast"])
+def test_the_even_load_is_the_force_of_a_run_on_the_flanks_that_carry(torque):
+    """Statics: without friction forces have the direction of the flanks' normal."""
+    model = model_of(helical_scene(ELASTIC + "\n[coast_flanks]\n", offset=2.0, accuracy=FEW, torque=torque))
+    recorder = Recorder(model, cycle_of(model, on_stand_in_bodies(model)))
+    Marcher(recorder.cycle, model.equations_of_motion).run(model.steps, 1, observe=recorder.take)
+    recorder.finish()
+    for shaft, load in zip(model.drivetrain.elastic, mean_loads(model, recorder)):
+        even = even_load(shaft, model.pair, torque)
+        # Each gear's tilts about the pitch point are what the line load makes of them.
+        assert np.abs(even - load)[:3].max() <= 1e-4 * np.linalg.norm(load[:3])
+
+
+def test_a_shaft_that_vibrates_keeps_the_balance_of_energy():
+    """Exact: the account closes; the mesh's natural frequency is there."""
+    more = VIBRATING + "[friction]\ncoefficient = 0.05\n[damping]\nratio = 0.05\n"
+    model = model_of(helical_scene(more, offset=2.0, accuracy=FEW.replace("= 8", "= 64"), frequency=800.0))
+    found = run_of(model, on_stand_in_bodies(model))
+    assert found.failure is None
+    assert any("_mode_" in name for name in model.drivetrain.coordinates)
+    result = found.result
+    assert np.abs(result["energy_defect"].values).max() <= 1e-10 * result["energy"].values.max()
+    assert result["energy_kinetic"].values.max() > 1e-3 * result["energy"].values.max()
+    lines = result.attrs["natural_frequencies"].splitlines()
+    assert sum("mesh springs" in line for line in lines) >= 1
+    assert float(lines[-1].split()[0]) <= model.drivetrain.right_up_to
+
+
+def test_what_is_said_of_shafts_that_vibrate():
+    """Closed forms: density times volume, the reduced mass along the line of action, the condensed shaft's
+    compliance."""
+    scene = helical_scene(VIBRATING, accuracy=FEW, frequency=800.0)
+    said = {label: value for _, rows in describe(scene) for label, value, _ in rows}
+    volume = 0.25 * np.pi * ((28.0**2 - 8.0**2) * 40.0 + 35.0**2 * 90.0)
+    assert said["mass of the pinion's shaft"] == pytest.approx(7.85e-6 * volume, rel=1e-12)
+    model = model_of(scene)
+    along = [2000.0 / getattr(model.pair, gear).base_radius ** 2 for gear in ("pinion", "wheel")]
+    reduced = said["reduced mass J1 J2/(J1 rb2^2 + J2 rb1^2)"]
+    assert reduced == pytest.approx(along[0] * along[1] / sum(along), rel=1e-12)
+    per_newton = np.linalg.inv(model.drivetrain.elastic[0].stiffness)
+    words = said["its stiffness at the pinion"]
+    assert [float(part.split()[0]) for part in words.split(", ")] == pytest.approx(
+        [1e-3 / per_newton[axis, axis] for axis in range(3)], rel=1e-3
+    )
+    result = run_of(model, on_stand_in_bodies(model)).result
+    result.attrs |= {"base_radius_wheel": model.pair.wheel.base_radius}
+    printed = {label: value for label, value, *_ in summary_rows(result)}
+    largest = np.sqrt(sum(result[f"bearing_force_{axis}"].values ** 2 for axis in "xyz")).max()
+    assert float(printed["largest force of a bearing"].split()[0]) == pytest.approx(largest, rel=1e-3)
+    lowest = result.attrs["natural_frequencies"].splitlines()[0].split()[0]
+    assert float(printed["natural frequencies"].split()[0]) == pytest.approx(float(lowest), rel=1e-3)
+
+
+def test_a_slow_run_with_inertia_is_the_quasi_static_one():
+    """Limit: a hundredth of a mesh cycle a second."""
+    runs = []
+    for more in (VIBRATING, VIBRATING.replace(INERTIA, "")):
+        model = model_of(helical_scene(more, offset=2.0, accuracy=FEW, frequency=0.01))
+        runs.append(run_of(model, on_stand_in_bodies(model)).result)
+    moving, still = runs
+    for name in ("transmission_error", "bearing_force_x", "bearing_moment_y", "tilt_y", "shaft_deflection_x"):
+        different = np.nanmax(np.abs(moving[name].values - still[name].values))
+        assert different <= 1e-9 * np.nanmax(np.abs(still[name].values))
+
+
+@pytest.mark.parametrize("more", ["", "[friction]\ncoefficient = 0.05\n"])
+def test_a_march_that_eliminates_modes_is_the_one_that_keeps_them(more):
+    """Brute force: plain steps solve for modes with all else."""
+    model = model_of(helical_scene(VIBRATING + more, accuracy=FEW.replace("= 8", "= 64"), frequency=800.0))
+    cycle, found = cycle_of(model, on_stand_in_bodies(model)), []
+    for plain in (False, True):
+        march = Marcher(cycle, model.equations_of_motion, plain).run(model.steps, model.steps + 1)
+        states, step = [each.state for each in march.records], model.equations_of_motion.time_step
+        found.append(np.array([[each.position, step * each.velocity] for each in states]))
+    assert any("_mode_" in name for name in model.drivetrain.coordinates)
+    one, other = found
+    np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-12 * np.abs(other[:, 0]).max())

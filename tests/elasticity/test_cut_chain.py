@@ -1,8 +1,9 @@
-"""Joined runs of sectors."""
+"""The ring of sectors, and joined runs of them. Against brute force and its kernel: hard cases 5 and 6."""
 
 import numpy as np
 import pytest
 from tests.coarse_sector import relative
+from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
 from fenics_gears import ComputationError
 from fenics_gears.elasticity.cut_chain import chain_is_quicker, chain_response, joined, run_of
@@ -81,3 +82,21 @@ def test_a_ring_that_nothing_holds_is_refused():
     """House rule; without stiffness of its own a cut has no response."""
     with pytest.raises(ComputationError, match="is the hub held"):
         chain_response(np.zeros((4, 4)), 100, 1)
+
+
+def test_every_tooth_is_the_same_and_teeth_behind_are_the_transpose(pinion, steel, coarse_sector):
+    """Exact identities: isotropy under whole pitches; Betti's theorem for the tooth behind."""
+    whole = whole_gear_mesh(coarse_sector("P2"), pinion.teeth)
+    first = whole_gear_compliance(whole, pinion, steel, tooth_offsets=pinion.teeth - 1)
+    fifth = whole_gear_compliance(whole, pinion, steel, loaded_tooth=5, tooth_offsets=2)
+    assert relative(first.blocks[:3] - fifth.blocks, fifth.blocks) < 1e-9
+    for offset in (1, 2):
+        behind = first.blocks[pinion.teeth - offset]
+        assert relative(behind - fifth.block(-offset), behind) < 1e-9
+
+
+def test_cuts_that_do_not_match_are_refused(pinion, coarse_sector):
+    """A ring of one tooth more has another pitch."""
+    sector = condensed_sector(coarse_sector("P1"), ELEMENTS["P1"], 0.3)
+    with pytest.raises(ComputationError, match="do not match"):
+        ring_compliance(sector, pinion.teeth + 1, 1)

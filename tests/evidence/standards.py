@@ -11,7 +11,7 @@ from tests.evidence.claim import STANDARDS, Claim, Numbers, Part, within
 from tests.extensions.rating.test_iso_6336 import operation
 from tests.iso_tooth_root import nominal_root_stress, standard_gear
 from tests.simulation.test_iso_6336 import standard_pair, stiffness_of
-from tests.simulation.test_root_stress import highest_single_contact, stresses_of_a_narrow_load
+from tests.simulation.test_run_stresses import highest_single_contact, stresses_of_a_narrow_load
 
 from fenics_gears import gear_pair, load_scene, mesh_factor, single_stiffness
 from fenics_gears.elasticity.fillet_points import POINTS

@@ -1,4 +1,4 @@
-"""The numbers of a run."""
+"""The numbers of a run, and their signs."""
 
 from dataclasses import replace
 
@@ -10,6 +10,7 @@ from fenics_gears import mesh_factor, model_of, simulate, single_stiffness
 from fenics_gears.effects.profile_modifications import ProfileModification, ProfileModifications
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.model.resolution import plane_contact_modulus
+from fenics_gears.results.numbers import harmonics, shares_at
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Motion
 
@@ -94,3 +95,42 @@ def test_load_shares_at_the_contact_points(static):
         1.0, abs=0.02
     )
     assert share["C"] == pytest.approx(1.0) and 0.2 < share["A"] < 0.6
+
+
+def test_signs_of_forces_torques_and_rotations(paper_scene):
+    """Statics: F = T/rb2; action and reaction on both shafts."""
+    scene = frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1)))
+    result, pair = simulate(scene), model_of(scene).pair
+    force = scene.load.wheel_torque / pair.wheel.base_radius
+    last = result.isel(time=-1)
+    assert float(last.normal_force) == pytest.approx(force, rel=1e-9)
+    assert last.reaction_x.values == pytest.approx([-force, force], rel=1e-9)
+    assert last.reaction_couple.values == pytest.approx(
+        [-force * pair.pinion.base_radius, -scene.load.wheel_torque], rel=1e-9
+    )
+    assert float(last.rotation.sel(gear="wheel")) > 0.0 and float(last.transmission_error) > 0.0
+    assert np.all(np.diff(result.work_input.values) > 0.0) and np.all(np.diff(result.work_output.values) > 0.0)
+
+
+@pytest.mark.parametrize("cycles", [1, 3])
+def test_harmonics_of_a_curve_that_is_made_of_them(cycles):
+    """Exact; a tone between two harmonics leaves them."""
+    phase = np.arange(40 * cycles) / 40
+    amplitudes = np.array([3.0, 0.0, 1.5, 0.25, 0.125])
+    curve = 7.0 + sum(a * np.cos(2.0 * np.pi * n * phase + n) for n, a in enumerate(amplitudes, 1))
+    if cycles == 3:
+        curve = curve + 0.5 * np.cos(2.0 * np.pi * phase / 3.0)
+    assert harmonics(curve, cycles) == pytest.approx(amplitudes, abs=1e-12)
+
+
+def test_shares_of_pairs_that_hand_over_in_a_straight_line():
+    """Exact: a contact ratio of 1.5, from 1/3 to 2/3, 1 alone, and the other way."""
+    phase = np.linspace(2.0, 4.0, 81)
+    numbers = np.tile(np.arange(0, 5), (len(phase), 1))
+    passed = phase[:, None] - numbers
+    entering, leaving = (passed >= 0.0) & (passed <= 0.5), (passed >= 1.0) & (passed <= 1.5)
+    share = np.where(entering, 1 / 3 + 2 / 3 * passed, np.where(leaving, 2 / 3 - 2 / 3 * (passed - 1.0), 0.0))
+    share = np.where((passed > 0.5) & (passed < 1.0), 1.0, share)
+    forces = 5000.0 * share * np.linspace(1.0, 2.0, len(phase))[:, None]
+    found = shares_at([0.0, 0.25, 0.75, 1.25, 1.5, 9.0], phase, numbers, forces)
+    assert found[:5] == pytest.approx([1 / 3, 0.5, 1.0, 0.5, 1 / 3], abs=1e-12) and np.isnan(found[5])
