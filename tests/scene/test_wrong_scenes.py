@@ -47,12 +47,10 @@ def refusal(tmp_path, monkeypatch, capsys):
 # (what to replace, by what, field and value in the message, further fragments)
 MUTATIONS = [
     ("teeth = 16", "teeth = 16.5", "gears.pinion.teeth = 16.5", ["is not a whole number", "from 5 to 1000"]),
-    ("teeth = 16", "teeth = 4", "gears.pinion.teeth = 4", ["is too small", "from 5 to 1000"]),
     ("teeth = 16", "module = 16", "gears.pinion.module = 16", ['"module" belongs to [gears]', "teeth, profile_shift"]),
     ('module = "4.5 mm"', 'module = "4.5 Mm"', 'gears.module = "4.5 Mm"', ['unknown unit "Mm". Did you mean "mm"?']),
     ('module = "4.5 mm"', "module = 4.5", "gears.module = 4.5", ['In mm it is written "4.5 mm"']),
     ('"20 deg"', '"0.35"', 'gears.pressure_angle = "0.35"', ["not an angle", "from 10 deg to 35 deg"]),
-    ('"20 deg"', '"20 rad"', 'gears.pressure_angle = "20 rad"', ["is too large", "from 10 deg to 35 deg"]),
     ("poissons_ratio = 0.3", "poissons_ratio = 0.5", "gears.material.poissons_ratio = 0.5", ["is too large",
      "above -1 and below 0.5"]),
     ('"437 N m"', '"-437 N m"', 'load.wheel_torque = "-437 N m"', ["is negative", "coast flanks",
@@ -74,12 +72,8 @@ MUTATIONS = [
     ('element = "P2"', 'element = "P3"', 'accuracy.element = "P3"', ["is not known",
      '"P1", "P2", "Q1", "Q1 incompatible", "Q2"']),
     ('element = "P2"', 'element = "p2"', 'accuracy.element = "p2"', ['Did you mean "P2"?']),
-    ('element = "P2"', 'element = "Q1 compatible"', 'accuracy.element = "Q1 compatible"', ["Did you mean",
-     '"Q1 incompatible"']),
     ('"0.08 mm"', '"5 mm"', 'accuracy.flank_element_size = "5 mm"', ["too large for a module of 4.5 mm",
      "up to 4.5 mm"]),
-    ('"1.5 mm"', '"15 mm"', 'accuracy.contact_length = "15 mm"', ["too large for a module of 4.5 mm",
-     "up to 13.5 mm"]),
     ("[load]", "[[load]]", "load = a list", ["is not a section", "Write a line [load]"]),
     ("[load]\nwheel_torque", "load = 3\n[wheel]\nwheel_torque", "gears.material.load = 3",
      ["is not a known field of [gears.material]"]),
@@ -113,18 +107,12 @@ without = partial(paper_text.without, DEMO)
             DEMO.replace('"once"', '"every step"') + "\n[coast_flanks]\n",
             ["accuracy.condensation", "no contact on the coast flanks"],
         ),
-        (DEMO + "\n[coast_flanks]\nbacklash = 3\n", ["coast_flanks.backlash = 3", "is not a known field"]),
         (DEMO + "\n[thermal]\n", ["[thermal]\n", "is not a known section", "tip_relief"]),
         (
             DEMO + "\n[tip_relief]\n",
             ["tip_relief.depth\n", "tip_relief.start\n", "is missing", '"HPSTC"', "2 mistakes"],
         ),
-        (
-            DEMO + '\n[tip_relief]\ndepth = "31 um"\nstart = "hpstc"\n',
-            ['tip_relief.start = "hpstc"', 'Did you mean "HPSTC"?'],
-        ),
         (DEMO + '\n[tip_relief]\nstart = "HPSTC"\n[tip_relief.pinion]\n', ["tip_relief.pinion.depth\n", "is missing"]),
-        (DEMO + '\n[tip_relief.wheel]\ndepth = "31 um"\n', ["tip_relief.wheel.start\n", "is missing"]),
         (
             DEMO + '\n[tip_relief.wheel]\ndepth = "0 um"\nstart = "HPSTC"\n',
             ['tip_relief.wheel.depth = "0 um"', "leave its depth out"],
@@ -156,14 +144,6 @@ without = partial(paper_text.without, DEMO)
             ['inertia.density = "7.85 g/cm^3"', "stands beside mass, which follow"],
         ),
         (
-            DEMO + '\n[inertia.wheel]\ndensity = "7.85 g/cm^3"\nmoment_of_inertia = "1 kg m^2"\n',
-            ["inertia.wheel.density", "beside moment_of_inertia"],
-        ),
-        (
-            DEMO + '\n[inertia.load]\nmoment_of_inertia = "0 kg m^2"\n',
-            ['inertia.load.moment_of_inertia = "0 kg m^2"', "is zero"],
-        ),
-        (
             DEMO + '\n[inertia.motor]\nmoment_of_inertia = "1 kg m^2"\n',
             ["[inertia.motor]", "turns as prescribed", "[shafts.input]"],
         ),
@@ -172,10 +152,6 @@ without = partial(paper_text.without, DEMO)
             ["shafts.output.torsional_stiffness\n", "only the other shaft"],
         ),
         (without("shafts") + "\n[shafts]\n", ["shafts.torsional_stiffness\n", "[shafts.input] and [shafts.output]"]),
-        (
-            DEMO + '\n[shafts.output]\ntorsional_stiffness = "-1 kN m/rad"\n',
-            ["shafts.output.torsional_stiffness", "is negative"],
-        ),
         (
             without("damping") + "\n[damping]\n",
             ["damping.stiffness_proportional\n", "damping.mass_proportional\n", "ratio = 0.05"],
@@ -192,8 +168,6 @@ without = partial(paper_text.without, DEMO)
             without("damping") + "\n[damping]\nratio = 0.05\nratios = [0.1]\n[damping.pinion]\n",
             ["damping.ratios", "[damping.pinion]", "stands beside ratio"],
         ),
-        (without("damping") + "\n[damping]\nratio = 0.0\n", ["damping.ratio = 0.0", "is zero"]),
-        (without("damping") + "\n[damping]\nratio = 1.0\n", ["damping.ratio = 1.0", "is too large"]),
         (
             without("damping") + "\n[damping]\nratios = [0.1, -0.2]\n",
             ["damping.ratios", "-0.2 at place 2", "is negative"],
@@ -220,13 +194,8 @@ without = partial(paper_text.without, DEMO)
             DEMO.replace('face_width = "15 mm"\n', ""),
             ["gears.face_width\n", "is missing", "face_width of [gears.pinion] and of [gears.wheel]"],
         ),
-        (
-            DEMO.replace('face_width = "15 mm"\n', "").replace("teeth = 16", 'teeth = 16\nface_width = "0 mm"'),
-            ["gears.face_width\n", 'gears.pinion.face_width = "0 mm"', "is zero"],
-        ),
         (DEMO.replace("[gears]", "[gears"), ["is not valid TOML", "line 7"]),
         (DEMO + "\n[friction]\ncoefficient = 0.2\n", ["is not valid TOML", "line 68"]),
-        (DEMO.replace("teeth = 16", "teeth = 16 mm"), ["is not valid TOML", "line 14"]),
         (DEMO.replace("teeth = 16", "teeth = " + 5000 * "9"), ["is not valid TOML", "thousands of digits"]),
         ("a = " + 3000 * "[" + 3000 * "]", ["pair.toml"]),
         ("", ["gears\n", "load\n", "2 mistakes"]),

@@ -14,7 +14,6 @@ from fenics_gears.extensions.rexs.imported import Choice
 P, W, FLANK, MATERIAL = rexs.PINION, rexs.WHEEL, rexs.PINION_FLANKS[0], rexs.MATERIAL
 
 WRONG_VALUES = [
-    ((P, "normal_module", None), "component 5 (cylindrical_gear 'pinion'): normal_module is missing"),
     (
         (P, "normal_module", "abc", "mm"),
         "component 5 (cylindrical_gear 'pinion'): normal_module = abc mm does not begin with a number",
@@ -30,21 +29,8 @@ WRONG_VALUES = [
         (W, "normal_module", 5.0, "mm"),
         "normal_module of component 5 is 4.5 mm, but normal_module of component 6 is 5.0 mm",
     ),
-    ((P, "number_of_teeth", 16.5), "number_of_teeth = 16.5 is not a whole number"),
     ((P, "number_of_teeth", 16, "mm"), "number_of_teeth = 16 mm is not a whole number without unit"),
-    ((P, "number_of_teeth", 0), "number_of_teeth = 0 is not positive"),
     ((P, "number_of_teeth", -48), "component 5 (cylindrical_gear 'pinion') is an internal gear"),
-    (
-        (P, "helix_angle_reference_diameter", 10.0, "deg"),
-        (
-            "helix_angle_reference_diameter of component 5 is 10.0 deg, helix_angle_reference_diameter of component 6"
-            " is 0.0 deg. Allowed on parallel axes"
-        ),
-    ),
-    (
-        (P, "reference_circle_diameter", 73.0, "mm"),
-        "reference_circle_diameter = 73.0 mm contradicts its module and its 16 teeth, which give 72 mm",
-    ),
     ((P, "inner_diameter", -1.0, "mm"), "inner_diameter = -1.0 mm is negative"),
     (
         (FLANK, "normal_pressure_angle", 25.0, "deg"),
@@ -55,7 +41,6 @@ WRONG_VALUES = [
         "component 5 (cylindrical_gear 'pinion') has contradictory profile shifts",
     ),
     ((FLANK, "addendum_modification_coefficient", 0.196, "mm"), 'has the unit "mm". Allowed: "none" or "%"'),
-    ((rexs.STAGE, "center_distance", None), "component 4 (cylindrical_stage 'test stage'): center_distance is missing"),
     (
         (rexs.STAGE, "sum_of_addendum_modification_coefficients", 0.4),
         "contradicts the profile shifts of its gears, 0.196 and 0.125",
@@ -164,7 +149,6 @@ def edited(old, new):
 
 BROKEN = {
     "empty": (b" \n", "is empty"),
-    "no XML": (b"gears", "is not valid XML"),
     "cut off": (rexs.as_xml(rexs.paper_model())[:2000], "is not valid XML"),
     "other XML": (b"<svg/>", "its root is <svg>, not <model>"),
     "unknown encoding": (edited("utf-8", "klingon"), "is not valid XML"),
@@ -189,7 +173,6 @@ BROKEN = {
         "components 5, attributes has normal_module twice, with different values: 4.5 mm; 5 mm",
     ),
     "two models in one archive": (rexs.as_zip(("a.rexs", b""), ("b.rexsj", b"")), "but holds: a.rexs, b.rexsj"),
-    "archive without a model": (rexs.as_zip(("a.txt", b"")), "but holds: none"),
     "an archive that says it begins before its beginning": (
         rexs.as_zip(("a.rexs", b"x"))[:-6] + b"\xff\xff\xff\x7f\0\0",
         "cannot be unpacked: it is damaged",
@@ -197,10 +180,6 @@ BROKEN = {
     "an archive with a name that is no text": (
         rexs.as_zip(("\u03a9.rexs", b"x")).replace("\u03a9".encode(), b"\xb6\xb6"),
         "cannot be unpacked: it is damaged",
-    ),
-    "damaged archive": (
-        rexs.as_zip(("a.rexs", b"x" * 5000)).replace(b"PK\x03\x04", b"PK\x03\x05", 1),
-        "cannot be unpacked",
     ),
 }
 

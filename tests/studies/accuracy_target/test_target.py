@@ -162,10 +162,8 @@ def test_a_setting_beside_a_target_is_refused(text, line, reason):
 @pytest.mark.parametrize("written, reason", [
     ("1", 'is a number without its unit. In % it is written "1 %"'),
     ('"1"', "is a number without unit, not a percentage"), ('"1 mm"', "is a length, not a percentage"),
-    ('"-1 %"', "is negative"),
-    ('"0 %"', "is zero"), ('"0.01 %"', "is too small"), ('"60 %"', "is too large"),
-    ("true", "is not a text with a number and its unit"),
-    ('"1e999 %"', "is not a finite number"), ("0.2", 'In % it is written "0.2 %"'),
+    ('"0 %"', "is zero"), ('"0.01 %"', "is too small"),
+    ('"1e999 %"', "is not a finite number"),
 ])  # fmt: skip
 def test_a_wrong_percentage_says_what_is_wrong(text, written, reason):
     """Wording."""
