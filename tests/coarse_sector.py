@@ -29,5 +29,4 @@ def coarse_condensed_sector(name: str, poissons_ratio: float = 0.3):
 
 
 def relative(difference, reference) -> float:
-    """Largest entry of a difference over the largest of its reference."""
     return float(np.abs(difference).max() / np.abs(reference).max())

@@ -84,7 +84,6 @@ def paper_scene():
 
 @pytest.fixture(scope="session")
 def quasi_static_scene(paper_scene):
-    """Without inertia, one mesh cycle."""
     return replace(paper_scene, inertia=None, damping=None, motion=Motion(200.0, 1, 1))
 
 

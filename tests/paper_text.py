@@ -7,7 +7,6 @@ PAPER = (Path(__file__).parents[1] / "demos" / "lundvall2004.toml").read_text(en
 
 
 def without(text: str, *sections: str) -> str:
-    """Without sections of these names, whose subsections stay."""
     names = "|".join(map(re.escape, sections))
     return re.sub(rf"^\[({names})\].*?(?=^\[|\Z)", "", text, flags=re.M | re.S)
 

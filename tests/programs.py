@@ -24,7 +24,6 @@ def environment(**more):
 
 
 def mpirun(ranks):
-    """Skips the test where there is none."""
     if not shutil.which("mpirun"):
         pytest.skip("no mpirun")
     version = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, env=environment()).stdout
@@ -48,7 +47,6 @@ def ended(call, folder=CHECKOUT, *, ends=None, given=None, timeout=240, **more):
 
 
 def python(*arguments, folder=CHECKOUT, ranks=0, ends=0, **options):
-    """Python in a process of its own, or in one for each rank."""
     call = [*(mpirun(ranks) if ranks else ()), sys.executable, *map(str, arguments)]
     return ended(call, folder, ends=ends, **options)
 

@@ -55,7 +55,6 @@ def swept(section: Section, heights: np.ndarray, twist: float) -> GearMesh:
 
 
 def meshes(pair: GearPair, phase: float) -> tuple[GearMesh, GearMesh]:
-    """Pinion and wheel, fine where they touch at a phase."""
     position = Position(pair, pair.slope, phase)
     sizes = Sizes(SECTION, LAYERS, 0.05, 0.2)
     loaded = bands(position, touching_pairs(position, sizes), sizes)

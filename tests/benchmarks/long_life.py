@@ -40,7 +40,6 @@ def resident() -> int:
 
 
 def main() -> None:
-    """Print a line for each tenth of the pairs."""
     over_face, count = sys.argv[1] == "face", int(sys.argv[2])
     print(f"{'pairs':>6} {'MB':>8} {'s':>8}")
     with tempfile.TemporaryDirectory() as directory:

@@ -77,7 +77,6 @@ def off(teeth: int, rim: float, on_web: bool) -> float:
 
 
 def section() -> str:
-    """Table."""
     lines = []
     for rim in RIMS:
         cells = []

@@ -39,7 +39,6 @@ VARIES = ("time_", "wall_time", "fenics_gears_version")
 
 
 def result_of(checkout: Path, scene: Path, directory: Path) -> xr.Dataset:
-    """The result of a scene file, computed by a checkout."""
     target = directory / f"{abs(hash((checkout, scene)))}.nc"
     environment = {**os.environ, "PYTHONPATH": str(checkout), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     subprocess.run(

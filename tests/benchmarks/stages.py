@@ -95,7 +95,6 @@ def answers_in_turns(checkouts: list[Path], arguments: list[str], turns: int) ->
 
 
 def main() -> None:
-    """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("other", nargs="?", type=Path)
     parser.add_argument("--turns", type=int, default=7)

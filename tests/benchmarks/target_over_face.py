@@ -44,7 +44,6 @@ def pair(number: int) -> tuple[str, Scene, float]:
 
 
 def twice_as_fine(setting: Setting) -> Setting:
-    """The setting that errors are measured against."""
     return replace(
         setting, flank=0.5 * setting.flank, spacing=0.5 * setting.spacing, body=setting.body / 1.5,
         slices=2 * setting.slices, layers=2 * setting.layers,
@@ -60,7 +59,6 @@ def coarser(setting: Setting) -> list[Setting]:
 
 
 def measured(number: int) -> dict[str, object]:
-    """A pair's line."""
     words, scene, target = pair(number)
     chosen = choose(scene, target, SilentProgress())
     scene = without_settings(scene)
@@ -98,7 +96,6 @@ def measured(number: int) -> dict[str, object]:
 
 
 def main(numbers: range) -> None:
-    """Measure pairs and write their lines beside those of other pairs."""
     lines = {}
     if FILE.exists():
         with FILE.open(encoding="utf-8", newline="") as file:

@@ -37,7 +37,6 @@ def counted_seconds(scene: Scene, setting: Setting) -> float:
 
 
 def reference(scene: Scene) -> Reference:
-    """The reference of a scene; curves at the phases of few steps."""
     gears = shared_gears(4)
 
     def run(mesh: float, steps: int) -> Answer:

@@ -57,5 +57,4 @@ def simulation(monkeypatch, tmp_path):
 
 
 def files(directory):
-    """Names of all files below a directory."""
     return sorted(str(each.relative_to(directory)) for each in Path(directory).rglob("*") if each.is_file())

@@ -75,7 +75,6 @@ def test_every_method_is_needed_by_some_step(method, problem):
 
 
 def close_nodes(nodes=40, elements=15):
-    """Frictionless contact nodes of which several stand on each element."""
     places, known = np.linspace(0.0, 1.0, nodes), np.linspace(0.0, 1.0, elements)
     hats = np.maximum(0.0, 1.0 - np.abs(places[:, None] - known) * (elements - 1))
     compliance = 1e-5 * hats @ np.exp(-8.0 * np.abs(known[:, None] - known)) @ hats.T

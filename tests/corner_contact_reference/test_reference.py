@@ -21,7 +21,6 @@ def name(row) -> str:
 
 @pytest.fixture(scope="module")
 def cycles(paper_scene, suite_cache):
-    """With sharp and with rounded tip edges, and without corner contact."""
     scene, pair = teeth_alone(paper_scene), gear_pair(paper_scene.gears)
     corners = {radius: corner_contact(pair, radius) for radius in sorted({row.case.edge_radius for row in USUAL})}
     return {

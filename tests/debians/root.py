@@ -94,6 +94,5 @@ def _run(command, log, **options) -> Call:
 
 
 def _remove(folder: Path) -> None:
-    """Remove a folder and nothing that is mounted in it."""
     if folder.exists():
         subprocess.run(["rm", "-rf", "--one-file-system", folder], check=True)

@@ -11,7 +11,6 @@ from demos.undamped_resonance.sweeps import WITH, WITHOUT, sweeps
 
 @pytest.fixture(scope="module")
 def small(tmp_path_factory):
-    """Two frequencies, over fewer cycles at a coarser step, and their picture."""
     directory = tmp_path_factory.mktemp("undamped")
     text = resonance.STUDY.read_text()
     text = re.sub(r"motion.mesh_frequency = \[[^]]*\]", 'motion.mesh_frequency = ["100 Hz", "210 Hz"]', text)

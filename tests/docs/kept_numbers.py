@@ -133,7 +133,6 @@ def growth(name: str) -> str:
 
 
 def third_dimension(name: str) -> str:
-    """The section that a comparison writes; pictures stay."""
     with patch.object(Figure, "savefig"):
         return import_module(f"tests.benchmarks.third_dimension.{name}").section()
 

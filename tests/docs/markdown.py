@@ -16,19 +16,16 @@ def table(heading: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
 
 
 def from_docstring(text: str) -> str:
-    """The first paragraph of a docstring, on one line."""
     paragraph = " ".join(text.strip().split("\n\n")[0].split())
     return re.sub(r"``(.+?)``", r"`\1`", paragraph)
 
 
 def capital(words: str) -> str:
-    """The words as a sentence, with a full stop."""
     words = words[:1].upper() + words[1:]
     return words if words.endswith(".") else words + "."
 
 
 def prose(page: str) -> str:
-    """What stands at the top of a page, written by hand."""
     text, found, _ = (ROOT / "docs" / page).read_text(encoding="utf-8").partition(WRITTEN)
     assert found, f"docs/{page} does not say who writes it"
     return text + found

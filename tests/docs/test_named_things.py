@@ -55,7 +55,6 @@ def test_the_tour_names_files_of_every_folder():
 
 
 def reading_table(heading):
-    """Cells of each row of a table of the page, by the table's first heading."""
     page = (ROOT / "docs" / "reading_the_code.md").read_text(encoding="utf-8")
     table = re.search(rf"^\| {heading} \|.*\n\|[-|]+\n((?:\|.*\n)+)", page, re.M)[1]
     return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table.splitlines()]
@@ -88,7 +87,6 @@ def sources():
 
 
 def messages():
-    """The first cells of the page's tables."""
     text = (ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8")
     return re.findall(r"^\| `([^`]+)` \|", text, re.M)
 

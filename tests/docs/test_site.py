@@ -131,7 +131,6 @@ WRONG = {
 
 @pytest.fixture(scope="module")
 def small_checkout(tmp_path_factory):
-    """The site's own files and two pages."""
     root = tmp_path_factory.mktemp("small")
     shutil.copytree(ROOT / "docs", root / "docs", ignore=shutil.ignore_patterns("_build", "pictures", "*.md"))
     (root / "docs" / "index.md").write_text("# One\n\n```{toctree}\nother\n```\n", encoding="utf-8")

@@ -13,7 +13,6 @@ from fenics_gears.scene.data import Motion
 
 @pytest.fixture(scope="module")
 def scene(paper_scene):
-    """The paper's teeth alone, coarse, with a window beyond the path of contact."""
     return replace(
         teeth_alone(paper_scene),
         friction=None,

@@ -47,7 +47,6 @@ def measured(tmp_path, text, gear="pinion", name="profile_curves", anchor=MEAN):
 
 
 def places_of(pair, gear, along, points=400):
-    """Points over the active profile, evenly spaced in roll angle (mm, deg, mm)."""
     body, start = (pair.pinion, pair.wheel)[gear], pair.sap_roll_angles[gear]
     roll = np.linspace(start, body.tip_roll_angle, points)
     return {
@@ -106,7 +105,6 @@ def test_teeth_without_a_curve_have_the_mean_of_the_measured_ones(paper_pair, tm
 
 
 def relieved(at):
-    """Tip relief, um, from 0.7 of the way on."""
     return -40.0 * max(at - 0.7, 0.0)
 
 
@@ -139,7 +137,6 @@ def test_measured_helices_are_the_deviations_they_show(paper_pair, tmp_path):
 
 
 def scene_with(tmp_path, text, more="", name="profile_curves", face=""):
-    """The checked scene of the paper's elastic teeth whose pinion has curves."""
     (tmp_path / "curves.csv").write_text(text)
     (tmp_path / "pair.toml").write_text(
         f'{text_of("tooth_elasticity")}{face}\n[flank_errors.pinion]\n{name} = "curves.csv"\n{more}\n'

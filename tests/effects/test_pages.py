@@ -82,7 +82,6 @@ print(json.dumps(found))
 
 @pytest.fixture(scope="module")
 def plain():
-    """What the bare scene gives in the package as it is."""
     text = text_of("tooth_elasticity").replace('"437 N m"', '"400 N m"')
     simulate(scene_from_text(text))
     return json.loads(run(PACKAGE.parent, "-c", PROGRAM, given=json.dumps([text])))[0]

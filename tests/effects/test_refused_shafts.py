@@ -103,7 +103,6 @@ SEATS = np.diag(np.tile([3e5, 2e5, 1e5, 1e8, 2e8, 0.0], 2))
 
 
 def written(folder, matrix):
-    """The text of a scene with a housing, whose file is written into a folder."""
     rows = "\n".join(" ".join(f"{each:.9e}" for each in row) for row in matrix)
     (folder / "housing.txt").write_text(f"# of an export\n{rows}\n".replace("e+", "D+"))
     return helical_scene(INPUT + PINION, accuracy="").text.replace(INPUT + PINION, HOUSING)

@@ -19,7 +19,6 @@ def all_kept() -> dict[str, Numbers]:
 
 
 def keep(part: Part, numbers: Numbers, parts: list[Part]) -> None:
-    """Replace the numbers of a part; the file has the order of `parts`."""
     kept = all_kept() | {part.name: numbers}
     with FILE.open("w", encoding="utf-8", newline="") as lines:
         writer = csv.writer(lines, lineterminator="\n")

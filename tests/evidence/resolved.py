@@ -51,7 +51,6 @@ def _claims() -> dict[str, Claim]:
 
 
 def measured(_: str) -> Numbers:
-    """All analyses anew, and their own page."""
     third_dimension([resolved.NAME])
     return kept()
 

@@ -50,7 +50,6 @@ def roots(_: str) -> Numbers:
 
 
 def example(_: str) -> Numbers:
-    """ISO/TR 6336-30:2017, example 1."""
     scene = load_scene(cited.CITED / "iso_tr_6336_30.toml")
     found, finish = operation(scene.gears, 9e6, 360.0, 70.0), Finish(320.0, 6.0, tolerance_class=5)
     flank = flank_stress(found, finish, LoadFactors(1.003, 1.16, 1.128, 1.0, 1.0))
@@ -66,7 +65,6 @@ def example(_: str) -> Numbers:
 
 
 def face() -> Numbers:
-    """Of the benchmarks over the face."""
     at_20 = next(row for row in read_rows("tooth_stiffness") if row["helix_angle"] == 20.0)
     off = next(row for row in read_rows("misaligned") if row["misalignment"] == 10.0)
     root = next(row for row in read_rows("root_stress") if row["helix_angle"] == 20.0)
@@ -79,7 +77,6 @@ def face() -> Numbers:
 
 
 def measured(_: str) -> Numbers:
-    """These benchmarks anew, and their own page."""
     third_dimension(["tooth_stiffness", "misaligned", "root_stress"])
     return face()
 

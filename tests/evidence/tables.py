@@ -48,7 +48,6 @@ def function() -> Numbers:
 
 
 def measured(_: str) -> Numbers:
-    """The mesh cycle anew, and its own page."""
     third_dimension([stiffness_function.NAME])
     return function()
 

@@ -18,7 +18,6 @@ FINER = {
 
 
 def main() -> None:
-    """Compute the cases and write the file after each."""
     rows = []
     for case in CASES:
         rows += computed(*case, FINER.get(case, SMALL))

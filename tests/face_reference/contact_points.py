@@ -27,7 +27,6 @@ class Position:
 
     @property
     def cosine(self) -> float:
-        """cos(beta_b)."""
         return 1.0 / np.hypot(1.0, self.slope)
 
     @property
@@ -196,7 +195,6 @@ def _mirror(points: list[PairPoints]) -> np.ndarray:
 
 
 def _loads(position: Position, points: list[PairPoints], gear: SweptGear, number: int) -> sparse.csc_matrix:
-    """Loads (unknowns, k) on a gear by pressure on the contact nodes, along n."""
     blocks = []
     normal = position.normal(number, gear.sweep.heights)
     for each in points:

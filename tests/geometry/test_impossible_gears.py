@@ -10,7 +10,6 @@ from fenics_gears.geometry.pair_checks import design_warnings
 
 
 def few_teeth(teeth, profile_shift):
-    """A standard pinion with few teeth, and the centre distance it asks for."""
     pitch = 4.5 * (teeth + 2.0 * profile_shift)
     circles = {"pinion.root_diameter": pitch - 11.25, "pinion.tip_diameter": pitch + 9.0, "pinion.bore_diameter": 3.0}
     return {

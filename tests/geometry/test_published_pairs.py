@@ -46,7 +46,6 @@ CITED = {
 
 
 def cited(name):
-    """The gears of a cited scene."""
     return load_scene(SCENES / f"{name}.toml").gears
 
 

@@ -8,7 +8,6 @@ from tests.coarse import coarse_scene
 
 @pytest.fixture(scope="session")
 def coarse(paper_scene):
-    """The paper's scene with the coarse settings."""
     return coarse_scene(paper_scene)
 
 

@@ -30,7 +30,6 @@ class Run:
 
     @property
     def friction(self) -> float:
-        """Coefficient of friction, 0 without."""
         return self.model.scene.friction.coefficient if self.model.scene.friction else 0.0
 
 
@@ -65,7 +64,6 @@ def run_of(model: Model, bodies: Bodies | None) -> Run:
 
 
 def worst_of(run: Run) -> dict[str, float]:
-    """The worst of all steps of `step_residuals`."""
     worst: dict[str, float] = {}
     # A step that was divided is judged part by part.
     passed = [part for record in run.records for part in record.parts or (record,)]

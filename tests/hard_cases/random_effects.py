@@ -131,7 +131,6 @@ def _depth(draw: Draw, pair) -> float:
 
 
 def eccentricity(draw: Draw, pair) -> str:
-    """Of either gear or both."""
     return "\n\n".join(
         f'[eccentricity.{gear}]\ndistance = "{_error(draw, pair)!r} mm"\nphase = "{draw(st.floats(-360.0, 360.0))!r}'
         ' deg"'

@@ -47,7 +47,6 @@ class Tally:
         self.worst, self.scenes, self.steps, self.failed = {}, 0, 0, 0
 
     def judge(self, scene, compliances_of):
-        """Run a scene and hold every step against the laws; returns the run."""
         model = model_of(scene)
         run = run_of(model, compliances_of(model))
         self.scenes, self.steps, self.failed = (
@@ -66,7 +65,6 @@ class Tally:
         return run
 
     def tell(self, measured, gears):
-        """A line of the table for each law."""
         for name, value in self.worst.items():
             row, words, limit, unit = LAWS[name]
             measured(f"{words}, {gears}", value, f"{limit:g} {unit}".rstrip(), unit, row=row)
@@ -82,7 +80,6 @@ def is_right(failure, scene) -> bool:
 
 
 def on_stand_ins(model):
-    """Teeth without finite elements; None for rigid ones."""
     if model.scene.tooth_elasticity is None:
         return None
     reach, coast = model.touching.reach.farthest, model.scene.coast_flanks is not None
@@ -93,7 +90,6 @@ def on_stand_ins(model):
 
 
 def on_elements(cache):
-    """The real teeth, coarse."""
     return lambda model: None if model.scene.tooth_elasticity is None else gear_bodies(model, SilentProgress(), cache)
 
 

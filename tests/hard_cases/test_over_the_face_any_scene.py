@@ -61,12 +61,10 @@ class MethodsToo(Tally):
         self.methods = Counter()
 
     def judge(self, scene, compliances_of):
-        """Also count methods."""
         run = super().judge(scene, compliances_of)
         self.methods.update(part.solution.method for record in run.records for part in record.parts or (record,))
 
     def tell(self, measured, gears):
-        """Also the methods."""
         super().tell(measured, gears)
         solved = sum(self.methods.values())
         fallbacks = (

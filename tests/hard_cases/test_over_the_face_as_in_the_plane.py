@@ -24,13 +24,11 @@ LEANING = CROWNED + misaligned(0.01)
 
 
 def ready(more):
-    """A model and its mesh cycle."""
     model = model_of(helical_scene(more, accuracy=FEW))
     return model, cycle_of(model, on_stand_in_bodies(model))
 
 
 def records(model, cycle):
-    """All steps."""
     return Marcher(cycle, model.equations_of_motion).run(model.steps, model.steps + 1).records
 
 

@@ -37,7 +37,6 @@ def of_widths(pinion, wheel, more="", **changes):
 
 
 def marched(scene, bodies=on_stand_in_bodies):
-    """A run that must neither fail nor miss the laws of rows 1 to 3."""
     model = model_of(scene)
     found = run_of(model, bodies(model))
     assert found.failure is None, str(found.failure)

@@ -22,7 +22,6 @@ def accuracy(slices=5, layers=2, body=1.5, nodes=11, steps=8):
 
 
 def bodies_of(cache):
-    """The gears' own bodies of a model, kept in a cache."""
     return lambda model: gear_bodies(model, SilentProgress(), cache)
 
 

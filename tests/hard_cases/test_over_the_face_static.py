@@ -14,7 +14,6 @@ BY_NIGHT = pytest.mark.nightly
 
 
 def run(more="", **changes):
-    """A run of a scene; it must not fail."""
     model = model_of(helical_scene(more, **{"accuracy": FEW, **changes}))
     found = run_of(model, on_stand_in_bodies(model))
     assert found.failure is None, str(found.failure)

@@ -119,7 +119,6 @@ RUNS = {
 
 
 def run_of_two_cycles(scene, name):
-    """The last two mesh cycles of one of RUNS."""
     return simulate(replace(scene, accuracy=COARSE, motion=Motion(200.0, 3, 2), **RUNS[name]))
 
 

@@ -25,7 +25,6 @@ FINE = replace(COARSE, steps_per_mesh_cycle=100)
 
 @pytest.fixture(scope="module")
 def both_flanks(paper_scene):
-    """The paper's pair with coast flanks, frictionless, at a coarse mesh."""
     return replace(frictionless(coarse_scene(paper_scene)), coast_flanks=CoastFlanks(), motion=Motion(200.0, 1, 1))
 
 

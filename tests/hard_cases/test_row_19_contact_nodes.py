@@ -39,7 +39,6 @@ def operator_of(flanks, pairs):
 
 
 def only(operator, node):
-    """The operator with one contact node left."""
     kept = slice(node, node + 1)
     return replace(
         operator,

@@ -25,7 +25,6 @@ def with_friction(scene, coefficient, absent=()):
 
 
 def marched(scene):
-    """A run with all its steps."""
     model = model_of(scene)
     return run_of(model, gear_bodies(model, SilentProgress(), user_cache()))
 
@@ -39,7 +38,6 @@ def outcome(run):
 
 
 def rungs_of(result):
-    """Steps by what solved them."""
     return {key.split(": ")[1]: int(count) for key, count in result.attrs.items() if key.startswith("steps_by_rung")}
 
 

@@ -16,7 +16,6 @@ CYCLES = 3
 
 
 def at(scene, mesh_frequency, cycles=CYCLES):
-    """All of some mesh cycles at a mesh frequency (Hz)."""
     return replace(scene, motion=Motion(mesh_frequency, cycles, cycles))
 
 

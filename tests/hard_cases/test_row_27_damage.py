@@ -23,7 +23,6 @@ from fenics_gears.elasticity.cache import Cache
 
 @pytest.fixture
 def own_cache(tmp_path):
-    """A cache with one entry."""
     made = Cache(tmp_path / "own cache")
     made.store(KEY, ARRAYS)
     return made
@@ -31,7 +30,6 @@ def own_cache(tmp_path):
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
-    """A result like that of a run, small."""
     values = {
         "transmission_error": ("time", np.sin(np.arange(40.0))),
         "own_field": (("time", "node"), np.arange(120.0).reshape(40, 3)),
@@ -130,7 +128,6 @@ def flipped(content: bytes, place: float, bit: int) -> bytes:
 
 
 def of_cache(own: Cache):
-    """What the cache's entry says, None where it is refused."""
     loaded = own.load(KEY)
     return loaded and {name: array.tobytes() for name, array in loaded.items()}
 

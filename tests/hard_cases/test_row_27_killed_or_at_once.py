@@ -202,7 +202,6 @@ def limited(folder, size, *calls):
 
 
 def run_into(directory):
-    """The call of a run without pictures."""
     return ["run", "pair.toml", "--output", directory, "--quiet", "--no-pictures"]
 
 

@@ -18,7 +18,6 @@ MEASURED = Path(__file__).parents[2] / "demos" / "flank_errors"
 
 @pytest.fixture
 def measured(tmp_path):
-    """A scene with tables."""
     shutil.copytree(MEASURED, tmp_path / "there")
     return load_scene(tmp_path / "there" / "measured.toml")
 

@@ -17,7 +17,6 @@ DEMO = tomllib.loads((DEMOS[0].parent / "lundvall2004.toml").read_text())
 
 
 def facts(scene):
-    """All of a scene but its text."""
     return {name: value for name, value in vars(scene).items() if name not in ("text", "written")}
 
 

@@ -27,7 +27,6 @@ def run(paper_scene, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def picture(run):
-    """At a quarter of a mesh cycle, (height, width, 3), 0 to 1."""
     assert main(["picture", str(run), "--at", "0.25", "--quiet"]) == 0
     return imread(run / "stress.png")[..., :3]
 

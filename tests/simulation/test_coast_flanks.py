@@ -22,7 +22,6 @@ COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, con
 
 @pytest.fixture(scope="module")
 def both_flanks(paper_scene):
-    """The paper's pair with coast flanks, frictionless, at a coarse mesh."""
     return replace(paper_scene, friction=None, coast_flanks=CoastFlanks(), accuracy=COARSE, motion=Motion(200.0, 1, 1))
 
 

@@ -44,7 +44,6 @@ def driving(paper_scene):
 
 @pytest.fixture(scope="module")
 def driven(paper_scene):
-    """The same driven from the wheel, on coast flanks."""
     scene = coarse_scene(paper_scene, cycles=1)
     scene = replace(quasi_static(scene), coast_flanks=CoastFlanks(), load=Load(-scene.load.wheel_torque))
     result = simulate(scene, cache=user_cache())

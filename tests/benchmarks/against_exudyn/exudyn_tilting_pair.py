@@ -25,7 +25,6 @@ TURN = 5  # about z, among the coordinates of a body
 
 
 def assembled(given):
-    """The system and the nodes of both gears."""
     container = exu.SystemContainer()
     system = container.AddSystem()
     base = system.AddObject(ObjectGround())

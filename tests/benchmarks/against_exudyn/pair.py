@@ -74,7 +74,6 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
 
 
 def asked(python: str, script: str, given: dict) -> dict:
-    """What a script of this folder finds in the Exudyn of a Python."""
     done = subprocess.run([python, HERE / script], input=json.dumps(given), capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"Exudyn failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}")

@@ -33,7 +33,6 @@ def body(points, cells, contact, hub, region):
 
 
 def points_on(mesh, face):
-    """The middle node of a face."""
     nodes = mesh.pts(mesh.pid_in_faces(face.reshape(2, 1)))
     ends = nodes.mean(axis=1)
     return nodes[:, np.argmin(np.linalg.norm(nodes - ends[:, None], axis=0))]
@@ -117,7 +116,6 @@ def rotation_under(turn, torque, guess):
 
 
 def main():
-    """One answer for each position."""
     given = json.load(sys.stdin)
     gf.util_trace_level(0)
     answers = []

@@ -63,7 +63,6 @@ class CrownedFlanks:
         self.operator = self.cycle.between(phase, phase).operator
 
     def pressed(self, part: float) -> Pressed:
-        """Under a part of the load."""
         operator, exact = self.operator, self.exact.under(part)
         rotation = np.abs(operator.jacobian[:, [self.cycle.coordinates.index(CENTRE_COORDINATES.index("rotation_2"))]])
         solution = pressed(operator, exact.load, rotation)
@@ -102,7 +101,6 @@ class CrownedFlanks:
 
 
 def measure() -> list[Row]:
-    """The ladders of axis ratios and of layers."""
     rows: list[Row] = []
     for ratio, layers, slices in [
         *((ratio, LAYERS, SLICES) for ratio in RATIOS),
@@ -121,7 +119,6 @@ def measure() -> list[Row]:
 
 
 def section() -> str:
-    """Table."""
     names = (*QUANTITIES, "approach")
     lines = [
         [

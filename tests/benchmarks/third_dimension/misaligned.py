@@ -48,7 +48,6 @@ def single_pair_step(result) -> int:
 
 
 def measure() -> list[Row]:
-    """The ladder of misalignments, and the line loads of each."""
     gears, rows, lines = standard_pair(WIDTH * MODULE), [], []
     pair = gear_pair(gears)
     mesh = METHOD_C * mesh_factor(pair.contact_ratio) * single_stiffness(gears)[1]
@@ -121,7 +120,6 @@ def picture(rows: list[Row], lines: list[Row]) -> Figure:
 
 
 def section() -> str:
-    """Picture and table."""
     rows = read_rows(NAME)
     picture(rows, read_rows(LINES)).savefig(PICTURES / f"{NAME}.png")
     least, width = rows[1]["misalignment"], WIDTH * MODULE

@@ -81,7 +81,6 @@ def picture(rows: list[Row]) -> Figure:
 
 
 def section() -> str:
-    """Picture and table."""
     rows = read_rows(NAME)
     picture(rows).savefig(PICTURES / f"{NAME}.png")
     spur = rows[0]["peak_to_peak"]

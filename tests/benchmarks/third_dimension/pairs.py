@@ -47,6 +47,5 @@ def scene_of(gears: GearPairData, accuracy: Accuracy, line_load: float = LINE_LO
 
 
 def in_plane(scene: Scene) -> Scene:
-    """The same pair by the plane route."""
     accuracy = replace(scene.accuracy, slices=None, layers=None, body_element_size=None)
     return replace(scene, misalignment=None, lead_modifications=None, accuracy=accuracy)

@@ -95,7 +95,6 @@ def _shares(rows: list[Row]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
 
 @styled
 def picture(rows: list[Row]) -> Figure:
-    """Stiffness over its mean, over the mesh phase."""
     figure = Figure(figsize=(9.0, 4.8), layout="constrained")
     axes = figure.subplots()
     phases, shares = _shares(rows)
@@ -111,7 +110,6 @@ def picture(rows: list[Row]) -> Figure:
 
 
 def section() -> str:
-    """Picture and table."""
     rows = read_rows(NAME)
     picture(rows).savefig(PICTURES / f"{NAME}.png")
     _, shares = _shares(rows)

@@ -17,7 +17,6 @@ LAYER_THICKNESS, SECTION_SIZE, SLICE_WIDTH = 1.5, 0.6, 0.4
 
 
 def measure() -> list[Row]:
-    """The ladder of helix angles."""
     rows = []
     for degrees in HELIX_ANGLES:
         gears = standard_pair(WIDTH * MODULE, radians(degrees), bore=BORE)
@@ -43,7 +42,6 @@ def measure() -> list[Row]:
 
 @styled
 def picture(rows: list[Row]) -> Figure:
-    """Mesh stiffness over the helix angle between the standard's two values."""
     figure = Figure(figsize=(9.0, 4.8), layout="constrained")
     axes, angles = figure.subplots(), [row["helix_angle"] for row in rows]
     mesh, theoretical = ([row[name] for row in rows] for name in ("standard_mesh", "theoretical_mesh"))
@@ -62,7 +60,6 @@ def picture(rows: list[Row]) -> Figure:
 
 
 def section() -> str:
-    """Picture and table."""
     rows = read_rows(NAME)
     picture(rows).savefig(PICTURES / f"{NAME}.png")
     lines = [

@@ -28,7 +28,6 @@ def run(values, time, phase=None, **attributes):
 
 
 def steady(*tones, cycles=3, steps=300):
-    """Tones (frequency, amplitude) on a mean of 5000 N."""
     time = np.arange(cycles * steps + 1) / (steps * MESH)
     return run(
         5000.0 + sum(amplitude * np.cos(2.0 * np.pi * frequency * time + 0.3) for frequency, amplitude in tones), time

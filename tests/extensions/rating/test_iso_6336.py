@@ -29,7 +29,6 @@ def operation(data, pinion_torque, speed, tip_relief=0.0):
 
 @pytest.fixture
 def example():
-    """ISO/TR 6336-30:2017, example 1."""
     return operation(cited("iso_tr_6336_30"), 9e6, 360.0, 70.0)
 
 

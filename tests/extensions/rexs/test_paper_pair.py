@@ -13,7 +13,6 @@ from fenics_gears.extensions.rexs.imported import Choice, imported_scene
 
 
 def imported(tmp_path, content, name="file.rexs", choice=Choice()):
-    """The scene of a file's content, and what was assumed and left out."""
     path = tmp_path / name
     path.write_bytes(content)
     found = imported_scene(path, choice)

@@ -62,7 +62,6 @@ class Browser:
         os.close(self._answers)
 
     def open(self, file, width, height):
-        """Show a page and wait until its library is unpacked."""
         self._call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
         self._call("Page.navigate", url=file.as_uri())
         self.wait(
@@ -71,7 +70,6 @@ class Browser:
         )
 
     def value(self, expression):
-        """The value of a JavaScript expression, or of its promise."""
         found = self._call("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)
         assert "exceptionDetails" not in found, found["exceptionDetails"]
         return found["result"].get("value")

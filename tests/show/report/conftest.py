@@ -14,7 +14,6 @@ DRAWN = "Normal force of the mesh"
 
 @pytest.fixture(scope="session")
 def made(tmp_path_factory):
-    """Runs a scene's text and returns the run's directory."""
 
     def make(text, name):
         directory = tmp_path_factory.mktemp(name)
@@ -47,7 +46,6 @@ def report(run, request):
 
 @pytest.fixture
 def without_stills(monkeypatch):
-    """Charts have an empty image, which takes less time."""
     monkeypatch.setattr(rendering, "still", lambda chart: b"<svg/>")
 
 
