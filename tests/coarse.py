@@ -13,9 +13,9 @@ def coarse_scene(paper_scene, cycles: int = 2):
     return replace(paper_scene, accuracy=COARSE, motion=Motion(200.0, cycles, 1))
 
 
-def quasi_static(scene):
+def quasi_static(scene, **changes):
     """Without inertia."""
-    return replace(scene, inertia=None, damping=None)
+    return replace(scene, inertia=None, damping=None, **changes)
 
 
 def frictionless(scene):
@@ -24,7 +24,7 @@ def frictionless(scene):
 
 def teeth_alone(scene):
     """On rigid shafts and bearings, without inertia."""
-    return replace(quasi_static(scene), shafts=None, bearings=None)
+    return quasi_static(scene, shafts=None, bearings=None)
 
 
 def rigid_pair(scene):

@@ -30,8 +30,3 @@ def pressed(recovery, pressure) -> np.ndarray:
         traction = -pressure(at)[:, None] * canonical_normal(roll_angle_at_arc_length(recovery.gear.base_radius, at))
         forces[first : first + order + 1] += 0.5 * (high - low) * (shapes * WEIGHTS) @ traction
     return forces.ravel()
-
-
-def stress_across(stress: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """Normal component (n,) of stress (n, 3, 3) in directions (n, 2)."""
-    return np.einsum("ni,nij,nj->n", direction, stress[:, :2, :2], direction)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.coarse import COARSE
 
 from fenics_gears import simulate
 from fenics_gears.effects.corner_contact import CornerContact
@@ -12,10 +13,8 @@ from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.results.pressure_limits import yielding
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.scene.data import Accuracy, Material, Motion
+from fenics_gears.scene.data import Material, Motion
 from fenics_gears.system.progress import SilentProgress
-
-COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
 
 
 @pytest.fixture(scope="module")

@@ -5,6 +5,7 @@ from math import radians
 
 import numpy as np
 import pytest
+from tests.coarse import COARSE, quasi_static
 
 from fenics_gears import simulate
 from fenics_gears.contact.tooth_pair import coast_place, drive_place
@@ -15,18 +16,12 @@ from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.involute import canonical_point
 from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.scene.data import Accuracy, Motion
-
-COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
+from fenics_gears.scene.data import Motion
 
 
 @pytest.fixture(scope="module")
 def both_flanks(paper_scene):
     return replace(paper_scene, friction=None, coast_flanks=CoastFlanks(), accuracy=COARSE, motion=Motion(200.0, 1, 1))
-
-
-def quasi_static(scene, **changes):
-    return replace(scene, inertia=None, damping=None, **changes)
 
 
 @pytest.mark.parametrize("part", [0.1, 0.5, 0.9])

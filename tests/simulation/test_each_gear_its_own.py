@@ -13,7 +13,7 @@ from fenics_gears.model.description import too_stiff
 from fenics_gears.scene.data import Material
 from fenics_gears.simulation.elastic_route import flanks_of
 
-STEEL, BRONZE = Material(206e3, 0.3), Material(103e3, 0.35)
+STEEL = Material(206e3, 0.3)
 
 
 def of_gears(scene, pinion=None, wheel=None, **shared):

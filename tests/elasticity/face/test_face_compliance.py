@@ -25,7 +25,6 @@ from fenics_gears.elasticity.ring import turned_nodes
 from fenics_gears.geometry.outline import centreline_angle
 
 BOTH = Reach(1, (-1, 1))
-COARSEST = FaceDiscretisation(9.0, 1, 3.0, 0.006)
 # Wider than its mate, so that layers are of two thicknesses.
 TWISTED_PINION = FaceDiscretisation(
     2.7, 3, 15.0, tan(radians(15.0)) / PINION.reference_radius, overhang=4.0, overhang_layers=1
