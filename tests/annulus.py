@@ -1,4 +1,4 @@
-"""A thick ring, condensed onto its two circles, and Lame's exact solution for it."""
+"""A thick ring, condensed onto its two circles, and Lame's exact solution."""
 
 from math import pi
 
@@ -14,7 +14,6 @@ TOLERANCE = {"P1": 0.065**2, "Q1": 0.065**2, "Q1 incompatible": 0.065**2, "P2": 
 
 
 def annulus(corners: int, across: int = 12, around: int = 96) -> BodyMesh:
-    """Annulus of straight-sided cells, "hub" inside and "rim" outside."""
     radius, angle = np.meshgrid(
         np.geomspace(BORE, OUTER, across + 1), 2 * pi * np.arange(around) / around, indexing="ij"
     )
@@ -36,19 +35,15 @@ def condensed_annulus(name: str, poissons_ratio: float):
 
 
 def forces(body, field):
-    """Forces (n, 2) on the rim's nodes when both boundaries follow a displacement field of points (n, 2)."""
+    """(n, 2) on the rim's nodes when both boundaries follow a displacement field of points (n, 2)."""
     displacement = np.concatenate([field(body.points[part]).ravel() for part in ("rim", "hub")])
     return (body.stiffness @ displacement)[body.dofs("rim")].reshape(-1, 2)
 
 
 def error_under_pressure(name: str, poissons_ratio: float) -> float:
-    """Relative error of the rim's forces when nothing moves at the bore and the rim grows: u_r = A r + B/r, Lame's
-    solution.
-
-    In plane strain sigma_r = 2 (lambda + G) A - 2 G B/r^2. Virtual work of the rim's forces in a unit of growth u = x:
-    2 pi r^2 sigma_r on the circle, less (divergence theorem) the uniform sigma_x + sigma_y = 4 (lambda + G) A times
-    what the mesh's polygon cuts off.
-    """
+    """Relative error of the rim's forces when the rim grows by u_r = A r + B/r. sigma_r = 2 (lambda + G) A - 2 G
+    B/r^2; work in a unit of growth u = x: 2 pi r^2 sigma_r, less 4 (lambda + G) A times what the mesh's polygon cuts
+    off."""
     shear_modulus = 1.0 / (2.0 * (1.0 + poissons_ratio))
     first_lame = poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))
     a, b = 1e-3, -1e-3 * BORE**2  # nothing moves at the bore

@@ -1,6 +1,5 @@
-"""Two-node Timoshenko elements of a textbook, as an authority for shafts: J. S. Przemieniecki, Theory of Matrix
-Structural Analysis (1968), section 5.6. Nothing is shared with the program but the shear coefficient, which is checked
-by itself."""
+"""Two-node Timoshenko elements: J. S. Przemieniecki, Theory of Matrix Structural Analysis (1968), 5.6. Only the
+shear coefficient is the program's, which is checked by itself."""
 
 import numpy as np
 
@@ -8,7 +7,7 @@ FIVE = 5
 
 
 def element(length, modulus, ratio, outer, bore, shear):
-    """Stiffness (10, 10) over x, y, z, tilt x and tilt y of both ends of a cylinder."""
+    """Stiffness (10, 10) over x, y, z, tilt x, tilt y of both ends of a cylinder."""
     area, second = np.pi * (outer**2 - bore**2) / 4.0, np.pi * (outer**4 - bore**4) / 64.0
     phi = 12.0 * modulus * second / (shear * modulus / (2.0 * (1.0 + ratio)) * area * length**2)
     own, other, cross = (4.0 + phi) * length**2, (2.0 - phi) * length**2, 6.0 * length
@@ -26,9 +25,8 @@ def element(length, modulus, ratio, outer, bore, shear):
 
 
 def assembled(shaft, shear, more=(), seat_stiffness=1.0):
-    """Places along an elastic shaft of cylinders, also `more` of them, and its stiffness (5 p, 5 p) there by elements,
-    bearings with it; `shear`: coefficient of a section by its outer and inner diameter; `seat_stiffness`: of what the
-    gear sits on, against the shaft."""
+    """Places along an elastic shaft of cylinders, also `more`, and its stiffness (5 p, 5 p), bearings with it;
+    `shear`: coefficient by outer and inner diameter; `seat_stiffness`: of what the gear sits on."""
     ends = np.cumsum([0.0, *(each.length for each in shaft.sections)])
     seat = shaft.gear_at - 0.5 * shaft.seat, shaft.gear_at + 0.5 * shaft.seat
     places = sorted({*ends, *seat, shaft.gear_at, *more, *(each.at for each in shaft.bearings)})
@@ -48,7 +46,7 @@ def assembled(shaft, shear, more=(), seat_stiffness=1.0):
 
 
 def condensed(shaft, shear, seat_stiffness=1.0):
-    """Stiffness (5, 5) at the middle of the gear, by a Schur complement of what `assembled` gives."""
+    """Stiffness (5, 5) at the middle of the gear."""
     places, stiffness = assembled(shaft, shear, (), seat_stiffness)
     kept = np.arange(FIVE) + FIVE * places.index(shaft.gear_at)
     others = np.setdiff1d(np.arange(len(stiffness)), kept)

@@ -1,5 +1,4 @@
-"""The paper's pair on a coarse mesh, for tests of what does not depend on the mesh; each run takes a fraction of a
-second."""
+"""The paper's pair on a coarse mesh; each run takes a fraction of a second."""
 
 from dataclasses import replace
 
@@ -10,25 +9,24 @@ COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, con
 
 
 def coarse_scene(paper_scene, cycles: int = 2):
-    """The paper's scene with the coarse settings, the last of `cycles` mesh cycles kept."""
+    """The last of `cycles` mesh cycles kept."""
     return replace(paper_scene, accuracy=COARSE, motion=Motion(200.0, cycles, 1))
 
 
-def quasi_static(scene):
-    """The same without inertia."""
-    return replace(scene, inertia=None, damping=None)
+def quasi_static(scene, **changes):
+    """Without inertia."""
+    return replace(scene, inertia=None, damping=None, **changes)
 
 
 def frictionless(scene):
-    """The same without friction."""
     return replace(scene, friction=None)
 
 
 def teeth_alone(scene):
-    """The same on rigid shafts and bearings, without inertia: only the teeth give way."""
-    return replace(quasi_static(scene), shafts=None, bearings=None)
+    """On rigid shafts and bearings, without inertia."""
+    return quasi_static(scene, shafts=None, bearings=None)
 
 
 def rigid_pair(scene):
-    """The pair with rigid flanks on rigid shafts and bearings, quasi-static."""
+    """Rigid flanks on rigid shafts and bearings, quasi-static."""
     return without(scene, "tooth_elasticity", "friction", "inertia", "damping", "shafts", "bearings")

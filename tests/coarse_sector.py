@@ -1,4 +1,4 @@
-"""The gear and its coarse sector meshes that tests of elasticity share, small enough for dense brute force."""
+"""The gear and its coarse sector meshes that tests of elasticity share."""
 
 from functools import lru_cache
 from math import radians
@@ -20,16 +20,13 @@ COARSE = ElementSizes(flank=0.8, fillet=0.4, coast=1.0, body=3.0)
 
 @lru_cache
 def coarse_sector_mesh(name: str):
-    """Coarse sector mesh of the pinion for an element's name."""
     return sector_mesh(PINION, COARSE, ELEMENTS[name].quadrilateral)
 
 
 @lru_cache
 def coarse_condensed_sector(name: str, poissons_ratio: float = 0.3):
-    """The same, condensed."""
     return condensed_sector(coarse_sector_mesh(name), ELEMENTS[name], poissons_ratio)
 
 
 def relative(difference, reference) -> float:
-    """Largest entry of a difference over the largest of what it is compared with."""
     return float(np.abs(difference).max() / np.abs(reference).max())

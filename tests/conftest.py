@@ -1,4 +1,4 @@
-"""What tests of several folders share: the paper's pair, with and without finite elements."""
+"""What tests of several folders share."""
 
 import os
 import shutil
@@ -45,7 +45,6 @@ DEMOS = Path(__file__).parents[1] / "demos"
 
 
 def pytest_configure(config):
-    """New examples by night."""
     if config.option.markexpr == NIGHT:
         settings.load_profile("explore")
 
@@ -60,15 +59,13 @@ def pytest_collection_modifyitems(config, items):
 
 
 def pytest_unconfigure():
-    """The suite's own cache goes with it."""
     if not IS_WORKER:
         shutil.rmtree(SUITE_CACHE, ignore_errors=True)
 
 
 @pytest.fixture(scope="session", autouse=True)
 def one_thread():
-    """BLAS with one thread: on the tests' small matrices several wait for one another, and much longer where other work
-    shares the cores."""
+    """On small matrices several threads of BLAS wait for one another."""
     with threadpool_limits(limits=1):
         yield
 
@@ -81,19 +78,17 @@ def suite_cache():
 
 @pytest.fixture(scope="session")
 def paper_scene():
-    """The paper's scene: 200 Hz, friction, all sections but tip relief."""
+    """200 Hz, friction, all sections but tip relief."""
     return load_scene(DEMOS / "lundvall2004.toml")
 
 
 @pytest.fixture(scope="session")
 def quasi_static_scene(paper_scene):
-    """The paper's scene without inertia, one mesh cycle."""
     return replace(paper_scene, inertia=None, damping=None, motion=Motion(200.0, 1, 1))
 
 
 @pytest.fixture(scope="session")
 def paper_pair(paper_scene):
-    """The paper's gear pair."""
     return gear_pair(paper_scene.gears)
 
 

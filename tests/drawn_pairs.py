@@ -1,8 +1,5 @@
-"""Pairs that books print in full, as scenes that say what their drawings say, with every figure that the book gives
-beside it.
-
-``python -m tests.drawn_pairs`` prints the tables of docs/evidence/geometry.md.
-"""
+"""Pairs that books print in full, as scenes, with every figure of the book. ``python -m tests.drawn_pairs`` prints
+the tables of docs/evidence/geometry.md."""
 
 from dataclasses import dataclass
 from math import cos, radians
@@ -13,8 +10,7 @@ from fenics_gears.geometry.characteristics import characteristics
 
 @dataclass(frozen=True)
 class DrawnPair:
-    """A published pair: its source, the sections of its scene, and the figures as printed, by what `gears check` calls
-    them."""
+    """Its source, the sections of its scene, and the figures as printed, by what `gears check` calls them."""
 
     source: str
     gears: dict
@@ -22,7 +18,6 @@ class DrawnPair:
 
     @property
     def scene(self) -> Scene:
-        """The scene, with a load that no figure depends on."""
         return build_scene({"gears": self.gears | {"face_width": "20 mm"}, "load": {"wheel_torque": "1 N m"}})
 
 
@@ -109,7 +104,6 @@ PAIRS = {
 
 
 def figures(pair: DrawnPair) -> dict[str, float]:
-    """All that `gears check` says of the gears, by name."""
     scene = pair.scene
     found = {name: value for name, value, _ in characteristics(gear_pair(scene.gears))}
     found |= {each.name: each.value for each in scene.derived}
@@ -121,7 +115,7 @@ def figures(pair: DrawnPair) -> dict[str, float]:
 
 
 def table(pair: DrawnPair) -> list[str]:
-    """Rows of figure, book and program, the program's with as many digits as the book has."""
+    """Figure, book and program, with as many digits as the book has."""
     found, rows = figures(pair), []
     for name, printed in pair.printed.items():
         rows.append(f"| {name} | {printed} | {found[name]:.{len(printed.partition('.')[2])}f} |")

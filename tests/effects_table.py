@@ -1,4 +1,4 @@
-"""Write the documentation's table of effects from the list: `python -m tests.effects_table`. Writes docs/effects.md."""
+"""Write docs/effects.md: `python -m tests.effects_table`."""
 
 from pathlib import Path
 
@@ -12,7 +12,6 @@ PAGE = Path(__file__).parents[1] / "docs" / "effects.md"
 
 
 def page() -> str:
-    """The whole page."""
     lines = [
         prose("effects.md"),
         "| section | effect | without it | adds | needs | excludes |",

@@ -1,5 +1,4 @@
-"""Gears that do not roll: the contact equations stand still, and what the march does to energy and order can be seen
-alone."""
+"""Gears that do not roll: the contact equations stand still."""
 
 from dataclasses import replace
 
@@ -18,7 +17,7 @@ GRID = ContactGrid(length=1.5, nodes=20)
 
 
 class Frozen:
-    """The same position of a cycle at every step; nothing slides."""
+    """The same position of a cycle at every step."""
 
     face, alike = None, True
 
@@ -43,30 +42,27 @@ class Frozen:
         )
 
     def beside(self, kind):
-        """Nothing is known of other runs."""
         return kind()
 
     def position(self, step):
-        """The one position."""
         return self._position
 
 
 def frozen_marcher(scene, pair, flanks, step, phase_step=60):
-    """A marcher with time step `step` (s) at one position of 100 in the mesh cycle, and its drivetrain."""
+    """With time step `step` (s) at one position of 100 in the mesh cycle, and its drivetrain."""
     shafts = drivetrain(scene, pair)
     cycle = Cycle(elastic_mesh(flanks, GRID), 100, shafts.indices, tangential=scene.friction is not None)
     return frozen_at(cycle, scene, shafts, step, phase_step), shafts
 
 
 def frozen_at(cycle, scene, shafts, step, phase_step):
-    """A marcher with time step `step` (s) at one position of a cycle."""
+    """With time step `step` (s) at one position of a cycle."""
     friction = 0.0 if scene.friction is None else scene.friction.coefficient
     return Marcher(Frozen(cycle, phase_step), EquationsOfMotion(shafts, step, friction))
 
 
 def pushed(marcher, shafts, **speeds):
-    """The start, with speeds (mm/s) of some coordinates and the accelerations that the equations of motion then ask
-    for."""
+    """The start, with speeds (mm/s) of some coordinates and the accelerations of the equations of motion."""
     rest = marcher.start()
     velocity = np.array([speeds.get(name, 0.0) for name in shafts.coordinates])
     acceleration = (

@@ -1,5 +1,4 @@
-"""Helical pairs for tests: scenes of any proportions, on bodies without finite elements unless a test asks for real
-ones."""
+"""Helical pairs of any proportions, on bodies without finite elements unless a test asks for real ones."""
 
 from math import cos, radians
 
@@ -40,8 +39,8 @@ def helical_scene(
     backlash: float = 0.1,
     module: float = MODULE,
 ) -> Scene:
-    """A pair of standard proportions with a little backlash: helix (deg), width, backlash and axial offset of the wheel
-    (mm), torque on the wheel (N mm)."""
+    """Standard proportions with a little backlash: helix (deg), width, backlash and axial offset of the wheel (mm),
+    torque (N mm)."""
     # As NumPy 2 does not write them.
     offset, width, torque = float(offset), float(width), float(torque)
     stretch = 1.0 / cos(radians(helix))
@@ -66,12 +65,12 @@ def helical_scene(
 
 
 def wide_pair(more: str = "") -> Scene:
-    """A pair 30 mm wide under 300 N m, whose accuracy is the program's own or in the sections `more`."""
+    """30 mm wide under 300 N m; accuracy is the program's own or in the sections `more`."""
     return helical_scene(more, width=30.0, torque=300e3, accuracy="")
 
 
 def on_stand_in_bodies(model: Model, reach: float | None = 0.2) -> Bodies:
-    """Bodies without finite elements of a scene's gears, of both flanks where it has coast flanks."""
+    """Of both flanks where the scene has coast flanks."""
     offsets, coast = model.touching.reach.farthest, model.scene.coast_flanks is not None
     gears = (model.pair.pinion, model.pair.wheel)
     pinion, wheel = (

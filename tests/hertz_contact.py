@@ -1,10 +1,6 @@
-"""A pair of involute flanks pressed together at the pitch point, and Hertz's line contact that it must come to.
-
-Johnson, Contact Mechanics, 1985, sections 4.2 (c) and 5.6. In the plane the approach of two bodies has no value of its
-own: it goes with the logarithm of how far off the point is that is held. What the bodies' shape makes of it is
-proportional to the load, though, so that the approach per line load of two loads F1 > F2 on the same flanks differs by
-ln(F1/F2)/(pi E*), whatever the bodies.
-"""
+"""Involute flanks pressed together at the pitch point, and Hertz's line contact (Johnson, Contact Mechanics, 1985,
+4.2 (c), 5.6). What the bodies' shape adds to the approach is proportional to the load, so that the approach per line
+load of two loads F1 > F2 differs by ln(F1/F2)/(pi E*), whatever the bodies."""
 
 from dataclasses import dataclass, replace
 
@@ -35,8 +31,7 @@ QUANTITIES = ("peak pressure", "half-width", "approach")
 
 @dataclass(frozen=True)
 class Pressed:
-    """A solution: approach (mm) along the line of action; offsets (n,), mm, and pressures (n,), MPa, of the pair's
-    nodes."""
+    """Approach (mm) along the line of action; offsets (n,), mm, and pressures (n,), MPa."""
 
     approach: float
     offsets: np.ndarray
@@ -44,20 +39,18 @@ class Pressed:
 
     @property
     def peak(self) -> float:
-        """Largest pressure, of five nodes together as the program tells it."""
+        """Of five nodes together, as the program tells it."""
         return float(without_oscillation(self.pressure).max())
 
     @property
     def half_width(self) -> float:
-        """From the second moment of the pressure: of an ellipse b^2/4, to which the nodes' own functions add
-        nothing."""
+        """From the second moment: of an ellipse b^2/4."""
         centre = self.pressure @ self.offsets / self.pressure.sum()
         return 2.0 * float(np.sqrt(self.pressure @ (self.offsets - centre) ** 2 / self.pressure.sum()))
 
 
 class HertzContact:
-    """The flanks of a scene at the pitch point, without friction; `compliance` is made for flank elements of any size
-    (mm)."""
+    """The flanks of a scene at the pitch point, without friction."""
 
     def __init__(self, scene: Scene):
         self.scene = replace(scene, friction=None)
@@ -73,12 +66,10 @@ class HertzContact:
         return hertz_half_width(line_load, self.radius, self.modulus)
 
     def model(self, flank_element_size: float, element: str = "P2") -> Model:
-        """The model with flank elements of a size (mm)."""
         accuracy = replace(self.scene.accuracy, element=element, flank_element_size=flank_element_size)
         return model_of(replace(self.scene, accuracy=accuracy))
 
     def compliances(self, flank_element_size: float, element: str = "P2", cache=None):
-        """Both gears' flank compliance."""
         model = self.model(flank_element_size, element)
         return tuple(
             flank_compliance(gear, material, model.resolution.discretisation(number), Reach(2), cache)
@@ -88,8 +79,7 @@ class HertzContact:
         )
 
     def pressed(self, compliances, spacing: float, line_load: float) -> Pressed:
-        """Solve one position under a line load (N/mm) with contact nodes `spacing` (mm) apart, one of them on the line
-        of action."""
+        """Under a line load (N/mm), contact nodes `spacing` (mm) apart, one of them on the line of action."""
         cells = 2 * int(np.ceil(0.5 * WINDOW * self.half_width(self.line_load) / spacing))
         flanks = Flanks(self.pair, compliances, (None, None))
         cycle = Cycle(
@@ -108,7 +98,7 @@ class HertzContact:
         return Pressed(float(solution.coordinates[0]), tooth_pair.offsets, pressure)
 
     def errors(self, compliances, spacing: float) -> dict[str, float]:
-        """Relative errors of the scene's load, and of the approach between it and the smaller one."""
+        """Of the scene's load, and of the approach between it and the smaller one."""
         large, small = (self.line_load, SMALLER * self.line_load)
         one, other = (self.pressed(compliances, spacing, load) for load in (large, small))
         width = self.half_width(large)
@@ -120,12 +110,8 @@ class HertzContact:
         }
 
     def flank_error(self, gear: Gear, compliance: FlankCompliance) -> float:
-        """Relative error of the flank's elements alone, without any contact: a flank under Hertz's own pressure at the
-        pitch point.
-
-        Its displacement, averaged over the pressure and per line load, differs by 2 (1 - nu^2)/(pi E) ln(b1/b2) between
-        two half-widths.
-        """
+        """Of the flank's elements alone, under Hertz's own pressure: the mean displacement per line load differs by
+        2 (1 - nu^2)/(pi E) ln(b1/b2) between two half-widths."""
         large, small = (self.half_width(load) for load in (self.line_load, SMALLER * self.line_load))
         given = [
             force @ compliance.blocks[0] @ force
@@ -134,8 +120,7 @@ class HertzContact:
         return float((given[1] - given[0]) * np.pi * self.modulus / np.log(large / small)) - 1.0
 
     def _elliptic(self, gear: Gear, compliance: FlankCompliance, width: float) -> np.ndarray:
-        """Consistent forces (2 f,) on flank nodes of an elliptic pressure of 1 N/mm in all along the flank, at the
-        pitch point."""
+        """Consistent forces (2 f,) on flank nodes of an elliptic pressure of 1 N/mm at the pitch point."""
         order, arcs = compliance.element_order, arc_length(gear.base_radius, compliance.roll_angle)
         roll = {id(self.pair.pinion): self.pair.pinion_roll_angle, id(self.pair.wheel): self.pair.wheel_roll_angle}[
             id(gear)

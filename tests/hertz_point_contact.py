@@ -1,4 +1,4 @@
-"""Hertz's elliptic point contact: Johnson, Contact Mechanics, 1985, section 4.2 (b), equations 4.25 to 4.28."""
+"""Hertz's elliptic point contact: Johnson, Contact Mechanics, 1985, 4.2 (b), equations 4.25 to 4.28."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from scipy.special import ellipe, ellipk
 
 @dataclass(frozen=True)
 class PointContact:
-    """An ellipse of half-axes long_axis > short_axis (mm) between surfaces of a relative radius (mm) across its long
-    axis; modulus: E*, MPa."""
+    """Half-axes long_axis > short_axis (mm), relative radius (mm) across the long axis; modulus: E*, MPa."""
 
     long_axis: float
     short_axis: float
@@ -20,7 +19,6 @@ class PointContact:
 
     @property
     def _integrals(self) -> tuple[float, float, float]:
-        """K, E and the square of the eccentricity."""
         square = 1.0 - (self.short_axis / self.long_axis) ** 2
         return float(ellipk(square)), float(ellipe(square)), square
 
@@ -49,7 +47,7 @@ class PointContact:
         return self.peak_pressure * self.short_axis * self._integrals[0] / self.modulus
 
     def under(self, part: float) -> PointContact:
-        """Of the same surfaces under a part of the load: both axes go with its cube root."""
+        """Under a part of the load both axes go with its cube root."""
         return PointContact(
             part ** (1 / 3) * self.long_axis, part ** (1 / 3) * self.short_axis, self.radius, self.modulus
         )

@@ -1,4 +1,4 @@
-"""A manufactured solution of plane strain on a distorted square, and how far an element is from it."""
+"""A manufactured solution of plane strain on a distorted square."""
 
 import numpy as np
 import ufl
@@ -12,7 +12,7 @@ from fenics_gears.elasticity.stiffness import displacement_space, stiffness_matr
 
 
 def distorted_square(cells: int, corners: int) -> BodyMesh:
-    """Unit square of cells x cells quadrilaterals or twice as many triangles, smoothly distorted inside."""
+    """cells x cells quadrilaterals or twice as many triangles."""
     x, y = np.meshgrid(*2 * [np.linspace(0.0, 1.0, cells + 1)], indexing="ij")
     bump = 0.05 * np.sin(np.pi * x) * np.sin(np.pi * y)
     points = np.stack([(x + bump).ravel(), (y - bump).ravel()], axis=-1)
@@ -25,7 +25,6 @@ def distorted_square(cells: int, corners: int) -> BodyMesh:
 
 
 def exact_displacement(x, module):
-    """Smooth field that no element holds exactly."""
     return (
         module.sin(2.0 * x[0]) * module.cos(1.5 * x[1]) + x[0] * x[1],
         module.exp(0.8 * x[0]) * module.sin(1.7 * x[1]),
@@ -33,7 +32,7 @@ def exact_displacement(x, module):
 
 
 def l2_error(name: str, cells: int, poissons_ratio: float) -> float:
-    """Error of the displacement, exact values held on the boundary, the exact field's own body force inside."""
+    """Error of the displacement, exact values on the boundary, the exact field's own body force inside."""
     element = ELEMENTS[name]
     space = displacement_space(distorted_square(cells, element.corners), element)
     matrix = stiffness_matrix(space, element, poissons_ratio)

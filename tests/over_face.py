@@ -1,4 +1,4 @@
-"""A short, coarse run over the face that pictures and results are tested on; it takes seconds."""
+"""A short, coarse run over the face; it takes seconds."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -25,13 +25,12 @@ steps_per_mesh_cycle = 12
 
 @lru_cache
 def helical_run():
-    """One mesh cycle of a misaligned helical pair."""
     return simulate(wide_pair(MORE))
 
 
 @lru_cache
 def root_stress_run(coast: bool):
-    """That pair's scene and result with root stress: with friction, or driven from the wheel on its coast flanks."""
+    """With friction, or driven from the wheel on its coast flanks."""
     scene = replace(
         wide_pair(("" if coast else "[friction]\ncoefficient = 0.08\n") + MORE), output=Output(root_stress=True)
     )

@@ -1,4 +1,4 @@
-"""A mesh cycle whose every step is solved with contact nodes and centre coordinates in another order."""
+"""A mesh cycle whose unknowns are in another order at every step."""
 
 from dataclasses import replace
 
@@ -11,8 +11,6 @@ from fenics_gears.system.progress import SilentProgress
 
 
 def solved_in_other_order(scene, seed: int):
-    """The scene's result with `in_other_order`."""
-
     def preparation(model, progress, cache):
         gears, cycle = prepared(model, SilentProgress(), cache)
         return gears, in_other_order(cycle, seed)
@@ -21,7 +19,7 @@ def solved_in_other_order(scene, seed: int):
 
 
 def in_other_order(cycle, seed: int):
-    """The cycle, with all unknowns of every step shuffled before the solver sees them, and its answer put back."""
+    """All unknowns of every step shuffled before the solver sees them, and its answer put back."""
     plain, random = cycle.solve, np.random.default_rng(seed)
 
     def solve(position, problem, status, last):
@@ -52,6 +50,6 @@ def in_other_order(cycle, seed: int):
 
 
 def solved_by(cycle, solve):
-    """The cycle with every step solved by `solve`, none of them within compiled code."""
+    """Every step solved by `solve`, none within compiled code."""
     cycle.solve, cycle.traits = solve, replace(cycle.traits, own_solver=True)
     return cycle

@@ -1,10 +1,6 @@
-"""Numbers of a few small runs and of a condensed body, which stand in `pinned_numbers.json` beside the version that
-they are of.
-
-``python -m tests.pinned_numbers`` writes them anew, after a change of numbers that is meant and has raised
-`NUMBERS_VERSION`. Teeth have no finite elements, and the body's mesh is made here: gmsh meshes differ from version to
-version of gmsh.
-"""
+"""Numbers of small runs and of a condensed body, in `pinned_numbers.json` beside their version. ``python -m
+tests.pinned_numbers`` writes them anew, after a change that has raised `NUMBERS_VERSION`. No gmsh, whose meshes
+differ by version."""
 
 import json
 from dataclasses import replace
@@ -34,7 +30,6 @@ SECTORS = 8
 
 
 def pinned() -> dict:
-    """The version, and the numbers by name."""
     scene = coarse_scene(load_scene(DEMO), cycles=1)
     runs = {
         "quasi-static": simulate(frictionless(quasi_static(scene)), preparation=in_the_plane),
@@ -47,7 +42,7 @@ def pinned() -> dict:
 
 
 def _numbers(run) -> dict[str, float]:
-    """Means over the steps of all that has a step, which is most of a result."""
+    """Means over the steps."""
     curves = {
         name: float(np.abs(run[name].values).mean())
         for name in (
@@ -63,19 +58,17 @@ def _numbers(run) -> dict[str, float]:
 
 
 def in_the_plane(model, progress, cache):
-    """Contact equations on teeth without finite elements."""
     coast = model.scene.coast_flanks is not None
     gears = tuple(Body(stand_in_compliance(gear, coast_flank=coast)) for gear in (model.pair.pinion, model.pair.wheel))
     return (), mesh_cycle(model, gears)
 
 
 def over_the_face(model, progress, cache):
-    """The same on bodies over the face."""
     return (), mesh_cycle(model, on_stand_in_bodies(model))
 
 
 def _of_a_body() -> dict[str, float]:
-    """Of a ring of sectors, its flank a part of the rim: means of the compliance's entries."""
+    """A ring of sectors, its flank a part of the rim: means of the compliance."""
     whole, element = annulus(4, across=4, around=8 * SECTORS), ELEMENTS["Q2"]
     angle = np.unwrap(np.arctan2(whole.points[:, 1], whole.points[:, 0]))
     kept = np.flatnonzero(angle % (2 * np.pi) <= 2 * np.pi / SECTORS + 1e-9)
@@ -97,7 +90,7 @@ def _of_a_body() -> dict[str, float]:
 
 
 def _of_default_layers() -> dict[str, float]:
-    """Slices and layers of the face by default, of little helix and much: bodies themselves have gmsh meshes."""
+    """Slices and layers of little helix and much."""
     numbers = {}
     for helix in (10.0, 30.0):
         model = model_of(helical_scene(helix=helix, accuracy=""))
@@ -111,7 +104,6 @@ def _of_default_layers() -> dict[str, float]:
 
 
 def main() -> None:
-    """Write the file."""
     FILE.write_text(json.dumps(pinned(), indent=1) + "\n", encoding="utf-8")
     print(FILE)
 

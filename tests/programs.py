@@ -1,4 +1,4 @@
-"""Programs that tests start: Python on this checkout and `gears`, alone or under mpirun."""
+"""Programs that tests start."""
 
 import os
 import shutil
@@ -13,7 +13,7 @@ DEMO = CHECKOUT / "demos" / "lundvall2004.toml"
 
 
 def environment(**more):
-    """This process's environment and `more`, without what an MPI in this process has left in it."""
+    """This process's and `more`, without what an MPI in this process has left."""
     kept = {
         name: value
         for name, value in os.environ.items()
@@ -24,7 +24,6 @@ def environment(**more):
 
 
 def mpirun(ranks):
-    """The call of mpirun for more ranks than there may be cores; skips the test where there is none."""
     if not shutil.which("mpirun"):
         pytest.skip("no mpirun")
     version = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, env=environment()).stdout
@@ -38,8 +37,8 @@ def command(*arguments, ranks=0):
 
 
 def ended(call, folder=CHECKOUT, *, ends=None, given=None, timeout=240, **more):
-    """A call that has ended, what it said as text; `ends`: the exit code that it must have, `given`: its input, `more`:
-    variables of its environment."""
+    """A call that has ended; `ends`: the exit code that it must have, `given`: its input, `more`: variables of its
+    environment."""
     done = subprocess.run(
         call, input=given, cwd=folder, env=environment(**more), capture_output=True, text=True, timeout=timeout
     )
@@ -48,11 +47,9 @@ def ended(call, folder=CHECKOUT, *, ends=None, given=None, timeout=240, **more):
 
 
 def python(*arguments, folder=CHECKOUT, ranks=0, ends=0, **options):
-    """Python in a process of its own, or in one for each rank, as of `ended`."""
     call = [*(mpirun(ranks) if ranks else ()), sys.executable, *map(str, arguments)]
     return ended(call, folder, ends=ends, **options)
 
 
 def gears(folder, *arguments, ranks=0):
-    """`gears` run to its end."""
     return ended(command(*arguments, ranks=ranks), folder, timeout=120)

@@ -1,4 +1,4 @@
-"""Gear pairs that the checks let pass, for property-based tests."""
+"""Gear pairs that the checks let pass."""
 
 from math import atan, cos, radians, tan
 
@@ -13,10 +13,8 @@ from fenics_gears.geometry.pair_checks import check_pair
 
 @st.composite
 def valid_pairs(draw, teeth=(6, 90), modules=(0.5, 20.0), addenda=(0.6, 1.3), face_width=1.0, helix_angles=None):
-    """A pair of gears of any proportions within the bounds, in modules; its bore has the radius of a module.
-
-    `helix_angles`: bounds, deg, of a helix; proportions are then in normal modules. Spur gears without.
-    """
+    """Of any proportions within the bounds, in (normal) modules; its bore has the radius of a module.
+    `helix_angles`: bounds, deg."""
     proportions = st.tuples(
         st.integers(*teeth), st.floats(-0.5, 1.0), st.floats(*addenda), st.floats(1.0, 1.5), st.floats(0.0, 0.45)
     )

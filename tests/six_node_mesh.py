@@ -1,4 +1,4 @@
-"""Six-node triangles between a gear's outline and its bore, by gmsh: meshes of references, not the program's."""
+"""Six-node triangles between a gear's outline and its bore, by gmsh; not the program's."""
 
 import numpy as np
 
@@ -6,7 +6,6 @@ from fenics_gears.elasticity.gmsh_session import gmsh_model
 
 
 def unit(angles) -> np.ndarray:
-    """Points (..., 2) on the unit circle."""
     return np.stack([np.cos(angles), np.sin(angles)], axis=-1)
 
 
@@ -16,20 +15,16 @@ def with_middles(ends: np.ndarray) -> np.ndarray:
 
 
 def along(curve: np.ndarray) -> np.ndarray:
-    """Lengths (k,) along a curve (k, 2)."""
     return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
 
 
 def points_at(curve: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Points (n, 2) of a curve (k, 2) at lengths `at` along it."""
     return np.stack([np.interp(at, along(curve), curve[:, i]) for i in range(2)], axis=-1)
 
 
 def six_node_mesh(outline: np.ndarray, bore: np.ndarray, size):
-    """Points (n, 2) and cells (m, 6), corners, then the middles of sides 01, 12, 20; and the nodes along both curves.
-
-    outline, bore: closed, clockwise, ends of edges and their middles in turn; `size(points)`: mm, wanted at (k, 2).
-    """
+    """Points (n, 2), cells (m, 6), corners, then middles of sides 01, 12, 20, and nodes along both curves. outline,
+    bore: closed, clockwise, ends and middles in turn; `size(points)`: mm, wanted at (k, 2)."""
     corners, triangles = _triangles(outline[::2], bore[::2], size)
     sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     ends, place = np.unique(sides, axis=0, return_inverse=True)
@@ -44,7 +39,6 @@ def six_node_mesh(outline: np.ndarray, bore: np.ndarray, size):
 
 
 def _put_on(points, middle_of, curve, first) -> np.ndarray:
-    """Nodes along a closed curve; the middles of its edges are moved onto it."""
     number = len(curve) // 2
     nodes = np.empty(len(curve), dtype=int)
     for i in range(number):
@@ -55,7 +49,7 @@ def _put_on(points, middle_of, curve, first) -> np.ndarray:
 
 
 def _triangles(outline: np.ndarray, bore: np.ndarray, size) -> tuple[np.ndarray, np.ndarray]:
-    """Corner nodes, those of outline and bore first, and triangles of the region between the two polygons."""
+    """Corner nodes, those of outline and bore first, and triangles between the two polygons."""
     with gmsh_model("section") as gmsh:
         loops, tags = [], []
         for curve in (outline, bore):

@@ -1,4 +1,4 @@
-"""A flank compliance without finite elements, so that contact and dynamics are tested on their own."""
+"""A flank compliance without finite elements."""
 
 import numpy as np
 
@@ -9,12 +9,8 @@ from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 def stand_in_compliance(
     gear, *, elements=60, element_order=2, offsets=3, local=6e-6, tooth=1.5e-5, coast_flank=False
 ) -> FlankCompliance:
-    """Symmetric positive definite compliance: a tooth that bends (more at its tip) and yields locally, coupled to its
-    neighbours.
-
-    `local`, `tooth`: mm per N/mm, of the size that steel teeth have. With `coast_flank` the tooth carries that flank
-    along as it bends: away from it, as the mirrored frame sees it.
-    """
+    """Symmetric positive definite: a tooth that bends and yields locally, coupled to its neighbours. `local`,
+    `tooth`: mm per N/mm. A `coast_flank` goes along as the tooth bends: away from it in the mirrored frame."""
     arc = np.linspace(
         0.5 * gear.base_radius * gear.form_roll_angle**2,
         0.5 * gear.base_radius * gear.tip_roll_angle**2,
@@ -39,12 +35,8 @@ def stand_in_compliance(
 
 
 def stand_in_body(gear, width, heights=5, *, elements=12, offsets=3, coast_flank=False, reach=None):
-    """A body over a face, stiff along its axis: a load anywhere bends the tooth as if it were spread over all of the
-    width. Local yielding is in the sections.
-
-    `reach` (of the width): how far a load bends the tooth more than elsewhere, as in a body that gives way along its
-    axis too.
-    """
+    """A body over a face, stiff along its axis; local yielding is in the sections. `reach` (of the width): how far a
+    load bends the tooth more than elsewhere."""
     plane = stand_in_compliance(gear, elements=elements, local=0.0, offsets=offsets, coast_flank=coast_flank)
     flanks, nodes, places = plane.flanks, len(plane.roll_angle), np.linspace(-0.5, 0.5, heights) * width
     section = np.zeros((len(plane.blocks), flanks, nodes, 3, flanks, nodes, 3))

@@ -1,5 +1,4 @@
-"""Which folders may import which: imports point one way only, those inside functions too; and that a plane run loads
-nothing of the third dimension."""
+"""Which folders may import which, and what a plane run loads."""
 
 import re
 from pathlib import Path
@@ -11,7 +10,7 @@ ROOT = Path(__file__).parents[1]
 
 
 def test_imports_point_one_way(monkeypatch):
-    """The contracts of import-linter in pyproject.toml. Where import-linter is not installed `.ci/run` checks them."""
+    """The contracts of import-linter in pyproject.toml; without import-linter `.ci/run` checks them."""
     cli = pytest.importorskip("importlinter.cli")
     monkeypatch.chdir(ROOT)
     assert cli.lint_imports(no_cache=True) == 0
@@ -37,19 +36,17 @@ MOST_MODULES = 130
 
 @pytest.fixture(scope="module")
 def loaded(tmp_path_factory):
-    """The package's modules that a run with the paper's effects and its pictures loads."""
     from tests.effects.examples import text_of
 
     folder = tmp_path_factory.mktemp("plane")
     scene = folder / "plane.toml"
-    scene.write_text(text_of(*EFFECTS), encoding="utf-8")
+    scene.write_text(text_of(*EFFECTS))
     done = python("-P", "-c", PLANE_RUN, scene, folder / "run")
     return {name.removeprefix("fenics_gears.") for name in done.stderr.split() if name.startswith("fenics_gears")}
 
 
 def test_a_plane_run_with_its_pictures_loads_nothing_of_the_third_dimension(loaded):
-    """House rule; what a scene does not name is not imported: of the face, the helix, tilts and their pictures. The
-    plane is one slice (`contact.face`)."""
+    """House rule 9. The plane is one slice (`contact.face`)."""
     assert "contact.mesh_cycle" in loaded and "show.plots" in loaded
     assert {
         name

@@ -9,13 +9,9 @@ from fenics_gears.numbers_version import NUMBERS_VERSION
 
 
 def test_numbers_are_those_of_their_version():
-    """The program's own numbers as they were when the version was raised last, to 1e-9, which is more than machines and
-    libraries differ by.
-
-    Whoever changes numbers on purpose raises `NUMBERS_VERSION` in fenics_gears/numbers_version.py by one, so that
-    studies and caches mix no old numbers with new ones, and writes the file anew by `python -m tests.pinned_numbers`.
-    """
-    kept, found = json.loads(FILE.read_text(encoding="utf-8")), pinned()
+    """Numbers of the version to 1e-9, more than machines differ by. Whoever changes numbers on purpose raises
+    `NUMBERS_VERSION` in fenics_gears/numbers_version.py and calls `python -m tests.pinned_numbers`."""
+    kept, found = json.loads(FILE.read_text()), pinned()
     assert kept["numbers_version"] == NUMBERS_VERSION, (
         "the pinned numbers are of another version: python -m tests.pinned_numbers"
     )

@@ -1,5 +1,4 @@
-"""Two elastic blocks, meshed differently where they touch, as contact sees them: compliance and interpolation of
-straight flanks."""
+"""Two elastic blocks, meshed differently where they touch."""
 
 import numpy as np
 
@@ -16,7 +15,7 @@ CONTACT_ROLL = 1e-3
 
 
 def block_mesh(name: str, along: int, across: int, height: float) -> BodyMesh:
-    """Block 1 mm wide, unevenly divided and distorted inside: "flank" at y = 0, "back" at y = -height."""
+    """1 mm wide, distorted inside: "flank" at y = 0, "back" at y = -height."""
     fraction = np.linspace(0.0, 1.0, along + 1)
     x, y = np.meshgrid(
         fraction + 0.03 * np.sin(2.0 * np.pi * fraction), np.linspace(-1.0, 0.0, across + 1), indexing="ij"
@@ -34,10 +33,8 @@ def block_mesh(name: str, along: int, across: int, height: float) -> BodyMesh:
 
 
 def flank_of(mesh: BodyMesh, name: str, poissons_ratio: float) -> tuple[np.ndarray, np.ndarray]:
-    """Places (n,), mm, of the flank's nodes and their normal compliance (n, n), mm per N/mm, E = 1 MPa.
-
-    The back glides on rollers, and one of its corners stays where it is.
-    """
+    """Places (n,), mm, of the flank's nodes and their compliance (n, n), mm per N/mm, E = 1 MPa; the back on
+    rollers."""
     element = ELEMENTS[name]
     points = {part: mesh.edge_nodes(part, element.order) for part in ("flank", "back")}
     points = {part: each[np.argsort(each[:, 0])] for part, each in points.items()}
@@ -50,8 +47,7 @@ def flank_of(mesh: BodyMesh, name: str, poissons_ratio: float) -> tuple[np.ndarr
 
 
 def straight_interpolation(offsets, places, order: int, sense: float):
-    """The contact layer's own averages, on a straight flank with nodes at `places` (n,), mm; contact nodes from -1/2 to
-    1/2 mm."""
+    """The contact layer's averages on a straight flank; contact nodes from -1/2 to 1/2 mm."""
     middle = 0.5 * STRAIGHT * CONTACT_ROLL**2
     rolls = np.sqrt(2.0 * (middle + places - 0.5) / STRAIGHT)
     contact_rolls = np.sqrt(2.0 * (middle + sense * offsets) / STRAIGHT)
@@ -59,7 +55,7 @@ def straight_interpolation(offsets, places, order: int, sense: float):
 
 
 def collocation(offsets, places, order: int, sense: float):
-    """Values at the contact nodes instead of averages: rows of the element's shape functions there."""
+    """Values at the contact nodes: rows of the element's shape functions."""
     weights, vertices = np.zeros((len(offsets), len(places))), places[::order]
     at = np.clip(0.5 + sense * offsets, 0.0, 1.0)
     element = np.clip(np.searchsorted(vertices, at, side="right") - 1, 0, len(vertices) - 2)

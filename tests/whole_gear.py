@@ -1,4 +1,4 @@
-"""The whole gear by brute force, to compare the fast routes with: its mesh, its flank compliance."""
+"""The whole gear by brute force."""
 
 import numpy as np
 
@@ -22,12 +22,8 @@ def whole_gear_compliance(
     tooth_offsets: int = 1,
     comm=None,
 ) -> FlankCompliance:
-    """Flank compliance seen by one loaded tooth of a fully meshed gear.
-
-    mesh: the whole gear with "hub" and "flank t" as in BodyMesh, all flanks meshed alike. tooth_offsets: how many teeth
-    ahead of the loaded one are known. In a body without symmetry every loaded tooth has its own.
-    Raises ComputationError where the mesh lacks a flank or the hub.
-    """
+    """Flank compliance seen by one loaded tooth; mesh: "hub" and "flank t", all flanks alike; tooth_offsets: how
+    many teeth ahead are known. Raises ComputationError where a flank or the hub is missing."""
     chosen = element_named(element)
     teeth = [(loaded_tooth + offset) % gear.teeth for offset in range(tooth_offsets + 1)]
     points = {f"flank {tooth}": by_radius(mesh.edge_nodes(f"flank {tooth}", chosen.order)) for tooth in teeth}
@@ -55,8 +51,6 @@ def whole_gear_compliance(
 
 
 def whole_gear_mesh(sector: BodyMesh, teeth: int) -> BodyMesh:
-    """Mesh of the whole gear: ``teeth`` copies of the sector, merged along their cuts.
-
-    Tooth t stands t pitches counter-clockwise of tooth 0 and its flank is "flank t".
-    """
+    """``teeth`` copies of the sector, merged along their cuts; tooth t stands t pitches counter-clockwise of tooth
+    0."""
     return joined_sectors([sector] * teeth)

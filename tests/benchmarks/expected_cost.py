@@ -1,9 +1,5 @@
-"""Expected cost beside measured, of the examples: `python -m tests.benchmarks.expected_cost [NAME ...]`.
-
-Every demo's scene, the paper's scene with one effect more or less than it has, a pair of 23 and 47 teeth with and
-without coast flanks, and helical pairs. Each runs in a process of its own on one thread with an empty cache; seconds
-are the processor's, which are those of an idle machine whatever else this one does. Memory is the process's peak.
-"""
+"""Expected cost beside measured, of the examples: `python -m tests.benchmarks.expected_cost [NAME ...]`. Each runs
+in a process of its own on one thread with an empty cache; seconds are the processor's, memory is the process's peak."""
 
 import json
 import os

@@ -91,7 +91,6 @@ def section() -> str:
 
 
 def main() -> None:
-    """Measure and write the page's section."""
     compile_kernels(tangential=False)
     words = section()
     write_section(PAGE, "<!-- hertz: begin -->", "<!-- hertz: end -->", words)

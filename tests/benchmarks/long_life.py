@@ -18,8 +18,7 @@ OVER_FACE = {"misalignment": {"in_plane": "10 um"}}
 
 
 def pair(number: int, over_face: bool):
-    """The scene of one of many pairs, none like another: their numbers of teeth, pressure angles and modules go round
-    at different paces."""
+    """The scene of one of many pairs, none like another."""
     gears = {
         "module": f"{2.0 + 0.5 * (number % 5)} mm", "pressure_angle": f"{20 + number % 4} deg", "face_width": "16 mm",
         "material": STEEL,
@@ -34,15 +33,13 @@ def _gear(teeth: int) -> dict:
 
 
 def resident() -> int:
-    """Bytes that the process holds (Linux), less what its allocator has ready for the next run, which changes by a
-    hundred MB from pair to pair."""
+    """Bytes that the process holds (Linux), less what its allocator has ready for the next run."""
     ctypes.CDLL(None).malloc_trim(0)
     lines = Path("/proc/self/status").read_text().splitlines()
     return 1024 * int(next(line for line in lines if line.startswith("VmRSS")).split()[1])
 
 
 def main() -> None:
-    """Print a line for each tenth of the pairs."""
     over_face, count = sys.argv[1] == "face", int(sys.argv[2])
     print(f"{'pairs':>6} {'MB':>8} {'s':>8}")
     with tempfile.TemporaryDirectory() as directory:

@@ -4,7 +4,6 @@ from pathlib import Path
 
 
 def markers(name: str) -> tuple[str, str]:
-    """The lines of a page between which a section stands."""
     return f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
 
 

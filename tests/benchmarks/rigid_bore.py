@@ -40,8 +40,8 @@ def _turned(angle: float) -> np.ndarray:
 
 
 def deflection(gear: Gear) -> float:
-    """Deflection, mm per N/mm, of a flank at its pitch point under a normal force there, less the motion of the body as
-    a whole, which the far teeth tell."""
+    """Deflection, mm per N/mm, of a flank at its pitch point under a normal force, less the body's motion as a
+    whole."""
     body = flank_compliance(gear, STEEL, Discretisation("P2", SIZE, None, None, None), Reach(gear.teeth // 2))
     arc = 0.5 * gear.base_radius * body.roll_angle**2
     node = int(np.abs(body.roll_angle - tan(PRESSURE_ANGLE)).argmin())
@@ -77,7 +77,6 @@ def off(teeth: int, rim: float, on_web: bool) -> float:
 
 
 def section() -> str:
-    """Table."""
     lines = []
     for rim in RIMS:
         cells = []

@@ -39,7 +39,6 @@ VARIES = ("time_", "wall_time", "fenics_gears_version")
 
 
 def result_of(checkout: Path, scene: Path, directory: Path) -> xr.Dataset:
-    """The result of a scene file, computed by a checkout."""
     target = directory / f"{abs(hash((checkout, scene)))}.nc"
     environment = {**os.environ, "PYTHONPATH": str(checkout), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     subprocess.run(
@@ -51,7 +50,7 @@ def result_of(checkout: Path, scene: Path, directory: Path) -> xr.Dataset:
 
 
 def differences(old: xr.Dataset, new: xr.Dataset) -> dict[str, float]:
-    """Largest difference of each variable and numeric attribute, relative to its largest value; infinite where one is
+    """Largest difference of each variable and numeric attribute over its largest value; infinite where one is
     missing."""
     found = {}
     for name in sorted({*old.variables, *new.variables}):

@@ -1,13 +1,6 @@
-"""`[accuracy] target` on eight pairs and ten at random: true errors and costs beside the cheapest settings that reach
-the target.
-
-    python -m tests.benchmarks.target_of_pairs [--only NAME] [--seed NUMBER]
-
-True errors are distances from a reference (`target_reference`). The cheapest settings are looked for among all `MESHES`
-and `STEPS`, lucky ones whose errors cancel included. Costs are counted, as the program counts them when it chooses.
-What choosing takes is timed (`time.process_time`), which other work on the machine changes by a half where runs are
-short.
-"""
+"""`[accuracy] target`: true errors and costs beside the cheapest settings that reach the target. True errors are
+distances from a reference (`target_reference`); costs are counted as the program counts them; what choosing takes is
+processor time."""
 
 from __future__ import annotations
 
@@ -58,11 +51,8 @@ Found = tuple[float, float, Setting]
 
 @dataclass(frozen=True)
 class Row:
-    """A pair and a target: what was chosen, its true error and `counted` seconds, beside the cheapest that reaches the
-    target, if any was found; `choosing`: its time in runs with the chosen settings.
-
-    `dependable`: the cheapest that reaches it together with all that are finer.
-    """
+    """A pair and a target: what was chosen, its true error and `counted` seconds, `choosing` in runs, beside the
+    cheapest that reaches it and the cheapest that reaches it together with all that are finer."""
 
     pair: str
     target: float
@@ -149,7 +139,7 @@ def rows_of(name: str, scene: Scene, not_reached: list[str]) -> list[Row]:
 
 
 def write(rows: list[Row], names: list[str]) -> None:
-    """Write rows, and the file's lines of other pairs that are still measured, in the order of the pairs' names."""
+    """Write rows, and the file's lines of other pairs that are still measured."""
     kept, others = set(names) - {row.pair for row in rows}, []
     if FILE.exists():
         with FILE.open(encoding="utf-8", newline="") as file:

@@ -1,12 +1,7 @@
-"""Does `[accuracy] target` keep its promise over the face, and at what cost: ten helical pairs drawn at random.
-
-    python -m tests.benchmarks.target_over_face [FIRST [LAST]]
-
-Prints and writes a line for each pair: the settings chosen, the true errors against flank elements, contact nodes,
-slices and layers twice as fine and body elements by 1.5, and the counted cost beside that of the cheapest settings
-that still reach the target. These are found from the chosen ones: mesh, slices or layers are made coarser, the one
-first that saves most, as long as the true error allows it. A pair takes a quarter of a minute to two.
-"""
+"""Does `[accuracy] target` keep its promise over the face, and at what cost: `python -m
+tests.benchmarks.target_over_face [FIRST [LAST]]`, ten helical pairs at random, against settings twice as fine. The
+cheapest settings are found from the chosen ones by making mesh, slices or layers coarser as long as the true error
+allows it."""
 
 import csv
 import sys
@@ -49,7 +44,6 @@ def pair(number: int) -> tuple[str, Scene, float]:
 
 
 def twice_as_fine(setting: Setting) -> Setting:
-    """The setting that errors are measured against."""
     return replace(
         setting, flank=0.5 * setting.flank, spacing=0.5 * setting.spacing, body=setting.body / 1.5,
         slices=2 * setting.slices, layers=2 * setting.layers,
@@ -65,7 +59,6 @@ def coarser(setting: Setting) -> list[Setting]:
 
 
 def measured(number: int) -> dict[str, object]:
-    """A pair's line."""
     words, scene, target = pair(number)
     chosen = choose(scene, target, SilentProgress())
     scene = without_settings(scene)
@@ -103,7 +96,6 @@ def measured(number: int) -> dict[str, object]:
 
 
 def main(numbers: range) -> None:
-    """Measure pairs and write their lines beside those of other pairs."""
     lines = {}
     if FILE.exists():
         with FILE.open(encoding="utf-8", newline="") as file:

@@ -1,9 +1,5 @@
-"""Gear pairs on which `[accuracy] target` is judged: the paper's, equal, slow, of high contact ratio, of large profile
-shift, and ten at random.
-
-The first five have tip relief, as such gears are made, neither friction nor inertia; the paper's own tips, whose sharp
-edges press, follow, without friction, with friction, and at 200 Hz.
-"""
+"""Pairs on which `[accuracy] target` is judged: with tip relief, neither friction nor inertia; the paper's own sharp
+tips, also with friction and at 200 Hz; ten at random."""
 
 from dataclasses import replace
 from math import cos, radians, tan
@@ -44,8 +40,7 @@ def rack_gear(
 def rack_pair(
     module: float, teeth: tuple[int, int], shifts=(0.0, 0.0), face_width: float = 15.0, material=None, **rack
 ) -> GearPairData:
-    """A pair at the centre distance without backlash and a little more (DIN 3960: involute of the working pressure
-    angle)."""
+    """A pair at the centre distance without backlash (DIN 3960) and a little more."""
     pinion, wheel = (rack_gear(module, count, shift, **rack) for count, shift in zip(teeth, shifts))
     along = _involute(PRESSURE_ANGLE) + 2.0 * sum(shifts) / sum(teeth) * tan(PRESSURE_ANGLE)
     working = brentq(lambda angle: _involute(angle) - along, 1e-3, 1.2)
@@ -81,8 +76,7 @@ def held_out(paper: Scene, seed: int) -> dict[str, Scene]:
 
 
 def random_pairs(dynamic: Scene, count: int, seed: int = 2026) -> dict[str, Scene]:
-    """Pairs at random: teeth, profile shifts, module, load, relief, friction, and a mesh frequency with the paper's
-    inertia and damping."""
+    """Pairs at random; those that vibrate have the paper's inertia and damping."""
     random, found = np.random.default_rng(seed), {}
     while len(found) < count:
         pinion = int(random.integers(14, 41))

@@ -1,5 +1,5 @@
-"""The reference that settings are judged by: a fine mesh carried on to its limit by order 2, and what many steps add to
-a coarser one."""
+"""The reference that settings are judged by: a fine mesh carried on to its limit by order 2, and what many steps
+add."""
 
 from dataclasses import dataclass, replace
 
@@ -18,8 +18,7 @@ FINE, COARSER, FEW, MANY = 0.5, 1.0, 120, 960
 
 @dataclass(frozen=True)
 class Reference:
-    """The judged measures at the limit, and the largest relative uncertainty: as much as the mesh's limit is away from
-    its fine run."""
+    """The judged measures at the limit, and the largest distance of that limit from the fine run."""
 
     answer: Answer
     uncertainty: float
@@ -38,7 +37,6 @@ def counted_seconds(scene: Scene, setting: Setting) -> float:
 
 
 def reference(scene: Scene) -> Reference:
-    """The reference of a scene; curves at the phases of few steps."""
     gears = shared_gears(4)
 
     def run(mesh: float, steps: int) -> Answer:

@@ -1,4 +1,4 @@
-"""A module in the place of the simulation, for tests of what commands do with its outcomes."""
+"""A module in the place of the simulation."""
 
 import sys
 import types
@@ -11,14 +11,13 @@ from tests.programs import DEMO
 
 
 def small_result(complete=1):
-    """A result of three steps, as far as the command line looks at it."""
     steps = ("time",)
     return xr.Dataset(
         {"transmission_error": (steps, np.array([0.0, 1e-4, 2e-4])), "newton_iterations": (steps, np.array([2, 3, 4]))},
         {"time": np.arange(3.0), "mesh_phase": (steps, np.arange(3.0) / 2.0)},
         attrs={
             "complete": complete,
-            "scene": DEMO.read_text(encoding="utf-8"),
+            "scene": DEMO.read_text(),
             "mean_transmission_error": 5e-5,
             "peak_to_peak_transmission_error": 2e-4,
             "base_radius_wheel": 50.0,
@@ -30,8 +29,7 @@ def small_result(complete=1):
 
 @pytest.fixture
 def simulation(monkeypatch, tmp_path):
-    """A module in the place of the simulation, whose ``outcome`` is returned or raised; the test runs in an empty
-    directory."""
+    """Its ``outcome`` is returned or raised; the test runs in an empty directory."""
     monkeypatch.chdir(tmp_path)
     stand_in = types.ModuleType("fenics_gears.simulation.simulate")
     stand_in.outcome, stand_in.calls = small_result(), []
@@ -59,5 +57,4 @@ def simulation(monkeypatch, tmp_path):
 
 
 def files(directory):
-    """The names of all files below a directory, hidden ones too."""
     return sorted(str(each.relative_to(directory)) for each in Path(directory).rglob("*") if each.is_file())

@@ -1,7 +1,4 @@
-"""The command line: exit codes, what is written when, and what they print.
-
-The simulation is replaced by one that returns at once: what is under test is what the commands do with its outcomes.
-"""
+"""The command line: exit codes, what is written when, what is printed. The simulation is replaced."""
 
 import contextlib
 import gc
@@ -21,7 +18,7 @@ from fenics_gears.results.validity import NO_MEANING
 
 
 def test_a_run_writes_its_result_and_pictures(simulation, capsys, tmp_path):
-    """docs/promises.md; the directory defaults to results/<name of the scene file>."""
+    """docs/promises.md; results/<name of the scene file>."""
     assert main(["run", str(DEMO)]) == 0
     assert files(tmp_path) == ["results/lundvall2004/run.nc", "results/lundvall2004/transmission_error.png"]
     assert results.load(tmp_path / "results/lundvall2004/run.nc").attrs["complete"] == 1
@@ -31,7 +28,7 @@ def test_a_run_writes_its_result_and_pictures(simulation, capsys, tmp_path):
 
 
 def test_the_summary_gives_the_transmission_error_as_angle_and_length(simulation, capsys):
-    """Identity; 5e-5 rad on a base radius of 50 mm are 2.5 um, 2e-4 rad are 10 um."""
+    """5e-5 rad on a base radius of 50 mm are 2.5 um, 2e-4 rad are 10 um."""
     main(["run", str(DEMO)])
     output = capsys.readouterr()
     lines = {line.split("  ")[1]: line for line in output.out.splitlines() if line.startswith("  ")}
@@ -45,7 +42,7 @@ def test_the_summary_gives_the_transmission_error_as_angle_and_length(simulation
 
 
 def test_a_result_without_meaning_has_an_exit_code_of_its_own(simulation, capsys, tmp_path):
-    """docs/troubleshooting.md; a script sees that the gears jammed, and the result is kept with the reason."""
+    """docs/troubleshooting.md; the result is kept with the reason."""
     said = f"{NO_MEANING}: the gears would have gone through each other"
     simulation.outcome = small_result().assign_attrs(warnings=f"{said}\nanother")
     assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 4
@@ -56,7 +53,6 @@ def test_a_result_without_meaning_has_an_exit_code_of_its_own(simulation, capsys
 
 
 def on_a_terminal(command, more):
-    """What a command writes to a terminal of its own."""
     ours, its = os.openpty()
     running = subprocess.Popen(command, stdout=its, stderr=subprocess.DEVNULL, env=environment(TERM="xterm", **more))
     os.close(its)
@@ -73,7 +69,7 @@ CHECK = command("check", DEMO)
 
 
 def test_a_study_is_told_from_a_scene(capsys, tmp_path, monkeypatch):
-    """The interface; one sentence with the right command, not a list of unknown fields."""
+    """One sentence with the right command."""
     monkeypatch.chdir(tmp_path)
     Path("study.toml").write_text(f'scene = "{DEMO}"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\n')
     for name in ("check", "run"):
@@ -89,8 +85,7 @@ def test_a_study_is_told_from_a_scene(capsys, tmp_path, monkeypatch):
 
 
 def test_what_goes_into_a_log_is_plain():
-    """ECMA-48's control sequences begin with ESC. mpirun starts its processes on a terminal of their own, also where a
-    pipe or a file has what it writes; a terminal without mpirun has colours, so that the test can fail."""
+    """ECMA-48's sequences begin with ESC; under mpirun none, on a terminal without it colours."""
     assert "\x1b" in on_a_terminal(CHECK, {})
     written = on_a_terminal(CHECK, {"OMPI_COMM_WORLD_SIZE": "1"})
     assert "\x1b" not in written and "Gear pair" in written
@@ -100,7 +95,7 @@ def test_what_goes_into_a_log_is_plain():
 @pytest.mark.parametrize("command", ["plot", "picture", "export"])
 @pytest.mark.parametrize("named", ["speeds", "speeds/study.nc"])
 def test_pictures_of_a_study_are_those_of_its_report(simulation, capsys, tmp_path, command, named):
-    """The interface; what a study has is said, not that a file is missing."""
+    """What a study has is said."""
     Path("speeds/cases").mkdir(parents=True)
     Path("speeds/study.nc").touch()
     assert main([command, named]) == 2
@@ -110,7 +105,7 @@ def test_pictures_of_a_study_are_those_of_its_report(simulation, capsys, tmp_pat
 
 
 def test_a_result_that_cannot_be_written_leaves_the_old_one(simulation, monkeypatch, capsys, tmp_path):
-    """Hard case 27, full disk; never a half-written result under its final name."""
+    """Hard case 27."""
     assert main(["run", str(DEMO), "--output", "here"]) == 0
     before = (tmp_path / "here/run.nc").read_bytes()
 
@@ -126,7 +121,7 @@ def test_a_result_that_cannot_be_written_leaves_the_old_one(simulation, monkeypa
 
 
 def test_plot_draws_a_run_again(simulation, capsys, tmp_path):
-    """docs/promises.md; RUN is the directory or the file."""
+    """docs/promises.md; the directory or the file."""
     main(["run", str(DEMO), "--output", "here", "--quiet"])
     for run in ("here", "here/run.nc"):
         Path("here/transmission_error.png").unlink()
@@ -136,7 +131,7 @@ def test_plot_draws_a_run_again(simulation, capsys, tmp_path):
 
 
 def test_check_prints_the_pair_and_the_effects_and_writes_nothing(simulation, capsys, tmp_path):
-    """The values the paper prints (model.md, section 1); docs/promises.md, effects on and off with what each adds."""
+    """The values the paper prints (model.md, section 1); docs/promises.md."""
     assert main(["check", str(DEMO)]) == 0
     output = capsys.readouterr().out
     for printed in ("22.44 deg", "13.28 mm", "1.47", "29.61 deg", "27.64 deg", "20.95 mm"):
@@ -156,7 +151,7 @@ def test_check_prints_the_pair_and_the_effects_and_writes_nothing(simulation, ca
     [[], ["measure", "x.toml"], ["study"], ["run"], ["run", "x.toml", "--fast"], ["run", "x.toml", "-v", "-q"]],
 )
 def test_a_wrong_call_has_exit_code_2(arguments, capsys):
-    """docs/promises.md's exit codes; commands that come later are not offered."""
+    """docs/promises.md's exit codes."""
     with pytest.raises(SystemExit) as leaving:
         main(arguments)
     assert leaving.value.code == 2
@@ -164,7 +159,6 @@ def test_a_wrong_call_has_exit_code_2(arguments, capsys):
 
 
 def test_version(capsys):
-    """Authority: the package's version."""
     with pytest.raises(SystemExit) as leaving:
         main(["--version"])
     assert leaving.value.code == 0
@@ -172,8 +166,7 @@ def test_version(capsys):
 
 
 def test_a_command_leaves_no_settings_behind(monkeypatch, capsys):
-    """Definition: a process that goes on, such as a notebook, is as before; the command itself looks for garbage rarely
-    and keeps to its memory."""
+    """Definition: a process that goes on is as before."""
     seen = {}
 
     def run_python(options):
@@ -189,19 +182,19 @@ def test_a_command_leaves_no_settings_behind(monkeypatch, capsys):
 
 
 def test_python_has_the_program_and_runs_in_the_folder_of_the_call(tmp_path):
-    """The README; what stands beside the script can be imported too, and arguments are the script's."""
-    (tmp_path / "beside.py").write_text("NAME = 'beside'\n", encoding="utf-8")
+    """The README; arguments are the script's."""
+    (tmp_path / "beside.py").write_text("NAME = 'beside'\n")
     said = (
         "import sys, os, beside, fenics_gears\nprint(beside.NAME, sys.argv[1:], os.getcwd(),"
         " callable(fenics_gears.load_scene), 'simulate' in dir(fenics_gears))\nsys.exit(7)\n"
     )
-    (tmp_path / "first.py").write_text(said, encoding="utf-8")
+    (tmp_path / "first.py").write_text(said)
     run = python("-P", "-m", "fenics_gears", "python", "first.py", "-v", "x", folder=tmp_path, ends=7)
     assert run.stdout == f"beside ['-v', 'x'] {tmp_path} True True\n"
 
 
 def test_help_loads_neither_numerics_nor_the_schema():
-    """Issue 2, help at once; what is not loaded takes no time."""
+    """What is not loaded takes no time."""
     program = (
         "import sys, fenics_gears.commands.cli as cli\n"
         "try: cli.main(['--help'])\n"
@@ -215,7 +208,7 @@ def test_help_loads_neither_numerics_nor_the_schema():
 
 
 def test_the_test_command_runs_pytest_on_the_checkout(tmp_path):
-    """docs/promises.md; options go to pytest, paths count from the checkout."""
+    """docs/promises.md."""
     call = command("test", "--collect-only", "-q", "tests/effects/test_list_of_effects.py")
     run = ended(call, tmp_path, ends=0)
     assert "test_list_of_effects.py" in run.stdout and "test_cli.py" not in run.stdout

@@ -1,5 +1,4 @@
-"""Runs that are interrupted or fail: exit codes, and what is kept. The simulation is replaced by one that returns at
-once."""
+"""Runs that are interrupted or fail. The simulation is replaced."""
 
 import os
 import signal
@@ -13,8 +12,7 @@ from fenics_gears.commands.cli import main
 
 
 def test_ctrl_c_waits_for_the_end_of_a_step(simulation, tmp_path):
-    """Issue 2; a real signal in the middle of a step ends the march between two steps, and the handler is given
-    back."""
+    """A real signal ends the march between two steps, and the handler is given back."""
     before = signal.getsignal(signal.SIGINT)
     steps = []
 
@@ -38,7 +36,7 @@ def test_ctrl_c_waits_for_the_end_of_a_step(simulation, tmp_path):
 
 
 def test_a_second_ctrl_c_does_not_wait(simulation, tmp_path):
-    """Authority: issue 2; a step that never ends can be left."""
+    """A step that never ends can be left."""
 
     def hang(scene, *, progress, job, journal):
         progress.stage("march")
@@ -54,8 +52,7 @@ def test_a_second_ctrl_c_does_not_wait(simulation, tmp_path):
 
 @pytest.mark.parametrize("before", [signal.default_int_handler, signal.SIG_IGN], ids=["terminal", "background"])
 def test_ctrl_c_that_mpirun_gets_too(tmp_path, monkeypatch, capsys, before):
-    """docs/promises.md, exit code 130; mpirun itself ends with 1. It takes Ctrl-C also as a job in a shell's
-    background, where Python ignores it."""
+    """docs/promises.md, exit code 130; mpirun itself ends with 1, and takes Ctrl-C in a shell's background too."""
     mpirun, found = tmp_path / "mpirun", signal.getsignal(signal.SIGINT)
     mpirun.write_text("#!/bin/sh\nkill -INT $PPID\nexit 1\n")
     mpirun.chmod(0o755)
@@ -69,7 +66,7 @@ def test_ctrl_c_that_mpirun_gets_too(tmp_path, monkeypatch, capsys, before):
 
 
 def test_ctrl_c_before_the_recorded_cycles_says_so(simulation, capsys, tmp_path):
-    """docs/promises.md; a run without a step is kept, marked incomplete, and not summed up as if it had some."""
+    """docs/promises.md: kept, marked incomplete, not summed up."""
     simulation.outcome = small_result(complete=0).isel(time=slice(0, 0))
     assert main(["run", str(DEMO), "--output", "here"]) == 130
     output = capsys.readouterr()
@@ -79,7 +76,7 @@ def test_ctrl_c_before_the_recorded_cycles_says_so(simulation, capsys, tmp_path)
 
 @pytest.mark.parametrize("partial", [True, False])
 def test_a_failed_computation_keeps_what_was_done(simulation, capsys, tmp_path, partial):
-    """docs/promises.md; exit code 3, what was done is kept, marked incomplete."""
+    """docs/promises.md: exit code 3, kept, marked incomplete."""
     simulation.outcome = ComputationError("no convergence in step 17")
     simulation.outcome.partial = small_result(complete=0) if partial else None
     assert main(["run", str(DEMO), "--output", "here"]) == 3

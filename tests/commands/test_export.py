@@ -1,4 +1,4 @@
-"""gears export: the table that pandas reads is the result."""
+"""`gears export`."""
 
 import numpy as np
 import pandas
@@ -11,7 +11,6 @@ from fenics_gears.commands.cli import main
 
 @pytest.fixture
 def run(tmp_path):
-    """A result of each kind of dimensions."""
     steps = 7
     numbers = np.random.default_rng(1)
 
@@ -43,8 +42,7 @@ def run(tmp_path):
 
 
 def test_table_is_the_result(run, capsys):
-    """Read by pandas: heads with units, a line for each step, all curves over time and over gears to the digits that
-    are written."""
+    """Read by pandas, to the digits that are written."""
     directory, dataset = run
     assert main(["export", str(directory)]) == 0 and capsys.readouterr().out.strip() == str(directory / "curves.csv")
     table = pandas.read_csv(directory / "curves.csv")
@@ -68,7 +66,7 @@ def test_table_is_the_result(run, capsys):
 
 
 def test_wrong_calls_write_nothing(run, tmp_path, capsys):
-    """Exit code 2 and what to do instead."""
+    """Exit code 2 and what to do."""
     directory, _ = run
     before = sorted(directory.iterdir())
     assert main(["export", str(directory), "-o", str(directory / "curves.xlsx")]) == 2

@@ -1,5 +1,4 @@
-"""Each command that writes refuses, before it computes, a place that cannot take its result. Authority: hard case
-26."""
+"""A place that cannot take the result is refused before anything is computed (hard case 26)."""
 
 import os
 import sys
@@ -25,13 +24,12 @@ CALLS = {
 def test_a_folder_under_the_results_name(tmp_path, monkeypatch, capsys, call):
     """Named, with the remedy; what was there is all that is there."""
     monkeypatch.chdir(tmp_path)
-    Path("study.toml").write_text(STUDY, encoding="utf-8")
+    Path("study.toml").write_text(STUDY)
     check_refusal(call.split(), CALLS[call], capsys)
 
 
 def check_refusal(words, name, capsys):
-    """A command does not write where a folder has the name of its result."""
-    Path("pair.toml").write_text(SCENE, encoding="utf-8")
+    Path("pair.toml").write_text(SCENE)
     taken = Path("out", name)
     taken.mkdir(parents=True)
     assert main([*words, "--output", "out"]) == 2
@@ -43,7 +41,7 @@ def check_refusal(words, name, capsys):
 
 
 def test_libraries_do_not_read_the_commands_arguments(monkeypatch, capsys):
-    """DOLFINx reads sys.argv when it is imported, and raises at names that are no UTF-8."""
+    """DOLFINx reads sys.argv when it is imported."""
     monkeypatch.setattr(sys, "argv", ["gears", "check", os.fsdecode(b"\xff.toml")])
     assert main() == 2
     assert sys.argv == ["gears"] and "there is no such file" in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""The laws [9], [11], [25] written out, to judge solutions by something the solver does not use."""
+"""The laws [9], [11], [25] written out."""
 
 import numpy as np
 
@@ -6,10 +6,8 @@ import numpy as np
 def law_residual(
     forces: np.ndarray, displacement: np.ndarray, gap: np.ndarray, slip_before: np.ndarray | None, friction: float
 ) -> dict[str, float]:
-    """How far a solution misses the contact laws: penetration and stick slip (mm), tension and cone excess (N).
-
-    `forces`, `displacement` (m,): normals, then tangents with friction; `slip_before` (n,): w_old of [25], mm, or None.
-    """
+    """Penetration and stick slip (mm), tension and cone excess (N). `forces`, `displacement` (m,): normals, then
+    tangents with friction; `slip_before` (n,): w_old of [25], mm, or None."""
     n = len(gap)
     normal, opening = forces[:n], gap - displacement[:n]
     residual = {

@@ -1,4 +1,4 @@
-"""Brute force on exact outlines: flanks and rounded tip edges as dense points, turned and moved until they touch."""
+"""Brute force on outlines: dense points, turned and moved until they touch."""
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -7,28 +7,24 @@ from fenics_gears.geometry.involute import arc_length, canonical_point, roll_ang
 
 
 def turned(points, angle):
-    """Points (n, 2) turned counter-clockwise about the origin."""
     sine, cosine = np.sin(angle), np.cos(angle)
     return np.asarray(points) @ np.array([[cosine, sine], [-sine, cosine]])
 
 
 def outline(gear, edge, count):
-    """Drive flank from the form circle, then the tip edge (n, 2), mm, in the tooth's body frame; its radius rises all
-    along."""
+    """Drive flank from the form circle, then the tip edge (n, 2), mm, in the tooth's body frame; its radius rises."""
     ends = arc_length(gear.base_radius, np.array([gear.form_roll_angle, edge.flank_roll]))
     flank = canonical_point(gear.base_radius, roll_angle_at_arc_length(gear.base_radius, np.linspace(*ends, count)))
     return np.vstack([flank, edge.points(np.linspace(0.0, 1.0, count))[1:]]) if edge.radius else flank
 
 
 def centres(pair):
-    """Centres of pinion and wheel (2, 2), mm; the line of action is the x axis, its tangent point on the pinion the
-    origin."""
+    """Centres (2, 2), mm; the line of action is the x axis, its tangent point on the pinion the origin."""
     return np.array([[0.0, pair.pinion.base_radius], [pair.line_of_action_length, -pair.wheel.base_radius]])
 
 
 def placed(pair, edges, place, count=20001, moved=np.zeros((2, 3))):
-    """Outlines of pinion and wheel where a theoretical place has them, each then moved by (x, y, rotation) (2, 3), mm
-    and rad."""
+    """Outlines of pinion and wheel at a theoretical place, each then moved by (x, y, rotation) (2, 3), mm and rad."""
     poses = (place.contact_rolls[0], np.pi + place.contact_rolls[1])
     return tuple(
         centre + move[:2] + turned(outline(gear, edge, count), pose + move[2])
@@ -37,8 +33,7 @@ def placed(pair, edges, place, count=20001, moved=np.zeros((2, 3))):
 
 
 def rotation_to_touch(moving, other, centre):
-    """Counter-clockwise rotation (rad) of a curve about its gear's `centre` that lets it touch another: least angle at
-    any radius."""
+    """Counter-clockwise rotation (rad) of a curve about `centre` until it touches another."""
     (radius, angle), (other_radius, other_angle) = (
         (np.linalg.norm(curve - centre, axis=1), np.arctan2(*(curve - centre).T[::-1])) for curve in (moving, other)
     )
@@ -48,8 +43,7 @@ def rotation_to_touch(moving, other, centre):
 
 
 def distance(curves):
-    """Least distance (mm) between two polylines that do not touch, looked for around where every 50th points are
-    nearest."""
+    """Least distance (mm) between two polylines, looked for around where every 50th points are nearest."""
     sparse = [curve[::50] for curve in curves]
     apart, nearest = cKDTree(sparse[1]).query(sparse[0])
     middles = sparse[0][apart.argmin()], sparse[1][nearest[apart.argmin()]]

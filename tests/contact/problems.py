@@ -1,4 +1,4 @@
-"""Contact steps without gears: random ones of the size that gears have, and small ones whose behaviour is known."""
+"""Contact steps without gears."""
 
 import numpy as np
 
@@ -8,10 +8,8 @@ from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_sta
 
 
 def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4, free=False) -> StepProblem:
-    """Random positive definite compliance and stiffness; gaps and loads of any sign.
-
-    `free`: nothing but contact holds the load along the first coordinate, which presses all nodes alike.
-    """
+    """Random positive definite compliance and stiffness; gaps and loads of any sign. `free`: only contact holds the
+    load along the first coordinate."""
     rng = np.random.default_rng(seed)
     size = 2 * nodes if friction else nodes
     root = rng.normal(size=(size, size)) / np.sqrt(size)
@@ -36,7 +34,6 @@ def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4, f
 
 
 def all_open(problem: StepProblem) -> np.ndarray:
-    """Sets to start from (n,): nothing touches."""
     return np.full(len(problem.gap), OPEN, dtype=np.int8)
 
 
@@ -56,7 +53,6 @@ def only_one_moves(compliance, jacobian, gap, force: float) -> StepProblem:
 
 
 def pressed(operator: ContactOperator, force: float, jacobian=None) -> StepSolution:
-    """The solution of that on an operator of one coordinate, or with another `jacobian`."""
     jacobian = operator.jacobian if jacobian is None else jacobian
     problem = only_one_moves(operator.compliance, jacobian, operator.gap, force)
     return solve_step(problem, cold_start(operator.gap, operator.node_pair))

@@ -1,5 +1,4 @@
-"""A march without gears: contact nodes that keep their place while the flanks slide over one another at constant
-speed."""
+"""A march without gears: the flanks slide over one another at constant speed."""
 
 from types import SimpleNamespace
 
@@ -28,11 +27,9 @@ class SlidingBlock:
         self.pair = SimpleNamespace(wheel=SimpleNamespace(tip_roll_angle=0.0))
 
     def position(self, step):
-        """A whole step."""
         return self.between(step, step - 1)
 
     def between(self, step, before):
-        """Part of a step."""
         problem, n = self.problem, len(self.problem.gap)
         operator = SimpleNamespace(
             nodes=n, compliance=problem.compliance, stored_jacobians=(problem.jacobian, None), gap=problem.gap,
@@ -44,13 +41,12 @@ class SlidingBlock:
         return Position(operator, np.arange(n))
 
     def solve(self, position, problem, status, last):
-        """By Newton and its fallbacks."""
         return solve_step(problem, status)
 
 
 def block_at_rest(problem: StepProblem, status: np.ndarray) -> tuple[Marcher, Record]:
-    """A block whose first step of 1 ms is the problem, by its mass, and its state before: at rest, unloaded, sets
-    `status` (n,)."""
+    """A block whose first step of 1 ms is the problem, by its mass, and its state before: at rest, sets `status`
+    (n,)."""
     step, k = 1e-3, len(problem.load)
     mass = 0.25 * step**2 * problem.stiffness
     names = ("rotation_2", "centre_x1", "centre_y1")[:k]

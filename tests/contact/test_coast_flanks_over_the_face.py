@@ -1,5 +1,4 @@
-"""Coast flanks of helical gears: normals, positions, gaps and compliance, against the helicoids themselves and against
-the drive flanks turned over."""
+"""Coast flanks of helical gears, against the helicoids and the drive flanks turned over."""
 
 from dataclasses import replace
 
@@ -30,7 +29,6 @@ BOTH = "[coast_flanks]\n"
 
 
 def coasting(hand="right", more=""):
-    """The model of a pair with both flanks, and its contact on stand-in bodies."""
     model = model_of(helical_scene(BOTH + more, hand=hand, offset=2.0))
     bodies, own = on_stand_in_bodies(model), model.drivetrain.indices
     flanks, solids = Flanks(model.pair, tuple(body.section for body in bodies)), tuple(body.solid for body in bodies)
@@ -40,12 +38,8 @@ def coasting(hand="right", more=""):
 
 
 def coast_helicoid(pair, angle, height, position):
-    """A point (3,) of the pinion's coast flank: a string unwound from the base circle the other way round than the
-    drive flank's.
-
-    `angle`: by which the string's direction is turned; the string through the line of action is `position` long at the
-    height 0. A right-hand pinion's section turns counter-clockwise with the height, towards the foot of that string.
-    """
+    """A point (3,) of the pinion's coast flank: a string unwound from the base circle, its direction turned by
+    `angle`, `position` long at height 0."""
     radius, double = pair.pinion.base_radius, 2.0 * pair.operating_pressure_angle
     turned = angle + double
     # Turned by twice the pressure angle the drive flanks' line is the coast flanks' one, and is walked backwards.
@@ -56,8 +50,7 @@ def coast_helicoid(pair, angle, height, position):
 
 @pytest.mark.parametrize("hand", ["right", "left"])
 def test_normals_are_the_helicoids(hand):
-    """Brute force: position and normal from the flank's surface by differences, and the kinematics of rigid bodies,
-    against the operator's rows."""
+    """Brute force: position and normal from the flank's surface by differences, and the kinematics of rigid bodies."""
     model, cycle = coasting(hand)
     pair, step = model.pair, 1e-5
     operator = cycle.position(5).operator
@@ -98,7 +91,6 @@ def test_normals_are_the_helicoids(hand):
 
 
 def rotated(vector, angle):
-    """A vector turned about z."""
     return np.array(
         [
             vector[0] * np.cos(angle) - vector[1] * np.sin(angle),
@@ -110,7 +102,6 @@ def rotated(vector, angle):
 
 @pytest.fixture(scope="module")
 def real(suite_cache):
-    """Sections and coarse bodies with both flanks."""
     accuracy = (
         'slices = 4\nlayers = 2\nbody_element_size = "1.5 mm"\nflank_element_size = "0.5 mm"\nelement ='
         ' "P1"\ncontact_nodes = 9\nsteps_per_mesh_cycle = 16'
@@ -121,14 +112,12 @@ def real(suite_cache):
 
 
 def test_coast_flanks_are_the_drive_flanks_turned_over(real):
-    """Exact symmetry: half a turn about the line of centres puts a helical pair on its coast flanks, z on -z, and keeps
-    its hand."""
+    """Exact symmetry: half a turn about the line of centres puts a helical pair on its coast flanks, z on -z."""
     model, flanks, bodies = real
     grid, pairing = ContactGrid(2.0, 9), FacePairing(flanks, bodies, model.face)
     pair, slices = model.pair, model.face.slices
 
     def nodes(index, flank, slice_, position):
-        """Contact nodes of either flank at the same position on its own line of action."""
         rolls = position / pair.pinion.base_radius, (pair.line_of_action_length - position) / pair.wheel.base_radius
         (drive,) = tooth_pairs(replace(flanks, removal=(None, None)), grid, [place(index, flank, slice_, rolls)])
         alone = drive.offsets, np.array([0, len(drive.offsets)])

@@ -1,4 +1,4 @@
-"""Corner contact: geometry against brute force on the exact outlines, mechanics against exact identities."""
+"""Corner contact, against the exact outlines and identities."""
 
 from dataclasses import replace
 
@@ -23,7 +23,7 @@ TIPS = [0, 1]
 
 
 def beyond(pair, tip, by):
-    """The place of a pair whose pinion's (0) or wheel's (1) tip is `by` mm beyond the path of contact."""
+    """The place of a pair whose pinion's (0) or wheel's (1) tip is `by` mm beyond the path."""
     return drive_place(pair, 0, pair.path_end + by if tip == 0 else pair.path_start - by)
 
 
@@ -31,8 +31,7 @@ def beyond(pair, tip, by):
 @pytest.mark.parametrize("tip", TIPS)
 @pytest.mark.parametrize("by", [0.1, 0.5, 1.0, 2.0])
 def test_the_mate_turned_by_the_gap_touches_the_tip(by, tip, radius, stand_in_flanks, paper_pair):
-    """Brute force: the mate's outline turned until it meets the tip's edge; an involute moves by rb phi along its
-    normal."""
+    """Brute force: the mate's outline turned until it meets the tip's edge."""
     corner, place = corner_contact(paper_pair, radius), beyond(paper_pair, tip, by)
     (nodes,) = corner_pairs(stand_in_flanks, FINE, corner, [place])
     mate, curves = 1 - tip, placed(paper_pair, corner.edges, place)
@@ -44,8 +43,7 @@ def test_the_mate_turned_by_the_gap_touches_the_tip(by, tip, radius, stand_in_fl
 
 @pytest.mark.parametrize("by", [0.1, 0.5, 1.0])
 def test_the_wheel_turned_by_the_gap_touches_the_edge_of_an_undercut_flank(by, stand_in_flanks, paper_pair):
-    """Brute force, as for tips: before the path of contact the edge at the form circle of an undercut pinion meets the
-    wheel's flank."""
+    """Brute force: before the path of contact the edge at an undercut pinion's form circle meets the wheel."""
     pinion = replace(
         paper_pair.pinion, teeth=12, profile_shift=0.0, tip_radius=31.5, root_radius=21.375, bore_radius=10.0
     )
@@ -61,8 +59,7 @@ def test_the_wheel_turned_by_the_gap_touches_the_edge_of_an_undercut_flank(by, s
 @pytest.mark.parametrize("radius", RADII)
 @pytest.mark.parametrize("tip", TIPS)
 def test_rigid_motions_change_the_gap_as_the_outlines_say(tip, radius, stand_in_flanks, paper_pair):
-    """Brute force: central differences of the least distance between both outlines by all six motions of the
-    centres."""
+    """Brute force: differences of the least distance between both outlines."""
     corner, place = corner_contact(paper_pair, radius), beyond(paper_pair, tip, 0.9)
     cycle = Cycle(elastic_mesh(stand_in_flanks, GRID, corner), STEPS, ALL, tangential=False)
     pairs = tuple(corner_pairs(stand_in_flanks, GRID, corner, [place]))
@@ -82,8 +79,7 @@ def test_rigid_motions_change_the_gap_as_the_outlines_say(tip, radius, stand_in_
 
 
 def test_on_the_path_of_contact_nothing_changes(stand_in_flanks, paper_pair):
-    """Exact: with sharp tips, pairs between start and end of the path have the same equations with corner contact and
-    without."""
+    """Exact: with sharp tips, pairs on the path have the same equations without corner contact."""
     corner = corner_contact(paper_pair)
     for xi in np.linspace(paper_pair.path_start + 1e-9, paper_pair.path_end - 1e-9, 9):
         place = drive_place(paper_pair, 0, xi)
@@ -99,8 +95,7 @@ def test_on_the_path_of_contact_nothing_changes(stand_in_flanks, paper_pair):
 @pytest.mark.parametrize("radius", RADII)
 @pytest.mark.parametrize("tip", TIPS)
 def test_nothing_jumps_where_the_edge_leaves_the_path(tip, radius, stand_in_flanks, paper_pair):
-    """Limit: either line is the line of action where the edge's arc begins to carry; gap, arms and direction are
-    continuous."""
+    """Limit: gap, arms and direction are continuous where the edge's arc begins to carry."""
     corner, gears = corner_contact(paper_pair, radius), (paper_pair.pinion, paper_pair.wheel)
     roll, base = corner.edges[tip].flank_roll, gears[tip].base_radius
     xi = base * roll if tip == 0 else paper_pair.line_of_action_length - base * roll
@@ -123,13 +118,11 @@ def cycle(stand_in_flanks, paper_pair):
 
 
 def corner_steps(cycle):
-    """Steps of the mesh cycle at which a tip's edge is beyond the path."""
     return [step for step in range(STEPS) if any(pair.place.line for pair in cycle.position(step).operator.pairs)]
 
 
 def test_action_equals_reaction_off_the_line_of_action(cycle, paper_pair):
-    """Newton's third law, exactly: any nodal forces leave no force on both gears together, and no moment about any
-    point."""
+    """Newton's third law: no force on both gears together, and no moment about any point."""
     radii = np.array([paper_pair.pinion.base_radius, paper_pair.wheel.base_radius])
     for step in corner_steps(cycle):
         operator = cycle.position(step).operator
@@ -144,8 +137,7 @@ def test_action_equals_reaction_off_the_line_of_action(cycle, paper_pair):
 
 
 def test_coast_flanks_are_seen_in_the_mirror(paper_pair):
-    """Exact: with both flanks' contact rolls alike, a coast pair's corner line has the drive pair's arms, its axes
-    mirrored."""
+    """Exact: with contact rolls alike, a coast pair's corner line has the drive pair's arms, mirrored."""
     corner, place = corner_contact(paper_pair, 0.1), beyond(paper_pair, 0, 0.7)
     coast = replace(coast_place(paper_pair, 0, 0.0), contact_rolls=place.contact_rolls)
     drive_corner, coast_corner = corner_place(paper_pair, corner, place), corner_place(paper_pair, corner, coast)

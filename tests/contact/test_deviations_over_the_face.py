@@ -1,4 +1,4 @@
-"""What opens the flanks differently along the face and from tooth to tooth: wobble, helix deviations, waves."""
+"""Wobble, helix deviations, waves over the face."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -24,7 +24,6 @@ WOBBLE, PHASE = 0.02, 0.6
 
 
 def cycle_of(flanks, helix):
-    """A cycle over a face of stand-in gears that are not opposite each other."""
     pair = replace(flanks.pair, helix=helix, axial_offsets=(1.0, -2.0), own_face_widths=(18.0, 20.0))
     face = Face(*even_slices(pair.face_width, SLICES), pair.slope, pair.gear_middles)
     bodies = tuple(stand_in_body(gear, width) for gear, width in zip((pair.pinion, pair.wheel), pair.face_widths))
@@ -33,13 +32,11 @@ def cycle_of(flanks, helix):
 
 @pytest.fixture(scope="module")
 def spur(stand_in_flanks):
-    """A face of a spur pair."""
     return cycle_of(stand_in_flanks, None)
 
 
 @pytest.fixture(scope="module")
 def helical(stand_in_flanks):
-    """A face of a helical pair."""
     return cycle_of(stand_in_flanks, Helix(np.deg2rad(20.0), "left"))
 
 
@@ -50,8 +47,7 @@ def heights(position):
 
 @pytest.mark.parametrize("gear", [0, 1])
 def test_a_spur_gear_that_wobbles_is_eccentric_in_each_slice(spur, gear):
-    """Exact: a section of a spur gear at the height h from mid-width is off its axis by wobble h/width, in the wobble's
-    direction."""
+    """Exact: a section at the height h is off its axis by wobble h/width."""
     pair, offsets = spur.pair, [None, None]
     offsets[gear] = Offset(wobble=WOBBLE, wobble_phase=PHASE)
     wobbling = WobblingRunOut(pair, Eccentricity(*offsets), STEPS)
@@ -68,8 +64,7 @@ def test_a_spur_gear_that_wobbles_is_eccentric_in_each_slice(spur, gear):
 
 @pytest.mark.parametrize("gear", [0, 1])
 def test_flanks_of_a_helical_gear_move_with_its_leaning_axis(helical, gear):
-    """Rigid motion: the axis of the teeth leans by wobble over the width; points of the flank move across it and, by
-    their distance from the axis, along it."""
+    """Rigid motion: points move across the leaning axis and, by their distance from it, along it."""
     pair, offsets, step = helical.pair, [None, None], 23
     offsets[gear] = Offset(wobble=WOBBLE, wobble_phase=PHASE)
     position = helical.position(step)
@@ -96,8 +91,7 @@ def test_flanks_of_a_helical_gear_move_with_its_leaning_axis(helical, gear):
 )
 @pytest.mark.parametrize("gear", [0, 1])
 def test_helix_deviations_are_material_over_the_gears_own_face(helical, name, shape, gear):
-    """Definition: slope rises by its value from the left end of the gear's face to the right one, form is one wave as
-    wide as its value; each tooth has its own."""
+    """Definition: slope rises over the gear's own face, form is one wave as wide as its value."""
     pair, step = helical.pair, 2 * STEPS + 4
     teeth, width, sense = ((pair.pinion.teeth, 18.0, 1), (pair.wheel.teeth, 20.0, 1))[gear]
     values = 0.001 * np.arange(1.0, teeth + 1.0)
@@ -115,7 +109,7 @@ def test_helix_deviations_are_material_over_the_gears_own_face(helical, name, sh
 
 
 class OnTheLine:
-    """Of a position what flank errors look at: a node on the line of action in each slice of each pair."""
+    """A node on the line of action in each slice of each pair."""
 
     def __init__(self, position):
         self.operator, self.index = self, position.index
@@ -125,8 +119,7 @@ class OnTheLine:
 
 @pytest.mark.parametrize("gear", [0, 1])
 def test_waves_run_along_the_lines_of_contact(helical, gear):
-    """Definition: an undulation around the gear has one phase along a line of contact, that of the turn that brings its
-    points there."""
+    """Definition: one phase along a line of contact."""
     pair, step, waves, amplitude = helical.pair, 6, 40, 0.001
     errors = [GearErrors(), GearErrors()]
     errors[gear] = GearErrors(waviness=Waviness(amplitude, waves, 0.2))

@@ -1,4 +1,4 @@
-"""The mixed form by factors that last: authority is the whole system, solved by numpy."""
+"""The mixed form by factors that last, against the whole system by numpy."""
 
 import ctypes
 
@@ -12,8 +12,6 @@ NODES, COORDINATES, FRICTION = 60, 3, 0.1
 
 
 class Contact:
-    """A random contact with or without friction, and its factors."""
-
     def __init__(self, frictional: bool):
         draw, forces = np.random.default_rng(1), NODES * (2 if frictional else 1)
         root = draw.normal(size=(forces, forces))
@@ -23,7 +21,6 @@ class Contact:
         self.factors, self.solver = Factors(forces, forces), ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_int64)
 
     def rows(self, closed, status):
-        """Unknown forces, and tangential ones per normal one."""
         if not self.frictional:
             return closed, np.empty(0)
         slip = np.select([status == SLIP_FORWARD, status == SLIP_BACKWARD], [FRICTION, -FRICTION], 0.0)
@@ -39,7 +36,6 @@ class Contact:
         return result if self.solver(factored_solver().address)(numbers.ctypes.data) else None
 
     def expected(self, rows, slip):
-        """The same of the whole system."""
         compliance, jacobian = self.compliance[np.ix_(rows, rows)], self.jacobian[rows]
         of_forces, slipping = jacobian.copy(), NODES + rows[: len(slip)]
         compliance[:, : len(slip)] += slip * self.compliance[np.ix_(rows, slipping)] if len(slip) else 0.0
@@ -55,7 +51,7 @@ class Contact:
 
 @pytest.mark.parametrize("frictional", [False, True])
 def test_factors_give_what_the_whole_system_gives_whatever_was_factored_before(frictional):
-    """numpy's solution; and exact identity of what new and lasting factors give."""
+    """numpy's solution; and exact identity of new and lasting factors."""
     contact, status = Contact(frictional), np.random.default_rng(2).integers(SLIP_FORWARD, STICK + 1, size=NODES)
     one, other = (contact.rows(closed, status[closed]) for closed in (np.arange(5, 50), np.arange(8, 55)))
     found = [contact.solved(*rows) for rows in (one, one, other, one)]
@@ -65,7 +61,7 @@ def test_factors_give_what_the_whole_system_gives_whatever_was_factored_before(f
 
 
 def test_nodes_that_depend_on_each_other_are_left_to_elimination():
-    """A compliance of which two rows are one has no Cholesky factor; nothing may be made of it."""
+    """A compliance of which two rows are one has no Cholesky factor."""
     contact = Contact(frictional=False)
     contact.compliance[7], contact.compliance[:, 7] = contact.compliance[6], contact.compliance[:, 6]
     contact.compliance[7, 7] = contact.compliance[6, 6]

@@ -1,4 +1,4 @@
-"""Products of the compliance over a face with contact nodes' weights, against dense arithmetic."""
+"""Compliance over a face times contact nodes' weights, against dense arithmetic."""
 
 import numpy as np
 import pytest
@@ -16,15 +16,13 @@ GROUPS = np.array([[0, 3, 6, 9], IN_SLICES, [0, 0, 3, 0], [3, 6, 6, 3]])
 
 
 def symmetric(random, size):
-    """Blocks of teeth up to OFFSETS apart, those behind the transposes of those ahead."""
+    """Blocks of teeth up to OFFSETS apart; those behind are the transposes."""
     ahead = random.standard_normal((OFFSETS + 1, size, size))
     ahead[0] += ahead[0].T
     return np.stack([*(each.T for each in ahead[:0:-1]), *ahead])
 
 
 def side(random, kinds):
-    """Three contact nodes in each group, which see 2 nodes of either flank, and 3 of the fine ones; and the weights (2,
-    12, NODES) and (2, 12, FINE_NODES) of all."""
     (first, near, weights), (fine_first, fine_near, fine) = (
         views(random, *each) for each in ((NODES, 2), (FINE_NODES, 3))
     )
@@ -41,7 +39,6 @@ def side(random, kinds):
 
 
 def views(random, count, width):
-    """First flank nodes (2, 12) of contact nodes, their weights, and those among all nodes of a flank."""
     first, near, weights = (
         random.integers(0, count - width, (2, 12)),
         random.random((2, 12, width)),
@@ -53,8 +50,7 @@ def views(random, count, width):
 
 
 def by_whole_matrices(bodies, fine, rows, columns):
-    """Every group's weights over all flank nodes and directions, times the whole blocks less the sections in the same
-    slice; and times the fine sections there."""
+    """Every group's weights times the whole blocks less the sections in the same slice, and times the fine sections."""
     (own, weights, own_fine), (other, others, other_fine) = rows, columns
     kinds, kinds_of_columns = own.axes.shape[2], other.axes.shape[2]
     expected = np.zeros((kinds, 12, kinds_of_columns, 12))
@@ -81,7 +77,7 @@ def by_whole_matrices(bodies, fine, rows, columns):
 
 @pytest.mark.parametrize("kinds", [(1, 1), (2, 2), (2, 1)], ids=["frictionless", "friction", "step before"])
 def test_rows_are_those_of_whole_matrices(kinds):
-    """Brute force, with a layer of each node; rows that nobody asked for stay zero."""
+    """Brute force; rows that nobody asked for stay zero."""
     random = np.random.default_rng(5)
     rows, columns = (side(random, each) for each in kinds)
     bodies = [(symmetric(random, 3 * NODES * SLICES), symmetric(random, 2 * NODES)) for _ in range(2)]
@@ -103,7 +99,7 @@ def test_rows_are_those_of_whole_matrices(kinds):
 
 
 def test_slices_that_are_taken_as_independent_are(paper_pair):
-    """Brute force: no eigenvalue of their sections is below the bound; and nodes that coincide are found."""
+    """Brute force: no eigenvalue is below the bound; nodes that coincide are found."""
     random, kinds = np.random.default_rng(2), 2
     nodes, _, _ = side(random, kinds)
     nodes = nodes._replace(fine_first=np.tile([0, 2, 4], (2, 4)), fine_near=np.abs(nodes.fine_near))
@@ -135,8 +131,7 @@ def test_slices_that_are_taken_as_independent_are(paper_pair):
 
 @pytest.mark.parametrize("coast", [False, True], ids=["drive flanks", "both flanks"])
 def test_stacked_sections_are_all_that_is_known(paper_pair, coast):
-    """Identity: as far as any two flanks' compliance is known, also that of drive and coast flanks, which reaches
-    further; beyond it not a number."""
+    """Identity: as far as any two flanks' compliance is known; beyond it not a number."""
     section = stand_in_compliance(paper_pair.pinion, elements=4, offsets=1, coast_flank=coast)
     blocks = stacked(section)
     reach = len(blocks) // 2

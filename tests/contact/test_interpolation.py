@@ -1,4 +1,4 @@
-"""Hat-averaged interpolation against brute-force quadrature and exact identities."""
+"""Hat-averaged interpolation."""
 
 import numpy as np
 import pytest
@@ -20,8 +20,7 @@ def interpolation_at(pair, xi, order, grid=ContactGrid(2.0, 21), elements=50):
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_polynomials_of_the_arc_length_are_averaged_exactly(paper_pair, order):
-    """Exact: the trace space holds polynomials of its order in the arc length; brute force is 400-point quadrature a
-    cell."""
+    """Exact: polynomials of the element's order; brute force is 400-point quadrature a cell."""
     offsets, contact_roll, flank_rolls, result = interpolation_at(paper_pair, 12.0, order)
     radius = paper_pair.pinion.base_radius
     for power in range(order + 1):
@@ -38,8 +37,7 @@ def test_polynomials_of_the_arc_length_are_averaged_exactly(paper_pair, order):
 
 
 def test_interpolation_of_a_smooth_function_is_of_fourth_order(paper_pair):
-    """Known order: averages of parabolas are exact, so that a smooth function's differs from its point value by
-    O(h^4)."""
+    """Known order: O(h^4) from the point value."""
     errors = []
     for nodes in (11, 21):
         offsets, _, flank_rolls, result = interpolation_at(paper_pair, 12.0, 2, ContactGrid(2.0, nodes), 400)

@@ -15,7 +15,6 @@ NO_REMOVAL = (None, None)
 
 
 def pairs_at(pair, phase, grid=GRID, order=1):
-    """The tooth pairs 0 and 1 at a phase of the mesh cycle."""
     positions = [(k, pair.path_start + (phase + k) * pair.base_pitch) for k in (0, 1)]
     return tuple(
         node_pairs(pair, NO_REMOVAL, grid, order, drive_place(pair, k, xi)) for k, xi in positions if xi < pair.path_end
@@ -24,8 +23,7 @@ def pairs_at(pair, phase, grid=GRID, order=1):
 
 @pytest.mark.parametrize("falling", [False, True])
 def test_interpolation_is_exact_for_linear_fields(falling):
-    """Exact identity: [A.2], [A.3] reproduce a field that is linear in the roll angle; at a known angle the value
-    itself."""
+    """Exact identity: [A.2], [A.3] reproduce a linear field."""
     known = np.array([0.31, 0.35, 0.36, 0.44])
     known = known[::-1] if falling else known
     rolls = np.array([0.31, 0.33, 0.355, 0.36, 0.43, 0.44])
@@ -37,11 +35,8 @@ def test_interpolation_is_exact_for_linear_fields(falling):
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_nodes_of_both_gears_lie_on_one_line_along_the_line_of_action(order, paper_pair):
-    """Exact geometry: at a contact node both meshes' nodes have the same offset, and [9] is the distance between them.
-
-    A second-order element's middle node lies on the chord, within its sagitta of the flank (Taylor: h^2/(8 rho), with
-    some slant).
-    """
+    """Exact geometry: both nodes have the same offset, [9] is their distance; a middle node lies on the chord,
+    within its sagitta (Taylor: h^2/(8 rho))."""
     pair, nodes = paper_pair, pairs_at(paper_pair, 0.2, order=order)[0]
     points, sagitta = [], 1e-9
     for gear, rolls, contact in (
@@ -66,8 +61,7 @@ def test_nodes_of_both_gears_lie_on_one_line_along_the_line_of_action(order, pap
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_forces_of_an_even_pressure(order, paper_pair):
-    """Exact identity: the flank lengths of the nodes integrate what the element's shape functions do, order + 1
-    polynomials at least."""
+    """Exact identity: the nodes' lengths integrate polynomials of the element's order + 1."""
     nodes = pairs_at(paper_pair, 0.5, order=order)[0]
     ends = nodes.offsets[[0, -1]]
     for power in range(order + 1 if order == 1 else 4):
@@ -76,7 +70,7 @@ def test_forces_of_an_even_pressure(order, paper_pair):
 
 
 def last_displacement(pair, spacing_cells, steps=40):
-    """The operator of a step, and rigid rows and offsets of the step before, on rigid teeth (no compliance)."""
+    """The operator of a step, and rigid rows and offsets of the step before, on rigid teeth."""
     grid = ContactGrid(1.5, spacing_cells + 1)
     now, before = (pairs_at(pair, phase, grid) for phase in (0.5, 0.5 - 1.0 / steps))
     nodes = [sum(len(p.offsets) for p in pairs) for pairs in (now, before)]
@@ -89,9 +83,8 @@ def last_displacement(pair, spacing_cells, steps=40):
 
 
 def test_last_rigid_displacement_of_the_same_material_points(paper_pair):
-    """Exact kinematics [A.4]: a rotation moves a point at x by phi x along e_y. Linear interpolation [A.2] is within
-    (spacing of roll angles)^2/8 of the largest second derivative of x/rb by the roll angle, v cos(v_c - v) - sin(v_c -
-    v)."""
+    """Exact kinematics [A.4]: a rotation moves a point at x by phi x along e_y; [A.2] is within (spacing of roll
+    angles)^2/8 of the second derivative of x/rb, v cos(v_c - v) - sin(v_c - v)."""
     for cells in (12, 24):
         operator, now, before = last_displacement(paper_pair, cells)
         turned = paper_pair.pinion.angular_pitch / 40

@@ -1,4 +1,4 @@
-"""Contact operators: symmetry, reciprocity, rigid motions, against dense products and the step before."""
+"""Contact operators, against dense products and the step before."""
 
 from dataclasses import replace
 
@@ -25,7 +25,7 @@ def cycle(stand_in_flanks):
 
 
 def test_compliance_equals_the_dense_product(cycle):
-    """Brute force: the sum over both gears of N R A R^T N^T with full matrices, teeth coupled by their distance."""
+    """Brute force: the sum over both gears of N R A R^T N^T."""
     operator = cycle.position(1).operator
     n = operator.nodes
     expected = np.zeros((2 * n, 2 * n))
@@ -50,7 +50,7 @@ def test_compliance_equals_the_dense_product(cycle):
 
 
 def test_earlier_rigid_motion_is_that_of_the_same_material_points(cycle, paper_pair):
-    """Exact: turned back by one step, a rigid rotation moves the points by omega x r at their earlier place."""
+    """Exact: turned back by a step, a rotation moves the points by omega x r at their earlier place."""
     operator = cycle.position(5).operator
     advance = paper_pair.pinion.angular_pitch / STEPS
     for pair, arm, radius, sign, column, turn in (
@@ -64,8 +64,7 @@ def test_earlier_rigid_motion_is_that_of_the_same_material_points(cycle, paper_p
 
 
 def test_without_motion_between_steps_the_earlier_displacement_is_the_present_one(stand_in_flanks):
-    """Limit: as the step goes to zero, E tends to the tangential rows of C and previous_jacobian to those of G, to
-    first order."""
+    """Limit: E tends to the tangential rows of C and previous_jacobian to those of G, to first order."""
     differences = []
     for steps in (2000, 4000):
         fine = Cycle(elastic_mesh(stand_in_flanks, GRID), steps, ALL, tangential=True)
@@ -86,8 +85,7 @@ def test_without_motion_between_steps_the_earlier_displacement_is_the_present_on
 
 
 def test_rigid_slip_over_a_step_is_exact(cycle, paper_pair):
-    """Exact: slip is the integral of the sliding speed of the two material points, here by 40 Gauss points of their
-    circular motion."""
+    """Exact: the integral of the sliding speed, by 40 Gauss points."""
     advance = paper_pair.pinion.angular_pitch / STEPS
     back, weights = np.polynomial.legendre.leggauss(40)
     back, weights = 0.5 * advance * (back + 1.0), 0.5 * advance * weights
@@ -108,7 +106,7 @@ def test_rigid_slip_over_a_step_is_exact(cycle, paper_pair):
 @pytest.mark.parametrize("coast", [False, True])
 @pytest.mark.parametrize("corner", [False, True])
 def test_reach_holds_between_steps_too(paper_pair, coast, corner):
-    """Brute force: all flanks that touch at any of 16 parts of a step, and those that did up to a step before."""
+    """Brute force: flanks that touch at any of 16 parts of a step, and up to a step before."""
     corner, steps, parts, found = corner_contact(paper_pair) if corner else None, 20, 16, {}
     places = {
         i: pair_places(paper_pair, GRID, i / (steps * parts) % 1.0, coast, corner) for i in range(-parts, steps * parts)

@@ -1,9 +1,5 @@
-"""Newton and its fallbacks: each tested by an input on which all methods before it end without a solution.
-
-The seeds are among the smallest of 100 000 random problems (1 to 8 nodes, friction 0.1 to 2, with and without a free
-motion). The methods solved, in their order: 78 697, 13 816, 170, 74, 5733, 123, 1369; nothing solved 18, whose error
-says self-locking.
-"""
+"""Newton and its fallbacks, each on a step on which all methods before it fail. Seeds are of 100 000 random problems
+(1 to 8 nodes, friction 0.1 to 2); the methods solved, in their order: 78 697, 13 816, 170, 74, 5733, 123, 1369."""
 
 from dataclasses import replace
 from itertools import takewhile
@@ -51,7 +47,6 @@ def problem_of(seed, nodes, friction, free):
 
 
 def check_laws(problem, solution):
-    """Equilibrium and the laws of contact, from the solution's forces and coordinates alone."""
     displacement = problem.jacobian @ solution.coordinates - problem.compliance @ solution.forces
     residual = law_residual(solution.forces, displacement, problem.gap, problem.slip_before, problem.friction)
     imbalance = problem.stiffness @ solution.coordinates + problem.jacobian.T @ solution.forces - problem.load
@@ -60,7 +55,6 @@ def check_laws(problem, solution):
 
 
 def outcomes_before(method, problem):
-    """How all methods end that are tried before one."""
     return [
         attempt()[0][0]
         for _, attempt in takewhile(lambda each: each[0] != method, _methods(problem, all_open(problem), 40))
@@ -71,7 +65,7 @@ def outcomes_before(method, problem):
     "method, problem", NEEDED, ids=[f"{method}, {'free' if data[3] else 'held'}" for method, data in NEEDED]
 )
 def test_every_method_is_needed_by_some_step(method, problem):
-    """Each method solves, to the laws written out, a step on which every method before it was tried and failed."""
+    """The laws written out."""
     problem = problem_of(*problem)
     outcomes = outcomes_before(method, problem)
     assert len(outcomes) == NEWTON_AND_FALLBACKS.index(method) and CONVERGED not in outcomes
@@ -81,7 +75,6 @@ def test_every_method_is_needed_by_some_step(method, problem):
 
 
 def close_nodes(nodes=40, elements=15):
-    """Frictionless contact nodes of which several stand on each element: elasticity hardly tells them apart."""
     places, known = np.linspace(0.0, 1.0, nodes), np.linspace(0.0, 1.0, elements)
     hats = np.maximum(0.0, 1.0 - np.abs(places[:, None] - known) * (elements - 1))
     compliance = 1e-5 * hats @ np.exp(-8.0 * np.abs(known[:, None] - known)) @ hats.T
@@ -91,7 +84,7 @@ def close_nodes(nodes=40, elements=15):
 
 @pytest.mark.parametrize("nodes, elements", [(40, 15), (120, 50)])
 def test_nodes_that_elasticity_hardly_tells_apart_are_solved(nodes, elements):
-    """Newton and Murty's rule repeat their sets; the convex programme finds those that obey the laws."""
+    """Where Newton and Murty's rule repeat their sets, the convex programme obeys the laws."""
     problem = close_nodes(nodes, elements)
     outcomes = outcomes_before("Tresca fixed point", problem)
     assert len(outcomes) == 2 and CONVERGED not in outcomes
@@ -106,7 +99,7 @@ def test_nodes_that_elasticity_hardly_tells_apart_are_solved(nodes, elements):
 @given(st.integers(0, 10**9), st.integers(1, 8))
 @settings(max_examples=30)
 def test_frozen_friction_is_the_bounded_minimum_of_the_energy(seed, nodes):
-    """Other method: with q eliminated the programme is bounded least squares; SciPy's active-set method solves that."""
+    """SciPy's active-set method for the bounded least squares that remain with q eliminated."""
     problem = random_problem(seed, nodes, friction=0.5)
     bounds = 3e3 * np.random.default_rng(seed).random(nodes)
     flexibility = problem.jacobian @ np.linalg.solve(problem.stiffness, problem.jacobian.T) + problem.compliance
@@ -122,8 +115,7 @@ def test_frozen_friction_is_the_bounded_minimum_of_the_energy(seed, nodes):
 
 
 def test_a_step_without_a_solution_is_divided():
-    """The one held problem of the search that no method solves: as the step of a block with mass it has a solution in
-    two halves."""
+    """The one held problem that no method solves: with mass it has a solution in two halves."""
     problem = problem_of(11490, 6, 1.0, False)
     with pytest.raises(SelfLocking, match="by more than the normal force moves them apart"):
         solve_step(problem, all_open(problem))
@@ -145,7 +137,7 @@ def test_a_step_without_a_solution_is_divided():
 
 
 def jammed(scene, pair, flanks, absent, nodes, steps):
-    """A static march of two mesh cycles with a friction coefficient of 5, which jams the teeth on approach."""
+    """A static march of two mesh cycles with friction of 5, which jams the teeth on approach."""
     scene = replace(scene, inertia=None, damping=None, **dict.fromkeys(absent))
     shafts = drivetrain(scene, pair)
     cycle = Cycle(elastic_mesh(flanks, ContactGrid(2.0, nodes)), steps, shafts.indices, tangential=True)
@@ -154,11 +146,7 @@ def jammed(scene, pair, flanks, absent, nodes, steps):
 
 @pytest.mark.parametrize("absent, nodes, steps", [(("shafts",), 21, 20), (("bearings",), 13, 28)])
 def test_gears_that_jam_need_divided_steps(absent, nodes, steps, paper_scene, paper_pair, stand_in_flanks):
-    """Two of the marches of the paper's pair on stand-in teeth with a friction coefficient of 5 that need a divided
-    step.
-
-    Every part of every step obeys the laws written out.
-    """
+    """The laws written out, in every part of every step."""
     march = jammed(paper_scene, paper_pair, stand_in_flanks, absent, nodes, steps)
     assert march.steps_by_method[HALVED] >= 1 and sum(march.steps_by_method.values()) == 2 * steps
     passed = [part for record in march.records for part in record.parts or (record,)]
@@ -205,8 +193,7 @@ def cycle_of(kind, scene, pair, flanks, steps):
 @pytest.mark.parametrize("changes", [{}, {"inertia": None, "damping": None}], ids=["dynamic", "quasi-static"])
 @pytest.mark.parametrize("longest, parts", [(0.5, 2), (0.25, 4)])
 def test_divided_steps_are_those_of_a_finer_march(longest, parts, changes, paper_scene, paper_pair, stand_in_flanks):
-    """Exact identity: a march whose every step is divided in 2 (4) passes the states of the march with 2 (4) times the
-    steps."""
+    """Exact identity: the states of the march with 2 (4) times the steps."""
     scene, steps = replace(paper_scene, **changes), 10
     coarse, shafts = cycle_of(Refusing, scene, paper_pair, stand_in_flanks, steps)
     coarse.longest = longest
@@ -226,8 +213,7 @@ def test_divided_steps_are_those_of_a_finer_march(longest, parts, changes, paper
 
 
 def test_a_step_that_no_division_solves_says_so(paper_scene, paper_pair, stand_in_flanks):
-    """Never silence: the whole step's error, with the shortest step's attempt after its own; time and step are the
-    whole step's."""
+    """The whole step's error, with the shortest step's attempt after its own."""
     cycle, shafts = cycle_of(Refusing, paper_scene, paper_pair, stand_in_flanks, 10)
     marcher = Marcher(cycle, EquationsOfMotion(shafts, 1e-4, 0.1))
     cycle.longest = 1.0
@@ -241,7 +227,7 @@ def test_a_step_that_no_division_solves_says_so(paper_scene, paper_pair, stand_i
 
 
 def test_no_equilibrium_is_a_typed_error_with_its_history():
-    """A load that pulls the flanks apart, held by nothing else: named, with residuals and sets of every method."""
+    """A load that nothing holds: named, with residuals and sets of every method."""
     problem = random_problem(0, 3, friction=0.3, coordinates=1, free=True)
     rigid = np.array([[1.0]] * 3 + [[0.1]] * 3)
     problem = replace(problem, load=np.array([-100.0]), free_motion=np.array([-1.0]), jacobian=rigid)

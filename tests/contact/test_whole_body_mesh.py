@@ -1,4 +1,4 @@
-"""Mesh cycles of gears whose teeth are not alike, on teeth without finite elements."""
+"""Mesh cycles of gears whose teeth are not alike."""
 
 import numpy as np
 import pytest
@@ -21,8 +21,7 @@ def whole(
     softer: dict[int, float] | None = None,
     other_nodes: dict[int, FlankCompliance] | None = None,
 ):
-    """A body whose teeth are those of a ring, some softer by a factor, some with a compliance, and nodes, of their
-    own."""
+    """A body with teeth of a ring, some softer by a factor, some with a compliance and nodes of their own."""
     softer, other_nodes, blocks, rolls = softer or {}, other_nodes or {}, [], []
     for tooth in range(teeth):
         own = other_nodes.get(tooth, ring)
@@ -48,7 +47,6 @@ def cycle(paper_pair, bodies, tangential=True):
 
 
 def meshes_of(found) -> int:
-    """How many meshes of their own the cycles so far have had."""
     return len(found.mesh.of_cycle.__self__.meshes)
 
 
@@ -61,8 +59,7 @@ def same(one, other) -> bool:
 
 @pytest.mark.parametrize("meshed", [(True, False), (False, True), (True, True)])
 def test_equal_teeth_have_one_cycle_to_the_last_bit(paper_pair, rings, meshed):
-    """Exact identity: bodies of equal teeth give the operators of the ring of sectors, friction's included, and only
-    one set of them."""
+    """Exact identity: the operators of the ring of sectors, and only one set of them."""
     bodies = tuple(whole(ring, teeth) if own else ring for ring, teeth, own in zip(rings, (16, 24), meshed))
     found, expected = cycle(paper_pair, bodies), cycle(paper_pair, rings)
     for step in [*range(-1, 2 * STEPS), 40 * STEPS + 3]:
@@ -74,11 +71,8 @@ def test_equal_teeth_have_one_cycle_to_the_last_bit(paper_pair, rings, meshed):
 
 @pytest.mark.parametrize("gear", [0, 1])
 def test_a_softer_tooth_is_met_in_its_turn(paper_pair, rings, gear):
-    """Which tooth is in mesh when: the pinion's come clockwise, the wheel's counter-clockwise, tooth 0 first.
-
-    The operator's own compliance of the tooth's contact nodes is that of the softer tooth in cycle `number` and a turn
-    later, and of no other tooth in any other cycle.
-    """
+    """The pinion's teeth come clockwise, the wheel's counter-clockwise, tooth 0 first: the operator has the softer
+    tooth in cycle `number` and a turn later, and in no other."""
     teeth, number, factor = (16, 24)[gear], 5, 2.0
     tooth = first_tooth(gear, number) % teeth
     assert tooth == ((11, 5)[gear])
@@ -99,8 +93,7 @@ def test_a_softer_tooth_is_met_in_its_turn(paper_pair, rings, gear):
 
 
 def test_friction_knows_the_teeth_of_the_step_before(paper_pair, rings):
-    """Exact identity: across the end of a cycle the earlier displacement is that of the same teeth: the cycle of their
-    own alone gives it."""
+    """Exact identity: the cycle of their own alone."""
     bodies = (whole(rings[0], 16, {11: 2.0, 12: 3.0}), rings[1])
     found = cycle(paper_pair, bodies)
     for number in (3, 4, 5, 6, 7):

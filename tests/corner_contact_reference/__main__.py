@@ -1,8 +1,5 @@
-"""Regenerates reference.csv: `python -m tests.corner_contact_reference` (CalculiX: Debian's calculix-ccx; about an
-hour).
-
-With `--only-missing` rows that are in the file already stay as they are.
-"""
+"""Regenerates reference.csv: `python -m tests.corner_contact_reference [--only-missing]` (Debian's calculix-ccx; an
+hour)."""
 
 import argparse
 import tempfile
@@ -12,7 +9,6 @@ from tests.corner_contact_reference.reference import CASES, Row, computed, paper
 
 
 def main() -> None:
-    """Compute the cases one after the other and write the file after each."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--only-missing", action="store_true")
     known: list[Row] = read() if parser.parse_args().only_missing else []

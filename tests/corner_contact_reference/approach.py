@@ -1,5 +1,4 @@
-"""Teeth alone at one position: how far the wheel turns under its couple while the pinion's hub is held, without
-friction."""
+"""Teeth alone at one position: how far the wheel turns under its couple, without friction."""
 
 from dataclasses import replace
 
@@ -22,7 +21,6 @@ WHEEL_ROTATION = 5  # in CENTRE_COORDINATES
 
 
 def teeth_alone(scene: Scene, accuracy: Accuracy = Accuracy()) -> Scene:
-    """The gears and the load of a scene, nothing else."""
     return replace(
         scene, accuracy=accuracy, shafts=None, bearings=None, inertia=None, damping=None, friction=None,
         tip_relief=None,
@@ -31,7 +29,7 @@ def teeth_alone(scene: Scene, accuracy: Accuracy = Accuracy()) -> Scene:
 
 
 def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int, cache: Cache | None = None) -> Cycle:
-    """Contact operators of a scene's teeth alone on finite elements, the wheel's rotation the only unknown."""
+    """On finite elements, the wheel's rotation the only unknown."""
     model = model_of(scene)
     grid, resolution = model.resolution.contact_grid, model.resolution
     reach = touching(model.pair, grid, steps, corner=corner).reach
@@ -45,12 +43,11 @@ def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int, cache:
 
 
 def rigid_hub_cycle(flanks: Flanks, grid: ContactGrid, steps: int, corner: CornerContact | None) -> Cycle:
-    """The same on any flanks."""
     return Cycle(elastic_mesh(flanks, grid, corner), steps, [WHEEL_ROTATION], tangential=False)
 
 
 def transmission_error(cycle: Cycle, pair: GearPair, couple: float, phase: float) -> tuple[float, float]:
-    """Transmission error (rad, of the wheel) at a phase (mesh cycles), and the pinion's couple over the wheel's."""
+    """Rad, of the wheel, at a phase (mesh cycles), and the pinion's couple over the wheel's."""
     operator = cycle.position(round(phase * cycle.steps)).operator
     solution = pressed(operator, couple / pair.wheel.base_radius)
     arms = [float(np.sum(arm * solution.forces)) for arm in operator.normal_lever_arms]

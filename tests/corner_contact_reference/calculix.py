@@ -1,9 +1,6 @@
-"""A pair of gears at one position as an input file of CalculiX, and the couple on the wheel from what it prints.
-
-Frame: pinion's centre at the origin, line of action y = -rb1, as in the program. The pinion's bore is held, the wheel's
-is turned by given angles; the couple that this takes is the sum over the bore's reactions. Six-node triangles are in
-plane strain, 1 mm thick; fifteen-node wedges are the gears over their face.
-"""
+"""A pair of gears at one position as an input file of CalculiX, and the couples from what it prints. Pinion's centre
+at the origin, line of action y = -rb1. The pinion's bore is held, the wheel's is turned. Six-node triangles in plane
+strain, 1 mm thick, or fifteen-node wedges over the face."""
 
 import re
 import subprocess
@@ -24,12 +21,12 @@ FORCES = r" forces \(fx,fy,fz\) for set (\S+) and time\s+(\S+)\n\n((?:\s+\d+.*\n
 
 
 class CalculixFailed(RuntimeError):
-    """CalculiX ended without the results that were asked for."""
+    pass
 
 
 def placed(pair: GearPair, meshes: tuple[GearMesh, GearMesh], phase: float) -> tuple[np.ndarray, np.ndarray]:
-    """Points (n, 2 or 3), mm, of pinion and wheel where tooth 0 of both touches (at z = 0) at `phase` mesh cycles after
-    the path's start."""
+    """Points (n, 2 or 3), mm, of pinion and wheel, tooth 0 of both touching at `phase` mesh cycles after the path's
+    start."""
     xi = pair.path_start + phase * pair.base_pitch
     turns = (xi / pair.pinion.base_radius, np.pi + (pair.line_of_action_length - xi) / pair.wheel.base_radius)
     centres = (np.zeros(2), wheel_centre(pair))
@@ -40,7 +37,6 @@ def placed(pair: GearPair, meshes: tuple[GearMesh, GearMesh], phase: float) -> t
 
 
 def wheel_centre(pair: GearPair) -> np.ndarray:
-    """The wheel's centre (2,), mm."""
     return np.array([pair.line_of_action_length, -(pair.pinion.base_radius + pair.wheel.base_radius)])
 
 
@@ -54,11 +50,8 @@ def couples(
     slave: int = 0,
     penalty: float = PENALTY,
 ) -> np.ndarray:
-    """Couple (k, 2), N mm (of triangles per mm of face width), on the pinion's and the wheel's bore with the wheel
-    turned by rotations (k,), rad.
-
-    slave: the gear over whose surface contact is integrated. Raises CalculixFailed.
-    """
+    """Couples (k, 2), N mm (of triangles per mm), on both bores with the wheel turned by rotations (k,), rad. slave:
+    the gear over whose surface contact is integrated. Raises CalculixFailed."""
     points = placed(pair, meshes, phase)
     deck = input_file(pair, material, meshes, points, rotations, slave, penalty)
     (folder / "pair.inp").write_text(deck)
@@ -82,7 +75,7 @@ def couples(
 
 
 def input_file(pair, material, meshes, points, rotations, slave, penalty) -> str:
-    """The input file: one static step for each rotation (rad) of the wheel."""
+    """One static step for each rotation (rad) of the wheel."""
     dimensions, (cell_type, first_side) = points[0].shape[1], CELLS[meshes[0].cells.shape[1]]
     lines = ["*NODE, NSET=ALL"] + [
         ", ".join([str(i + 1), *(f"{each:.15g}" for each in point)] + ["0."] * (dimensions == 2))

@@ -1,5 +1,4 @@
-"""A mesh of a whole gear in six-node triangles for a general-purpose code: a few teeth finely meshed, tip edges
-rounded."""
+"""A whole gear in six-node triangles, a few teeth finely meshed, tip edges rounded."""
 
 from __future__ import annotations
 
@@ -17,10 +16,8 @@ from fenics_gears.geometry.tip_edge import tip_edge
 
 @dataclass(frozen=True)
 class MeshSizes:
-    """Element sizes, mm: along the loaded flanks, at their tip edges (graded between), in fillets and far away.
-
-    `growth`: increase of size per distance from the flank.
-    """
+    """mm: along the loaded flanks, at their tip edges, in fillets and far away. `growth`: increase per distance from
+    the flank."""
 
     flank: float
     tip: float
@@ -30,7 +27,6 @@ class MeshSizes:
     growth: float = 0.35
 
     def scaled(self, factor: float) -> MeshSizes:
-        """All sizes times a factor."""
         return MeshSizes(
             *(factor * size for size in (self.flank, self.tip, self.fillet, self.coarse, self.body)), self.growth
         )
@@ -38,12 +34,8 @@ class MeshSizes:
 
 @dataclass(frozen=True)
 class GearMesh:
-    """Six-node triangles: `points` (n, 2), mm, in the body frame of tooth 0; `cells` (m, 6), corners, then the sides'
-    middles.
-
-    `hub`: indices of the bore's nodes. `contact`: (cell, side) of the edges on the loaded teeth's flanks, tip edges and
-    tip lands, (k, 2).
-    """
+    """`points` (n, 2), mm, in the body frame of tooth 0; `cells` (m, 6), corners, then middles; `hub`: nodes of the
+    bore; `contact` (k, 2): (cell, side) of edges on loaded flanks, tip edges and tip lands."""
 
     points: np.ndarray
     cells: np.ndarray
@@ -52,12 +44,11 @@ class GearMesh:
 
 
 def rotation(angle: float) -> np.ndarray:
-    """The matrix (2, 2) that turns by an angle (rad) counter-clockwise."""
     return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
 
 
 def gear_mesh(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: tuple[int, ...]) -> GearMesh:
-    """The mesh of a gear whose teeth `loaded` (pitches counter-clockwise of tooth 0) are meshed finely."""
+    """Teeth `loaded` (pitches counter-clockwise of tooth 0) are meshed finely."""
     doubled, touching = _outline(gear, sizes, edge_radius, loaded)
     count = max(2 * int(np.ceil(np.pi * gear.bore_radius / (0.05 * gear.bore_radius))), 40)
     angles = -2.0 * np.pi * np.arange(2 * count) / (2 * count)
@@ -73,8 +64,7 @@ def gear_mesh(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: tuple[in
 
 
 def _outline(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded) -> tuple[np.ndarray, np.ndarray]:
-    """Closed outline, clockwise, with the middle of every edge (2 k, 2), and whether an edge (k,) is one that may
-    touch."""
+    """Closed outline, clockwise, with middles (2 k, 2), and whether an edge (k,) may touch."""
     fine, coarse = (_tooth(gear, sizes, edge_radius, is_loaded) for is_loaded in (True, False))
     points, touching = [], []
     chosen = {tooth % gear.teeth for tooth in loaded}
@@ -86,7 +76,7 @@ def _outline(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded) -> tuple[
 
 
 def _tooth(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Outline of one tooth from space to space, clockwise, middles of edges included, last point left out."""
+    """From space to space, clockwise, middles included, last point left out."""
     edge = tip_edge(gear, edge_radius if loaded else 0.0)
     outline = tooth_outline(gear, 401)
     flank_size, tip_size, size = (
@@ -120,7 +110,6 @@ def _tooth(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: bool) -> tu
 
 
 def _land(gear: Gear, corner: np.ndarray, opposite: np.ndarray, tip_size: float, sizes: MeshSizes) -> np.ndarray:
-    """The tip circle from one edge to the other, fine at both."""
     start, end = (np.angle(complex(*point)) for point in (corner, opposite))
     length = gear.tip_radius * abs(end - start)
     half = _graded(0.5 * length, tip_size, sizes.coarse, sizes.growth)[:-1] / length
@@ -134,8 +123,7 @@ def _even(edges: float) -> int:
 
 
 def _graded(length: float, first: float, last: float, growth: float) -> np.ndarray:
-    """Distances (2 k + 1,) from 0 to length of edges' ends and middles, sizes growing from `first` to at most
-    `last`."""
+    """Distances (2 k + 1,) of edges' ends and middles, sizes growing from `first` to at most `last`."""
     at, ends = 0.0, [0.0]
     while at < length:
         at += min(first + 0.5 * growth * at, last)
@@ -150,7 +138,7 @@ def _resampled(curve: np.ndarray, size: float) -> np.ndarray:
 
 
 def _size_function(doubled: np.ndarray, bore: np.ndarray, sizes: MeshSizes):
-    """Element size (n,), mm, wanted at points (n, 2): that of the boundary's edges, growing from there."""
+    """Wanted at points (n, 2): that of the boundary's edges, growing from there."""
     curves = doubled[::2], bore[::2]
     edges = [np.linalg.norm(np.roll(curve, -1, axis=0) - curve, axis=1) for curve in curves]
     # An edge's end takes the smaller of its two edges.

@@ -1,4 +1,4 @@
-"""Transmission error of the paper's pair by CalculiX: teeth alone, no friction, contact found on the true outlines."""
+"""Transmission error of the paper's pair by CalculiX: teeth alone, no friction, the true outlines."""
 
 import csv
 import subprocess
@@ -25,11 +25,8 @@ CLOSE_ENOUGH = 0.015
 
 @dataclass(frozen=True)
 class Case:
-    """One analysis: mesh phase, edge radius of both gears' tips (mm), and how it is done.
-
-    `refinement`: factor on all element sizes; `slave`: the gear whose surface contact is integrated over; `penalty`,
-    MPa/mm.
-    """
+    """Mesh phase, edge radius of both tips (mm); `refinement`: factor on element sizes; `slave`: the gear whose
+    surface contact is integrated over; `penalty`, MPa/mm."""
 
     phase: float
     edge_radius: float
@@ -40,9 +37,6 @@ class Case:
 
 @dataclass(frozen=True)
 class Row:
-    """A case, its transmission error (rad of the wheel), the couple on the pinion over the wheel's, nodes of the mesh,
-    code."""
-
     case: Case
     transmission_error: float
     couple_ratio: float
@@ -54,18 +48,13 @@ ROUNDED = (0.5, 0.52, 0.54, 0.95, 0.96, 0.98)
 
 
 def tip_touching(phase: float) -> int:
-    """The gear whose tip comes into or leaves contact about that phase: 0 the pinion, 1 the wheel.
-
-    Its surface is the slave, over which CalculiX integrates contact, along normals of the other surface, the master. A
-    sharp edge has no normal, so that only the mate's is the true one; and only the edge's mesh resolves the narrow
-    contact of a rounded edge. The other way round the entering tip is 0.6 % (sharp) to 1.5 % (0.1 mm) off at phase
-    0.95.
-    """
+    """The gear whose tip comes into or leaves contact about that phase: 0 the pinion, 1 the wheel. It is the slave:
+    a sharp edge has no normal, and only the edge's mesh resolves its narrow contact; otherwise the tip is 0.6 to 1.5
+    % off."""
     return 1 if phase > 0.935 else 0
 
 
 def case(phase: float, edge_radius: float, **change) -> Case:
-    """The usual analysis at a phase, with changes."""
     return Case(phase, edge_radius, **{"slave": tip_touching(phase), **change})
 
 
@@ -81,13 +70,12 @@ CASES = (
 
 
 def paper_pair() -> tuple[Scene, GearPair]:
-    """The paper's scene and gears."""
     scene = load_scene(SCENE)
     return scene, gear_pair(scene.gears)
 
 
 def computed(scene: Scene, pair: GearPair, case: Case, folder: Path, guess: float = FIRST_GUESS) -> Row:
-    """The wheel's rotation that takes the scene's couple, by secant steps on the rotation."""
+    """The wheel's rotation that takes the scene's couple, by secant steps."""
     pairs = (0, 1) if case.phase < 0.75 else (-1, 0)
     sizes = SIZES.scaled(case.refinement)
     meshes = tuple(
@@ -112,13 +100,11 @@ def computed(scene: Scene, pair: GearPair, case: Case, folder: Path, guess: floa
 
 
 def version() -> str:
-    """What `ccx -v` says."""
     said = subprocess.run(["ccx", "-v"], capture_output=True, text=True).stdout
     return "CalculiX " + said.split()[-1]
 
 
 def read(file: Path = FILE) -> list[Row]:
-    """The rows of the file."""
     if not file.exists():
         return []
     rows = []
@@ -140,7 +126,6 @@ def read(file: Path = FILE) -> list[Row]:
 
 
 def write(rows: list[Row], file: Path = FILE) -> None:
-    """Write the rows, in the order of CASES."""
     order = {case: number for number, case in enumerate(CASES)}
     flat = [{**asdict(row.case), **{key: value for key, value in asdict(row).items() if key != "case"}} for row in rows]
     flat = [

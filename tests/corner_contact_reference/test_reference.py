@@ -1,7 +1,4 @@
-"""Deflection at hand-over against full contact analyses in CalculiX.
-
-Its results are in reference.csv; `python -m tests.corner_contact_reference` regenerates them.
-"""
+"""Deflection at hand-over against CalculiX; `python -m tests.corner_contact_reference` regenerates reference.csv."""
 
 import shutil
 from dataclasses import replace
@@ -19,13 +16,11 @@ USUAL = [row for row in ROWS.values() if row.case not in VARIANTS]
 
 
 def name(row) -> str:
-    """A row's name as a test."""
     return f"phase {row.case.phase:g}, edge {row.case.edge_radius:g} mm"
 
 
 @pytest.fixture(scope="module")
 def cycles(paper_scene, suite_cache):
-    """Contact operators at the default accuracy with sharp and with rounded tip edges, and without corner contact."""
     scene, pair = teeth_alone(paper_scene), gear_pair(paper_scene.gears)
     corners = {radius: corner_contact(pair, radius) for radius in sorted({row.case.edge_radius for row in USUAL})}
     return {
@@ -35,8 +30,7 @@ def cycles(paper_scene, suite_cache):
 
 @pytest.mark.parametrize("row", USUAL, ids=name)
 def test_deflection_is_that_of_a_full_contact_analysis(row, cycles, paper_scene, paper_pair, record_property):
-    """CalculiX 2.20, contact found on the true outlines: the transmission error agrees within 1 % at every phase
-    (measured: 0.5 %)."""
+    """CalculiX 2.20: within 1 % at every phase (measured: 0.5 %)."""
     couple, cycle = paper_scene.load.wheel_torque, cycles[row.case.edge_radius]
     error, couples = transmission_error(cycle, paper_pair, couple, row.case.phase)
     record_property("relative_difference", error / row.transmission_error - 1.0)
@@ -46,8 +40,7 @@ def test_deflection_is_that_of_a_full_contact_analysis(row, cycles, paper_scene,
 
 
 def test_without_corner_contact_the_wheels_tip_comes_in_wrongly(cycles, paper_scene, paper_pair):
-    """CalculiX: along the line of action alone the entering tip is off by more than 1 %, so that the test above can
-    fail."""
+    """CalculiX: the entering tip is off by more than 1 %, so that the test above can fail."""
     row = ROWS[case(0.95, 0.0)]
     error, _ = transmission_error(cycles[None], paper_pair, paper_scene.load.wheel_torque, row.case.phase)
     assert abs(error / row.transmission_error - 1.0) > 0.01
@@ -56,11 +49,8 @@ def test_without_corner_contact_the_wheels_tip_comes_in_wrongly(cycles, paper_sc
 @pytest.mark.nightly
 @pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed (Debian: calculix-ccx)")
 def test_calculix_gives_the_file_again(paper_scene, paper_pair, tmp_path):
-    """The file is what the script makes: one position computed anew, with elements half as large again, which is four
-    times as quick (measured: 1e-5; 4e-5 with elements 2 % larger).
-
-    Of the file's own sizes, today's gmsh makes a mesh in which CalculiX 2.20 calls one undistorted element inverted.
-    """
+    """One position anew, with elements half as large again (measured: 1e-5); of the file's own sizes CalculiX 2.20
+    calls one undistorted element of today's gmsh inverted."""
     row = ROWS[case(LEAVING[0], 0.0)]
     coarser = replace(row.case, refinement=1.5)
     again = computed(paper_scene, paper_pair, coarser, tmp_path, guess=row.transmission_error)

@@ -1,5 +1,4 @@
-"""A Debian system in a folder, entered as a container would be: processes and mounts of its own, root, next to no
-environment."""
+"""A Debian system in a folder, entered as a container would be."""
 
 import os
 import shlex
@@ -27,15 +26,12 @@ exit $?
 
 @dataclass(frozen=True)
 class Call:
-    """How a command ended."""
-
     exit_code: int
     seconds: float
     output: str
 
     @property
     def is_green(self) -> bool:
-        """Whether it ended well."""
         return self.exit_code == 0
 
 
@@ -47,12 +43,10 @@ class Root:
     folder: Path
 
     def is_there(self) -> bool:
-        """Whether it was made to the end."""
         return (self.folder / "etc/apt/sources.list").exists()
 
     def make(self, log: Path, expired=False) -> Call:
-        """Make it anew, as small as Docker's slim images. expired: take package lists past their date, as snapshots
-        have."""
+        """Make it anew, as small as Docker's slim images; expired: take package lists past their date."""
         self.remove()
         self.folder.parent.mkdir(parents=True, exist_ok=True)
         as_docker = ["--dpkgopt=force-unsafe-io", '--aptopt=Acquire::Languages "none"']
@@ -67,11 +61,9 @@ class Root:
         return call
 
     def remove(self) -> None:
-        """Remove its folder."""
         _remove(self.folder)
 
     def copy_in(self, archive: bytes, folder: str) -> None:
-        """Unpack a tar archive into a folder that is made anew."""
         subprocess.run(["tar", "-x", "-C", self.empty_folder(folder)], input=archive, check=True)
 
     def empty_folder(self, folder: str) -> Path:
@@ -82,7 +74,6 @@ class Root:
         return target
 
     def call(self, command: list[str], log: Path, folder="/", environment=None) -> Call:
-        """Run a command inside, what it prints going to a log."""
         outside = {name: os.environ[name] for name in HANDED_ON if name in os.environ}
         shutil.copy("/etc/resolv.conf", self.folder / "etc/resolv.conf")
         certificates = next((os.environ[name] for name in ("PIP_CERT", "SSL_CERT_FILE") if name in os.environ), None)
@@ -103,6 +94,5 @@ def _run(command, log, **options) -> Call:
 
 
 def _remove(folder: Path) -> None:
-    """Remove a folder and nothing that is mounted in it, which an interrupted call of another tool may have left."""
     if folder.exists():
         subprocess.run(["rm", "-rf", "--one-file-system", folder], check=True)

@@ -1,5 +1,4 @@
-"""What tests/debians/run tries on each Debian: set-up, README's commands, the suite alone and its finite elements under
-mpirun."""
+"""What tests/debians/run tries on each Debian."""
 
 import argparse
 import json
@@ -31,8 +30,8 @@ CHECKOUT = Path(__file__).resolve().parents[2]
 
 @dataclass(frozen=True)
 class Dockerfile:
-    """suite: that of the Debian it starts from. copied_to: where the checkout goes. commands: of the shell, in their
-    order. environment, folder and entry_point: of whoever runs the image."""
+    """suite: that of its Debian; copied_to: where the checkout goes; commands: of the shell; the rest: of whoever
+    runs the image."""
 
     suite: str
     copied_to: str
@@ -43,7 +42,7 @@ class Dockerfile:
 
 
 def read_dockerfile(path: Path = CHECKOUT / "Dockerfile") -> Dockerfile:
-    """Read it. Raises ValueError for a step that only Docker could carry out."""
+    """Raises ValueError for a step that only Docker could carry out."""
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
     steps = [line.split(None, 1) for line in "\n".join(lines).replace("\\\n", " ").splitlines()]
     one, environment = {name: rest.strip() for name, rest in steps if name not in ("RUN", "ENV")}, {}
@@ -68,8 +67,7 @@ class Trial:
         self.logs.mkdir(parents=True, exist_ok=True)
 
     def note(self, name: str, call: Call) -> bool:
-        """Tell how a call ended, with the last line of what it printed, such as pytest's counts; whether it ended
-        well."""
+        """Tell how a call ended, with the last line of what it printed; whether it ended well."""
         self.green &= call.is_green
         last = (call.output.strip().splitlines() or [""])[-1]
         outcome = last if call.is_green else f"FAILED ({call.exit_code}), see {self.log(name)}: {last}"
@@ -77,16 +75,14 @@ class Trial:
         return call.is_green
 
     def log(self, name: str) -> Path:
-        """File of a call's output."""
         return self.logs / f"{name.replace(' ', '_')}.log"
 
     def call(self, name: str, *command: str, folder: str = "", environment=None) -> bool:
-        """Run a command inside; whether it ended well."""
         done = self.root.call(list(command), self.log(name), folder or self.docker.copied_to, environment)
         return self.note(name, done)
 
     def run(self, archive: bytes, own: list[str]) -> None:
-        """Try everything on a fresh system (with `--reuse` on the one that is there), or the command `own` after the
+        """Everything on a fresh system (with `--reuse` on the one that is there), or the command `own` after the
         set-up."""
         there = self.options.reuse and self.root.is_there()
         if not there and not self.note("system", self.root.make(self.log("system"), self.options.expired)):
@@ -107,8 +103,7 @@ class Trial:
                           environment=environment)  # fmt: skip
 
     def _set_up(self) -> bool:
-        """Set up by the Dockerfile where it starts from this suite, else by README's first command as on a user's
-        machine."""
+        """By the Dockerfile where it starts from this suite, else by README's first command."""
         docker = self.docker
         if docker.suite == self.root.suite:
             if not self.call("Dockerfile", "sh", "-ec", "\n".join(docker.commands), folder="/"):
@@ -120,7 +115,6 @@ class Trial:
 
 
 def main(arguments: list[str], description: str) -> int:
-    """Try what the arguments ask for; the exit code."""
     at = arguments.index("--") if "--" in arguments else len(arguments)
     parser = argparse.ArgumentParser(
         "tests/debians/run", description=description, formatter_class=argparse.RawDescriptionHelpFormatter

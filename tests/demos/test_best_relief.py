@@ -1,5 +1,4 @@
-"""The demonstration of the best relief: searches against maps by brute force, and what its README says of friction and
-tolerances; on coarse teeth."""
+"""The demonstration of the best relief, on coarse teeth."""
 
 import re
 
@@ -23,13 +22,13 @@ def every(tmp_path_factory):
     for name in ("frictionless", "friction", "friction_tolerances"):
         text = (
             (compare.HERE / f"{name}.toml")
-            .read_text(encoding="utf-8")
+            .read_text()
             .replace("../lundvall2004.toml", str(compare.HERE.parent / "lundvall2004.toml"))
         )
         text = re.sub("evaluations = .*", "evaluations = 40", re.sub("samples = .*", "samples = 2", text)).replace(
             "without = [", 'without = ["accuracy", '
         )
-        (folder / f"{name}.toml").write_text(text + COARSE, encoding="utf-8")
+        (folder / f"{name}.toml").write_text(text + COARSE)
         with pytest.MonkeyPatch.context() as few:
             few.setattr("fenics_gears.extensions.optimization.optimize.VALUES", 2)
             few.setattr("fenics_gears.extensions.optimization.optimize.TORQUES", (1.0,))
@@ -40,16 +39,16 @@ def every(tmp_path_factory):
 
 
 def test_what_is_found_is_as_good_as_the_best_of_the_map(every):
-    """Authority: brute force; the README's statement."""
+    """Brute force; the README's statement."""
     for each in every.values():
         assert each.found.chosen.goals[ERROR] <= each.least_of_map[2]
         assert each.found.chosen.goals[ERROR] < each.found.before.goals[ERROR]
 
 
 def test_picture_and_table_have_every_condition(every, tmp_path):
-    """Authority: the README."""
+    """The README."""
     picture, table = compare.written(every, tmp_path)
     assert picture.stat().st_size > 50_000
-    text = table.read_text(encoding="utf-8")
+    text = table.read_text()
     assert all(f"| {words} |" in text for words in (compare.NAMES[name] for name in every))
     assert f"| {every['friction'].found.chosen.values[LENGTH]:.2f} |" in text

@@ -1,5 +1,4 @@
-"""The demonstration of a study under mpirun: stopped, gone on with, and what it says of tip relief over speed and
-load."""
+"""The demonstration of a study under mpirun."""
 
 import os
 import re
@@ -23,11 +22,10 @@ CASES = 2 * len(FREQUENCIES_RUN) * len(TORQUES_RUN)
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """A folder with the study on coarse teeth, at a few speeds and loads."""
     if not shutil.which("mpirun"):
         pytest.skip("no mpirun")
     directory = tmp_path_factory.mktemp("cluster")
-    text = speed_and_load.STUDY.read_text(encoding="utf-8")
+    text = speed_and_load.STUDY.read_text()
     for name, value in (
         ("scene", f'"{speed_and_load.STUDY.parents[1] / "lundvall2004.toml"}"'),
         ("accuracy.contact_nodes", '26\naccuracy.element = "P1"\naccuracy.flank_element_size = "0.12 mm"'),
@@ -37,14 +35,13 @@ def folder(tmp_path_factory):
     ):
         text, count = re.subn(rf"^{re.escape(name)} = .*$", f"{name} = {value}", text, flags=re.MULTILINE)
         assert count == 1
-    (directory / "study.toml").write_text(text, encoding="utf-8")
+    (directory / "study.toml").write_text(text)
     return directory
 
 
 @pytest.fixture(scope="module")
 def stopped(folder):
-    """Exit code and cases done of the study under mpirun that was stopped after its first case, and exit code of the
-    one that went on."""
+    """Exit code and cases of the study that was stopped after its first case, and exit code of the one that went on."""
     with pytest.MonkeyPatch.context() as patched:
         clean = environment()
         for name in set(os.environ) - set(clean):
@@ -58,8 +55,7 @@ def stopped(folder):
 
 @pytest.mark.nightly
 def test_a_stopped_study_goes_on_and_ends_like_one_alone(folder, stopped):
-    """Exact identity; how a study came to its end changes no number of it. Exit code 130 is an interrupted study's
-    (docs/promises.md)."""
+    """Exact identity; exit code 130 (docs/promises.md)."""
     first, kept, second = stopped
     assert first == 130 and 1 <= kept < CASES
     assert second == 0 and done(folder / "out") == CASES
@@ -72,7 +68,7 @@ def test_a_stopped_study_goes_on_and_ends_like_one_alone(folder, stopped):
 
 @pytest.mark.nightly
 def test_picture_and_table_show_it(folder, stopped):
-    """Axes with units; a row for each torque, columns at the run frequencies nearest to the table's."""
+    """Axes with units; a row for each torque."""
     pictures = speed_and_load.shown(folder / "out")
     assert {path.name for path in pictures} == {speed_and_load.PICTURE, speed_and_load.TABLE}
     found = gain(folder / "out" / "study.nc")

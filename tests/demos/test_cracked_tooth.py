@@ -1,4 +1,4 @@
-"""The demonstration of a cracked tooth: its scene, what its picture shows, what its table says; on coarse teeth."""
+"""The demonstration of a cracked tooth, on coarse teeth."""
 
 from dataclasses import replace
 
@@ -35,13 +35,12 @@ def scene():
 
 @pytest.fixture(scope="module")
 def turns(scene, tmp_path_factory):
-    """No crack, and one of 3 mm."""
     file = tmp_path_factory.mktemp("cracked") / "pinion.msh"
     return [turn(healthy(scene), 0.0), turn(cracked(scene, 3.0, file), 3.0)]
 
 
 def test_the_scene_has_the_mesh_that_lies_in_the_repository():
-    """The demonstration's own words; a turn of the pinion, its mesh found from the scene's folder on."""
+    """The demonstration's own words."""
     scene = load_scene(HERE / "cracked_tooth.toml")
     assert scene.motion.mesh_cycles == scene.motion.recorded_cycles == scene.gears.pinion.teeth == 16
     assert scene.body_meshes.pinion.path.endswith("meshes/cracked_pinion.msh") and scene.body_meshes.pinion.digest
@@ -51,8 +50,7 @@ def test_the_scene_has_the_mesh_that_lies_in_the_repository():
 
 @pytest.mark.nightly
 def test_the_bump_comes_with_the_cracked_tooth_and_fills_the_orders_between_those_of_the_mesh(turns):
-    """On fine teeth the pair alone is 14.7 % more compliant at this depth (README); coarse ones are within 1 %. Exact:
-    equal teeth have no orders but the mesh's."""
+    """README: 14.7 % on fine teeth, coarse ones within 1 %. Exact: equal teeth have no orders but the mesh's."""
     whole, broken = turns
     alone = int(np.argmin(np.abs(whole.phase - ALONE)))
     assert broken.error[alone] / whole.error[alone] == pytest.approx(1.147, abs=0.01)
@@ -70,7 +68,7 @@ def test_the_bump_comes_with_the_cracked_tooth_and_fills_the_orders_between_thos
 
 @pytest.mark.nightly
 def test_the_picture_shows_every_depth_with_its_units(turns, scene):
-    """A legend entry for each run; every axis names its quantity and unit; the crack is drawn."""
+    """A legend entry for each run; quantity and unit on every axis; the crack is drawn."""
     gear = model_of(healthy(scene)).pair.pinion
     sector = cracked_sector_mesh(gear, element_sizes(gear, ELEMENTS["P2"], 0.4), SHOWN)
     figure = draw(turns, gear, sector, SHOWN)
@@ -86,7 +84,7 @@ def test_the_picture_shows_every_depth_with_its_units(turns, scene):
 
 @pytest.mark.nightly
 def test_the_crack_is_open_while_its_tooth_carries_and_closed_while_the_one_before_it_does(scene):
-    """README's table, on coarser teeth: along the whole crack, under the whole load."""
+    """README's table, on coarser teeth."""
     model = model_of(healthy(scene))
     gear, material = model.pair.pinion, scene.gears.material
     body = CrackedBody(gear, material, element_sizes(gear, ELEMENTS["P2"], 0.8, 2.0), RootCrack(3.0))

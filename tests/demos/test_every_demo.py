@@ -1,4 +1,4 @@
-"""Every demonstration has its script, its README, its picture, its place in docs/demos.md, and a test that runs it."""
+"""Every demonstration has its script, README, picture, place in docs/demos.md, and test."""
 
 import ast
 import os
@@ -14,15 +14,11 @@ OVERVIEW = DEMOS.parent / "docs" / "demos.md"
 
 
 def pictures(page: Path) -> list[Path]:
-    """The pictures that a page shows."""
-    return [
-        (page.parent / name).resolve()
-        for name in re.findall(r"!\[[^]]+\]\(([^)]+)\)", page.read_text(encoding="utf-8"))
-    ]
+    return [(page.parent / name).resolve() for name in re.findall(r"!\[[^]]+\]\(([^)]+)\)", page.read_text())]
 
 
 def test_every_folder_is_a_demonstration():
-    """docs/demos.md: a folder with a script that runs it. Python's own folders do not count."""
+    """docs/demos.md: a folder with a script."""
     folders = {
         path.name for path in DEMOS.iterdir() if path.is_dir() and any(path.glob("*.*")) and path.name != "__pycache__"
     }
@@ -31,10 +27,10 @@ def test_every_folder_is_a_demonstration():
 
 @pytest.mark.parametrize("demo", FOLDERS)
 def test_it_is_tested_and_shown(demo):
-    """docs/demos.md: a test runs each; its README and the overview show a picture that is there."""
+    """docs/demos.md."""
     test = Path(__file__).parent / f"test_{demo}.py"
     assert test.is_file(), f"no test runs demos/{demo}: write {test.name}"
-    source = test.read_text(encoding="utf-8")
+    source = test.read_text()
     assert f"demos.{demo}" in source or f'"{demo}"' in source
     assert any(
         isinstance(node, ast.FunctionDef) and node.name.startswith("test_") for node in ast.walk(ast.parse(source))
@@ -42,22 +38,22 @@ def test_it_is_tested_and_shown(demo):
     readme = DEMOS / demo / "README.md"
     shown = pictures(readme)
     assert shown and all(picture.is_file() for picture in shown)
-    assert f"../demos/{demo}/README.md" in OVERVIEW.read_text(encoding="utf-8")
+    assert f"../demos/{demo}/README.md" in OVERVIEW.read_text()
     assert set(shown) & set(pictures(OVERVIEW))
 
 
 @pytest.mark.parametrize("demo", FOLDERS)
 def test_its_script_calls_a_module_that_is_there(demo):
-    """The shell; the script can be executed, is free of mistakes in its syntax, and names a module of its folder."""
+    """The shell: executable, without mistakes in its syntax."""
     script = DEMOS / demo / "run"
     assert os.access(script, os.X_OK)
     assert subprocess.run(["bash", "-n", script], capture_output=True).returncode == 0
-    (module,) = re.findall(rf'/launch" demos\.{demo}\.(\w+)', script.read_text(encoding="utf-8"))
+    (module,) = re.findall(rf'/launch" demos\.{demo}\.(\w+)', script.read_text())
     assert (DEMOS / demo / f"{module}.py").is_file()
 
 
 def test_scripts_take_one_argument(capsys):
-    """demos/arguments.py; a directory, `results/<name>` unless given, and words on wrong calls."""
+    """demos/arguments.py."""
     from demos.arguments import output_directory
 
     assert output_directory("tip_relief", "Words.", []) == Path("results/tip_relief")

@@ -12,10 +12,9 @@ from fenics_gears.commands.cli import main
 
 
 def test_widths_are_overlap_ratios_at_the_same_load_per_width():
-    """Definition: epsilon_beta = b sin(beta)/(pi m_n) of the base scene is 1; the study's widths and torques are
-    multiples of a quarter of it."""
+    """Definition: epsilon_beta = b sin(beta)/(pi m_n) of the base scene is 1."""
     assert gear_pair(load_scene(widths.STUDY.parent / "pair.toml").gears).overlap_ratio == pytest.approx(1.0, abs=1e-4)
-    lines = [re.findall(r'"([\d.]+) ', line) for line in widths.STUDY.read_text(encoding="utf-8").splitlines()]
+    lines = [re.findall(r'"([\d.]+) ', line) for line in widths.STUDY.read_text().splitlines()]
     swept = [list(map(float, values)) for values in lines if len(values) == 10]
     assert len(swept) == 2
     for values in swept:
@@ -24,8 +23,8 @@ def test_widths_are_overlap_ratios_at_the_same_load_per_width():
 
 @pytest.mark.nightly
 def test_a_whole_overlap_ratio_has_less_ripple(tmp_path):
-    """The demonstration's own words, on coarse bodies and two widths; table and picture have both."""
-    text = widths.STUDY.read_text(encoding="utf-8").replace('"pair.toml"', f'"{widths.STUDY.parent / "pair.toml"}"')
+    """The demonstration's own words, on coarse bodies."""
+    text = widths.STUDY.read_text().replace('"pair.toml"', f'"{widths.STUDY.parent / "pair.toml"}"')
 
     # The third and the fourth of each swept field's values, on half as many slices and layers.
     def kept(found):
@@ -34,7 +33,7 @@ def test_a_whole_overlap_ratio_has_less_ripple(tmp_path):
 
     coarse = 'accuracy = { body_element_size = "2.5 mm", flank_element_size = "0.2 mm", steps_per_mesh_cycle = 12 }'
     text = re.sub(r"= \[(.*)\]", kept, text).replace("[sweep]", f"[set]\n{coarse}\n\n[sweep]")
-    (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+    (tmp_path / "study.toml").write_text(text)
     assert main(["study", str(tmp_path / "study.toml"), "--output", str(tmp_path / "out")]) == 0
     found = widths.cases(tmp_path / "out")
     assert [round(case.overlap_ratio, 2) for case in found] == [0.75, 1.0]

@@ -1,4 +1,4 @@
-"""The demonstration of errors of manufacture: its scene, and what its picture names."""
+"""The demonstration of errors of manufacture."""
 
 from dataclasses import replace
 
@@ -13,8 +13,7 @@ from fenics_gears.show.run import Run
 
 @pytest.mark.nightly
 def test_the_picture_names_every_error_of_the_scene():
-    """The scene's own sections: run-out of both gears, 37 waves on the pinion, tolerance class 6; a whole hunting tooth
-    period of 48 mesh cycles, so that every line stands alone. On coarse teeth."""
+    """The scene: run-out, 37 waves, tolerance class 6, 48 mesh cycles so that every line stands alone."""
     scene = load_scene(SCENE)
     assert (scene.motion.mesh_cycles, scene.motion.recorded_cycles) == (48, 48)
     assert scene.flank_errors.tolerance_class == 6

@@ -1,5 +1,4 @@
-"""The paper's gallery: its studies load and say what the figures need; a fast part of its claims (model.md, section
-6)."""
+"""The paper's gallery, and a fast part of its claims (model.md, section 6)."""
 
 import re
 from pathlib import Path
@@ -14,7 +13,6 @@ STUDIES = study_files()
 
 @pytest.fixture(scope="module")
 def measured(tmp_path_factory):
-    """Results of the small studies, and of Fig. 9 at five depths, none included."""
     directory = tmp_path_factory.mktemp("gallery")
     depths = '"1e-6 um", "20 um", "28 um", "31 um", "36 um"'
     files = {name: STUDIES[name] for name in ("figure02", "figure04", "figure05", "figure08", f"{PRINTED}figure05")}
@@ -30,7 +28,6 @@ def measured(tmp_path_factory):
 
 
 def _reduced(file: Path, field: str, values: str, directory: Path) -> Path:
-    """The study with fewer values of a swept field."""
     text = re.sub(rf"{re.escape(field)} = \[[^]]*\]", f"{field} = [{values}]", file.read_text())
     text = re.sub(r'scene = "[^"]*"', f'scene = "{BASE_SCENE}"', text)
     (directory / file.name).write_text(text)
@@ -39,7 +36,7 @@ def _reduced(file: Path, field: str, values: str, directory: Path) -> Path:
 
 @pytest.mark.nightly
 def test_claim_5_shape_is_kept_at_200_hz_and_the_frictionless_curve_lags(measured):
-    """Fig. 5; holds with J as we read it and not as printed (model.md, section 5)."""
+    """Fig. 5; with J as we read it (model.md, section 5)."""
     static = measured.study("figure02")
     assert claims.claim_5(static, measured.study("figure05")).verdict == claims.HELD
     assert claims.claim_5(static, measured.study(f"{PRINTED}figure05")).verdict != claims.HELD
@@ -47,8 +44,7 @@ def test_claim_5_shape_is_kept_at_200_hz_and_the_frictionless_curve_lags(measure
 
 @pytest.mark.nightly
 def test_claim_7_friction_of_the_modified_pair_passes_smoothly(measured):
-    """Fig. 8: within 0.02 cycles R_y1 changes by less than 15 % of mu T2/rb2; the unmodified pair's by more than twice
-    as much."""
+    """Fig. 8: within 0.02 cycles R_y1 changes by less than 15 % of mu T2/rb2, unmodified by twice as much."""
     unmodified, modified = (measured.run(name, friction=WITH) for name in ("figure04", "figure08"))
     assert claims.claim_7(unmodified, modified).verdict == claims.HELD
     assert claims.sudden_change(unmodified) > 2.0 * claims.sudden_change(modified)
@@ -56,7 +52,7 @@ def test_claim_7_friction_of_the_modified_pair_passes_smoothly(measured):
 
 @pytest.mark.nightly
 def test_claim_8_the_best_depth_is_near_30_um(measured):
-    """Fig. 9: of 0, 20, 28, 31 and 36 um the best lies within 30 +- 5 um, static and at 200 Hz."""
+    """Fig. 9: of 0, 20, 28, 31 and 36 um within 30 +- 5 um."""
     static, dynamic = measured.study("figure09_static"), measured.study("figure09_dynamic")
     for curve, friction in ((static, WITHOUT), (dynamic, WITHOUT), (dynamic, WITH)):
         assert 25.0 <= claims.best_depth(curve, friction) <= 31.0
@@ -64,7 +60,7 @@ def test_claim_8_the_best_depth_is_near_30_um(measured):
 
 @pytest.mark.nightly
 def test_claim_9_relief_gains_less_with_friction(measured):
-    """Figs. 9, 10: the share of T_EPP that 31 um take away is smaller with friction, static and at 200 Hz."""
+    """Figs. 9, 10."""
     for name in ("figure09_static", "figure09_dynamic"):
         error = measured.study(name).peak_to_peak_transmission_error
         gain = 1.0 - error.sel(depth=31.0) / error.isel(depth=0)

@@ -15,7 +15,7 @@ SCENE = load_scene(misaligned.HERE / "misaligned.toml")
 
 @pytest.mark.nightly
 def test_crowning_pays_under_misalignment_alone():
-    """The demonstration's own words, on coarse bodies; table and picture have every case."""
+    """The demonstration's own words, on coarse bodies."""
     coarse = replace(
         SCENE,
         accuracy=Accuracy(slices=8, layers=4, body_element_size=2.2, steps_per_mesh_cycle=20, flank_element_size=0.12),

@@ -1,4 +1,4 @@
-"""The demonstration of other programs: the same pair in ROSS and Exudyn, which are installed for it."""
+"""The same pair in ROSS and Exudyn, which are installed for it."""
 
 import subprocess
 import sys
@@ -10,7 +10,6 @@ from demos.other_programs.compare import HERE, compared, draw, table
 
 @pytest.fixture(scope="module")
 def other_python(tmp_path_factory):
-    """A Python with the other programs, by pip."""
     home = tmp_path_factory.mktemp("others")
     subprocess.run([sys.executable, "-m", "venv", home], check=True)
     installed = subprocess.run(
@@ -23,13 +22,9 @@ def other_python(tmp_path_factory):
 
 @pytest.mark.nightly
 def test_the_same_pair_in_three_programs(other_python):
-    """Exudyn 1.13.6 and ROSS 2.3.0.
-
-    Natural frequencies agree, ROSS's but for the bending of its shafts. Exudyn reads the mesh from tables of static
-    equilibria: its dynamic transmission error has the same swing (measured: 0.10 % off) and lies within 0.5 % of the
-    swing at any step (measured: 0.18 %). ROSS's stiffness of one tooth pair, a beam formula, agrees within the tenth
-    that such formulas are good for.
-    """
+    """Exudyn 1.13.6 and ROSS 2.3.0: natural frequencies, but for the bending of ROSS's shafts; the same swing
+    (measured: 0.10 % off), at any step within 0.5 % of it (0.18 %); ROSS's beam formula of a tooth pair within a
+    tenth."""
     found = compared(str(other_python))
     assert found.exudyn_frequencies == pytest.approx(found.frequencies, rel=1e-9)
     nearest = [found.ross_frequencies[np.argmin(np.abs(found.ross_frequencies - each))] for each in found.frequencies]

@@ -18,15 +18,13 @@ flank_element_size = "0.3 mm"
 
 @pytest.mark.nightly
 def test_the_proposal_is_for_one_torque_and_the_search_for_all(tmp_path, monkeypatch):
-    """The README's own words; table and picture have every flank."""
+    """The README's own words."""
     monkeypatch.setattr("fenics_gears.extensions.optimization.optimize.VALUES", 2)
     monkeypatch.setattr("fenics_gears.extensions.optimization.optimize.TORQUES", (1.0,))
-    scene, design = (
-        (corrected.HERE / name).read_text(encoding="utf-8") for name in ("input_shaft.toml", "design.toml")
-    )
-    (tmp_path / "input_shaft.toml").write_text(scene[: scene.index("[accuracy]")] + ACCURACY, encoding="utf-8")
+    scene, design = ((corrected.HERE / name).read_text() for name in ("input_shaft.toml", "design.toml"))
+    (tmp_path / "input_shaft.toml").write_text(scene[: scene.index("[accuracy]")] + ACCURACY)
     design = re.sub("evaluations = .*", "evaluations = 16", re.sub("samples = .*", "samples = 4", design))
-    (tmp_path / "design.toml").write_text(design, encoding="utf-8")
+    (tmp_path / "design.toml").write_text(design)
     flanks, inclination = corrected.compared(tmp_path / "input_shaft.toml", tmp_path / "design.toml", tmp_path)
     assert 15.0 < inclination < 30.0
     true, proposed, best = flanks.values()

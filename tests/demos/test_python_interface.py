@@ -1,5 +1,4 @@
-"""The demonstration of the Python interface: it runs as a script and opens as a notebook, and its results are those
-that it speaks of."""
+"""The demonstration of the Python interface, as a script and as a notebook."""
 
 import re
 import runpy
@@ -11,21 +10,17 @@ import pytest
 from matplotlib import pyplot
 from matplotlib.image import imread
 from tests.conftest import DEMOS
+from tests.paper_text import COARSE, coarse_text
 
 SCRIPT = DEMOS / "python_interface" / "first_steps.py"
-COARSE = (
-    '[accuracy]\nelement = "P1"\nflank_element_size = "0.12 mm"\ncontact_length = "3 mm"\ncontact_nodes ='
-    " 26\nsteps_per_mesh_cycle = 40\n"
-)
 
 
 @pytest.fixture(scope="module")
 def ran(tmp_path_factory):
-    """Every name of the script after it has run beside a coarse scene of the paper's pair, and the folder it ran in."""
+    """Every name of the script after it has run beside a coarse scene, and its folder."""
     folder = tmp_path_factory.mktemp("checkout")
     (folder / "demos").mkdir()
-    text = (DEMOS / "lundvall2004.toml").read_text(encoding="utf-8")
-    (folder / "demos" / "lundvall2004.toml").write_text(text[: text.index("[accuracy]")] + COARSE, encoding="utf-8")
+    (folder / "demos" / "lundvall2004.toml").write_text(coarse_text(cycles=30, accuracy=COARSE))
     with pytest.MonkeyPatch.context() as patched:
         patched.chdir(folder)
         patched.setenv("MPLBACKEND", "agg")
@@ -35,15 +30,14 @@ def ran(tmp_path_factory):
 
 
 def cells():
-    """The script's cells by the format that Jupytext and VS Code share: (title, text) from each `# %%`."""
-    parts = re.split(r"^# %%(.*)\n", SCRIPT.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    """Cells by the format that Jupytext and VS Code share: (title, text) from each `# %%`."""
+    parts = re.split(r"^# %%(.*)\n", SCRIPT.read_text(), flags=re.MULTILINE)
     assert parts[0] == ""
     return list(zip((title.strip() for title in parts[1::2]), parts[2::2]))
 
 
 def test_it_opens_as_a_notebook():
-    """The percent format (Jupytext's documentation): a text cell is comments from its first line to its last, each code
-    cell is Python by itself."""
+    """Jupytext's documentation: a text cell is comments throughout."""
     kinds = [title for title, _ in cells()]
     assert set(kinds) == {"", "[markdown]"} and kinds.count("") >= 8 and kinds.count("[markdown]") >= 8
     for title, text in cells():
@@ -55,8 +49,7 @@ def test_it_opens_as_a_notebook():
 
 @pytest.mark.nightly
 def test_results_are_those_that_it_speaks_of(ran):
-    """The paper, Sections 5 and 6: at 200 Hz friction raises the transmission error; the torsional resonance is near
-    213 Hz; relief lowers the error."""
+    """The paper, Sections 5 and 6: friction raises the error at 200 Hz; resonance near 213 Hz; relief lowers it."""
     names, _ = ran
     with_friction, without = (names["micrometres"](names[run]) for run in ("result", "frictionless"))
     assert np.ptp(with_friction.values) > 1.1 * np.ptp(without.values)
@@ -70,7 +63,7 @@ def test_results_are_those_that_it_speaks_of(ran):
 
 @pytest.mark.nightly
 def test_pictures_and_the_kept_run_are_there(ran):
-    """The script's last cell; the run on disk is the one in memory, pictures are no empty pages."""
+    """The run on disk is the one in memory, pictures are no empty pages."""
     names, folder = ran
     assert names["again"].identical(names["result"])
     pictures = sorted(path.name for path in Path(folder, "results", "python_interface").glob("*.png"))

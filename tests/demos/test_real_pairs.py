@@ -14,8 +14,7 @@ SCENES = [load_scene(pairs.HERE / f"{name}.toml") for name in pairs.SCENES]
 
 
 def test_pairs_are_what_their_sources_say():
-    """GEARpie's report on FZG type C (base radii, base pitch, T1 to T2); solid discs on the reference circles of the
-    two others' programs."""
+    """GEARpie's report on FZG type C; solid discs on the reference circles of the two others' programs."""
     fzg, *discs = SCENES
     pair = model_of(fzg).pair
     assert [pair.pinion.base_radius, pair.wheel.base_radius, pair.base_pitch] == pytest.approx(
@@ -33,7 +32,7 @@ def test_pairs_are_what_their_sources_say():
 
 
 def test_table_and_picture_have_every_pair(monkeypatch):
-    """What they are made from; a row and a column for each pair, two curves of the transmission error."""
+    """What they are made from."""
     coarse = replace(
         SCENES[2], accuracy=replace(COARSE, contact_length=1.0), motion=replace(SCENES[2].motion, mesh_cycles=3)
     )

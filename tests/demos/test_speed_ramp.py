@@ -14,7 +14,7 @@ from fenics_gears.scene.data import Motion
 
 
 def test_both_scenes_are_one_pair_each_way_and_warn_of_nothing():
-    """Authority: the demonstration's own words."""
+    """The demonstration's own words."""
     up, down = (load_scene(sweeps.HERE / f"{name}.toml") for name in ("up", "down"))
     assert (
         (up.motion.mesh_frequency, up.speed_ramp.end_frequency)
@@ -27,7 +27,7 @@ def test_both_scenes_are_one_pair_each_way_and_warn_of_nothing():
 
 
 def coarsened(path):
-    """The demonstration's scene at the coarse settings, its ramp twice as fast; both branches are there at them too."""
+    """At the coarse settings, its ramp twice as fast."""
     scene = load_scene(path)
     accuracy = replace(COARSE, contact_length=2.0, contact_nodes=12, steps_per_mesh_cycle=60)
     return replace(
@@ -41,9 +41,8 @@ def coarsened(path):
 @pytest.mark.nightly
 @pytest.mark.parametrize("frequency", [200.0, 240.0])
 def test_two_steady_vibrations_at_one_speed(monkeypatch, frequency):
-    """Known behaviour of gears with backlash (Kahraman and Singh, Journal of Sound and Vibration 142, 1990: jumps, the
-    branch depends on the direction): at 200 Hz the steady vibration reached from above is several times that reached
-    from below; at 240 Hz they are the same."""
+    """Kahraman and Singh, Journal of Sound and Vibration 142, 1990: at 200 Hz several times as large from above as
+    from below; at 240 Hz the same."""
     monkeypatch.setattr(sweeps, "load_scene", coarsened)
     monkeypatch.setattr(sweeps, "SETTLING_CYCLES", 60 if frequency == 200.0 else 120)
     store = GearStore()
@@ -55,7 +54,7 @@ def test_two_steady_vibrations_at_one_speed(monkeypatch, frequency):
 
 
 def test_the_picture_has_both_ways():
-    """What it is drawn from; two lines, two rows of rings, over the frequencies of the ramps."""
+    """Two lines, two rows of rings."""
     frequency = np.linspace(150.0, 260.0, 12)
     passed = {
         "up": sweeps.Sweep(frequency, 1e-3 * frequency / 200.0),

@@ -1,5 +1,4 @@
-"""The demonstration of tip relief: the chosen one is the best, and what its README says of friction and load; on coarse
-teeth."""
+"""The demonstration of tip relief, on coarse teeth."""
 
 from dataclasses import replace
 
@@ -16,7 +15,7 @@ from fenics_gears.runs.gear_store import GearStore
 
 @pytest.fixture(scope="module")
 def benches():
-    """A bench for every condition of the demonstration, and one of teeth alone without friction."""
+    """One for every condition, and one of teeth alone without friction."""
     store = GearStore()
     made = {name: Bench(scene, store) for name, scene in conditions(paper_scene(COARSE)).items()}
     return made | {"teeth alone": Bench(replace(made[findings.STIFF].scene, friction=None), store)}
@@ -24,7 +23,6 @@ def benches():
 
 @pytest.fixture(scope="module")
 def best(benches):
-    """The best linear relief without friction, by a shorter search."""
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr("demos.tip_relief.optimum.SEARCHED", 60)
         return optimum(benches["μ = 0"])
@@ -32,8 +30,8 @@ def best(benches):
 
 @pytest.mark.nightly
 def test_the_chosen_relief_is_the_best(benches, best):
-    """Definition of a minimum: no relief of a coarse map or beside the chosen one is better; at both ends of its ranges
-    a micrometre more is left."""
+    """Definition of a minimum: nothing of a coarse map or beside it is better; a micrometre more is left at both
+    ends."""
     bench, design, least = benches["μ = 0"], best.design, best.peak_to_peak
     around = findings.relief_map(bench, np.array([0.0, 15.0, 30.0, 45.0]), np.array([0.5, 0.8, 1.0, 1.3]))
     assert least < around.left.min()
@@ -48,7 +46,7 @@ def test_the_chosen_relief_is_the_best(benches, best):
 
 @pytest.mark.nightly
 def test_pictures_and_table_say_what_was_measured(benches, best):
-    """What they are made from; axes with units, optima marked where they are."""
+    """Axes with units, optima marked where they are."""
     bench, designs = benches["μ = 0"], findings.compared(best.design)
     small = findings.Map(
         np.array([0.0, 20.0, 40.0]),

@@ -1,4 +1,4 @@
-"""The undamped sweep: its study loads, a small part of it runs, and the picture shows where contact is lost."""
+"""The undamped sweep."""
 
 import re
 
@@ -11,8 +11,6 @@ from demos.undamped_resonance.sweeps import WITH, WITHOUT, sweeps
 
 @pytest.fixture(scope="module")
 def small(tmp_path_factory):
-    """Results of two frequencies, one far from resonance and one at it, over fewer cycles at a coarser step, and their
-    picture."""
     directory = tmp_path_factory.mktemp("undamped")
     text = resonance.STUDY.read_text()
     text = re.sub(r"motion.mesh_frequency = \[[^]]*\]", 'motion.mesh_frequency = ["100 Hz", "210 Hz"]', text)
@@ -33,8 +31,7 @@ def small(tmp_path_factory):
 
 @pytest.mark.nightly
 def test_contact_is_kept_far_from_resonance_and_lost_at_it(small):
-    """Claim 10 (Section 5): undamped near the first torsional mode contact is lost; while it is kept coast flanks
-    change nothing."""
+    """Claim 10 (Section 5); while contact is kept coast flanks change nothing."""
     found = sweeps(small[0])
     for curve in found.values():
         assert list(curve.frequency) == [100.0, 210.0] and list(curve.lost) == [False, True]
@@ -46,8 +43,7 @@ def test_contact_is_kept_far_from_resonance_and_lost_at_it(small):
 
 @pytest.mark.nightly
 def test_picture_shows_both_curves_and_marks_what_was_lost(small):
-    """Axes with units, a curve each, open or crossed marks exactly where contact was lost, the same in the panel
-    below."""
+    """Axes with units; marks exactly where contact was lost."""
     assert small[1].name == "undamped_resonance.png" and small[1].stat().st_size > 10_000
     found = sweeps(small[0])
     above, below = draw(found).get_axes()

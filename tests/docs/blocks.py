@@ -1,4 +1,4 @@
-"""The blocks of code in the documentation's pages, and the commands that stand in them and in its text."""
+"""Code in the documentation's pages, and the commands in it."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -19,8 +19,7 @@ PAGES = sorted(
 
 @dataclass(frozen=True)
 class Block:
-    """A block of code: the language that its fence names ("" for an indented block), its text and the line (from 1)
-    that the text begins at."""
+    """Its fence's language ("" for an indented block), its text and the line (from 1) that the text begins at."""
 
     language: str
     code: str
@@ -28,12 +27,10 @@ class Block:
 
 
 def name_of(page: Path) -> str:
-    """The page's path in the checkout."""
     return str(page.relative_to(ROOT))
 
 
 def blocks(page: Path) -> list[Block]:
-    """All blocks of code of a page."""
     found = []
     for token in _tokens(page):
         if token.type == "fence":
@@ -44,7 +41,6 @@ def blocks(page: Path) -> list[Block]:
 
 
 def in_text(page: Path) -> Iterator[str]:
-    """What stands as code in the page's text and tables."""
     for token in _tokens(page):
         yield from (child.content for child in token.children or () if child.type == "code_inline")
 

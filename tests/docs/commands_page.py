@@ -1,4 +1,4 @@
-"""docs/commands.md, made from the program's own argument parser."""
+"""docs/commands.md, made from the argument parser."""
 
 import argparse
 import inspect
@@ -11,23 +11,19 @@ from fenics_gears.elasticity.cache import DEFAULT_SIZE
 
 
 def parser(called: str = "") -> argparse.ArgumentParser:
-    """The program's argument parser, with the arguments of the command that is called."""
     return cli._parser(called)
 
 
 def _choices(called: str = "") -> argparse._SubParsersAction:
-    """The parser's commands."""
     return next(each for each in parser(called)._actions if isinstance(each, argparse._SubParsersAction))
 
 
 def commands() -> dict[str, tuple[str, argparse.ArgumentParser]]:
-    """Each command's help and parser, by its name."""
     helps = {action.dest: action.help for action in _choices()._choices_actions}
     return {name: (words, _choices(name).choices[name]) for name, words in helps.items()}
 
 
 def page() -> str:
-    """The whole page."""
     whole = parser()
     lines = [prose("commands.md"), "## `gears`", "", f"    gears{_usage(whole)} COMMAND ...", "", *_options(whole), ""]
     lines += ["Every command also accepts `-h`, `-v` and `-q`.", ""]
@@ -39,7 +35,6 @@ def page() -> str:
 
 
 def _shown(command: argparse.ArgumentParser) -> list[argparse.Action]:
-    """The arguments of a command that are its own."""
     common = () if command.prog == "gears" else ("help", "verbose", "quiet")
     return [
         action
@@ -70,7 +65,6 @@ def _options(command: argparse.ArgumentParser) -> list[str]:
 
 
 def _exit_codes() -> list[str]:
-    """The table of exit codes, in the words of the command line's own docstring."""
     words = " ".join(inspect.getdoc(cli).split("Exit codes: ")[1].split())
     codes = re.findall(r"(\d+) (.*?)(?:, (?=\d+ )|\.$)", words)
     return [
@@ -84,7 +78,6 @@ def _exit_codes() -> list[str]:
 
 
 def _environment() -> list[str]:
-    """Variables of the environment that the program reads."""
     rows = [
         ("`FENICS_GEARS_PYTHON`", "Python for `./gears`; if not set, `./gears` finds or makes one"),
         ("`FENICS_GEARS_CACHE`", "folder of the cache of condensed gears; if not set, the user's cache folder"),

@@ -1,4 +1,4 @@
-"""What the documentation's tests share: a folder as a reader of its pages has it after their first commands."""
+"""What the documentation's tests share."""
 
 import os
 import shutil
@@ -25,8 +25,7 @@ friction = ["absent", "present"]
 
 @pytest.fixture(scope="session")
 def readers_folder(tmp_path_factory) -> Path:
-    """A folder with the demo, its gears in REXS, and its result, a small study and its result, and a coarse scene with
-    root stress."""
+    """The demo, its gears in REXS, its result, a small study and its result, a coarse scene with root stress."""
     folder = tmp_path_factory.mktemp("reader")
     (folder / "demos").mkdir()
     for name in ("lundvall2004.toml", "lundvall2004.rexs"):

@@ -1,8 +1,5 @@
-"""Tables of docs/evidence that are made of the numbers kept in docs/pictures; `python -m tests.docs.write` writes them.
-
-The numbers were measured once: errors by `gears accuracy` and runs with a target, times and memory by what the pages
-say. A page cannot say otherwise than the numbers that it shows the reader.
-"""
+"""Tables of docs/evidence made of the numbers kept in docs/pictures, which were measured once; `python -m
+tests.docs.write` writes them."""
 
 import csv
 from importlib import import_module
@@ -47,7 +44,6 @@ Rows = list[dict[str, str]]
 
 
 def rows(name: str) -> Rows:
-    """Lines of a CSV of docs/pictures."""
     with open(PICTURES / f"{name}.csv", encoding="utf-8", newline="") as opened:
         return list(csv.DictReader(opened))
 
@@ -113,7 +109,7 @@ def target() -> str:
 
 
 def target_over_face() -> str:
-    """Of each pair over the face the true error and what the settings cost beside the cheapest."""
+    """Of each pair over the face the true error and the cost beside the cheapest."""
     lines = []
     for line in rows("target_over_face"):
         worst = max(float(value) for name, value in line.items() if name.startswith("error_"))
@@ -137,7 +133,6 @@ def growth(name: str) -> str:
 
 
 def third_dimension(name: str) -> str:
-    """The section that a comparison over the face writes; pictures stay as they are."""
     with patch.object(Figure, "savefig"):
         return import_module(f"tests.benchmarks.third_dimension.{name}").section()
 

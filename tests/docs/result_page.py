@@ -1,5 +1,4 @@
-"""Tables of docs/result.md, made from the effects' list of variables, from the list of attributes, and from a run that
-has them all."""
+"""Tables of docs/result.md, from the lists of variables and attributes, and a run that has them all."""
 
 from collections.abc import Sequence
 
@@ -23,7 +22,7 @@ NOT_IN_THE_RUN = {each.section for each in every_effect() if each.excludes} | {"
 
 
 def run_with_everything() -> xr.Dataset:
-    """The result of a short, coarse run with every effect that may stand beside the others, and root stress."""
+    """A short, coarse run with every effect that may stand beside the others, and root stress."""
     sections = [section for section in EXAMPLES if section not in NOT_IN_THE_RUN]
     assert not conflicts(sections)
     return simulate(scene_from_text(text_of(*sections) + "\n[output]\nroot_stress = true\n", "everything"))
@@ -66,7 +65,7 @@ def _coordinates(result: xr.Dataset) -> list[str]:
 
 
 def _variables(result: xr.Dataset, variables: Sequence[ResultVariable]) -> list[str]:
-    """A table; dimensions are those that the run's variable has, units and words must be the declared ones."""
+    """Dimensions are those of the run's variable, units and words must be the declared ones."""
     rows = []
     for each in variables:
         if (each.field or each.over_face) and each.name not in result:
@@ -94,7 +93,7 @@ def _root_stress(result: xr.Dataset) -> list[str]:
 
 
 def undeclared_variables(result: xr.Dataset) -> list[str]:
-    """Variables that neither every run nor an effect has: those of the output that was asked for."""
+    """Variables that neither every run nor an effect has."""
     declared = {each.name for each in COMMON_VARIABLES} | {
         each.name for found in every_effect() for each in found.variables
     }

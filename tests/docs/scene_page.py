@@ -1,4 +1,4 @@
-"""docs/scene.md, made from the schema: every section and field that a scene may have."""
+"""docs/scene.md, made from the schema."""
 
 import re
 from collections.abc import Iterator
@@ -18,19 +18,18 @@ NAMES = re.compile(r"^`\[[^]]+\]`(?: and (?:`\[[^]]+\]`|the wheel's))?[.:;]\s*")
 
 
 class NoMeaning(ValueError):
-    """A field of the schema that does not say what it is."""
+    pass
 
 
 @dataclass(frozen=True)
 class SectionOfScene:
-    """A section: the names under which a scene has it, what it is, and its fields with their own defaults."""
+    """The names under which a scene has it, what it is, and its fields with their own defaults."""
 
     names: tuple[str, ...]
     kind: type[Section]
 
 
 def page() -> str:
-    """The whole page."""
     lines = [prose("scene.md"), *_units(), "## Top of the file", "", *fields(scene_text(), "the top")]
     lines += ["## Gears, load and motion", ""]
     for name in ALWAYS:
@@ -70,14 +69,12 @@ def _with_parts(name: str) -> list[str]:
 
 
 def _body(section: SectionOfScene) -> list[str]:
-    """What a section says of itself beyond its name, and its own fields."""
     words = NAMES.sub("", from_docstring(section.kind.__doc__))
     return [*([capital(words), ""] if words else []), *fields(section.kind, section.names[0])]
 
 
 def _parts(section: SectionOfScene) -> Iterator[str]:
-    """The sections within a section, and tables that are listed in it; those of both gears, which are alike,
-    together."""
+    """Sections within a section and listed tables; those of both gears together."""
     alike: dict[type, list[str]] = {}
     for name in names_in(section.kind):
         inner, allowed = section_within(section.kind, name), allowed_in(section.kind, name)
@@ -93,7 +90,7 @@ def _parts(section: SectionOfScene) -> Iterator[str]:
 
 
 def fields(kind: type[Section], place: str) -> list[str]:
-    """The table of a section's own fields; raises NoMeaning for one that does not say what it is."""
+    """The table of a section's fields; raises NoMeaning."""
     rows = []
     for name in names_in(kind):
         allowed = allowed_in(kind, name)
@@ -116,6 +113,6 @@ def _meaning(allowed: Allowed, path: str) -> str:
 
 
 def _allowed(allowed: Allowed) -> str:
-    """What is allowed, in the words of the messages, with what is to be typed as code."""
+    """What is allowed, with what is to be typed as code."""
     words = allowed.description.replace(", with its unit", "").replace(", without unit", "")
     return re.sub(r'(\[\{.*\}\]|\["[^]]*\]|"[^"]*"|(?<=such as )[^"\[,\s]+)', r"`\1`", words)

@@ -16,13 +16,13 @@ MODULES = [".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts) for 
 
 @pytest.mark.parametrize("name", fenics_gears.__all__)
 def test_a_function_that_everybody_may_use_has_an_example(name):
-    """docs/api.md, which is made from these docstrings; the next test runs the examples."""
+    """docs/api.md is made from these docstrings; the next test runs the examples."""
     thing = getattr(fenics_gears, name)
     assert not inspect.isfunction(thing) or (">>> " in thing.__doc__ and thing.__module__ in MODULES)
 
 
 @pytest.mark.parametrize("name", MODULES)
 def test_examples_give_what_they_say(name):
-    """Authority: the docstring."""
+    """The docstring."""
     outcome = doctest.testmod(importlib.import_module(name))
     assert outcome.attempted and not outcome.failed

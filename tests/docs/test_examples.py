@@ -1,5 +1,4 @@
-"""What the pages tell a reader to type works: Python runs, scenes and studies are valid, commands are the program's,
-and the README's numbers are those of its runs."""
+"""What the pages tell a reader to type works."""
 
 import contextlib
 import doctest
@@ -35,14 +34,13 @@ README = ROOT / "README.md"
 
 
 def holding(language):
-    """The pages that hold blocks of a language and do not have them run elsewhere."""
+    """Pages that hold blocks of a language and do not have them run elsewhere."""
     pages = [page for page in PAGES if any(block.language == language for block in blocks(page))]
     return [pytest.param(page, id=name_of(page)) for page in pages if name_of(page) not in RUN_ELSEWHERE]
 
 
 def run_python(page):
-    """Run a page's Python, sessions in one namespace, other blocks each in its own; what differs from the page, in
-    words."""
+    """Run a page's Python, sessions in one namespace; what differs from the page, in words."""
     shared, runner, differences = {}, doctest.DocTestRunner(), io.StringIO()
     for block in blocks(page):
         if block.language == "python" and PROMPT in block.code:
@@ -57,7 +55,7 @@ def run_python(page):
 
 @pytest.mark.parametrize("page", holding("python"))
 def test_python_runs_and_gives_what_the_page_says(page, readers_folder, monkeypatch):
-    """Authority: the page."""
+    """The page."""
     monkeypatch.chdir(readers_folder)
     assert run_python(page) == ""
 
@@ -74,8 +72,7 @@ def test_a_wrong_answer_on_a_page_is_noticed(tmp_path):
 
 @pytest.mark.parametrize("page", holding("toml"))
 def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
-    """The program's own reading; a piece of a scene is put into the demo, and what it needs with it; one with gears and
-    a load is whole."""
+    """The program's own reading; a piece is put into the demo."""
     for block in blocks(page):
         if block.language != "toml":
             continue
@@ -98,8 +95,7 @@ def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
 
 
 def around(piece):
-    """The demo, without the settings that a target chooses where the piece has one, and without shafts and inertia
-    where it has shafts that bend."""
+    """The demo, without what a piece with a target or shafts that bend excludes."""
     scene = tomllib.loads(DEMO)
     if "sections" in piece.get("shafts", {}).get("input", {}):
         scene = {name: own for name, own in scene.items() if name not in ("shafts", "bearings", "inertia", "damping")}
@@ -109,7 +105,6 @@ def around(piece):
 
 
 def merged(scene, piece):
-    """The scene with a piece's sections and fields in the place of its own."""
     both = dict(scene)
     for name, value in piece.items():
         both[name] = (
@@ -132,7 +127,6 @@ def calls_of_gears(text):
 
 
 def calls(page):
-    """All calls of the program on a page; the page of commands has forms of them."""
     shell = "\n".join(
         block.code.replace("\\\n", " ") for block in blocks(page) if block.language in ("", "bash", "sh", "console")
     )
@@ -154,7 +148,7 @@ WITH_CALLS = [
 
 @pytest.mark.parametrize("page", WITH_CALLS)
 def test_commands_are_the_programs(page):
-    """Authority: the program's own argument parser."""
+    """The program's own argument parser."""
     wrong = []
     for call in calls(page):
         if len(call) == 1 and call[0] in commands():
@@ -172,7 +166,7 @@ def test_commands_are_the_programs(page):
 
 
 def test_commands_are_found_in_blocks_in_sentences_and_behind_mpirun():
-    """Authority: by hand."""
+    """By hand."""
     assert list(calls_of_gears("./gears run a.toml # why\nmpirun -n 8 gears study b.toml\nls gears")) == [
         ["run", "a.toml"],
         ["study", "b.toml"],
@@ -182,7 +176,7 @@ def test_commands_are_found_in_blocks_in_sentences_and_behind_mpirun():
 
 @pytest.mark.parametrize("page", [pytest.param(page, id=name_of(page)) for page in PAGES])
 def test_modules_and_scripts_that_a_page_names_are_there(page):
-    """Authority: the checkout."""
+    """The checkout."""
     everything = "\n".join([*(block.code for block in blocks(page)), *in_text(page)])
     for module in re.findall(r"(?<!gears )python3? -m ([\w.]+)", everything):
         assert importlib.util.find_spec(module), module
@@ -193,17 +187,16 @@ def test_modules_and_scripts_that_a_page_names_are_there(page):
 
 @pytest.fixture(scope="module")
 def first_run(readers_folder):
-    """The result of the first command."""
     return results.load(readers_folder / "results" / "lundvall2004" / "run.nc")
 
 
 def micrometres(result):
-    """Peak-to-peak transmission error on the wheel's base circle, um."""
+    """Peak-to-peak on the wheel's base circle, um."""
     return 1e3 * result.attrs["base_radius_wheel"] * result.attrs["peak_to_peak_transmission_error"]
 
 
 def test_the_summary_is_as_shown(first_run):
-    """The README; its lines are those of the run, with numbers as meshes of other gmsh versions give them."""
+    """The README, with numbers as meshes of other gmsh versions give them."""
     shown = next(block.code for block in blocks(README) if block.language == "text").splitlines()
     assert shown[0] == first_run.attrs["title"]
     rows = {label: value for label, value, _ in summary_rows(first_run)}
@@ -215,7 +208,7 @@ def test_the_summary_is_as_shown(first_run):
 
 
 def test_tip_relief_does_what_the_readme_says(first_run):
-    """The README's two numbers; the scene with what it tells to append."""
+    """The README's two numbers."""
     text = README.read_text(encoding="utf-8")
     before, after = (float(number) for number in re.search(r"falls from ([\d.]+) to ([\d.]+) um", text).groups())
     appended = next(block.code for block in blocks(README) if block.language == "toml")

@@ -1,4 +1,4 @@
-"""Pages made from the program are up to date, and nothing in them goes without a word."""
+"""Pages made from the program are up to date."""
 
 from dataclasses import make_dataclass, replace
 
@@ -18,12 +18,10 @@ from fenics_gears.scene.schema import scene_text
 
 @pytest.fixture(scope="module")
 def everything():
-    """The result of a run with every effect and root stress."""
     return result_page.run_with_everything()
 
 
 def kept(name):
-    """A page as it stands in the checkout."""
     return (write.DOCS / name).read_text(encoding="utf-8")
 
 
@@ -39,7 +37,7 @@ def test_the_page_of_the_result_is_up_to_date(everything):
 
 
 def test_every_field_has_its_line():
-    """The schema, walked through by itself; as many lines as fields."""
+    """The schema, walked through by itself."""
 
     def count(kind):
         found, seen = 0, set()
@@ -60,7 +58,7 @@ def test_every_field_has_its_line():
 
 
 def test_a_field_without_meaning_is_refused():
-    """The pages' own rule; a field cannot be declared without one, and one that is declared otherwise is named."""
+    """A field without one is named."""
     with pytest.raises(TypeError, match="meaning"):
         quantity("1 mm to 2 mm", "1 mm")
     silent = make_dataclass("Silent", [("depth", float, declared(Allowed(description="a length")))], bases=(Section,))
@@ -69,13 +67,12 @@ def test_a_field_without_meaning_is_refused():
 
 
 def undeclared(attributes) -> set[str]:
-    """Names among a result's attributes that are not in the list."""
     declared = {each.name for each in RESULT_ATTRIBUTES}
     return {name for name in attributes if name not in declared and not name.startswith((RUNG, ESTIMATED))}
 
 
 def test_a_run_has_no_attribute_that_the_list_does_not_know(everything, paper_scene):
-    """The list, which the page of the result is made from; a run with all effects, and one that loses contact."""
+    """The list; a run with all effects, and one that loses contact."""
     assert not undeclared(everything.attrs)
     undamped = coarse_scene(replace(paper_scene, damping=None, friction=None))
     # The first torsional mode of the paper's pair is at 213 Hz.
@@ -88,6 +85,6 @@ def test_a_run_has_no_attribute_that_the_list_does_not_know(everything, paper_sc
 
 
 def test_every_variable_and_dimension_of_the_run_is_on_the_page(everything):
-    """Authority: the run."""
+    """The run."""
     words = kept("result.md")
     assert all(f"| `{name}` |" in words for name in (*everything.variables, *everything.sizes))

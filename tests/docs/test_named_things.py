@@ -19,7 +19,7 @@ TO_BE_WRITTEN = {"docs/adding_an_effect.md": {"fenics_gears/effects/brake.py", "
 
 @pytest.mark.parametrize("page", [pytest.param(page, id=name_of(page)) for page in PAGES])
 def test_files_that_a_page_names_are_there(page):
-    """Authority: the checkout."""
+    """The checkout."""
     named = {
         code
         for code in in_text(page)
@@ -35,19 +35,19 @@ GUIDE = [page for page in (ROOT / "docs").glob("*.md") if page.stem not in REFER
 
 
 def test_the_guide_is_short():
-    """CONTRIBUTING.md; who uses the program can read all that is written for users."""
+    """CONTRIBUTING.md."""
     pages = [ROOT / "README.md", *GUIDE]
     assert sum(len(page.read_text(encoding="utf-8").split()) for page in pages) <= 20_000
 
 
 @pytest.mark.parametrize("page", [pytest.param(page, id=name_of(page)) for page in PAGES if page.stem != "CHANGELOG"])
 def test_a_page_tells_no_history(page):
-    """CONTRIBUTING.md; what a commit changed belongs into CHANGELOG.md."""
+    """CONTRIBUTING.md."""
     assert not re.findall(r"\b(?:commit|revision) [0-9a-f]{7}", page.read_text(encoding="utf-8"))
 
 
 def test_the_tour_names_files_of_every_folder():
-    """The checkout; each folder of the package has its place on the page."""
+    """The checkout."""
     named = set(in_text(ROOT / "docs" / "reading_the_code.md"))
     folders = [path for path in (ROOT / "fenics_gears").iterdir() if (path / "__init__.py").exists()]
     assert folders and all(f"fenics_gears/{folder.name}" in named for folder in folders)
@@ -55,14 +55,13 @@ def test_the_tour_names_files_of_every_folder():
 
 
 def reading_table(heading):
-    """The cells of each row of a table on the page on reading the code, by the table's first heading."""
     page = (ROOT / "docs" / "reading_the_code.md").read_text(encoding="utf-8")
     table = re.search(rf"^\| {heading} \|.*\n\|[-|]+\n((?:\|.*\n)+)", page, re.M)[1]
     return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table.splitlines()]
 
 
 def test_folders_stand_in_the_order_of_imports():
-    """The contract that import-linter checks (`tests/test_architecture.py`), the lowest folder first."""
+    """The contract that import-linter checks, the lowest folder first."""
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"]
     layers = [name.rpartition(".")[2] for name in settings["contracts"][0]["layers"]]
     named = [row[0].strip("` ").rpartition("/")[2] for row in reading_table("folder")]
@@ -72,14 +71,14 @@ def test_folders_stand_in_the_order_of_imports():
 
 @pytest.mark.nightly
 def test_the_page_on_studies_names_all_that_a_studys_dataset_holds(readers_folder):
-    """A study of frequencies with friction and without, of equal steps."""
+    """A study of frequencies with friction and without."""
     named = set(in_text(ROOT / "docs" / "studies.md"))
     with xarray.open_dataset(readers_folder / "results" / "frequencies" / "study.nc", engine="h5netcdf") as study:
         assert len(study.data_vars) > 8 and not [name for name in study.data_vars if name not in named]
 
 
 def sources():
-    """The package's and the set-up's text with strings that are written in pieces put together."""
+    """The package's and the set-up's text, strings put together."""
     files = [*(ROOT / "fenics_gears").rglob("*.py"), *(ROOT / "setup").glob("*")]
     text = "\n".join(file.read_text(encoding="utf-8") for file in files if file.is_file())
     # Words that several messages share are named once.
@@ -88,13 +87,12 @@ def sources():
 
 
 def messages():
-    """The messages that the page on troubleshooting explains: the first cells of its tables."""
     text = (ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8")
     return re.findall(r"^\| `([^`]+)` \|", text, re.M)
 
 
 def test_messages_that_are_explained_are_the_programs():
-    """Authority: the sources."""
+    """The sources."""
     said = sources()
     assert len(messages()) > 25
     assert not [message for message in messages() if message not in said]

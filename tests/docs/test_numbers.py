@@ -1,4 +1,4 @@
-"""Numbers that the guide tells are those of the program, or of what was measured and is kept beside the pages."""
+"""Numbers of the guide are those of the program, or kept beside the pages."""
 
 import csv
 import re
@@ -16,7 +16,7 @@ from fenics_gears.model.modification import too_stiff
 
 
 def told(page, words):
-    """The numbers at the places of a sentence of a page that are marked N."""
+    """Numbers at the places of a sentence that are marked N."""
     text = " ".join((ROOT / page).read_text(encoding="utf-8").split())
     found = re.search(re.escape(words).replace("N", r"(-?\d+(?:\.\d+)?)"), text)
     assert found, f"{page} does not say: {words}"
@@ -36,7 +36,7 @@ def test_points_of_the_papers_pair(paper_pair):
 
 
 def test_mesh_stiffness_of_the_papers_pair(quasi_static_scene):
-    """A run without friction and inertia; meshes of other versions of gmsh differ in the last digit."""
+    """A run without friction and inertia, but for the last digit."""
     mean, single, tangent = told("docs/model.md", "$c_\\gamma$ is N, $c'$ N and the tangent stiffness N")
     result = simulate(replace(quasi_static_scene, friction=None))
     width = 1e3 * quasi_static_scene.gears.face_width
@@ -46,7 +46,7 @@ def test_mesh_stiffness_of_the_papers_pair(quasi_static_scene):
 
 
 def test_what_the_default_settings_err_by():
-    """The numbers kept of `gears accuracy`, of the paper's pair in four scenes."""
+    """The numbers kept of `gears accuracy`."""
     errors = [
         100.0 * float(line["total_error"])
         for name in SCENES
@@ -58,7 +58,7 @@ def test_what_the_default_settings_err_by():
 
 
 def test_how_near_resolved_models_are():
-    """The numbers kept of the resolved models: approach, and line loads at the phase of the finest mesh."""
+    """The numbers kept of the resolved models."""
     cases = {}
     for row in read_rows("resolved"):
         cases.setdefault((row["helix_angle"], row["phase"], row["opening"]), []).append(row)
@@ -74,7 +74,7 @@ def test_how_near_resolved_models_are():
 
 
 def test_how_near_hertz_and_the_standards_are():
-    """Authority: the numbers kept of the comparisons."""
+    """The numbers kept of the comparisons."""
     (hertz,) = told("docs/third_dimension.md", "axis ratios of 3 to 40 | N %")
     fine = [row for row in read_rows("crowned") if row["layer"] < 0.5]
     names = ("peak_pressure", "short_axis", "long_axis", "line_load", "approach")
@@ -92,7 +92,7 @@ def test_how_near_hertz_and_the_standards_are():
 
 
 def test_how_much_contact_undercut_takes():
-    """ISO 21771's contact ratio of whole involutes; the program's path of contact with undercut."""
+    """ISO 21771's contact ratio; the path of contact with undercut."""
     with_it, without = told("docs/evidence/geometry.md", "has a contact ratio of N in place of N.")
     gear = {"profile_shift": 0, "bore_diameter": "16 mm"}
     gears = {"module": "4 mm", "pressure_angle": "20 deg", "face_width": "20 mm", "backlash": "0.1 mm"}
@@ -104,7 +104,7 @@ def test_how_much_contact_undercut_takes():
 
 
 def test_how_thin_a_rim_may_be(paper_pair):
-    """The program's own law, which tests/model/test_rim.py holds."""
+    """The program's law, which tests/model/test_rim.py holds."""
     words = "From a bore of about N root diameters on a warning says how far off that is. "
     words += "At that size a flank gives way by N %"
     bore, off = told("docs/drawing.md", words)
@@ -114,7 +114,7 @@ def test_how_thin_a_rim_may_be(paper_pair):
 
 @pytest.mark.nightly
 def test_the_rating_is_as_shown(tmp_path, monkeypatch):
-    """`gears rate` of the demo with root stress; numbers as meshes of other gmsh versions give them."""
+    """`gears rate` of the demo with root stress, but for the last digits."""
     scene = (ROOT / "demos" / "lundvall2004.toml").read_text(encoding="utf-8") + "\n[output]\nroot_stress = true\n"
     (tmp_path / "pair.toml").write_text(scene, encoding="utf-8")
     monkeypatch.chdir(tmp_path)

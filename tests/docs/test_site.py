@@ -1,4 +1,4 @@
-"""The site that `docs/build` makes: strict, whole, and self-contained."""
+"""The site that `docs/build` makes."""
 
 import inspect
 import os
@@ -21,14 +21,12 @@ pytestmark = [
 
 
 def built(checkout, site):
-    """docs/build of a checkout into a folder."""
     own = os.environ | {"FENICS_GEARS_PYTHON": sys.executable}
     return subprocess.run([checkout / "docs" / "build", site], capture_output=True, text=True, env=own)
 
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
-    """The site of this checkout."""
     folder = tmp_path_factory.mktemp("site") / "html"
     done = built(ROOT, folder)
     assert done.returncode == 0, done.stderr
@@ -36,14 +34,14 @@ def site(tmp_path_factory):
 
 
 def test_every_page_is_in_the_site(site):
-    """The Markdown files of the checkout; the site's first page leads to the index."""
+    """The Markdown files of the checkout."""
     missing = [name_of(page) for page in PAGES if not (site / Path(name_of(page)).with_suffix(".html")).exists()]
     assert not missing
     assert (site / re.search(r"url=([\w./]+)", (site / "index.html").read_text())[1]).exists()
 
 
 def test_the_python_interface_is_described(site):
-    """`fenics_gears.__all__`; a place to link to for each name, and an example of each function."""
+    """`fenics_gears.__all__`: a place to link to, an example of each function."""
     page = (site / "docs" / "api.html").read_text(encoding="utf-8")
     things = {name: getattr(fenics_gears, name) for name in fenics_gears.__all__}
     places = [
@@ -55,7 +53,7 @@ def test_the_python_interface_is_described(site):
 
 
 def test_pictures_are_there(site):
-    """The pages; as many pictures as in the Markdown, and each one's file."""
+    """As many as in the Markdown, and each one's file."""
     for page in PAGES:
         written = re.findall(r"!\[[^]]*\]\(([^)]+)\)", page.read_text(encoding="utf-8"))
         shown = site / Path(name_of(page)).with_suffix(".html")
@@ -65,7 +63,7 @@ def test_pictures_are_there(site):
 
 
 def test_equations_are_drawn_without_a_network(site):
-    """The files; what MathJax loads for the model's page lies in the site."""
+    """What MathJax loads lies in the site."""
     if not MATHJAX.is_dir():
         pytest.skip("Debian's MathJax is not installed")
     page = (site / "docs" / "model.html").read_text(encoding="utf-8")
@@ -80,7 +78,7 @@ def test_equations_are_drawn_without_a_network(site):
 
 
 def in_browser(page, profile):
-    """The page as a browser without network has it when all its scripts have run."""
+    """The page when all its scripts have run without network."""
     options = [
         "--headless=new",
         "--no-sandbox",
@@ -104,7 +102,7 @@ FAILED_FORMULA = re.compile(r'<merror>|mathcolor="red"')
 
 @needs_browser
 def test_equations_are_drawn_in_a_browser(site, tmp_path):
-    """The page's own formulas; each is drawn, and none as an error."""
+    """The page's own formulas, none as an error."""
     shown = in_browser(site / "docs" / "model.html", tmp_path)
     formulas = shown.count('class="math notranslate')
     assert shown.count('class="MathJax_SVG"') == formulas > 100
@@ -112,7 +110,7 @@ def test_equations_are_drawn_in_a_browser(site, tmp_path):
 
 
 def test_pages_load_nothing_from_elsewhere(site):
-    """The files; scripts, styles and pictures are the site's own. Links lead where they lead."""
+    """Scripts, styles and pictures are the site's own."""
     for page in site.rglob("*.html"):
         sources = re.findall(
             r'<(?:script|img|link rel="stylesheet")[^>]*(?:src|href)="([^"]+)"', page.read_text(encoding="utf-8")
@@ -133,7 +131,6 @@ WRONG = {
 
 @pytest.fixture(scope="module")
 def small_checkout(tmp_path_factory):
-    """A checkout with the site's own files and two pages."""
     root = tmp_path_factory.mktemp("small")
     shutil.copytree(ROOT / "docs", root / "docs", ignore=shutil.ignore_patterns("_build", "pictures", "*.md"))
     (root / "docs" / "index.md").write_text("# One\n\n```{toctree}\nother\n```\n", encoding="utf-8")
@@ -141,7 +138,7 @@ def small_checkout(tmp_path_factory):
 
 
 def test_mistakes_end_the_build_and_all_are_named(small_checkout, tmp_path):
-    """By hand; what leads nowhere, and a page that no list names."""
+    """By hand: what leads nowhere, and a page that no list names."""
     (small_checkout / "docs" / "other.md").write_text("# Two\n\n" + "\n\n".join(WRONG), encoding="utf-8")
     (small_checkout / "docs" / "lost.md").write_text("# Lost\n", encoding="utf-8")
     done = built(small_checkout, tmp_path / "html")

@@ -1,5 +1,4 @@
-"""The compiled march against the plain one, step by step in Python: the same numbers to the last bit, the same methods
-and counts."""
+"""The compiled march against the plain one: the same bits, methods and counts."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -27,11 +26,7 @@ from fenics_gears.simulation.elastic_route import mesh_cycle
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.progress import SilentProgress
 
-DEMOS = sorted(
-    path
-    for path in (Path(__file__).parents[2] / "demos").rglob("*.toml")
-    if "[gears" in path.read_text(encoding="utf-8")
-)
+DEMOS = sorted(path for path in (Path(__file__).parents[2] / "demos").rglob("*.toml") if "[gears" in path.read_text())
 RIGID = Accuracy(model=RIGID_TEETH, steps_per_mesh_cycle=20)
 SCENES = {
     "friction": lambda scene: scene,
@@ -51,7 +46,6 @@ SCENES = {
 
 
 def marched(model: Model, cycle, plain: bool):
-    """The march, its result and the words of its failure, if it failed."""
     recorder = Recorder(model, cycle)
     # Both begin with what neither has found.
     cycle.beside(KnownSets).clear()
@@ -63,7 +57,6 @@ def marched(model: Model, cycle, plain: bool):
 
 
 def assert_the_same(model: Model, cycle) -> set[str]:
-    """Compare both marches; returns the methods that solved steps."""
     (one, fast, failed), (other, slow, failed_too) = (marched(model, cycle, plain) for plain in (False, True))
     assert (one.steps, one.steps_by_method, one.newton_iterations) == (
         other.steps,
@@ -78,7 +71,7 @@ def assert_the_same(model: Model, cycle) -> set[str]:
 
 @pytest.mark.parametrize("name", SCENES)
 def test_scenes(paper_scene, name):
-    """Two routes to the same number: every effect that changes the equations of a step."""
+    """Every effect that changes the equations of a step."""
     model = model_of(SCENES[name](coarse_scene(paper_scene)))
     _, cycle = prepared(model, SilentProgress(), user_cache())
     assert not cycle.traits.own_solver
@@ -90,7 +83,7 @@ def test_scenes(paper_scene, name):
 @settings(max_examples=200, deadline=None)
 @given(valid_scenes().filter(lambda scene: scene.tooth_elasticity is not None))
 def test_many_random_scenes(scene):
-    """Two routes to the same number, whatever the scene, on stand-in gears."""
+    """On stand-in gears."""
     model = model_of(scene)
     assert_the_same(model, mesh_cycle(model, on_stand_ins(model)))
 
@@ -98,7 +91,7 @@ def test_many_random_scenes(scene):
 @pytest.mark.nightly
 @pytest.mark.parametrize("path", DEMOS, ids=lambda path: path.stem)
 def test_demos(path):
-    """Two routes to the same number, on every scene of the demonstrations that is not a study."""
+    """Every scene of the demonstrations that is not a study."""
     model = model_of(load_scene(path))
     _, cycle = prepared(model, SilentProgress(), user_cache())
     if not cycle.traits.own_solver:

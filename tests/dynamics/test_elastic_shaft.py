@@ -1,4 +1,4 @@
-"""A gear on an elastic shaft: deflections in closed form, elements of a textbook, and limits that other models have."""
+"""A gear on an elastic shaft."""
 
 from dataclasses import replace
 from math import inf, pi
@@ -35,19 +35,17 @@ def shear(diameter, bore=0.0):
 
 
 def pushed(found, motion):
-    """Motions of the gear's middle under a load along one of them."""
     return np.linalg.solve(found.stiffness, LOAD * np.eye(5)[motion])
 
 
 def test_the_shear_coefficient_is_cowpers():
-    """Authority: Cowper 1966, table 1: 6 (1 + nu) / (7 + 6 nu) of a solid circle, 2 (1 + nu) / (4 + 3 nu) of a thin
-    tube."""
+    """Cowper 1966, table 1: 6 (1 + nu) / (7 + 6 nu) of a solid circle, 2 (1 + nu) / (4 + 3 nu) of a thin tube."""
     assert shear_coefficient(0.3, np.array([0.0, 1.0])) == pytest.approx([7.8 / 8.8, 2.6 / 4.9], rel=1e-14)
 
 
 def simply_supported(place, motion, tilt, sense):
-    """Deflection (mm) and slope (rad) at a place between two bearings, in closed form and found: F a^2 b^2 / 3 E I L +
-    F a b / (kappa G A L), and the supports' part by the lever rule; the slope from the same."""
+    """Deflection (mm) and slope (rad) between two bearings, in closed form and found: F a^2 b^2 / 3 E I L + F a b /
+    (kappa G A L), and the supports' part by the lever rule."""
     length, diameter, bore = 120.0, 24.0, 10.0
     found = shaft(
         [ShaftSection(length, diameter, bore=bore)], place, [Bearing(0.0, STIFF, 1e5), Bearing(length, STIFF)]
@@ -65,7 +63,7 @@ def simply_supported(place, motion, tilt, sense):
 @pytest.mark.parametrize("place", [30.0, 45.0, 82.0])
 @pytest.mark.parametrize(("motion", "tilt", "sense"), [(0, 4, 1.0), (1, 3, -1.0)])
 def test_a_simply_supported_shaft_bends_as_in_closed_form(place, motion, tilt, sense):
-    """Exact: deflection and slope of a beam with shear."""
+    """Exact: a beam with shear."""
     deflection, slope = simply_supported(place, motion, tilt, sense)
     assert deflection[1] == pytest.approx(deflection[0], rel=1e-10)
     assert slope[1] == pytest.approx(slope[0], rel=1e-8, abs=1e-12)
@@ -94,7 +92,7 @@ CLAMP = Bearing(0.0, STIFF, STIFF, 1e18)
 
 
 def cantilever_of_cylinders():
-    """Deflection (mm), slope (rad) and stretch (mm) in closed form and found: the integral of M^2 / E I."""
+    """In closed form and found: the integral of M^2 / E I."""
     steps = [ShaftSection(40.0, 30.0), ShaftSection(60.0, 20.0)]
     found = shaft(steps, 100.0, [CLAMP])
     thick, thin = E * second(30.0), E * second(20.0)
@@ -108,8 +106,7 @@ def cantilever_of_cylinders():
 
 
 def cone():
-    """Stretch and deflection (mm) in closed form and found: 4 F L / (pi E d1 d2); 64 F L^3 / (3 pi E d1^3 d2), the load
-    at the thin end."""
+    """In closed form and found: stretch 4 F L / (pi E d1 d2); deflection 64 F L^3 / (3 pi E d1^3 d2)."""
     found = shaft([ShaftSection(50.0, 40.0, 4.0)], 50.0, [CLAMP])
     conical = 4.0 * 50.0 / (pi * E * 40.0 * 4.0)
     bent = 64.0 * 50.0**3 / (3.0 * pi * E * 40.0**3 * 4.0)
@@ -119,7 +116,7 @@ def cone():
 
 
 def test_a_stepped_shaft_a_cone_and_axial_force():
-    """Exact: a cantilever of two cylinders; stretching of the same and of a cone; bending of a cone."""
+    """Closed forms of a cantilever and a cone."""
     deflection, slope, stretch = cantilever_of_cylinders()
     assert deflection[1] == pytest.approx(deflection[0], rel=1e-9)
     assert slope[1] == pytest.approx(slope[0], rel=1e-9)
@@ -130,7 +127,6 @@ def test_a_stepped_shaft_a_cone_and_axial_force():
 
 
 def of_steps_and_a_cone():
-    """A shaft with a torque at one end."""
     sections = [ShaftSection(40.0, 30.0, bore=12.0), ShaftSection(50.0, 20.0, 35.0), ShaftSection(30.0, 35.0)]
     return shaft(sections, 110.0, [Bearing(10.0, 1e5, 1e5), Bearing(70.0, 1e5)], seat=20.0)
 
@@ -144,7 +140,7 @@ def twisted():
 
 
 def test_torsion_of_steps_and_of_a_cone():
-    """Exact: the twist up to the gear's seat. None within it."""
+    """Closed form up to the gear's seat; none within it."""
     exact, found = twisted()
     assert found == pytest.approx(exact, rel=1e-12)
     assert replace(of_steps_and_a_cone(), torque_at=104.0).torsional_stiffness == inf
@@ -163,8 +159,7 @@ ON_THREE = (
 
 
 def test_the_stiffness_is_that_of_a_textbooks_elements():
-    """Brute force: elements of a textbook between all places, condensed. Bearings of all kinds on either side of the
-    gear, one with a matrix that couples everything."""
+    """Brute force: elements of a textbook, condensed, with bearings of all kinds."""
     found = shaft(STEPS, 55.0, ON_THREE, seat=18.0)
     # Elements cannot be rigid: what their flexibility leaves is in proportion to it, and extrapolated.
     by_elements = 2.0 * condensed(found, shear, 2e4) - condensed(found, shear, 1e4)
@@ -175,8 +170,7 @@ def test_the_stiffness_is_that_of_a_textbooks_elements():
 
 
 def test_deflection_lines_go_through_gear_and_bearings():
-    """Identity: places on the line move as the gear and as the shaft in its bearings do, and beyond the last bearing
-    the line is straight."""
+    """Identity: as the gear and the shaft in its bearings move; straight beyond the last bearing."""
     found = shaft(STEPS, 55.0, ON_THREE[:2], seat=18.0)
     places = np.array([55.0, 12.0, 88.0, 100.0, 110.0, 120.0, 49.0])
     lines = found.deflection(places)
@@ -188,7 +182,7 @@ def test_deflection_lines_go_through_gear_and_bearings():
 
 
 def test_stiff_shafts_are_the_rigid_ones_with_places(paper_scene, paper_pair):
-    """Limit: Young's modulus of 1e30 gives the matrix of rigid shafts on the same bearings to round-off."""
+    """Limit: Young's modulus of 1e30."""
     places, at = ((-40.0, 60.0), (-30.0, 75.0)), 100.0
     scene = replace(paper_scene, inertia=None, damping=None)
     rigid = replace(
@@ -212,7 +206,7 @@ def test_stiff_shafts_are_the_rigid_ones_with_places(paper_scene, paper_pair):
 
 
 def test_the_twist_is_that_of_a_torsional_spring(paper_scene, paper_pair):
-    """Identity: the torsion of a shaft with sections acts as the torsional stiffness that it has, on either side."""
+    """Identity: a torsional spring of that stiffness, on either side."""
     scene = replace(paper_scene, inertia=None, damping=None, bearings=None)
     own = Shaft(sections=(ShaftSection(120.0, 30.0),), gear_at=100.0, torque_at=0.0)
     bearings = Support(each=(Bearing(10.0, 1e5, 1e5), Bearing(60.0, 1e5)))
@@ -230,8 +224,7 @@ def test_the_twist_is_that_of_a_torsional_spring(paper_scene, paper_pair):
 
 
 def test_a_housing_of_springs_is_in_series_with_the_bearings():
-    """Exact: a diagonal matrix gives each bearing k h / (k + h), also one that is stiffer or softer by nine decades;
-    seats that hold each other act as the blocks of springs do when the seats' motions are eliminated."""
+    """Exact: k h / (k + h) for each bearing over nine decades; seats that hold each other, as blocks of springs."""
     bearings = [Bearing(12.0, 3e5, 1e5, 1e7), Bearing(88.0, 4e5, 0.0, 2e6)]
     own = np.concatenate([np.diag(each.matrix) for each in bearings])
     for times in (1e-9, 0.3, 1e9):
@@ -258,5 +251,5 @@ def test_a_housing_of_springs_is_in_series_with_the_bearings():
     ],
 )
 def test_motions_that_bearings_leave_free(bearings, free):
-    """Exact: which of five motions of a rigid shaft have no stiffness."""
+    """Exact: motions of a rigid shaft without stiffness."""
     assert free_motions(shaft([ShaftSection(100.0, 30.0)], 80.0, bearings)) == free

@@ -1,5 +1,4 @@
-"""A hub that gives way with its shaft: bodies of revolution against closed forms, and shaft and body put together
-against the whole by the same elements."""
+"""A hub that gives way with its shaft."""
 
 from math import pi
 
@@ -27,7 +26,7 @@ GEAR = (Ring(BORE, HUB, -HALF, HALF, *STEEL), Ring(HUB, RIM, 1.0, 6.0, *STEEL), 
 
 
 def test_a_tube_bends_twists_and_stretches_as_closed_forms_have_it():
-    """Exact: L / E I and L^2 / 2 E I under an end moment, L / E A, L / G J: strains that the elements have."""
+    """Exact: L / E I and L^2 / 2 E I under an end moment, L / E A, L / G J."""
     length, (modulus, ratio) = 50.0, STEEL
     tube = BodyOfRevolution([Ring(BORED, BORE, 0.0, length, *STEEL)], 2.0)
     bent, stretched = (

@@ -1,5 +1,4 @@
-"""Natural frequencies of shafts with their own mass: closed forms, brute force by elements with lumped masses, and the
-modes that are left out."""
+"""Natural frequencies of shafts with their own mass."""
 
 from dataclasses import replace
 from math import pi, sqrt
@@ -26,7 +25,7 @@ ALL = 1e6  # Hz: more modes than anybody needs.
 
 
 def frequencies(found, of_gear=(0.0,) * 6):
-    """Natural frequencies, Hz, of a shaft with masses and moments of inertia of its gear, free to turn."""
+    """Hz, of a shaft with masses of its gear, free to turn."""
     torsion = found.torsional_stiffness * np.array([[1.0, -1.0], [-1.0, 1.0]])
     stiffness = block_diag(found.stiffness, torsion, found.own_stiffness[FIVE:, FIVE:])
     mass = found.mass + np.diag([*of_gear, *np.zeros(len(found.mass) - 6)])
@@ -34,13 +33,13 @@ def frequencies(found, of_gear=(0.0,) * 6):
 
 
 def error_of_elements(mode):
-    """Part by which a mode of so many half waves is too high: (k h)^2/24 of linear elements with consistent mass."""
+    """(k h)^2/24 of linear elements with consistent mass."""
     return (mode * pi * LONGEST_ELEMENT) ** 2 / 24.0
 
 
 def simply_supported(mode):
-    """Circular frequency (1/s) of a uniform Timoshenko beam between supports: E I k^4 - rho A w^2 (1 + k^2 I/A (1 + E /
-    kappa G)) + rho^2 I / (kappa G) w^4 = 0, with k = n pi / L."""
+    """Timoshenko: E I k^4 - rho A w^2 (1 + k^2 I/A (1 + E / kappa G)) + rho^2 I / (kappa G) w^4 = 0, k = n pi / L;
+    1/s."""
     length, diameter = 200.0, 25.0
     k, stiff = mode * pi / length, shear(diameter) * G
     whole = DENSITY * area(diameter) * (1.0 + k**2 * second(diameter) / area(diameter) * (1.0 + E / stiff))
@@ -49,7 +48,7 @@ def simply_supported(mode):
 
 
 def test_a_simply_supported_shaft_vibrates_as_in_closed_form():
-    """Exact: the first three frequencies of bending, each of both planes, but for the elements' own error."""
+    """Exact, but for the elements' own error: the first three of bending, of both planes."""
     found = shaft(
         [ShaftSection(200.0, 25.0)], 70.0, [Bearing(0.0, STIFF, 1e-3), Bearing(200.0, STIFF)], torque_at=200.0
     )
@@ -60,8 +59,7 @@ def test_a_simply_supported_shaft_vibrates_as_in_closed_form():
 
 
 def test_ends_that_differ_by_round_off_are_one_place():
-    """Identity: a bearing that is off the end of a section by round-off, and a coupling off the end of the shaft, are
-    there."""
+    """Identity: a bearing and a coupling off an end by round-off are there."""
     thirds, off = [ShaftSection(33.3, 25.0)] * 3, 1e-13
     found = [
         vibrating(shaft(thirds, 20.0, [Bearing(66.6 + by, 3e5, 1e5), Bearing(99.9 - by, 3e5)], 99.9 - by), DENSITY, 3e4)
@@ -72,8 +70,7 @@ def test_ends_that_differ_by_round_off_are_one_place():
 
 
 def test_a_free_shaft_twists_as_in_closed_form():
-    """Exact: n/2L sqrt(G/rho) of a shaft free at both ends, wherever gear and coupling are, but for the elements' own
-    error."""
+    """Exact: n/2L sqrt(G/rho), but for the elements' own error."""
     found = shaft([ShaftSection(150.0, 30.0, bore=12.0)], 40.0, [Bearing(0.0, 1e5, 1e5), Bearing(90.0, 1e5)], 120.0)
     own = frequencies(vibrating(found, DENSITY, ALL))
     for mode in (1, 2, 3):
@@ -82,7 +79,7 @@ def test_a_free_shaft_twists_as_in_closed_form():
 
 
 def test_frequencies_are_those_of_a_textbooks_elements():
-    """Brute force: two hundred elements of a textbook with lumped masses, bearings of all kinds, a heavy gear."""
+    """Brute force: two hundred elements with lumped masses, bearings of all kinds."""
     of_gear = (1e-3, 1e-3, 1e-3, 0.3, 0.3, 0.5)
     found = shaft(STEPS, 55.0, ON_THREE)
     places, stiffness = assembled(found, shear, np.linspace(0.0, found.length, 201))
@@ -99,8 +96,7 @@ def test_frequencies_are_those_of_a_textbooks_elements():
 
 
 def test_mass_is_that_of_a_rigid_body():
-    """Exact: mass, centre of gravity and moments of inertia of a hollow cylinder that moves as a whole; of one that
-    does not bend also in the coordinates of its gear."""
+    """Exact: a hollow cylinder that moves as a whole."""
     length, at = 80.0, 30.0
     found = vibrating(shaft([ShaftSection(length, 30.0, bore=10.0)], at, ON_THREE[:1], 70.0, 20.0), DENSITY, 1e3)
     stiff = replace(found, material=(1e30, 0.3))
@@ -116,8 +112,7 @@ def test_mass_is_that_of_a_rigid_body():
 
 
 def test_modes_move_bearings_as_they_move_the_line():
-    """Identity: the deflection line at the bearings, and the stiffness as a sum of what is in shaft and bearings, in
-    which modes and motions at rest are apart."""
+    """Identity: the deflection line at the bearings; stiffness as a sum of what is in shaft and bearings."""
     found = vibrating(shaft(STEPS, 55.0, ON_THREE, seat=18.0), DENSITY, 3e4)
     lines = found.deflection([each.at for each in ON_THREE])
     assert lines.shape[2] == len(found.coordinates) > FIVE + 5
@@ -130,7 +125,7 @@ def test_modes_move_bearings_as_they_move_the_line():
 
 
 def test_a_gear_that_is_cut_into_its_shaft_is_not_counted_twice():
-    """Exact: what of such a shaft is under the face is what its gear, whose mass is down to the bore, has not."""
+    """Exact: the shaft under the face is what its gear, down to the bore, has not."""
     more = CUT.replace("torque_at", 'material = { density = "7.85 g/cm^3" }\ntorque_at') + INERTIA
     model = model_of(helical_scene(more, accuracy=""))
     own, bore = model.drivetrain.elastic[0], 2.0 * model.pair.pinion.bore_radius
@@ -140,8 +135,7 @@ def test_a_gear_that_is_cut_into_its_shaft_is_not_counted_twice():
 
 
 def test_an_accelerated_input_shaft_is_twisted_by_its_own_inertia():
-    """Exact: J L / G Ip + rho L^2 / 2 G lags a gear with moment of inertia J behind a coupling, in an even
-    acceleration, whose distance is L."""
+    """Exact: it lags by J L / G Ip + rho L^2 / 2 G in an even acceleration."""
     scene = helical_scene(VIBRATING, accuracy="")
     model = model_of(scene)
     own, there = model.drivetrain, model.drivetrain.coordinates.index("rotation_1")
@@ -161,8 +155,7 @@ def test_an_accelerated_input_shaft_is_twisted_by_its_own_inertia():
 
 
 def test_the_modes_that_are_left_out_do_not_matter():
-    """Limit: natural frequencies of the whole with all modes of the shafts. Those that the program shows, up to half of
-    the frequency beyond which modes are left out, are right to 0.4 %."""
+    """Limit: all modes of the shafts; frequencies that the program shows are right to 0.4 %."""
     # At a high speed modes are counted up to 200 kHz.
     models = [model_of(helical_scene(VIBRATING, accuracy="", frequency=hertz)) for hertz in (800.0, 10e3)]
     stiffness = mesh_stiffness(models[0].scene)

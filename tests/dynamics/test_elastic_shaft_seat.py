@@ -1,5 +1,4 @@
-"""A gear that is cut into its shaft: twist in closed form, elements of a textbook, and the flanks' compliance by the
-rows that move them."""
+"""A gear that is cut into its shaft, and the gaps that shafts open over the face."""
 
 import re
 from math import pi
@@ -7,11 +6,13 @@ from math import pi
 import numpy as np
 import pytest
 from tests.beam_elements import assembled
-from tests.elastic_shaft_scenes import CUT, PRESSED
+from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, PRESSED
+from tests.hard_cases.invariants import run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, carried, shear_coefficient
+from fenics_gears.dynamics.elastic_shaft_face import face_compliance_of_shafts, middles_of_slices
 from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
 from fenics_gears.effects.bearings import Bearing
 from fenics_gears.effects.shafts import ShaftSection
@@ -44,8 +45,7 @@ def shaft(bearings, torque_at=0.0):
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_the_twist_under_an_even_torque_is_that_of_the_closed_form(sense):
-    """Exact: t (b s - s^2 / 2) / G J, s from the face's end on the coupling's side; beyond a single torque nothing
-    twists."""
+    """Exact: t (b s - s^2 / 2) / G J, s from the face's end on the coupling's side."""
     found = seat_compliance(shaft(BEARINGS["between"], 60.0 - sense * 60.0), HEIGHTS)[:, 5, :, 5]
     polar = 206e3 / 2.6 * pi / 32.0 * (DIAMETER**4 - BORE**4)
     along = 0.5 * WIDTH + sense * HEIGHTS
@@ -58,8 +58,8 @@ def test_the_twist_under_an_even_torque_is_that_of_the_closed_form(sense):
 
 @pytest.mark.parametrize("name", BEARINGS)
 def test_rigid_seat_and_remainder_make_up_the_whole_compliance(name):
-    """Brute force: elements of a textbook over the whole shaft, inverted; the stiffness of a rigid seat is R^T C^-1 R
-    of them, and the remainder is never negative."""
+    """Brute force: elements of a textbook, inverted; the seat's stiffness is R^T C^-1 R, the remainder never
+    negative."""
     found = shaft(BEARINGS[name])
 
     def shear(outer, bore):
@@ -85,8 +85,7 @@ def test_an_overhung_seat_gives_way_alike_whatever_the_bearings():
 
 @pytest.mark.parametrize(("helix", "shafts"), [(0.0, CUT), (15.0, CUT), (15.0, PRESSED)])
 def test_flanks_give_way_as_their_rows_say(helix, shafts):
-    """Identity: what a gear that is cut into its shaft, or gives way with it, adds to the compliance of contact nodes
-    is J D J^T, J being the rows by which the motions of gears move these nodes, shifted to each node's height."""
+    """Identity: the compliance of contact nodes grows by J D J^T, J the rows by which gears move them."""
     accuracy = "slices = 6\ncontact_nodes = 9\nsteps_per_mesh_cycle = 4"
     models = [
         model_of(helical_scene(each + "[friction]\ncoefficient = 0.1\n", helix=helix, accuracy=accuracy))
@@ -117,3 +116,29 @@ def test_flanks_give_way_as_their_rows_say(helix, shafts):
         # What is left is the interpolation between flank nodes, and the turn of a helix within a slice.
         assert len(found) and np.abs(found - added).max() <= 3e-6 * np.abs(added).max()
     assert {each.gear for each in model.drivetrain.elastic} == {"pinion", "wheel"}
+
+
+def finished(more, helix):
+    model = model_of(helical_scene(more, helix=helix, offset=2.0, accuracy=FEW.replace("5", "10")))
+    found = run_of(model, on_stand_in_bodies(model))
+    assert found.failure is None
+    return model, found.result
+
+
+def test_the_straight_part_is_the_inclination_of_the_axes():
+    """Identity: an even line load opens a straight gap; a helix slope that closes it makes the line load even."""
+    model, bent = finished(ELASTIC, 0.0)
+    z, pair = middles_of_slices(model.pair), model.pair
+    compliance = face_compliance_of_shafts(model.drivetrain.elastic, pair, z)
+    gap = compliance.mean(axis=1) * model.scene.load.wheel_torque / pair.wheel.base_radius
+    slope, middle = np.polyfit(z, gap, 1)
+    assert gap == pytest.approx(middle + slope * z, abs=1e-12)
+    amount = -1e3 * slope * pair.face_widths[0]
+    _, straight = finished(ELASTIC + f'[lead_modifications.pinion]\nhelix_slope = "{float(amount)!r} um"\n', 0.0)
+    assert straight.attrs["mean_axis_inclination_in_plane"] == pytest.approx(
+        1e3 * slope * model.pair.face_width, rel=1e-3
+    )
+    # Bodies load the face unevenly by themselves.
+    _, even = finished('[misalignment]\nin_plane = "0 um"\n', 0.0)
+    assert straight.attrs["face_load_factor"] == pytest.approx(even.attrs["face_load_factor"], rel=5e-3)
+    assert bent.attrs["face_load_factor"] > 1.02 * even.attrs["face_load_factor"]

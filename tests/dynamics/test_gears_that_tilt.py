@@ -1,5 +1,4 @@
-"""Helical gears on bearings along their shafts, in mesh: balances of forces and moments, energy, and the limit of
-shafts that do not tilt."""
+"""Helical gears on bearings along their shafts, in mesh."""
 
 from dataclasses import replace
 
@@ -43,13 +42,11 @@ class Mesh:
         self.cycle = cycle.with_gaps(Gaps(openings=(opening_over_face(cycle, openings),)))
 
     def marched(self, plain=False, cycles=1, marcher=Marcher):
-        """One mesh cycle, or more."""
         motion = EquationsOfMotion(self.shafts, 1e-4, 0.1 if self.friction else 0.0)
         return marcher(self.cycle, motion, plain).run(cycles * STEPS, cycles * STEPS + 1).records
 
     def reactions(self, record):
-        """Force (x, y, z), N, and moment (x, y, z), N mm, of pinion and wheel on their shafts about their mid-widths,
-        from the contact forces."""
+        """Force, N, and moment, N mm, (x, y, z) of pinion and wheel on their shafts about their mid-widths."""
         rows = _reaction_rows(record.position.operator, self.friction) @ record.solution.forces
         return [
             (
@@ -62,20 +59,17 @@ class Mesh:
 
 @pytest.fixture(scope="module")
 def helical(paper_scene, stand_in_flanks):
-    """A mesh without and with friction, of gears that are not opposite each other."""
     flanks = with_helix(stand_in_flanks, axial_offsets=(1.0, -2.0))
     assert flanks.pair.gear_middles == MIDDLES
     return [Mesh(paper_scene, flanks, BEARINGS, opening=0.004, friction=on) for on in (False, True)]
 
 
 def with_helix(flanks, **changes):
-    """The flanks with a helix, their sections as they are."""
     return replace(flanks, pair=replace(flanks.pair, helix=HELIX, **changes))
 
 
 def test_all_balances_of_either_gear_are_closed(helical):
-    """Exact: what a gear puts on its shaft, its bearings and its shaft's torsion carry; and the two gears' forces
-    cancel, in force and in moment."""
+    """Exact: what a gear puts on its shaft is carried; the two gears' forces cancel, in force and in moment."""
     for mesh in helical:
         pair, shafts = mesh.pair, mesh.shafts
         centre = np.array(
@@ -108,8 +102,7 @@ def test_all_balances_of_either_gear_are_closed(helical):
 
 
 def test_the_tilt_follows_the_misalignment(paper_scene, stand_in_flanks):
-    """Limit: bearings so near to each other that nothing else holds the tilt let the flanks align, whatever the
-    misalignment; far ones do not."""
+    """Limit: bearings next to each other let the flanks align, far ones do not."""
     loads = {}
     for half in (0.5, 1e4):
         bearings = Bearings(0.2e6, places=BearingPlaces((-half, half), (-half, half)))
@@ -123,7 +116,7 @@ def test_the_tilt_follows_the_misalignment(paper_scene, stand_in_flanks):
 
 
 def test_compiled_and_plain_march_are_the_same(helical):
-    """Two routes to the same number, to the last bit; later mesh cycles begin with the sets of the one before."""
+    """The same bits by two routes."""
     fast, slow = (helical[1].marched(plain, cycles=3) for plain in (False, True))
     for one, other in zip(fast, slow, strict=True):
         np.testing.assert_array_equal(one.state.position, other.state.position)

@@ -16,7 +16,7 @@ def frictionless(scene, **changes):
 
 
 def test_only_the_last_steps_are_kept(paper_scene, paper_pair, stand_in_flanks):
-    """Two recorded cycles of a long run: the last steps, both ends included, not the whole history."""
+    """Definition: both ends of two recorded cycles included."""
     scene = frictionless(paper_scene)
     shafts = drivetrain(scene, paper_pair)
     cycle = Cycle(elastic_mesh(stand_in_flanks, GRID), 20, shafts.indices, tangential=False)

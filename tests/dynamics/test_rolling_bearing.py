@@ -1,4 +1,4 @@
-"""Rolling bearings: against a commercial program, limits of many rolling elements, and their own equations."""
+"""Rolling bearings."""
 
 import numpy as np
 import pytest
@@ -19,8 +19,6 @@ def deep_groove(clearance):
 
 
 def displaced(rolling, load, free):
-    """Motion (5,) of the shaft under a load where only some motions are free."""
-
     def left(motion):
         whole = np.zeros(5)
         whole[free] = motion
@@ -37,15 +35,15 @@ def displaced(rolling, load, free):
     ids=["radial", "radial with clearance", "axial", "axial with clearance"],
 )
 def test_a_deep_groove_bearing_gives_way_as_in_masta(clearance, direction, um):
-    """MASTA's displacements of a bearing 6305 under 1 kN, as printed in the tests of the public repository
-    minzhun/ISO16281 (Test_BallBearing.py), to all of their digits."""
+    """MASTA's bearing 6305 under 1 kN, as printed in the tests of the public repository minzhun/ISO16281, to all
+    digits."""
     found = displaced(deep_groove(clearance), 1000.0 * np.eye(5)[direction], [direction])
     assert 1e3 * found[direction] == pytest.approx(um, rel=2e-5)
 
 
 def test_radial_axial_and_tilting_together_are_as_in_masta():
-    """As above. Its moment has the lever arm of the balls' middles, as in ISO/TS 16281; here it is that of the grooves,
-    as in the approach, so that loads follow from an energy: 1 % of the tilt."""
+    """As above. Its moment has the lever arm of the balls' middles, as ISO/TS 16281; here that of the grooves, so
+    that loads follow from an energy: 1 % of the tilt."""
     x, _, z, _, tilt = 1e3 * displaced(deep_groove(0.01), np.array([1000.0, 0.0, 1000.0, 0.0, 0.0]), [0, 2, 4])
     assert (x, z) == (pytest.approx(19.5923, rel=1e-4), pytest.approx(146.4603, rel=1e-4))
     assert tilt == pytest.approx(2.6872, rel=0.012)
@@ -60,8 +58,7 @@ def test_radial_axial_and_tilting_together_are_as_in_masta():
     ids=["balls", "rollers"],
 )
 def test_half_of_many_rolling_elements_carry_as_sjovall_has_it(rolling, integral):
-    """Sjovall's radial integral J_r(1/2) of bearings without clearance (T. A. Harris, Rolling Bearing Analysis, table
-    7.1): F_r = Z Q_max J_r. That of rollers is for the power 1.11 and without profiles."""
+    """Sjovall's integral J_r(1/2) (T. A. Harris, Rolling Bearing Analysis, table 7.1): F_r = Z Q_max J_r."""
     found = reaction(rolling, np.array([5e-4, 0.0, 0.0, 0.0, 0.0]))
     assert found.loads[0] / (rolling.number * found.largest) == pytest.approx(integral, rel=3e-3)
 
@@ -79,8 +76,7 @@ BEARINGS = {
 
 @pytest.mark.parametrize("rolling", BEARINGS.values(), ids=BEARINGS)
 def test_stiffness_is_the_derivative_of_loads_and_the_secant_gives_them(rolling):
-    """Central differences, also of the energy; K_s u = F exactly, symmetric and without negative stiffness; no load at
-    rest, where preload braces."""
+    """Central differences, also of the energy; K_s u = F, symmetric, never negative."""
     motion, small = np.array([0.03, 0.01, 0.02, 1e-3, 5e-4]), np.array([1e-6, 1e-6, 1e-6, 1e-8, 1e-8])
     found = reaction(rolling, motion)
     differences = [
@@ -102,8 +98,7 @@ def test_stiffness_is_the_derivative_of_loads_and_the_secant_gives_them(rolling)
 
 @pytest.mark.parametrize("force", [5000.0, 3.0], ids=["loaded", "hardly loaded"])
 def test_a_shaft_on_rolling_bearings_rests_where_they_carry_its_load(force):
-    """Equilibrium of the nonlinear bearings with the beam by the linear condensation that knows nothing of them: loads
-    by their law at the motions that the shaft has on their secant stiffness, and the gear's load again."""
+    """Equilibrium of the nonlinear bearings with the beam by the linear condensation."""
     bearings = (
         Bearing(at=12.0, rolling=RollingBearing(number=9, diameter=12.7, pitch_diameter=65.0, clearance=0.1)),
         Bearing(at=85.0, rolling=BEARINGS["long rollers"]),

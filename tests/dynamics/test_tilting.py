@@ -1,4 +1,4 @@
-"""A rigid shaft on two bearings: statics, natural frequencies and inertia in closed form."""
+"""A rigid shaft on two bearings."""
 
 from dataclasses import replace
 from math import pi, sqrt
@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.operator import COORDINATES
+from fenics_gears.dynamics.clock import FOLLOWING
 from fenics_gears.dynamics.drivetrain import LumpedGear
 from fenics_gears.dynamics.frequencies import Vibration, natural_frequencies, vibrations
+from fenics_gears.dynamics.guidance import time_step_warnings
 from fenics_gears.dynamics.tilting import gyroscopic_warnings, moved
 from fenics_gears.effects.bearings import BearingPlaces, Bearings, Support
 from fenics_gears.effects.inertia import GearInertia, Inertia, LoadInertia
@@ -30,7 +32,6 @@ MIDDLES = (2.5, -2.5)
 
 @pytest.fixture(scope="module")
 def helical(paper_pair):
-    """The pair with a helix, its sections as they are, and gears that are not opposite each other."""
     pair = replace(paper_pair, helix=Helix(np.deg2rad(10.0)), axial_offsets=(3.0, -2.0))
     assert pair.gear_middles == MIDDLES
     return pair
@@ -38,13 +39,11 @@ def helical(paper_pair):
 
 @pytest.fixture(scope="module")
 def on_bearings(paper_scene):
-    """The paper's scene with bearings along its shafts, without damping."""
     return replace(paper_scene, bearings=BEARINGS, damping=None)
 
 
 def test_a_displacement_of_rigid_gears_is_that_of_their_points(helical):
-    """Finite differences: rotation matrices move the points that touch, and the difference of both gears' motions along
-    a direction is the row."""
+    """Finite differences: rotation matrices move the points that touch."""
     pair, place, step = helical, (11.0, 4.0), 1e-5
     direction = np.array([0.6, -0.5, 0.3])
     row = moved(pair, COORDINATES, place, direction)
@@ -73,11 +72,8 @@ def test_a_displacement_of_rigid_gears_is_that_of_their_points(helical):
 
 @pytest.mark.parametrize("places", [(-50.0, 50.0), (-40.0, 60.0), (20.0, 90.0)])
 def test_natural_frequencies_of_a_rigid_shaft_on_two_springs(on_bearings, paper_pair, places):
-    """Closed form: translation and tilt in a plane through the axis, coupled by bearings at unequal distances.
-
-    Mass m, J about a diameter, springs k/2 at a and b: w^2 is a root of (k - m w^2)(k (a^2 + b^2)/2 - J w^2) = (k (a +
-    b)/2)^2 [any text on rotors].
-    """
+    """Closed form of mass m, J about a diameter, springs k/2 at a and b: (k - m w^2)(k (a^2 + b^2)/2 - J w^2) = (k
+    (a + b)/2)^2."""
     stiffness, mass, moment = 0.2e6, 4e-3, 3.0
     inertia = Inertia(mass, moment, load=LoadInertia(1.0))
     scene = replace(on_bearings, bearings=Bearings(stiffness, places=BearingPlaces(places, places)), inertia=inertia)
@@ -95,7 +91,7 @@ def test_natural_frequencies_of_a_rigid_shaft_on_two_springs(on_bearings, paper_
 
 
 def test_what_has_no_place_or_no_axial_stiffness_is_held(on_bearings, paper_pair):
-    """House rule 9: only what the section frees is a coordinate."""
+    """House rule 9."""
     one = Bearings(0.2e6, places=BearingPlaces(pinion=(-40.0, 60.0)))
     assert drivetrain(replace(on_bearings, bearings=one), paper_pair).coordinates[7:] == ("tilt_x1", "tilt_y1")
     other = replace(one, wheel=Support(axial_stiffness=0.1e6), places=BearingPlaces((-40.0, 60.0), (-40.0, 60.0)))
@@ -109,7 +105,7 @@ def test_what_has_no_place_or_no_axial_stiffness_is_held(on_bearings, paper_pair
 
 
 def test_the_inertia_about_a_diameter_is_a_discs_and_a_prisms():
-    """Brute force: point masses of a prism of any section with five-fold symmetry, about an axis through its middle."""
+    """Brute force: point masses of a prism with five-fold symmetry."""
     rng = np.random.default_rng(3)
     points = rng.normal(size=(200, 2))
     turns = 2.0 * pi * np.arange(5) / 5.0
@@ -122,8 +118,7 @@ def test_the_inertia_about_a_diameter_is_a_discs_and_a_prisms():
 
 
 def test_a_mode_is_told_by_what_moves(on_bearings, paper_pair):
-    """The limit of a gear on its own; bearings of the pinion so near to each other that its slowest modes are tilts, a
-    soft axial support of the wheel."""
+    """Limits: a gear on its own; bearings next to each other; a soft axial support."""
     soft = Bearings(
         1e6, places=BearingPlaces((-1.0, 1.0), (-200.0, 200.0)), axial_stiffness=1e8, wheel=Support(axial_stiffness=1.0)
     )
@@ -150,9 +145,7 @@ def test_a_mode_is_told_by_what_moves(on_bearings, paper_pair):
 
 
 def test_gyroscopic_moments_are_told_where_they_shift_a_tilting_frequency(on_bearings, paper_pair):
-    """Closed form: J_t th_x'' + J w th_y' + k th_x = 0 and its twin have f +- J w/(4 pi J_t) where that is small; a
-    flat disc's J is 2 J_t, so that the shift is the speed of rotation. The warning gives that bound, from 5 % on.
-    """
+    """Closed form: f +- J w/(4 pi J_t) where that is small; a flat disc's J is 2 J_t. Told from 5 % on."""
     stiffness, moment, turns = 1e9, 2.0, 60.0
     state = np.zeros((4, 4))
     state[:2, 2:] = np.eye(2)
@@ -169,3 +162,18 @@ def test_gyroscopic_moments_are_told_where_they_shift_a_tilting_frequency(on_bea
     assert gyroscopic_warnings(modes, {"pinion": 0.06 * still, "wheel": 0.04 * still}) == []
     (said,) = gyroscopic_warnings(modes, {"pinion": 0.09 * still, "wheel": 0.06 * still})
     assert "at which the wheel tilts, by up to 6%" in said and f"at {60 * 0.06 * still:.4g} rpm" in said
+
+
+def test_a_frequency_of_several_vibrations_is_told_once():
+    """Count: three modes of like bearings have one frequency."""
+    modes = [Vibration(frequency, 1e-3, True) for frequency in (1592.0, 1592.0, 1592.0, 1800.0)]
+    (said,) = time_step_warnings(modes, 400.0, 20, FOLLOWING)
+    assert "about 3 vibrations at 1592 Hz (5.03 steps per period), 1800 Hz (4.44 steps per period);" in said
+    assert said.count("1592 Hz") == 1
+
+
+def test_a_vibration_that_tilts_a_gear_is_told_as_one():
+    """The words of `gears check`; what moves stands beside the frequency."""
+    modes = [Vibration(1592.0, 1e-3, True), Vibration(1800.0, 1e-3, True, "pinion tilts")]
+    (said,) = time_step_warnings(modes, 400.0, 20, FOLLOWING)
+    assert "about 1592 Hz (5.03 steps per period), 1800 Hz (4.44 steps per period; pinion tilts);" in said

@@ -1,5 +1,4 @@
-"""One example of every effect's section, on the paper's pair at a coarse mesh; whoever adds an effect adds its example
-here."""
+"""One example of every effect's section; an effect that is added has its example here."""
 
 from pathlib import Path
 
@@ -129,7 +128,6 @@ end_frequency = "260 Hz"
 
 
 def with_needs(*sections: str) -> tuple[str, ...]:
-    """The sections and all that they need, in the order of the list."""
     closed = set(sections)
     while more := {need for each in closed for need in effect_named(each).needs} - closed:
         closed |= more
@@ -141,11 +139,10 @@ COARSE_BODIES = 'slices = 3\nlayers = 1\nbody_element_size = "6 mm"\n'
 
 
 def text_of(*sections: str) -> str:
-    """The text of a scene with those effects and no others; its meshes are found wherever the text is read."""
+    """Meshes are found wherever the text is read."""
     more = COARSE_BODIES if OVER_FACE & set(sections) else ""
     return BASE + more + "".join(EXAMPLES[section] for section in sections).replace('"meshes/', f'"{MESHES}/')
 
 
 def scene_of(*sections: str) -> Scene:
-    """The scene with those effects and no others."""
     return scene_from_text(text_of(*sections), "example")

@@ -5,11 +5,7 @@ from scipy.integrate import quad
 
 
 def hat_mean(offsets, j, function, kinks=()):
-    """Average of a function of the offset over that of node j among nodes at `offsets` (mm): twice its hat less a half
-    on either cell beside it.
-
-    `kinks`: offsets at which the function has some.
-    """
+    """Over node j's function among nodes at `offsets` (mm): twice its hat less a half on either cell beside it."""
     near = offsets[max(j - 1, 0) : j + 2]
     hat = (near == offsets[j]).astype(float)
     ends = np.unique(np.concatenate([near, [y for y in kinks if near[0] < y < near[-1]]]))

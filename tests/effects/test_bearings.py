@@ -1,4 +1,4 @@
-"""``[bearings]``: isotropic, different along and off the line of action, different for either shaft."""
+"""``[bearings]``."""
 
 from dataclasses import replace
 
@@ -19,13 +19,12 @@ EXPECTED = {("pinion", "x"): 0.1e6, ("pinion", "y"): 0.3e6, ("wheel", "x"): 0.2e
 
 
 def with_bearings(lines):
-    """The demo with other lines in [bearings]."""
     assert ISOTROPIC in DEMO
     return scene_from_text(DEMO.replace(ISOTROPIC, lines))
 
 
 def test_a_gears_own_stiffness_stands_before_that_of_both():
-    """The section's own words; a direction's stiffness stands before that of every direction."""
+    """A direction's stiffness stands before that of every direction."""
     text = (
         'stiffness = "0.2e6 N/mm"\nstiffness_y = "0.3e6 N/mm"\n[bearings.pinion]\nstiffness_x = "0.1e6 N/mm"\n'
         '[bearings.wheel]\nstiffness_y = "0.5e6 N/mm"'
@@ -36,7 +35,7 @@ def test_a_gears_own_stiffness_stands_before_that_of_both():
 
 
 def test_places_are_read_from_mid_width():
-    """The section's own words; places in mm, the axial stiffness of a shaft before that of both."""
+    """In mm; the axial stiffness of a shaft before that of both."""
     text = (
         f'{ISOTROPIC}\naxial_stiffness = "1 N/mm"\nplaces = {{ pinion = ["-40 mm", "6 cm"]'
         ' }\n[bearings.pinion]\naxial_stiffness = "2 N/mm"'
@@ -64,15 +63,14 @@ def test_places_are_read_from_mid_width():
      "Leave it out, or give bearings.places.pinion."),
 ])  # fmt: skip
 def test_what_is_missing_or_cannot_be_is_named(lines, said):
-    """House rule 7; what is missing or wrong, and where."""
+    """House rule 7."""
     with pytest.raises(SceneError) as refused:
         with_bearings(lines)
     assert said in str(refused.value)
 
 
 def test_static_deflection_is_reaction_over_stiffness(paper_scene):
-    """Exact: at rest each centre moves by the force on its shaft over the bearing's stiffness, in x and in y, for
-    either gear."""
+    """Exact: force on the shaft over stiffness, in x and y."""
     result = simulate(replace(quasi_static(coarse_scene(paper_scene)), bearings=ALL_DIFFERENT))
     for (gear, direction), stiffness in EXPECTED.items():
         force = result[f"reaction_{direction}"].sel(gear=gear).values
@@ -95,8 +93,7 @@ def placed_run(paper_scene):
 
 
 def test_what_the_bearings_carry_is_in_the_result(placed_run):
-    """Exact: springs times displacements of the bearings are the reactions, in force and moment about mid-width, and
-    half of their work the energy."""
+    """Exact: springs times displacements are the reactions, half of their work the energy."""
     scene, result = placed_run
     energy = 0.0
     for gear in ("pinion", "wheel"):

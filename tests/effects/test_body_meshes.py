@@ -1,5 +1,4 @@
-"""``[body_meshes]``: a mesh of the user's own is the gear it is, and what it cannot be is said before anything is
-computed."""
+"""``[body_meshes]``: a mesh of the user's own."""
 
 import re
 from dataclasses import replace
@@ -17,7 +16,6 @@ TEETH = "tooth_elasticity"
 
 
 def text_with(meshes: str, *sections: str) -> str:
-    """A scene on coarse teeth with a section [body_meshes] as written."""
     accuracy = 'element = "P1"\nflank_element_size = "0.4 mm"\nbody_element_size = "3 mm"'
     text = text_of(TEETH, *sections).replace('element = "P1"\nflank_element_size = "0.12 mm"', accuracy)
     return text + f"\n[body_meshes]\n{meshes}\n"
@@ -30,8 +28,7 @@ def cache(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def turn(cache):
-    """A turn of the pinion with the cracked tooth of the example mesh, and the same with whole teeth, on that mesh's
-    element sizes."""
+    """A turn of the pinion with the cracked tooth of the example mesh, and with whole teeth."""
     scene = scene_from_text(
         text_with(f'pinion = "{MESHES / "cracked_pinion.msh"}"').replace('body_element_size = "3 mm"\n', "")
     )
@@ -40,11 +37,7 @@ def turn(cache):
 
 
 def test_the_mesh_is_softer_while_the_cracked_tooth_carries_and_nowhere_else(turn):
-    """Tooth 8 of the file reaches the start of contact with cycle 8 and the end 1.47 cycles later; its crack deflects
-    it more.
-
-    Neighbours feel it through the body: three teeth away it is below 0.5 % of what it is on the tooth.
-    """
+    """Tooth 8 touches from cycle 8 on for 1.47 cycles; three teeth away its crack is felt by less than 0.5 %."""
     cracked, whole = (each.transmission_error.values for each in turn)
     phase, softer = turn[0].mesh_phase.values, np.abs(cracked) - np.abs(whole)
     carrying = (phase > 8.1) & (phase < 9.4)
@@ -54,9 +47,8 @@ def test_the_mesh_is_softer_while_the_cracked_tooth_carries_and_nowhere_else(tur
 
 
 def test_a_run_says_where_its_crack_would_be_closed(turn):
-    """The two teeth in mesh before the cracked one press it together until it carries itself: two mesh cycles of 20
-    steps; most, about 1.8 um, where the next one has the whole load (demos/cracked_tooth/opening.py). Never on whole
-    teeth."""
+    """The two teeth before the cracked one close it for two mesh cycles, by about 1.8 um at most
+    (demos/cracked_tooth/opening.py)."""
     cracked, whole = (each.attrs["warnings"] for each in turn)
     pattern = r"pass through each other in (\d+) of 321 steps, by up to ([\d.]+) um \(it opens by up to ([\d.]+) um\)"
     words = re.search(r"the faces of a crack in the pinion would " + pattern, cracked)
@@ -86,14 +78,13 @@ def test_a_run_says_where_its_crack_would_be_closed(turn):
     ],
 )
 def test_what_cannot_stand_beside_it_is_said(change, message):
-    """Each names the field as it is written and what to take instead."""
+    """The field as written and what to take instead."""
     with pytest.raises(SceneError, match=message):
         scene_from_text(change(text_with('pinion = "own.msh"')))
 
 
 def test_check_and_run_refuse_a_mesh_that_does_not_fit_before_anything_is_written(tmp_path, capsys):
-    """docs/promises.md, exit codes: 2, nothing written; the message leads with the field. A file that is not there;
-    quadrilaterals asked of triangles."""
+    """docs/promises.md: exit code 2, nothing written. A file that is not there; quadrilaterals asked of triangles."""
     scene = tmp_path / "scene.toml"
     for meshes, words in (
         (f'wheel = "{MESHES / "cracked_pinion.msh"}"', "body_meshes.wheel = "),

@@ -1,4 +1,4 @@
-"""Run-out: once a turn of its gear, and as much as the base circle's centre is off."""
+"""Run-out."""
 
 from dataclasses import replace
 from math import cos
@@ -36,8 +36,7 @@ def harmonics(result, radius):
 
 @pytest.mark.parametrize(("gear", "turns"), [("pinion", 3), ("wheel", 2)])
 def test_rigid_gears_have_one_harmonic_once_a_turn(rigid, paper_pair, gear, turns):
-    """Exact: T_E, as a length on the base circle, is a cosine of the eccentricity's own amplitude, once a turn of its
-    gear: the gap opens by -e cos(rotation + phase) for the pinion, by +e cos(rotation + phase) for the wheel."""
+    """Exact: the gap opens by -e cos(rotation + phase) for the pinion, by +e cos(rotation + phase) for the wheel."""
     offsets = {"pinion": None, "wheel": None, gear: Offset(DISTANCE, PHASE)}
     spectrum = harmonics(simulate(replace(rigid, eccentricity=Eccentricity(**offsets))), paper_pair.wheel.base_radius)
     sign = -1.0 if gear == "pinion" else 1.0
@@ -47,8 +46,6 @@ def test_rigid_gears_have_one_harmonic_once_a_turn(rigid, paper_pair, gear, turn
 
 
 class _Operator:
-    """Of a contact operator what run-out looks at: two nodes a pair."""
-
     def __init__(self, pairs):
         self.pairs = pairs
 
@@ -66,8 +63,8 @@ class _Position:
 
 @pytest.mark.parametrize("gear", [0, 1])
 def test_gaps_of_both_flanks_are_displacements_along_their_own_normals(paper_pair, gear):
-    """Exact: a rigid displacement of the base circle by (x, y). The line of centres is the mirror of both lines of
-    action: towards the mate, both flanks close; around, what one loses the other gains."""
+    """Exact: a rigid displacement of the base circle by (x, y); towards the mate both flanks close, around one loses
+    what the other gains."""
     steps, offsets = 20, [None, None]
     offsets[gear] = Offset(DISTANCE, 0.0)
     run_out, angle = RunOut(paper_pair, Eccentricity(*offsets), steps), paper_pair.operating_pressure_angle

@@ -1,19 +1,26 @@
-"""Gears on shafts that bend, in whole runs on bodies without finite elements: statics, and the condensed compliance by
-hand."""
+"""Gears on shafts that bend and vibrate, in whole runs on bodies without finite elements."""
 
 import numpy as np
 import pytest
 from tests.beam_elements import assembled, condensed
-from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, INPUT, PINION
-from tests.hard_cases.invariants import run_of
+from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, INERTIA, INPUT, OUTPUT, PINION, ROLLING, VIBRATING, WHEEL
+from tests.hard_cases.invariants import cycle_of, run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of, scene_from_text
 from fenics_gears.dynamics.elastic_shaft import shear_coefficient
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.rolling_bearing import reaction
+from fenics_gears.dynamics.shaft_at_work import even_load
+from fenics_gears.model.description import describe
+from fenics_gears.results.dataset import RunResult
+from fenics_gears.results.recorder import Recorder
+from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.write import section_trees, text_of
 from fenics_gears.show.bent_shafts import bent_shafts
 from fenics_gears.show.plots import run_figures
 from fenics_gears.show.run import Run
+from fenics_gears.simulation.bearings_at_work import mean_loads, with_bearings_at_work
 
 
 def shear(outer, bore):
@@ -24,7 +31,6 @@ def shear(outer, bore):
     scope="module", params=[(0.0, ELASTIC), (15.0, ELASTIC), (15.0, CUT)], ids=["spur", "helical", "cut into shafts"]
 )
 def run(request):
-    """The model of a run with friction on two elastic shafts, and its result."""
     helix, shafts = request.param
     more = shafts + "[friction]\ncoefficient = 0.05\n[lead_modifications.pinion]\ncrowning = '4 um'\n"
     model = model_of(helical_scene(more, helix=helix, offset=2.0, accuracy=FEW))
@@ -38,8 +44,7 @@ def near(found, wanted, part=1e-10):
 
 
 def test_bearings_carry_what_the_gear_puts_on_its_shaft(run):
-    """Exact: forces and moments of all bearings of a shaft balance those of the contact on its gear, about its
-    mid-width; the torque of the contact is the load's where nothing but friction and contact act on the wheel."""
+    """Exact: bearings balance the contact's forces and moments; the torque is the load's."""
     model, result = run
     for shaft in model.drivetrain.elastic:
         own = [name.startswith(shaft.gear) for name in result["bearing"].values]
@@ -57,8 +62,7 @@ def test_bearings_carry_what_the_gear_puts_on_its_shaft(run):
 
 
 def test_gears_move_by_the_compliance_of_elements_under_their_own_reactions(run):
-    """Brute force: the compliance of a textbook's elements, applied to the forces and moments of the recorded contact,
-    gives the recorded motions of the gears. What the gear sits on is extrapolated to rigid."""
+    """Brute force: a textbook's elements under the recorded contact; the seat is extrapolated to rigid."""
     model, result = run
     for shaft in model.drivetrain.elastic:
         gear = result.sel(gear=shaft.gear)
@@ -71,8 +75,8 @@ def test_gears_move_by_the_compliance_of_elements_under_their_own_reactions(run)
 
 
 def test_axes_and_lines_are_those_of_the_gears(run):
-    """Identity: inclination and offset are the difference of both gears' tilts and displacements in the middle of the
-    common face; the lines pass the gears' middles with the gears' displacement; the energy account closes."""
+    """Identity: differences of both gears' tilts and displacements in the middle of the face; the energy account
+    closes."""
     model, result = run
     assert np.abs(result["energy_defect"].values).max() <= 1e-9 * result["energy"].values.max()
     if model.drivetrain.elastic[0].yields_within:
@@ -132,8 +136,7 @@ def test_axes_lines_and_bearings_of_gears_cut_into_shafts_are_those_of_elements(
 
 
 def test_the_drawing_shows_gears_bearings_and_deflection_to_scale(run):
-    """Identity: the drawn shafts are as long and as thick as the scene's, and off their axes by the magnified
-    deflection; bearings stand on the lines, and a picture is drawn of it."""
+    """Identity: as long and thick as the scene's, off their axes by the magnified deflection."""
     model, result = run
     scale, *lines = bent_shafts(Run(result))
     times = float(scale.caption.split("magnified ")[1].split()[0])
@@ -152,7 +155,7 @@ def test_the_drawing_shows_gears_bearings_and_deflection_to_scale(run):
 
 
 def test_the_scene_is_written_and_read_again():
-    """Identity: a scene made of the data alone reads as the same."""
+    """Identity."""
     scene = helical_scene(ELASTIC, accuracy=FEW)
     scene.__dict__.pop("text")
     again = scene_from_text(text_of(scene), scene.name)
@@ -161,10 +164,117 @@ def test_the_scene_is_written_and_read_again():
 
 
 def test_a_side_that_names_nothing_is_rigid():
-    """Authority: docs/scene.md. The other side may have sections, a torsional stiffness or a support of its own."""
+    """docs/scene.md."""
     alone = model_of(helical_scene(INPUT + PINION, accuracy=FEW)).drivetrain
     of_pinion = {"centre_x1", "centre_y1", "axial_1", "tilt_x1", "tilt_y1", "rotation_1"}
     assert set(alone.coordinates) == of_pinion | {"rotation_2"}
     beside = '[shafts.output]\ntorsional_stiffness = "1e8 N mm/rad"\n[bearings.wheel]\nstiffness = "1e5 N/mm"\n'
     both = model_of(helical_scene(INPUT + PINION + beside, accuracy=FEW)).drivetrain
     assert set(both.coordinates) - set(alone.coordinates) == {"centre_x2", "centre_y2", "shaft_twist"}
+
+
+@pytest.mark.parametrize("of_input", [ROLLING, ROLLING.replace("torque_at", 'seat = "integral"\ntorque_at')])
+def test_rolling_bearings_carry_by_their_law_in_the_run(of_input):
+    """The bearings' own law at the shaft's motions, on the average; teeth cut into an overhung shaft change nothing."""
+    model = model_of(helical_scene(of_input + OUTPUT + WHEEL, offset=2.0, accuracy=FEW))
+    bodies = on_stand_in_bodies(model)
+    shaft = model.drivetrain.elastic[0]
+
+    def marched(model, stage=""):
+        recorder = Recorder(model, cycle_of(model, bodies))
+        return recorder, Marcher(recorder.cycle, model.equations_of_motion).run(model.steps, 1, observe=recorder.take)
+
+    recorder, march = with_bearings_at_work(model, marched)
+    model, result = recorder.model, RunResult(recorder, march).dataset
+    assert result.attrs["largest_rolling_element_force"] > 0.0
+    working = model.drivetrain.elastic[0]
+    gear = np.linalg.solve(working.stiffness, mean_loads(model, recorder)[0])
+    for number, motion in enumerate((working.at_bearings @ gear).reshape(2, 5)):
+        law = reaction(shaft.bearings[number].rolling, motion).loads
+        for axis, load in zip("xyz", law):
+            found = result[f"bearing_force_{axis}"].values[1:, number].mean()
+            assert abs(found - load) <= 2e-4 * np.abs(law[:3]).max()
+
+
+@pytest.mark.parametrize("torque", [3e5, -3e5], ids=["drive", "coast"])
+def test_the_even_load_is_the_force_of_a_run_on_the_flanks_that_carry(torque):
+    """Statics: without friction forces have the direction of the flanks' normal."""
+    model = model_of(helical_scene(ELASTIC + "\n[coast_flanks]\n", offset=2.0, accuracy=FEW, torque=torque))
+    recorder = Recorder(model, cycle_of(model, on_stand_in_bodies(model)))
+    Marcher(recorder.cycle, model.equations_of_motion).run(model.steps, 1, observe=recorder.take)
+    recorder.finish()
+    for shaft, load in zip(model.drivetrain.elastic, mean_loads(model, recorder)):
+        even = even_load(shaft, model.pair, torque)
+        # Each gear's tilts about the pitch point are what the line load makes of them.
+        assert np.abs(even - load)[:3].max() <= 1e-4 * np.linalg.norm(load[:3])
+
+
+def test_a_shaft_that_vibrates_keeps_the_balance_of_energy():
+    """Exact: the account closes; the mesh's natural frequency is there."""
+    more = VIBRATING + "[friction]\ncoefficient = 0.05\n[damping]\nratio = 0.05\n"
+    model = model_of(helical_scene(more, offset=2.0, accuracy=FEW.replace("= 8", "= 64"), frequency=800.0))
+    found = run_of(model, on_stand_in_bodies(model))
+    assert found.failure is None
+    assert any("_mode_" in name for name in model.drivetrain.coordinates)
+    result = found.result
+    assert np.abs(result["energy_defect"].values).max() <= 1e-10 * result["energy"].values.max()
+    assert result["energy_kinetic"].values.max() > 1e-3 * result["energy"].values.max()
+    lines = result.attrs["natural_frequencies"].splitlines()
+    assert sum("mesh springs" in line for line in lines) >= 1
+    assert float(lines[-1].split()[0]) <= model.drivetrain.right_up_to
+
+
+def test_what_is_said_of_shafts_that_vibrate():
+    """Closed forms: density times volume, the reduced mass along the line of action, the condensed shaft's
+    compliance."""
+    scene = helical_scene(VIBRATING, accuracy=FEW, frequency=800.0)
+    said = {label: value for _, rows in describe(scene) for label, value, _ in rows}
+    volume = 0.25 * np.pi * ((28.0**2 - 8.0**2) * 40.0 + 35.0**2 * 90.0)
+    assert said["mass of the pinion's shaft"] == pytest.approx(7.85e-6 * volume, rel=1e-12)
+    model = model_of(scene)
+    along = [2000.0 / getattr(model.pair, gear).base_radius ** 2 for gear in ("pinion", "wheel")]
+    reduced = said["reduced mass J1 J2/(J1 rb2^2 + J2 rb1^2)"]
+    assert reduced == pytest.approx(along[0] * along[1] / sum(along), rel=1e-12)
+    per_newton = np.linalg.inv(model.drivetrain.elastic[0].stiffness)
+    words = said["its stiffness at the pinion"]
+    assert [float(part.split()[0]) for part in words.split(", ")] == pytest.approx(
+        [1e-3 / per_newton[axis, axis] for axis in range(3)], rel=1e-3
+    )
+    result = run_of(model, on_stand_in_bodies(model)).result
+    result.attrs |= {"base_radius_wheel": model.pair.wheel.base_radius}
+    printed = {label: value for label, value, *_ in summary_rows(result)}
+    largest = np.sqrt(sum(result[f"bearing_force_{axis}"].values ** 2 for axis in "xyz")).max()
+    assert float(printed["largest force of a bearing"].split()[0]) == pytest.approx(largest, rel=1e-3)
+    lowest = result.attrs["natural_frequencies"].splitlines()[0].split()[0]
+    assert float(printed["natural frequencies"].split()[0]) == pytest.approx(float(lowest), rel=1e-3)
+
+
+def test_a_slow_run_with_inertia_is_the_quasi_static_one():
+    """Limit: a hundredth of a mesh cycle a second."""
+    runs = []
+    for more in (VIBRATING, VIBRATING.replace(INERTIA, "")):
+        model = model_of(helical_scene(more, offset=2.0, accuracy=FEW, frequency=0.01))
+        runs.append(run_of(model, on_stand_in_bodies(model)).result)
+    moving, still = runs
+    for name in ("transmission_error", "bearing_force_x", "bearing_moment_y", "tilt_y", "shaft_deflection_x"):
+        different = np.nanmax(np.abs(moving[name].values - still[name].values))
+        assert different <= 1e-9 * np.nanmax(np.abs(still[name].values))
+
+
+@pytest.mark.parametrize("more", ["", "[friction]\ncoefficient = 0.05\n"])
+def test_steps_that_eliminate_modes_obey_the_equations_of_all_coordinates(more):
+    """The equations of motion themselves, by compiled and by plain steps, which agree. An acceleration is a difference
+    of positions over the square of a step, and as exact as they are."""
+    model = model_of(helical_scene(VIBRATING + more, accuracy=FEW.replace("= 8", "= 64"), frequency=800.0))
+    cycle, found, train = cycle_of(model, on_stand_in_bodies(model)), [], model.drivetrain
+    size = np.abs(train.stiffness) + np.abs(train.mass) * (2.0 / model.equations_of_motion.time_step) ** 2
+    for plain in (False, True):
+        march = Marcher(cycle, model.equations_of_motion, plain).run(model.steps, model.steps + 1)
+        found.append(np.array([each.state.position for each in march.records]))
+        for each in march.records[1:]:
+            springs = train.stiffness @ each.state.position + train.mass @ each.state.acceleration
+            left = springs + each.position.operator.jacobian.T @ each.solution.forces - train.load
+            assert np.all(np.abs(left) <= 1e-11 * size @ np.abs(found[-1]).max(axis=0))
+    assert train.modes > 3 and train.damping is None
+    one, other = found
+    np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-12 * np.abs(other).max())

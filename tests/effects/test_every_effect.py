@@ -1,5 +1,4 @@
-"""What must hold of every effect in the list, whoever wrote it: absent it is not there, named it is, and beside every
-other it runs."""
+"""What must hold of every effect in the list."""
 
 import ast
 import inspect
@@ -51,7 +50,7 @@ def alone():
 
 
 def pairs():
-    """Every pair of effects that may stand together, on elastic teeth."""
+    """Every pair of effects that may stand together."""
     return list(
         filter(
             may_stand_together, dict.fromkeys(with_needs(*pair, TEETH) for pair in itertools.combinations(SECTIONS, 2))
@@ -60,7 +59,7 @@ def pairs():
 
 
 def crowds():
-    """A few scenes of as many effects as may stand together, so that every pair of them is in one."""
+    """Scenes of many effects, so that every pair of them is in one."""
     found = []
     for crowd in pairs():
         if not any(set(crowd) <= set(other) for other in found):
@@ -72,12 +71,11 @@ def crowds():
 
 
 def test_every_effect_has_an_example():
-    """House rule; whoever adds an effect adds its example, or nothing here looks at it."""
+    """House rule."""
     assert set(EXAMPLES) == set(SECTIONS)
 
 
 def of(scenes, marks=()):
-    """Parameters of the test below."""
     return [pytest.param(sections, id="+".join(sections) or "nothing", marks=marks) for sections in scenes]
 
 
@@ -85,8 +83,7 @@ def of(scenes, marks=()):
     "sections", [*of(alone()), *of(crowds()), *of(sorted({*pairs()} - {*alone()}), pytest.mark.nightly)]
 )
 def test_effects_run_together_and_the_result_has_their_variables_and_no_others(sections):
-    """House rule 9 and the list; any two effects run, and the result's variables are exactly those that the list
-    says."""
+    """House rule 9 and the list: exactly those variables."""
     scene = scene_of(*sections)
     assert tuple(each.section for each in effects_on(scene)) == sections
     result = simulate(scene)
@@ -97,11 +94,11 @@ def test_effects_run_together_and_the_result_has_their_variables_and_no_others(s
 
 @pytest.mark.parametrize("section", SECTIONS)
 def test_check_names_it_on_with_what_it_adds_and_off_with_what_is_without_it(section, capsys, tmp_path):
-    """Authority: docs/promises.md on `gears check`."""
+    """docs/promises.md on `gears check`."""
     lines = {}
     for state, sections in (("on", with_needs(section)), ("off", ())):
         file = tmp_path / f"{state}.toml"
-        file.write_text(text_of(*sections), encoding="utf-8")
+        file.write_text(text_of(*sections))
         assert main(["check", str(file)]) == 0
         after = capsys.readouterr().out.partition("\nEffects\n")[2].splitlines()
         lines[state] = next(line for line in after if line.split()[:1] == [section])
@@ -115,7 +112,7 @@ def test_check_names_it_on_with_what_it_adds_and_off_with_what_is_without_it(sec
 
 
 def imports_of_hooks(section):
-    """Modules of this program that an effect's own module imports inside the functions a run calls."""
+    """Modules that an effect's own module imports inside the functions a run calls."""
     tree = ast.parse(inspect.getsource(sys.modules[f"fenics_gears.effects.{section}"]))
     hooks = [getattr(effect_named(section), name) for name in RUN_HOOKS]
     called = {hook.__name__ for hook in hooks if hook is not None}
@@ -148,14 +145,13 @@ def modules_after(runs):
 
 @pytest.fixture(scope="module")
 def loaded():
-    """After rigid flanks, the bare scene, and each effect on it."""
     return modules_after(BARE | {section: with_needs(section, TEETH) for section in SECTIONS if section != TEETH})
 
 
 @pytest.mark.nightly
 @pytest.mark.parametrize("section", SECTIONS)
 def test_what_computes_it_is_loaded_by_a_scene_that_names_it_and_by_no_bare_one(section, loaded):
-    """House rule 9; modules of an absent effect's physics are not imported, those of a named one are."""
+    """House rule 9."""
     own = (imports_of_hooks(section) | METHODS.get(section, set())) - RARE.get(section, set())
     hooks = [getattr(effect_named(section), name) for name in RUN_HOOKS]
     assert own or not any(hooks)

@@ -1,22 +1,25 @@
-"""Errors of single teeth: where they are felt, by how much, and over which period."""
+"""Errors of single teeth, wobble and helix deviations."""
 
 from dataclasses import replace
 from math import cos, pi
 
 import numpy as np
 import pytest
-from tests.coarse import rigid_pair
+from tests.coarse import COARSE, coarse_scene, frictionless, rigid_pair, teeth_alone
+from tests.effects.examples import text_of
 from tests.effects.hats import hat_mean
 from tests.stand_in import stand_in_compliance
 
-from fenics_gears import SceneError, simulate
+from fenics_gears import Load, SceneError, scene_from_text, simulate
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.flank_gaps import flank_gaps
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import COAST, Flanks
 from fenics_gears.contact.window import ContactGrid
+from fenics_gears.effects import result_variables
 from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors, Waviness
+from fenics_gears.effects.misalignment import Misalignment
 from fenics_gears.scene.data import Accuracy, Motion
 
 STEPS, PERIOD = 20, 48
@@ -33,14 +36,13 @@ def rigid(paper_scene):
 
 @pytest.fixture(scope="module")
 def both_flanks(paper_pair):
-    """A mesh cycle of drive and coast flanks without finite elements."""
     gears = paper_pair.pinion, paper_pair.wheel
     flanks = Flanks(paper_pair, tuple(stand_in_compliance(gear, coast_flank=True) for gear in gears))
     return Cycle(elastic_mesh(flanks, ContactGrid(1.5, 20)), STEPS, [5], tangential=False)
 
 
 def length(result, pair):
-    """T_E (n,) as a length on the wheel's base circle, mm."""
+    """T_E (n,) on the wheel's base circle, mm."""
     return result.transmission_error.values * pair.wheel.base_radius
 
 
@@ -50,7 +52,6 @@ def spectrum(error):
 
 
 def one_tooth(teeth, tooth, error):
-    """Pitches of a gear with one tooth out of place."""
     pitches = np.zeros(teeth)
     pitches[tooth], pitches[tooth + 1] = error, -error
     return tuple(pitches)
@@ -58,10 +59,9 @@ def one_tooth(teeth, tooth, error):
 
 @pytest.mark.parametrize(("gear", "teeth", "first"), [("pinion", 16, -1.0), ("wheel", 24, 1.0)])
 def test_a_tooth_out_of_place_displaces_the_rigid_pair_while_it_leads(rigid, paper_pair, gear, teeth, first):
-    """Exact: a pitch deviation f is f cos(alpha) along the line of action. A tooth that stands nearer to its mate leads
-    all the way along the path of contact, one that stands back only leaves its mark where no other tooth is in mesh,
-    nor its tip within 10 um of it;
-    others do not feel it. A pitch too long brings the pinion's tooth late, the wheel's near."""
+    """Exact: a pitch deviation f is f cos(alpha) along the line of action. A tooth nearer to its mate leads all
+    along the path of contact, one that stands back is felt only where it is alone; a pitch too long brings the
+    pinion's tooth late, the wheel's near."""
     along = ERROR * cos(paper_pair.pinion.pressure_angle)
     ratio, tooth = paper_pair.contact_ratio, 5
     for sign in (first, -first):
@@ -90,9 +90,7 @@ def test_a_tooth_out_of_place_displaces_the_rigid_pair_while_it_leads(rigid, pap
     ],
 )
 def test_waves_give_their_own_order_and_go_on_from_tooth_to_tooth(rigid, paper_pair, gear, turns, waves):
-    """Known answer: on the line of action all pairs in mesh see the same phase of the wave, so that the rigid pair has
-    one order, k of its gear's turn, as large as the wave is high; what contact gains beside the line of action is of
-    second order in the height."""
+    """Known answer: all pairs in mesh see the same phase, so that there is one order, as large as the wave is high."""
     small, amplitude = 1e-7, 1e-4
     found = []
     for height in (small, amplitude):
@@ -118,7 +116,7 @@ ALL = GearErrors(
 
 
 def moved(name, change):
-    """Errors of the pinion with one kind of them changed on every tooth by `change` (mm, rad for the phase)."""
+    """Errors of the pinion with one kind of them changed by `change` (mm, rad)."""
     if name in ("amplitude", "phase"):
         waves = replace(ALL.waviness, **{name: getattr(ALL.waviness, name) + change})
         return FlankErrors(pinion=replace(ALL, waviness=waves))
@@ -128,7 +126,7 @@ def moved(name, change):
 
 
 def excess_per_unit(name, roll, tooth, pair):
-    """Material in excess on the pinion's flank for a unit of a deviation, by its definition."""
+    """Material in excess on the pinion's flank for a unit of a deviation."""
     start, end = pair.sap_roll_angles[0], pair.pinion.tip_roll_angle
     along = (roll - start) / (end - start)
     turned = 37 * (roll + tooth * pair.pinion.angular_pitch) + 0.4
@@ -143,8 +141,8 @@ def excess_per_unit(name, roll, tooth, pair):
 
 @pytest.mark.parametrize("name", ["pitch", "profile_slope", "profile_form", "amplitude", "phase"])
 def test_gaps_follow_each_deviation(both_flanks, paper_pair, name):
-    """Finite differences against the definition: the gap's derivative is less the excess on the flank, averaged over a
-    node's hat by adaptive quadrature; coast flanks have true profiles, but stand where their tooth stands."""
+    """Finite differences: the gap's derivative is less the excess, averaged by quadrature; coast flanks have true
+    profiles, but stand where their tooth stands."""
     change, step = 1e-7, 3 * STEPS + 11
     position = both_flanks.position(step)
     ends = [flank_gaps(moved(name, sign * change), paper_pair, STEPS)(step, position) for sign in (1, -1)]
@@ -171,10 +169,89 @@ def _excess_at(name, offset, pair, tooth, gear_pair):
 
 
 def test_waves_that_the_steps_do_not_sample_are_refused(paper_pair):
-    """House rule on errors: what, the value, what is allowed, the remedy."""
+    """What, the value, what is allowed, the remedy."""
     errors = FlankErrors(wheel=GearErrors(waviness=Waviness(0.001, 241, 0.0)))
     with pytest.raises(SceneError) as refused:
         flank_gaps(errors, paper_pair, STEPS)
     for words in ("flank_errors.wheel.waviness.waves = 241", "480 steps", "steps_per_mesh_cycle to 21 or more"):
         assert words in str(refused.value)
     flank_gaps(errors, paper_pair, STEPS + 1)
+
+
+FACE = '[misalignment]\nin_plane = "0 um"\n'
+ELASTIC = text_of("tooth_elasticity")
+WOBBLE = '[eccentricity.wheel]\nwobble = "10 um"\nwobble_phase = "90 deg"\n'
+FIVE = '"5 um"'
+HELIX = f"[flank_errors.pinion]\nhelix_slope = [{', '.join([FIVE] * 16)}]\n"
+CLASS = "[flank_errors]\ntolerance_class = 6\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (
+            WOBBLE,
+            (
+                'eccentricity.wheel.wobble = "10 um"\n    is of three-dimensional scenes: allowed beside'
+                " gears.helix_angle, [lead_modifications], [misalignment], bearings.places,"
+                " shafts.input.sections or shafts.output.sections."
+            ),
+        ),
+        (HELIX, "flank_errors.pinion.helix_slope = a list\n    is of three-dimensional scenes"),
+        (
+            FACE + '[eccentricity.wheel]\nwobble_phase = "90 deg"\n',
+            'eccentricity.wheel.distance\n    is missing. Allowed: such as "10 um"; or a wobble',
+        ),
+        (FACE + '[eccentricity.wheel]\nwobble = "1 mm"\n', "is too large an error of manufacture"),
+        (FACE + HELIX.replace("5 um", "1 mm"), "is too large an error of manufacture"),
+        (FACE + HELIX.replace(', "5 um"', "", 1), "has 15 values, but the pinion has 16 teeth"),
+    ],
+)
+def test_what_needs_a_face_or_does_not_fit_it_is_refused(lines, said):
+    """House rule 7."""
+    with pytest.raises(SceneError) as refused:
+        scene_from_text(ELASTIC + lines)
+    assert said in str(refused.value)
+
+
+def test_a_class_is_for_face_widths_of_the_standard():
+    """ISO 1328-1:2013: face widths from 4 mm to 1.2 m; a plane scene draws nothing along the face."""
+    narrow = ELASTIC.replace('face_width = "15 mm"', 'face_width = "3 mm"')
+    scene_from_text(narrow + CLASS)
+    with pytest.raises(SceneError, match="face widths from 4 mm to 1200 mm"):
+        scene_from_text(narrow + CLASS + FACE)
+
+
+def test_a_table_with_helix_deviations_is_of_a_scene_with_a_face(tmp_path, monkeypatch):
+    """House rule 7."""
+    from fenics_gears.model.model import model_of
+
+    (tmp_path / "pinion.csv").write_text(
+        "tooth, helix_form (um)\n" + "".join(f"{tooth}, 3\n" for tooth in range(1, 17))
+    )
+    table = f'[flank_errors.pinion]\nfile = "{tmp_path}/pinion.csv"\n'
+    assert model_of(scene_from_text(ELASTIC + FACE + table)).scene.flank_errors.pinion.helix_form == pytest.approx(
+        (0.003,) * 16
+    )
+    with pytest.raises(SceneError, match="the column helix_form is of three-dimensional scenes"):
+        model_of(scene_from_text(ELASTIC + table))
+
+
+def test_constant_helix_slope_is_a_misalignment(paper_scene):
+    """Identity: linear along the face, the mean zero."""
+    scene = frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1)))
+    accuracy = replace(COARSE, steps_per_mesh_cycle=5, contact_nodes=14, slices=4, layers=2, body_element_size=2.5)
+    scene = replace(scene, accuracy=accuracy, load=Load(0.3 * scene.load.wheel_torque), motion=Motion(200.0, 1, 1))
+    errors = FlankErrors(pinion=GearErrors(helix_slope=(0.008,) * 16))
+    by_errors = simulate(replace(scene, flank_errors=errors, misalignment=Misalignment()))
+    by_axes = simulate(replace(scene, misalignment=Misalignment(in_plane=-0.008)))
+    assert float(np.ptp(by_axes.line_load.isel(contact_time=0).values.max(axis=0))) > 50.0
+    assert by_errors.line_load.values == pytest.approx(by_axes.line_load.values, abs=1e-6)
+    assert by_errors.transmission_error.values == pytest.approx(by_axes.transmission_error.values, rel=1e-9)
+    assert set(by_errors.data_vars) == {
+        each.name for each in result_variables(replace(scene, flank_errors=errors, misalignment=Misalignment()))
+    }
+    assert (
+        by_errors.pinion_helix_slope.values == pytest.approx(np.full(16, 0.008))
+        and not by_errors.wheel_helix_form.values.any()
+    )

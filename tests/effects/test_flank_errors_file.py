@@ -1,4 +1,4 @@
-"""Deviations of teeth from tables: read as they stand, and refused with line and remedy."""
+"""Deviations of teeth from tables."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -18,27 +18,23 @@ PITCHES = [3.0, -3.0, *(0.0,) * 14]
 
 @pytest.fixture
 def scene_with(tmp_path):
-    """A function that writes a table and a scene which names it, and reads that."""
+    """Writes a table and reads a scene that names it."""
 
     def read(table, more=""):
         if table is not None:
             (tmp_path / "pinion.csv").write_bytes(table if isinstance(table, bytes) else table.encode())
-        (tmp_path / "pair.toml").write_text(
-            f'{PAPER}\n[flank_errors.pinion]\nfile = "pinion.csv"\n{more}\n', encoding="utf-8"
-        )
+        (tmp_path / "pair.toml").write_text(f'{PAPER}\n[flank_errors.pinion]\nfile = "pinion.csv"\n{more}\n')
         return checked_model(tmp_path / "pair.toml").scene
 
     return read
 
 
 def table(heading="tooth, pitch (um)", rows=PITCHES, first=1, joint=", "):
-    """A table with a line for each tooth."""
     return "\n".join([heading, *(f"{tooth}{joint}{row}" for tooth, row in enumerate(rows, first))])
 
 
 def test_the_example_has_what_the_class_draws():
-    """Identity: the demonstration's tables list the drawn deviations of its scene, rounded to 0.1 um; a cumulative
-    deviation sums the roundings of its pitches, at most half a digit for each of 24 teeth."""
+    """Identity: the drawn deviations, rounded to 0.1 um; a cumulative one sums the roundings of its pitches."""
     drawn, listed = (load_scene(DEMOS / "flank_errors" / f"{name}.toml") for name in ("flank_errors", "measured"))
     assert replace(listed, flank_errors=None, title="", name="") == replace(drawn, flank_errors=None, title="", name="")
     pair = gear_pair(drawn.gears)
@@ -62,8 +58,7 @@ def test_the_example_has_what_the_class_draws():
     ],
 )
 def test_a_table_is_read_however_it_is_written(scene_with, text):
-    """Definition: the numbers of the list in the scene; separators, units, byte order mark, line ends and the order of
-    lines do not matter."""
+    """Definition: separators, units, byte order mark, line ends and the order of lines do not matter."""
     found = scene_with(text).flank_errors.pinion
     assert found.pitch == pytest.approx((0.003, -0.003, *(0.0,) * 14), rel=1e-14)
     assert found.profile_slope is None and found.file == "pinion.csv"
@@ -114,7 +109,7 @@ WRONG = {
 
 @pytest.mark.parametrize("name", WRONG)
 def test_a_wrong_table_is_refused(scene_with, name):
-    """House rule on errors: field, file, line, what, what is allowed; nothing is computed."""
+    """Field, file, line, what is allowed; nothing is computed."""
     text, said = WRONG[name]
     with pytest.raises(SceneError) as refused:
         scene_with(text)
@@ -128,13 +123,12 @@ def test_a_wrong_table_is_refused(scene_with, name):
 
 
 def test_a_deviation_from_two_places_is_refused(scene_with):
-    """Definition: each deviation from one place."""
     with pytest.raises(SceneError, match="the table has pitch, which the scene has, too. Leave one of the two out"):
         scene_with(table(), "pitch = [" + ", ".join(['"0 um"'] * 16) + "]")
 
 
 def test_a_scene_whose_table_is_gone_can_be_looked_at():
-    """The interface: a result is drawn from the scene that it carries, wherever its table is by then."""
+    """A result is drawn from the scene that it carries."""
     found = scene_from_text(f'{PAPER}\n[flank_errors.wheel]\nfile = "gone.csv"\n').flank_errors
     assert (
         found.wheel.pitch is None and "there is no such file" in found.wheel.problem[1] and found.pinion == GearErrors()

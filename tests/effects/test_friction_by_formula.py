@@ -13,14 +13,14 @@ OIL = 'viscosity = "13 mPa s"\nroughness = "0.4 um"\n'
 
 
 def with_friction(lines, motion=SPEED):
-    """The paper's elastic teeth with a friction section; without a speed unless it is given."""
+    """The paper's elastic teeth with a friction section."""
     head, _, rest = ELASTIC.partition("[motion]")
     rest = rest[rest.index("\n[") :] if "\n[" in rest else ""
     return scene_from_text(f"{head}{motion}{rest}\n[friction]\n{lines}")
 
 
 def test_the_model_has_the_formula_s_coefficient():
-    """Identity: of the nominal force and the speed of the scene."""
+    """Identity: of the scene's nominal force and speed."""
     model = model_of(with_friction(f'formula = "Schlenk"\n{OIL}'))
     force = model.scene.load.wheel_torque / model.pair.wheel.base_radius
     assert model.friction_coefficient == pytest.approx(
@@ -56,16 +56,14 @@ roughness = "0.8 um"
 
 
 def test_a_formula_outside_its_range_is_refused_by_name(tmp_path):
-    """Benedict and Kelley's logarithm, which is negative where a full film carries (the coefficient was -0.06); ISO/TR
-    13989-2 for Schlenk's slowest gears."""
-    (tmp_path / "light.toml").write_text(FAST_AND_LIGHT, encoding="utf-8")
+    """Benedict and Kelley's logarithm is negative where a full film carries; ISO/TR 13989-2 for Schlenk's slowest
+    gears."""
+    (tmp_path / "light.toml").write_text(FAST_AND_LIGHT)
     with pytest.raises(
         SceneError, match=r'^friction.formula = "Benedict and Kelley": .* more than 1. Here that is 0\.'
     ):
         checked_model(tmp_path / "light.toml")
-    (tmp_path / "slow.toml").write_text(
-        FAST_AND_LIGHT.replace("Benedict and Kelley", "Schlenk").replace("4000", "100"), encoding="utf-8"
-    )
+    (tmp_path / "slow.toml").write_text(FAST_AND_LIGHT.replace("Benedict and Kelley", "Schlenk").replace("4000", "100"))
     with pytest.raises(SceneError, match=r'^friction.formula = "Schlenk": .* from 1 to 50 m/s .* this pair has 0.3'):
         checked_model(tmp_path / "slow.toml")
 
@@ -83,7 +81,7 @@ def test_a_formula_outside_its_range_is_refused_by_name(tmp_path):
     ],
 )
 def test_what_is_missing_or_too_much_is_refused(lines, motion, said):
-    """House rule on errors: what, where, what is allowed."""
+    """What, where, what is allowed."""
     with pytest.raises(SceneError) as refused:
         with_friction(lines, motion)
     assert said in str(refused.value)

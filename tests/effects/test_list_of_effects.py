@@ -10,7 +10,7 @@ SECTIONS, AT_THE_TOP = effects.SECTIONS, effects.AT_THE_TOP
 
 
 def test_schema_data_and_list_know_the_same_sections():
-    """Identity; what is not one of the four sections that are always there, is an effect."""
+    """Identity; what is not one of the four sections that are always there."""
     always = {"title", "gears", "load", "motion", "accuracy", "output"}
     assert set(names_in(scene_text())) - always == set(AT_THE_TOP)
     assert {field.name for field in dataclasses.fields(Scene)} - always - {
@@ -22,14 +22,13 @@ def test_schema_data_and_list_know_the_same_sections():
 
 
 def test_a_module_has_the_effect_of_its_name():
-    """Identity of the list and of what the modules say of themselves."""
+    """Identity."""
     assert tuple(each.section for each in effects.every_effect()) == SECTIONS
     assert tuple(each.section for each in effects.every_effect() if not each.within) == AT_THE_TOP
 
 
 def test_names_in_the_list_are_consistent():
-    """Identity; needs and excludes name sections of the list, variables of one name are one and the same, such as the
-    pressure at kinks of either relief."""
+    """Identity: needs and excludes name sections of the list, variables of one name are the same."""
     named = [name for effect in effects.every_effect() for name in (*effect.needs, *effect.excludes)]
     assert set(named) <= set(SECTIONS)
     variables = {variable for effect in effects.every_effect() for variable in effect.variables} | set(
@@ -39,8 +38,7 @@ def test_names_in_the_list_are_consistent():
 
 
 def test_needs_and_conflicts_are_found():
-    """docs/promises.md; damping is that of moving masses. A meshed body's crack would be closed by its coast flanks,
-    and the mesh of a plane section has no face."""
+    """docs/promises.md."""
     assert effects.missing_needs(["damping"]) == [(effects.effect_named("damping"), "inertia")]
     assert effects.missing_needs(["damping", "inertia"]) == []
     pairs = (("body_meshes", "coast_flanks"), ("lead_modifications", "body_meshes"), ("misalignment", "body_meshes"))

@@ -1,5 +1,4 @@
-"""Measured profiles and helices of single teeth from tables: read as they stand, felt as they are, and refused with
-line and remedy."""
+"""Measured profiles and helices of single teeth from tables."""
 
 import numpy as np
 import pytest
@@ -22,7 +21,6 @@ STEPS = 20
 
 @pytest.fixture(scope="module")
 def drive_flanks(paper_pair):
-    """A mesh cycle of drive flanks without finite elements."""
     gears = paper_pair.pinion, paper_pair.wheel
     return Cycle(
         elastic_mesh(Flanks(paper_pair, tuple(stand_in_compliance(gear) for gear in gears)), ContactGrid(1.5, 20)),
@@ -44,13 +42,11 @@ def curve(teeth, places, deviation, heading="roll_length (mm)"):
 
 
 def measured(tmp_path, text, gear="pinion", name="profile_curves", anchor=MEAN):
-    """Errors of one gear with curves from a table."""
-    (tmp_path / "curves.csv").write_text(text, encoding="utf-8")
+    (tmp_path / "curves.csv").write_text(text)
     return located(FlankErrors(**{gear: GearErrors(**{name: "curves.csv", "anchor": anchor})}), tmp_path)
 
 
 def places_of(pair, gear, along, points=400):
-    """Points over the active profile of a gear, evenly spaced in roll angle (mm, deg, mm)."""
     body, start = (pair.pinion, pair.wheel)[gear], pair.sap_roll_angles[gear]
     roll = np.linspace(start, body.tip_roll_angle, points)
     return {
@@ -63,9 +59,8 @@ def places_of(pair, gear, along, points=400):
 @pytest.mark.parametrize("along", ["roll_length (mm)", "roll_angle (deg)", "diameter (mm)"])
 @pytest.mark.parametrize("gear", ["pinion", "wheel"])
 def test_a_measured_curve_is_the_deviation_it_shows(drive_flanks, paper_pair, tmp_path, gear, along):
-    """Identity: curves that show a slope and a form make the gaps of the lists, within the error of 200 straight
-    pieces, at most pi^2/(4 200^2) of the form from the table and as much again from its points; with their mean at
-    zero, as slope and form have it."""
+    """Identity: slope and form make the gaps of the lists, within twice pi^2/(4 200^2) of the form, the error of 200
+    straight pieces."""
     number = ("pinion", "wheel").index(gear)
     teeth = (16, 24)[number]
     slopes, forms = 1e-3 * np.arange(1.0, teeth + 1.0), 2e-3 * np.cos(np.arange(teeth))
@@ -88,7 +83,7 @@ def test_a_measured_curve_is_the_deviation_it_shows(drive_flanks, paper_pair, tm
 
 
 def _inside(pair, gear_pair):
-    """Nodes well within the active profiles: beyond their ends the curve is level, the lists go on."""
+    """Nodes well within the active profiles: beyond, the curve is level."""
     shares = []
     for roll, body, start in zip(
         pair.place.contact_rolls, (gear_pair.pinion, gear_pair.wheel), gear_pair.sap_roll_angles
@@ -98,8 +93,7 @@ def _inside(pair, gear_pair):
 
 
 def test_teeth_without_a_curve_have_the_mean_of_the_measured_ones(paper_pair, tmp_path):
-    """Definition, and ISO 1328-1: the slope of a straight curve is its rise over the active profile, and nothing is
-    left for its form."""
+    """ISO 1328-1: the slope of a straight curve is its rise over the active profile, nothing is left for its form."""
     text = curve(
         (1, 5), places_of(paper_pair, 0, "roll_length (mm)"), lambda tooth, at: (4.0 if tooth == 1 else -2.0) * at
     )
@@ -111,13 +105,11 @@ def test_teeth_without_a_curve_have_the_mean_of_the_measured_ones(paper_pair, tm
 
 
 def relieved(at):
-    """Tip relief, um, that starts at 0.7 of the way."""
     return -40.0 * max(at - 0.7, 0.0)
 
 
 def test_a_tooth_with_relief_stands_where_the_others_do(paper_pair, tmp_path):
-    """What tip relief is, material removed at the tip alone; the V cylinder of ISO 21771, of diameter d + 2 x m, is
-    below it."""
+    """The V cylinder of ISO 21771, of diameter d + 2 x m, is below the relief."""
     text = curve(
         (1, 2),
         places_of(paper_pair, 0, "diameter (mm)"),
@@ -135,7 +127,7 @@ def test_a_tooth_with_relief_stands_where_the_others_do(paper_pair, tmp_path):
 
 
 def test_measured_helices_are_the_deviations_they_show(paper_pair, tmp_path):
-    """Identity: ISO 1328-1, the slope of a straight helix is its rise over the face width; its mean is taken off."""
+    """ISO 1328-1: the slope of a straight helix is its rise over the face width, its mean taken off."""
     width = paper_pair.face_widths[0]
     text = curve((3,), np.linspace(-0.5 * width, 0.5 * width, 50), lambda tooth, at: 6.0 * at, "face_position (mm)")
     found = flank_deviations(measured(tmp_path, text, name="helix_curves"), paper_pair, (0.0, 0.0))[0].helix
@@ -145,10 +137,9 @@ def test_measured_helices_are_the_deviations_they_show(paper_pair, tmp_path):
 
 
 def scene_with(tmp_path, text, more="", name="profile_curves", face=""):
-    """The checked scene of the paper's elastic teeth whose pinion has curves."""
-    (tmp_path / "curves.csv").write_text(text, encoding="utf-8")
+    (tmp_path / "curves.csv").write_text(text)
     (tmp_path / "pair.toml").write_text(
-        f'{text_of("tooth_elasticity")}{face}\n[flank_errors.pinion]\n{name} = "curves.csv"\n{more}\n', encoding="utf-8"
+        f'{text_of("tooth_elasticity")}{face}\n[flank_errors.pinion]\n{name} = "curves.csv"\n{more}\n'
     )
     return checked_model(tmp_path / "pair.toml").scene
 
@@ -181,7 +172,7 @@ WRONG = {
 
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_curves_are_refused(tmp_path, name):
-    """House rule on errors: field, file, line where there is one, what, what is allowed; nothing is computed."""
+    """Field, file, line where there is one, what is allowed; nothing is computed."""
     text, said = WRONG[name]
     with pytest.raises(SceneError) as refused:
         scene_with(tmp_path, text)

@@ -1,4 +1,4 @@
-"""The documentation's pages on effects: the table is the list's, and the worked example works."""
+"""The table of effects, and the guide's worked example."""
 
 import json
 import re
@@ -18,41 +18,32 @@ GUIDE = effects_table.PAGE.with_name("adding_an_effect.md")
 
 
 def test_the_table_of_effects_is_up_to_date():
-    """Identity; `python -m tests.effects_table` writes it anew."""
-    assert effects_table.PAGE.read_text(encoding="utf-8") == effects_table.page()
+    """`python -m tests.effects_table` writes it anew."""
+    assert effects_table.PAGE.read_text() == effects_table.page()
 
 
 def block(language, holding):
-    """The one block of code in the guide in that language that holds some words."""
-    found = [
-        code
-        for code in re.findall(rf"```{language}\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.S)
-        if holding in code
-    ]
+    found = [code for code in re.findall(rf"```{language}\n(.*?)```", GUIDE.read_text(), re.S) if holding in code]
     assert len(found) == 1
     return found[0]
 
 
 @pytest.fixture(scope="module")
 def extended(tmp_path_factory):
-    """A folder with a copy of the package to which the guide's module, its entry and the scene's field have been
-    added."""
+    """A copy of the package with the guide's module, its entry and the scene's field."""
     folder = tmp_path_factory.mktemp("extended")
     # With its compiled kernels, which know their source by its time.
     shutil.copytree(PACKAGE, folder / "fenics_gears")
     effects = folder / "fenics_gears" / "effects"
-    (effects / "brake.py").write_text(block("python", "EFFECT = Effect("), encoding="utf-8")
-    text = (effects / "__init__.py").read_text(encoding="utf-8")
+    (effects / "brake.py").write_text(block("python", "EFFECT = Effect("))
+    text = (effects / "__init__.py").read_text()
     entry = block("python", '    "brake",').rstrip()
     text, listed = re.subn(r"(\nAT_THE_TOP = .*?)\n\)", rf"\1\n{entry}\n)", text, count=1, flags=re.S)
     assert listed == 1
-    (effects / "__init__.py").write_text(text, encoding="utf-8")
+    (effects / "__init__.py").write_text(text)
     scene = folder / "fenics_gears" / "scene" / "data.py"
     text, imported = re.subn(
-        r"\n    from fenics_gears",
-        f"\n{block('python', 'import Brake')}\\g<0>",
-        scene.read_text(encoding="utf-8"),
-        count=1,
+        r"\n    from fenics_gears", f"\n{block('python', 'import Brake')}\\g<0>", scene.read_text(), count=1
     )
     text, added = re.subn(
         r"(\nclass Scene:.*?)(\n\n    @property)",
@@ -62,12 +53,11 @@ def extended(tmp_path_factory):
         flags=re.S,
     )
     assert imported == added == 1
-    scene.write_text(text, encoding="utf-8")
+    scene.write_text(text)
     return folder
 
 
 def run(folder, *arguments, given=None):
-    """Python on the package in a folder; what it prints."""
     return python("-P", *arguments, given=given, folder=folder, PYTHONPATH=str(folder)).stdout
 
 
@@ -92,8 +82,6 @@ print(json.dumps(found))
 
 @pytest.fixture(scope="module")
 def plain():
-    """What the bare scene gives in the package as it is, its gears taken from the cache, which a run in this process
-    has filled."""
     text = text_of("tooth_elasticity").replace('"437 N m"', '"400 N m"')
     simulate(scene_from_text(text))
     return json.loads(run(PACKAGE.parent, "-c", PROGRAM, given=json.dumps([text])))[0]
@@ -113,9 +101,8 @@ print(json.dumps(said))
 
 @pytest.fixture(scope="module")
 def printed(extended, plain):
-    """What a process in the extended package prints: runs of a bare scene, one with the brake, the bare one under the
-    whole torque and one with shafts and brake; and what `gears check` says of a scene with the brake, without it, and
-    of a wrong one."""
+    """Runs of a bare scene, one with the brake, the bare one under the whole torque, one with shafts and brake; and
+    `gears check` of a scene with the brake, without it, and of a wrong one."""
     brake = block("toml", "[brake]")
     scenes = {
         "with": text_of() + brake,
@@ -123,7 +110,7 @@ def printed(extended, plain):
         "wrong": text_of("coast_flanks").replace('"437 N m"', '"-437 N m"') + brake,
     }
     for name, text in scenes.items():
-        (extended / f"{name}.toml").write_text(text, encoding="utf-8")
+        (extended / f"{name}.toml").write_text(text)
     brake = brake.replace("20 N m", "37 N m")
     bare, shafts = text_of("tooth_elasticity"), text_of("tooth_elasticity", "shafts")
     less, whole = bare.replace('"437 N m"', '"400 N m"'), bare
@@ -135,13 +122,12 @@ def printed(extended, plain):
 
 @pytest.fixture(scope="module")
 def runs(printed):
-    """The four runs."""
     return printed[0]
 
 
 @pytest.mark.nightly
 def test_the_guides_effect_is_named_by_check_on_and_off(printed):
-    """Authority: the guide; one entry in the list is enough."""
+    """The guide; one entry in the list is enough."""
     lines = []
     for code, said, _ in printed[1][:2]:
         assert code == 0
@@ -153,7 +139,7 @@ def test_the_guides_effect_is_named_by_check_on_and_off(printed):
 
 @pytest.mark.nightly
 def test_the_guides_rule_refuses_with_place_value_and_remedy(printed):
-    """The guide; a rule's message has all that a user needs."""
+    """The guide."""
     code, _, said = printed[1][2]
     assert code == 2
     assert "load.wheel_torque" in said and "-437 N m" in said and "cannot stand beside a brake" in said
@@ -161,8 +147,7 @@ def test_the_guides_rule_refuses_with_place_value_and_remedy(printed):
 
 @pytest.mark.nightly
 def test_the_guides_effect_has_its_known_answer(runs):
-    """Identity; on one hub 400 N m of load and 37 N m of brake are 437 N m, and the brake's work is torque times
-    angle."""
+    """Identity: 400 N m of load and 37 N m of brake are 437 N m; work is torque times angle."""
     _, braked, whole, _ = runs
     assert braked["transmission_error"] == pytest.approx(whole["transmission_error"], rel=1e-12)
     assert braked["work"][-1] == pytest.approx(37e3 * 2.0 * 3.141592653589793 / 24, rel=1e-12)
@@ -170,13 +155,13 @@ def test_the_guides_effect_has_its_known_answer(runs):
 
 @pytest.mark.nightly
 def test_the_guides_brake_works_before_the_output_shaft(runs):
-    """Statics; the shaft of 0.203e9 N mm/rad is twisted by the 400 N m at its end, not by the brake."""
+    """Statics: the shaft is twisted by the 400 N m at its end."""
     assert runs[3]["twist"] == pytest.approx([400e3 / 0.203e9] * 21, rel=1e-9)
 
 
 @pytest.mark.nightly
 def test_the_guides_effect_left_out_leaves_nothing_behind(runs, plain):
-    """House rule 9; a scene without it loads what the package without it loads."""
+    """House rule 9."""
     bare = runs[0]
     assert set(bare["modules"]) <= set(plain["modules"])
     assert bare["variables"] == plain["variables"] and "work_brake" not in bare["variables"]
@@ -185,5 +170,5 @@ def test_the_guides_effect_left_out_leaves_nothing_behind(runs, plain):
 
 
 def test_the_packages_own_scene_does_not_know_the_guides_effect():
-    """Authority: identity; the example was added to a copy."""
+    """Identity."""
     assert "brake" not in Scene.__dataclass_fields__ and not hasattr(scene_of(), "brake")

@@ -1,4 +1,4 @@
-"""Elastic shafts and bearings that do not fit, housings from files, and what a scene is told of its shafts."""
+"""Elastic shafts and bearings that do not fit, and housings from files."""
 
 import numpy as np
 import pytest
@@ -96,7 +96,7 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
     ],
 )
 def test_what_does_not_fit_is_refused_before_any_computation(more, said):
-    """Authority: the issue's list of bad input; each message names what is wrong, and where."""
+    """What is wrong, and where."""
     with pytest.raises(SceneError, match=f"(?s){said}"):
         model_of(helical_scene(more, accuracy=""))
 
@@ -106,15 +106,13 @@ SEATS = np.diag(np.tile([3e5, 2e5, 1e5, 1e8, 2e8, 0.0], 2))
 
 
 def written(folder, matrix):
-    """The text of a scene with a housing, whose file is written into a folder."""
     rows = "\n".join(" ".join(f"{each:.9e}" for each in row) for row in matrix)
     (folder / "housing.txt").write_text(f"# of an export\n{rows}\n".replace("e+", "D+"))
     return helical_scene(INPUT + PINION, accuracy="").text.replace(INPUT + PINION, HOUSING)
 
 
 def test_a_housing_from_a_file_is_in_series_with_the_bearings(tmp_path):
-    """Identity: two seats that do not hold each other are springs behind the bearings; the file is found beside the
-    scene."""
+    """Identity: seats that do not hold each other are springs behind the bearings."""
     scene = scene_from_text(written(tmp_path, SEATS), directory=tmp_path)
     found = model_of(scene).drivetrain.elastic[0]
     wanted = [0.15e6, 0.12e6, 0.05e6, 0.0, 0.0, 0.4e6 * 0.3 / 0.7, 0.4e6 * 0.2 / 0.6, 0.0, 1e15 / 1.1e8, 2e15 / 2.1e8]
@@ -133,7 +131,7 @@ def test_a_housing_from_a_file_is_in_series_with_the_bearings(tmp_path):
     ],
 )
 def test_a_housing_that_is_none_is_refused(tmp_path, change, said):
-    """Authority: the issue: symmetric, positive, and of the seats that there are."""
+    """Symmetric, positive, and of the seats that there are."""
     text = written(tmp_path, change(SEATS))
     with pytest.raises(SceneError, match=f"shafts.input.housing.*{said}"):
         model_of(scene_from_text(text, directory=tmp_path))
@@ -142,8 +140,7 @@ def test_a_housing_that_is_none_is_refused(tmp_path, change, said):
 
 
 def test_a_shaft_that_is_not_as_thick_as_the_bore_is_told():
-    """The issue's sanity: a shaft of 3 mm under a bore of 22.4 mm is said before the run; one that fits is not, nor one
-    that the teeth are cut into."""
+    """A shaft of 3 mm under a bore of 22.4 mm is said; one that fits is not, nor one that the teeth are cut into."""
 
     def said(more):
         return [each for each in model_of(helical_scene(more, accuracy="")).warnings if "face, whose bore" in each]

@@ -1,10 +1,11 @@
-"""Relief towards tip and root: its curve, what it does to the gaps and to the transmission error."""
+"""Relief towards tip and root, crowning and slope of the profile."""
 
 from dataclasses import replace
 from math import radians
 
 import numpy as np
 import pytest
+from tests.effects.examples import BASE, EXAMPLES
 from tests.effects.hats import hat_mean
 
 from fenics_gears import GeometryError, SceneError, scene_from_text
@@ -13,10 +14,12 @@ from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
+from fenics_gears.effects.profile_modifications import ProfileModification, ProfileModifications
 from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.root_relief import RootRelief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.geometry.involute import flank_point
+from fenics_gears.geometry.profile_modification import profile_curves
 from fenics_gears.geometry.relief import root_reliefs, tip_reliefs
 from fenics_gears.inputs.allowed import Measured
 from fenics_gears.model.modification import removals
@@ -27,7 +30,7 @@ KINDS = {"tip_relief": (TipRelief, tip_reliefs), "root_relief": (RootRelief, roo
 
 @pytest.mark.parametrize("section", KINDS)
 def test_relief_runs_from_single_contact_to_the_end_of_the_flank(paper_pair, section):
-    """Definition: nothing before HPSTC (LPSTC), the depth at the tip (form circle), linear or parabolic between."""
+    """Definition: nothing before HPSTC (LPSTC), the depth at the tip (form circle)."""
     (kind, curves), fractions = KINDS[section], np.array([-1.0, 0.0, 0.25, 0.5, 1.0])
     point, end = ("hpstc", "tip") if section == "tip_relief" else ("lpstc", "form")
     gears = tuple(zip((paper_pair.pinion, paper_pair.wheel), getattr(paper_pair, f"{point}_roll_angles")))
@@ -40,7 +43,7 @@ def test_relief_runs_from_single_contact_to_the_end_of_the_flank(paper_pair, sec
 
 @pytest.mark.parametrize("section", KINDS)
 def test_a_start_may_be_a_roll_angle_or_a_diameter(paper_pair, section):
-    """Identity: r = rb sqrt(1 + v^2); each gear has its own."""
+    """Identity: r = rb sqrt(1 + v^2)."""
     kind, curves = KINDS[section]
     roll = radians(22.0)
     diameter = 2.0 * float(paper_pair.pinion.radius(roll))
@@ -55,8 +58,7 @@ def test_a_start_may_be_a_roll_angle_or_a_diameter(paper_pair, section):
 
 @pytest.mark.parametrize("section", KINDS)
 def test_a_start_may_be_a_length_from_the_end(paper_pair, section):
-    """Identities: the path of contact is rb v long; the involute's arc is the integral of |dr| over the flank's points,
-    here a fine polygon."""
+    """Identities: the path is rb v long; the arc is the integral of |dr|, by a fine polygon."""
     kind, curves = KINDS[section]
     for fields in ({"length_on_path": 3.0}, {"length_on_flank": 1.5}):
         for curve, gear in zip(
@@ -76,7 +78,7 @@ def test_a_start_may_be_a_length_from_the_end(paper_pair, section):
     ("field", "words"), [("length_on_path", "on the path of contact"), ("length_on_flank", "along the flank")]
 )
 def test_a_relief_longer_than_the_flank_is_refused(paper_pair, field, words):
-    """House rule on errors: what, which gear, the value, what is allowed, the field."""
+    """What, which gear, the value, what is allowed, the field."""
     with pytest.raises(GeometryError) as refused:
         tip_reliefs(paper_pair, TipRelief(None, Relief(DEPTH, None, **{field: 40.0})))
     for said in ("wheel: ", f"starts at 40 mm from the tip {words}", f"change tip_relief.wheel.{field}"):
@@ -85,8 +87,7 @@ def test_a_relief_longer_than_the_flank_is_refused(paper_pair, field, words):
 
 @pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
 def test_a_gears_own_growth_goes_before_that_of_both(paper_scene, section, word):
-    """docs/scene.md; fields that a gear's own section leaves out are those of both, and shape and exponent say the
-    same."""
+    """docs/scene.md; shape and exponent say the same."""
     text = f'[{section}]\ndepth = "20 um"\nstart = "{word}"\nexponent = 1.5\n[{section}.wheel]\nshape = "parabolic"\n'
     found = getattr(scene_from_text(f"{paper_scene.text}\n{text}"), section)
     assert (found.pinion.power, found.wheel.power) == (1.5, 2)
@@ -94,8 +95,7 @@ def test_a_gears_own_growth_goes_before_that_of_both(paper_scene, section, word)
 
 @pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
 def test_a_start_means_one_place(paper_scene, section, word):
-    """Definition of the scene's fields: a diameter belongs to one gear, unless the gears are alike; lengths and roll
-    angles to both; one of them."""
+    """Definition: a diameter belongs to one gear, lengths and roll angles to both."""
     depth, diameter = f'[{section}]\ndepth = "20 um"\n', 'start = "80 mm"\n'
 
     def relief(text, scene=paper_scene.text):
@@ -132,10 +132,8 @@ def test_a_start_means_one_place(paper_scene, section, word):
 
 @pytest.mark.parametrize("section", KINDS)
 def test_gaps_open_by_the_removal_there(paper_scene, paper_pair, stand_in_flanks, section):
-    """Finite differences: the gap's derivative with the depth is the removal per depth averaged over the node's hat, by
-    adaptive quadrature;
-    four Gauss points see the kink at the relief's start to 3e-3 of the relief that one cell has. Elsewhere the gap does
-    not change."""
+    """Finite differences: the removal averaged over the node's hat, by adaptive quadrature, to 3e-3 of the relief
+    that one cell has."""
     change = 1e-6
     scenes = [
         replace(paper_scene, **{section: KINDS[section][0](Relief(DEPTH + sign * change, None), None)})
@@ -180,9 +178,56 @@ def _operator(pair, flanks, scene, grid, step):
     ],
 )
 def test_relief_off_the_flank_is_refused(paper_pair, relief, said):
-    """House rule on errors: what, which gear, the value, what is allowed, the field."""
+    """What, which gear, the value, what is allowed, the field."""
     with pytest.raises(GeometryError) as refused:
         tip_reliefs(paper_pair, TipRelief(relief, None))
     assert str(refused.value).startswith("pinion: tip")
     for part in said:
         assert part in str(refused.value)
+
+
+ELASTIC = BASE + EXAMPLES["tooth_elasticity"]
+
+
+def test_curves_are_what_the_fields_say(paper_pair):
+    """Definition: crowning at both ends, slope at the tip; nothing is ever added."""
+    start, end = paper_pair.sap_roll_angles[1], paper_pair.wheel.tip_roll_angle
+    places = np.array([start, 0.5 * (start + end), end])
+    for modification, removed in (
+        (ProfileModification(0.004, 0.0), [0.004, 0.0, 0.004]), (ProfileModification(-0.004, 0.0), [0.0, 0.004, 0.0]),
+        (ProfileModification(0.0, 0.005), [0.0, 0.0025, 0.005]),
+        (ProfileModification(0.0, -0.005), [0.005, 0.0025, 0.0]),
+    ):  # fmt: skip
+        pinion, wheel = profile_curves(paper_pair, ProfileModifications(None, modification))
+        assert pinion is None and wheel(places) == pytest.approx(np.array(removed), abs=1e-15)
+        assert (wheel(np.linspace(start - 0.2, end + 0.2)) >= 0.0).all()
+
+
+def test_exponents_of_one_and_two_are_the_shapes(paper_pair):
+    """Identity; an exponent of 1.5 lies between them."""
+    rolls = np.linspace(paper_pair.hpstc_roll_angles[0], paper_pair.pinion.tip_roll_angle, 20)
+
+    def removed(**how):
+        return tip_reliefs(paper_pair, TipRelief(Relief(0.02, None, **how), None))[0](rolls)
+
+    assert np.array_equal(removed(exponent=1.0), removed(shape=LINEAR)) and np.array_equal(
+        removed(exponent=2.0), removed(shape=PARABOLIC)
+    )
+    assert (removed(exponent=2.0) <= removed(exponent=1.5)).all() and (
+        removed(exponent=1.5) <= removed(exponent=1.0)
+    ).all()
+
+
+@pytest.mark.parametrize(
+    ("section", "words"),
+    [
+        ("[profile_modifications]\n", "modifies neither gear"),
+        ("[profile_modifications.pinion]\n", "names no modification. Add crowning or slope"),
+        ('[profile_modifications.wheel]\nslope = "1 mm"\n', "is too large an error of manufacture"),
+        ('[tip_relief]\ndepth = "20 um"\nstart = "HPSTC"\nshape = "linear"\nexponent = 1.5\n', "stands beside shape"),
+    ],
+)
+def test_wrong_modifications_are_refused(section, words):
+    """docs/scene.md."""
+    with pytest.raises(SceneError, match=words):
+        scene_from_text(ELASTIC + section)

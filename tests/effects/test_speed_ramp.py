@@ -1,5 +1,4 @@
-"""``[speed_ramp]``: the clock, the inertia forces of the accelerating frame, and what the section says when it is
-wrong."""
+"""``[speed_ramp]``."""
 
 import re
 from dataclasses import replace
@@ -26,7 +25,6 @@ UP, DOWN = RampClock(100.0, 300.0, 80, 480, 40), RampClock(300.0, 100.0, 0, 400,
 
 
 def coarse(scene, cycles, recorded=None, start=200.0):
-    """The scene on a coarse mesh, every cycle kept unless said."""
     return replace(scene, accuracy=COARSE, motion=Motion(start, cycles, recorded or cycles))
 
 
@@ -40,7 +38,7 @@ def coarse(scene, cycles, recorded=None, start=200.0):
     ],
 )
 def test_a_wrong_section_is_refused(lines, said):
-    """Authority: house rule 7."""
+    """House rule 7."""
     with pytest.raises(SceneError) as refused:
         scene_from_text(DEMO + f"[speed_ramp]\n{lines}\n")
     assert said in str(refused.value) and "Allowed: " in str(refused.value)
@@ -48,8 +46,7 @@ def test_a_wrong_section_is_refused(lines, said):
 
 @pytest.mark.parametrize("clock", [UP, DOWN], ids=["up after a hold", "down"])
 def test_the_clock_is_that_of_a_frequency_linear_in_time(clock):
-    """Other solver: the phase n(t) = integral of f, f linear in t, integrated numerically, reaches each step at the
-    clock's time."""
+    """Other solver: the integral of f, linear in t, reaches each step at the clock's time."""
     begins, ends = clock.time(clock.held), clock.time(clock.last)
     assert begins == pytest.approx(clock.held / 40 / clock.start, rel=1e-14)
     slope = (clock.end - clock.start) / (ends - begins)
@@ -68,8 +65,7 @@ def test_the_clock_is_that_of_a_frequency_linear_in_time(clock):
 
 
 def test_result_tells_time_and_frequency(paper_scene):
-    """Exact: the last step stands at 2 n/(f0 + f1), at the frequency asked for; steps stand at equal phases, not at
-    equal times."""
+    """Exact: 2 n/(f0 + f1); equal phases, not equal times."""
     result = simulate(replace(coarse(paper_scene, 4, start=100.0), speed_ramp=SpeedRamp(300.0)))
     assert float(result.time[-1]) == pytest.approx(2 * 4 / (100.0 + 300.0), rel=1e-13)
     assert [float(result.mesh_frequency[i]) for i in (0, -1)] == pytest.approx([100.0, 300.0], rel=1e-14)
@@ -79,8 +75,7 @@ def test_result_tells_time_and_frequency(paper_scene):
 
 
 def test_the_right_side_is_minus_mass_times_acceleration_by_finite_differences(paper_scene, paper_pair):
-    """Finite differences: kinetic energy of all wheels in the nominal motion; its rate is the power against the inertia
-    forces."""
+    """Finite differences of the kinetic energy of all wheels."""
     shafts = drivetrain(paper_scene, paper_pair)
     forces = inertia_forces(DOWN, shafts, 24)(100)
     inertia, step = paper_scene.inertia.moment_of_inertia, 1e-3
@@ -102,8 +97,7 @@ def test_the_right_side_is_minus_mass_times_acceleration_by_finite_differences(p
 def test_spin_up_at_rest_changes_the_mesh_force_by_inertia_times_acceleration(
     paper_scene, paper_pair, stand_in_flanks, absent
 ):
-    """Exact: in a frame that accelerates evenly, gears that do not roll stand still, and the mesh carries T/rb2 and J
-    alpha/rb2 of all that turns behind it: the wheel, and the shaft's end where there is one."""
+    """Exact: the mesh carries T/rb2 and J alpha/rb2 of all that turns behind it."""
     scene = replace(paper_scene, friction=None, damping=None, **dict.fromkeys(absent))
     for clock in (UP, DOWN):
         marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-4)
@@ -122,8 +116,8 @@ def test_spin_up_at_rest_changes_the_mesh_force_by_inertia_times_acceleration(
 
 
 def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
-    """Known limit: a ramp that takes 200 mesh cycles from 300 to 350 Hz, clear of resonance, has in each cycle the
-    peak-to-peak transmission error of a steady run at the cycle's frequency, within 2 %."""
+    """Known limit: from 300 to 350 Hz in 200 mesh cycles, T_EPP of a steady run at each cycle's frequency, within 2
+    %."""
     scene = frictionless(paper_scene)
     model = model_of(replace(coarse(scene, 200, 1, start=300.0), speed_ramp=SpeedRamp(350.0)))
     _, cycle = prepared(model, SilentProgress(), user_cache())
@@ -140,9 +134,7 @@ def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
 
 
 def test_a_ramp_to_a_crawl_says_what_its_slow_end_does_to_the_whole_run(paper_scene):
-    """The rule of `dynamics.clock`, half the slowest period, on the ramp's true steps; above the frequency that the
-    warning names, which is that of a steady run, it is gone. A crawl is passed in few steps, none of them as long as
-    its frequency would have."""
+    """The rule of `dynamics.clock`, half the slowest period, on the ramp's true steps."""
     crawl = replace(coarse(paper_scene, 20), speed_ramp=SpeedRamp(0.01))
     assert not model_of(crawl).time_scales.samples_vibration
     (said,) = [warning for warning in model_of(crawl).warnings if "backward Euler" in warning]
@@ -153,8 +145,7 @@ def test_a_ramp_to_a_crawl_says_what_its_slow_end_does_to_the_whole_run(paper_sc
 
 
 def test_a_ramp_that_pulls_the_flanks_apart_is_named(paper_scene):
-    """Mechanics: a falling speed decelerates the wheel by more than its torque does, and nothing holds the flanks
-    together at the start."""
+    """Mechanics: a falling speed decelerates the wheel by more than its torque does."""
     scene = replace(
         coarse(frictionless(paper_scene), 2, start=5000.0),
         speed_ramp=SpeedRamp(500.0),

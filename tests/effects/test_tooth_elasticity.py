@@ -1,4 +1,4 @@
-"""Rigid flanks: a scene without `[gears.material]` has the kinematic transmission error of its geometry."""
+"""Rigid flanks."""
 
 from dataclasses import replace
 
@@ -18,13 +18,11 @@ DEPTH = 0.031
 
 @pytest.fixture(scope="module")
 def rigid_scene(paper_scene):
-    """The paper's pair with rigid flanks, quasi-static, on rigid shafts and bearings."""
     return replace(rigid_pair(paper_scene), accuracy=Accuracy(), motion=Motion(200.0, 1, 1))
 
 
 def test_true_involutes_transmit_exactly(rigid_scene):
-    """Exact: conjugate rigid flanks have no transmission error, whatever the load; where two pairs touch, shares are
-    not given."""
+    """Exact: conjugate flanks have no transmission error."""
     result = simulate(rigid_scene)
     assert np.abs(result.transmission_error.values).max() <= 1e-12
     force = rigid_scene.load.wheel_torque / result.attrs["base_radius_wheel"]
@@ -38,9 +36,8 @@ def test_true_involutes_transmit_exactly(rigid_scene):
 
 
 def test_relief_is_the_least_gap_of_the_pairs_on_the_line_of_action(rigid_scene, paper_pair):
-    """Exact: the kinematic error is the smallest sum of both flanks' removals among the pairs on the path of contact,
-    give or take what a step of the window off the line of action gains (the relief's slope over the flanks' curvature:
-    below 0.4 um here)."""
+    """Exact: the smallest sum of removals on the path of contact, but for what a step of the window gains (below 0.4
+    um)."""
     scene = replace(rigid_scene, tip_relief=TipRelief(Relief(DEPTH, None), Relief(DEPTH, None)))
     result = simulate(scene)
     pinion, wheel = removals(scene, paper_pair)
@@ -59,7 +56,7 @@ def test_relief_is_the_least_gap_of_the_pairs_on_the_line_of_action(rigid_scene,
 
 
 def test_friction_needs_elastic_teeth(paper_scene):
-    """Between rigid flanks friction is not determined: refused in words; of a misspelt section nothing more is said."""
+    """Not determined: refused in words; of a misspelt section nothing more is said."""
     text = (
         paper_scene.text.replace("[gears.material]\n", "")
         .replace('youngs_modulus = "206 GPa"\n', "")
@@ -73,8 +70,7 @@ def test_friction_needs_elastic_teeth(paper_scene):
 
 
 def test_rigid_gears_accelerate_as_their_errors_say(rigid_scene, paper_scene):
-    """Newton's law: with one moving coordinate the mesh force is (T + J phi2'')/rb2, phi2 the kinematic error; backward
-    Euler's own second difference, exact while no flank lifts off."""
+    """Newton's law: the mesh force is (T + J phi2'')/rb2, by backward Euler's own second difference."""
     slow = Motion(20.0, 3, 1)
     scene = replace(
         rigid_scene,

@@ -1,4 +1,4 @@
-"""``[torque_ripple]``: the couple on the wheel's shaft, what it does, and what the section says when it is wrong."""
+"""``[torque_ripple]``."""
 
 from dataclasses import replace
 
@@ -16,12 +16,10 @@ RIPPLE = TorqueRipple((Harmonic(ORDER, 30e3, 0.4), Harmonic(2.5, 10e3)))
 
 
 def coarse(scene, cycles=2):
-    """The scene on a coarse mesh, every cycle kept."""
     return replace(scene, accuracy=COARSE, motion=Motion(200.0, cycles, cycles))
 
 
 def expected_couple(result, ripple, torque=437e3, teeth=24):
-    """The couple (time,), N mm, written out by hand."""
     turned = 2.0 * np.pi * result.mesh_phase.values / teeth
     return torque + sum(each.amplitude * np.cos(each.order * turned + each.phase) for each in ripple.harmonics)
 
@@ -34,8 +32,6 @@ def expected_couple(result, ripple, torque=437e3, teeth=24):
         ("[3]", "is no table"),
         ('[{ amplitude = "20 N m" }]', "has no order at place 1"),
         ('[{ order = 1, amplitude = "20 N m" }, { order = 0, amplitude = "20 N m" }]', "order = 0 at place 2"),
-        ('[{ order = 1, amplitude = "20 mm" }]', "is a length, not a torque"),
-        ('[{ order = 1, amplitude = "-20 N m" }]', "is negative"),
         ('[{ order = 1, amplitud = "20 N m" }]', 'Did you mean "amplitude"?'),
         (
             '[{ order = 1, amplitude = "400 N m" }, { order = 2, amplitude = "40 N m" }]',
@@ -44,15 +40,14 @@ def expected_couple(result, ripple, torque=437e3, teeth=24):
     ],
 )
 def test_a_wrong_section_is_refused(harmonics, said):
-    """House rule 7; what is wrong, at which place of the list, and what is allowed."""
+    """House rule 7."""
     with pytest.raises(SceneError) as refused:
         scene_from_text(DEMO + f"[torque_ripple]\nharmonics = {harmonics}\n")
     assert said in str(refused.value) and "Allowed: " in str(refused.value)
 
 
 def test_quasi_static_transmission_error_follows_the_couple(paper_scene):
-    """Exact: without friction and inertia a step knows only its own couple, so that the error at a step is that under
-    the constant couple of the same size; on elastic shafts and teeth alike."""
+    """Exact: without friction and inertia the error at a step is that under its constant couple."""
     scene = coarse(frictionless(quasi_static(paper_scene)), cycles=1)
     result = simulate(replace(scene, torque_ripple=RIPPLE))
     couples = expected_couple(result, RIPPLE)
@@ -68,8 +63,7 @@ def test_quasi_static_transmission_error_follows_the_couple(paper_scene):
 
 
 def test_a_ripple_far_above_all_vibrations_is_not_felt(paper_scene):
-    """Known limit: at 20 kHz the gears stay at their mean position whatever rides on the couple; they start where the
-    loads of a whole cycle balance, so that nothing rings."""
+    """Known limit: at 20 kHz the gears stay at their mean position."""
     scene = replace(frictionless(coarse(paper_scene)), motion=Motion(20e3, 30, 2))
     ripple = TorqueRipple((Harmonic(24.0, 200e3),))
     off, on = (simulate(replace(scene, torque_ripple=each)) for each in (None, ripple))

@@ -1,4 +1,4 @@
-"""The gears and meshes that the tests of elasticity share; coarse, so that dense brute force stays quick."""
+"""The gears and meshes that the tests of elasticity share; coarse, for dense brute force."""
 
 import pytest
 from tests.coarse_sector import PINION, STEEL, coarse_sector_mesh
@@ -6,7 +6,6 @@ from tests.coarse_sector import PINION, STEEL, coarse_sector_mesh
 
 @pytest.fixture(scope="session")
 def pinion():
-    """Pinion of Lundvall, Stroemberg, Klarbring (2004), Table 2."""
     return PINION
 
 
@@ -17,5 +16,4 @@ def steel():
 
 @pytest.fixture(scope="session")
 def coarse_sector():
-    """Coarse sector mesh of the pinion for an element's name."""
     return coarse_sector_mesh

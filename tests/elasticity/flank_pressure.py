@@ -1,4 +1,4 @@
-"""A given pressure on a tooth's flank as consistent forces on its nodes."""
+"""A pressure on a tooth's flank as consistent forces on its nodes."""
 
 import numpy as np
 
@@ -9,14 +9,14 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
 def flank_arcs(recovery) -> np.ndarray:
-    """Arc lengths (f,), mm, from the base circle of the drive flank's nodes, in the order of its forces."""
+    """Arc lengths (f,), mm, of the drive flank's nodes from the base circle."""
     gear, order = recovery.gear, recovery.sector.section.order
     points = recovery.points[recovery.sector.flank_nodes("flank")]
     return arc_length(gear.base_radius, node_roll_angles(gear, points[::order], order))
 
 
 def pressed(recovery, pressure) -> np.ndarray:
-    """Line forces (2 f,), N/mm, of a pressure (MPa), a function of the arc length (mm), on the drive flank's nodes."""
+    """Line forces (2 f,), N/mm, of a pressure (MPa), a function of the arc length (mm)."""
     arcs, order = flank_arcs(recovery), recovery.sector.section.order
     forces = np.zeros((len(arcs), 2))
     for first in range(0, len(arcs) - 1, order):
@@ -30,8 +30,3 @@ def pressed(recovery, pressure) -> np.ndarray:
         traction = -pressure(at)[:, None] * canonical_normal(roll_angle_at_arc_length(recovery.gear.base_radius, at))
         forces[first : first + order + 1] += 0.5 * (high - low) * (shapes * WEIGHTS) @ traction
     return forces.ravel()
-
-
-def stress_across(stress: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """Normal component (n,) of stress (n, 3, 3) in directions (n, 2)."""
-    return np.einsum("ni,nij,nj->n", direction, stress[:, :2, :2], direction)

@@ -8,8 +8,7 @@ from fenics_gears.elasticity import dolfinx_adapter as adapter
 
 
 def test_leftover_of_a_killed_compile_is_removed(tmp_path):
-    """The form compiler (ffcx, jit.py) names the file that a compile killed halfway has left; without it the next one
-    works."""
+    """The form compiler (ffcx, jit.py) names the file that a compile killed halfway has left."""
     leftover = tmp_path / "form cache" / "libffcx_forms_0.c"
     leftover.parent.mkdir()
     leftover.write_text("")
@@ -35,7 +34,7 @@ def test_another_timeout_is_not_swallowed():
 
 
 def test_compiler_is_quiet_only_while_it_compiles(caplog):
-    """The program's own warnings pass, and afterwards everything does."""
+    """The program's own warnings pass."""
     with caplog.at_level(logging.INFO), caplog.at_level(logging.INFO, logger="fenics_gears"):
         with adapter.quiet_compiler():
             logging.getLogger("distutils").info("x86_64-linux-gnu-gcc")

@@ -1,4 +1,4 @@
-"""The cache gives back what it was given, by its content. Damage, full disks and kills are hard case 27."""
+"""The cache gives back what it was given. Damage, full disks and kills are hard case 27."""
 
 import os
 import time
@@ -21,7 +21,7 @@ def cache(tmp_path):
 
 
 def test_what_is_stored_comes_back_bit_for_bit(cache):
-    """Exact identity, the kind of the numbers included."""
+    """Exact identity."""
     cache.store(KEY, ARRAYS)
     loaded = cache.load(KEY)
     assert loaded.keys() == ARRAYS.keys()
@@ -41,7 +41,6 @@ def test_directory_that_cannot_be_made_is_a_warning(tmp_path, caplog):
 
 
 def test_environment_names_the_directory(tmp_path, monkeypatch):
-    """FENICS_GEARS_CACHE overrides the user's cache directory."""
     monkeypatch.setenv(DIRECTORY_VARIABLE, str(tmp_path))
     assert user_cache() == Cache(tmp_path, 2e9)
     monkeypatch.delenv(DIRECTORY_VARIABLE)
@@ -49,7 +48,6 @@ def test_environment_names_the_directory(tmp_path, monkeypatch):
 
 
 def used(cache, key, seconds_ago):
-    """Say that an entry was used some time ago."""
     moment = time.time() - seconds_ago
     os.utime(cache.path(key), (moment, moment))
 
@@ -62,7 +60,7 @@ def size_of_entry(directory):
 
 @pytest.mark.parametrize("room, left", [(3.5, {"b", "a", "new"}), (2.5, {"a", "new"}), (1.5, {"new"}), (0.5, {"new"})])
 def test_beyond_the_limit_the_longest_unused_go_first(tmp_path, room, left):
-    """By definition: reading is use, and the entry that was stored last stays whatever the limit."""
+    """Definition: reading is use; the entry stored last stays whatever the limit."""
     filled = Cache(tmp_path / "cache")
     for ago, key in ((300.0, "a"), (200.0, "c"), (100.0, "b")):
         filled.store(key, ARRAYS)
@@ -75,7 +73,7 @@ def test_beyond_the_limit_the_longest_unused_go_first(tmp_path, room, left):
 
 
 def test_files_that_are_being_written_stay(tmp_path):
-    """By definition; those that a killed run left a day before are no longer being written."""
+    """Definition; those of a run killed a day before are no longer being written."""
     now = f"{UNFINISHED}elsewhere-now"
     for name, ago in ((now, 0.0), (f"{UNFINISHED}elsewhere-lost", LONGEST_WRITING + 60.0)):
         (tmp_path / name).write_text("half")
@@ -88,7 +86,7 @@ def test_files_that_are_being_written_stay(tmp_path):
 
 
 def test_an_entry_that_another_run_removes_is_no_failure(tmp_path, monkeypatch, caplog):
-    """Two runs that keep to the limit at once: each finds files gone that it has just seen."""
+    """Two runs at once: each finds files gone that it has just seen."""
     for key in "abc":
         Cache(tmp_path).store(key, ARRAYS)
     entries = Cache.entries
@@ -106,14 +104,14 @@ def test_an_entry_that_another_run_removes_is_no_failure(tmp_path, monkeypatch, 
 
 @pytest.mark.parametrize("text, size", [("500 MB", 5e8), ("1.5GB", 1.5e9), ("0 MB", 0.0), ("", 2e9)])
 def test_environment_limits_the_size(monkeypatch, text, size):
-    """By definition of MB and GB."""
+    """Definition of MB and GB."""
     monkeypatch.setenv(SIZE_VARIABLE, text)
     assert user_cache().limit == size
 
 
 @pytest.mark.parametrize("text", ["2", "-1 GB", "2 GiB", "much", "nan GB"])
 def test_a_size_that_is_none_is_refused(monkeypatch, text):
-    """Bad input is refused with its place, its value and what is allowed."""
+    """Place, value and what is allowed."""
     monkeypatch.setenv(SIZE_VARIABLE, text)
     with pytest.raises(SceneError, match=f"{SIZE_VARIABLE} = '{text}'.*Allowed"):
         user_cache()

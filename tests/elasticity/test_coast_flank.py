@@ -1,4 +1,4 @@
-"""The coast flank in a gear's compliance: the drive flank's mirror image, and the drive flank's own as without it."""
+"""The coast flank in a gear's compliance."""
 
 from dataclasses import replace
 
@@ -26,14 +26,12 @@ def both(pinion, steel):
 
 
 def difference(first, second):
-    """In the Frobenius norm, relative."""
     return np.linalg.norm(first - second) / np.linalg.norm(second)
 
 
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_half_a_sector_does_for_the_whole(name, pinion, steel):
-    """Brute force: the whole symmetric sector condensed with both flanks, the coast flank's components mirrored by
-    dense products."""
+    """Brute force: the whole sector condensed with both flanks, the coast flank mirrored by dense products."""
     element, coarse = ELEMENTS[name], Discretisation(name, 0.9, 3.0)
     either = flank_compliance(pinion, steel, coarse, BOTH)
     similar, sizes = pinion.of_module_one, coarse.sizes(pinion, both_flanks=True).in_modules_of(pinion)
@@ -53,7 +51,7 @@ def test_half_a_sector_does_for_the_whole(name, pinion, steel):
 
 
 def test_flank_pairs_that_are_not_asked_for_are_not_known(pinion, steel, both):
-    """Exact identity: the same numbers in a smaller range; an offset outside of it is refused."""
+    """Exact identity: the same numbers in a smaller range."""
     fewer = flank_compliance(pinion, steel, Discretisation("P2", 0.4), Reach(1, (-2, 1)))
     assert np.array_equal(fewer.between(1, 0), both.between(1, 0))
     assert np.array_equal(fewer.between(0, 2, (0, 1)), both.between(0, 2, (0, 1)))
@@ -66,7 +64,7 @@ def test_flank_pairs_that_are_not_asked_for_are_not_known(pinion, steel, both):
 
 @pytest.mark.parametrize("element", ELEMENTS)
 def test_symmetric_mesh_fills_the_sector(element, pinion):
-    """Exact identity: shoelace formula; as many nodes on either flank and cut; no cell folded."""
+    """Exact identity: shoelace formula; as many nodes on either flank and cut."""
     chosen = ELEMENTS[element]
     sizes = replace(element_sizes(pinion, chosen, 0.4), both_flanks=True)
     mesh = sector_mesh(pinion, sizes, chosen.quadrilateral)

@@ -1,8 +1,9 @@
-"""Joined runs of sectors against the assembled ring and against the Fourier transform."""
+"""The ring of sectors, and joined runs of them. Against brute force and its kernel: hard cases 5 and 6."""
 
 import numpy as np
 import pytest
 from tests.coarse_sector import relative
+from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
 from fenics_gears import ComputationError
 from fenics_gears.elasticity.cut_chain import chain_is_quicker, chain_response, joined, run_of
@@ -11,13 +12,12 @@ from fenics_gears.elasticity.ring import condensed_sector, cut_response, fourier
 
 
 def link_of(seed, size=4):
-    """A made-up sector between its cuts: positive definite, as with a held hub."""
+    """A made-up sector between its cuts: positive definite."""
     square = np.random.default_rng(seed).standard_normal((2 * size, 2 * size))
     return square @ square.T + 0.5 * np.eye(2 * size)
 
 
 def ring_inverse(link, teeth):
-    """Responses of all cuts to forces on cut 0, by inverting the whole ring's matrix."""
     size = len(link) // 2
     whole, parts = np.zeros((teeth, size, teeth, size)), link.reshape(2, size, 2, size)
     for tooth in range(teeth):
@@ -29,7 +29,7 @@ def ring_inverse(link, teeth):
 
 @pytest.mark.parametrize("teeth, reach", [(5, 1), (12, 3), (13, 4), (31, 2), (4, 3), (2, 1)])
 def test_both_routes_are_the_inverse_of_the_whole_ring(teeth, reach):
-    """Brute force, by numpy's dense inverse; odd and even numbers of sectors left to the run, a single one too."""
+    """Brute force: numpy's inverse; odd and even numbers of sectors, a single one too."""
     link = link_of(teeth)
     exact = ring_inverse(link, teeth)
     for route in (chain_response, fourier_response):
@@ -39,7 +39,7 @@ def test_both_routes_are_the_inverse_of_the_whole_ring(teeth, reach):
 
 
 def test_joining_eliminates_the_common_cut():
-    """numpy's Schur complement of the assembled pair; and a run of five by doubling is five joined in a row."""
+    """numpy's Schur complement; a run of five by doubling is five joined in a row."""
     one, other = link_of(1), link_of(2)
     size = len(one) // 2
     nothing = np.zeros((size, size))
@@ -60,7 +60,7 @@ def test_joining_eliminates_the_common_cut():
 
 
 def test_a_gear_of_many_teeth_takes_the_chain_and_has_the_same_flanks(pinion, coarse_sector, monkeypatch):
-    """The Fourier transform on the same condensed sector."""
+    """The Fourier transform on the same sector."""
     from fenics_gears.elasticity import ring
 
     sector = condensed_sector(coarse_sector("P2"), ELEMENTS["P2"], 0.3)
@@ -70,7 +70,7 @@ def test_a_gear_of_many_teeth_takes_the_chain_and_has_the_same_flanks(pinion, co
 
 
 def test_few_teeth_are_transformed_and_many_joined():
-    """The count of operations; a reach all around the ring has no run to join."""
+    """The count of operations; a reach all around leaves no run to join."""
     assert not chain_is_quicker(16, 4) and not chain_is_quicker(60, 4)
     assert chain_is_quicker(150, 4) and chain_is_quicker(2000, 4)
     assert not chain_is_quicker(100, 99) and not chain_is_quicker(100, 100)
@@ -82,3 +82,21 @@ def test_a_ring_that_nothing_holds_is_refused():
     """House rule; without stiffness of its own a cut has no response."""
     with pytest.raises(ComputationError, match="is the hub held"):
         chain_response(np.zeros((4, 4)), 100, 1)
+
+
+def test_every_tooth_is_the_same_and_teeth_behind_are_the_transpose(pinion, steel, coarse_sector):
+    """Exact identities: isotropy under whole pitches; Betti's theorem for the tooth behind."""
+    whole = whole_gear_mesh(coarse_sector("P2"), pinion.teeth)
+    first = whole_gear_compliance(whole, pinion, steel, tooth_offsets=pinion.teeth - 1)
+    fifth = whole_gear_compliance(whole, pinion, steel, loaded_tooth=5, tooth_offsets=2)
+    assert relative(first.blocks[:3] - fifth.blocks, fifth.blocks) < 1e-9
+    for offset in (1, 2):
+        behind = first.blocks[pinion.teeth - offset]
+        assert relative(behind - fifth.block(-offset), behind) < 1e-9
+
+
+def test_cuts_that_do_not_match_are_refused(pinion, coarse_sector):
+    """A ring of one tooth more has another pitch."""
+    sector = condensed_sector(coarse_sector("P1"), ELEMENTS["P1"], 0.3)
+    with pytest.raises(ComputationError, match="do not match"):
+        ring_compliance(sector, pinion.teeth + 1, 1)

@@ -1,5 +1,3 @@
-"""Element orders by a manufactured solution."""
-
 import numpy as np
 import pytest
 from tests.manufactured import l2_error
@@ -12,13 +10,12 @@ ORDERS = {"P1": 2, "P2": 3, "Q1": 2, "Q1 incompatible": 2, "Q2": 3}
 
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_order_of_the_displacement_error(name):
-    """Known order (e.g. Brenner & Scott, ch. 5): the L2 error of elements of order p falls as h^(p + 1)."""
+    """Known order (Brenner & Scott, ch. 5): the L2 error falls as h^(p + 1)."""
     errors = [l2_error(name, cells, 0.3) for cells in (6, 12, 24)]
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     assert abs(orders[-1] - ORDERS[name]) < 0.15
 
 
 def test_unknown_element_is_refused_with_the_nearest_name():
-    """A misspelt element names the known ones and the nearest."""
     with pytest.raises(SceneError, match="did you mean 'P2'"):
         element_named("p2")

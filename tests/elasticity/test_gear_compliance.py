@@ -11,8 +11,8 @@ from fenics_gears import ComputationError, SceneError
 from fenics_gears.elasticity.body_mesh_file import read_body_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
-from fenics_gears.elasticity.element_sizes import Discretisation, element_sizes
-from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES, Discretisation, element_sizes
+from fenics_gears.elasticity.elements import ELEMENTS, Element, element_named
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.gmsh_session import start
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
@@ -23,7 +23,7 @@ COARSE, REACH = Discretisation("P2", 0.5, 2.5), Reach(1)
 
 
 def test_default_body_mesh_is_fine_enough(pinion):
-    """From the task: refining all but the flank moves the mean compliance under 1 mm of pressure by less than 0.1 %."""
+    """Refining all but the flank moves the mean compliance under 1 mm of pressure by less than 0.1 %."""
     element = ELEMENTS["P2"]
     sizes = element_sizes(pinion, element, 0.12)
     finer = replace(
@@ -40,7 +40,7 @@ def test_default_body_mesh_is_fine_enough(pinion):
 
 
 def mean_compliance(gear, element, sizes, centre):
-    """Mean normal displacement per unit load spread evenly over 1 mm about a fraction of the flank's length."""
+    """Per unit load spread evenly over 1 mm about a fraction of the flank's length."""
     sector = condensed_sector(sector_mesh(gear, sizes), element, 0.3)
     ends = arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle]))
     nodes = np.linspace(*ends, len(sector.points["flank"]))
@@ -56,7 +56,6 @@ def mean_compliance(gear, element, sizes, centre):
 
 @pytest.fixture(scope="module")
 def own_cache(pinion, steel, tmp_path_factory):
-    """A cache that has the coarse pinion."""
     cache = Cache(tmp_path_factory.mktemp("cache"))
     flank_compliance(pinion, steel, COARSE, REACH, cache)
     assert flank_compliance(pinion, steel, COARSE, REACH, cache).timings["from_cache"]
@@ -75,7 +74,6 @@ def own_cache(pinion, steel, tmp_path_factory):
     ],
 )
 def test_every_input_has_its_own_cache_entry(kind, change, pinion, steel, own_cache):
-    """Whatever changes the numbers changes the key."""
     inputs = {"gear": pinion, "material": steel, "discretisation": COARSE, "reach": REACH}
     inputs[kind] = replace(inputs[kind], **change)
     assert not flank_compliance(**inputs, cache=own_cache).timings["from_cache"]
@@ -91,13 +89,13 @@ def test_every_input_has_its_own_cache_entry(kind, change, pinion, steel, own_ca
     ],
 )
 def test_impossible_inputs_are_refused(change, message, pinion, steel):
-    """Each names the field, the value and what is allowed."""
+    """Field, value and what is allowed."""
     with pytest.raises(SceneError, match=message):
         flank_compliance(pinion, steel, **{"discretisation": COARSE, "reach": REACH, **change})
 
 
 def test_body_mesh_from_a_gmsh_file(pinion, steel, coarse_sector, tmp_path):
-    """Exact identity: the same body, once from memory and once from a gmsh file with named physical curves."""
+    """Exact identity: from memory and from a gmsh file with named curves."""
     whole = whole_gear_mesh(coarse_sector("P1"), pinion.teeth)
     write_gmsh_file(whole, tmp_path / "body.msh")
     read = read_body_mesh(tmp_path / "body.msh")
@@ -126,9 +124,40 @@ def write_gmsh_file(mesh, path):
 
 @pytest.mark.parametrize("content", [None, "not a mesh", ""])
 def test_unreadable_body_mesh_is_refused(content, tmp_path):
-    """The message names the file."""
     path = tmp_path / "body.msh"
     if content is not None:
         path.write_text(content)
     with pytest.raises(SceneError, match="body.msh"):
         read_body_mesh(path)
+
+
+FLANK = 0.3
+
+
+def stretched(gear, steel, element, factor):
+    """Mean displacement along x under a force spread over the whole flank, mm per N/mm."""
+    order = element_named(element).order
+    body = gear.module * DEFAULT_SIZES[order].body * factor
+    found = flank_compliance(gear, steel, Discretisation(element, FLANK, body), Reach(0))
+    elements = (found.nodes - 1) // order
+    shares = np.zeros(found.nodes)
+    for first in range(elements):
+        shares[order * first : order * (first + 1) + 1] += (
+            np.array([1.0, 4.0, 1.0]) / 6.0 if order == 2 else 0.5
+        ) / elements
+    return shares @ found.blocks[0][::2, ::2] @ shares
+
+
+@pytest.mark.parametrize("element, factors", [("P2", (2.0, 1.0, 0.5, 0.25)), ("Q2", (2.0, 1.0, 0.5))])
+def test_the_error_falls_with_the_square_of_the_size(pinion, steel, element, factors):
+    """Strang and Berger 1973: straight sides along a curved outline leave h^2."""
+    changes = np.diff([stretched(pinion, steel, element, factor) for factor in factors])
+    assert (changes > 0.0).all()
+    orders = np.log2(changes[:-1] / changes[1:])
+    assert np.abs(orders - 2.0).max() < 0.5
+
+
+def test_an_element_of_third_order_is_refused():
+    """House rule 7: nodes are numbered at corners and middles of sides only."""
+    with pytest.raises(ValueError, match="order = 3.*Allowed: 1 or 2"):
+        Element("P3", 3, 3, 4)

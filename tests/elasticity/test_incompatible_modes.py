@@ -1,4 +1,4 @@
-"""The quadrilateral with incompatible modes: the patch test, bending, its kernel, and its modes' condensation."""
+"""The quadrilateral with incompatible modes."""
 
 import numpy as np
 import pytest
@@ -16,8 +16,7 @@ RATIOS = [0.0, 0.3, 0.499]
 
 
 def rectangle(along: int, across: int, length: float, height: float, distortion: float = 0.0) -> BodyMesh:
-    """Rectangle of quadrilaterals whose inner corners are moved by up to `distortion` cell sizes, drawn with a fixed
-    seed."""
+    """Quadrilaterals whose inner corners are moved by up to `distortion` cell sizes."""
     x, y = np.meshgrid(np.linspace(0.0, length, along + 1), np.linspace(0.0, height, across + 1), indexing="ij")
     draw = np.random.default_rng(0)
     x[1:-1, 1:-1] += distortion * length / along * draw.uniform(-1.0, 1.0, (along - 1, across - 1))
@@ -35,7 +34,6 @@ def sparse(matrix) -> csr_matrix:
 
 
 def assembled(mesh: BodyMesh, poissons_ratio: float, name: str = ELEMENT.name):
-    """Coordinates (n, 2) of the nodes and the stiffness (2n, 2n)."""
     space = displacement_space(mesh, ELEMENTS[name])
     return adapter.node_coordinates(space), sparse(stiffness_matrix(space, ELEMENTS[name], poissons_ratio))
 
@@ -46,8 +44,7 @@ def inner_dofs(nodes: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("poissons_ratio", RATIOS)
 def test_patch_of_distorted_cells(poissons_ratio):
-    """Exact (Irons' patch test, the one that Wilson's own form fails): uniform strain on the boundary is uniform strain
-    inside."""
+    """Exact (Irons' patch test): uniform strain on the boundary is uniform inside."""
     nodes, stiffness = assembled(rectangle(5, 4, 1.0, 1.0, distortion=0.35), poissons_ratio)
     uniform = (nodes @ np.array([[1.0, 0.3], [-0.2, 0.7]])).ravel()
     inside = inner_dofs(nodes)
@@ -57,7 +54,7 @@ def test_patch_of_distorted_cells(poissons_ratio):
 
 @pytest.mark.parametrize("poissons_ratio", RATIOS)
 def test_rigid_motions_cost_nothing_and_nothing_else_does(poissons_ratio):
-    """Exact: three rigid motions in the kernel of distorted cells, no modes without energy."""
+    """Exact: three rigid motions in the kernel of distorted cells."""
     _, stiffness = assembled(rectangle(5, 4, 1.0, 1.0, distortion=0.35), poissons_ratio)
     values = eigvalsh(stiffness.toarray())
     assert np.abs(values[:3]).max() <= 1e-13 * values[-1]
@@ -65,8 +62,7 @@ def test_rigid_motions_cost_nothing_and_nothing_else_does(poissons_ratio):
 
 
 def bent(name: str, poissons_ratio: float) -> float:
-    """Deflection of a beam of 10 cells, one high, under an end couple, in parts of the exact M L^2/(2 E' I), E' = E/(1
-    - nu^2)."""
+    """Deflection of a beam of 10 cells, one high, under an end couple, over M L^2/(2 E' I), E' = E/(1 - nu^2)."""
     length, height = 10.0, 1.0
     nodes, stiffness = assembled(rectangle(10, 1, length, height), poissons_ratio, name)
     at_wall, at_end = nodes[:, 0] < 1e-9, nodes[:, 0] > length - 1e-9
@@ -83,7 +79,6 @@ def bent(name: str, poissons_ratio: float) -> float:
 
 @pytest.mark.parametrize("poissons_ratio", RATIOS)
 def test_beam_of_one_element_across(poissons_ratio):
-    """Exact (beam in pure bending, plane strain): right at any Poisson's ratio, where the plain bilinear element
-    locks."""
+    """Exact: pure bending at any Poisson's ratio, where the bilinear element locks."""
     assert bent(ELEMENT.name, poissons_ratio) == pytest.approx(1.0, abs=1e-9)
     assert bent("Q1", poissons_ratio) < 0.7

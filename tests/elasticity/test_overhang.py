@@ -1,4 +1,4 @@
-"""What of a flank's compliance stays over the common width where a gear stands out beyond its mate."""
+"""What a flank gives way less where a gear stands out beyond its mate."""
 
 from math import log, pi
 
@@ -21,9 +21,9 @@ def body(paper_pair):
 
 
 def test_pressure_on_a_half_plane(paper_pair, body):
-    """Johnson, Contact Mechanics, 1985, eq. 2.30 integrated: a pressure p over a length a to either side moves the
-    point between by 2 (1 - nu^2) p/(pi E) times the sum of a (1 + ln(d/a)), against a point at the distance d; one
-    further away stays. Along and across the flank alike, and neither by the other."""
+    """Johnson, Contact Mechanics, 1985, eq. 2.30 integrated: p over a length a to either side moves the point
+    between by 2 (1 - nu^2) p/(pi E) times the sum of a (1 + ln(d/a)), against a point at the distance d; along and
+    across alike."""
     near = near_field(paper_pair.pinion, STEEL, body.roll_angle).reshape(body.nodes, 2, body.nodes, 2)
     arc, depth = arc_length(paper_pair.pinion.base_radius, body.roll_angle), NEAR_DEPTH * paper_pair.pinion.module
     middle = len(arc) // 2
@@ -39,14 +39,13 @@ def test_pressure_on_a_half_plane(paper_pair, body):
 
 
 def test_near_field_is_positive_definite(paper_pair, body):
-    """Polya's criterion; the sum with a compliance then is one too, and the energy of any load positive."""
+    """Polya's criterion; so the energy of any load stays positive."""
     near = near_field(paper_pair.pinion, STEEL, body.roll_angle)
     assert np.array_equal(near, near.T) and np.linalg.eigvalsh(near)[0] > 0.0
 
 
 def test_every_kind_of_body_alike(paper_pair, body):
-    """Identity: a ring of equal teeth, the same known with both flanks and the same with each tooth its own give way
-    alike; without overhang the body is as it was."""
+    """Identity: a ring, one with both flanks and one with each tooth its own; without overhang as it was."""
     gear, nodes = paper_pair.pinion, 2 * body.nodes
     assert with_overhang(body, gear, STEEL, 1.0) is body
     both = BothFlanksCompliance(body.roll_angle, 2, body.blocks, flanks=2, across=body.blocks, first_across=0)

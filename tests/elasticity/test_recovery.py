@@ -1,5 +1,4 @@
-"""Full displacement and stress of a gear from forces on its flanks: against the compliance, equilibrium, tractions,
-Hertz."""
+"""Displacement and stress of a gear from forces on its flanks."""
 
 from functools import lru_cache
 
@@ -30,14 +29,12 @@ RANDOM = np.random.default_rng(7)
 
 
 def forces_on(recovery, flanks: int = 1) -> dict[int, np.ndarray]:
-    """Random line forces on two neighbouring teeth."""
     count = flanks * 2 * len(recovery.sector.flank_nodes("flank"))
     return {0: RANDOM.normal(size=count), 1: RANDOM.normal(size=count)}
 
 
 @pytest.fixture(scope="module", params=ELEMENTS)
 def loaded(request):
-    """A gear of each element, random forces on its drive flanks, and its body under them."""
     with gear_recovery(PINION, STEEL, COARSE[request.param]) as recovery:
         forces = forces_on(recovery)
         yield recovery, forces, recovery.recovered(forces), ELEMENTS[request.param]
@@ -45,13 +42,12 @@ def loaded(request):
 
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_flanks_move_as_their_compliance_says(name):
-    """Exact identity: u_f = A f under forces on both flanks, on the loaded teeth, their neighbours ahead and behind;
-    the compliance is condensed another way."""
+    """Exact identity: u_f = A f under forces on both flanks, on the loaded teeth and their neighbours."""
     compliance = flank_compliance(PINION, STEEL, COARSE[name], Reach(2, (-2, 2)))
     drive = 2 * compliance.nodes
 
     def mirrored(vector):
-        """Coast flank's part in the frame mirrored at the centreline, in which the compliance has it (and back)."""
+        """Coast flank's part in the frame mirrored at the centreline (and back)."""
         return np.concatenate([vector[:drive], unmirrored(PINION, vector[drive:])])
 
     with gear_recovery(PINION, STEEL, COARSE[name], coast_flank=True) as recovery:
@@ -64,7 +60,7 @@ def test_flanks_move_as_their_compliance_says(name):
 
 
 def test_a_gear_that_nothing_touches_is_at_rest(loaded):
-    """Exact identity: no forces, no displacement and no stress; the teeth have parted at such a step."""
+    """Exact identity: no forces, no displacement, no stress."""
     recovery, *_ = loaded
     body, nodes = recovery.recovered({}), len(recovery.points)
     assert body.displacement.shape == (PINION.teeth, 1, nodes, 2) and body.stress.shape == (
@@ -78,8 +74,8 @@ def test_a_gear_that_nothing_touches_is_at_rest(loaded):
 
 
 def test_every_node_of_the_gear_is_in_equilibrium(loaded):
-    """Exact identity: K u = f with the stiffness of the whole gear meshed as one body, at all nodes but the held
-    hub's, whose forces and torque about the gear's centre are those on the flanks."""
+    """Exact identity: K u = f with the stiffness of the whole gear meshed as one body; the hub holds forces and
+    torque."""
     recovery, forces, body, element = loaded
     mesh, points, hub = recovery.sector.mesh, recovery.sector.section.points, recovery.sector.hub
     space = displacement_space(whole_gear_mesh(mesh, PINION.teeth), element)
@@ -107,7 +103,7 @@ def test_every_node_of_the_gear_is_in_equilibrium(loaded):
 
 
 def test_stress_of_a_linear_displacement_is_exact(loaded):
-    """Patch test: a linear displacement has one stress, which every element's averaged nodal stress reproduces."""
+    """Patch test: a linear displacement has one stress."""
     recovery, *_ = loaded
     strain, turn = np.array([[1.2e-3, 0.4e-3], [0.4e-3, -0.7e-3]]), 0.5e-3
     gradient = strain + turn * np.array([[0.0, -1.0], [1.0, 0.0]])
@@ -123,8 +119,7 @@ def test_stress_of_a_linear_displacement_is_exact(loaded):
 
 
 def test_neighbouring_sectors_have_the_same_stress_on_their_common_cut(loaded):
-    """Exact identity: averages on a cut count the elements on both of its sides, so that both sectors have the same
-    tensor."""
+    """Exact identity: averages on a cut count the elements on both of its sides."""
     recovery, _, body, _ = loaded
     (lower, upper), turn = recovery.sector.cuts, rotation(PINION.angular_pitch, 3)
     for tooth in range(PINION.teeth):
@@ -133,7 +128,7 @@ def test_neighbouring_sectors_have_the_same_stress_on_their_common_cut(loaded):
 
 
 def fine_recovery(name: str, size: float, depth: float) -> GearRecovery:
-    """The pinion with flank elements of a size (mm), kept down to `depth` times it below the flank."""
+    """The pinion with flank elements of a size (mm) down to `depth` times it below the flank."""
     sizes = ElementSizes(flank=size, fillet=0.4, coast=0.6, body=1.5, depth=depth).in_modules_of(PINION)
     mesh = sector_mesh(PINION.of_module_one, sizes, ELEMENTS[name].quadrilateral)
     return GearRecovery(PINION, STEEL, plane_sector(mesh, ELEMENTS[name], STEEL.poissons_ratio))
@@ -145,8 +140,7 @@ PRESSURE = 1000.0
 
 @lru_cache
 def hertz(half_width: float, elements: int) -> tuple[float, float]:
-    """Largest shear stress over p0 below a Hertz pressure on the pinion's flank, and its depth over the half-width
-    (mm)."""
+    """Largest shear stress over p0 below a Hertz pressure, and its depth over the half-width (mm)."""
 
     def pressure(arc):
         return PRESSURE * np.sqrt(np.maximum(1.0 - ((arc - MIDDLE) / half_width) ** 2, 0.0))
@@ -163,12 +157,9 @@ def hertz(half_width: float, elements: int) -> tuple[float, float]:
 
 
 def test_shear_is_largest_below_the_surface_as_hertz_says():
-    """Literature: 0.300 p0 at 0.786 b below a Hertz line contact (Johnson, Contact Mechanics, 1985, section 4.2a).
-
-    The tooth's bending adds to it in proportion to the force, that is to b at one p0: two widths take it out. Stress of
-    P2 is of second order:
-    (h/b)^2 = 1/25. The maximum is flat: the depth is as good as the distance of nodes there, b/5.
-    """
+    """0.300 p0 at 0.786 b (Johnson, Contact Mechanics, 1985, 4.2a). Bending adds in proportion to b at one p0: two
+    widths take it out. Second order: (h/b)^2 = 1/25; the flat maximum's depth is as good as the distance of nodes,
+    b/5."""
     (wide, _), (narrow, depth) = hertz(0.2, 5), hertz(0.1, 5)
     assert abs(2.0 * narrow - wide - 0.300) < 0.300 / 25
     assert abs(depth - 0.786) < 0.2

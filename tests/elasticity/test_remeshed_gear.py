@@ -1,4 +1,4 @@
-"""A gear meshed anew with prescribed flank nodes, against brute force."""
+"""A gear meshed anew with prescribed flank nodes."""
 
 from functools import lru_cache
 
@@ -32,7 +32,6 @@ def loaded_teeth():
 
 @lru_cache
 def whole_mesh(quadrilaterals: bool) -> BodyMesh:
-    """All sectors, meshed as wanted, in their places and merged along the cuts."""
     sectors = [sector_mesh(PINION, COARSE, quadrilaterals)] * PINION.teeth
     for tooth, rolls in zip(PLACES, ROLLS):
         sectors[tooth] = sector_mesh(PINION, COARSE, quadrilaterals, flank_through(PINION, COARSE.flank, rolls))
@@ -42,8 +41,7 @@ def whole_mesh(quadrilaterals: bool) -> BodyMesh:
 
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_joined_sectors_equal_the_remeshed_whole_gear(name):
-    """Exact identity (1e-9, hard case 6): meshing and condensing the whole gear with the same nodes gives the same
-    stiffness."""
+    """Exact identity (hard case 6): the whole gear meshed and condensed with the same nodes."""
     element = ELEMENTS[name]
     body = RemeshedGear(PINION, STEEL, element, COARSE)
     stiffness = body.stiffness(loaded_teeth())
@@ -65,13 +63,11 @@ def test_joined_sectors_equal_the_remeshed_whole_gear(name):
 @pytest.mark.parametrize("size", [0.3, 0.33, 0.4])
 @pytest.mark.parametrize("name", ["P1", "P2"])
 def test_prescribing_the_standard_vertices_changes_nothing(name, size):
-    """Exact identity (1e-10): with the fast route's own flank vertices the compliance is a part of the fast route's,
-    though the vertices' places differ by round-off."""
+    """Exact identity: a part of the fast route's compliance, vertices apart by round-off."""
     assert distance_to_the_fast_route(ELEMENTS[name], name, size) < 1e-10
 
 
 def distance_to_the_fast_route(element, name, size):
-    """Relative difference of both routes' compliance of nine of the standard vertices."""
     sizes = element_sizes(PINION, element, size, BODY)
     rolls = flank_roll_angles(PINION, size)[6:15]
     stiffness = RemeshedGear(PINION, STEEL, element, sizes).stiffness((LoadedTooth(0.0, rolls),))
@@ -83,8 +79,7 @@ def distance_to_the_fast_route(element, name, size):
 
 @pytest.mark.parametrize("size", [0.05, 0.3, 2.0])
 def test_flank_through_prescribed_vertices(size):
-    """By construction: every prescribed vertex is there, neighbours stay neighbours, no element is larger than asked,
-    an even number."""
+    """By construction: every vertex, neighbours stay, no element larger than asked, an even number."""
     for prescribed in ROLLS:
         rolls = flank_through(PINION, size, prescribed)
         places = np.abs(rolls[:, None] - prescribed).argmin(axis=0)

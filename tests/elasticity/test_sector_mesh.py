@@ -1,4 +1,4 @@
-"""The sector mesh: exact flank, congruent cuts, sound cells."""
+"""The sector mesh."""
 
 import signal
 from math import pi, radians
@@ -26,7 +26,7 @@ def standard_gear(teeth, module, shift, bore_share):
 
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_cuts_are_congruent_node_for_node(name, pinion, coarse_sector):
-    """Exact identity: the upper cut is the lower one turned by one pitch; the ring joins them without interpolation."""
+    """Exact identity: turned by one pitch."""
     mesh, order = coarse_sector(name), ELEMENTS[name].order
     lower, upper = (by_radius(mesh.edge_nodes(cut, order)) for cut in ("lower cut", "upper cut"))
     np.testing.assert_allclose(lower @ rotation(2 * pi / pinion.teeth).T, upper, rtol=0, atol=1e-12 * pinion.tip_radius)
@@ -34,7 +34,7 @@ def test_cuts_are_congruent_node_for_node(name, pinion, coarse_sector):
 
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_flank_vertices_are_on_the_involute_even_in_arc_length(name, pinion, coarse_sector):
-    """Exact identity: the involute's own equation, s = rb v^2/2."""
+    """Exact identity: the involute, s = rb v^2/2."""
     mesh = coarse_sector(name)
     vertices = by_radius(mesh.points[mesh.edge_points("flank")])
     roll = node_roll_angles(pinion, vertices, 1)
@@ -49,7 +49,7 @@ def test_flank_vertices_are_on_the_involute_even_in_arc_length(name, pinion, coa
 
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_cells_fill_the_outline(name, pinion, coarse_sector):
-    """Exact identity: the cells' areas sum to that of the boundary polygon (shoelace formula), none is folded."""
+    """Exact identity: shoelace formula, none folded."""
     mesh = coarse_sector(name)
     assert corner_areas(mesh.points, mesh.cells).min() > 0
     corner = mesh.points[mesh.cells]
@@ -67,7 +67,7 @@ def test_cells_fill_the_outline(name, pinion, coarse_sector):
     [(12, 1.0, 0.45, 0.1), (17, 10.0, 0.1, 0.97), (40, 1.0, 0.0, 0.5), (200, 10.0, -0.3, 0.1), (200, 1.0, 0.0, 0.97)],
 )
 def test_full_range_of_gears_can_be_meshed(name, teeth, module, shift, bore_share):
-    """From the task: 12 to 200 teeth, modules 1 to 10, root circle below and above the base circle, thin rims."""
+    """12 to 200 teeth, modules 1 to 10, root circle below and above the base circle, thin rims."""
     gear = standard_gear(teeth, module, shift, bore_share)
     element = ELEMENTS[name]
     mesh = sector_mesh(gear, element_sizes(gear, element, 0.08 * module), element.quadrilateral)
@@ -76,14 +76,14 @@ def test_full_range_of_gears_can_be_meshed(name, teeth, module, shift, bore_shar
 
 
 def test_folded_cell_is_refused():
-    """A quadrilateral that crosses itself has no positive Jacobian determinant in either orientation."""
+    """A quadrilateral that crosses itself has no positive Jacobian in either orientation."""
     points = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]])
     with pytest.raises(ComputationError, match="Jacobian"):
         oriented(points, np.array([[0, 1, 2, 3]]))
 
 
 def test_gmsh_leaves_the_interrupt_handler_alone(pinion):
-    """Ctrl-C must keep what was done (docs/promises.md); gmsh would replace the handler by the system's."""
+    """Ctrl-C must keep what was done (docs/promises.md)."""
 
     def handler(number, frame):
         raise KeyboardInterrupt
@@ -99,8 +99,7 @@ def test_gmsh_leaves_the_interrupt_handler_alone(pinion):
 @pytest.mark.parametrize("recombine", [False, True])
 @pytest.mark.parametrize("size", [0.5, 0.8])
 def test_outlines_that_differ_by_round_off_have_the_same_mesh(pinion, size, recombine):
-    """Exact identity: the same cells, and inner points that do not move; two routes reach one outline by sums of
-    different order."""
+    """Exact identity: two routes reach one outline by sums of different order."""
     boundary, field = sector_boundary(
         pinion.of_module_one, ElementSizes(flank=size, fillet=0.4, coast=1.0, body=3.0).in_modules_of(pinion)
     )

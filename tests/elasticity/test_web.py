@@ -1,4 +1,4 @@
-"""Gears whose web is less wide than the face: exact rings of three widths, the ring of sectors, mass and limits."""
+"""Gears whose web is less wide than the face."""
 
 from dataclasses import replace
 from math import pi
@@ -27,8 +27,7 @@ PINION_WEB = Web(18.0, 26.0, 0.4)
 
 
 def ring_under(web, element, motion):
-    """Forces (n, 2) on the outer circle, and its points, when its nodes move by a function of their points and the
-    bore's do not."""
+    """Forces (n, 2) on the outer circle, and its points, when its nodes move by a function of their points."""
     chosen = ELEMENTS[element]
     mesh = replace(annulus(chosen.corners), web=web)
     body = condense(mesh, chosen, POISSON, {part: mesh.edge_nodes(part, chosen.order) for part in ("rim", "hub")})
@@ -41,8 +40,7 @@ def ring_under(web, element, motion):
 @pytest.mark.parametrize("element", ["P2", "Q2", "Q1 incompatible"])
 @pytest.mark.parametrize("name", WEBS)
 def test_a_ring_of_three_widths_under_torque(name, element):
-    """Exact: the shear stress is T/(2 pi r^2 w), so that the rim turns by T/(4 pi G) of the sum of (1/r_i^2 -
-    1/r_o^2)/w over the rings."""
+    """Exact: the rim turns by T/(4 pi G) of the sum of (1/r_i^2 - 1/r_o^2)/w."""
     web = WEBS[name]
     at = np.array([BORE, web.hub_radius, web.rim_radius, OUTER]) ** -2.0
     exact = 4.0 * pi * SHEAR / ((at[:-1] - at[1:]) / [1.0, web.share, 1.0]).sum()
@@ -54,8 +52,7 @@ def test_a_ring_of_three_widths_under_torque(name, element):
 @pytest.mark.parametrize("element", ["P2", "Q2", "Q1 incompatible"])
 @pytest.mark.parametrize("name", WEBS)
 def test_a_ring_of_three_widths_that_grows(name, element):
-    """Exact: Lame's solution u = A r + B/r in each ring, the displacement and the width times the radial stress
-    continuous."""
+    """Lame: u = A r + B/r in each ring, displacement and width times radial stress continuous."""
     web = WEBS[name]
     radii, widths = (BORE, web.hub_radius, web.rim_radius, OUTER), (1.0, web.share, 1.0)
 
@@ -80,7 +77,7 @@ def test_a_ring_of_three_widths_that_grows(name, element):
 
 
 def test_the_ring_of_sectors_is_the_whole_gear():
-    """Brute force: the same elements joined to a whole gear and condensed at once."""
+    """Brute force: the same elements joined to a whole gear."""
     gear = replace(PINION, web=PINION_WEB)
     mesh = sector_mesh(gear, COARSE)
     assert mesh.web == PINION_WEB
@@ -98,8 +95,7 @@ WEB = '[gears.pinion.web]\nrim_inner_diameter = "45 mm"\nwidth = "{}"\n'
 
 
 def test_the_scene_says_the_web_in_lengths():
-    """Meaning of the fields: the web begins at the bore unless there is a hub; its share is that of the gear's own face
-    width."""
+    """Definition: from the bore unless there is a hub; a share of the gear's own face width."""
     assert scene_from_text(SCENE.format(gears="", pinion=WEB.format("5 mm"))).gears.pinion.web == Web(10.0, 22.5, 0.25)
     with_hub = scene_from_text(
         SCENE.format(gears="", pinion='face_width = "25 mm"\n' + WEB.format("5 mm") + 'hub_diameter = "30 mm"')
@@ -124,7 +120,7 @@ def test_the_scene_says_the_web_in_lengths():
     ],
 )
 def test_a_web_that_cannot_be_is_refused(scene, said):
-    """House rule on errors: the field, its value and what is allowed, before anything is computed."""
+    """Field, value and what is allowed, before anything is computed."""
     with pytest.raises(SceneError) as refused:
         gear_pair(scene_from_text(scene).gears)
     assert said in str(refused.value)

@@ -1,11 +1,7 @@
-"""Measure rows of docs/evidence/index.md and write the page: all, or those of the names that are given.
+"""Measure rows of docs/evidence/index.md and write the page.
 
-    python -m tests.evidence                               # all; within an hour on two cores
-    python -m tests.evidence hertz beams                   # parts by name
-    python -m tests.evidence ross --python PYTHON          # a Python that has the other program
-    python -m tests.evidence --draw                        # the page alone, from the numbers kept
-
-A part whose other program is not there keeps its numbers, and says so; the call then ends with exit code 1.
+`python -m tests.evidence [NAMES] [--python PYTHON of other programs] [--draw from the numbers kept]`: a part whose
+program is not there keeps its numbers; the exit code is then 1.
 """
 
 import argparse
@@ -20,7 +16,6 @@ from tests.evidence.parts import PARTS
 
 
 def main() -> int:
-    """Measure, keep, write."""
     by_name = {part.name: part for part in PARTS}
     parser = argparse.ArgumentParser(prog="python -m tests.evidence", description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", metavar="NAME", choices=[[], *by_name], help=", ".join(by_name))

@@ -1,9 +1,5 @@
-"""Contact loss of two equal gears over speed: up and down through resonance, beside an exact oscillator.
-
-Blankenship and Kahraman measured such a pair and found jumps between two vibrations at the same speed; Parker,
-Vijayakar and Imajo computed it in 2000. The oscillator: the pair's mass on a spring that only presses, under the load.
-Without excitation and damping its period with a separation in it is known in closed form.
-"""
+"""Contact loss of two equal gears over speed, up and down through resonance (Blankenship and Kahraman; Parker,
+Vijayakar and Imajo), beside a mass on a spring that only presses, whose period is known in closed form."""
 
 from dataclasses import dataclass, replace
 from math import acos, pi, sqrt
@@ -27,20 +23,17 @@ PICTURE = Path(__file__).parents[2] / "docs" / "pictures" / "contact_loss.png"
 
 @dataclass(frozen=True)
 class Oscillator:
-    """A mass (tonnes) on a spring (N/mm) that only presses, under a load (N)."""
-
     mass: float
     stiffness: float
     load: float
 
     @property
     def natural_frequency(self) -> float:
-        """Hz, while it touches."""
         return sqrt(self.stiffness / self.mass) / (2.0 * pi)
 
     def period_and_swing(self, amplitude: float) -> tuple[float, float]:
-        """Period (s) and peak-to-peak (mm) of a free vibration whose part in contact has an amplitude (mm) about the
-        equilibrium: half an oscillation and more, then a flight under the load."""
+        """Period (s) and peak-to-peak (mm) of a free vibration with an amplitude (mm) in contact: half an
+        oscillation and more, then a flight."""
         pressed, rate = self.load / self.stiffness, sqrt(self.stiffness / self.mass)
         if amplitude <= pressed:
             return 2.0 * pi / rate, 2.0 * amplitude
@@ -56,7 +49,7 @@ class Oscillator:
 
 
 def oscillator(scene: Scene) -> Oscillator:
-    """That of a pair: both gears turn against each other, on the mean tangent stiffness of the mesh at rest."""
+    """Both gears turn against each other, on the mean tangent stiffness at rest."""
     still = replace(scene, inertia=None, damping=None, shafts=None, coast_flanks=None, speed_ramp=None,
                     motion=Motion(1.0, 1, 1))  # fmt: skip
     stiffness = float(simulate(still).mesh_stiffness_tangent.mean())
@@ -67,7 +60,6 @@ def oscillator(scene: Scene) -> Oscillator:
 
 
 def backwards(scene: Scene) -> Scene:
-    """Down the ramp that the scene goes up."""
     first, ramp = scene.motion.mesh_frequency, scene.speed_ramp
     return replace(
         scene,
@@ -77,7 +69,7 @@ def backwards(scene: Scene) -> Scene:
 
 
 def sweeps(scene: Scene) -> dict[str, Sweep]:
-    """Up and down; amplitudes in mm on the wheel's base circle, without the cycles that are held."""
+    """Up and down; amplitudes in mm on the wheel's base circle, without the held cycles."""
     radius, store, held = gear_pair(scene.gears).wheel.base_radius, GearStore(), scene.speed_ramp.hold_cycles
     found = {"up": sweep(scene, store), "down": sweep(backwards(scene), store)}
     return {name: Sweep(each.frequency[held:], radius * each.amplitude[held:]) for name, each in found.items()}
@@ -85,7 +77,6 @@ def sweeps(scene: Scene) -> dict[str, Sweep]:
 
 @styled
 def picture(passed: dict[str, Sweep], free: Oscillator) -> Figure:
-    """Vibration over the mesh frequency, both ways, and the free vibration of the oscillator."""
     figure = Figure(figsize=(9.0, 4.8), layout="constrained")
     axes = figure.subplots()
     for (name, each), colour in zip(passed.items(), PALETTE):
@@ -101,7 +92,7 @@ def picture(passed: dict[str, Sweep], free: Oscillator) -> Figure:
 
 
 def measured(_: str) -> Numbers:
-    """The frequency at which the vibration is largest on the way down, beside that of the oscillator with as much."""
+    """The frequency at which the vibration is largest on the way down, beside the oscillator's with as much."""
     scene = load_scene(SCENE)
     passed, free = sweeps(scene), oscillator(scene)
     picture(passed, free).savefig(PICTURE)

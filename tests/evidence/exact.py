@@ -14,7 +14,7 @@ ELEMENTS = {"": 8, ", 4 elements": 4}
 
 
 def hertz(_: str) -> Numbers:
-    """Flanks pressed together at the pitch point, with 8 and with 4 elements and nodes in a half-width."""
+    """With 8 and with 4 elements and nodes in a half-width."""
     contact, found = HertzContact(pressed_scene()), {}
     width, load = contact.half_width(contact.line_load), contact.line_load
     exact = {

@@ -1,5 +1,4 @@
-"""FZG gears beside GEARpie (github.com/cfernandesFEUP/GEARpie, REPORT/C14.txt), whose losses are of formulas that were
-fitted to measurements on FZG rigs."""
+"""FZG gears beside GEARpie (github.com/cfernandesFEUP/GEARpie, REPORT/C14.txt), whose losses are fitted to rigs."""
 
 from tests.coarse import COARSE
 from tests.evidence.claim import PROGRAMS, Claim, Numbers, Part, within
@@ -15,7 +14,6 @@ COEFFICIENT, LOSS, LOSS_FACTOR, POWER, SPEED = 0.0483, 295.17, 0.1945, 31415.9, 
 
 
 def numbers(_: str) -> Numbers:
-    """Mesh loss of elastic teeth and factors of the rating."""
     gears = FZG_C[0]
     teeth = gears.pinion.teeth
     scene = Scene("FZG C14", gears, Load(300e3), Motion(SPEED * teeth / 60.0, 2, 2), COARSE,

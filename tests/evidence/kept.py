@@ -9,7 +9,6 @@ FILE = Path(__file__).with_name("numbers.csv")
 
 
 def all_kept() -> dict[str, Numbers]:
-    """By the names of the parts."""
     if not FILE.exists():
         return {}
     found: dict[str, Numbers] = {}
@@ -20,7 +19,6 @@ def all_kept() -> dict[str, Numbers]:
 
 
 def keep(part: Part, numbers: Numbers, parts: list[Part]) -> None:
-    """Replace the numbers of a part; the file has the order of `parts`, and those of no other."""
     kept = all_kept() | {part.name: numbers}
     with FILE.open("w", encoding="utf-8", newline="") as lines:
         writer = csv.writer(lines, lineterminator="\n")

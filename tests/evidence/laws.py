@@ -13,12 +13,10 @@ ENERGY = ("all effects", "inertia, damping", "rising speed, rigid shafts")
 
 
 def _name(words: str) -> str:
-    """Of one of RUNS."""
     return words if words in RUNS else f"without {words}"
 
 
 def energy(_: str) -> Numbers:
-    """Defect of the account of work over the drive's work."""
     scene, _pair = paper_pair()
     found = {}
     for words in ENERGY:
@@ -28,7 +26,6 @@ def energy(_: str) -> Numbers:
 
 
 def statics(_: str) -> Numbers:
-    """Couples and forces of a helical pair without friction."""
     scene = scene_of(standard_pair(3.0 * MODULE, HELIX_ANGLE, bore=0.8), COARSE)
     result, pair = simulate(scene), gear_pair(scene.gears)
     pinion, wheel = np.abs(result.reaction_couple.values.T)
@@ -46,7 +43,6 @@ def statics(_: str) -> Numbers:
 
 
 def _furthest(found: np.ndarray, exact: float) -> float:
-    """The value that is furthest off."""
     return float(found[np.abs(found - exact).argmax()])
 
 

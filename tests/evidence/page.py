@@ -39,12 +39,10 @@ STORIES = """## The longer stories
 
 
 def _number(value: float) -> str:
-    """With the digits that a row shows."""
     return f"{value:.6g}" if value and abs(value) >= 1e-3 else f"{value:.1e}" if value else "0"
 
 
 def _part(difference: float) -> str:
-    """Of a relative difference: per cent, or powers of ten where it is round-off."""
     if abs(difference) >= 1e-6:
         return f"{100.0 * difference:+.2g} %"
     return f"{difference:.0e}" if difference else "0"
@@ -58,7 +56,6 @@ def _band(claim: Claim, relative: bool) -> str:
 
 
 def cells(part: Part, name: str) -> list[str]:
-    """Of one row."""
     claim, (value, ours) = part.claims[name], numbers_of(part)[name]
     difference = _part(claim.difference(value, ours)) if value else ""
     if not claim.holds(value, ours):
@@ -83,7 +80,6 @@ HEADINGS = ("quantity", "authority", "its value", "here", "difference", "band", 
 
 
 def readme_rows(parts: list[Part]) -> str:
-    """Six rows: quantity, authority, difference; few words, which are counted."""
     by_name, lines = {part.name: part for part in parts}, ["|quantity|authority|difference|", "|---|---|---|"]
     for name, claim in IN_README:
         shown = cells(by_name[name], claim)
@@ -92,7 +88,6 @@ def readme_rows(parts: list[Part]) -> str:
 
 
 def page(parts: list[Part]) -> str:
-    """The whole text."""
     rows = [(part, name) for part in parts for name in part.claims]
     outside = sum(not part.claims[name].holds(*numbers_of(part)[name]) for part, name in rows)
     lines = [HEAD.format(red=RED, count=len(rows), outside=outside)]

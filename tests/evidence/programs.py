@@ -4,8 +4,8 @@ import numpy as np
 from tests.benchmarks import against_calculix
 from tests.benchmarks.against_exudyn import pair as exudyn
 from tests.benchmarks.against_exudyn import shaft, tilting
-from tests.benchmarks.against_getfem import __main__ as getfem
-from tests.benchmarks.against_ross import __main__ as ross
+from tests.benchmarks.against_getfem import pair as getfem
+from tests.benchmarks.against_ross import shafts as ross
 from tests.benchmarks.third_dimension.pairs import scene_of, standard_pair
 from tests.corner_contact_reference import approach, reference
 from tests.evidence.claim import PROGRAMS, Claim, Numbers, Part, within
@@ -22,7 +22,7 @@ STEPS = 100
 
 
 def corner(_: str) -> Numbers:
-    """Transmission error, µrad, of the paper's pair on the true outlines."""
+    """µrad, of the paper's pair on the true outlines."""
     scene, pair = reference.paper_pair()
     alone, found = approach.teeth_alone(scene), {}
     rows = {row.case: row for row in reference.read()}
@@ -35,26 +35,26 @@ def corner(_: str) -> Numbers:
 
 
 def calculix(_: str) -> Numbers:
-    """Transmission error, µrad, of a helical pair."""
+    """µrad, of a helical pair."""
     gears = standard_pair(against_calculix.FACE_WIDTH, against_calculix.HELIX_ANGLE)
     scene = scene_of(gears, Accuracy(steps_per_mesh_cycle=against_calculix.STEPS), against_calculix.LINE_LOAD)
-    own, _ = against_calculix.by_this_program(scene)
+    own = against_calculix.by_this_program(scene)
     return {
-        f"{phase:g}": (1e6 * against_calculix.by_calculix(scene, gear_pair(gears), phase, mine, 1.0)[0], 1e6 * mine)
+        f"{phase:g}": (1e6 * against_calculix.by_calculix(scene, gear_pair(gears), phase, mine), 1e6 * mine)
         for phase, mine in zip(against_calculix.PHASES, own)
     }
 
 
 def by_getfem(python: str) -> Numbers:
-    """Transmission error, µrad, of the paper's pair."""
-    own, other = getfem.by_this_program()[0], getfem.by_getfem(python)
+    """µrad, of the paper's pair."""
+    own, other = getfem.by_this_program(), getfem.by_getfem(python)
     return {
         f"{phase:g}": (1e6 * there["rotation"], 1e6 * mine) for phase, mine, there in zip(getfem.PHASES, own, other)
     }
 
 
 def by_exudyn(python: str) -> Numbers:
-    """Natural frequencies that differ most, and the swing of the pinion's rotation."""
+    """The natural frequencies that differ most, and the swing of the pinion's rotation."""
     frequencies, rotations, given = exudyn.by_this_program()
     found = exudyn.asked(python, "exudyn_pair.py", given)
     tilted, moved, of_tilting = tilting.by_this_program()
@@ -74,14 +74,13 @@ def by_exudyn(python: str) -> Numbers:
 
 
 def _furthest(authority, own) -> tuple[float, float]:
-    """The pair of numbers whose ratio is furthest from 1."""
     authority, own = np.asarray(authority), np.asarray(own)
     worst = int(np.abs(own / authority - 1.0).argmax())
     return float(authority[worst]), float(own[worst])
 
 
 def by_ross(python: str) -> Numbers:
-    """Deflection under 1 kN, µm, at the gear, and of all natural frequencies, Hz, that which differs most."""
+    """Deflection under 1 kN, µm, and the natural frequency, Hz, that differs most."""
     every = ross.compared(python)
     pairs = [pair for (_, own), (_, other) in every.values() for pair in zip(other.tolist(), own.tolist())]
     moved = {name: (1e6 * other[0, 0], 1e6 * own[0, 0]) for name, ((own, _), (other, _)) in every.items()}

@@ -15,15 +15,13 @@ AT_EDGES = [(helix, 0.85, "plain") for helix in (0.0, 20.0)]
 
 
 def words(key: tuple[float, float, str]) -> str:
-    """Of an analysis."""
     helix, phase, opening = key
     kind = "helical, 20 deg" if helix else "spur"
     return f"{kind}, {opening}" + (", a tip edge touching" if phase == 0.85 else "")
 
 
 def kept() -> Numbers:
-    """Approaches (µm) of the analyses that have a row, and over the slices of one the line load that is furthest off,
-    by the largest."""
+    """Approaches (µm) of the analyses that have a row, and the line load that is furthest off, by the largest."""
     found: Numbers = {}
     ordered = groupby(read_rows(resolved.NAME), key=lambda row: (row["helix_angle"], row["phase"], row["opening"]))
     for (helix, phase, opening), rows in ordered:
@@ -53,7 +51,6 @@ def _claims() -> dict[str, Claim]:
 
 
 def measured(_: str) -> Numbers:
-    """All analyses anew, and their own page."""
     third_dimension([resolved.NAME])
     return kept()
 

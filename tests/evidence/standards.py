@@ -11,7 +11,7 @@ from tests.evidence.claim import STANDARDS, Claim, Numbers, Part, within
 from tests.extensions.rating.test_iso_6336 import operation
 from tests.iso_tooth_root import nominal_root_stress, standard_gear
 from tests.simulation.test_iso_6336 import standard_pair, stiffness_of
-from tests.simulation.test_root_stress import highest_single_contact, stresses_of_a_narrow_load
+from tests.simulation.test_run_stresses import highest_single_contact, stresses_of_a_narrow_load
 
 from fenics_gears import gear_pair, load_scene, mesh_factor, single_stiffness
 from fenics_gears.elasticity.fillet_points import POINTS
@@ -37,7 +37,7 @@ def stiffness(_: str) -> Numbers:
 
 
 def roots(_: str) -> Numbers:
-    """Largest stress in the fillet under 1 N/mm, MPa."""
+    """MPa under 1 N/mm."""
     found = {}
     for teeth in (20, 100):
         gear = standard_gear(teeth)
@@ -50,7 +50,6 @@ def roots(_: str) -> Numbers:
 
 
 def example(_: str) -> Numbers:
-    """ISO/TR 6336-30:2017, example 1."""
     scene = load_scene(cited.CITED / "iso_tr_6336_30.toml")
     finish = Finish(viscosity_grade=320.0, flank_roughness=6.0, tolerance_class=5)
     found = replace(operation(scene.gears, 9e6, 360.0, 70.0), finish=finish)
@@ -67,7 +66,6 @@ def example(_: str) -> Numbers:
 
 
 def face() -> Numbers:
-    """Of the benchmarks over the face."""
     at_20 = next(row for row in read_rows("tooth_stiffness") if row["helix_angle"] == 20.0)
     off = next(row for row in read_rows("misaligned") if row["misalignment"] == 10.0)
     root = next(row for row in read_rows("root_stress") if row["helix_angle"] == 20.0)
@@ -80,7 +78,6 @@ def face() -> Numbers:
 
 
 def measured(_: str) -> Numbers:
-    """These benchmarks anew, and their own page."""
     third_dimension(["tooth_stiffness", "misaligned", "root_stress"])
     return face()
 

@@ -14,12 +14,11 @@ from fenics_gears.geometry.characteristics import characteristics
 
 
 def _digits_off(value: float, printed: str) -> float:
-    """In units of the last printed digit."""
     return abs(value - float(printed)) * 10.0 ** len(printed.partition(".")[2])
 
 
 def books(_: str) -> Numbers:
-    """The figure of each pair that is furthest off its book, in units of the last printed digit."""
+    """The figure of each pair that is furthest off its book, in units of the last digit."""
     found = {}
     for name, pair in PAIRS.items():
         own = figures(pair)
@@ -33,7 +32,7 @@ def books(_: str) -> Numbers:
 
 
 def paper(_: str) -> Numbers:
-    """What Lundvall, Strömberg and Klarbring print of their pair, and the loss that a formula gives for it."""
+    """What the paper prints of its pair, and the loss that a formula gives."""
     scene, pair = paper_pair()
     rows = {name: value for name, value, _ in characteristics(pair)}
     worst = max(abs(rows[label] - printed) * 100.0 for label, (printed, _) in PAPER.items())
@@ -41,7 +40,7 @@ def paper(_: str) -> Numbers:
 
 
 def function() -> Numbers:
-    """Smallest and largest mesh stiffness over the mean, of stiff bodies."""
+    """Over the mean, of stiff bodies."""
     values = np.array([row["bore_0.85"] for row in read_rows(stiffness_function.NAME)])
     shares = values / values.mean()
     smallest, largest = stiffness_function.PUBLISHED
@@ -49,7 +48,6 @@ def function() -> Numbers:
 
 
 def measured(_: str) -> Numbers:
-    """The mesh cycle anew, and its own page."""
     third_dimension([stiffness_function.NAME])
     return function()
 

@@ -10,7 +10,7 @@ FREE = Oscillator(mass=7.6e-4, stiffness=3.6e5, load=2800.0)
 
 @pytest.mark.parametrize("part", [0.5, 1.5, 3.0])
 def test_period_and_swing_are_those_of_the_equation_of_motion(part):
-    """Brute force: integration from the point of greatest pressure to the next; below 1 nothing separates."""
+    """Brute force: integration from one greatest pressure to the next."""
     pressed = FREE.load / FREE.stiffness
 
     def motion(_, state):

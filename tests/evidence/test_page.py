@@ -10,7 +10,7 @@ CHEAP = [part for part in PARTS if not part.minutes and not part.needs]
 
 
 def test_the_page_is_made_of_the_numbers():
-    """Identity, of the README's six rows too; `python -m tests.evidence --draw` writes them anew."""
+    """Identity, of the README's rows too; `python -m tests.evidence --draw` writes them anew."""
     assert PAGE.read_text(encoding="utf-8") == page(PARTS)
     begin, end = markers("evidence")
     shown = README.read_text(encoding="utf-8").partition(begin)[2].partition(end)[0]
@@ -18,14 +18,14 @@ def test_the_page_is_made_of_the_numbers():
 
 
 def test_the_page_is_short_and_every_number_has_a_row():
-    """What the page promises; numbers whose row is gone would be kept for ever."""
+    """Numbers whose row is gone would be kept for ever."""
     rows = {(part.name, name) for part in PARTS for name in part.claims}
     assert len(rows) == sum(len(part.claims) for part in PARTS) <= MOST_ROWS
     assert {(part, name) for part, numbers in all_kept().items() for name in numbers} <= rows
 
 
 def test_every_row_outside_its_band_is_marked():
-    """The bands, counted apart from the page's own cells."""
+    """The bands, counted apart from the page's cells."""
     outside = [
         name for part in PARTS for name, claim in part.claims.items() if not claim.holds(*numbers_of(part)[name])
     ]
@@ -35,8 +35,7 @@ def test_every_row_outside_its_band_is_marked():
 @pytest.mark.nightly
 @pytest.mark.parametrize("part", CHEAP, ids=lambda part: part.name)
 def test_cheap_rows_are_what_is_measured(part):
-    """The rows' own authorities. A number that was within its band still is, and none has moved by more than a tenth of
-    the band since it was kept."""
+    """The rows' own authorities; none has moved by more than a tenth of its band."""
     kept, measured = numbers_of(part), part.measure("")
     for name, claim in part.claims.items():
         before, now = claim.difference(*kept[name]), claim.difference(*measured[name])

@@ -1,4 +1,4 @@
-"""How extensions are found: the worked example of the guide, extensions that fail, and what all of them may use."""
+"""How extensions are found: the guide's example, extensions that fail, and what all of them may use."""
 
 import inspect
 import os
@@ -21,22 +21,21 @@ GROUP = "fenics_gears.extensions"
 
 @pytest.fixture
 def install(tmp_path):
-    """Puts a module where pip puts a package, with its entry points in that group."""
+    """Puts a module where pip puts a package, with its entry points."""
 
     def put(name, code, **entry_points):
-        (tmp_path / f"{name}.py").write_text(code, encoding="utf-8")
+        (tmp_path / f"{name}.py").write_text(code)
         metadata = tmp_path / f"{name}-1.0.dist-info"
         metadata.mkdir()
-        (metadata / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n", encoding="utf-8")
+        (metadata / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
         lines = [f"[{GROUP}]", *(f"{entry} = {module}" for entry, module in entry_points.items())]
-        (metadata / "entry_points.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        (metadata / "entry_points.txt").write_text("\n".join(lines) + "\n")
         return tmp_path
 
     return put
 
 
 def gears(folder, *arguments):
-    """Run `gears` with the packages of a folder installed."""
     return subprocess.run(
         [sys.executable, "-P", "-m", "fenics_gears", *map(str, arguments)],
         env={**os.environ, "PYTHONPATH": f"{ROOT}{os.pathsep}{folder}"},
@@ -47,7 +46,7 @@ def gears(folder, *arguments):
 
 
 def test_the_guides_extension_runs(install):
-    """Authority: the guide; the pair's own clearances."""
+    """The guide; the pair's own clearances."""
     entry, module = re.search(rf'entry-points\."{GROUP}"\]\n(\w+) = "(\w+)"', ENTRY_POINTS).groups()
     folder, pair = install(module, MODULE, **{entry: module}), gear_pair(load_scene(DEMO).gears)
     assert "clearances   print backlash" in gears(folder, "--help").stdout
@@ -61,12 +60,11 @@ def test_the_guides_extension_runs(install):
 
 
 def test_one_that_fails_is_left_out_and_named(install):
-    """House rule on errors; the other commands work. A module that is not there, one without `add`, one whose command's
-    name is taken."""
+    """A module that is not there, one without `add`, one whose command's name is taken; the other commands work."""
     taken = "def add(commands, shared):\n    commands.add_parser('map')\n"
     folder = install("taken", taken, absent="no_such_module", fourth="loud", second="taken", third="math")
     # Its command is not called.
-    (folder / "loud.py").write_text('"""``gears loud``: fail."""\n\nraise RuntimeError("loaded")\n', encoding="utf-8")
+    (folder / "loud.py").write_text('"""``gears loud``: fail."""\n\nraise RuntimeError("loaded")\n')
     done = gears(folder, "cache")
     assert done.returncode == 0 and "cache" in done.stdout.lower()
     lines = done.stderr.splitlines()
@@ -81,8 +79,7 @@ def test_one_that_fails_is_left_out_and_named(install):
 
 @pytest.mark.parametrize("name", [name for name in fenics_gears.__all__ if name != "__version__"])
 def test_what_everybody_may_use_is_documented(name):
-    """docs/adding_an_extension.md; a constant is documented beside its definition. Names of modules that are offered
-    have docstrings too."""
+    """docs/adding_an_extension.md; a constant is documented beside its definition."""
     found = getattr(fenics_gears, name)
     if inspect.ismodule(found):
         names = getattr(found, "__all__", [each for each in vars(found) if not each.startswith("_")])
@@ -95,7 +92,7 @@ def test_what_everybody_may_use_is_documented(name):
 
 def test_names_of_the_guide_are_offered():
     """`fenics_gears.__all__` and the modules in it."""
-    table = re.search(r"\| for \| take \|\n(.*)", GUIDE.read_text(encoding="utf-8"), re.S)[1]
+    table = re.search(r"\| for \| take \|\n(.*)", GUIDE.read_text(), re.S)[1]
     for name in re.findall(r"`([\w.]+)`", table):
         first, *rest = name.split(".")
         assert first in fenics_gears.__all__

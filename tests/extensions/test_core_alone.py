@@ -1,4 +1,4 @@
-"""The core does without any extension: a copy of the checkout without their folders."""
+"""The core does without any extension, in a copy of the checkout."""
 
 import os
 import shutil
@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 from tests.docs.blocks import ROOT
-from tests.programs import DEMO
-from tests.studies.conftest import ACCURACY
+from tests.paper_text import coarse_text
 
 # Tests of the whole program, or of its installation.
 OF_THE_WHOLE = ("extensions", "docs", "demos", "setup", "benchmarks", "debians", "hard_cases", "evidence")
@@ -28,8 +27,7 @@ main(["--help"])
 
 @pytest.fixture(scope="module")
 def core(tmp_path_factory):
-    """A checkout without extensions; kernels are compiled already where they are here, for they know their source by
-    its time."""
+    """Compiled kernels come along, which know their source by its time."""
     folder = tmp_path_factory.mktemp("core")
     shutil.copytree(ROOT / "fenics_gears", folder / "fenics_gears", ignore=shutil.ignore_patterns("extensions"))
     shutil.copytree(ROOT / "tests", folder / "tests", ignore=shutil.ignore_patterns("extensions", "__pycache__"))
@@ -40,7 +38,6 @@ def core(tmp_path_factory):
 
 
 def python(folder, *arguments, timeout=300):
-    """Run Python with that checkout in place of this one."""
     return subprocess.run(
         [sys.executable, "-P", *map(str, arguments)],
         cwd=folder,
@@ -53,9 +50,8 @@ def python(folder, *arguments, timeout=300):
 
 @pytest.mark.nightly
 def test_its_modules_load_and_a_scene_runs(core):
-    """The contract that the core imports no extension, by doing; help, check and run."""
-    scene = DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 2 ").partition("[accuracy]")[0]
-    (core / "pair.toml").write_text(scene + ACCURACY, encoding="utf-8")
+    """The contract that the core imports no extension, by doing."""
+    (core / "pair.toml").write_text(coarse_text())
     done = python(core, "-c", MODULES_AND_COMMANDS)
     assert done.returncode == 0 and done.stderr == "" and (core / "out" / "run.nc").exists(), done.stderr
     assert "parameter study" in done.stdout and "optimize" not in done.stdout
@@ -67,7 +63,7 @@ def test_its_modules_load_and_a_scene_runs(core):
     sorted(each.name for each in (ROOT / "tests").iterdir() if each.is_dir() and each.name not in OF_THE_WHOLE),
 )
 def test_its_tests_pass(core, folder):
-    """The core's tests, those that the suite runs by day and that start no mpirun themselves."""
+    """Those that the suite runs by day and that start no mpirun themselves."""
     if not list(Path(ROOT, "tests", folder).rglob("test_*.py")):
         pytest.skip("no tests")
     call = ("-m", "pytest", "-n", "0", "-q", "-m", "not nightly and not ranks", f"tests/{folder}")

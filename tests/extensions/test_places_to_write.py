@@ -1,5 +1,4 @@
-"""Commands that run many scenes refuse, before they compute, a place that cannot take their result. Authority: hard
-case 26."""
+"""A place that cannot take the result is refused before anything is computed (hard case 26)."""
 
 from pathlib import Path
 
@@ -17,7 +16,6 @@ CALLS = {"map.nc": ["map", "pair.toml", "--loads", "100 N m"], "best.toml": ["op
 
 @pytest.mark.parametrize("name", CALLS)
 def test_a_folder_under_the_results_name(tmp_path, monkeypatch, capsys, name):
-    """Named, with the remedy; what was there is all that is there."""
     monkeypatch.chdir(tmp_path)
-    Path("design.toml").write_text(DESIGN, encoding="utf-8")
+    Path("design.toml").write_text(DESIGN)
     check_refusal(CALLS[name], name, capsys)

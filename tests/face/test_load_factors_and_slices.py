@@ -1,4 +1,4 @@
-"""Load factors of pairs on finite element bodies do not depend on how finely the face is divided."""
+"""Load factors of pairs on finite element bodies."""
 
 import pytest
 
@@ -43,8 +43,7 @@ body_element_size = "1.4 mm"
 @pytest.mark.nightly
 @pytest.mark.parametrize("misalignment", ["0 um", "10 um"])
 def test_twice_as_many_slices_and_layers_give_the_same_factors(misalignment):
-    """Another resolution: the two factors away from edges and that between tooth pairs move by less than 2 % with
-    twice the slices and layers, aligned and misaligned."""
+    """Factors away from edges and between tooth pairs move by less than 2 %."""
     found = []
     for divided in ("slices = 14\nlayers = 8\n", "slices = 28\nlayers = 16\n"):
         found.append(

@@ -1,4 +1,4 @@
-"""A helical pair with finite element bodies from scene to result: statics without friction on rigid shafts."""
+"""A helical pair with finite element bodies from scene to result."""
 
 from math import radians
 
@@ -32,18 +32,16 @@ COARSE = Accuracy(
 
 @pytest.fixture(scope="module")
 def scene():
-    """A narrow pair, coarsely."""
     return scene_of(standard_pair(3.0 * MODULE, HELIX_ANGLE, bore=0.8), COARSE)
 
 
 @pytest.fixture(scope="module")
 def result(scene):
-    """Its run."""
     return simulate(scene)
 
 
 def test_line_load_adds_up_to_the_normal_force(result):
-    """Identity: the line loads of all pairs over all slices are the force along the contact normal."""
+    """Identity."""
     of_slices = (result.line_load * result.face_slice_width).sum(("slot", "face_position")).values
     np.testing.assert_allclose(
         of_slices, result.normal_force.sel(time=result.contact_time.values, method="nearest").values, rtol=1e-12
@@ -51,8 +49,8 @@ def test_line_load_adds_up_to_the_normal_force(result):
 
 
 def test_both_bodies_at_once_are_those_one_after_the_other(scene, monkeypatch, tmp_path):
-    """The same bodies with one thread. What the cache has starts no process, nor does a pair whose bodies memory does
-    not hold at once. The first gear of a study brings the second with it."""
+    """The same bodies with one thread; no process for what the cache has or memory does not hold. The first gear of
+    a study brings the second."""
     model, started = model_of(scene), []
     together = SecondProcess.together
     monkeypatch.setattr(SecondProcess, "together", lambda *given: started.append(given) or together(*given))

@@ -1,12 +1,8 @@
 """Resolved three-dimensional reference: `python -m tests.face_reference` recomputes approach.csv and line_load.csv.
-
-Whole sections without the teeth far from the loaded ones, swept along the helix in eighteen-node wedges, bores held;
-contact on a grid of pressures across the line of action and along the face, frictionless, forces along n. No code of
-the program's compliance is used but its call of MUMPS. Inputs are in `cases.py`. In the plane (spur, phase 0.35) the
-small sizes give 0.03 % less approach than the program's plane route. Two levels of meshes differ by 0.1 % (plain) to
-0.5 % (misaligned) in the approach. A phase takes 25 to 120 s and 2 GB, with more
-layers 140 to 280 s and up to 4 GB.
-"""
+Sections without teeth far from the loaded ones, swept in eighteen-node wedges; contact on a grid of pressures,
+frictionless, forces along n. Nothing of the program's compliance but its call of MUMPS. In the plane 0.03 % less
+approach than the plane route; two levels of meshes differ by 0.1 % (plain) to 0.5 % (misaligned). A phase takes 25
+to 280 s and 2 to 4 GB."""
 
 from tests.face_reference.reference import SMALL, THIN_ASIDE, THIN_LAYERS, THIN_MIDDLE, computed, write
 
@@ -22,7 +18,6 @@ FINER = {
 
 
 def main() -> None:
-    """Compute the cases one after the other and write the file after each."""
     rows = []
     for case in CASES:
         rows += computed(*case, FINER.get(case, SMALL))

@@ -1,4 +1,4 @@
-"""The same analyses by the program's own way: bodies over the face, fine plane sections in slices."""
+"""The same analyses by the program's own way."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -27,8 +27,8 @@ REACH = Reach(2)
 
 @dataclass(frozen=True)
 class Answer:
-    """Approach along the transverse line of action (mm), and line load (N/mm) of each tooth pair over slices at
-    `positions` (mm)."""
+    """Approach (mm, along the transverse line of action), and line load (N/mm) of each tooth pair at `positions`
+    (mm)."""
 
     approach: float
     positions: np.ndarray
@@ -37,7 +37,6 @@ class Answer:
 
 @lru_cache(maxsize=2)
 def gears(helix_angle: float, section_size: float, layers: int, flank: float, cache):
-    """Plane sections and bodies of both gears; helix angle in deg, sizes in mm."""
     pair, slope = reference_pair(radians(helix_angle)), base_slope(radians(helix_angle))
     sections = tuple(
         flank_compliance(gear, STEEL, Discretisation("P2", flank), REACH, cache) for gear in (pair.pinion, pair.wheel)
@@ -68,7 +67,6 @@ def answer(
     flank=0.045,
     spacing=0.03,
 ) -> Answer:
-    """One analysis; helix angle in deg, force (N) along n, sizes in mm."""
     pair, slope, sections, bodies = gears(helix_angle, section_size, layers, flank, cache)
     face = Face(*even_slices(FACE_WIDTH, slices), slope)
     grid = ContactGrid(74 * spacing, 75, closer_at_edges=True, inner_length=30 * spacing)

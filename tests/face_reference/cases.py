@@ -1,4 +1,4 @@
-"""The pairs, sizes and loads of the reference, and one analysis from geometry to line loads."""
+"""The pairs, sizes and loads of the reference, and one analysis."""
 
 from dataclasses import dataclass
 from math import atan, cos, radians, tan
@@ -17,7 +17,7 @@ HALF_LAYERS = (0.08, 0.12, 0.18, 0.27, 0.36, 0.44, 0.46, 0.46, 0.46, 0.46, 0.46)
 
 
 def reference_pair(helix_angle: float) -> GearPair:
-    """The pair in its transverse section, on its nominal centre distance; helix angle in rad."""
+    """In its transverse section, on its nominal centre distance; helix angle in rad."""
     module, angle = NORMAL_MODULE / cos(helix_angle), atan(tan(NORMAL_PRESSURE_ANGLE) / cos(helix_angle))
     gears = []
     for teeth in TEETH:
@@ -34,8 +34,8 @@ def base_slope(helix_angle: float) -> float:
 
 @dataclass(frozen=True)
 class Sizes:
-    """Resolution: `section` of both gears; `layers` of half the face, mm; `contact`: spacing of contact nodes across
-    the line, mm, and `reach`: their largest offset, mm."""
+    """`section` of both gears; `layers` of half the face, mm; `contact`: spacing of contact nodes, mm, and `reach`:
+    their largest offset, mm."""
 
     section: SectionSizes = SectionSizes(0.063)
     layers: tuple[float, ...] = HALF_LAYERS
@@ -58,7 +58,7 @@ class Sizes:
 
 @dataclass
 class Assembled:
-    """Both gears' compliance at one position, for any opening of the flanks along the face."""
+    """Both gears' compliance at one position, for any opening of the flanks."""
 
     position: Position
     points: list[PairPoints]
@@ -66,7 +66,7 @@ class Assembled:
 
 
 def touching_pairs(position: Position, sizes: Sizes) -> list[int]:
-    """Tooth pairs with a point of both flanks within reach of the line of action somewhere along the face."""
+    """Pairs with a point of both flanks within reach of the line of action."""
     y, z = (each.ravel() for each in np.meshgrid(sizes.offsets, sizes.heights))
     return [index for index in range(-2, 4) if position.flank_points(index, y, z)[2].any()]
 

@@ -1,10 +1,6 @@
-"""Contact of two swept gears at one phase: bilinear pressure over offset from the line of action and height, gaps
-weighted by the same functions.
-
-Forces, gaps and displacements are along the normal n = (c, 0, -c tau) of the plane of action, c = cos(beta_b), as in
-the program's own model; where on either flank a point (offset y, height z) lies is found here from the involute's
-equation.
-"""
+"""Contact of two swept gears at one phase: bilinear pressure over offset and height, gaps weighted by the same
+functions, along the normal n = (c, 0, -c tau), c = cos(beta_b). Where points (offset y, height z) lie is found here
+from the involute's equation."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -31,7 +27,6 @@ class Position:
 
     @property
     def cosine(self) -> float:
-        """cos(beta_b)."""
         return 1.0 / np.hypot(1.0, self.slope)
 
     @property
@@ -40,17 +35,16 @@ class Position:
         return self.slope / self.pair.pinion.base_radius, -self.slope / self.pair.wheel.base_radius
 
     def xi(self, index: int, z):
-        """Place of tooth pair `index` on the path of contact, mm, at heights z (mm)."""
+        """Of tooth pair `index` on the path of contact, mm, at heights z (mm)."""
         return self.pair.path_start + (self.phase + index) * self.pair.base_pitch + self.slope * np.asarray(z)
 
     def contact_rolls(self, index: int, z):
-        """Roll angles (rad) of pinion and wheel on the line of action."""
         xi = self.xi(index, z)
         return xi / self.pair.pinion.base_radius, (self.pair.line_of_action_length - xi) / self.pair.wheel.base_radius
 
     def flank_points(self, index: int, y, z):
-        """Roll angles (rad) of pinion and wheel at offsets y and heights z (mm), the transverse gap (mm), and whether
-        both flanks are there."""
+        """Roll angles (rad) of pinion and wheel at offsets y and heights z (mm), the transverse gap (mm), and
+        whether both flanks are there."""
         gears, rolls, reach, there = (self.pair.pinion, self.pair.wheel), [], 0.0, True
         for gear, contact, sense in zip(gears, self.contact_rolls(index, z), (-1.0, 1.0)):
             roll = _roll_at_height(contact, 1.0 + sense * y / gear.base_radius)
@@ -60,14 +54,14 @@ class Position:
         return rolls, self.pair.line_of_action_length - reach, there
 
     def normal(self, gear: int, z) -> np.ndarray:
-        """The normal n (k, 3) in the frame of a gear's section at heights z (k,)."""
+        """n (k, 3) in the frame of a gear's section at heights z (k,)."""
         turn = self.contact_rolls(0, 0.0)[gear] + np.pi * gear + self.twists[gear] * np.asarray(z)
         return self.cosine * np.stack([np.cos(turn), -np.sin(turn), np.full_like(turn, -self.slope)], axis=-1)
 
 
 def _roll_at_height(contact, height) -> np.ndarray:
     """Roll angle (rad) of the flank point at a height (base radii above the centre) while `contact` (rad) is on the
-    line of action; Newton."""
+    line of action."""
     contact, height = np.broadcast_arrays(np.asarray(contact, dtype=float), height)
     roll = contact.copy()
     for _ in range(NEWTON_STEPS):
@@ -79,13 +73,9 @@ def _roll_at_height(contact, height) -> np.ndarray:
 
 @dataclass(frozen=True)
 class PairPoints:
-    """Contact nodes of tooth pair `index`: a grid of offsets `y` (a,) and heights `z` (b,), mm; those (k,) of it that
-    exist, numbered y by y for each z.
-
-    `areas` (k,), mm^2, that a node stands for; `gaps` (k,), mm^3, gap along n weighted by the node's function; `chosen`
-    (k,) in the grid;
-    `weights`: of pinion and wheel (k, flank nodes times levels), its function times the flank's shape functions, mm^2.
-    """
+    """Contact nodes of tooth pair `index`: those (k,) that exist of a grid of offsets `y` (a,) and heights `z` (b,),
+    mm. `areas` (k,), mm^2; `gaps` (k,), mm^3, weighted by the node's function; `chosen` (k,) in the grid; `weights`
+    of pinion and wheel (k, flank nodes times levels), mm^2."""
 
     index: int
     y: np.ndarray
@@ -104,8 +94,7 @@ class PairPoints:
 def pair_points(
     position: Position, index: int, y: np.ndarray, gears: tuple[SweptGear, SweptGear], opening
 ) -> PairPoints | None:
-    """Contact nodes of a tooth pair; None where its flanks do not face each other. `opening(z)`: what opens the flanks
-    along n, mm, at heights (k,), mm."""
+    """None where the flanks do not face each other. `opening(z)`: what opens them along n, mm, at heights (k,), mm."""
     # Pressure varies straight between the layers' boundaries: with nodes at their middles as well it oscillates from
     # node to node.
     heights = gears[0].sweep.heights[::2]
@@ -131,7 +120,7 @@ def pair_points(
 
 
 def _cells(nodes: np.ndarray, count: int):
-    """Gauss points (q,) of the cells between nodes (k,), their weights, and the nodes' hat functions (q, k) there."""
+    """Gauss points (q,) of the cells between nodes (k,), weights, and hat functions (q, k)."""
     gauss, weights = np.polynomial.legendre.leggauss(count)
     share, length = 0.5 * (1 + gauss), np.diff(nodes)
     at = (nodes[:-1, None] + length[:, None] * share).ravel()
@@ -145,7 +134,7 @@ def _cells(nodes: np.ndarray, count: int):
 
 
 def _flank_shapes(gear: SweptGear, tooth: int, pair: GearPair, number: int, roll, z, there) -> sparse.csr_matrix:
-    """Shape functions (q, flank nodes times levels, level by level) of a tooth's drive flank at roll angles and heights
+    """Shape functions (q, flank nodes times levels, level by level) of a drive flank at roll angles and heights
     (q,)."""
     node_rolls = gear.section.flanks[tooth][0]
     along, local_along = _located(0.5 * node_rolls**2, np.where(there, 0.5 * roll**2, 0.5 * node_rolls[1] ** 2))
@@ -162,7 +151,7 @@ def _flank_shapes(gear: SweptGear, tooth: int, pair: GearPair, number: int, roll
 
 
 def _located(nodes: np.ndarray, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Quadratic cell and place in it (-1 to 1) of points in a chain of nodes, vertices and middles in turn."""
+    """Quadratic cell and place in it (-1 to 1) of points in a chain of nodes."""
     ends = nodes[::2]
     cell = np.clip(np.searchsorted(ends, at, side="right") - 1, 0, len(ends) - 2)
     return cell, 2.0 * (at - ends[cell]) / (ends[cell + 1] - ends[cell]) - 1.0
@@ -175,10 +164,8 @@ def compliance(
     columns: int = 48,
     mirrored: bool = False,
 ) -> np.ndarray:
-    """Weighted gap (k, k), mm^3, that a pressure of 1 MPa at each node opens, of both gears' elasticity.
-
-    `mirrored`: spur gears, whose face is its own mirror image: columns of one half follow from the other.
-    """
+    """Weighted gap (k, k), mm^3, that 1 MPa at each node opens. `mirrored`: of spur gears columns of one half follow
+    from the other."""
     sizes = [len(each.chosen) for each in points]
     total = np.zeros((sum(sizes), sum(sizes)))
     mirror = _mirror(points) if mirrored else None
@@ -197,7 +184,7 @@ def compliance(
 
 
 def _mirror(points: list[PairPoints]) -> np.ndarray:
-    """The contact node that is the mirror image about z = 0 of each."""
+    """The contact node that is the mirror image about z = 0."""
     found, first = [], 0
     for each in points:
         there = {int(node): first + i for i, node in enumerate(each.chosen)}
@@ -208,7 +195,6 @@ def _mirror(points: list[PairPoints]) -> np.ndarray:
 
 
 def _loads(position: Position, points: list[PairPoints], gear: SweptGear, number: int) -> sparse.csc_matrix:
-    """Loads (unknowns, k) on a gear by pressure on the contact nodes, along n."""
     blocks = []
     normal = position.normal(number, gear.sweep.heights)
     for each in points:

@@ -1,4 +1,4 @@
-"""Results of the resolved model as rows of approach.csv and line_load.csv, and how they are found."""
+"""Rows of approach.csv and line_load.csv, and how they are found."""
 
 import csv
 from dataclasses import dataclass, replace
@@ -30,8 +30,8 @@ THIN_MIDDLE = replace(SMALL, layers=(0.3, 0.75, 1.0, 0.7, 0.4, 0.3, 0.3))
 
 @dataclass(frozen=True)
 class Row:
-    """Line load (N per mm of face, along n) of a tooth pair at height `z` (mm); `approach` (mm, along the transverse
-    line of action) of the analysis."""
+    """Line load (N/mm, along n) of a tooth pair at height `z` (mm); `approach` (mm, along the transverse line of
+    action)."""
 
     helix_angle: float
     phase: float
@@ -43,7 +43,6 @@ class Row:
 
 
 def rows(found: Assembled, helix_angle: float, opening: str) -> list[Row]:
-    """All line loads of one analysis; helix angle in deg."""
     areas, heights = np.concatenate([each.areas for each in found.points]), found.points[0].z
     z = np.concatenate([each.z[each.level] for each in found.points])
     gaps = np.concatenate([each.gaps for each in found.points]) + OPENINGS[opening](z) * areas
@@ -61,13 +60,11 @@ def rows(found: Assembled, helix_angle: float, opening: str) -> list[Row]:
 
 
 def computed(helix_angle: float, phase: float, sizes: Sizes = SMALL) -> list[Row]:
-    """All openings at one phase; helix angle in deg."""
     found = assembled(radians(helix_angle), phase, sizes)
     return [row for opening in OPENINGS for row in rows(found, helix_angle, opening)]
 
 
 def reference() -> list[Row]:
-    """The rows of the files."""
     approach, line_load = (list(csv.DictReader(file.open())) for file in (APPROACH, LINE_LOAD))
     approaches = {(line["helix_angle"], line["phase"]): line for line in approach}
     result = []
@@ -80,8 +77,7 @@ def reference() -> list[Row]:
 
 
 def over_slices(found: list[Row], positions: np.ndarray) -> np.ndarray:
-    """Line load (S,), N/mm, of all tooth pairs together, straight between the heights of one analysis and averaged over
-    slices of one width at `positions` (S,), mm."""
+    """N/mm (S,) of all tooth pairs, averaged over slices of one width at `positions` (S,), mm."""
     z = np.array(sorted({row.z for row in found}))
     load = np.array([sum(row.line_load for row in found if row.z == each) for each in z])
     parts = (np.arange(100) + 0.5) / 100.0 - 0.5
@@ -89,7 +85,7 @@ def over_slices(found: list[Row], positions: np.ndarray) -> np.ndarray:
 
 
 def write(found: list[Row]) -> None:
-    """Write rows to the files, a column for each opening, numbers to five digits: meshes differ in the fourth."""
+    """A column for each opening, numbers to five digits: meshes differ in the fourth."""
     of = {opening: [row for row in found if row.opening == opening] for opening in OPENINGS}
     with APPROACH.open("w", newline="") as approach, LINE_LOAD.open("w", newline="") as line_load:
         writers = [csv.writer(lines, lineterminator="\n") for lines in (approach, line_load)]

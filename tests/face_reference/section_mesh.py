@@ -1,5 +1,4 @@
-"""A transverse section of a gear in six-node triangles: fine under bands of a few flanks, coarse elsewhere; its own
-mesher, not the program's."""
+"""A transverse section in six-node triangles, fine under bands of a few flanks; not the program's mesher."""
 
 from dataclasses import dataclass
 
@@ -16,12 +15,9 @@ CURVE_SAMPLES = 801
 
 @dataclass(frozen=True)
 class SectionSizes:
-    """Element sizes, mm: in the band of contact (down to `depth` below it), in fillets of loaded teeth, elsewhere on
-    their surface, and far away.
-
-    `growth`: increase of size per distance; `teeth_beside`: whole teeth on either side of the loaded ones, the others
-    being left out.
-    """
+    """Element sizes, mm: in the band of contact (down to `depth`), in fillets of loaded teeth, elsewhere on their
+    surface, and far away. `growth`: increase per distance; `teeth_beside`: whole teeth on either side of the loaded
+    ones."""
 
     band: float
     depth: float = 0.25
@@ -34,12 +30,9 @@ class SectionSizes:
 
 @dataclass(frozen=True)
 class Section:
-    """Six-node triangles: `points` (n, 2), mm, in the body frame of tooth 0; `cells` (m, 6), corners, then the middles
-    of sides 01, 12, 20.
-
-    `held`: nodes on the bore. `flanks`: for each loaded tooth (pitches counter-clockwise of tooth 0) the roll angles (2
-    k + 1,) of its drive flank's nodes, vertices and middles in turn, and the nodes.
-    """
+    """`points` (n, 2), mm, in the body frame of tooth 0; `cells` (m, 6), corners, then middles of sides 01, 12, 20;
+    `held`: bore. `flanks`: for each loaded tooth (pitches counter-clockwise of tooth 0) roll angles (2 k + 1,) and
+    nodes of its drive flank."""
 
     points: np.ndarray
     cells: np.ndarray
@@ -48,14 +41,12 @@ class Section:
 
 
 def rotated(points: np.ndarray, angle) -> np.ndarray:
-    """Points (..., 2) turned counter-clockwise by an angle (rad)."""
     x, y = points[..., 0], points[..., 1]
     return np.stack([np.cos(angle) * x - np.sin(angle) * y, np.sin(angle) * x + np.cos(angle) * y], axis=-1)
 
 
 def section_mesh(gear: Gear, bands: dict[int, tuple[float, float]], sizes: SectionSizes) -> Section:
-    """The section of a gear whose teeth `bands` (pitches counter-clockwise of tooth 0) touch between two roll angles
-    (rad)."""
+    """`bands`: roll angles (rad) between which each tooth (pitches counter-clockwise of tooth 0) touches."""
     size = _size_function(gear, bands, sizes)
     curves = _outline_curves(gear, bands, sizes.teeth_beside)
     doubled, flank_starts = [], {}
@@ -83,7 +74,6 @@ def section_mesh(gear: Gear, bands: dict[int, tuple[float, float]], sizes: Secti
 
 
 def _size_function(gear: Gear, bands, sizes: SectionSizes):
-    """Element size (n,), mm, wanted at points (n, 2)."""
     outline = tooth_outline(gear, 101)
     rolls = np.linspace(gear.form_roll_angle, gear.tip_roll_angle, 101)
     flank, fillets = outline.involute(rolls), np.vstack([outline.fillet, outline.coast(outline.fillet)])
@@ -109,8 +99,8 @@ def _size_function(gear: Gear, bands, sizes: SectionSizes):
 
 
 def _outline_curves(gear: Gear, bands, beside: int) -> list[tuple[int, str, np.ndarray]]:
-    """Tooth, name and samples (k, 2) of the curves of the closed outline, clockwise; teeth far from loaded ones are a
-    piece of the root circle."""
+    """Tooth, name and samples (k, 2) of the closed outline's curves, clockwise; far teeth are a piece of the root
+    circle."""
     outline = tooth_outline(gear, 401)
     arcs = np.linspace(
         *arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle])), CURVE_SAMPLES
@@ -136,7 +126,7 @@ def _arc(radius: float, start: float, end: np.ndarray) -> np.ndarray:
 
 
 def _divided(curve: np.ndarray, size) -> np.ndarray:
-    """Vertices of edges as long as `size` asks for, and their middles, along a curve (k, 2), both ends included."""
+    """Vertices of edges as long as `size` asks for, and their middles, along a curve (k, 2)."""
     length = along(curve)
     wanted = 1.0 / size(curve)
     edges = np.concatenate([[0.0], np.cumsum(0.5 * (wanted[1:] + wanted[:-1]) * np.diff(length))])
@@ -145,7 +135,6 @@ def _divided(curve: np.ndarray, size) -> np.ndarray:
 
 
 def _on_involute(gear: Gear, nodes: np.ndarray, tooth: int) -> np.ndarray:
-    """Points near a tooth's drive flank moved along circles onto it."""
     return rotated(
         canonical_point(gear.base_radius, gear.roll_angle(np.linalg.norm(nodes, axis=1))), tooth * gear.angular_pitch
     )

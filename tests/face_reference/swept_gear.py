@@ -1,9 +1,5 @@
-"""A gear as a section swept along its helix in eighteen-node wedges (six-node triangle times quadratic line), bore
-held, factorised by MUMPS.
-
-Displacements of a node are in the frame that turns with the helix at its height: layers of one thickness then have one
-and the same matrix.
-"""
+"""A gear swept along its helix in eighteen-node wedges, bore held, factorised by MUMPS. Displacements are in the
+frame that turns with the helix: layers of one thickness have one matrix."""
 
 from dataclasses import dataclass
 
@@ -22,7 +18,7 @@ CELLS_AT_ONCE = 400
 
 
 def line_shapes(t) -> tuple[np.ndarray, np.ndarray]:
-    """Quadratic shape functions (..., 3) of nodes at -1, 0, 1 and their derivatives, at t (...)."""
+    """Quadratic shape functions (..., 3) of nodes at -1, 0, 1 and their derivatives."""
     t = np.asarray(t, dtype=float)
     return np.stack([0.5 * t * (t - 1), 1 - t * t, 0.5 * t * (t + 1)], axis=-1), np.stack(
         [t - 0.5, -2 * t, t + 0.5], axis=-1
@@ -30,7 +26,7 @@ def line_shapes(t) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _triangle_shapes(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Shape functions (q, 6) of corners and sides' middles, and their derivatives (q, 6, 2)."""
+    """Shape functions (q, 6) of corners and middles, and derivatives (q, 6, 2)."""
     r, s = points.T
     corner = np.stack([1 - r - s, r, s], axis=-1)
     slope = np.array([[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]])
@@ -45,8 +41,8 @@ def _triangle_shapes(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 @dataclass(frozen=True)
 class Sweep:
-    """`heights` (2 layers + 1,), mm: layers' boundaries and middles; `twist`, rad/mm counter-clockwise; `plane`: axial
-    displacements held everywhere."""
+    """`heights` (2 layers + 1,), mm; `twist`, rad/mm counter-clockwise; `plane`: axial displacements held
+    everywhere."""
 
     heights: np.ndarray
     twist: float = 0.0
@@ -54,7 +50,7 @@ class Sweep:
 
 
 def layer_stiffness(section: Section, thickness: float, twist: float, material: Material) -> sparse.csr_matrix:
-    """Stiffness (9 n, 9 n) of one layer on its three levels of section nodes, each in its own turned frame."""
+    """Stiffness (9 n, 9 n) of one layer on its three levels, each in its own turned frame."""
     flat, flat_slope = _triangle_shapes(TRIANGLE_POINTS)
     gauss, gauss_weights = np.polynomial.legendre.leggauss(3)
     line, line_slope = line_shapes(gauss)
@@ -90,7 +86,7 @@ def layer_stiffness(section: Section, thickness: float, twist: float, material: 
 
 
 def _frames(angles: np.ndarray) -> np.ndarray:
-    """For the wedge's nodes (18, 3, 3): components in space from those in the turned frame of their level."""
+    """For the wedge's nodes (18, 3, 3): components in space from those in their level's frame."""
     turn = np.zeros((3, 3, 3))
     turn[:, 0, 0] = turn[:, 1, 1] = np.cos(angles)
     turn[:, 1, 0], turn[:, 0, 1], turn[:, 2, 2] = np.sin(angles), -np.sin(angles), 1.0
@@ -98,7 +94,7 @@ def _frames(angles: np.ndarray) -> np.ndarray:
 
 
 def _elasticity(material: Material) -> np.ndarray:
-    """Hooke's law (6, 6) for strains xx, yy, zz, xy, yz, zx (engineering shears)."""
+    """Hooke's law (6, 6), engineering shears."""
     young, poisson = material.youngs_modulus, material.poissons_ratio
     shear = 0.5 * young / (1 + poisson)
     law = np.diag([2 * shear] * 3 + [shear] * 3)
@@ -107,7 +103,6 @@ def _elasticity(material: Material) -> np.ndarray:
 
 
 def _wedge_stiffness(points, slope, weights, elasticity) -> np.ndarray:
-    """Stiffness (c, 54, 54) of wedges with nodes (c, 18, 3)."""
     total = np.zeros((len(points), 54, 54))
     for at, weight in zip(slope, weights):
         jacobian = np.einsum("cni,nd->cid", points, at)
@@ -124,8 +119,6 @@ def _wedge_stiffness(points, slope, weights, elasticity) -> np.ndarray:
 
 
 class SweptGear:
-    """A swept section with its bore held."""
-
     def __init__(self, section: Section, sweep: Sweep, material: Material):
         self.section, self.sweep = section, sweep
         self.nodes = len(section.points)
@@ -140,7 +133,6 @@ class SweptGear:
         self._free, self._material = free, material
 
     def factorised(self) -> Factor:
-        """The factor of the stiffness; to be closed."""
         return Factor(self._stiffness(self._material)[self._free][:, self._free], "the swept gear's stiffness")
 
     def _stiffness(self, material: Material) -> sparse.csr_matrix:

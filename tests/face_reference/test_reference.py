@@ -1,8 +1,4 @@
-"""Deflection and line load over the face against fully resolved three-dimensional models, which share no code with the
-split.
-
-Their results are in approach.csv and line_load.csv; `python -m tests.face_reference` computes them again.
-"""
+"""Deflection and line load over the face against resolved models, which share no code with the split."""
 
 from itertools import groupby
 
@@ -19,8 +15,7 @@ ANALYSES = {
 @pytest.mark.nightly
 @pytest.mark.parametrize("key", ANALYSES, ids=lambda key: "helix {:g} deg, phase {:g}, {}".format(*key))
 def test_deflection_and_line_load_are_those_of_the_resolved_model(key, suite_cache, record_property):
-    """Fully resolved model: approach within 1 % (measured: 0.4 %, where tip edges touch 0.8 %), the forces of the tooth
-    pairs within 2 % of all."""
+    """Approach within 1 % (measured: 0.4 %, where tip edges touch 0.8 %), forces of the pairs within 2 % of all."""
     rows = ANALYSES[key]
     found = answer(*key, FORCE, suite_cache)
     record_property("relative difference", found.approach / rows[0].approach - 1.0)
@@ -34,8 +29,7 @@ def test_deflection_and_line_load_are_those_of_the_resolved_model(key, suite_cac
 @pytest.mark.nightly
 @pytest.mark.parametrize("key", [(20.0, 0.35, "crowned")])
 def test_line_load_is_that_of_the_resolved_model(key, suite_cache):
-    """Fully resolved model with thin layers: line load of all pairs within 3 % of the largest, the free ends included
-    (measured: 2.7 %)."""
+    """With thin layers: within 3 % of the largest, free ends included (measured: 2.7 %)."""
     rows = ANALYSES[key]
     found = answer(*key, FORCE, suite_cache)
     exact = over_slices(rows, found.positions)

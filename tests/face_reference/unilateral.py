@@ -1,5 +1,4 @@
-"""Frictionless contact without tension: pressures, and the approach that carries a given force, by a primal-dual active
-set."""
+"""Frictionless contact without tension by a primal-dual active set."""
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
@@ -8,11 +7,9 @@ MOST_STEPS = 200
 
 
 def pressed(compliance: np.ndarray, gaps: np.ndarray, areas: np.ndarray, force: float) -> tuple[np.ndarray, float]:
-    """Pressures (k,), MPa, >= 0, and approach (mm, along n) with pressures times areas adding up to `force` (N).
-
-    compliance (k, k), gaps (k,), areas (k,): of `contact_points`. On closed nodes compliance p + gaps = approach areas;
-    on the others p = 0 and nothing overlaps. Raises RuntimeError where the sets do not settle.
-    """
+    """Pressures (k,), MPa, and approach (mm, along n) of a `force` (N); compliance (k, k), gaps, areas (k,) of
+    `contact_points`: on closed nodes compliance p + gaps = approach areas. Raises RuntimeError where the sets do not
+    settle."""
     closed = gaps / areas <= np.quantile(gaps / areas, 0.3)
     pressure = np.zeros(len(gaps))
     seen = set()

@@ -29,8 +29,7 @@ def paper_pair(paper_data):
 
 @pytest.fixture
 def cut_gear():
-    """A gear by its standard proportions, all in normal modules: addendum, dedendum, rack tip radius; angles in
-    degrees, in the normal section."""
+    """A gear by its proportions in normal modules; angles in degrees, in the normal section."""
 
     def cut(
         teeth,

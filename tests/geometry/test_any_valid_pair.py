@@ -16,7 +16,7 @@ PAIRS = st.one_of(valid_pairs(), valid_pairs(helix_angles=(1.0, 40.0)))
 
 @given(PAIRS)
 def test_points_of_the_path_of_contact_are_in_order(pair):
-    """Meaning of the characteristic points: T1, start, single contact, end, T2; roll angles within either flank."""
+    """Definition: T1, start, single contact, end, T2; roll angles within either flank."""
     rounding = 1e-6
     assert -rounding <= pair.path_start < pair.path_end <= pair.line_of_action_length + rounding
     assert pair.lpstc <= pair.hpstc + 1e-8 * pair.base_pitch
@@ -41,7 +41,7 @@ def test_points_of_the_path_of_contact_are_in_order(pair):
 
 @given(PAIRS)
 def test_swapped_gears_are_the_same_pair(pair):
-    """Exact symmetry: wheel driving pinion mirrors the line of action; ratio, backlash and clearances exchange."""
+    """Exact symmetry."""
     swapped = replace(pair, pinion=pair.wheel, wheel=pair.pinion)
     length = pair.line_of_action_length
     assert swapped.path_start == pytest.approx(length - pair.path_end, abs=1e-12 * length)
@@ -54,7 +54,7 @@ def test_swapped_gears_are_the_same_pair(pair):
 
 @given(PAIRS, st.floats(0.1, 10.0))
 def test_angles_and_ratios_do_not_know_the_module(pair, scale):
-    """Similarity: lengths times a factor leave every angle and ratio and scale every length."""
+    """Similarity."""
 
     def scaled(gear):
         lengths = ("module", "tip_radius", "root_radius", "bore_radius", "rack_tip_radius")
@@ -75,8 +75,8 @@ def test_angles_and_ratios_do_not_know_the_module(pair, scale):
 
 @given(PAIRS)
 def test_outline_of_every_valid_gear_is_a_simple_curve(pair):
-    """A tooth: from root to tip the radius grows and the tooth gets thinner, unless it is undercut, the fillet never
-    stands still or turns back, and the root circle between two teeth has a length that is not negative."""
+    """A tooth: radius grows and thickness falls from root to tip unless undercut, the fillet never turns back, the
+    root circle has a length."""
     for gear in (pair.pinion, pair.wheel):
         outline = tooth_outline(gear)
         assert np.all(fillet_speed(gear, np.linspace(0.0, gear.fillet_end, 101)[1:]) > 0.0)
@@ -93,7 +93,7 @@ def test_outline_of_every_valid_gear_is_a_simple_curve(pair):
 
 @given(PAIRS)
 def test_thickness_and_backlash_fill_the_pitch_circle(pair):
-    """Exact identity: at the rolling pitch circles the teeth and the circumferential backlash fill the pitch."""
+    """Exact identity."""
     all_teeth = pair.pinion.teeth + pair.wheel.teeth
     rolled = [pair.centre_distance * gear.teeth / all_teeth for gear in (pair.pinion, pair.wheel)]
     circumferential = pair.backlash / np.cos(pair.operating_pressure_angle)

@@ -1,5 +1,4 @@
-"""Teeth whose flank is cut away, by undercut or by a protuberance of the rack, against a simulation of their
-cutting."""
+"""Undercut and protuberance against a simulation of the cutting."""
 
 from dataclasses import replace
 from math import cos, pi, radians, tan
@@ -22,9 +21,8 @@ MODULE = 5.0
 
 
 def rack_profile(gear):
-    """Half thickness and depth (n, 2), mm, of the rack's tooth in the transverse section, from the middle of its tip:
-    tip line, rounding, flank of the protuberance, flank. Written from the drawing of the tool in its normal section,
-    which is stretched along the pitch line."""
+    """Half thickness and depth (n, 2), mm, of the rack's tooth in the transverse section, from the drawing of the
+    tool in its normal section."""
     alpha, rounding, module = gear.normal_pressure_angle, gear.rack_tip_radius, gear.normal_module
     beta, protuberance = gear.helix_angle, gear.protuberance
     steep = gear.protuberance_angle if protuberance else alpha
@@ -47,8 +45,8 @@ def rack_profile(gear):
 
 
 def deepest_cut(gear, points):
-    """How far (n,), mm along the pitch line, the rack goes over points (n, 2) of the tooth's body frame as it rolls
-    past; negative where it leaves them."""
+    """How far (n,), mm along the pitch line, the rack goes over points (n, 2) of the tooth's body frame; negative
+    where it leaves them."""
     (half, depth), r, z = rack_profile(gear)[::-1].T, gear.reference_radius, gear.teeth
     half_tooth = (
         (0.5 * pi + 2.0 * gear.profile_shift * tan(gear.pressure_angle)) / z
@@ -68,7 +66,7 @@ def deepest_cut(gear, points):
 
 
 def drive_side(gear):
-    """Points (n, 2), mm, along fillet and involute, without their edge, and the normals (n, 2) out of the tooth."""
+    """Points (n, 2), mm, along fillet and involute, without their edge, and outward normals."""
     outline = tooth_outline(gear, 1201)
     involute = outline.involute(np.sqrt(np.linspace(gear.form_roll_angle**2, gear.tip_roll_angle**2, 1201)))
     points, normals = [], []
@@ -91,7 +89,7 @@ def check(gear):
 
 @pytest.mark.parametrize("name", PROTUBERANCES)
 def test_a_tooth_cut_with_protuberance_is_what_the_rolling_rack_leaves(cut_gear, name):
-    """Cutting simulation, as above; the finished flank is cut by the same rack's straight flank."""
+    """The simulation; the finished flank is cut by the rack's straight flank."""
     cut, protuberance, angle = PROTUBERANCES[name]
     gear = replace(
         cut_gear(**cut, module=MODULE), protuberance=protuberance * MODULE, protuberance_angle=radians(angle)

@@ -1,4 +1,4 @@
-"""Gears as drawings give them: what is left out follows from the rest."""
+"""Gears as drawings give them."""
 
 import tomllib
 from math import pi
@@ -18,7 +18,7 @@ PINION, WHEEL = {"teeth": 19, "profile_shift": 0.3, **BORE}, {"teeth": 31, "prof
 
 
 def scene_of(gears=None, pinion=None, wheel=None, **sections):
-    """A scene of a short drawing with changes in its sections; an entry that is None is left out."""
+    """A scene of a short drawing with changes; None leaves out."""
     pair = {"module": "3 mm", "pressure_angle": "20 deg", "face_width": "20 mm", "material": "steel", **(gears or {})}
     load = {"load": {"wheel_torque": "50 N m"}}
     return build_scene(
@@ -38,7 +38,7 @@ def derived(scene) -> dict:
     ("title", "figure"), [(title, figure) for title, pair in PAIRS.items() for figure in pair.printed]
 )
 def test_every_figure_of_a_published_pair_follows_from_its_drawing(title, figure):
-    """The source that tests/drawn_pairs.py names, to its printed digits (half a unit of the last one)."""
+    """The source that tests/drawn_pairs.py names, to half a unit of the last digit."""
     printed = PAIRS[title].printed[figure]
     assert figures(PAIRS[title])[figure] == pytest.approx(
         float(printed), abs=0.51 * 10.0 ** -len(printed.partition(".")[2])
@@ -47,15 +47,15 @@ def test_every_figure_of_a_published_pair_follows_from_its_drawing(title, figure
 
 @pytest.mark.parametrize("title", PAIRS)
 def test_the_page_shows_these_figures(title):
-    """Identity, of the page with what ``python -m tests.drawn_pairs`` prints."""
-    page = (ROOT / "docs" / "evidence" / "geometry.md").read_text(encoding="utf-8")
+    """Identity with ``python -m tests.drawn_pairs``."""
+    page = (ROOT / "docs" / "evidence" / "geometry.md").read_text()
     assert "\n".join(table(PAIRS[title])) in page
 
 
 def test_the_page_s_scene_is_the_demo():
-    """Identity; and P = T omega: 15 kW at 1500 rpm of the pinion are 95.49 N m on it and twice as much on the wheel."""
+    """Identity; 15 kW at 1500 rpm of the pinion are 95.49 N m."""
     demo = load_scene(ROOT / "demos" / "from_a_drawing.toml")
-    page = (ROOT / "docs" / "drawing.md").read_text(encoding="utf-8").partition("```toml\n")[2].partition("```")[0]
+    page = (ROOT / "docs" / "drawing.md").read_text().partition("```toml\n")[2].partition("```")[0]
     of_page = build_scene(tomllib.loads(page))
     assert (of_page.gears, of_page.load, of_page.derived) == (demo.gears, demo.load, demo.derived)
     assert demo.load.wheel_torque == pytest.approx(2.0 * 95.493e3, rel=1e-5)
@@ -65,8 +65,7 @@ def test_the_page_s_scene_is_the_demo():
 @pytest.mark.parametrize("helix_angle", [None, "20 deg"])
 @pytest.mark.parametrize("profile", RACKS)
 def test_without_a_word_gears_have_no_backlash_and_the_rack_s_clearance(shifts, helix_angle, profile):
-    """The definition of the working pressure angle and of k (ISO 21771), through the geometry of the pair: no backlash,
-    and both tip clearances the rack's dedendum less its addendum."""
+    """ISO 21771, working pressure angle and k: no backlash, tip clearances of the rack's dedendum less its addendum."""
     pair = pair_of(
         {"helix_angle": helix_angle, "rack": {"profile": profile}},
         {"profile_shift": shifts[0]},
@@ -78,7 +77,7 @@ def test_without_a_word_gears_have_no_backlash_and_the_rack_s_clearance(shifts, 
 
 @pytest.mark.parametrize("helix_angle", [None, "20 deg"])
 def test_backlash_thins_both_gears_alike(helix_angle):
-    """The geometry of the pair, whose gap along the line of action is j_wt cos(alpha_wt); half of it by each gear."""
+    """Geometry: j_wt cos(alpha_wt) along the line of action, half of it by each gear."""
     scene, plain = (scene_of({"helix_angle": helix_angle, "backlash": backlash}) for backlash in ("0.12 mm", None))
     rows = {name: value for name, value, _ in characteristics(gear_pair(scene.gears))}
     assert rows["circumferential backlash at the pitch circles (j_wt)"] == pytest.approx(0.12, abs=1e-12)
@@ -96,7 +95,7 @@ def test_backlash_thins_both_gears_alike(helix_angle):
 
 
 def test_what_a_caliper_reads_is_told_for_the_span_that_is_asked_for():
-    """KHK Gear Technical Reference, m 3, z 24, x 0.4: 32.8266 mm over 4 teeth, whose neighbour spans differ by the base
+    """KHK Gear Technical Reference, m 3, z 24, x 0.4: 32.8266 mm over 4 teeth; neighbour spans differ by the base
     pitch."""
     spans = [
         derived(scene_of(wheel={"teeth": 24, "profile_shift": 0.4, "spanned_teeth": k}))[
@@ -109,7 +108,7 @@ def test_what_a_caliper_reads_is_told_for_the_span_that_is_asked_for():
 
 
 def test_power_and_pinion_torque_are_a_torque_on_the_wheel():
-    """Authority: P = T omega and T2 = T1 z2/z1."""
+    """P = T omega and T2 = T1 z2/z1."""
     power = scene_of(load={"power": "20 kW"}, motion={"pinion_speed": "1500 rpm"})
     assert power.load.wheel_torque == pytest.approx(20e6 / (2.0 * pi * 25.0) * 31 / 19, rel=1e-12)
     assert scene_of(load={"pinion_torque": "19 N m"}).load.wheel_torque == pytest.approx(31e3, rel=1e-14)
@@ -127,7 +126,7 @@ def test_power_and_pinion_torque_are_a_torque_on_the_wheel():
     ],
 )
 def test_materials_have_the_standard_s_elasticity_factor_with_steel(name, factor):
-    """ISO 6336-2, table of Z_E for a steel mate, sqrt(N/mm^2); Z_E = 1/sqrt(pi ((1 - nu1^2)/E1 + (1 - nu2^2)/E2))."""
+    """ISO 6336-2: Z_E = 1/sqrt(pi ((1 - nu1^2)/E1 + (1 - nu2^2)/E2)) for a steel mate."""
     compliances = [
         (1.0 - each.poissons_ratio**2) / each.youngs_modulus for each in (MATERIALS[name][0], MATERIALS["steel"][0])
     ]
@@ -135,7 +134,7 @@ def test_materials_have_the_standard_s_elasticity_factor_with_steel(name, factor
 
 
 def test_materials_go_by_name():
-    """Identity; a number that is given goes before that of the name, and a gear's own name before what both share."""
+    """Identity; a number goes before the name's, a gear's own name before what both share."""
     scene = scene_of(wheel={"material": {"name": "POM", "poissons_ratio": 0.4}})
     assert scene.gears.materials == (Material(206e3, 0.3), Material(2.9e3, 0.4))
     assert scene_of({"material": {"youngs_modulus": "206 GPa", "poissons_ratio": 0.3}}).gears == scene_of().gears
@@ -180,7 +179,7 @@ WRONG = {
 
 @pytest.mark.parametrize("kind", WRONG)
 def test_a_drawing_that_cannot_be_is_refused(kind):
-    """The rule that the message names; nothing is computed."""
+    """The rule that the message names."""
     *changes, message = WRONG[kind]
     with pytest.raises(SceneError) as caught:
         pair_of(*changes)
@@ -200,7 +199,7 @@ def test_a_drawing_that_cannot_be_is_refused(kind):
     ],
 )
 def test_a_load_is_given_once_and_a_power_at_a_speed(sections, message):
-    """Authority: as above."""
+    """As above."""
     with pytest.raises(SceneError) as caught:
         scene_of(**sections)
     assert message in str(caught.value)
@@ -211,9 +210,8 @@ def remarks(*changes) -> list[str]:
 
 
 def test_a_centre_distance_that_is_off_is_remarked():
-    """ISO/TR 10064-2, annex A: at 76 mm and 3 mm a backlash of 0.125 mm is the least that is recommended; half a
-    millimetre less of centre distance takes about 2 tan(alpha_wt) times as much along the pitch circles, 0.4 mm, and
-    0.7 mm more than 0.2 modules of the tips."""
+    """ISO/TR 10064-2, annex A: at least 0.125 mm at 76 mm and 3 mm; half a millimetre takes 2 tan(alpha_wt) times as
+    much, and the tips' clearance."""
     fitting = scene_of({"backlash": "0.12 mm"}).gears.centre_distance
 
     def nearer(by: float) -> list[str]:
@@ -235,8 +233,7 @@ def test_a_centre_distance_that_is_off_is_remarked():
 
 
 def test_measures_that_stand_for_unusual_shifts_are_remarked():
-    """DIN 3960, a thickness of pi m/2 + 2 x m tan(alpha): 8.2 mm at 3 mm are x = 1.6; beside x = 0.3, 6 mm are 0.632 mm
-    more than its 5.368 mm."""
+    """DIN 3960, pi m/2 + 2 x m tan(alpha): 8.2 mm at 3 mm are x = 1.6; beside x = 0.3, 6 mm are 0.632 mm too much."""
     assert remarks(None, {"profile_shift": None, "tooth_thickness": "5.1 mm"}) == []
     (alone,) = remarks({"centre_distance": "80 mm"}, {"profile_shift": None, "tooth_thickness": "7.4 mm"})[:1]
     assert "1.23 modules; usual are -0.5 to 1" in alone
@@ -245,7 +242,6 @@ def test_measures_that_stand_for_unusual_shifts_are_remarked():
 
 
 def test_a_centre_distance_that_leaves_no_teeth_is_named():
-    """ISO 21771: gears without profile shift have a distance of 3 (19 + 31)/(2 cos 44 deg) = 104.262 mm; no change of
-    the tip diameter, which the program derived, would help."""
+    """ISO 21771: 3 (19 + 31)/(2 cos 44 deg) = 104.262 mm; no tip diameter would help."""
     with pytest.raises(GeometryError, match=r"pair: centre distance 76 mm, .* have 104.262 mm: .* gears.centre_dist"):
         scene_of({"helix_angle": "44 deg", "pinion_hand": "right", "centre_distance": "76 mm"})

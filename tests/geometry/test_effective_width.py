@@ -1,5 +1,4 @@
-"""The width of a gear that counts where its mate is narrower: limits, symmetry and scale; its figures against three
-dimensions are in docs/evidence/third_dimension.md."""
+"""The width of a gear that counts where its mate is narrower."""
 
 from dataclasses import replace
 from math import exp
@@ -17,8 +16,7 @@ def counts(pair, widths, offsets=(0.0, 0.0), common=15.0):
 
 
 def test_limits(paper_pair):
-    """Exact: nothing beyond the common width, nothing to count; a sliver beyond it counts whole; of a face without end
-    as much as the reach at either end."""
+    """Exact: a sliver counts whole, a face without end as much as the reach at either end."""
     assert counts(paper_pair, (15.0, 15.0)) == counts(paper_pair, None) == (15.0, 15.0)
     assert counts(paper_pair, (15.0002, 15.0))[0] - 15.0 == pytest.approx(0.0002, rel=1e-4)
     endless = [0.5 * (width - 15.0) / paper_pair.pinion.module for width in counts(paper_pair, (1e5, 1e5))]
@@ -27,8 +25,7 @@ def test_limits(paper_pair):
 
 
 def test_either_end_by_itself(paper_pair):
-    """Exact: the same overhang at one end counts half of that at both, the mirrored place alike, and of gears side by
-    side in part each has one."""
+    """Exact: one end counts half of both, mirrored alike; side by side each gear has one."""
     both = counts(paper_pair, (25.0, 15.0))[0] - 15.0
     assert counts(paper_pair, (20.0, 15.0), (2.5, 0.0))[0] - 15.0 == pytest.approx(0.5 * both, rel=1e-12)
     assert counts(paper_pair, (20.0, 15.0), (-2.5, 0.0)) == pytest.approx(
@@ -38,8 +35,7 @@ def test_either_end_by_itself(paper_pair):
 
 
 def test_the_tables_pairs_are_within_two_per_cent_of_three_dimensions():
-    """The program's own three-dimensional way, for 1.25 to 2.5 times the width; pairs that the law was not fitted to
-    (`tests.benchmarks.third_dimension.face_widths`)."""
+    """Three dimensions, for pairs that the law was not fitted to (`tests.benchmarks.third_dimension.face_widths`)."""
     found = {(row["wheel_teeth"], row["wheel_bore"], row["common"]) for row, _ in quotients(read_rows(NAME))}
     assert len(found) == 5
     for row, equal in quotients(read_rows(NAME)):
@@ -47,8 +43,7 @@ def test_the_tables_pairs_are_within_two_per_cent_of_three_dimensions():
 
 
 def test_a_web_keeps_its_width(paper_scene):
-    """Identity: a web of 9 mm stays 9 mm stiff whatever part of the face counts, and its mass is that of the whole
-    face."""
+    """Identity: a web of 9 mm stays 9 mm stiff, and its mass is that of the whole face."""
     wheel = replace(paper_scene.gears.wheel, face_width=30.0, web=Web(25.0, 45.0, 9.0 / 30.0))
     pair = gear_pair(replace(paper_scene.gears, pinion=replace(paper_scene.gears.pinion, face_width=15.0), wheel=wheel))
     assert pair.wheel.web.stiff_share * pair.effective_face_widths[1] == pytest.approx(9.0, rel=1e-12)

@@ -1,4 +1,4 @@
-"""What lead modifications and misalignment open along the face, and where the face is."""
+"""What lead modifications and misalignment open along the face."""
 
 from math import cos, radians, sin
 
@@ -14,7 +14,6 @@ from fenics_gears.scene.data import GearData, GearPairData
 
 
 def data_of(helix_angle=15.0, hand="right", widths=(30.0, 30.0), offsets=(0.0, 0.0)):
-    """A pair of module 3 mm, 20 and 33 teeth, helix angle in degrees."""
     stretch, common = 1.0 / cos(radians(helix_angle)), min(*widths, 0.5 * sum(widths) - abs(offsets[0] - offsets[1]))
     gears = [
         GearData(z, 0.0, 3.0 * (z * stretch + 2.0), 3.0 * (z * stretch - 2.5), 20.0, 0.38, b)
@@ -26,12 +25,8 @@ def data_of(helix_angle=15.0, hand="right", widths=(30.0, 30.0), offsets=(0.0, 0
 
 
 def contact_gap(pair, misalignment, position, z):
-    """Gap (mm) along the contact normal at a contact point of two helicoids, the wheel's axis tilted about the pitch
-    point, by solving for the point of the wheel's flank.
-
-    Written from the definition: the flank's section is the involute of a string unwound from the wheel's base circle,
-    shorter by tau z at z.
-    """
+    """Gap (mm) along the contact normal of two helicoids, the wheel's axis tilted about the pitch point: involutes
+    of a string shorter by tau z at z."""
     tau, rb1, rb2, span = pair.slope, pair.pinion.base_radius, pair.wheel.base_radius, pair.line_of_action_length
     centre, pivot = np.array([span, -rb1 - rb2, 0.0]), np.array([pair.pitch_point, -rb1, 0.0])
     tilt = Rotation.from_rotvec(
@@ -60,8 +55,7 @@ def contact_gap(pair, misalignment, position, z):
     "misalignment", [Misalignment(in_plane=0.01), Misalignment(out_of_plane=0.01), Misalignment(-0.006, 0.009)]
 )
 def test_misalignment_opens_what_tilted_helicoids_do(helix_angle, hand, misalignment):
-    """Brute force on the helicoids themselves; first order in angles of 3e-4, of which the square times the module is
-    left."""
+    """Brute force on the helicoids; first order in angles of 3e-4."""
     pair = gear_pair(data_of(helix_angle, hand))
     for position in (pair.path_start, pair.pitch_point, pair.path_end):
         for z in (-15.0, -4.0, 15.0):
@@ -89,7 +83,7 @@ AMOUNTS = {
 
 @pytest.mark.parametrize("name", AMOUNTS)
 def test_lead_modifications_remove_what_is_drawn(name):
-    """ISO 21771: values of straight lines and parabolas by hand, alike on either gear and for either hand."""
+    """ISO 21771: lines and parabolas by hand, for either gear and hand."""
     own, expected = AMOUNTS[name]
     z = np.array([-15.0, -7.5, 0.0, 7.5, 15.0])
     for hand in ("right", "left"):
@@ -101,7 +95,7 @@ def test_lead_modifications_remove_what_is_drawn(name):
 
 
 def test_each_gear_s_modification_is_about_its_own_mid_width():
-    """Identity; crownings of a wide and of an offset gear have their middles where those gears have them."""
+    """Identity."""
     pair = gear_pair(data_of(widths=(30.0, 40.0), offsets=(2.0, -4.0)))
     crowned = LeadModification(crowning=0.01)
     middle = pair.gear_middles
@@ -117,7 +111,7 @@ def test_each_gear_s_modification_is_about_its_own_mid_width():
     ((30.0, 20.0), (0.0, 11.0), 14.0, (-8.0, 3.0)),
 ])  # fmt: skip
 def test_the_common_face_is_where_both_gears_are(widths, offsets, width, middles):
-    """Authority: intervals by hand."""
+    """By hand."""
     pair = gear_pair(data_of(widths=widths, offsets=offsets))
     assert pair.face_width == width and pair.common_face == (-0.5 * width, 0.5 * width)
     assert pair.gear_middles == pytest.approx(middles, abs=1e-14)

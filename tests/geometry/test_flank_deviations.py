@@ -1,4 +1,4 @@
-"""Flank tolerances, and deviations of teeth as given and as drawn."""
+"""Flank tolerances, and deviations of teeth."""
 
 import numpy as np
 import pytest
@@ -11,8 +11,7 @@ EVERY_CLASS = range(1, 12)
 
 
 def test_tolerances_are_those_of_the_standard():
-    """Literature: ISO 1328-1:2013, module 3 mm, 40 teeth, class 6: single pitch 8.94 um, total cumulative pitch 28.80
-    um before rounding, total profile 12 um when rounded to a whole one."""
+    """ISO 1328-1:2013, module 3 mm, 40 teeth, class 6: 8.94 um, 28.80 um before rounding, 12 um rounded."""
     found = flank_tolerance(120.0, 3.0, 6)
     assert found.single_pitch == pytest.approx(8.94e-3, abs=5e-6)
     assert found.cumulative_pitch == pytest.approx(28.80e-3, abs=5e-6)
@@ -20,8 +19,7 @@ def test_tolerances_are_those_of_the_standard():
 
 
 def test_helix_tolerances_are_those_of_the_standard():
-    """Literature: ISO 1328-1:2013, formulas (10) to (12), as two published programs have them, at round values: d = 400
-    mm, b = 100 mm, class 5 and 7."""
+    """ISO 1328-1:2013, formulas (10) to (12), as two published programs have them: d = 400 mm, b = 100 mm."""
     found = helix_tolerance(400.0, 100.0, 5)
     assert (found.slope, found.form) == pytest.approx((8.5e-3, 9.9e-3), rel=1e-12)
     assert found.total == pytest.approx(np.hypot(8.5e-3, 9.9e-3), rel=1e-12)
@@ -29,8 +27,7 @@ def test_helix_tolerances_are_those_of_the_standard():
 
 
 def test_helix_deviations_are_drawn_over_a_face_only(paper_pair):
-    """Definition: within their tolerances, by numbers of their own, so that the others are those of the plane; none in
-    the plane."""
+    """Definition: within tolerance, by numbers of their own; none in the plane."""
     errors = FlankErrors(tolerance_class=6, seed=4, wheel=GearErrors(helix_slope=(0.001,) * 24))
     plane, face = flank_deviations(errors, paper_pair), flank_deviations(errors, paper_pair, (1.0, -1.0))
     limits = helix_tolerance(2.0 * paper_pair.pinion.reference_radius, paper_pair.face_width, 6)
@@ -48,8 +45,7 @@ def test_helix_deviations_are_drawn_over_a_face_only(paper_pair):
 
 @pytest.mark.parametrize("tolerance_class", EVERY_CLASS)
 def test_drawn_deviations_are_just_within_their_class(paper_pair, tolerance_class):
-    """Definition: no deviation exceeds its tolerance; the single or the cumulative pitch deviation reaches it on either
-    gear."""
+    """Definition: none exceeds its tolerance; the single or the cumulative pitch deviation reaches it."""
     for seed in range(20):
         drawn = flank_deviations(FlankErrors(tolerance_class=tolerance_class, seed=seed), paper_pair)
         for found, gear in zip(drawn, (paper_pair.pinion, paper_pair.wheel)):
@@ -64,8 +60,7 @@ def test_drawn_deviations_are_just_within_their_class(paper_pair, tolerance_clas
 
 
 def test_pitches_close_over_a_turn(paper_pair):
-    """Identity: the pitch from the last tooth to the first completes the circle; the cumulative deviation begins at
-    zero there."""
+    """Identity."""
     for found in flank_deviations(FlankErrors(tolerance_class=8, seed=5), paper_pair):
         assert abs(found.single_pitch.sum()) <= 1e-15
         assert found.index[-1] == 0.0
@@ -73,7 +68,7 @@ def test_pitches_close_over_a_turn(paper_pair):
 
 
 def test_given_pitches_are_kept_and_what_rounding_leaves_of_their_sum_is_shared_out(paper_pair):
-    """Definition: a sheet rounded to 0.1 um sums to a few tenths; every pitch gives up its share."""
+    """Definition: every pitch gives up its share."""
     given = np.round(1e-3 * np.sin(np.arange(16)), 4)
     assert abs(given.sum()) > 1e-4
     pinion, wheel = flank_deviations(FlankErrors(pinion=GearErrors(pitch=tuple(given))), paper_pair)

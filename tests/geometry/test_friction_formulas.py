@@ -17,13 +17,12 @@ def fzg_c():
 
 
 def test_schlenk_is_another_program_s(fzg_c):
-    """GEARpie's report of C14, 200 N m at 1500 1/min, M32 at 60 degC (13.28 mPa s, X_L 0.85), Ra 0.4 and 0.31 um:
-    0.0449, with X_L in it."""
+    """GEARpie's report of C14, 200 N m at 1500 1/min, M32 at 60 degC, Ra 0.4 and 0.31 um: 0.0449."""
     assert 0.85 * schlenk(fzg_c, 5912.1, 1500.0, 13.28, 0.355) == pytest.approx(0.0449, rel=6e-3)
 
 
 def test_below_150_newtons_a_millimetre_it_does_not_rise(fzg_c):
-    """ISO/TR 14179-2: the line load counts from 150 N/mm."""
+    """ISO/TR 14179-2."""
     assert (
         schlenk(fzg_c, 100.0, 1500.0, 13.0, 0.4)
         == schlenk(fzg_c, 140.0 * 14.0, 1500.0, 13.0, 0.4)
@@ -32,16 +31,15 @@ def test_below_150_newtons_a_millimetre_it_does_not_rise(fzg_c):
 
 
 def test_above_50_metres_a_second_it_does_not_fall(fzg_c):
-    """ISO/TR 14179-2: the pitch line speed counts up to 50 m/s."""
+    """ISO/TR 14179-2."""
     a_metre_a_second = 60e3 / (2.0 * pi * fzg_c.pinion.base_radius / cos(fzg_c.operating_pressure_angle))
     by_speed = [schlenk(fzg_c, 5912.1, speed * a_metre_a_second, 13.0, 0.4) for speed in (49.0, 50.0, 80.0)]
     assert by_speed[0] > by_speed[1] == pytest.approx(by_speed[2], rel=1e-12)
 
 
 def test_benedict_and_kelley_is_the_published_formula(fzg_c):
-    """The formula in its own units, 0.0127 (50/(50 - S)) log10(3.17e8 X/(eta V_s V_r^2)) with lb/in, cP, in/s and
-    microinches, in the middle of recess; the mean over the path lies between its values at the ends and close to the
-    pitch point."""
+    """0.0127 (50/(50 - S)) log10(3.17e8 X/(eta V_s V_r^2)) with lb/in, cP, in/s and microinches; the mean lies
+    between its values on the path."""
     inch, pound = 25.4, 4.4482216152605
     force, speed, viscosity, rough = 5912.1, 1500.0, 13.28, 0.4
 

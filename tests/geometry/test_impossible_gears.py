@@ -1,4 +1,4 @@
-"""Gears and pairs that cannot be: each is named, with its number, its gear and the field to change."""
+"""Gears and pairs that cannot be."""
 
 from dataclasses import replace
 from math import nan
@@ -10,7 +10,6 @@ from fenics_gears.geometry.pair_checks import design_warnings
 
 
 def few_teeth(teeth, profile_shift):
-    """Changes to the paper's pair: a standard pinion with few teeth, and the centre distance it asks for."""
     pitch = 4.5 * (teeth + 2.0 * profile_shift)
     circles = {"pinion.root_diameter": pitch - 11.25, "pinion.tip_diameter": pitch + 9.0, "pinion.bore_diameter": 3.0}
     return {
@@ -76,7 +75,7 @@ def changed(data, changes):
 
 @pytest.mark.parametrize("name", IMPOSSIBLE)
 def test_impossible_gears_are_named_as_what_they_are(paper_data, name):
-    """Issue 2, point 3, and the house rule on errors: what, which gear, the value, the limit, the field."""
+    """House rule: what, which gear, the value, the limit, the field."""
     changes, said = IMPOSSIBLE[name]
     with pytest.raises(GeometryError) as refused:
         gear_pair(changed(paper_data, changes))
@@ -86,7 +85,7 @@ def test_impossible_gears_are_named_as_what_they_are(paper_data, name):
 
 
 def test_interference_on_the_wheel_is_that_of_swapped_gears(paper_data):
-    """Symmetry: gears swapped, the same interference is found on the other gear, with the same numbers."""
+    """Symmetry."""
     shallow = replace(paper_data.pinion, root_diameter=64.2, rack_tip_radius=0.45)
     with pytest.raises(GeometryError) as refused:
         gear_pair(replace(paper_data, pinion=paper_data.wheel, wheel=shallow))
@@ -99,8 +98,7 @@ def test_interference_on_the_wheel_is_that_of_swapped_gears(paper_data):
 
 
 def test_the_remedies_given_are_the_limits(paper_data):
-    """What the messages promise: just beyond the named limit the pair is accepted, just short of it refused; of
-    backlash, by more than printed digits leave."""
+    """Just beyond the named limit the pair is accepted, just short of it refused."""
     with pytest.raises(GeometryError, match="no backlash"):
         gear_pair(replace(paper_data, centre_distance=91.3685))
     assert gear_pair(replace(paper_data, centre_distance=91.36970)).backlash < 1e-5
@@ -114,7 +112,7 @@ def test_the_remedies_given_are_the_limits(paper_data):
 
 
 def test_thin_tips_are_remarked_upon_not_refused(paper_data):
-    """Design practice (e.g. DIN 3960 / ISO 21771 recommend at least 0.2 modules); the paper's pair has 0.6."""
+    """DIN 3960 / ISO 21771: at least 0.2 modules; the paper's pair has 0.6."""
     assert design_warnings(gear_pair(paper_data)) == []
     thin = gear_pair(
         changed(paper_data, {"pinion.tip_diameter": 86.0, "wheel.root_diameter": 96.0, "wheel.rack_tip_radius": 0.2})

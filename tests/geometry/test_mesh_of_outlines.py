@@ -1,4 +1,4 @@
-"""Two whole tooth outlines in mesh: where they touch and how far they are apart elsewhere."""
+"""Two whole tooth outlines in mesh."""
 
 from dataclasses import replace
 
@@ -11,7 +11,6 @@ from fenics_gears.geometry.pair_checks import fillet_clearance
 
 
 def tooth_points(gear):
-    """Points (n, 2) of the fillet and involute of the drive side, densely."""
     outline = tooth_outline(gear)
     fillet = fillet_point(gear, np.linspace(0.0, gear.fillet_end, 3001))
     flank = outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, 3001)[1:])
@@ -19,7 +18,7 @@ def tooth_points(gear):
 
 
 def half_angle(gear, radius):
-    """Half of the tooth's angle (rad) at radii between root and tip circle."""
+    """Of the tooth (rad) at radii between root and tip."""
     outline = tooth_outline(gear)
     fillet = fillet_point(gear, np.linspace(0.0, gear.fillet_end, 3001))
     fillet_angle = np.arctan2(fillet[:, 1], fillet[:, 0]) - outline.centreline_angle
@@ -34,7 +33,7 @@ def turned(vectors, angle):
 
 
 def gaps(pair, position):
-    """Least angular gaps (rad) of the wheel's points from the pinion's drive flanks and from its coast flanks."""
+    """Least angular gaps (rad) of the wheel's points from drive and coast flanks of the pinion."""
     pinion, wheel = pair.pinion, pair.wheel
     drive = tooth_points(wheel)
     centre = [pair.line_of_action_length, -(pinion.base_radius + wheel.base_radius)]
@@ -55,9 +54,7 @@ def gaps(pair, position):
 
 @pytest.mark.parametrize("phase", [0.0, 0.2, 0.47, 0.6, 0.9])
 def test_drive_flanks_touch_and_coast_flanks_are_apart_by_the_backlash(paper_pair, phase):
-    """Brute force over the outlines in space at any phase: drive flanks touch nowhere but exactly, coast flanks are the
-    backlash away (an angle times the base radius, since both normals touch the base circle). The sampling error is of
-    second order in a point distance of 3 um: below 1e-6 mm."""
+    """Brute force over the outlines in space; sampling errs by less than 1e-6 mm."""
     pair = paper_pair
     drive, coast = gaps(pair, pair.path_start + phase * pair.base_pitch)
     assert drive * pair.pinion.base_radius == pytest.approx(0.0, abs=1e-6)
@@ -65,8 +62,7 @@ def test_drive_flanks_touch_and_coast_flanks_are_apart_by_the_backlash(paper_pai
 
 
 def test_tip_corner_that_cuts_into_a_fillet_off_the_line_of_action(paper_pair):
-    """Brute force over the outlines: contact on the line of action and tip clearance are in order, yet a shallow pinion
-    root with a large fillet is hit; the paper's own is free."""
+    """Brute force: clearance is in order, yet a shallow root with a large fillet is hit; the paper's is free."""
     pinion = replace(paper_pair.pinion, root_radius=31.8, rack_tip_radius=0.45 * 4.5)
     shallow = replace(paper_pair, pinion=pinion)
     assert shallow.tip_clearances[1] > 0.0 and shallow.sap_roll_angles[0] > pinion.form_roll_angle

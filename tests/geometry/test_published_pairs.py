@@ -24,11 +24,7 @@ PAPER = {
 
 @pytest.mark.parametrize("label", PAPER)
 def test_the_paper_s_numbers_come_out_of_its_gear_data(paper_pair, label):
-    """Lundvall, Stromberg & Klarbring 2004 (Table 2 in, the printed digits out).
-
-    Some of its digits are rounded, others cut off (29.615 is printed as 29.61, 20.955 as 20.95), hence one unit of the
-    last digit.
-    """
+    """Table 2 in, the printed digits out, some of them cut off, hence one unit of the last."""
     rows = {name: (value, unit) for name, value, unit in characteristics(paper_pair)}
     printed, unit = PAPER[label]
     assert rows[label][1] == unit
@@ -50,53 +46,38 @@ CITED = {
 
 
 def cited(name):
-    """The gears of a scene that is entered from what its source prints."""
     return load_scene(SCENES / f"{name}.toml").gears
 
 
 @pytest.mark.parametrize("scene", CITED)
 def test_scenes_of_cited_helical_pairs(scene):
-    """Other programs: GEARpie (REPORT/H501.txt), a notebook of Drivetrain Hub (geometry, chapter 3), KISSsoft by a
-    public program; all as the scenes say, to the digits printed. Left out is the notebook's backlash: it is the radial
-    play times 2 sin(alpha_w), the first term of what the involutes have, 5 % more."""
+    """GEARpie (REPORT/H501.txt), Drivetrain Hub (geometry, chapter 3), KISSsoft, to the digits printed, but for the
+    notebook's backlash, a first term."""
     rows = {label: value for label, value, _ in characteristics(gear_pair(cited(scene)))}
     for label, printed in CITED[scene].items():
         digits = len(str(printed).split(".")[1])
         assert rows[label] == pytest.approx(printed, abs=(0.51 if digits < 5 else 5.0) * 10.0**-digits), label
 
 
-@pytest.fixture
-def standard_s_example():
-    """ISO/TR 6336-30:2017, example 1: m_n 8, z 17/103, beta 15.8 deg, addendum 1, dedendum 1.4, tip radius 0.39."""
-    return cited("iso_tr_6336_30")
-
-
-def test_helical_pair_of_the_standard_s_example(standard_s_example):
-    """Numbers of KISSsoft for ISO/TR 6336-30:2017, example 1, as a public implementation of ISO 6336 prints them beside
-    its own (class ISO_6336, method example_01): virtual teeth z/(cos(beta_b)^2 cos(beta)) 18.905 and 114.543, zone
-    factor Z_H 2.39533. Its mesh stiffness, c_gamma_alpha 17.46485 = c' (0.75 eps_alpha + 0.25) with c' 12.37047, is
-    that of a contact ratio of 1.5491."""
-    pair = gear_pair(standard_s_example)
+def test_helical_pair_of_the_standard_s_example():
+    """KISSsoft's numbers for ISO/TR 6336-30:2017, example 1, as a public program prints them (class ISO_6336, method
+    example_01); c_gamma_alpha 17.46485 is that of a contact ratio of 1.5491."""
+    gears = cited("iso_tr_6336_30")
+    pair = gear_pair(gears)
     base = atan(pair.slope)
     virtual = [gear.teeth / (cos(base) ** 2 * cos(gear.helix_angle)) for gear in (pair.pinion, pair.wheel)]
     assert virtual == pytest.approx([18.905, 114.543], abs=5e-4)
     operating, transverse = pair.operating_pressure_angle, pair.pinion.pressure_angle
     assert sqrt(2.0 * cos(base) / (cos(transverse) ** 2 * tan(operating))) == pytest.approx(2.39533, abs=5e-6)
     assert pair.contact_ratio == pytest.approx((17.46485 / 12.37047 - 0.25) / 0.75, rel=2e-4)
-
-
-def test_tooth_stiffness_of_the_standard_s_example(standard_s_example):
-    """As above: c'_th 17.85584 and c' 12.37047 N/(mm um) to all their digits, c_gamma_alpha 17.46485 by the contact
-    ratio above."""
-    theoretical, single = single_stiffness(standard_s_example)
+    theoretical, single = single_stiffness(gears)
     assert (theoretical, single) == pytest.approx((17.85584, 12.37047), abs=5e-6)
-    assert single * mesh_factor(gear_pair(standard_s_example).contact_ratio) == pytest.approx(17.46485, rel=2e-4)
+    assert single * mesh_factor(pair.contact_ratio) == pytest.approx(17.46485, rel=2e-4)
 
 
 @pytest.mark.parametrize("helix_angle", [0.0, 12.0, 33.0])
 def test_centre_distance_without_backlash_is_the_standard_s(cut_gear, helix_angle):
-    """ISO 21771, inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2), a = a_0 cos(alpha_t)/cos(alpha_wt),
-    to round-off."""
+    """ISO 21771: inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2), to round-off."""
     teeth, shifts = (17, 41), (0.4, -0.1)
     gears = [cut_gear(z, x, module=2.5, helix_angle=helix_angle) for z, x in zip(teeth, shifts)]
     transverse = gears[0].pressure_angle
@@ -110,8 +91,8 @@ def test_centre_distance_without_backlash_is_the_standard_s(cut_gear, helix_angl
 
 
 def test_diameters_of_the_active_profile(paper_pair):
-    """ISO 21771, 5.4.1: d_Nf1 = sqrt((2 a sin(alpha_wt) - sqrt(d_Na2^2 - d_b2^2))^2 + d_b1^2), with d_Na = d_a where
-    nothing is cut away; and the other way round."""
+    """ISO 21771, 5.4.1: d_Nf1 = sqrt((2 a sin(alpha_wt) - sqrt(d_Na2^2 - d_b2^2))^2 + d_b1^2), d_Na = d_a where
+    nothing is cut away."""
     rows = {name: value for name, value, _ in characteristics(paper_pair)}
     for (name, gear), (other, mate) in permutations((("pinion", paper_pair.pinion), ("wheel", paper_pair.wheel))):
         starts, ends = (rows[f"{name} diameter, {each}"] for each in PROFILE_ENDS)

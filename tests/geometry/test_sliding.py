@@ -13,8 +13,7 @@ from fenics_gears.geometry.sliding import (
 
 
 def test_specific_sliding_is_the_difference_of_the_arcs_that_roll_and_slide(paper_pair):
-    """The arcs s = rb v^2/2 of the involutes; while the pinion turns a little, contact passes ds1 of its flank and ds2
-    of the wheel's, and slides over ds1 - ds2 (central differences)."""
+    """Arcs s = rb v^2/2: contact passes ds1 and ds2, and slides over ds1 - ds2 (central differences)."""
     positions = np.linspace(paper_pair.path_start, paper_pair.path_end, 9)
     advance = 1e-4
 
@@ -36,7 +35,7 @@ def test_specific_sliding_is_the_difference_of_the_arcs_that_roll_and_slide(pape
 
 
 def test_sliding_speed_is_the_distance_from_the_pitch_point_times_both_speeds(paper_pair):
-    """ISO 21771, v_g = g (omega1 + omega2), zero at the pitch point, g from it along the line of action."""
+    """ISO 21771: v_g = g (omega1 + omega2)."""
     positions = contact_points(paper_pair)
     first = 2.0 * np.pi * 200.0 / paper_pair.pinion.teeth
     distance = positions - paper_pair.pitch_point

@@ -1,10 +1,13 @@
-"""Gears with a chamfer between flank and tip circle, and what the mesh makes of it and of flanks that are cut away."""
+"""Gears with a chamfer or a rounded edge between flank and tip circle."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from tests.geometry.test_impossible_gears import changed
+from tests.random_pairs import valid_pairs
 
 from fenics_gears import GeometryError, gear_pair
 from fenics_gears.geometry.involute import canonical_normal, canonical_point
@@ -17,13 +20,11 @@ CHAMFER = 0.4
 
 @pytest.fixture
 def chamfered(paper_data):
-    """The paper's pair with both tips chamfered."""
     return gear_pair(changed(paper_data, {"pinion.tip_chamfer": CHAMFER, "wheel.tip_chamfer": CHAMFER}))
 
 
 def test_contact_ends_at_the_tip_form_circle(paper_data, chamfered):
-    """ISO 21771: d_Fa = d_a - 2 h_K ends the usable flank, so that the path of contact is that of tips turned down to
-    it; tip clearances are those of the tips."""
+    """ISO 21771: d_Fa = d_a - 2 h_K ends the usable flank; tip clearances are those of the tips."""
     turned_down = gear_pair(
         changed(paper_data, {"pinion.tip_diameter": 82.64 - 2 * CHAMFER, "wheel.tip_diameter": 118.64 - 2 * CHAMFER})
     )
@@ -33,7 +34,7 @@ def test_contact_ends_at_the_tip_form_circle(paper_data, chamfered):
 
 
 def test_the_chamfer_is_as_long_on_the_tip_circle_as_on_the_flank(chamfered):
-    """Definition; lengths of the sharp tip's two sides by fine polygons."""
+    """Definition, by fine polygons."""
     for gear in (chamfered.pinion, chamfered.wheel):
         sharp = replace(gear, tip_chamfer=0.0)
         flank = canonical_point(gear.base_radius, np.linspace(gear.tip_roll_angle, sharp.tip_roll_angle, 2001))
@@ -46,7 +47,7 @@ def test_the_chamfer_is_as_long_on_the_tip_circle_as_on_the_flank(chamfered):
 
 @pytest.mark.parametrize("radius", [0.0, 0.05, 0.3])
 def test_the_edge_of_corner_contact_is_between_flank_and_chamfer(radius, chamfered):
-    """Definition: the arc is tangent to the involute and to the chamfer."""
+    """Definition: tangent to both."""
     gear = chamfered.pinion
     edge, foot, end = tip_edge(gear, radius), canonical_point(gear.base_radius, gear.tip_roll_angle), tip_corner(gear)
     first, last = edge.points(np.array([0.0, 1.0]))
@@ -65,7 +66,7 @@ def test_the_edge_of_corner_contact_is_between_flank_and_chamfer(radius, chamfer
     ],
 )
 def test_a_chamfer_that_does_not_fit_is_refused(paper_data, changes, said):
-    """House rule on errors: which gear, the value, the limit, the field."""
+    """House rule: which gear, the value, the limit, the field."""
     with pytest.raises(GeometryError) as refused:
         gear_pair(changed(paper_data, changes))
     for part in said:
@@ -73,7 +74,7 @@ def test_a_chamfer_that_does_not_fit_is_refused(paper_data, changes, said):
 
 
 def test_a_chamfer_takes_the_tip_corner_out_of_a_fillet(paper_data, chamfered):
-    """Limit and order: a vanishing chamfer leaves the clearance of the sharp corner; a chamfer opens it."""
+    """Limit and order."""
     pair = gear_pair(paper_data)
     hair = replace(pair.wheel, tip_chamfer=1e-9)
     sharp, almost, open_ = (
@@ -81,3 +82,32 @@ def test_a_chamfer_takes_the_tip_corner_out_of_a_fillet(paper_data, chamfered):
     )
     assert almost == pytest.approx(sharp, abs=1e-7)
     assert open_ > sharp + 0.1 * CHAMFER
+
+
+@given(valid_pairs(), st.floats(0.001, 0.04))
+def test_the_arc_is_tangent_to_flank_and_tip_circle(pair, share):
+    """Definition: points and normals of involute and tip circle, inside that circle."""
+    for gear in (pair.pinion, pair.wheel):
+        edge = tip_edge(gear, share * min(gear.tip_thickness, gear.module))
+        start, end = edge.points(np.array([0.0, 1.0]))
+        assert start == pytest.approx(canonical_point(gear.base_radius, edge.flank_roll), abs=1e-9 * gear.module)
+        assert edge.flank_normal == pytest.approx(canonical_normal(edge.flank_roll), abs=1e-12)
+        assert np.linalg.norm(end) == pytest.approx(gear.tip_radius, rel=1e-12)
+        assert edge.tip_normal == pytest.approx(end / gear.tip_radius, abs=1e-9)
+        assert np.linalg.norm(edge.points(np.linspace(0.0, 1.0, 50)), axis=-1).max() <= gear.tip_radius * (1.0 + 1e-12)
+
+
+def test_without_radius_the_edge_is_where_flank_and_tip_circle_meet(paper_pair):
+    """Limit."""
+    gear = paper_pair.pinion
+    sharp, rounded = tip_edge(gear, 0.0), tip_edge(gear, 1e-6)
+    assert sharp.flank_roll == gear.tip_roll_angle
+    assert sharp.centre == pytest.approx(canonical_point(gear.base_radius, gear.tip_roll_angle), rel=1e-14)
+    assert rounded.centre == pytest.approx(sharp.centre, abs=3e-6)
+
+
+@pytest.mark.parametrize("radius", [-0.1, 1.5, np.nan])
+def test_a_radius_that_does_not_fit_is_refused(radius, paper_pair):
+    """Half the tooth's thickness at the tip at most, 1.33 mm."""
+    with pytest.raises(GeometryError, match="corner_contact.edge_radius"):
+        tip_edge(paper_pair.pinion, radius)

@@ -1,4 +1,4 @@
-"""Measures of the tooth thickness against printed examples, brute force and their own inverses."""
+"""Measures of the tooth thickness."""
 
 from math import cos, pi, radians, sin, tan
 
@@ -34,30 +34,26 @@ def gear(module, teeth, shift, helix_angle=0.0, pressure_angle=20.0):
     [(gear(3, 24, 0.4), 4, 32.8266), (gear(3, 24, 0.4, 25.0), 5, 42.0085), (gear(2, 20, 0.0), 3, 15.3209)],
 )
 def test_base_tangent_length_of_printed_examples(of, teeth, printed):
-    """KHK Gear Technical Reference, span measurement of profile shifted spur gears and of helical gears in the normal
-    system, with the spanned teeth that it chooses; m 2, z 20: machinecalcs.com, Span Measurement Over Teeth (15.321
-    mm), to the printed digits."""
+    """KHK Gear Technical Reference; m 2, z 20: machinecalcs.com (15.321 mm), to the printed digits."""
     assert spanned_teeth(of) == teeth
     assert base_tangent_length(of, teeth) == pytest.approx(printed, abs=6e-5)
 
 
 def test_a_caliper_touches_where_the_example_says():
-    """machinecalcs.com, contact diameter 40.59 mm of the same example."""
+    """machinecalcs.com, contact diameter 40.59 mm."""
     assert 2.0 * tangent_contact_radius(gear(2, 20, 0.0), 15.3209) == pytest.approx(40.59, abs=5e-3)
 
 
 @pytest.mark.parametrize(("of", "printed"), [(gear(10, 12, 0.3), 17.8918), (gear(5, 16, 0.2, 25.0), 8.5819)])
 def test_normal_thickness_of_printed_examples(of, printed):
-    """SDP/SI, Elements of Metric Gear Technology, section 10.1, tooth thickness of spur gears and of helical gears in
-    the normal system."""
+    """SDP/SI, Elements of Metric Gear Technology, section 10.1."""
     assert normal_thickness(of) == pytest.approx(printed, abs=6e-5)
 
 
 @pytest.mark.parametrize("helix_angle", [0.0, 24.0])
 @pytest.mark.parametrize("shift", [-0.2, 0.5])
 def test_a_ball_touches_the_flanks(helix_angle, shift):
-    """Brute force, the least distance from the ball's centre, in the middle of a tooth space, to the flank as a surface
-    in space is the ball's radius, and it is reached at the radius of contact."""
+    """Brute force: the least distance from the ball's centre to the flank's surface, at the radius of contact."""
     of, diameter = gear(2.5, 23, shift, helix_angle), 4.5
     centre, lead = ball_centre(of, diameter), tan(of.helix_angle) / of.reference_radius
     # Half angle of the space at the base circle, from the middle of the space to the start of the involute.
@@ -81,7 +77,7 @@ def test_a_ball_touches_the_flanks(helix_angle, shift):
 
 @pytest.mark.parametrize("teeth", [22, 23])
 def test_two_balls_are_as_far_apart_as_their_spaces(teeth):
-    """Brute force, the largest distance of two balls' centres in the tooth spaces of the gear, plus a ball."""
+    """Brute force: the largest distance of two balls' centres, plus a ball."""
     of = gear(2.0, teeth, 0.3)
     angles = 2.0 * pi * np.arange(teeth) / teeth
     centres = ball_centre(of, 3.5) * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
@@ -94,8 +90,7 @@ def test_two_balls_are_as_far_apart_as_their_spaces(teeth):
 @pytest.mark.parametrize("teeth", [17, 40])
 @pytest.mark.parametrize("shift", [-0.3, 0.0, 0.6])
 def test_each_measure_gives_back_the_profile_shift(teeth, helix_angle, shift):
-    """Identity; and what the program chooses to measure with touches the flanks near the shifted reference circle:
-    balls within a tenth of a module, a caliper within the half module that the next whole span may be away."""
+    """Identity; what the program chooses touches near the shifted reference circle."""
     of, bare = gear(3.0, teeth, shift, helix_angle, 22.5), gear(3.0, teeth, 0.0, helix_angle, 22.5)
     count, ball = spanned_teeth(of), ball_diameter(of)
     assert shift_of_normal_thickness(bare, normal_thickness(of)) == pytest.approx(shift, abs=1e-12)

@@ -1,5 +1,4 @@
-"""What must hold at every step of every run (rows 1 to 3), computed from the equations and not from what the solver
-says of itself."""
+"""What must hold at every step of every run (rows 1 to 3), from the equations."""
 
 from dataclasses import dataclass
 
@@ -21,8 +20,7 @@ from fenics_gears.simulation.rigid_route import rigid_cycle
 
 @dataclass(frozen=True)
 class Run:
-    """A march with all of its steps, and the contact that they were solved on; `failure` where a step did not
-    converge."""
+    """A march with all of its steps; `failure` where a step did not converge."""
 
     model: Model
     marcher: Marcher
@@ -32,7 +30,6 @@ class Run:
 
     @property
     def friction(self) -> float:
-        """Coefficient of friction, 0 without."""
         return self.model.scene.friction.coefficient if self.model.scene.friction else 0.0
 
 
@@ -50,8 +47,8 @@ def cycle_of(model: Model, bodies: Bodies | None) -> Cycle:
 
 
 def run_of(model: Model, bodies: Bodies | None) -> Run:
-    """March a scene on given gears (as of `cycle_of`) and keep every step; its result is made too, and is of numbers
-    where it can be."""
+    """March a scene on given gears (as of `cycle_of`) and keep every step; its result is made too, of finite
+    numbers."""
     cycle = cycle_of(model, bodies)
     without_number = NODES_OF_THEIR_OWN + (SHARES if bodies is None else ())
     marcher = Marcher(cycle, model.equations_of_motion)
@@ -67,7 +64,6 @@ def run_of(model: Model, bodies: Bodies | None) -> Run:
 
 
 def worst_of(run: Run) -> dict[str, float]:
-    """The worst of all steps, each in parts of what it is measured by (the keys' docstring is `step_residuals`)."""
     worst: dict[str, float] = {}
     # A step that was divided is judged part by part.
     passed = [part for record in run.records for part in record.parts or (record,)]
@@ -78,13 +74,9 @@ def worst_of(run: Run) -> dict[str, float]:
 
 
 def step_residuals(run: Run, before, record) -> dict[str, float]:
-    """How far one step misses rows 1 to 3; `before` is the step before it, None at the start.
-
-    penetration: um. tension, cone, equilibrium: of the largest force of the step. complementarity: p_n gap of that
-    force times the largest length that a gap is the difference of (centre coordinates, deflections, gaps). wrong_way:
-    -p_t slip likewise; dissipation: the same of the sum. sum_of_forces, sum_of_moments, couples_by_base_radii: of the
-    sum of all nodal forces (times the centre distance).
-    """
+    """How far one step misses rows 1 to 3; `before`: the step before it, None at the start. Penetration in um;
+    forces in parts of the largest force, works of that times the largest length, sums in parts of the sum of all
+    nodal forces (times the centre distance)."""
     operator, forces = record.position.operator, record.solution.forces
     n = operator.nodes
     displacement = operator.jacobian @ record.state.position - operator.compliance @ forces
@@ -118,8 +110,7 @@ def _slip_before(operator, before) -> np.ndarray | None:
 
 
 def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, float]:
-    """Forces of the contact on the two gears and their moments about the pinion's centre, summed: zero, whatever the
-    forces are."""
+    """Forces of the contact on the two gears and their moments about the pinion's centre, summed: zero."""
     pair = run.model.pair
     (radius_1, radius_2), frictional = operator.base_radii, len(forces) > operator.nodes
     rows = displacement_jacobian(
@@ -149,8 +140,7 @@ def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, fl
 def _along_the_axes(
     operator, on_gears: np.ndarray, on_wheel: np.ndarray, centre: tuple[float, float]
 ) -> tuple[float, float]:
-    """Sum of the axial forces, N, and of the moments about x and y through the pinion's mid-width, N mm, of forces (6,)
-    on both gears."""
+    """Sum of the axial forces, N, and of the moments about x and y through the pinion's mid-width, N mm."""
     (radius_1, radius_2), (along, across) = operator.base_radii, centre
     (axial_1, x_1, y_1), (axial_2, x_2, y_2) = on_gears.reshape(2, 3)
     beside = operator.face.middles[1] - operator.face.middles[0]

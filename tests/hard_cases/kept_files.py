@@ -11,7 +11,6 @@ ARRAYS = {"blocks": np.arange(24.0).reshape(2, 3, 4) / 7.0, "unknowns": np.array
 
 
 def left_over(directory):
-    """Files under final names, and unfinished ones, in a directory."""
     files = [each for each in Path(directory).rglob("*") if each.is_file()] if Path(directory).exists() else []
     unfinished = [each for each in files if each.name.endswith(".part") or ".unfinished" in str(each)]
     return [each.name for each in files if each not in unfinished], unfinished

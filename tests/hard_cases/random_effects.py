@@ -1,9 +1,5 @@
-"""Any set of effects with any valid values, as sections of a scene's text; whoever adds an effect adds its drawing
-here.
-
-Each function gives one section's text. Lengths go with the module, stiffnesses with the teeth's own, so that all sizes
-of gears are alike.
-"""
+"""Any set of effects with any valid values, as sections of a scene's text; an effect that is added is drawn here.
+Lengths go with the module, stiffnesses with the teeth's own."""
 
 from collections.abc import Callable
 from math import degrees, log10, pi
@@ -32,10 +28,8 @@ def decades(lowest: float, highest: float) -> st.SearchStrategy[float]:
 def random_effects(
     draw: Draw, pair, width: float, torque: float, mesh_frequency: float, cycles: int, elastic: bool, coast: bool
 ) -> list[str]:
-    """Sections of any set of effects but the material and the coast flanks, which the rest of a scene asks for.
-
-    `torque`: couple on the wheel, N mm; `mesh_frequency`: Hz; `elastic`: whether the flanks give way.
-    """
+    """Sections of any effects but material and coast flanks. `torque`: N mm on the wheel; `elastic`: whether flanks
+    give way."""
     found = _drivetrain(draw, pair, width, mesh_frequency, cycles) + _flanks(draw, pair)
     if torque and draw(st.booleans()):
         found.append(torque_ripple(draw, torque, coast))
@@ -83,8 +77,7 @@ def _flanks(draw: Draw, pair) -> list[str]:
 
 
 def bearings(draw: Draw, teeth: float) -> str:
-    """Supports alike or not along and off the line of action, and with values of one gear's own; `teeth`: their
-    stiffness, N/mm."""
+    """Supports alike or not along and off the line of action; `teeth`: their stiffness, N/mm."""
 
     def stiffness(*names):
         return "".join(f'{name} = "{draw(decades(1e-4, 1e5)) * teeth!r} N/mm"\n' for name in names)
@@ -138,7 +131,6 @@ def _depth(draw: Draw, pair) -> float:
 
 
 def eccentricity(draw: Draw, pair) -> str:
-    """Of either gear or both."""
     return "\n\n".join(
         f'[eccentricity.{gear}]\ndistance = "{_error(draw, pair)!r} mm"\nphase = "{draw(st.floats(-360.0, 360.0))!r}'
         ' deg"'

@@ -1,5 +1,4 @@
-"""Scenes of any valid gears, loads, springs, speeds and effects, coarse enough to be run by the hundred (issue 4,
-property-based runs)."""
+"""Scenes of any valid gears, loads, springs, speeds and effects, coarse enough to be run by the hundred."""
 
 from math import degrees
 
@@ -20,11 +19,8 @@ MOST_LOAD = 1e3
 
 @st.composite
 def valid_scenes(draw, torques=decades(1e-4, 1e2)) -> Scene:
-    """A scene whose text any file could have; torque over six decades, springs over nine, 0.01 Hz to 20 kHz, any set of
-    effects.
-
-    `torques`: in parts of the usual one.
-    """
+    """Torque over six decades (`torques`: in parts of the usual one), springs over nine, 0.01 Hz to 20 kHz, any set
+    of effects."""
     pair = draw(valid_pairs(teeth=(12, 120), modules=(1.0, 10.0), addenda=(0.6, 1.45)))
     assume(CONTACT_RATIOS[0] <= pair.contact_ratio <= CONTACT_RATIOS[1])
     module, width = pair.pinion.module, pair.pinion.module * draw(st.floats(1.0, 20.0))
@@ -54,9 +50,8 @@ def valid_scenes(draw, torques=decades(1e-4, 1e2)) -> Scene:
 
 
 def _speed_changes_slowly(model, most: float) -> bool:
-    """Whether the inertia of a changing speed asks no more than `most` (N) of the teeth, and does not pull the wheel
-    off them at the start;
-    with coast flanks it may."""
+    """Whether the inertia of a changing speed asks no more than `most` (N) of the teeth, and without coast flanks
+    does not pull the wheel off them at the start."""
     if model.scene.speed_ramp is None:
         return True
     loads = np.array([sum((load(step) for load in model.loads), model.drivetrain.load) for step in (-1, 0, 1)])

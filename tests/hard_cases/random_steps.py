@@ -1,5 +1,4 @@
-"""Rows 1 and 2 on single steps: what a solution must obey, from its forces and coordinates, and steps drawn at
-random."""
+"""Rows 1 and 2 on single steps drawn at random."""
 
 import numpy as np
 from hypothesis import event, given, settings
@@ -36,8 +35,7 @@ def solved(problem: StepProblem, start: np.ndarray) -> StepSolution | None:
 
 
 def judged_steps(measured, drawn, limits, examples: int) -> None:
-    """Draw steps, hold each solution against `limits` (name: words, limit, unit), and tell the worst also where one
-    fails."""
+    """Draw steps, hold each solution against `limits` (name: words, limit, unit), and tell the worst."""
     worst, count = dict.fromkeys(limits, 0.0), {"solved": 0, "typed": 0}
 
     @settings(max_examples=examples)
@@ -61,7 +59,7 @@ def judged_steps(measured, drawn, limits, examples: int) -> None:
 
 
 def violations(problem: StepProblem, solution: StepSolution) -> dict[str, float]:
-    """How far a solution misses the laws: lengths in um, forces in parts of the largest force, works of that times the
+    """How far a solution misses the laws: lengths in um, forces in parts of the largest, works of that times the
     largest length."""
     forces, n = solution.forces, len(problem.gap)
     deflection, moved = problem.compliance @ forces, problem.jacobian @ solution.coordinates

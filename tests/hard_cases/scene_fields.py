@@ -44,8 +44,7 @@ UNITS = {
 
 @dataclass(frozen=True)
 class Field:
-    """A field of a scene: its path, what it allows, whether it must be there, and its bounds in N, mm, s, rad (None
-    without)."""
+    """A field of a scene; bounds in N, mm, s, rad, None without."""
 
     path: tuple[str, ...]
     allowed: Allowed
@@ -55,12 +54,10 @@ class Field:
 
     @property
     def name(self) -> str:
-        """The path as it is written."""
         return ".".join(self.path)
 
     @property
     def unit(self) -> str:
-        """A unit that the field takes; empty for one without."""
         return "1/s" if self.path[-1] == "mass_proportional" else UNITS[self.allowed.kind] if self.allowed.kind else ""
 
     @property
@@ -77,7 +74,6 @@ class Field:
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """The kinds of quantity that the field takes; none for one without unit."""
         return (
             tuple(self.allowed.ranges)
             if isinstance(self.allowed, AllowedEither)
@@ -117,7 +113,6 @@ def _bounds(allowed: Allowed) -> tuple[float, float] | None:
 
 
 def whole_scene() -> dict[str, Any]:
-    """The demonstration scene with every section and every field."""
     tree = tomllib.loads(DEMO.read_text(encoding="utf-8"))
     tree["tip_relief"] = {**RELIEF, "pinion": RELIEF, "wheel": RELIEF}
     tree["root_relief"] = {"depth": "5 um", "start": "LPSTC"}
@@ -163,7 +158,6 @@ def whole_scene() -> dict[str, Any]:
 
 
 def plane_scene() -> dict[str, Any]:
-    """The whole scene without what makes it three-dimensional."""
     tree = whole_scene()
     for path in (
         ("lead_modifications",),
@@ -178,7 +172,6 @@ def plane_scene() -> dict[str, Any]:
 
 
 def plane_scene_with_webs() -> dict[str, Any]:
-    """The plane scene, its gears on webs."""
     tree = plane_scene()
     for gear, rim, hub in (("pinion", "50 mm", "36 mm"), ("wheel", "80 mm", "50 mm")):
         tree["gears"][gear]["web"] = {"rim_inner_diameter": rim, "width": "8 mm", "hub_diameter": hub}
@@ -186,7 +179,7 @@ def plane_scene_with_webs() -> dict[str, Any]:
 
 
 def scene_with(path: tuple[str, ...], literal: str | None, name: str | None = None, tree: dict | None = None) -> str:
-    """The text of a scene (`tree`, or the whole one) with `literal` (TOML) at a path, nothing there where that is None;
+    """The text of a scene (`tree`, or the whole one) with `literal` (TOML) at a path, nothing where that is None,
     under another `name` if given."""
     tree = tree or (whole_scene() if "web" not in path else plane_scene_with_webs())
     for other in INSTEAD.get(path, ()):

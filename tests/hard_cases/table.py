@@ -24,7 +24,6 @@ class Collector:
         self.measured, self.over_the_face = (defaultdict(lambda: defaultdict(list)) for _ in range(2))
 
     def pytest_runtest_logreport(self, report):
-        """Keep the lines that a test recorded."""
         if report.when != "call":
             return
         measured = self.over_the_face if "over_the_face" in Path(report.fspath).name else self.measured
@@ -50,7 +49,6 @@ def page(collector: Collector, text: str) -> str:
 
 
 def table(measured: dict) -> list[str]:
-    """A table of what was measured; nothing of nothing."""
     if not measured:
         return []
     lines = ["| quantity | measured | limit |", "|---|---|---|"]
@@ -60,8 +58,7 @@ def table(measured: dict) -> list[str]:
 
 
 def spread(values: list[str]) -> str:
-    """One measurement as it is; of several under one name the smallest and the largest, or all that differ where they
-    are words."""
+    """One measurement as it is; of several the smallest and the largest, or all that differ where they are words."""
     different = list(dict.fromkeys(values))
     if len(different) == 1:
         return different[0]
@@ -75,7 +72,6 @@ def spread(values: list[str]) -> str:
 
 
 def main(options: list[str]) -> int:
-    """Run, write, and return pytest's exit code."""
     collector = Collector()
     outcome = pytest.main(["-q", "-m", "", str(HERE), *options], plugins=[collector])
     PAGE.write_text(page(collector, PAGE.read_text(encoding="utf-8")), encoding="utf-8")

@@ -1,11 +1,5 @@
-"""Rows 1 to 3 at every step of scenes drawn at random: any valid gears, loads over six decades, springs over nine, any
-set of effects.
-
-A step converges, or the run ends with a typed error; without friction the step is a convex problem, whose solution
-exists wherever the load closes the contact, and no error is accepted but that of rigid teeth which are wider than the
-spaces between them. Each law's limit is that of hard_cases.md; the exact ones are round-off of what a residual is the
-difference of.
-"""
+"""Rows 1 to 3 at every step of scenes drawn at random. A step converges, or the run ends with a typed error that it
+may end with; without friction, a convex problem, none but that of rigid teeth wider than the spaces between them."""
 
 import pytest
 from hypothesis import event, given, settings
@@ -39,7 +33,7 @@ LAWS = {
 
 
 def obeys_the_laws(found):
-    """Rows 1 to 3 at every step; returns the largest penetration, um."""
+    """Rows 1 to 3 at every step; the largest penetration, um."""
     worst = worst_of(found)
     for name, value in worst.items():
         assert value <= LAWS[name][2], f"{name}: {value}"
@@ -53,7 +47,6 @@ class Tally:
         self.worst, self.scenes, self.steps, self.failed = {}, 0, 0, 0
 
     def judge(self, scene, compliances_of):
-        """Run a scene and hold every step against the laws; returns the run."""
         model = model_of(scene)
         run = run_of(model, compliances_of(model))
         self.scenes, self.steps, self.failed = (
@@ -72,7 +65,6 @@ class Tally:
         return run
 
     def tell(self, measured, gears):
-        """A line of the table for each law."""
         for name, value in self.worst.items():
             row, words, limit, unit = LAWS[name]
             measured(f"{words}, {gears}", value, f"{limit:g} {unit}".rstrip(), unit, row=row)
@@ -88,7 +80,6 @@ def is_right(failure, scene) -> bool:
 
 
 def on_stand_ins(model):
-    """Teeth without finite elements; None for rigid ones."""
     if model.scene.tooth_elasticity is None:
         return None
     reach, coast = model.touching.reach.farthest, model.scene.coast_flanks is not None
@@ -99,7 +90,6 @@ def on_stand_ins(model):
 
 
 def on_elements(cache):
-    """The real teeth, coarse."""
     return lambda model: None if model.scene.tooth_elasticity is None else gear_bodies(model, SilentProgress(), cache)
 
 
@@ -119,25 +109,21 @@ def judged(tally, measured, gears, compliances_of, examples, scenes=valid_scenes
 
 @pytest.mark.parametrize("examples", [3, pytest.param(40, marks=pytest.mark.nightly)])
 def test_every_step_of_any_scene_on_stand_in_teeth(measured, examples):
-    """The contact laws and Newton's third law, from the equations; teeth without finite elements, so that many can be
-    drawn."""
+    """The contact laws and Newton's third law, from the equations."""
     judged(Tally(), measured, "stand-in teeth", on_stand_ins, examples)
 
 
-def test_every_step_of_any_scene(measured, tmp_path):
-    """As above, on finite elements of the drawn gears."""
-    judged(Tally(), measured, "finite elements", on_elements(Cache(tmp_path)), 1)
+@pytest.mark.parametrize(
+    ("gears", "examples"),
+    [("finite elements", 1), pytest.param("finite elements, by night", 150, marks=pytest.mark.nightly)],
+)
+def test_every_step_of_any_scene(measured, tmp_path, gears, examples):
+    """As above, on finite elements."""
+    judged(Tally(), measured, gears, on_elements(Cache(tmp_path)), examples)
 
 
 @pytest.mark.parametrize("examples", [2, pytest.param(30, marks=pytest.mark.nightly)])
 def test_every_step_of_any_frictionless_scene_without_load(measured, examples):
-    """As above. One scene in fifteen had failed: with no load to measure by, round-off of stiff springs and teeth was
-    taken for a force that nothing balances."""
+    """As above: with no load to measure by, round-off is no force that nothing balances."""
     scenes = valid_scenes(torques=st.just(0.0)).filter(lambda scene: scene.friction is None)
     judged(Tally(), measured, "stand-in teeth, no load, no friction", on_stand_ins, examples, scenes)
-
-
-@pytest.mark.nightly
-def test_every_step_of_hundreds_of_scenes(measured, tmp_path):
-    """Authority: as above, by the hundred."""
-    judged(Tally(), measured, "finite elements, by night", on_elements(Cache(tmp_path)), 150)

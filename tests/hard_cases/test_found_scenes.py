@@ -1,4 +1,4 @@
-"""Scenes that were found to fail once, and stay: rows 1 to 3 at every step, every step converged."""
+"""Scenes that failed once: rows 1 to 3 at every step, every step converged."""
 
 from pathlib import Path
 
@@ -28,8 +28,7 @@ def checked(file, cache):
 
 @pytest.mark.parametrize("file", [file for file in FOUND if "no_load" in file.stem], ids=lambda file: file.stem)
 def test_a_scene_without_load_that_failed_once_converges(file, suite_cache):
-    """Row 16: without load there is no force; nothing may be asked of the friction at nodes that carry no more than
-    round-off."""
+    """Row 16: nodes that carry no more than round-off have no friction."""
     run = checked(file, suite_cache)
     spurious = max(np.abs(record.solution.forces).max(initial=0.0) for record in run.records)
     assert run.model.scene.load.wheel_torque == 0.0 and spurious <= 1e-8

@@ -1,6 +1,4 @@
-"""Rows 1 to 3 at every step of pairs whose flanks are resolved over the face, drawn at random: helix angles to 35
-degrees, hands, widths, misalignment of either sign, crowning, loads over five decades, gears that tilt on springs over
-six decades, coast flanks, inertia."""
+"""Rows 1 to 3 at every step of random pairs whose flanks are resolved over the face."""
 
 from collections import Counter
 
@@ -63,12 +61,10 @@ class MethodsToo(Tally):
         self.methods = Counter()
 
     def judge(self, scene, compliances_of):
-        """Also count methods."""
         run = super().judge(scene, compliances_of)
         self.methods.update(part.solution.method for record in run.records for part in record.parts or (record,))
 
     def tell(self, measured, gears):
-        """Also the methods."""
         super().tell(measured, gears)
         solved = sum(self.methods.values())
         fallbacks = (
@@ -85,7 +81,7 @@ def test_every_step_of_any_scene_over_the_face(measured, examples):
 
 @pytest.mark.nightly
 def test_every_step_with_strong_friction(measured):
-    """Authority: as above, with friction up to 1."""
+    """As above, with friction up to 1."""
     judged(
         MethodsToo(),
         measured,

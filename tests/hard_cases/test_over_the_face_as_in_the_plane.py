@@ -1,5 +1,4 @@
-"""Rows 10 to 12, 19, 20 and 23 to 25 over the face, by the code that judges these rows in the plane; bodies without
-finite elements."""
+"""Rows 10 to 12, 19, 20 and 23 to 25 over the face, by the code that judges them in the plane."""
 
 import numpy as np
 import pytest
@@ -25,13 +24,11 @@ LEANING = CROWNED + misaligned(0.01)
 
 
 def ready(more):
-    """A model and its mesh cycle."""
     model = model_of(helical_scene(more, accuracy=FEW))
     return model, cycle_of(model, on_stand_in_bodies(model))
 
 
 def records(model, cycle):
-    """All steps."""
     return Marcher(cycle, model.equations_of_motion).run(model.steps, model.steps + 1).records
 
 
@@ -48,7 +45,7 @@ def test_effect_of_friction_is_of_its_order(measured):
 @pytest.mark.parametrize("scale", [SCALES[0], *(pytest.param(each, marks=BY_NIGHT) for each in SCALES[1:])])
 @pytest.mark.parametrize("friction", [pytest.param("", marks=BY_NIGHT), FRICTION])
 def test_steps_do_not_depend_on_r(friction, scale, measured):
-    """Row 11. Exact: a solution is a fixed point of the projections for every r; steps of a helical pair."""
+    """Row 11. Exact: a solution is a fixed point of the projections for every r."""
     (model, cycle), problems = ready(LEANING + friction), []
     plain = cycle.solve
 
@@ -62,7 +59,7 @@ def test_steps_do_not_depend_on_r(friction, scale, measured):
 
 @pytest.mark.parametrize("more", [pytest.param("", marks=BY_NIGHT), FRICTION + BEARINGS], ids=["alone", "friction"])
 def test_order_of_contact_nodes_and_gears(more, measured):
-    """Row 12. Exact identity: shuffled nodes of all slices and shuffled coordinates have the same solution."""
+    """Row 12. Exact identity: shuffled nodes and coordinates have the same solution."""
     found = []
     for seed in (1, None):
         model, cycle = ready(LEANING + more)
@@ -74,14 +71,12 @@ def test_order_of_contact_nodes_and_gears(more, measured):
 
 @pytest.mark.parametrize("nodes", [2, 101])
 def test_contact_nodes_too_few_or_too_close(nodes, measured):
-    """Row 19. Equilibrium holds with two nodes a slice, and with nodes that elements cannot tell apart, which a warning
-    names."""
+    """Row 19. Equilibrium; nodes that elements cannot tell apart are named by a warning."""
     found = run(LEANING, accuracy=f"slices = 3\ncontact_nodes = {nodes}\nsteps_per_mesh_cycle = 4")
     pair = found.model.pair
     held = 200e3 / pair.wheel.base_radius
     error = float(np.abs(found.result["normal_force"].values * pair.cosine / held - 1.0).max())
-    measured(f"{nodes} contact nodes in a slice: error of the force", error, "1e-11", row=19)
-    assert error <= 1e-11
+    measured(f"{nodes} contact nodes in a slice: error of the force", error, 1e-11, row=19)
     assert ("contact compliance is singular" in found.result.attrs["warnings"]) == (nodes == 101)
 
 
@@ -92,7 +87,7 @@ def test_contact_nodes_too_few_or_too_close(nodes, measured):
 )
 @pytest.mark.parametrize("friction", [0.3, pytest.param(0.6, marks=BY_NIGHT), pytest.param(1.0, marks=BY_NIGHT), 2.0])
 def test_strong_friction_converges_or_says_why(friction, more, request, measured):
-    """Row 20. Authority: Coulomb's law from the equations and the wheel's balance of moments; the normal force is by
+    """Row 20. Coulomb's law from the equations and the wheel's balance of moments; the normal force is by
     1/cos(beta_b) larger than what drives."""
     model = model_of(helical_scene(more + f"[friction]\ncoefficient = {friction!r}\n", accuracy=FEW))
     locks = locks_from(model.pair) * model.pair.cosine
@@ -102,14 +97,14 @@ def test_strong_friction_converges_or_says_why(friction, more, request, measured
 
 @pytest.mark.parametrize("friction", [pytest.param("", marks=BY_NIGHT), FRICTION], ids=["frictionless", "friction"])
 def test_low_end_is_quasi_static_and_does_not_ring(friction, measured):
-    """Row 23. Limit: as the mesh frequency falls inertia and damping vanish, as in the plane."""
+    """Row 23. Limit: inertia and damping vanish."""
     more, slow = LEANING + BEARINGS + SHAFTS + friction, {"frequency": 0.01, "cycles": 3}
     dynamic, static = (states(*marched(each + more, **slow), "transmission_error") for each in (DAMPED, ""))
     does_not_ring(apart(dynamic, static), f"0.01 Hz, {'friction' if friction else 'frictionless'}", measured)
 
 
 def test_high_end_is_the_rigid_mean_motion(measured):
-    """Row 23. Newton's law: far above every natural frequency the ripple meets mass alone and falls as 1/f^2."""
+    """Row 23. Newton's law: the ripple meets mass alone and falls as 1/f^2."""
     ripples = [
         np.ptp(states(*marched(INERTIA + LEANING, frequency=each, cycles=each // 2000), "transmission_error")[-9:])
         for each in (40_000, 80_000)
@@ -121,17 +116,16 @@ def test_high_end_is_the_rigid_mean_motion(measured):
 
 @pytest.mark.parametrize("frequency", [17.0, pytest.param(200.0, marks=BY_NIGHT)])
 def test_large_steps_are_finite_and_bounded(frequency, measured):
-    """Row 24. Energy: twice the quasi-static energy bounds both methods of stepping, as in the plane."""
+    """Row 24. Twice the quasi-static energy bounds both methods of stepping."""
     two = {"accuracy": FEW.replace("= 8", "= 2"), "frequency": frequency, "cycles": 20}
     found, static = (run(more + LEANING + BEARINGS + SHAFTS, **two).result for more in (DAMPED, ""))
     ratio = float(found["energy"].max() / static["energy"].max())
-    measured(f"largest energy / static energy, 2 steps per mesh cycle at {frequency:g} Hz", ratio, "2", row=24)
-    assert np.all(np.isfinite(found["transmission_error"])) and ratio <= 2.0
+    measured(f"largest energy / static energy, 2 steps per mesh cycle at {frequency:g} Hz", ratio, 2.0, row=24)
+    assert np.all(np.isfinite(found["transmission_error"]))
 
 
 def test_order_two_while_the_status_stands(measured):
-    """Row 25. Exact solution: while the closed nodes stay closed the system is linear; the matrix exponential solves
-    it. Gears that tilt and move along their axes."""
+    """Row 25. Exact solution: while the closed nodes stay closed, the matrix exponential."""
     model, cycle = ready(DAMPED + BEARINGS + SHAFTS + LEANING)
     shafts = model.drivetrain
     found = errors_of(lambda step: (frozen_at(cycle, model.scene, shafts, step, 3), shafts), 5e-4, (400, 800, 1600))

@@ -13,19 +13,15 @@ from tests.elasticity.face.swept import GEAR, TWIST, TWISTED, condense_swept, me
 from tests.elasticity.face.test_face_compliance import flank_nodes
 from tests.elasticity.face.test_face_compliance import sector as sector  # a fixture
 from tests.elasticity.test_coast_flank import difference
-from tests.hard_cases.invariants import cycle_of
-from tests.hard_cases.test_over_the_face_on_elements import TEETH, accuracy, bodies_of
+from tests.hard_cases.test_over_the_face_on_elements import TEETH, accuracy
 from tests.hard_cases.test_over_the_face_on_elements import run as run  # a fixture
 from tests.hard_cases.test_over_the_face_static import misaligned
 from tests.hard_cases.test_row_05_schur_complement import check_kernel
 from tests.hard_cases.test_row_13_unit_systems import SYSTEMS, in_units
-from tests.hard_cases.test_row_27_damage import empty, foreign, truncated
 from tests.helical import CROWNED, FRICTION, helical_scene
 from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears import model_of, simulate
-from fenics_gears.dynamics.march import Marcher
-from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.condensation import by_radius, dofs_of, without
 from fenics_gears.elasticity.face.half_turn import ring_blocks
 from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
@@ -48,8 +44,7 @@ def test_kernel_of_a_floating_sector_is_the_six_rigid_motions(twist, measured):
 
 
 def test_condensed_is_uncondensed(sector, measured):
-    """Row 6. Brute force: a twisted sector with free cuts, its sparse stiffness solved by SuperLU for forces on both
-    flanks."""
+    """Row 6. Brute force: a twisted sector with free cuts, its sparse stiffness solved by SuperLU."""
     whole = mesh(both_flanks=True)
     forms = SectionForms(whole, 0.3)
     nodes, heights = forms.nodes.points, len(TWISTED.heights)
@@ -78,8 +73,7 @@ def with_free_cut(half):
 
 
 def test_ring_of_sectors_is_the_whole_gear(sector, measured):
-    """Row 6. Brute force: the section copied around the gear, swept and condensed as one body; every tooth's frame is
-    turned by its pitches."""
+    """Row 6. Brute force: the section copied around the gear, condensed as one body."""
     whole, offsets = whole_gear_mesh(mesh(both_flanks=True), GEAR.teeth), 2
     flanks = {f"flank {tooth}": flank_nodes(whole, f"flank {tooth}") for tooth in range(offsets + 1)}
     body = condense_swept(whole, TWISTED, 0.3, flanks, held=whole.edge_nodes("hub", ELEMENT.order))
@@ -93,8 +87,7 @@ def test_ring_of_sectors_is_the_whole_gear(sector, measured):
 
 @pytest.mark.parametrize("slices", [1, pytest.param(4, marks=pytest.mark.nightly)])
 def test_a_spur_pair_is_the_plane_one(model, slices, measured):
-    """Row 7. Identity: where nothing varies along the face, and the body's section is rigid along it, slices are the
-    plane pair side by side, each with its part of the load."""
+    """Row 7. Identity: where nothing varies along the face, slices are the plane pair side by side."""
     face = stand_ins.marched(model, face_cycle(model, face_of(slices)))
     plane = stand_ins.marched(model, plane_cycle(model))
     apart = difference(errors(face), errors(plane))
@@ -112,8 +105,8 @@ def test_a_spur_pair_is_the_plane_one(model, slices, measured):
 @pytest.mark.nightly
 @pytest.mark.parametrize(("elements", "limit"), [(2, 0.04), (4, 0.01)])
 def test_peak_pressure_in_a_slice(run, elements, limit, measured):
-    """Row 8. K. L. Johnson, Contact Mechanics, section 4.2: Hertz's pressure under the line load of the middle slice,
-    where one pair of a crowned spur pair carries."""
+    """Row 8. Hertz's pressure (K. L. Johnson, Contact Mechanics, 4.2) under the line load of the middle slice, where
+    one pair of a crowned spur pair carries."""
     half_width, width = 0.13, 24.0
     accuracy_of = (
         f'slices = 6\nlayers = 3\nbody_element_size = "1.5 mm"\nflank_element_size = "{half_width / elements} mm"\n'
@@ -147,7 +140,7 @@ def test_peak_pressure_in_a_slice(run, elements, limit, measured):
 @pytest.mark.nightly
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_units_scale_out(system, measured):
-    """Row 13. Exact identity (dimensional analysis), as in the plane, of a misaligned helical pair."""
+    """Row 13. Exact identity (dimensional analysis) of a misaligned helical pair."""
     scene = helical_scene(CROWNED + misaligned(0.01) + FRICTION, teeth=TEETH, accuracy=accuracy())
     length, force, _ = SYSTEMS[system]
     here, there = simulate(scene), simulate(in_units(scene, *SYSTEMS[system]))
@@ -163,23 +156,3 @@ def test_units_scale_out(system, measured):
         row=13,
     )
     assert change <= 1e-9 and iterations == 0
-
-
-@pytest.mark.nightly
-@pytest.mark.parametrize("damage", [truncated, empty, foreign])
-def test_damaged_bodies_are_computed_again(damage, tmp_path, measured):
-    """Row 27. Never a wrong number: bodies whose entries in the cache were damaged give the same run to the last
-    bit."""
-    model, cache = model_of(helical_scene(CROWNED, teeth=TEETH, accuracy=accuracy())), Cache(tmp_path)
-
-    def run_again():
-        marcher = Marcher(cycle_of(model, bodies_of(cache)(model)), model.equations_of_motion)
-        return np.array([each.state.position for each in marcher.run(model.steps, model.steps + 1).records])
-
-    first, entries = run_again(), [each for each in tmp_path.rglob("*") if each.is_file()]
-    for entry in entries:
-        damage(entry)
-    same = np.array_equal(run_again(), first)
-    words = "computed again, the same to the last bit" if same else "another number"
-    measured(f"{len(entries)} entries of bodies {damage.__name__}", words, "the same to the last bit", row=27)
-    assert same and entries

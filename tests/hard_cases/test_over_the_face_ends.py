@@ -1,5 +1,4 @@
-"""Rows 29 to 32, which only flanks over a face have: unequal widths, ends of the face, tips that cross it, wedged
-teeth. Bodies without finite elements, but for what depends on them."""
+"""Rows 29 to 32, which only flanks over a face have, on bodies without finite elements where these do not matter."""
 
 import numpy as np
 import pytest
@@ -20,8 +19,8 @@ EXCESSES = (1e-9, 1e-6, 1e-3, 1.0, 10.0)
 
 
 def force_error(found):
-    """Error of the force without friction: what the drive flanks carry more than the coast flanks holds the load; in
-    parts of the larger of load and drive force."""
+    """Error of the force without friction: what drive flanks carry more than coast flanks holds the load; in parts
+    of the larger of load and drive force."""
     driving, pair = found.result["normal_force"].values, found.model.pair
     coasting = found.result["coast_normal_force"].values if "coast_normal_force" in found.result else 0.0
     held = found.model.scene.load.wheel_torque / pair.wheel.base_radius
@@ -38,7 +37,6 @@ def of_widths(pinion, wheel, more="", **changes):
 
 
 def marched(scene, bodies=on_stand_in_bodies):
-    """A run that must neither fail nor miss the laws of rows 1 to 3."""
     model = model_of(scene)
     found = run_of(model, bodies(model))
     assert found.failure is None, str(found.failure)
@@ -48,8 +46,8 @@ def marched(scene, bodies=on_stand_in_bodies):
 
 @pytest.mark.parametrize("wider", ["pinion", pytest.param("wheel", marks=BY_NIGHT)])
 def test_one_gear_wider_than_the_other(wider, measured):
-    """Row 29. Limit: as the excess of one width falls the pair tends to that of equal widths, in proportion; the load
-    is held whatever the excess."""
+    """Row 29. Limit: in proportion to the excess of one width, to the pair of equal widths; equilibrium at any
+    excess."""
     usual, more = errors(on_stand_ins(misaligned(0.02))), misaligned(0.02)
     found = [
         marched(of_widths(*((WIDTH + excess, WIDTH) if wider == "pinion" else (WIDTH, WIDTH + excess)), more))
@@ -64,28 +62,25 @@ def test_one_gear_wider_than_the_other(wider, measured):
         row=29,
     )
     held = max(map(force_error, found))
-    measured(f"{wider} wider by 1e-9 to 10 mm: error of the force", held, "1e-11", row=29)
+    measured(f"{wider} wider by 1e-9 to 10 mm: error of the force", held, 1e-11, row=29)
     assert rates[1:4] == pytest.approx([rates[2]] * 3, rel=0.3) and rates[0] * EXCESSES[0] <= 1e-7
-    assert held <= 1e-11
 
 
 @pytest.mark.parametrize("offset", [10.0, pytest.param(-23.9, marks=BY_NIGHT), 23.9])
 def test_gears_that_overlap_by_a_part_of_their_faces(offset, measured):
-    """Row 29. Equilibrium, whatever is left of the common face; nothing left is refused before anything is computed."""
+    """Row 29. Equilibrium; no common face is refused before anything is computed."""
     found = on_stand_ins(CROWNED, offset=offset)
     obeys_the_laws(found)
     apart = force_error(found)
     common = WIDTH - abs(offset)
-    measured(f"gears of 24 mm, {common:.3g} mm of it in common: error of the force", apart, "1e-11", row=29)
-    assert apart <= 1e-11
+    measured(f"gears of 24 mm, {common:.3g} mm of it in common: error of the force", apart, 1e-11, row=29)
     with pytest.raises(GeometryError, match="do not overlap axially"):
         model_of(helical_scene(offset=np.copysign(WIDTH, offset), accuracy=FEW))
 
 
 @pytest.mark.nightly
 def test_elements_of_a_gear_that_is_hardly_wider(suite_cache, measured):
-    """Row 29. Limit, as above: what stands out is meshed, however little it is, and a needle of a layer does no
-    harm."""
+    """Row 29. Limit, as above: what stands out is meshed, however little it is."""
     equal, *wider = (
         marched(of_widths(WIDTH, WIDTH + excess, CROWNED, teeth=TEETH, accuracy=accuracy()), bodies_of(suite_cache))
         for excess in (0.0, 1e-6, 1e-3, 0.1)
@@ -103,8 +98,7 @@ def test_elements_of_a_gear_that_is_hardly_wider(suite_cache, measured):
 
 @pytest.mark.parametrize("helix", [15.0, pytest.param(0.0, marks=BY_NIGHT)])
 def test_ends_that_do_not_touch(helix, measured):
-    """Row 30. Equilibrium: ends that are relieved too deep to touch carry nothing, exactly, and the middle holds the
-    load."""
+    """Row 30. Equilibrium: ends relieved too deep to touch carry nothing, the middle holds the load."""
     relieved = '[lead_modifications.pinion.end_relief]\ndepth = "200 um"\nlength = "8 mm"\n'
     found = on_stand_ins(relieved, helix=helix, torque=20e3)
     obeys_the_laws(found)
@@ -122,8 +116,7 @@ def test_ends_that_do_not_touch(helix, measured):
 
 @pytest.mark.nightly
 def test_line_loads_at_the_ends_of_a_face(run, measured):
-    """Row 30. Known order: the mean over slices is a midpoint rule, so that the mean transmission error settles; the
-    largest line load, at an end, is on record."""
+    """Row 30. Known order: the mean over slices is a midpoint rule; the largest line load, at an end, is on record."""
     found = [run(misaligned(0.02), accuracy=accuracy(slices, layers=4, nodes=17, steps=7)) for slices in (6, 12, 24)]
     peaks = [float(each["line_load"].max()) for each in found]
     means = np.array([each["transmission_error"].values.mean() for each in found])
@@ -135,8 +128,7 @@ def test_line_loads_at_the_ends_of_a_face(run, measured):
         row=30,
     )
     last = abs(means[2] / means[1] - 1.0)
-    measured("finite elements: change of the mean transmission error from 12 to 24 slices", last, "5e-3", row=30)
-    assert last <= 5e-3
+    measured("finite elements: change of the mean transmission error from 12 to 24 slices", last, 5e-3, row=30)
 
 
 def steepest(more, steps):
@@ -150,8 +142,7 @@ def steepest(more, steps):
     "more", ["", pytest.param("\n[corner_contact]\n", marks=BY_NIGHT)], ids=["along the path", "corner contact"]
 )
 def test_tips_cross_the_face_continuously(more, measured):
-    """Row 31. Continuity: teeth enter and leave slice by slice; the largest change from step to step is that of a
-    finite slope and halves with the step."""
+    """Row 31. Continuity: the largest change from step to step halves with the step."""
     changes = np.array([steepest(more + misaligned(0.02), steps) for steps in (240, 480)])
     order = float(np.log2(changes[0] / changes[1]))
     words = "corner contact" if more else "contact along the path"
@@ -167,8 +158,8 @@ def test_tips_cross_the_face_continuously(more, measured):
 
 @pytest.mark.nightly
 def test_sharp_tips_that_cross_the_face_are_flagged(run, measured):
-    """Row 31. Elasticity: pressure at a sharp tip grows with every refinement, in whichever slice the tip touches;
-    forces hold, the transmission error settles, and the run says so."""
+    """Row 31. Elasticity: pressure at a sharp tip grows with every refinement; forces hold, the transmission error
+    settles, and the run says so."""
     found = [
         run(misaligned(0.02), torque=400e3, accuracy=accuracy(6, nodes=nodes).replace('"0.5 mm"', f'"{size} mm"'))
         for size, nodes in ((0.5, 11), (0.25, 21), (0.125, 41))
@@ -182,10 +173,8 @@ def test_sharp_tips_that_cross_the_face_are_flagged(run, measured):
         "MPa",
         row=31,
     )
-    measured(
-        "change of the mean transmission error at the last halving", abs(means[2] / means[1] - 1.0), "2e-2", row=31
-    )
-    assert peaks[2] > peaks[0] and abs(means[2] / means[1] - 1.0) <= 2e-2
+    measured("change of the mean transmission error at the last halving", abs(means[2] / means[1] - 1.0), 2e-2, row=31)
+    assert peaks[2] > peaks[0]
     assert all("sharp edge of the" in each.attrs["warnings"] for each in found)
 
 
@@ -201,8 +190,8 @@ WEDGED = {
     "name", [name if name == "misaligned by 0.2 mm" else pytest.param(name, marks=BY_NIGHT) for name in WEDGED]
 )
 def test_wedged_teeth(name, torque, measured):
-    """Row 32. Equilibrium: drive and coast flanks press at once, and what the drive flanks carry more is the load to
-    round-off of what wedges; the run says that its teeth are wedged. With friction the laws hold too."""
+    """Row 32. Equilibrium: what the drive flanks carry more than the coast flanks is the load; the run says that its
+    teeth are wedged. With friction the laws hold too."""
     more, changes = WEDGED[name]
     found = on_stand_ins("\n[coast_flanks]\n" + more, torque=torque, **changes)
     obeys_the_laws(found)

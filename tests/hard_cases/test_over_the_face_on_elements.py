@@ -22,13 +22,12 @@ def accuracy(slices=5, layers=2, body=1.5, nodes=11, steps=8):
 
 
 def bodies_of(cache):
-    """The gears' own bodies of a model, kept in a cache."""
     return lambda model: gear_bodies(model, SilentProgress(), cache)
 
 
 @pytest.fixture
 def run(suite_cache):
-    """A run of a scene on its own bodies; it must not fail, and obey rows 1 to 3 at every step."""
+    """A run of a scene on its own bodies, which must not fail and must obey rows 1 to 3 at every step."""
 
     def marched(more="", **changes):
         model = model_of(helical_scene(more, teeth=TEETH, **{"accuracy": accuracy(), **changes}))
@@ -43,8 +42,7 @@ def run(suite_cache):
 @pytest.mark.nightly
 def test_slices_refined(run, measured):
     """Row 22. Known order: means over slices are midpoint rules, of second order once slices are thinner than the
-    layers (6 mm), where flanks enter contact smoothly; from slice to slice the phases fall differently on the steps, so
-    that 1.2 is asked for."""
+    layers (6 mm); phases fall differently on the steps, so that 1.2 is asked for."""
     slices = (6, 12, 24)
     results = [
         run(RELIEF + CROWNED, accuracy=accuracy(number, layers=4, nodes=17, steps=7))["transmission_error"].values
@@ -69,8 +67,7 @@ def test_slices_refined(run, measured):
 
 @pytest.mark.nightly
 def test_nearly_incompressible_bodies(run, measured):
-    """Row 14. Second-order wedges do not lock: halving the elements moves the deflection little more than at 0.3, and
-    softer material in shear is not stiffer."""
+    """Row 14. Second-order wedges do not lock: halving the elements moves the deflection little."""
     changes = {}
     for poissons_ratio in (0.3, 0.499):
         coarse, fine = (

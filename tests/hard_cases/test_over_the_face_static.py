@@ -14,7 +14,6 @@ BY_NIGHT = pytest.mark.nightly
 
 
 def run(more="", **changes):
-    """A run of a scene; it must not fail."""
     model = model_of(helical_scene(more, **{"accuracy": FEW, **changes}))
     found = run_of(model, on_stand_in_bodies(model))
     assert found.failure is None, str(found.failure)
@@ -56,8 +55,7 @@ def places(pinion, wheel):
 @pytest.mark.nightly
 @pytest.mark.parametrize("friction", [pytest.param("", marks=BY_NIGHT), FRICTION])
 def test_hands_in_the_mirror(friction, measured):
-    """Row 9. Exact symmetry: z -> -z turns hands, misalignment, places of bearings, axial forces and tilts round, and
-    nothing else."""
+    """Row 9. Exact symmetry: z -> -z turns hands, misalignment, bearings' places, axial forces and tilts round."""
     right = run(friction + CROWNED + misaligned(0.02, 0.01) + places((-40, 60), (-45, 50)), hand="right", offset=2.0)
     left = run(friction + CROWNED + misaligned(-0.02, -0.01) + places((-60, 40), (-50, 45)), hand="left", offset=-2.0)
     apart = difference(errors(left), errors(right))
@@ -74,8 +72,7 @@ def test_hands_in_the_mirror(friction, measured):
 
 
 def test_springs_from_soft_to_rigid(measured):
-    """Row 15. Known limit: tilts and axial motion fall as the bearings stiffen, in proportion to 1/k in the end, to the
-    pair on rigid shafts."""
+    """Row 15. Known limit: tilts and axial motion fall as 1/k to the pair on rigid shafts."""
     rigid = states(*marched(misaligned(0.02) + FRICTION), "transmission_error")
     tilts, axial, apart = [], [], []
     for factor in (1e-3, 1.0, 1e3, 1e6, 1e12):
@@ -110,8 +107,7 @@ def loads():
 
 @pytest.mark.parametrize(("torque", "friction"), loads())
 def test_any_torque_is_carried(torque, friction, measured):
-    """Row 16. Exact identity (equilibrium): the wheel's couple is the load, nothing is added, no step fails; the laws
-    of contact hold at every step."""
+    """Row 16. Exact identity: the wheel's couple is the load, no step fails; the laws of contact hold."""
     found = run(friction + CROWNED + misaligned(0.01), torque=torque)
     obeys_the_laws(found)
     spurious = float(np.abs(found.result["reaction_couple"].sel(gear="wheel").values + torque).max())
@@ -122,9 +118,8 @@ def test_any_torque_is_carried(torque, friction, measured):
 
 @pytest.mark.parametrize("helix", [40.0, pytest.param(45.0, marks=BY_NIGHT)])
 def test_steep_helix(helix, measured):
-    """Row 3. Exact identity: without friction all forces have the direction of the flanks' normal, so that the axial
-    force is the transverse one times the tangent of the base helix angle (ISO 21771: sin(beta_b) = sin(beta)
-    cos(alpha_n)), opposite on both gears."""
+    """Row 3. Exact identity: without friction the axial force is the transverse one times the tangent of the base
+    helix angle (ISO 21771: sin(beta_b) = sin(beta) cos(alpha_n)), opposite on both gears."""
     found = run(CROWNED + misaligned(0.01), helix=helix, teeth=(30, 50))
     obeys_the_laws(found)
     sine = np.sin(np.radians(helix)) * np.cos(np.radians(20.0))
@@ -141,8 +136,7 @@ def test_steep_helix(helix, measured):
     [(0.0, 0.3), (20.0, -0.3), pytest.param(0.0, -0.3, marks=BY_NIGHT), pytest.param(20.0, 0.3, marks=BY_NIGHT)],
 )
 def test_misaligned_so_far_that_one_end_touches(helix, in_plane, measured):
-    """Row 18. Equilibrium: with fixed shafts any torque closes some contact in the end; the warning says which part of
-    the face it is."""
+    """Row 18. Equilibrium on fixed shafts; the warning says which part of the face touches."""
     found = run(misaligned(in_plane), helix=helix, torque=20e3)
     result, pair = found.result, found.model.pair
     transverse = 20e3 / pair.wheel.base_radius
@@ -161,8 +155,7 @@ def test_misaligned_so_far_that_one_end_touches(helix, in_plane, measured):
 
 @pytest.mark.parametrize("steps", [pytest.param(10, marks=BY_NIGHT), 100])
 def test_a_slice_on_the_pitch_point(steps, measured):
-    """Row 21. The middle slice stands on the pitch point, exactly or 1e-12 mm beside it, at a step: no step fails,
-    nothing changes."""
+    """Row 21. Exactly or 1e-12 mm beside: no step fails, nothing changes."""
     last, methods = [], set()
     for beside in (0.0, 1e-12, -1e-12):
         model = model_of(

@@ -14,12 +14,7 @@ LIMITS = {
 }
 
 
-def test_any_step_obeys_signorini(measured):
+@pytest.mark.parametrize("examples", [120, pytest.param(10000, marks=pytest.mark.nightly)])
+def test_any_step_obeys_signorini(measured, examples):
     """Signorini's law and equilibrium, from forces and coordinates; frictionless steps must be solved, being convex."""
-    judged_steps(measured, steps(FRICTIONS), LIMITS, 120)
-
-
-@pytest.mark.nightly
-def test_many_steps_obey_signorini(measured):
-    """Authority: as above, ten thousand times."""
-    judged_steps(measured, steps(FRICTIONS), LIMITS, 10000)
+    judged_steps(measured, steps(FRICTIONS), LIMITS, examples)

@@ -14,12 +14,7 @@ LIMITS = {
 }
 
 
-def test_any_step_obeys_coulomb(measured):
-    """Authority: Coulomb's law, from forces and coordinates."""
-    judged_steps(measured, steps(st.floats(1e-3, 2.0)), LIMITS, 120)
-
-
-@pytest.mark.nightly
-def test_many_steps_obey_coulomb(measured):
-    """Authority: as above, ten thousand times."""
-    judged_steps(measured, steps(st.floats(1e-3, 2.0)), LIMITS, 10000)
+@pytest.mark.parametrize("examples", [120, pytest.param(10000, marks=pytest.mark.nightly)])
+def test_any_step_obeys_coulomb(measured, examples):
+    """Coulomb's law, from forces and coordinates."""
+    judged_steps(measured, steps(st.floats(1e-3, 2.0)), LIMITS, examples)

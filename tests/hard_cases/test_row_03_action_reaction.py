@@ -1,5 +1,4 @@
-"""Row 3: what one gear does to the other comes back: forces and moments of the pair, and of each gear with its
-shaft."""
+"""Row 3: what one gear does to the other comes back."""
 
 from dataclasses import replace
 
@@ -30,7 +29,7 @@ def case(request, paper_scene):
 
 @pytest.mark.parametrize("case", [name for name in SCENES if "Hz" not in name], indirect=True)
 def test_reactions_are_what_the_springs_and_the_load_hold(case, measured):
-    """Equilibrium of each gear without inertia: bearings hold the force, the input shaft and the load the couples."""
+    """Equilibrium of each gear without inertia."""
     name, scene, result = case
     size = np.hypot(result.reaction_x, result.reaction_y).max().item()
     held = [
@@ -42,5 +41,4 @@ def test_reactions_are_what_the_springs_and_the_load_hold(case, measured):
     held.append(np.abs(couple.sel(gear="wheel") + scene.load.wheel_torque).max().item() / torque)
     twist = scene.shafts.torsional_stiffness * result.rotation.sel(gear="pinion")
     held.append(np.abs(twist - couple.sel(gear="pinion")).max().item() / torque)
-    measured(f"{name}: difference of the reactions from springs and load", max(held), "1e-12")
-    assert max(held) <= 1e-12
+    measured(f"{name}: difference of the reactions from springs and load", max(held), 1e-12)

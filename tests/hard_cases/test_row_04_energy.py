@@ -29,8 +29,8 @@ def march(marcher, record, steps):
 @pytest.mark.parametrize("damped", [True, False])
 @pytest.mark.parametrize("speed", [200.0, 2000.0])
 def test_frozen_frictionless_step_balances(paper_scene, paper_pair, stand_in_flanks, measured, damped, speed):
-    """Exact identity of average acceleration with Signorini contact: change of energy = work of the loads + 1/2 sum(p0
-    g1 - p1 g0) - damping."""
+    """Exact identity of average acceleration with Signorini contact: change of energy = work of the loads + 1/2
+    sum(p0 g1 - p1 g0) - damping."""
     scene = replace(paper_scene, friction=None, damping=paper_scene.damping if damped else None)
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 2e-5)
     records = march(marcher, pushed(marcher, shafts, rotation_1=speed), 400)
@@ -52,14 +52,12 @@ def test_frozen_frictionless_step_balances(paper_scene, paper_pair, stand_in_fla
     measured(
         f"{'damped' if damped else 'undamped'}, started with {speed:g} mm/s: defect of a step / work of the step",
         worst,
-        "1e-11",
+        1e-11,
     )
-    assert worst <= 1e-11
 
 
 def test_frozen_account_closes_with_friction(paper_scene, paper_pair, stand_in_flanks, measured):
-    """Exact identity: with friction (no rolling) the account closes to 1e-9 of the work done, and nothing comes from
-    the rotation."""
+    """Exact identity: the account closes, and nothing comes from the rotation."""
     scene = replace(paper_scene, friction=Friction(0.3))
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 2e-5)
     records = march(marcher, pushed(marcher, shafts, centre_y1=80.0, rotation_1=40.0), 400)
@@ -75,7 +73,7 @@ def test_frozen_account_closes_with_friction(paper_scene, paper_pair, stand_in_f
 
 @pytest.mark.parametrize("most", [60, pytest.param(400, marks=pytest.mark.nightly)])
 def test_undamped_bounce_is_bounded(paper_scene, paper_pair, stand_in_flanks, measured, most):
-    """Dropped on the flanks by the load, undamped: what the algorithm takes at impacts it gives back at releases."""
+    """Known: what the algorithm takes at impacts it gives back at releases."""
     scene = replace(paper_scene, friction=None, damping=None, shafts=None, bearings=None)
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 2e-5)
     rest = marcher.start()
@@ -121,7 +119,6 @@ RUNS = {
 
 
 def run_of_two_cycles(scene, name):
-    """The last two mesh cycles of one of RUNS."""
     return simulate(replace(scene, accuracy=COARSE, motion=Motion(200.0, 3, 2), **RUNS[name]))
 
 
@@ -133,8 +130,7 @@ def account_defect(result):
 
 @pytest.mark.parametrize("name", RUNS)
 def test_account_of_a_run_closes(paper_scene, measured, name):
-    """Exact identity, the geometry moving, also under a couple that varies and with steps of unequal length: energy
-    gained = input - output - damping - friction + changes of contact, to round-off."""
+    """Exact identity, the geometry moving, also under a couple that varies and with steps of unequal length."""
     result = run_of_two_cycles(paper_scene, name)
     defect, done = account_defect(result), float(result.work_input[-1])
     measured(f"rotating gears, {name}: defect / work of the drive", float(np.abs(defect).max()) / done, "1e-9")
@@ -143,9 +139,8 @@ def test_account_of_a_run_closes(paper_scene, measured, name):
 
 
 def test_friction_loss_is_that_of_the_literature(paper_scene, measured):
-    """Niemann/Winter, Maschinenelemente 2, mesh loss factor: P/P0 = mu H_v, H_v = pi (u + 1)/(z1 u) (1 - e + e1^2 +
-    e2^2), for a load that stands whole on a single pair and half on each of two; elastic teeth share it more smoothly,
-    by some per cent."""
+    """Niemann/Winter, Maschinenelemente 2: P/P0 = mu H_v, H_v = pi (u + 1)/(z1 u) (1 - e + e1^2 + e2^2), for a load
+    whole on a single pair and half on each of two; elastic teeth share it more smoothly, by some per cent."""
     loss, factor = friction_loss(paper_scene), loss_factor(paper_scene)
     measured(
         "friction loss of the paper's pair at mu = 0.1 (quasi-static)",

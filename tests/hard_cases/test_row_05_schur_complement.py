@@ -10,8 +10,8 @@ from fenics_gears.elasticity.ring import centre_motion
 
 
 def check_kernel(stiffness, rigid, what, measured):
-    """Exact identities: `norm(S R) / norm(S)` with R orthonormal, symmetry, and the first eigenvalue that is not of a
-    rigid motion."""
+    """Exact identities: `norm(S R) / norm(S)` with R orthonormal, symmetry, and the first eigenvalue that is not of
+    a rigid motion."""
     basis = np.linalg.qr(rigid)[0]
     in_kernel = np.linalg.norm(stiffness @ basis) / np.linalg.norm(stiffness)
     asymmetry = np.abs(stiffness - stiffness.T).max() / np.abs(stiffness).max()

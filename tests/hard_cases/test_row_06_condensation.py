@@ -18,7 +18,7 @@ from fenics_gears.elasticity.stiffness import displacement_space, nodes_at, stif
 
 @lru_cache
 def held_gear(name: str):
-    """The whole gear's own system, hub held, factorised by SuperLU: its displacement space, free dofs, factors."""
+    """The whole gear, hub held, factorised by SuperLU: its displacement space, free dofs, factors."""
     element, mesh = ELEMENTS[name], whole_gear_mesh(coarse_sector_mesh(name), PINION.teeth)
     space = displacement_space(mesh, element)
     matrix = stiffness_matrix(space, element, 0.3)
@@ -34,8 +34,7 @@ def held_gear(name: str):
     [name if name in ("P2", "Q1 incompatible") else pytest.param(name, marks=pytest.mark.nightly) for name in ELEMENTS],
 )
 def test_condensed_equals_uncondensed(name, measured):
-    """Exact identity: the full system of the whole gear, solved for random forces on a flank by another solver than
-    PETSc."""
+    """Exact identity: the full system of the whole gear, solved by another solver than PETSc."""
     element = ELEMENTS[name]
     mesh, space, free, factors = held_gear(name)
     flanks = [nodes_at(space, by_radius(mesh.edge_nodes(f"flank {tooth}", element.order))) for tooth in range(4)]
@@ -51,5 +50,4 @@ def test_condensed_equals_uncondensed(name, measured):
         into_frame = np.kron(np.eye(len(nodes)), rotation(offset * PINION.angular_pitch)).T
         found, expected = blocks[offset] @ forces, into_frame @ displacement[(2 * nodes[:, None] + [0, 1]).ravel()]
         differences.append(relative(found - expected, expected))
-    measured(f"condensed and uncondensed, {name}: difference", max(differences), "1e-9")
-    assert max(differences) <= 1e-9
+    measured(f"condensed and uncondensed, {name}: difference", max(differences), 1e-9)

@@ -1,4 +1,4 @@
-"""Row 9: where a run starts, which gear is called the pinion, and which way the world is mirrored must not matter."""
+"""Row 9: where a run starts, and which gear is called the pinion, must not matter."""
 
 from dataclasses import replace
 
@@ -39,8 +39,7 @@ def elastic(pair, scene, element="P1", coast_flank=False):
 
 
 def approach(flanks, pairing, grid, phase, force, flank=DRIVE):
-    """Rotation of the wheel (mm on its base circle) under a force at a phase of the mesh, the pinion held; and the
-    forces of contact."""
+    """Rotation of the wheel (mm on its base circle) under a force, the pinion held; and the forces of contact."""
     places = pair_places(flanks.pair, grid, phase % 1.0, coast_flanks=flank == COAST)
     pairs = tuple(tooth_pairs(flanks, grid, [place for place in places if place.flank == flank]))
     passage = Passage(pairs)
@@ -52,8 +51,7 @@ def approach(flanks, pairing, grid, phase, force, flank=DRIVE):
 @pytest.mark.parametrize("start", [7, 39, *(pytest.param(each, marks=pytest.mark.nightly) for each in (1, 23))])
 @pytest.mark.parametrize("make", [frictionless, lambda scene: scene], ids=["frictionless", "friction"])
 def test_any_start_angle(make, start, scene, measured):
-    """Quasi-static gears forget where they began: after two mesh cycles the same transmission error at the same
-    angle."""
+    """Quasi-static gears forget where they began after two mesh cycles."""
     scene = make(quasi_static(replace(scene, motion=replace(scene.motion, mesh_cycles=3, recorded_cycles=1))))
 
     def begun_later(model, progress, cache):
@@ -68,8 +66,7 @@ def test_any_start_angle(make, start, scene, measured):
     later = simulate(scene, preparation=begun_later).transmission_error.values[:-1]
     change = relative(np.roll(later, start) - usual, usual)
     friction = scene.friction.coefficient if scene.friction else 0.0
-    measured(f"start {start}/{len(usual)} of a mesh cycle later, mu = {friction:g}: difference", change, "1e-10")
-    assert change <= 1e-10
+    measured(f"start {start}/{len(usual)} of a mesh cycle later, mu = {friction:g}: difference", change, 1e-10)
 
 
 @pytest.mark.parametrize("relieved", [False, True])
@@ -89,5 +86,4 @@ def test_gears_swapped(element, relieved, scene, measured):
         other, swapped_forces = approach(there, pairings[1], grid, pair.contact_ratio - phase, force)
         changes.append(max(abs(other / usual - 1.0), relative(np.sort(swapped_forces) - np.sort(forces), forces)))
     name = element + (", tip relief" if relieved else "")
-    measured(f"gears swapped, {name}: difference of transmission error and forces", max(changes), "1e-10")
-    assert max(changes) <= 1e-10
+    measured(f"gears swapped, {name}: difference of transmission error and forces", max(changes), 1e-10)

@@ -15,8 +15,7 @@ COEFFICIENTS = (1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 
 @pytest.mark.parametrize("name", [pytest.param("quasi-static", marks=pytest.mark.nightly), "200 Hz"])
 def test_effect_of_friction_is_of_its_order(name, paper_scene, measured):
-    """Known order: the laws are piecewise linear in mu, so the difference over mu tends to a constant, until
-    round-off."""
+    """Known order: the laws are piecewise linear in mu, so the difference over mu tends to a constant."""
     scene = SCENES[name](coarse_scene(paper_scene))
 
     def error_with(coefficient):

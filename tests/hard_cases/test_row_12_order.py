@@ -21,8 +21,7 @@ SCENES = {
 @pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.nightly)])
 @pytest.mark.parametrize("name", SCENES)
 def test_order_of_contact_nodes_and_gears(name, seed, paper_scene, measured):
-    """Exact identity: a step's equations with contact nodes and both gears' coordinates shuffled have the same
-    solution."""
+    """Exact identity: shuffled equations have the same solution."""
     scene = SCENES[name](coarse_scene(paper_scene))
     plain, shuffled = simulate(scene), solved_in_other_order(scene, seed)
     of_both = [(each.transmission_error.values, each.contact_pressure.fillna(0.0).values) for each in (shuffled, plain)]
@@ -60,5 +59,4 @@ def test_order_of_mesh_nodes_and_cells(name, measured):
     shuffled = condensed_sector(renumbered(coarse_sector_mesh(name), 5), ELEMENTS[name], 0.3)
     blocks = [ring_compliance(sector, PINION.teeth, 2) for sector in (shuffled, coarse_condensed_sector(name))]
     change = relative(blocks[0] - blocks[1], blocks[1])
-    measured(f"mesh nodes and cells shuffled, {name}: change of the compliance", change, "1e-11")
-    assert change <= 1e-11
+    measured(f"mesh nodes and cells shuffled, {name}: change of the compliance", change, 1e-11)

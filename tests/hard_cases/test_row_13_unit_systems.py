@@ -1,4 +1,4 @@
-"""Row 13: the numbers that a unit system or a similar pair gives a scene must not change what comes out."""
+"""Row 13: the unit system of a scene must not change what comes out."""
 
 import functools
 import itertools
@@ -110,8 +110,7 @@ BY_DAY = [*(("all", system) for system in SYSTEMS), *((maker, "inch, pound-force
     ],
 )
 def test_units_scale_out(system, maker, usual, measured):
-    """Exact identity (dimensional analysis): angles and force ratios are the same in any units, and so is every
-    iteration."""
+    """Exact identity (dimensional analysis), iterations included."""
     scene, here = usual(maker)
     length, force, time = SYSTEMS[system]
     there = simulate(in_units(scene, length, force, time))

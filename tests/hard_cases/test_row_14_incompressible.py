@@ -21,8 +21,7 @@ SECOND_ORDER, FIRST_ORDER = ("P2", "Q2"), ("P1", "Q1")
 
 @pytest.mark.parametrize("name", SECOND_ORDER)
 def test_second_order_elements_are_right_in_a_thick_ring(name, measured):
-    """Exact solution (Lame): a ring pressed outwards at nu = 0.499, where nearly all resistance is against change of
-    volume."""
+    """Exact solution (Lame): a ring pressed outwards at nu = 0.499."""
     error = error_under_pressure(name, 0.499)
     measured(f"thick ring under pressure, {name}: error", error, f"{TOLERANCE[name]:.1g}, (h/r)^4")
     assert error <= TOLERANCE[name]
@@ -59,8 +58,7 @@ def test_tooth_of_a_nearly_incompressible_gear(measured):
 
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_elements_that_lock_are_named(name, paper_scene, measured):
-    """From the task: a warning that names element, value and remedy, before the run and with the result; none for the
-    others."""
+    """A warning that names element, value and remedy, before the run and with the result; none for the others."""
     scene = frictionless(teeth_alone(coarse_scene(paper_scene)))
     gears = replace(scene.gears, material=replace(scene.gears.material, poissons_ratio=0.499))
     soft = replace(scene, gears=gears, accuracy=replace(scene.accuracy, element=name))

@@ -1,5 +1,4 @@
-"""Row 17: torque reversal, undamped resonance, sudden release: the teeth part, fly free, cross the backlash, touch
-behind and come back."""
+"""Row 17: the teeth part, fly free, cross the backlash, touch behind and come back."""
 
 from dataclasses import replace
 
@@ -26,7 +25,6 @@ FINE = replace(COARSE, steps_per_mesh_cycle=100)
 
 @pytest.fixture(scope="module")
 def both_flanks(paper_scene):
-    """The paper's pair with coast flanks, frictionless, at a coarse mesh."""
     return replace(frictionless(coarse_scene(paper_scene)), coast_flanks=CoastFlanks(), motion=Motion(200.0, 1, 1))
 
 
@@ -35,8 +33,7 @@ def backwards(scene):
 
 
 def with_torque(scene, part):
-    """The result of a scene whose load is multiplied by `part(step)` during the run; it starts in equilibrium under the
-    whole load."""
+    """The result of a scene whose load is multiplied by `part(step)`; it starts in equilibrium under the whole load."""
     model = model_of(scene)
     _, cycle = prepared(model, SilentProgress(), user_cache())
     change = (lambda step: (part(step) - 1.0) * model.drivetrain.load,)
@@ -47,12 +44,8 @@ def with_torque(scene, part):
 
 @pytest.mark.parametrize("absent", [("shafts", "bearings"), ()], ids=["teeth alone", "whole drivetrain"])
 def test_reversed_torque_is_the_mirror_image(both_flanks, paper_pair, absent, measured):
-    """Symmetry: driven backwards the pair deflects as driven forwards, mirrored, after crossing the backlash.
-
-    Only to 0.5 %: displacements are small ones about the nominal position, from which the wheel is a backlash away: its
-    tips pass
-    0.1 mm beside where the model has them, 0.75 % of a base pitch.
-    """
+    """Symmetry, after crossing the backlash; only to 0.5 %, since the tips pass 0.1 mm beside where small
+    displacements have them, 0.75 % of a base pitch."""
     scene = replace(quasi_static(both_flanks), accuracy=FINE, **dict.fromkeys(absent))
     forward, backward = simulate(scene), simulate(backwards(scene))
     assert np.all(backward.normal_force.values == 0.0)
@@ -63,9 +56,8 @@ def test_reversed_torque_is_the_mirror_image(both_flanks, paper_pair, absent, me
         f"static reversal, {'without shafts and bearings' if absent else 'with shafts and bearings'}: relative"
         " difference from the mirror image",
         max(apart),
-        "5e-3",
+        5e-3,
     )
-    assert max(apart) <= 5e-3
     assert backward.reaction_couple.sel(gear="wheel").values == pytest.approx(scene.load.wheel_torque, rel=1e-9)
     assert backward.coast_flank_opening.values.max() <= 1e-12
     lowest = min(np.nanmin(curve.y) for curve in next(pair_forces(Run(backward))).curves)
@@ -73,8 +65,7 @@ def test_reversed_torque_is_the_mirror_image(both_flanks, paper_pair, absent, me
 
 
 def test_sudden_release_flies_to_the_coast_flanks_and_comes_back(both_flanks, paper_pair, measured):
-    """Newton's first law: released, with rigid shafts and bearings and no damping, the wheel crosses the backlash at
-    constant speed, and between the flanks its energy stays what the teeth gave it."""
+    """Newton's first law: on rigid shafts the wheel crosses the backlash at constant speed."""
     scene = replace(both_flanks, damping=None, bearings=None, shafts=None, accuracy=FINE, motion=Motion(200.0, 12, 12))
     result = with_torque(scene, lambda step: 0.0 if step > 20 else 1.0)
     driving, coasting = result.normal_force.values > 0.0, result.coast_normal_force.values > 0.0
@@ -87,14 +78,12 @@ def test_sudden_release_flies_to_the_coast_flanks_and_comes_back(both_flanks, pa
     place = result.rotation.sel(gear="wheel").values * paper_pair.wheel.base_radius
     inside = free[:-2] & free[1:-1] & free[2:] & (np.arange(len(free) - 2) > 20)
     bend = np.abs(np.diff(place, 2))[inside].max() / np.ptp(place)
-    measured("sudden release: change of the motion per step in flight / motion per step", bend, "1e-12")
+    measured("sudden release: change of the motion per step in flight / motion per step", bend, 1e-12)
     openings = (result.drive_flank_opening.values + result.coast_flank_opening.values)[
         free & (np.arange(len(free)) > 20)
     ]
     apart = np.abs(openings / paper_pair.backlash - 1.0).max()
-    measured("sudden release: gaps of both flanks in flight / backlash - 1", apart, "0.01")
-    assert bend <= 1e-12
-    assert apart <= 0.01
+    measured("sudden release: gaps of both flanks in flight / backlash - 1", apart, 0.01)
     assert result.attrs["contact_loss_count"] >= 1 and result.attrs["contact_loss_opening"] >= paper_pair.backlash
 
 
@@ -109,9 +98,8 @@ def _touches(driving, coasting):
 def test_flight_of_the_whole_drivetrain_follows_the_matrix_exponential(
     paper_scene, paper_pair, stand_in_flanks, measured
 ):
-    """Exact solution: released, the teeth part, friction or not, and from then on springs, dampers and masses move as
-    the exponential of their linear system; average acceleration approaches it with order 2, and is itself, step by
-    step from the same state, that of the drivetrain without gears: a step may differ by a 400th of 1e-12."""
+    """Exact solution: the exponential of the linear system, approached with order 2; each step is that of the
+    drivetrain without gears."""
     errors = []
     for count in (100, 200, 400):
         step = 2e-3 / count
@@ -136,16 +124,14 @@ def test_flight_of_the_whole_drivetrain_follows_the_matrix_exponential(
         exact = (expm(2e-3 * system) @ np.concatenate([position, velocity]))[:k]
         errors.append(np.abs(record.state.position - exact).max() / np.abs(position).max())
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
-    measured("flight: relative difference of a step from the drivetrain without gears", worst, "2.5e-15", row=18)
+    measured("flight: relative difference of a step from the drivetrain without gears", worst, 2.5e-15, row=18)
     measured("flight: order of convergence to the exact solution (matrix exponential)", orders[-1], "2 +- 0.1")
-    assert worst <= 2.5e-15
     assert orders == pytest.approx([2.0, 2.0], abs=0.1)
 
 
 def test_undamped_resonance_crosses_the_backlash_and_comes_back(both_flanks, paper_pair, measured):
-    """Claim 10 and what the paper's model lacks: undamped at resonance the teeth part, cross the backlash, touch on the
-    coast flanks and return, again and again; in free flight, centres fixed, both openings sum to the backlash but for
-    the hat average."""
+    """Claim 10 and what the paper's model lacks: in free flight, centres fixed, both openings sum to the backlash
+    but for the hat average."""
     fine = replace(COARSE, steps_per_mesh_cycle=160)
     result = simulate(replace(both_flanks, damping=None, bearings=None, accuracy=fine, motion=Motion(270.0, 40, 40)))
     driving, coasting = result.normal_force.values > 0.0, result.coast_normal_force.values > 0.0

@@ -1,5 +1,5 @@
-"""Row 18: no flank touches. With inertia the gears fly free; without, the error says which load is not held and which
-motion is free."""
+"""Row 18: no flank touches. With inertia the gears fly free; else the error says which load is not held and what is
+free."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -27,9 +27,8 @@ def test_a_step_without_contact_is_the_drivetrain_alone(friction, measured):
     solution = solve_step(problem, all_open(problem))
     expected = np.linalg.solve(problem.stiffness, problem.load)
     error = np.abs(solution.coordinates - expected).max() / np.abs(expected).max()
-    measured(f"coordinates, relative difference from K^-1 F, friction {friction:g}", error, "1e-13")
+    measured(f"coordinates, relative difference from K^-1 F, friction {friction:g}", error, 1e-13)
     assert np.all(solution.forces == 0.0)
-    assert error <= 1e-13
 
 
 ABSENT = [(), ("bearings",), ("shafts",), ("shafts", "bearings")]
@@ -40,8 +39,7 @@ ABSENT = [(), ("bearings",), ("shafts",), ("shafts", "bearings")]
 def test_a_static_load_that_opens_all_gaps_is_named(
     absent, frictional, paper_scene, paper_pair, stand_in_flanks, measured
 ):
-    """Message: the other way round, without coast flanks, the couple opens every gap; whatever else gives way, it turns
-    the wheel."""
+    """Message: whatever else gives way, the couple turns the wheel."""
     scene = replace(paper_scene, inertia=None, damping=None, **dict.fromkeys(absent))
     scene = scene if frictional else replace(scene, friction=None)
     scene = replace(scene, load=replace(scene.load, wheel_torque=-scene.load.wheel_torque))
@@ -61,7 +59,7 @@ def test_a_static_load_that_opens_all_gaps_is_named(
 
 
 def test_a_position_where_nothing_can_touch_is_named(paper_scene, paper_pair, stand_in_flanks, measured):
-    """Message: a static step at which no tooth pair has a contact node says so, and that the wheel turns freely."""
+    """Message: no tooth pair has a contact node, and the wheel turns freely."""
     scene = replace(paper_scene, inertia=None, damping=None, friction=None)
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-4)
     start, k = marcher.start(), len(shafts.coordinates)

@@ -39,7 +39,6 @@ def operator_of(flanks, pairs):
 
 
 def only(operator, node):
-    """The operator with one contact node left."""
     kept = slice(node, node + 1)
     return replace(
         operator,
@@ -61,13 +60,11 @@ def test_one_contact_node(model, flanks, measured):
         solution = pressed(alone, force)
         approach = alone.gap[0] + alone.compliance[0, 0] * force
         errors += [abs(solution.forces[0] / force - 1.0), abs(solution.coordinates[0] / approach - 1.0)]
-    measured("one contact node: force and approach", max(errors), "1e-14")
-    assert max(errors) <= 1e-14
+    measured("one contact node: force and approach", max(errors), 1e-14)
 
 
 def test_coincident_contact_nodes_share_alike(model, flanks, measured):
-    """Exact by symmetry: the same nodes twice carry half each, together what they carry once; the lost rank is
-    counted."""
+    """Exact by symmetry: the same nodes twice carry half each; the lost rank is counted."""
     pair, force = flanks.pair, model.drivetrain.load[-1]
     (nodes,) = tooth_pairs(flanks, model.resolution.contact_grid, [drive_place(pair, 0, pair.pitch_point)])
     once, twice = (operator_of(flanks, pairs) for pairs in ((nodes,), (nodes, nodes)))
@@ -76,7 +73,7 @@ def test_coincident_contact_nodes_share_alike(model, flanks, measured):
     split = np.abs(half[0] - half[1]).max() / half.max()
     together = np.abs(half.sum(axis=0) - first.forces).max() / first.forces.max()
     approach = abs(second.coordinates[0] / first.coordinates[0] - 1.0)
-    measured("coincident nodes: relative difference of their forces", split, "1e-10")
+    measured("coincident nodes: relative difference of their forces", split, 1e-10)
     measured(
         "coincident nodes: difference of force and of approach from single nodes",
         f"{together:.1g}, {approach:.1g}",
@@ -84,7 +81,6 @@ def test_coincident_contact_nodes_share_alike(model, flanks, measured):
     )
     measured("coincident nodes: dependent equations counted", float(twice.dependent_rows), f"{once.nodes}")
     assert (once.dependent_rows, twice.dependent_rows) == (0, once.nodes)
-    assert split <= 1e-10
     assert together <= 1e-3
     assert approach <= 1e-4
 
@@ -98,8 +94,7 @@ def test_coincident_contact_nodes_share_alike(model, flanks, measured):
     ],
 )
 def test_nodes_closer_than_elements_are_reported(element, nodes, scene, model, measured):
-    """From the task: rank checked, never silent. The force is carried to round-off; what becomes of the transmission
-    error is on record."""
+    """Rank checked, never silent; the force is carried to round-off."""
     dense = replace(scene, accuracy=replace(scene.accuracy, element=element, contact_nodes=nodes))
     usual, result = simulate(replace(scene, accuracy=replace(scene.accuracy, element=element))), simulate(dense)
     force = scene.load.wheel_torque / result.attrs["base_radius_wheel"]

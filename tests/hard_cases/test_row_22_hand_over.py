@@ -26,8 +26,7 @@ def largest_step(scene, steps, size=0.12):
     "kind", ["teeth alone", pytest.param("paper's drivetrain", marks=pytest.mark.nightly), "with friction"]
 )
 def test_transmission_error_is_continuous_in_time(coarse, kind, measured):
-    """Continuity: the largest change from step to step is that of a finite slope; it halves with the step, hand-over
-    included."""
+    """Continuity: the largest change from step to step halves with the step, hand-over included."""
     scene = {
         "teeth alone": teeth_alone(frictionless(coarse)),
         "paper's drivetrain": quasi_static(frictionless(coarse)),
@@ -46,8 +45,7 @@ def test_transmission_error_is_continuous_in_time(coarse, kind, measured):
 
 @pytest.mark.nightly
 def test_transmission_error_stays_continuous_as_the_mesh_is_refined(coarse, measured):
-    """Continuity as h goes to 0: the steepest slope does not grow with refinement, as that of a jump in the making
-    would (as 1/h)."""
+    """Continuity as h goes to 0: the steepest slope does not grow, as that of a jump would (as 1/h)."""
     slopes = [100 * largest_step(teeth_alone(frictionless(coarse)), 100, size) for size in (0.16, 0.08, 0.04)]
     measured(
         "steepest slope, in peak-to-peak values per mesh cycle, with elements of 0.16, 0.08, 0.04 mm",
@@ -58,7 +56,7 @@ def test_transmission_error_stays_continuous_as_the_mesh_is_refined(coarse, meas
 
 
 def at_the_edge(scene, size):
-    """Largest pressure (MPa) at a contact node on a tip's edge over a mesh cycle, and the mean transmission error."""
+    """Largest pressure (MPa) at a node on a tip's edge, the mean transmission error, and warnings."""
     result = simulate(one_cycle(scene, 100, size))
     pressure, roll = result.contact_pressure.values, result.contact_roll_angle.values
     # The pinion's tip ends its flank at the largest roll angle that any node reaches.
@@ -68,8 +66,7 @@ def at_the_edge(scene, size):
 
 @pytest.mark.nightly
 def test_pressure_at_a_sharp_edge_grows_without_bound_and_is_flagged(coarse, measured):
-    """Elasticity: a stress singularity at the corner; the nodal pressure grows with every refinement, the transmission
-    error converges."""
+    """Elasticity: a stress singularity at the corner; the transmission error converges."""
     found = [at_the_edge(teeth_alone(frictionless(coarse)), size) for size in (0.16, 0.08, 0.04)]
     pressures, errors = np.array([each[0] for each in found]), np.array([each[1] for each in found])
     measured(

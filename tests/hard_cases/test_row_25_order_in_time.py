@@ -56,7 +56,7 @@ def errors_of(marcher_with, duration, counts, scheme=None):
 
 
 def test_order_two_while_the_status_stands(paper_scene, paper_pair, stand_in_flanks, measured):
-    """Exact solution: while the closed nodes stay closed the system is linear; the matrix exponential solves it."""
+    """Exact solution: while the closed nodes stay closed, the matrix exponential."""
     errors = tied_errors(paper_scene, paper_pair, stand_in_flanks, (100, 200, 400))
     orders = np.log2(errors[:-1] / errors[1:])
     measured("order while the contact status is unchanged", orders[-1], "2 +- 0.1")
@@ -64,7 +64,7 @@ def test_order_two_while_the_status_stands(paper_scene, paper_pair, stand_in_fla
 
 
 def test_backward_euler_is_of_order_one(paper_scene, paper_pair, stand_in_flanks, measured):
-    """Known order of the method that steps where no vibration is sampled: 1."""
+    """Known order of the method."""
     errors = tied_errors(paper_scene, paper_pair, stand_in_flanks, (400, 800, 1600), BackwardEuler)
     orders = np.log2(errors[:-1] / errors[1:])
     measured("order of backward Euler", orders[-1], "1 +- 0.1")
@@ -72,8 +72,7 @@ def test_backward_euler_is_of_order_one(paper_scene, paper_pair, stand_in_flanks
 
 
 def bounce(scene, pair, flanks, steps, speed):
-    """Position after 4 ms of a hub pushed at `speed`, the steps at which the closed nodes changed, and those at which
-    the teeth parted."""
+    """Position after 4 ms of a hub pushed at `speed`, and how often the closed nodes changed and the teeth parted."""
     marcher, shafts = frozen_marcher(replace(scene, damping=None), pair, flanks, 4e-3 / steps)
     record = pushed(marcher, shafts, rotation_1=speed)
     touching, changes, parted = record.solution.status, 0, 0
@@ -96,9 +95,8 @@ BOUNCES = {
     "name", [pytest.param(name, marks=[pytest.mark.nightly] if "separate" in name else []) for name in BOUNCES]
 )
 def test_order_across_changes_of_status(paper_scene, paper_pair, stand_in_flanks, name, measured):
-    """Known order: a change of status is met at the end of its step. Forces of elastic teeth do not jump but kink
-    there, and slip over a step is exact, so that the order stays 2. Mean order over two halvings, against steps 8 times
-    finer."""
+    """Known order: forces kink at the end of a step and slip over it is exact, so that the order stays 2. Mean order
+    over two halvings, against steps 8 times finer."""
     speed, coefficient, least, coarsest = BOUNCES[name]
     friction = replace(paper_scene.friction, coefficient=coefficient) if coefficient else None
     scene = replace(paper_scene, friction=friction)
@@ -210,8 +208,7 @@ def exact_block(spring: float):
 
 
 def test_order_two_through_stick_and_reversal(measured):
-    """Exact solution by pieces: a block on a spring slips back, sticks as the surface turns, and is carried into slip,
-    to and fro."""
+    """Exact solution by pieces: a block slips back, sticks as the surface turns, and is carried into slip."""
     spring, counts, errors = 1e5, 200 * 2 ** np.arange(4), []
     force, place = exact_block(spring)
     for steps in counts:

@@ -1,9 +1,5 @@
-"""Row 26: a wrong value in any field of a scene is refused before any computation.
-
-Authority throughout: hard case 26. The refusal names file, field, value as written, what is allowed and the nearest
-known name; the exit code is 2; nothing is written. The fields come from the schema itself, so that a new one is tried
-too. How messages are worded for mistakes as people make them is told by tests/scene/test_wrong_scenes.py.
-"""
+"""Row 26: a wrong value in any field of the schema is refused before any computation, with file, field, value, what
+is allowed and the nearest known name; exit code 2, nothing written."""
 
 import re
 import tomllib
@@ -23,8 +19,7 @@ from tests.hard_cases.scene_fields import (
     scene_with,
     whole_scene,
 )
-from tests.paper_text import without
-from tests.studies.conftest import ACCURACY
+from tests.paper_text import ACCURACY, without
 
 import fenics_gears.simulation.simulate
 from fenics_gears import GeometryError, Scene, SceneError, scene_from_text
@@ -40,8 +35,7 @@ class Computed(Exception):
 
 @pytest.fixture
 def outcome(tmp_path, monkeypatch, capsys):
-    """A function that runs a scene's text: the refusal's words, None where the scene is taken; it fails where anything
-    is written."""
+    """Runs a scene's text: the refusal's words, None where the scene is taken; fails where anything is written."""
     monkeypatch.chdir(tmp_path)
 
     def compute(scene, **options):
@@ -51,7 +45,7 @@ def outcome(tmp_path, monkeypatch, capsys):
 
     def run(text):
         file = tmp_path / "pair.toml"
-        file.write_text(text, encoding="utf-8")
+        file.write_text(text)
         try:
             code = main(["run", "pair.toml"])
         except Computed:
@@ -154,8 +148,7 @@ def tries_of(every: bool, mistakes) -> list[tuple[Field, str]]:
 @breadth
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_wrong_value_in_any_field_is_refused(outcome, measured, kind, every):
-    """Every field that the kind of mistake can be made in; "negative" and "zero" only where the field's own range
-    leaves them out."""
+    """Every field that the kind of mistake can be made in."""
     tries = tries_of(every, KINDS[kind])
     tries = tries if every else tries[list(KINDS).index(kind) :: 6]
     wrong = []
@@ -177,8 +170,8 @@ def test_a_wrong_value_in_any_field_is_refused(outcome, measured, kind, every):
 
 @breadth
 def test_a_missing_field_is_named(outcome, measured, every):
-    """Every field without a default, and the demo's own choice among alternatives of which one is required; one with a
-    default may be left out, or a rule between fields says what then is missing."""
+    """Every field without a default, and the demo's choice among alternatives; others may be left out, or a rule
+    says what then is missing."""
     chosen = {
         "gears.pinion.profile_shift",
         "gears.wheel.profile_shift",
@@ -201,7 +194,7 @@ def test_a_missing_field_is_named(outcome, measured, every):
 
 @breadth
 def test_a_misspelt_field_is_answered_with_the_right_one(outcome, measured, every):
-    """A letter lost in every field's name; it is not reported as missing on top of it."""
+    """A letter lost in every field's name."""
     wrong, tries = [], fields()[:: 1 if every else 10]
     for field in tries:
         key = field.path[-1]
@@ -220,8 +213,7 @@ def test_a_misspelt_field_is_answered_with_the_right_one(outcome, measured, ever
 
 
 def bounds_of(field: Field) -> list[str]:
-    """Both ends of a field's range, or the numbers next to them where an end is left out; not those that only cost
-    time."""
+    """Both ends of a field's range, or the numbers next to them where an end is left out."""
     found = []
     for end, excluded, inwards in zip(field.bounds, field.excluded, (1, -1)):
         number = end + inwards * (1e-12 * abs(end) or 1e-12) if excluded else end
@@ -241,14 +233,13 @@ def scale(field: Field) -> float:
 
 @breadth
 def test_either_end_of_every_range_is_a_scene_or_refused(tmp_path, monkeypatch, capsys, measured, every):
-    """What a range lets pass neither overflows nor divides by zero on the way to a model: `gears check` describes it,
-    or refuses it in words, or says that it cannot fit. By day every fortieth one."""
+    """`gears check` describes it, refuses it in words, or says that it cannot fit; by day every fortieth."""
     monkeypatch.chdir(tmp_path)
     outcomes = []
     for field, literal in tries_of(every, lambda field: bounds_of(field) if field.bounds else [])[
         :: 1 if every else 40
     ]:
-        (tmp_path / "pair.toml").write_text(scene_with(field.path, literal), encoding="utf-8")
+        (tmp_path / "pair.toml").write_text(scene_with(field.path, literal))
         code, said = main(["check", "pair.toml"]), capsys.readouterr()
         outcomes.append((field.name, literal, code, "nan" in said.out.lower().split(), said.err))
     taken = sum(code == 0 for _, _, code, _, _ in outcomes)
@@ -282,8 +273,7 @@ def quick_scene(field: Field) -> dict:
 
 @pytest.mark.nightly
 def test_either_end_of_every_range_can_be_run(tmp_path, monkeypatch, capsys, measured):
-    """A run at either end of a range ends with a result or a typed error, and holds no NaN; those that only cost time
-    are left out."""
+    """A run ends with a result without NaN or a typed error; ends that only cost time are left out."""
     from fenics_gears import results
 
     monkeypatch.chdir(tmp_path)
@@ -292,7 +282,7 @@ def test_either_end_of_every_range_can_be_run(tmp_path, monkeypatch, capsys, mea
     for field in fields():
         for literal in bounds_of(field) if field.bounds and field.name not in COSTLY else []:
             text = scene_with(field.path, literal, tree=quick_scene(field))
-            (tmp_path / "pair.toml").write_text(text, encoding="utf-8")
+            (tmp_path / "pair.toml").write_text(text)
             codes.append(main(["run", "pair.toml", "--output", "here", "--quiet", "--no-pictures"]))
             said = capsys.readouterr().err
             if codes[-1] not in (0, 2, 3, 4) or (codes[-1] > 0) != (said != ""):
@@ -318,8 +308,7 @@ LEFT_OUT = ("", "shafts", "bearings", "inertia", "motion", "gears", "coast_flank
     "every", [pytest.param(397, id="by day"), pytest.param(23, id="by night", marks=pytest.mark.nightly)]
 )
 def test_any_value_in_any_field_is_taken_or_refused(every):
-    """A scene or a refusal, never another error; also where another section is missing. Mistakes are counted; a gear
-    that cannot be is named with its field."""
+    """A scene or a refusal, never another error; also where another section is missing."""
     for field, value, missing in list(product(fields(), ANY_VALUE, LEFT_OUT))[::every]:
         text = scene_with(field.path, value)
         if missing:
@@ -338,7 +327,7 @@ def test_any_value_in_any_field_is_taken_or_refused(every):
             assert isinstance(scene, Scene)
 
 
-LINES = DEMO.read_text(encoding="utf-8").splitlines()
+LINES = DEMO.read_text().splitlines()
 WRITTEN = [number for number, line in enumerate(LINES) if re.match(r"\w+ *=", line)]
 ANY_LINE = st.integers(0, len(LINES) - 1)
 EDIT = st.one_of(
@@ -390,7 +379,7 @@ def check_edited(place: Path, edits, capsys) -> int:
     for edit in edits:
         lines = edited(lines, edit)
     file = place / "pair.toml"
-    file.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    file.write_text("\n".join(lines) + "\n")
     code = main(["check", str(file)])
     said = capsys.readouterr()
     assert (code == 0 and said.out and not said.err) or (code == 2 and said.err and not said.out)
@@ -399,8 +388,7 @@ def check_edited(place: Path, edits, capsys) -> int:
 
 @pytest.mark.parametrize("examples", [40, pytest.param(250, marks=pytest.mark.nightly)])
 def test_a_scene_edited_at_random_is_described_or_refused(place, capsys, measured, examples):
-    """Lines deleted, doubled, moved, cut, values and names exchanged, a character overwritten: exit code 0 or 2, never
-    a traceback."""
+    """Exit code 0 or 2, never a traceback."""
     codes = []
 
     @settings(max_examples=examples)

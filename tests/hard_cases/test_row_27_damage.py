@@ -1,8 +1,5 @@
-"""Row 27: damaged cache entries and results; nothing that is read back can be code.
-
-Authority throughout: hard case 27: recomputed or resumed; never a wrong number, never half a result under its final
-name. Where a number is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
-"""
+"""Row 27: damaged cache entries and results are computed again, the same to the last bit; nothing read back can be
+code."""
 
 import logging
 import os
@@ -26,7 +23,6 @@ from fenics_gears.elasticity.cache import Cache
 
 @pytest.fixture
 def own_cache(tmp_path):
-    """A cache with one entry."""
     made = Cache(tmp_path / "own cache")
     made.store(KEY, ARRAYS)
     return made
@@ -34,7 +30,6 @@ def own_cache(tmp_path):
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
-    """A result like that of a run, small."""
     values = {
         "transmission_error": ("time", np.sin(np.arange(40.0))),
         "own_field": (("time", "node"), np.arange(120.0).reshape(40, 3)),
@@ -110,7 +105,7 @@ DAMAGES = [
 
 @pytest.mark.parametrize("damage", DAMAGES)
 def test_a_damaged_cache_entry_is_reported_and_not_used(own_cache, damage, caplog, measured):
-    """A damaged entry is as good as none, and says so; it is written again where the file system lets it."""
+    """As good as none; written again where the file system lets it."""
     damage(own_cache.path(KEY))
     with caplog.at_level(logging.WARNING):
         loaded = own_cache.load(KEY)
@@ -133,7 +128,6 @@ def flipped(content: bytes, place: float, bit: int) -> bytes:
 
 
 def of_cache(own: Cache):
-    """What the cache's entry says, None where it is refused."""
     loaded = own.load(KEY)
     return loaded and {name: array.tobytes() for name, array in loaded.items()}
 
@@ -149,8 +143,7 @@ def of_result(path: Path):
 
 @pytest.mark.parametrize("kind", ["cache entry", "result"])
 def test_any_one_bit_flipped(own_cache, run, tmp_path, measured, kind):
-    """Wherever the bit: the entry is refused, before HDF5 sees it (which ended the process at some of these bits).
-    Likewise a run's file: what `gears plot` draws and a study keeps is what was written, or an error."""
+    """Wherever the bit: refused, before HDF5 sees it (which ended the process at some of these bits)."""
     path = own_cache.path(KEY) if kind == "cache entry" else tmp_path / "run.nc"
     results.save(run, tmp_path / "run.nc")
     content, refused = path.read_bytes(), []
@@ -189,8 +182,7 @@ def damage_case(damage: str, file: Path, other: Path) -> None:
 
 @pytest.mark.nightly
 def test_a_damaged_case_is_computed_again(folder, undrawn, caplog, measured):
-    """A study keeps no case that is not what was written into it; the dataset is that of the undisturbed study. Only
-    Newton's iterations depend on the runs before."""
+    """The undisturbed study's dataset; only Newton's iterations depend on the runs before."""
     study = write_study(folder, TWO)
     main(["study", str(study), "--quiet", "--output", "here"])
     combined = load("here")
@@ -232,7 +224,7 @@ def in_hdf5(content: bytes, path: Path) -> None:
 
 @pytest.mark.parametrize("wrapped", [False, True])
 def test_a_planted_pickle_is_never_loaded(tmp_path, capsys, measured, wrapped):
-    """In a cache entry's and a result's place, bare or within HDF5: refused, and its code has not run."""
+    """In a cache entry's and a result's place: refused, and its code has not run."""
     mark = tmp_path / "executed"
     content = pickle.dumps(Bomb(mark))
     pickle.loads(content).close()

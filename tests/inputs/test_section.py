@@ -14,8 +14,6 @@ from fenics_gears.inputs.section import Section, allowed_in, read, tree_of
 
 @dataclass(frozen=True)
 class Spring(Section):
-    """A section made up for these tests."""
-
     empty = "says nothing."
     alternatives = (("stiffness", "turns"),)
 
@@ -25,7 +23,7 @@ class Spring(Section):
 
 
 def test_a_default_is_written_with_its_unit_and_held_in_the_programs():
-    """Units: 3 cm are 30 mm; the page says what was written."""
+    """3 cm are 30 mm; the page says what was written."""
     assert read(Spring, {"turns": 4}) == (Spring(turns=4, length=30.0), [])
     assert allowed_in(Spring, "length").otherwise == "3 cm"
     assert tree_of(Spring(stiffness=0.2e3)) == {"stiffness": "200 N/mm"}
@@ -45,20 +43,20 @@ def test_a_default_is_written_with_its_unit_and_held_in_the_programs():
     ],
 )
 def test_what_is_wrong_with_a_section_is_told_with_its_place(tree, path, said):
-    """Authority: house rule 7, and the declaration above."""
+    """House rule 7."""
     found, (problem,) = read(Spring, tree, ("spring",))
     assert found is None and problem.path == path and said in problem.message
 
 
 def test_a_refused_value_says_why_in_a_sentence():
-    """Authority: the range declared above."""
+    """The range declared above."""
     with pytest.raises(Refused, match="is negative"):
         allowed_in(Spring, "length").convert("-1 mm")
 
 
 @pytest.mark.parametrize("section", AT_THE_TOP)
 def test_data_are_plain_values(section):
-    """What a study does with scenes: it compares them, sends them to other processes and changes a field."""
+    """A study compares them, sends them to other processes and changes a field."""
     data = getattr(scene_of(*with_needs(section)), section)
     assert pickle.loads(pickle.dumps(data)) == data == replace(data)
     assert hash(data) == hash(replace(data))

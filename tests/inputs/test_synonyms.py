@@ -1,5 +1,4 @@
-"""What engineers call a field that has another name here. Authority: the schema itself, and ISO 21771's and ISO 1328's
-symbols."""
+"""What engineers call a field that has another name here: the schema, ISO 21771's and ISO 1328's symbols."""
 
 import pytest
 from tests.paper_text import PAPER as DEMO
@@ -13,8 +12,7 @@ FIELDS = {".".join(path) for path in known_paths()}
 
 
 def test_every_synonym_is_of_a_field_and_of_one_alone():
-    """The schema: a hint names what there is, and no word of a section stands for two of its fields, nor is it one
-    itself."""
+    """The schema: no word stands for two fields of a section, nor is it one itself."""
     assert set(SYNONYMS) <= FIELDS
     places = [(name.rpartition(".")[0], word) for name, words in SYNONYMS.items() for word in words.split()]
     assert len(places) == len(set(places))
@@ -47,7 +45,7 @@ def test_every_synonym_is_of_a_field_and_of_one_alone():
     ],
 )
 def test_a_synonym_is_answered_with_the_name(old, new, hint):
-    """The interface: one mistake, which names the field that is meant and does not call it missing besides."""
+    """One mistake, which names the field that is meant."""
     assert old in DEMO
     with pytest.raises(SceneError) as error:
         scene_from_text(DEMO.replace(old, new, 1), "pair")
@@ -56,8 +54,7 @@ def test_a_synonym_is_answered_with_the_name(old, new, hint):
 
 
 def test_a_word_means_what_its_section_has():
-    """The field's symbols: mu is friction's coefficient and, of a material, often Poisson's ratio; unknown words mean
-    nothing."""
+    """mu is friction's coefficient and, of a material, Poisson's ratio."""
     assert meant(["friction"], "mu", ["coefficient"]) == "coefficient"
     assert meant(["gears", "material"], "mu", ["youngs_modulus", "poissons_ratio"]) == "poissons_ratio"
     assert meant(["gears", "wheel"], "z", ["teeth"]) == "teeth"

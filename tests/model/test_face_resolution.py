@@ -1,5 +1,4 @@
-"""Slices and layers over the face that follow from the scene: which end where, how many a helix asks for, and what is
-refused or warned of."""
+"""Slices and layers over the face that follow from the scene."""
 
 from dataclasses import replace
 
@@ -21,12 +20,12 @@ def model_with(more="", **values):
 
 
 def boundaries(model, gear):
-    """z (mm) of the layers' boundaries of a gear, from the middle of the common face."""
+    """z (mm) of a gear's layers, from the middle of the common face."""
     return face_discretisation(model, gear).sweep.boundaries + model.pair.gear_middles[gear]
 
 
 def slice_ends(model):
-    """z (mm) where slices begin and end, but for the cuts of the outermost ones."""
+    """z (mm), but for the cuts of the outermost slices."""
     face = model.face
     ends = np.append(face.positions - 0.5 * face.widths, face.positions[-1] + 0.5 * face.widths[-1])
     return ends if face.slices == face.evenly else np.delete(ends, [1, -2])
@@ -35,8 +34,7 @@ def slice_ends(model):
 @pytest.mark.parametrize("wider", [0.0, 0.02, 0.7, 11.0])
 @pytest.mark.parametrize(("width", "helix"), [(2.0, 0.0), (24.7, 8.0), (31.3, 38.0)])
 def test_slices_end_where_layers_do(width, helix, wider):
-    """Condition of a smooth line load: each layer of either gear on the common face has the same number of whole
-    slices, also where a gear is wider."""
+    """The same number of whole slices in each layer of either gear."""
     scene = helical_scene(CROWNED, helix=helix, width=width, accuracy="")
     model = model_of(
         replace(scene, gears=replace(scene.gears, pinion=replace(scene.gears.pinion, face_width=width + 2.0 * wider)))
@@ -56,8 +54,7 @@ def test_slices_end_where_layers_do(width, helix, wider):
 
 @pytest.mark.parametrize(("helix", "width"), [(1.0, 40.0), (20.0, 3.0), (20.0, 33.0), (40.0, 17.0)])
 def test_defaults_are_as_fine_as_they_say(helix, width):
-    """What docs/scene.md promises: no layer thicker than that part of the module, none in which the line of contact
-    moves further than that part of the base pitch."""
+    """docs/scene.md: parts of the module, and of the base pitch by the line of contact."""
     model = model_with(helix=helix, width=width)
     thickness = np.diff(boundaries(model, 0)).max()
     assert thickness <= LAYER_THICKNESS * model.scene.gears.module * (1.0 + 1e-9)
@@ -66,7 +63,7 @@ def test_defaults_are_as_fine_as_they_say(helix, width):
 
 
 def test_outermost_slices_of_helical_pairs_are_cut_in_two():
-    """By definition: of helical pairs alone and of many slices, which cover the common face without gaps."""
+    """Definition: of helical pairs alone, without gaps."""
     for helix, accuracy, cut in ((8.0, "", 1), (0.0, "", 0), (8.0, "slices = 7", 0), (8.0, "slices = 8", 1)):
         face = model_with(CROWNED, helix=helix, accuracy=accuracy).face
         size = 24.0 / face.evenly
@@ -79,8 +76,7 @@ def test_outermost_slices_of_helical_pairs_are_cut_in_two():
 
 
 def test_steeper_helices_have_more_slices():
-    """Geometry: at 8 degrees the module says how many, at 38 the turn of the helix: 24 mm of 3 mm and tau = 0.7086 move
-    the line by 17.0 mm, 1.566 base pitches."""
+    """Geometry: 24 mm of 3 mm and tau = 0.7086 move the line by 1.566 base pitches."""
     assert model_with(helix=8.0).face.evenly == model_with(CROWNED, helix=0.0).face.slices == 24
     assert model_with(helix=38.0).face.evenly == 2 * 27
 
@@ -96,8 +92,7 @@ def test_steeper_helices_have_more_slices():
     ],
 )
 def test_what_the_scene_asks_for_is_taken(asked, slices, layers):
-    """Convention: `slices` and `layers` are as given; of one alone the other follows so that slices end where layers
-    do, if a number near the default does that."""
+    """Of one alone the other follows so that slices end where layers do."""
     model = model_of(replace(helical_scene(accuracy="", helix=8.0), accuracy=asked))
     assert model.face.evenly == slices
     assert [face_discretisation(model, gear).layers for gear in range(2)] == [layers, layers]
@@ -105,8 +100,7 @@ def test_what_the_scene_asks_for_is_taken(asked, slices, layers):
 
 @pytest.mark.parametrize("offset", [0.0, 1.3])
 def test_layers_are_alike_towards_both_ends_of_a_gear(offset):
-    """What folding a sector needs (docs/third_dimension.md): boundaries are each other's opposites, wherever the common
-    face is."""
+    """docs/third_dimension.md: boundaries are each other's opposites."""
     scene = helical_scene(accuracy="", offset=offset)
     wider = replace(scene, gears=replace(scene.gears, wheel=replace(scene.gears.wheel, face_width=29.0)))
     for gear in range(2):
@@ -115,8 +109,7 @@ def test_layers_are_alike_towards_both_ends_of_a_gear(offset):
 
 
 def test_layers_that_turn_too_far_are_refused_before_anything_is_computed():
-    """Hard case 26: half a radian is what parabolas follow; one layer of 45 mm at 35 degrees turns by 0.906 rad, 45
-    tan(beta_b)/r_b."""
+    """Hard case 26: 45 mm at 35 degrees turn by 0.906 rad, 45 tan(beta_b)/r_b; half a radian is the limit."""
     coarse = replace(
         helical_scene(accuracy="", helix=35.0, width=45.0, teeth=(19, 25)), accuracy=Accuracy(slices=4, layers=1)
     )
@@ -134,8 +127,7 @@ def misaligned(amount, torque=200e3, **accuracy):
 
 
 def test_part_of_a_face_that_carries():
-    """Exact for a uniform foundation: a load F on a slope s touches over sqrt(2 F/(c s)), all of the face where that is
-    wider."""
+    """Exact: F on a slope s touches over sqrt(2 F/(c s))."""
     model = misaligned(300.0, torque=20e3)
     force, slope = 20e3 / model.pair.wheel.base_radius, 0.3 / 24.0
     assert loaded_part(model) == pytest.approx(np.sqrt(2.0 * force / (0.1 * 206e3 * slope)) / 24.0, rel=0.02)
@@ -143,8 +135,7 @@ def test_part_of_a_face_that_carries():
 
 
 def test_few_slices_under_the_load_are_warned_of():
-    """Finding: 60 um over 6 mm at light load, where a pair that carried on part of a slice was missed; slices that the
-    sentence asks for end it."""
+    """60 um over 6 mm at light load; slices that the sentence asks for end it."""
     (sentence,) = (each for each in misaligned(300.0, torque=20e3).warnings if "accuracy.slices" in each)
     asked = int(sentence.rsplit("= ", 1)[1])
     for amount, slices in ((300.0, asked), (20.0, None)):
@@ -155,7 +146,7 @@ def test_few_slices_under_the_load_are_warned_of():
 
 
 def test_check_prints_slices_layers_and_motions():
-    """docs/third_dimension.md, `gears check` prints both; motions that are unknown are told in words."""
+    """docs/third_dimension.md."""
     scene = helical_scene(BEARINGS, accuracy="slices = 12\nlayers = 6")
     wider = replace(scene, gears=replace(scene.gears, pinion=replace(scene.gears.pinion, face_width=32.0)))
     rows = {label: " ".join((str(value), words)) for label, value, words in dict(describe(wider))["Model"]}

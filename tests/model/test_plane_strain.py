@@ -17,8 +17,7 @@ def model_rows(scene) -> dict:
 
 
 def test_plane_strain_is_too_stiff_as_the_table_says():
-    """The three-dimensional way (docs/evidence/third_dimension.md, plane limits); and plane stress is softer by 1/(1 -
-    nu^2): nothing where nu is 0."""
+    """docs/evidence/third_dimension.md, plane limits; plane stress is softer by 1/(1 - nu^2)."""
     *between, strain = read_rows(plane_limits.NAME)[1:]
     assert {
         row["width"]: pytest.approx(100.0 * (row["mean"] / strain["mean"] - 1.0), abs=0.006) for row in between
@@ -32,8 +31,7 @@ def test_plane_strain_is_too_stiff_as_the_table_says():
 
 
 def test_check_says_which_width_counts_and_what_plane_strain_leaves_out(paper_scene):
-    """The rule; gears of one width have none that counts, wide ones nothing of plane strain, and flanks over the face
-    neither."""
+    """Nothing of gears of one width, of wide ones, or over the face."""
     wide = replace(
         paper_scene,
         gears=replace(

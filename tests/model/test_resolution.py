@@ -1,4 +1,4 @@
-"""Accuracy that follows from the scene: what the defaults go by, and that the scene's own values win."""
+"""Accuracy that follows from the scene."""
 
 from dataclasses import replace
 from math import pi, sqrt
@@ -23,7 +23,7 @@ def of_scene(scene, **accuracy):
 
 
 def test_values_of_the_scene_are_used_as_they_are(paper_scene):
-    """The paper's own: P2, 0.08 mm, 1.5 mm, 20 nodes, 100 steps."""
+    """The paper's own."""
     resolution = model_of(paper_scene).resolution
     assert (resolution.element, resolution.flank_element_size) == ("P2", 0.08)
     assert (resolution.contact_grid.length, resolution.contact_grid.nodes) == (1.5, 20)
@@ -31,20 +31,19 @@ def test_values_of_the_scene_are_used_as_they_are(paper_scene):
 
 
 def test_half_width_of_a_textbook_contact():
-    """Literature (Johnson 1985, ch. 4): steel on steel, R = 10 mm, 100 N/mm: b = sqrt(4 F' R/(pi E*)) = 0.1060 mm."""
+    """Johnson 1985, ch. 4: b = sqrt(4 F' R/(pi E*)) = 0.1060 mm for R = 10 mm, 100 N/mm."""
     assert hertz_half_width(100.0, 10.0, 0.5 * 206e3 / 0.91) == pytest.approx(0.10606, rel=1e-3)
 
 
 @pytest.mark.parametrize("torque, part", [(0.0, FINEST_ELEMENT), (437e7, COARSEST_ELEMENT)])
 def test_elements_stay_reasonable_whatever_the_load(paper_scene, torque, part):
-    """No load has no half-width; an absurd one has a half-width of teeth: elements stay between two parts of the
-    module."""
+    """Without half-width, or with one of teeth."""
     scene = replace(paper_scene, load=replace(paper_scene.load, wheel_torque=torque))
     assert of_scene(scene).flank_element_size == pytest.approx(part * 4.5)
 
 
 def test_steps_follow_the_highest_frequency(paper_scene, paper_pair):
-    """Twenty steps a period of the drivetrain's highest mode, within bounds; the mesh cycle alone without inertia."""
+    """Twenty steps a period of the highest mode, within bounds; the mesh cycle alone without inertia."""
     shafts = drivetrain(paper_scene, paper_pair)
     highest = natural_frequencies(shafts, 14.0 * 1e3 * 15.0)[-1]
     scene = replace(paper_scene, motion=replace(paper_scene.motion, mesh_frequency=100.0), accuracy=Accuracy())
@@ -56,8 +55,7 @@ def test_steps_follow_the_highest_frequency(paper_scene, paper_pair):
 
 
 def test_damping_ratios_and_what_the_mesh_excites(paper_scene, paper_pair):
-    """Exact: Rayleigh damping gives a translation of frequency w the ratio (alpha w + beta/w)/2; without friction
-    nothing moves it off the line of action."""
+    """Exact: (alpha w + beta/w)/2; without friction nothing moves off the line of action."""
     for friction in (False, True):
         modes = vibrations(drivetrain(paper_scene, paper_pair), mesh_stiffness(paper_scene), friction)
         omega = sqrt(0.155e6 / 4.9e-3)
@@ -70,8 +68,7 @@ def test_damping_ratios_and_what_the_mesh_excites(paper_scene, paper_pair):
 
 
 def test_steps_too_few_to_see_the_transmission_error_are_named(paper_scene):
-    """Measured, quasi-static. Of 200 steps' peak-to-peak value 20 see 99 %, 10 as little as 95 %, 4 as little as
-    half."""
+    """Measured: of 200 steps' peak-to-peak value 20 see 99 %, 10 as little as 95 %, 4 as little as half."""
     few, enough = (
         model_of(
             replace(paper_scene, accuracy=Accuracy(steps_per_mesh_cycle=steps), inertia=None, damping=None)

@@ -1,4 +1,4 @@
-"""Rims that are thin for a rigid bore are remarked."""
+"""Rims that are thin for a rigid bore."""
 
 from dataclasses import replace
 
@@ -20,7 +20,7 @@ def warnings_of(scene):
 
 
 def test_a_thin_rim_is_remarked_with_its_thickness(paper_scene):
-    """The rule; a rim of half a module under a root circle of 98.37 mm."""
+    """The rule; half a module under a root circle of 98.37 mm."""
     (found,) = warnings_of(with_wheel(paper_scene, bore_diameter=98.37 - 4.5))
     assert (
         found.startswith("wheel: thin rim: 2.25 mm = 0.5 modules")
@@ -30,7 +30,7 @@ def test_a_thin_rim_is_remarked_with_its_thickness(paper_scene):
 
 
 def test_other_seats_are_not_remarked(paper_scene):
-    """The rule; a solid body, a rim on a web, a body of its own mesh, and rigid teeth, which have no body."""
+    """The rule."""
     thin = with_wheel(paper_scene, bore_diameter=94.0)
     assert warnings_of(paper_scene) == warnings_of(with_wheel(paper_scene, web=Web(20.0, 47.0, 0.5))) == []
     assert rim_warnings(replace(model_of(thin), scene=replace(thin, body_meshes=BodyMeshes(None, object())))) == []
@@ -40,8 +40,7 @@ def test_other_seats_are_not_remarked(paper_scene):
 @pytest.mark.nightly
 @pytest.mark.parametrize(("teeth", "rim"), [(20, 1.0), (20, 2.0), (40, 1.0), (40, 2.0), (40, 4.0)])
 def test_what_is_said_is_what_is_measured(teeth, rim):
-    """Finite elements of a rim on a rigid ring against those of a solid body, the motion of the body as a whole taken
-    off."""
+    """Finite elements of a rim on a rigid ring against a solid body."""
     assert -too_stiff(rigid_bore.gear_of(teeth, rim)) == pytest.approx(
         rigid_bore.off(teeth, rim, on_web=False), abs=4.0
     )
@@ -49,5 +48,5 @@ def test_what_is_said_is_what_is_measured(teeth, rim):
 
 @pytest.mark.nightly
 def test_a_rim_on_a_web_is_softer():
-    """The same; the thinner the rim, the softer, where a rigid ring makes it stiffer."""
+    """The same; where a rigid ring makes it stiffer."""
     assert rigid_bore.off(40, 1.0, on_web=True) > rigid_bore.off(40, 2.0, on_web=True) > 10.0

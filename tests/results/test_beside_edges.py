@@ -1,4 +1,4 @@
-"""Pressure beside edges and kinks of the flanks stands apart, by place alone."""
+"""Pressure beside edges and kinks stands apart, by place alone."""
 
 from dataclasses import replace
 
@@ -17,7 +17,7 @@ ACCURACY = replace(COARSE, contact_length=2.0, contact_nodes=41, steps_per_mesh_
 
 
 def relieved(paper_scene, pinion=None, wheel=None):
-    """The paper's gears on rigid shafts with reliefs of 31 um from HPSTC, linear or parabolic."""
+    """The paper's gears on rigid shafts with reliefs of 31 um from HPSTC."""
     reliefs = [shape and Relief(0.031, shape=shape) for shape in (pinion, wheel)]
     return replace(
         frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1))),
@@ -27,8 +27,7 @@ def relieved(paper_scene, pinion=None, wheel=None):
 
 
 def along_flanks(pair, result):
-    """Arcs (2, time, slot, node), mm, of the nodes along both involutes, from where they lie in the plane: the circles
-    through them give their roll angles."""
+    """Arcs (2, time, slot, node), mm, of the nodes along both involutes, by circles through their places."""
     rb1, rb2, span = pair.pinion.base_radius, pair.wheel.base_radius, pair.line_of_action_length
     offset, roll = result.contact_offset.values, result.contact_roll_angle.values
     height = rb1 - offset
@@ -39,8 +38,7 @@ def along_flanks(pair, result):
 
 @pytest.mark.parametrize(("pinion", "wheel"), [(LINEAR, None), (PARABOLIC, LINEAR)])
 def test_pressures_are_told_apart_by_distance_along_the_flanks(paper_scene, pinion, wheel):
-    """Brute force: every node's distance from tips and from starts of linear relief, by its place in the plane, against
-    the Hertz half-width at full load, twice that for tips."""
+    """Brute force: distance from tips and starts of linear relief against the Hertz half-width, twice that for tips."""
     scene = relieved(paper_scene, pinion, wheel)
     result, model = simulate(scene), model_of(scene)
     pair, reach, arcs = model.pair, model.resolution.half_width, along_flanks(model.pair, result)
@@ -62,7 +60,7 @@ def test_pressures_are_told_apart_by_distance_along_the_flanks(paper_scene, pini
 
 
 def test_a_pair_without_kinks_has_no_pressure_there(paper_scene):
-    """Definition: parabolic relief starts without a kink; a scene without relief does not have the variable."""
+    """Definition."""
     parabolic = simulate(relieved(paper_scene, PARABOLIC, PARABOLIC))
     assert not parabolic.largest_kink_pressure.values.any() and "peak_kink_pressure" not in parabolic.attrs
     assert "largest_kink_pressure" not in simulate(replace(relieved(paper_scene), tip_relief=None))

@@ -1,4 +1,4 @@
-"""The scene that a result carries is the one that was run. Authority: the scene itself, and its reader."""
+"""The scene that a result carries is the one that was run."""
 
 import shutil
 from dataclasses import replace
@@ -18,7 +18,6 @@ MEASURED = Path(__file__).parents[2] / "demos" / "flank_errors"
 
 @pytest.fixture
 def measured(tmp_path):
-    """A scene with tables in a folder of its own."""
     shutil.copytree(MEASURED, tmp_path / "there")
     return load_scene(tmp_path / "there" / "measured.toml")
 
@@ -28,7 +27,7 @@ def result_of(scene) -> xr.Dataset:
 
 
 def test_a_changed_scene_is_carried_as_it_was_run(paper_scene):
-    """Identity: half the load is half the load to all who read the result."""
+    """Identity."""
     changed = replace(paper_scene, load=Load(0.5 * paper_scene.load.wheel_torque))
     result = result_of(changed)
     assert set(result.attrs) == {"scene", "scene_name"}
@@ -36,18 +35,18 @@ def test_a_changed_scene_is_carried_as_it_was_run(paper_scene):
 
 
 def test_tables_are_found_again_from_elsewhere(measured, tmp_path, monkeypatch, caplog):
-    """Identity: from whatever folder the result is read."""
+    """Identity."""
     result = result_of(replace(measured, load=Load(1e5)))
     monkeypatch.chdir(tmp_path)
     assert carried_scene(result) == replace(measured, load=Load(1e5)) and not caplog.records
 
 
 def test_tables_that_have_changed_are_named(measured, caplog):
-    """The hash of what was read: another number, and no file; the one that is as it was is not named."""
+    """The hash of what was read: another number, and no file."""
     result, table = result_of(measured), Path(measured.folder) / "pinion.csv"
-    lines = table.read_text(encoding="utf-8").splitlines()
+    lines = table.read_text().splitlines()
     cells = lines[-1].split(",")
-    table.write_text("\n".join([*lines[:-1], ",".join([*cells[:-1], "0.7"])]), encoding="utf-8")
+    table.write_text("\n".join([*lines[:-1], ",".join([*cells[:-1], "0.7"])]))
     carried_scene(result)
     table.unlink()
     carried_scene(result)
@@ -74,8 +73,7 @@ def test_a_body_mesh_that_was_overwritten_is_named(tmp_path, caplog):
 
 
 def test_a_scene_that_no_file_gives_is_none_of_another_one(paper_scene):
-    """A negative Poisson's ratio beyond the range of files: readers are refused in words, pictures go without a
-    scene."""
+    """Readers are refused in words, pictures go without a scene."""
     result = result_of(replace(paper_scene, gears=replace(paper_scene.gears, material=Material(206e3, -1.5))))
     with pytest.raises(SceneError, match=r"No scene file gives this scene, .*gears.*poissons_ratio = -1.5"):
         carried_scene(result)

@@ -1,5 +1,4 @@
-"""Extrema between steps against exact ones: of made-up curves, of springs in closed form, and of teeth by many more
-steps."""
+"""Extrema between steps."""
 
 from dataclasses import replace
 
@@ -40,9 +39,8 @@ def located(steps, values, value, sought):
 
 @pytest.mark.parametrize("name", CURVES)
 def test_the_highest_place_of_a_curve_between_its_steps(name):
-    """Exact: every curve is highest at 7.3137, by construction; the steps next to it lie lower by up to a tenth of what
-    is seen of the curve. Corners of straight lines are exact; a jump is found within the eighth of a step in which it
-    is. All places are eighths of a step, none is asked for twice."""
+    """Exact: at 7.3137 by construction; a jump is found within an eighth of a step. Places are eighths of a step,
+    none asked for twice."""
     curve, steps, asked = CURVES[name], np.arange(16.0), []
 
     def value(place):
@@ -63,14 +61,14 @@ def test_the_highest_place_of_a_curve_between_its_steps(name):
 
 
 def test_the_crest_of_a_cubic():
-    """Exact: -(x - 3.3)^2 (x + 9) + 5 is highest at 3.3, where it is 5, of all places right of its trough."""
+    """Exact: -(x - 3.3)^2 (x + 9) + 5."""
     steps = np.arange(8)
     place, found = largest_of_cubics(steps, 5.0 - (steps - 3.3) ** 2 * (steps + 9.0))
     assert place == pytest.approx(3.3, abs=1e-12) and found == pytest.approx(5.0, abs=1e-12)
 
 
 def test_a_curve_that_is_level_at_its_top_is_not_searched():
-    """Exact: where one pair bears the whole load its force is the largest that there can be."""
+    """Exact: one pair bears the whole load."""
     steps = np.arange(16.0)
     force = np.minimum(np.abs(steps - 7.5) / 4.0 + 0.3, 1.0)[::-1]
 
@@ -81,7 +79,6 @@ def test_a_curve_that_is_level_at_its_top_is_not_searched():
 
 
 def on_stand_ins(scene, flanks, steps):
-    """The result of a scene on teeth without finite elements."""
     scene = replace(scene, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=steps))
     model = model_of(scene)
     grid, tangential = model.resolution.contact_grid, scene.friction is not None
@@ -96,8 +93,7 @@ def on_stand_ins(scene, flanks, steps):
 
 @pytest.mark.parametrize("friction", [False, True], ids=["frictionless", "with friction"])
 def test_peak_to_peak_does_not_depend_on_the_steps(paper_scene, stand_in_flanks, friction):
-    """Brute force: 25 and 320 steps a mesh cycle give T_EPP and the largest force within 0.05 %, where samples of 25
-    miss ten times as much of T_EPP. No sample is outside, and 320 miss less than the curve changes in a step."""
+    """Brute force: 25 and 320 steps a mesh cycle within 0.05 %; no sample is outside."""
     scene = quasi_static(coarse_scene(paper_scene, cycles=1))
     scene = scene if friction else frictionless(scene)
     few, many = (on_stand_ins(scene, stand_in_flanks, steps) for steps in (25, 320))
@@ -113,8 +109,7 @@ def test_peak_to_peak_does_not_depend_on_the_steps(paper_scene, stand_in_flanks,
 
 
 def test_springs_in_closed_form(paper_scene):
-    """Exact: one pair of stiffness k (1 + 0.3 cos) on rigid shafts deflects by F/k, so that T_EPP is F/k (1/0.7 -
-    1/1.3) at phases 0.637 and 0.137."""
+    """Exact: k (1 + 0.3 cos) on rigid shafts: T_EPP is F/k (1/0.7 - 1/1.3) at phases 0.637 and 0.137."""
     scene = teeth_alone(frictionless(coarse_scene(paper_scene, cycles=2)))
     scene = replace(scene, accuracy=Accuracy(model=ISO_6336, steps_per_mesh_cycle=20))
     model, stiffness = model_of(scene), 2e5
@@ -142,8 +137,7 @@ def test_springs_in_closed_form(paper_scene):
 
 
 def test_a_step_solved_again_is_that_of_the_march(paper_scene, stand_in_flanks):
-    """Identity: where the place between steps is the next step itself, the march's position and forces, with friction
-    and its turning at the pitch point."""
+    """Identity: at the next step the march's position and forces, with friction turning at the pitch point."""
     scene = quasi_static(coarse_scene(paper_scene, cycles=2))
     model, records = model_of(scene), []
     cycle = Cycle(

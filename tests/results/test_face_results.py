@@ -1,4 +1,4 @@
-"""Results over the face: kept on disk while a run goes on, read again, and combined by a study."""
+"""Results over the face: kept on disk, read again, combined by a study."""
 
 import numpy as np
 import pytest
@@ -28,7 +28,7 @@ OF_FACE = {
 
 @pytest.mark.nightly
 def test_journal_keeps_fields_over_the_face(tmp_path, monkeypatch):
-    """Identity: a run whose steps are written down as they come has the same result, bit for bit."""
+    """Identity, bit for bit."""
     monkeypatch.setattr(journal, "SECONDS_WITHOUT", 0.0)
     written = simulate(wide_pair(MORE), journal=journal.Place(tmp_path / "run.nc.part"))
     assert any((tmp_path / "run.nc.part").iterdir())
@@ -36,7 +36,7 @@ def test_journal_keeps_fields_over_the_face(tmp_path, monkeypatch):
 
 
 def test_studies_take_the_load_factors(monkeypatch):
-    """Every attribute of the face is there, is listed, and is in the record of a study's case."""
+    """Every attribute of the face is listed and in a case's record."""
     result = helical_run()
     assert set(result.attrs) >= OF_FACE and {each.name for each in RESULT_ATTRIBUTES} >= OF_FACE
     record = record_of(result.assign_attrs(wall_time=1.0))
@@ -44,8 +44,7 @@ def test_studies_take_the_load_factors(monkeypatch):
 
 
 def test_a_peak_pressure_beside_the_end_of_a_line_of_contact_is_told():
-    """By definition, from the diameter that the result names: it is said where that is within half a module of the face
-    from an end of the line of contact, and the summary has it."""
+    """Definition: within half a module of the face from an end of the line of contact; the summary has it."""
     result = helical_run()
     pair = model_of(scene_from_text(result.attrs["scene"])).pair
     radius, base = 0.5 * result.attrs["peak_contact_pressure_diameter"], pair.pinion.base_radius
@@ -58,8 +57,7 @@ def test_a_peak_pressure_beside_the_end_of_a_line_of_contact_is_told():
 
 
 def test_measures_of_accuracy_are_of_the_middle_slice():
-    """Identity: but for line loads along the face, what settings are compared by is what the middle slice alone
-    gives."""
+    """Identity: but for line loads, what the middle slice alone gives."""
     whole, middle = (answer(each, 1.0) for each in (helical_run(), in_middle_slice(helical_run())))
     assert whole.keys() == middle.keys() | {MEAN, *OVER_FACE}
     for name, values in middle.items():
@@ -67,8 +65,7 @@ def test_measures_of_accuracy_are_of_the_middle_slice():
 
 
 def test_peak_pressure_is_not_of_an_end_of_the_face():
-    """By definition, from the result's own fields: of a misaligned pair the ends of the face, as deep as a tenth of
-    it, press most. Theirs is a pressure at edges, the headline's that of the rest of the face."""
+    """Definition: of a misaligned pair the ends press most; theirs is a pressure at edges."""
     model = model_of(
         helical_scene(
             '[misalignment]\nin_plane = "20 um"\n',

@@ -13,8 +13,7 @@ from fenics_gears.results.files import read_netcdf, write_netcdf
 
 
 def several_kinds(steps: int) -> xr.Dataset:
-    """A dataset with all kinds of values that results have: numbers with gaps, whole numbers, switches, texts, a
-    dimension without values."""
+    """All kinds of values that results have."""
     values = np.linspace(0.0, 1.0, 2 * steps).reshape(steps, 2)
     values[:1] = np.nan
     return xr.Dataset(
@@ -35,8 +34,7 @@ def several_kinds(steps: int) -> xr.Dataset:
 
 
 def test_a_file_is_read_as_if_another_program_had_written_it():
-    """Another program; xarray writes the same dataset by h5netcdf, and both files are read as the same, of no step
-    too."""
+    """xarray writes the same dataset by h5netcdf; of no step too."""
     for steps in (0, 5):
         ours = several_kinds(steps)
         theirs = _by_h5netcdf(ours)
@@ -51,8 +49,7 @@ def test_a_file_is_read_as_if_another_program_had_written_it():
 
 
 def test_files_are_read_as_another_program_reads_them():
-    """Another program; what xarray reads by h5netcdf, of files that it or this program has written: values, types,
-    attributes and order."""
+    """What xarray reads by h5netcdf, of files that it or this program has written."""
     for steps in (0, 5):
         ours = io.BytesIO()
         write_netcdf(several_kinds(steps), ours)
@@ -73,12 +70,12 @@ def test_files_are_read_as_another_program_reads_them():
 
 
 def _kind(type_of_values: np.dtype):
-    """A type; all types of text alike, since xarray reads texts as objects or as characters, by its version."""
+    """A type; all types of text alike."""
     return "text" if type_of_values.kind in "OU" else type_of_values
 
 
 def test_a_file_made_on_disk_is_the_one_made_in_memory(monkeypatch):
-    """Identity; results too large for memory go through the file, and are read as the same."""
+    """Identity."""
     monkeypatch.setattr(files, "MOST_IN_MEMORY", 0)
     ours, content = several_kinds(5), io.BytesIO()
     write_netcdf(ours, content)
@@ -87,7 +84,7 @@ def test_a_file_made_on_disk_is_the_one_made_in_memory(monkeypatch):
 
 
 def test_a_file_begun_as_a_copy_has_nothing_of_the_one_before():
-    """Identity; of datasets that differ in values, in an attribute or only in its type, each is read back as itself."""
+    """Identity, of datasets that differ in values, in an attribute or only in its type."""
     first = several_kinds(5)
     other = first.map(
         lambda each: each if each.dtype.kind == "O" else each + each.dtype.type(1), keep_attrs=True
@@ -136,7 +133,7 @@ DAMAGES = {
 
 @pytest.mark.parametrize("words", DAMAGES)
 def test_a_result_whose_layout_is_not_one_is_refused_by_its_first_mistake(tmp_path, words):
-    """docs/result.md's names, dimensions and types; a file with a valid digest can still lack one of them."""
+    """docs/result.md's names, dimensions and types."""
     results.save(made_up_run(), tmp_path / "run.nc")
     assert results.load(tmp_path / "run.nc").equals(made_up_run())
     written = made_up_run(fenics_gears_version="0.1.0")

@@ -1,4 +1,4 @@
-"""What a march writes down as it goes: the values themselves, wherever it is killed, whatever the disk does."""
+"""What a march writes down as it goes."""
 
 import errno
 import json
@@ -23,12 +23,10 @@ STORED = {"time": (("time",), np.dtype(float)), "field": (("contact_time", "slot
 
 @pytest.fixture
 def at_once(monkeypatch):
-    """Marches begin their journal with the first block."""
     monkeypatch.setattr(journal, "SECONDS_WITHOUT", 0.0)
 
 
 def march_of(steps):
-    """Counts that say themselves of which step they are."""
     return SimpleNamespace(
         **dict.fromkeys(COUNTS, steps),
         separations=[(each, each / 2.0) for each in range(0, steps, 50)],
@@ -37,13 +35,11 @@ def march_of(steps):
 
 
 def block(first, end):
-    """Values that say of which step they are."""
     steps = np.arange(first, end, dtype=float)
     return {"time": steps, "field": np.stack([steps, -steps], axis=1), "watched: any": steps % 2 == 0}
 
 
 def written(tmp_path, until, length):
-    """A journal of blocks as long as that."""
     own = Journal(Place(tmp_path / "run.nc.part"), load_scene(DEMO), STORED, STEPS, LAST)
     for first in range(0, until, length):
         own.put(first, block(first, min(first + length, until)), march_of(min(first + length, until)))
@@ -54,8 +50,7 @@ def written(tmp_path, until, length):
     ("until", "length"), [(100, 100), (299, 30), (2 * SPARE + 17, LONGEST_BLOCK), (SPARE + LAST + 1, 77)]
 )
 def test_it_holds_what_was_put(tmp_path, at_once, until, length):
-    """Identity: what is read, by the run itself and by another process, is what was put, also where a block was begun
-    and not ended."""
+    """Identity, also where a block was begun and not ended."""
     own = written(tmp_path, until, length)
     # A block that the kill came into the middle of: values without the word that they are whole.
     own._write(until, LONGEST_BLOCK, block(until, until + LONGEST_BLOCK))
@@ -73,7 +68,7 @@ def test_it_holds_what_was_put(tmp_path, at_once, until, length):
 
 @pytest.mark.parametrize("failing", [0, 3, 200])
 def test_a_full_disk_does_not_end_the_march(tmp_path, paper_scene, at_once, monkeypatch, caplog, failing):
-    """Row 27; two routes to the same result: in memory, and on a disk that is full from some write on."""
+    """Row 27: in memory, and on a disk that is full from some write on."""
     scene, calls, pwrite = coarse_scene(paper_scene, cycles=60), [], os.pwrite
 
     def full(*arguments):
@@ -92,8 +87,7 @@ def test_a_full_disk_does_not_end_the_march(tmp_path, paper_scene, at_once, monk
     "change", [{"version": "0.0"}, {"kinds": {"time": ["0", "|O", [], 0]}}, {"kinds": {"time": ["0", "<f8", [900], 0]}}]
 )
 def test_another_journal_is_refused(tmp_path, at_once, change):
-    """Row 27: one of another version, one whose values would be taken for addresses of objects, one that is too short;
-    never a wrong number."""
+    """Row 27: another version, values that would be addresses of objects, one that is too short."""
     written(tmp_path, 100, 100)
     path = tmp_path / "run.nc.part" / HEADER
     changed = json.dumps(journal._text(path) | change).encode()
@@ -104,8 +98,7 @@ def test_another_journal_is_refused(tmp_path, at_once, change):
 
 
 def test_every_damaged_file_is_noticed(tmp_path, at_once):
-    """Row 27: one bit flipped at random in any file, or a page of zeros as a failing power supply may leave; never a
-    wrong number."""
+    """Row 27: one bit flipped at random, or a page of zeros."""
     until, random = SPARE + LAST + LAST // 2, np.random.default_rng(4)
     own = written(tmp_path, until, 90)
     fields = [str(own._files[name].name) for name in ("field", "check: fields")]

@@ -17,22 +17,17 @@ SLICES, STEPS, FIRST, SLOTS = 10, 200, 2, 5
 
 @pytest.fixture(scope="module")
 def spur(paper_scene):
-    """The paper's pair."""
     return gear_pair(paper_scene.gears)
 
 
 @pytest.fixture(scope="module")
 def helical():
-    """A helical pair."""
     return gear_pair(wide_pair().gears)
 
 
 def run_of(pair, line_load, slices=SLICES, reach: float = 0.0) -> xr.Dataset:
-    """Two mesh cycles of a result whose line load, N/mm, is that function of contact (mm from T1) and place on the
-    face (mm), up to `reach` (mm) off the path.
-
-    slices: how many, or the ends of unequal ones in parts of the face.
-    """
+    """A result whose line load, N/mm, is a function of contact (mm from T1) and place on the face (mm), up to
+    `reach` (mm) off the path; slices: how many, or ends of unequal ones."""
     ends = (
         pair.face_width * (np.linspace(0.0, 1.0, slices + 1) if np.ndim(slices) == 0 else np.array(slices))
         - 0.5 * pair.face_width
@@ -62,7 +57,7 @@ def run_of(pair, line_load, slices=SLICES, reach: float = 0.0) -> xr.Dataset:
 
 
 def on_coast_flanks(result: xr.Dataset) -> xr.Dataset:
-    """A result with what its drive flanks carry on its coast flanks."""
+    """What the drive flanks of a result carry, on its coast flanks."""
     renamed = result.rename(line_load="coast_line_load", pair_normal_force="pair_coast_normal_force")
     return renamed.assign(
         line_load=0.0 * result["line_load"],
@@ -72,7 +67,7 @@ def on_coast_flanks(result: xr.Dataset) -> xr.Dataset:
 
 
 def of_one_force(result: xr.Dataset) -> xr.Dataset:
-    """A result whose loads at each step are made as large as give the same force of the mesh."""
+    """Loads made as large as give the same force of the mesh."""
     share = result["normal_force"].mean() / result["normal_force"]
     of_fields = share.rename(time="contact_time")
     return result.assign(
@@ -84,9 +79,8 @@ def of_one_force(result: xr.Dataset) -> xr.Dataset:
 
 @pytest.mark.parametrize("slices", [10, 40, [0.0, 0.02, 0.05, 0.2, 0.5, 0.78, 0.82, 0.9, 1.0]])
 def test_line_load_that_grows_along_a_spur_gear(spur, slices):
-    """Closed form: pairs in contact share evenly a line load 1 + a z over a width b. Its largest mean over a window
-    as long as an end zone, beside the end zone, is 1 + a (b/2 - 1.5 times their depth), averaged over time or of a
-    single pair, however the face is divided (but for steps within the window); the outermost slice has the edge's."""
+    """Closed form for 1 + a z over a width b: 1 + a (b/2 - 1.5 depths) beside the end zone, however the face is
+    divided; the outermost slice has the edge's."""
     result = of_one_force(run_of(spur, lambda xi, z: 100.0 * (1.0 + 0.05 * z) + 0.0 * xi, slices))
     factors = load_factors(result, spur)
     expected = 1.0 + 0.05 * (0.5 * spur.face_width - 1.5 * end_depth(spur))
@@ -100,8 +94,7 @@ def test_line_load_that_grows_along_a_spur_gear(spur, slices):
 
 
 def test_windows_find_the_largest_running_mean(spur):
-    """Brute force: the mean over a window of half a module at a hundred thousand places, of random values in slices
-    of random widths."""
+    """Brute force: the mean over half a module at a hundred thousand places, random values and widths."""
     random = np.random.default_rng(3)
     ends = np.sort(np.concatenate([[0.0, 1.0], random.uniform(size=30)]))
     result = run_of(spur, lambda xi, z: 1.0 + 0.0 * xi * z, list(ends))
@@ -124,8 +117,7 @@ def test_windows_find_the_largest_running_mean(spur):
 @pytest.mark.parametrize("hand", ["right", "left"])
 @pytest.mark.parametrize("side", ["", "coast_"])
 def test_average_over_the_mesh_cycle_of_a_helical_gear(helical, hand, side):
-    """Identity: each slice has passed all its path of contact after a mesh cycle, so that of a line load f(xi) g(z)
-    the average over time goes as g(z)."""
+    """Identity: of a line load f(xi) g(z) the average goes as g(z)."""
     pair = helical if hand == "right" else replace(helical, helix=replace(helical.helix, pinion_hand="left"))
     result = run_of(
         pair,
@@ -140,9 +132,8 @@ def test_average_over_the_mesh_cycle_of_a_helical_gear(helical, hand, side):
 @pytest.mark.parametrize("end", ["start", "end"])
 @pytest.mark.parametrize("side", ["", "coast_"])
 def test_edges_have_a_factor_of_their_own(helical, end, side):
-    """By definition: a line load three times as large where a line of contact ends on the flank, no further than the
-    depth of the end zones along the face, is of an edge; twice as far it is not. Coast flanks have their path where
-    drive flanks, seen in the mirror of the line of centres, have theirs."""
+    """Definition: no further along the face than the end zones' depth it is of an edge, twice as far not. Coast
+    flanks as seen in the mirror."""
 
     def line_load(within: float):
         near = within * end_depth(helical) * abs(helical.slope)
@@ -152,7 +143,7 @@ def test_edges_have_a_factor_of_their_own(helical, end, side):
         return lambda xi, z: np.where(beside(on_path(xi)), 300.0, 100.0) + 0.0 * z
 
     def on_path(xi):
-        """Where contact that stands at xi on the drive flanks' line stands on the own line of those that carry."""
+        """Where contact at xi on the drive flanks' line is on that of those that carry."""
         return helical.pinion.base_radius * coast_roll_angles(helical, xi)[0] if side else xi
 
     def factors(within: float):
@@ -166,8 +157,7 @@ def test_edges_have_a_factor_of_their_own(helical, end, side):
 
 
 def test_ends_of_lines_of_contact_are_told_apart(spur, helical):
-    """Geometry: half a module of the face, along the path by the tangent of the base helix angle, from either end of
-    the path; the line of a spur pair ends nowhere along the face."""
+    """Geometry: half a module of the face, along the path by the tangent of the base helix angle."""
     near = 0.5 * helical.pinion.normal_module * abs(helical.slope)
     start, end = helical.path_start, helical.path_end
     places = (start - 0.1, start + 0.99 * near, start + 1.01 * near, end - 1.01 * near, end - 0.99 * near, end + 0.1)

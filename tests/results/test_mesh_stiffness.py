@@ -1,4 +1,4 @@
-"""The mesh stiffness at a step against the load's finite differences, and against springs whose stiffness is given."""
+"""The mesh stiffness at a step."""
 
 from types import SimpleNamespace
 
@@ -17,7 +17,6 @@ LOAD = 7e3
 
 
 def stiffness(operator, solution):
-    """Secant and tangent stiffness of a solution, and pairs that carry."""
     nothing, none = np.empty(0), np.empty((0, 0))
     contact = Arrays(
         operator.compliance, operator.jacobian, operator.gap, operator.on_drive_flanks, operator.node_pair,
@@ -35,8 +34,7 @@ def cycle(stand_in_flanks):
 
 @pytest.mark.parametrize("step", [0, 6, 11, 17])
 def test_tangent_is_the_finite_difference_of_load_over_rotation(cycle, step):
-    """Brute force: two static solutions at loads a millionth apart, dF over the difference of the wheel's arc rb2
-    phi2."""
+    """Brute force: two static solutions, dF over the difference of rb2 phi2."""
     operator = cycle.position(step).operator
     softer, harder = (pressed(operator, LOAD * (1.0 + part)) for part in (-1e-6, 1e-6))
     assert np.array_equal(softer.status, harder.status)
@@ -46,8 +44,7 @@ def test_tangent_is_the_finite_difference_of_load_over_rotation(cycle, step):
 
 @pytest.mark.parametrize("step", [0, 11])
 def test_secant_is_the_mean_of_the_tangents_from_no_load_on(cycle, step):
-    """Identity: F/delta is the harmonic mean over the load of dF/ddelta, delta being the integral of dF over it
-    (midpoint rule)."""
+    """Identity: F/delta is the harmonic mean of dF/ddelta over the load (midpoint rule)."""
     operator, parts = cycle.position(step).operator, 400
     found = [stiffness(operator, pressed(operator, LOAD * (i + 0.5) / parts)) for i in range(parts)]
     softness = np.mean([1.0 / each.tangent for each in found])
@@ -56,8 +53,7 @@ def test_secant_is_the_mean_of_the_tangents_from_no_load_on(cycle, step):
 
 
 def test_pairs_that_carry(cycle):
-    """Definition of the contact ratio, 1.47: half of the mesh cycle two pairs carry, then one; stiffness falls as the
-    second leaves."""
+    """Contact ratio 1.47: half of the mesh cycle two pairs carry, then one."""
     found = [stiffness(cycle.position(step).operator, pressed(cycle.position(step).operator, LOAD)) for step in (4, 15)]
     assert [each.pairs for each in found] == [2, 1]
     assert found[0].secant > 1.2 * found[1].secant and found[0].tangent > 1.2 * found[1].tangent

@@ -1,4 +1,4 @@
-"""What a march leaves: pairs in slots, curves of all steps, contact fields of the last, memory as it was counted."""
+"""What a march leaves."""
 
 from dataclasses import replace
 
@@ -26,7 +26,7 @@ FIELDS = ("contact_pressure", "contact_traction", "contact_offset", "contact_rol
 
 @pytest.fixture(scope="module")
 def marched(paper_scene):
-    """A run of four mesh cycles, more steps than are gone over at once, with all of its records."""
+    """Four mesh cycles, more steps than are gone over at once, with all records."""
     model = model_of(replace(coarse_scene(paper_scene), coast_flanks=CoastFlanks(), motion=Motion(200.0, 4, 2)))
     _, cycle = prepared(model, SilentProgress(), user_cache())
     recorder = Recorder(model, cycle)
@@ -37,7 +37,7 @@ def marched(paper_scene):
 
 
 def by_pair_number(model, cycle, records) -> xr.Dataset:
-    """A result by pair counted through the run, written out of the records one by one: brute force."""
+    """Brute force: by pair counted through the run, from the records one by one."""
     numbers = sorted(
         {int(cycle.pair_number(r.step, p.place.index)) for r in records for p in r.position.operator.pairs}
     )
@@ -72,7 +72,7 @@ def by_pair_number(model, cycle, records) -> xr.Dataset:
 
 
 def test_slots_hold_what_pairs_held(marched):
-    """Brute force: forces of all steps and fields of the last cycles, pair by pair, from the march's own records."""
+    """Brute force: the march's own records."""
     model, cycle, records, result = marched
     pairs = by_pair_number(model, cycle, list(records))
     first = result["pair_number"].attrs["number_at_phase_0"]
@@ -100,8 +100,7 @@ def test_slots_hold_what_pairs_held(marched):
 
 
 def test_the_account_goes_on_from_block_to_block(marched):
-    """Identity: energies and works gathered while marching are those of all records at once, and nothing is left but
-    round-off."""
+    """Identity with all records at once; nothing but round-off is left."""
     model, cycle, records, result = marched
     steps = Steps.of(records)
     energies = energy_variables(model.scene, model.drivetrain, steps)
@@ -114,9 +113,8 @@ def test_the_account_goes_on_from_block_to_block(marched):
 
 
 def test_friction_and_changes_of_contact_are_by_definition(marched):
-    """Definition, at steps at which no node under load comes or goes: friction loses p_t times the slip, changes of
-    contact are half of p0 times the opening now less p1 times the one before, and of what friction changes by. The rest
-    is the rotation's, since the account closes."""
+    """Definition: friction loses p_t times the slip, changes of contact are half of p0 times the opening now less p1
+    times the one before; the rest is the rotation's."""
     records, checked = marched[2], 0
     works = contact_work(Steps.of(records))
     for step, (last, record) in enumerate(zip(records, records[1:])):
@@ -147,7 +145,7 @@ def test_friction_and_changes_of_contact_are_by_definition(marched):
 @pytest.mark.parametrize("friction", [False, True])
 @pytest.mark.parametrize("root_stress", [False, True])
 def test_memory_is_as_it_was_counted(paper_scene, coast, friction, root_stress):
-    """Count: what `gears check` counts is what the result's arrays over time take, to the byte."""
+    """Count, to the byte."""
     scene = replace(
         quasi_static(coarse_scene(paper_scene)),
         coast_flanks=CoastFlanks() if coast else None,

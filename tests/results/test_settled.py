@@ -1,5 +1,4 @@
-"""Which steps numbers are of: whole common periods after the start has died down, and what is said where they are
-not."""
+"""Which steps numbers are of."""
 
 from dataclasses import replace
 from math import ceil, log, pi
@@ -55,7 +54,7 @@ steps_per_mesh_cycle = 8
 
 @pytest.fixture(scope="module")
 def by_cycles():
-    """The pair, its scene and results by 23, 47 and 1081 mesh cycles, on the standard's springs."""
+    """Results by 23, 47 and 1081 mesh cycles, on the standard's springs."""
     scene = scene_from_text(PAIR, "pair")
     return scene, {
         cycles: simulate(replace(scene, motion=replace(scene.motion, mesh_cycles=cycles))) for cycles in (23, 47, 1081)
@@ -63,8 +62,7 @@ def by_cycles():
 
 
 def test_numbers_are_of_all_cycles_that_were_run(by_cycles):
-    """Definition, and brute force over the longest run: each shorter one is its beginning, and T_EPP is the span of all
-    of its steps or larger."""
+    """Brute force over the longest run, whose beginning each shorter one is."""
     _, found = by_cycles
     whole = found[1081]["transmission_error"].values
     spans = {}
@@ -80,8 +78,7 @@ def test_numbers_are_of_all_cycles_that_were_run(by_cycles):
 
 
 def test_extremes_lie_between_the_steps_also_where_cycles_differ_and_springs_jump(by_cycles):
-    """Brute force: of 512 steps a mesh cycle the samples span T_EPP within 1e-4; eight, at which the standard's springs
-    jump unseen, miss 1.8 %."""
+    """Brute force: 512 steps span T_EPP within 1e-4; eight miss 1.8 %."""
     scene, found = by_cycles
     fine = replace(
         scene, motion=replace(scene.motion, mesh_cycles=23), accuracy=replace(scene.accuracy, steps_per_mesh_cycle=512)
@@ -92,8 +89,7 @@ def test_extremes_lie_between_the_steps_also_where_cycles_differ_and_springs_jum
 
 
 def test_fewer_cycles_than_the_common_period_are_told_first(by_cycles):
-    """z1 z2 without common factor; warning, summary and `gears check` say 1081, and a whole period has no such
-    warning."""
+    """z1 z2 without common factor: 1081; a whole period has no warning."""
     scene, found = by_cycles
     assert common_period(scene) == 1081 == 23 * 47
     for cycles in (23, 47):
@@ -107,8 +103,7 @@ def test_fewer_cycles_than_the_common_period_are_told_first(by_cycles):
 
 
 def test_the_start_has_died_down(paper_scene):
-    """Exponential decay of the slowest mode: exp(-zeta omega t) = 0.001 at the first step that counts; a warning where
-    it is above 0.01 before the last cycles."""
+    """exp(-zeta omega t) = 0.001 at the first step that counts; a warning where it is above 0.01."""
     model = model_of(coarse_scene(paper_scene, cycles=30))
     slowest = min(
         (

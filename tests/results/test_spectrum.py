@@ -1,4 +1,4 @@
-"""Windows, levels and sidebands of made-up signals whose lines are known."""
+"""Windows, levels and sidebands of made-up signals."""
 
 import numpy as np
 import pytest
@@ -20,25 +20,23 @@ TEETH, PERIOD, STEPS = (16, 24), 48, 40
 
 
 def turns(cycles):
-    """Turns of the pinion at each step of so many mesh cycles, both ends included."""
+    """Turns of the pinion at each step of so many mesh cycles."""
     return np.arange(round(cycles * STEPS) + 1) / (STEPS * TEETH[0])
 
 
 def cosine(order, cycles, amplitude=1.0):
-    """A cosine of an order of the pinion."""
     return amplitude * np.cos(2.0 * np.pi * order * turns(cycles) + 0.3)
 
 
 @pytest.mark.parametrize("window, scipys", [(NO_WINDOW, "boxcar"), (HANN, "hann"), (FLAT_TOP, "flattop")])
 def test_weights_are_scipys(window, scipys):
-    """Another program: scipy.signal.get_window."""
+    """scipy.signal.get_window."""
     np.testing.assert_allclose(weights_of(window, 480), scipy.signal.get_window(scipys, 480), atol=1e-14)
 
 
 @pytest.mark.parametrize("window", WINDOWS)
 def test_a_line_on_a_bin_has_its_amplitude_and_its_square(window):
-    """Exact: a cosine of 3.7 um with an offset; a window of cosines spreads it over as many bins as it has cosines, and
-    nowhere else."""
+    """Exact: a cosine of 3.7 um with an offset; a window spreads it over as many bins as it has cosines."""
     found = order_lines(5.0 + cosine(16.0, PERIOD, 3.7), PERIOD, TEETH, window)
     assert found.at(16.0) == pytest.approx(3.7, rel=1e-6)
     assert found.square(16.0) == pytest.approx(3.7**2, rel=1e-6)
@@ -51,10 +49,8 @@ def test_a_line_on_a_bin_has_its_amplitude_and_its_square(window):
     [(NO_WINDOW, 1.0 - 2.0 / np.pi, 0.1), (HANN, 1.0 - 8.0 / (3.0 * np.pi), 2.5e-3), (FLAT_TOP, 1.2e-3, 1e-4)],
 )
 def test_a_line_between_bins_is_too_low_by_no_more_than_is_known(window, most, left):
-    """Exact for a long record: midway between bins 2/pi of the amplitude without a window and 8/(3 pi) in Hann's; 0.01
-    dB for the flat top (Harris
-    1978). `left`: of the leakage six bins and more away: 2/(pi d) of a line d bins away without a window, 2/(pi d (d^2
-    - 1)) in Hann's."""
+    """Exact for a long record: 2/pi without a window, 8/(3 pi) in Hann's; 0.01 dB for the flat top (Harris 1978).
+    `left`: leakage, 2/(pi d), 2/(pi d (d^2 - 1)) d bins away."""
     order = 16.0 + 0.5 * TEETH[0] / PERIOD
     found = order_lines(cosine(order, PERIOD), PERIOD, TEETH, window)
     assert abs(1.0 - found.amplitudes.max()) <= most * (1.0 + 5e-3)
@@ -67,7 +63,7 @@ def test_a_line_between_bins_is_too_low_by_no_more_than_is_known(window, most, l
     "shaft, window, periods", [("pinion", None, 1), ("wheel", None, 1), ("wheel", HANN, 3), ("pinion", FLAT_TOP, 9)]
 )
 def test_amplitude_modulation_has_two_sidebands_of_half_its_depth(shaft, window, periods):
-    """Exact: A (1 + m cos(Omega t)) cos(omega t) has two sidebands of A m/2 beside A: m^2/2 of the line's square."""
+    """Exact: A (1 + m cos(Omega t)) cos(omega t) has two sidebands of A m/2."""
     cycles, depth = periods * PERIOD, 0.3
     around = 1.0 if shaft == "pinion" else TEETH[0] / TEETH[1]
     signal = 2.0 * (1.0 + depth * cosine(around, cycles)) * cosine(32.0, cycles)
@@ -80,8 +76,7 @@ def test_amplitude_modulation_has_two_sidebands_of_half_its_depth(shaft, window,
 
 
 def test_phase_modulation_has_bessels_sidebands():
-    """Exact (Jacobi, Anger): cos(omega t + b sin(Omega t)) has the line J_0(b) and the sidebands J_k(b) on either
-    side."""
+    """Exact (Jacobi, Anger): cos(omega t + b sin(Omega t)) has J_0(b) and J_k(b)."""
     depth = 0.8
     signal = np.cos(2.0 * np.pi * 32.0 * turns(PERIOD) + depth * np.sin(2.0 * np.pi * turns(PERIOD)))
     found = sidebands(order_lines(signal, PERIOD, TEETH), TEETH, 2)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.coarse import COARSE
 
 from fenics_gears import simulate
 from fenics_gears.effects.corner_contact import CornerContact
@@ -12,10 +13,8 @@ from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.results.pressure_limits import yielding
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.scene.data import Accuracy, Material, Motion
+from fenics_gears.scene.data import Material, Motion
 from fenics_gears.system.progress import SilentProgress
-
-COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
 
 
 @pytest.fixture(scope="module")
@@ -24,8 +23,7 @@ def coarse(paper_scene):
 
 
 def test_an_ordinary_run_has_nothing_to_say_but_of_its_sharp_tips(coarse):
-    """The paper's damped pair stays in contact and within the window; unrelieved, its tips carry on their edges at
-    hand-over."""
+    """The paper's damped pair; unrelieved, its tips carry on their edges."""
     result = simulate(coarse)
     (said,) = result.attrs["warnings"].splitlines()
     assert said.startswith("contact reaches the sharp edge of the pinion's and the wheel's tip")
@@ -54,15 +52,14 @@ def test_an_ordinary_run_has_nothing_to_say_but_of_its_sharp_tips(coarse):
     ],
 )
 def test_what_takes_the_load_off_a_sharp_edge_is_what_the_scene_lacks(coarse, effects, said, unsaid):
-    """The interface: advice to switch on what is on already helps nobody."""
+    """Advice to switch on what is on helps nobody."""
     scene = replace(coarse, motion=Motion(200.0, 1, 1), inertia=None, damping=None, **effects)
     (warning,) = [each for each in simulate(scene).attrs["warnings"].splitlines() if "sharp edge" in each]
     assert all(words in warning for words in said) and not any(words in warning for words in unsaid)
 
 
 def test_stresses_above_the_yield_strength_are_named(coarse):
-    """Brute force: Hertz's stresses below a line contact (Johnson, Contact Mechanics, 1985, eq. 4.45) with Tresca's
-    criterion, the shear strength half of that in tension."""
+    """Brute force: Hertz's stresses (Johnson, Contact Mechanics, 1985, eq. 4.45) with Tresca's criterion."""
     depth = np.linspace(0.0, 3.0, 30001)
     root = np.sqrt(1.0 + depth**2)
     largest_shear = 0.5 * np.abs(-((1.0 + 2.0 * depth**2) / root - 2.0 * depth) + 1.0 / root).max()
@@ -80,9 +77,8 @@ def test_stresses_above_the_yield_strength_are_named(coarse):
 
 @pytest.mark.parametrize(("shape", "kinked"), [(LINEAR, True), (PARABOLIC, False)])
 def test_the_kink_of_linear_relief_is_named_where_it_presses_hardest(coarse, shape, kinked):
-    """Elasticity: a flank with a kink has a logarithmically infinite pressure there (Johnson, Contact Mechanics, 5.2),
-    which elements of any size miss by some part; a parabola has no kink. House rule: a warning and the printed number
-    are the same."""
+    """Johnson, Contact Mechanics, 5.2: infinite pressure at a kink; a parabola has none. The printed number is the
+    warning's."""
     relief = Relief(0.06, shape=shape)
     scene = replace(
         coarse, motion=Motion(200.0, 1, 1), inertia=None, damping=None, tip_relief=TipRelief(relief, relief)
@@ -102,7 +98,7 @@ def test_the_kink_of_linear_relief_is_named_where_it_presses_hardest(coarse, sha
 
 
 def test_contact_at_the_end_of_the_window_is_named(coarse):
-    """A window shorter than the contact is wide cuts pressure off."""
+    """A window shorter than the contact is wide."""
     short = replace(COARSE, contact_length=0.2, contact_nodes=5, flank_element_size=0.1)
     result = simulate(replace(coarse, accuracy=short))
     warnings, steps = result.attrs["warnings"], result.sizes["time"]
@@ -111,7 +107,7 @@ def test_contact_at_the_end_of_the_window_is_named(coarse):
 
 
 def test_contact_that_is_not_resolved_is_named(coarse):
-    """Elements and contact nodes coarser than the Hertz half-width, or contact nodes closer than the elements' own."""
+    """Coarser than the Hertz half-width, or contact nodes closer than the elements."""
     few = simulate(replace(coarse, accuracy=replace(COARSE, contact_nodes=4)))
     assert "spacing of accuracy.contact_nodes is 1 mm, more than the Hertz half-width" in few.attrs["warnings"]
     many = simulate(replace(coarse, accuracy=replace(COARSE, contact_nodes=51)))
@@ -119,7 +115,7 @@ def test_contact_that_is_not_resolved_is_named(coarse):
 
 
 def test_an_incomplete_run_says_why(coarse):
-    """docs/result.md; Ctrl-C during the march is an interruption, a complete run says nothing of it."""
+    """docs/result.md."""
 
     class Interrupting(SilentProgress):
         def update(self, done, total, note=""):
@@ -130,8 +126,7 @@ def test_an_incomplete_run_says_why(coarse):
 
 
 def test_separation_beyond_the_backlash_is_named(coarse, paper_pair):
-    """Claim 10: undamped at its resonance the pair loses contact globally, which without coast flanks has no meaning
-    from then on."""
+    """Claim 10: undamped at its resonance the pair loses contact globally."""
     undamped = replace(coarse, damping=None, motion=Motion(213.0, 40, 40))
     result = simulate(undamped)
     (said,) = [line for line in result.attrs["warnings"].splitlines() if "lose contact" in line]
@@ -152,7 +147,7 @@ def test_separation_beyond_the_backlash_is_named(coarse, paper_pair):
 
 @pytest.mark.parametrize("ripple", [None, TorqueRipple((Harmonic(1.0, 20e3),))], ids=["steady", "varying load"])
 def test_a_march_that_fails_at_its_start_leaves_an_empty_incomplete_result(coarse, ripple, monkeypatch):
-    """Failure is part of the interface: a typed error that carries what was done, here nothing."""
+    """A typed error that carries what was done, here nothing."""
     from fenics_gears.contact.errors import ContactNotConverged
     from fenics_gears.dynamics.march import Marcher
 

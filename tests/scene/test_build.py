@@ -1,4 +1,4 @@
-"""A scene from plain dictionaries. Authority: the same scene read from a file."""
+"""A scene from plain dictionaries, against the same scene read from a file."""
 
 import tomllib
 from dataclasses import replace
@@ -12,25 +12,24 @@ import fenics_gears
 from fenics_gears import SceneError, build_scene, load_scene, scene_from_text
 
 DEMOS = sorted((Path(__file__).parents[2] / "demos").glob("*.toml"))
-SCENES = [path for path in DEMOS if "sweep" not in tomllib.loads(path.read_text(encoding="utf-8"))]
-DEMO = tomllib.loads((DEMOS[0].parent / "lundvall2004.toml").read_text(encoding="utf-8"))
+SCENES = [path for path in DEMOS if "sweep" not in tomllib.loads(path.read_text())]
+DEMO = tomllib.loads((DEMOS[0].parent / "lundvall2004.toml").read_text())
 
 
 def facts(scene):
-    """All of a scene but its text, whose layout and comments are the file's own."""
     return {name: value for name, value in vars(scene).items() if name not in ("text", "written")}
 
 
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
 def test_dictionaries_make_the_scene_that_the_file_makes(path):
-    """`load_scene`, over every demo; and the text that the scene carries makes it again."""
-    built = build_scene(tomllib.loads(path.read_text(encoding="utf-8")), path.stem, directory=path.parent)
+    """`load_scene`, over every demo; the carried text makes it again."""
+    built = build_scene(tomllib.loads(path.read_text()), path.stem, directory=path.parent)
     assert facts(built) == facts(load_scene(path))
     assert scene_from_text(built.text, path.stem, directory=path.parent) == built
 
 
 def test_values_of_numpy_tuples_and_none_are_taken():
-    """The same scene in plain Python; None is what a file leaves out."""
+    """The same scene in plain Python."""
     damping = {"ratios": (0.05, np.float64(0.1))}
     sections = DEMO | {"damping": damping, "friction": {"coefficient": np.float64(0.1)}, "tip_relief": None}
     sections["gears"] = DEMO["gears"] | {"material": DEMO["gears"]["material"] | {"youngs_modulus": "206 GPa"}}
@@ -61,13 +60,13 @@ def test_mistakes_are_named_by_field_and_without_lines_of_a_text_that_nobody_wro
     ],
 )
 def test_what_no_file_can_hold_is_refused(sections, said):
-    """TOML, whose keys are texts and whose values are texts, numbers, truth values, lists and tables of them."""
+    """TOML."""
     with pytest.raises(SceneError, match=said):
         build_scene(DEMO | sections)
 
 
 def test_a_notebook_shows_fields_with_units_and_meanings(paper_scene):
-    """The scene file, whose quantities are those of the table; markup of a title is none of the page's."""
+    """The scene file; markup of a title is none of the page's."""
     html = replace(paper_scene, title="<b>paper</b>")._repr_html_()
     assert (
         '<td style="text-align: left">gears.pinion.tip_diameter</td><td style="text-align: left">82.64 mm</td>' in html
@@ -81,8 +80,7 @@ def test_a_notebook_shows_fields_with_units_and_meanings(paper_scene):
 
 
 def test_names_of_the_package_are_told_without_loading_them():
-    """The package's own list, by `dir` and `help` in a process of its own, which stays as quick as it was; a name that
-    is none is refused."""
+    """The package's own list, by `dir` and `help` in a process of its own."""
     assert {"load_scene", "build_scene", "simulate", "__version__"} <= {*dir(fenics_gears)}
     assert [name for name in fenics_gears.__all__ if not hasattr(fenics_gears, name)] == []
     program = (

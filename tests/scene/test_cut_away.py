@@ -1,4 +1,4 @@
-"""Scenes of gears with protuberance, finishing stock and tip chamfer."""
+"""Gears with protuberance, finishing stock and tip chamfer."""
 
 from math import radians
 
@@ -32,13 +32,11 @@ RACK = '[gears.rack]\nprotuberance = "0.15 mm"\nfinishing_stock = "0.1 mm"\n'
 
 
 def gears(rack="", pinion=""):
-    """The data of the pair of a scene."""
     return scene_from_text(SCENE.format(gears=rack, pinion=pinion)).gears
 
 
 def test_what_is_left_of_the_protuberance_is_it_less_the_stock():
-    """ISO 6336-3: s_pr = pr - q; both gears have the rack of `[gears.rack]`, with half the pressure angle as
-    protuberance angle unless given."""
+    """ISO 6336-3: s_pr = pr - q; half the pressure angle as protuberance angle unless given."""
     data = gears(RACK)
     for gear in (data.pinion, data.wheel):
         assert gear.protuberance == pytest.approx(0.05, rel=1e-12)
@@ -49,18 +47,18 @@ def test_what_is_left_of_the_protuberance_is_it_less_the_stock():
 
 
 def test_a_gear_s_own_rack_goes_before_that_of_both():
-    """Meaning of the sections: the pinion's own protuberance, the stock of both."""
+    """docs/scene.md."""
     data = gears(RACK, '[gears.pinion.rack]\nprotuberance = "0.2 mm"\n')
     assert (data.pinion.protuberance, data.wheel.protuberance) == pytest.approx((0.1, 0.05), rel=1e-12)
 
 
 def test_protuberance_as_large_as_the_stock_leaves_the_plain_rack():
-    """Exact: nothing stands out of the finished flank then, and the pair is that of a rack without both."""
+    """Exact: a rack without both."""
     assert gear_pair(gears(RACK.replace("0.15", "0.1"))) == gear_pair(gears())
 
 
 def test_the_chamfer_is_the_gear_s():
-    """Meaning of the field; the other gear has none."""
+    """docs/scene.md."""
     data = gears(pinion='tip_chamfer = "0.3 mm"')
     assert (data.pinion.tip_chamfer, data.wheel.tip_chamfer) == pytest.approx((0.3, 0.0), rel=1e-12)
 
@@ -84,7 +82,7 @@ def test_the_chamfer_is_the_gear_s():
     ],
 )
 def test_a_protuberance_that_cannot_be_is_refused(rack, said):
-    """House rule on errors: the field, its value and what is allowed, before anything is computed."""
+    """The field, its value and what is allowed."""
     with pytest.raises(SceneError) as refused:
         gears(rack)
     assert said in str(refused.value)

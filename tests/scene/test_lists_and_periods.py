@@ -1,9 +1,4 @@
-"""Fields that take lists, quantities of several kinds, or the words for a whole hunting tooth period; rules of errors
-of manufacture.
-
-Authority of every test here: the scene's format and hard case 26. A refusal names file, field, what is wrong with which
-value and what is allowed.
-"""
+"""Fields that take lists, several kinds, or a whole hunting tooth period (hard case 26)."""
 
 import pytest
 from tests.paper_text import PAPER as DEMO
@@ -15,14 +10,13 @@ PERIOD = '"hunting tooth period"'
 
 
 def pitches(*values):
-    """A list of as many deviations as the pinion has teeth, zero but for the first; texts in quotes, numbers
-    without."""
+    """As many deviations as the pinion has teeth, zero but for the first."""
     every = [*values, *["0 um"] * (16 - len(values))]
     return "[" + ", ".join(f"'{value}'" if isinstance(value, str) else str(value) for value in every) + "]"
 
 
 def test_lists_and_their_units():
-    """Each entry has its own unit; 1 um is 1e-3 mm."""
+    """1 um is 1e-3 mm."""
     text = f"[flank_errors.pinion]\npitch = {pitches('3 um', '-0.003 mm')}\nprofile_slope = {pitches('2 um')}".replace(
         "'", '"'
     )
@@ -37,7 +31,7 @@ def test_lists_and_their_units():
     ("run", "recorded", "cycles"), [(PERIOD, PERIOD, (48, 48)), ("60", PERIOD, (60, 48)), (PERIOD, "3", (48, 3))]
 )
 def test_a_run_may_last_a_whole_hunting_tooth_period(run, recorded, cycles):
-    """16 and 24 teeth: every tooth has met every one that it ever meets after lcm = 48 mesh cycles."""
+    """lcm(16, 24) = 48."""
     text = DEMO.replace("mesh_cycles = 30 ", f"mesh_cycles = {run} ").replace(
         "recorded_cycles = 2\n", f"recorded_cycles = {recorded}\n"
     )
@@ -55,7 +49,7 @@ def test_a_run_may_last_a_whole_hunting_tooth_period(run, recorded, cycles):
     ],
 )
 def test_a_settling_time_comes_before_the_recorded_cycles(frequency, time, recorded, cycles):
-    """Arithmetic: time times mesh frequency, rounded up, and the recorded cycles after them."""
+    """Arithmetic: time times mesh frequency, rounded up."""
     text = (
         DEMO.replace('"200 Hz"', f'"{frequency}"')
         .replace("mesh_cycles = 30 ", f'settling_time = "{time}"  ')
@@ -97,7 +91,7 @@ def test_wrong_sections_are_refused(section, said):
 
 
 def test_a_class_is_for_gears_of_the_standards_sizes():
-    """ISO 1328-1: modules from 0.5 mm to 70 mm, reference diameters from 5 mm to 15 m."""
+    """ISO 1328-1: modules from 0.5 mm to 70 mm, diameters from 5 mm to 15 m."""
     for module, teeth, words in (
         ("0.4 mm", 24, "modules from 0.5 to 70 mm"),
         ("65 mm", 250, "from 5 mm to 15 m .*, not 16250 mm"),

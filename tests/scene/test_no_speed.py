@@ -1,5 +1,4 @@
-"""Scenes that need no speed. Authority: quasi-static equilibrium and Coulomb's law, which know no rate: a sequence of
-positions has no time."""
+"""Scenes that need no speed: quasi-static equilibrium and Coulomb's law know no rate."""
 
 import numpy as np
 import pytest
@@ -33,12 +32,11 @@ SPEEDLESS = without(STATIC, "motion")
     ],
 )
 def test_motion_of_a_scene_without_inertia(added, expected):
-    """One mesh cycle, or the hunting tooth period (lcm of 16 and 24) where teeth differ; what is given goes first."""
+    """One mesh cycle, or lcm(16, 24) where teeth differ; what is given goes first."""
     assert scene_from_text(f"{SPEEDLESS}\n{added}\n").motion == expected
 
 
 def run(text):
-    """A scene's result with stand-in teeth."""
     return simulate(scene_from_text(text), preparation=on_stand_ins)
 
 
@@ -52,7 +50,7 @@ def on_stand_ins(model, progress, cache):
 
 
 def test_one_mesh_cycle_without_speed_is_the_last_of_many_at_any_speed():
-    """Every number of the last cycle but the time is the same, bit for bit; curves are stored of all four."""
+    """Every number of the last cycle but the time, bit for bit."""
     alone = run(SPEEDLESS)
     many = shown(
         run(STATIC.replace("recorded_cycles = 2", "recorded_cycles = 1").replace("mesh_cycles = 30", "mesh_cycles = 4"))

@@ -1,4 +1,4 @@
-"""The paper's scene arrives in N, mm, s, rad as converted by hand from its Tables 1 and 2; sections switch effects."""
+"""The paper's scene arrives in N, mm, s, rad."""
 
 import math
 from pathlib import Path
@@ -12,12 +12,12 @@ from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.scene import data
 
 DEMO_FILE = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
-DEMO = DEMO_FILE.read_text(encoding="utf-8")
+DEMO = DEMO_FILE.read_text()
 ROUND_OFF = 4e-16
 
 
 def numbers(section):
-    """The values of a dataclass, those of dataclasses within it too."""
+    """Values of a dataclass, and of those within it."""
     values = vars(section).values()
     return [
         number for value in values for number in (numbers(value) if hasattr(value, "__dataclass_fields__") else [value])
@@ -46,8 +46,7 @@ def numbers(section):
     ],
 )
 def test_the_demo_has_the_papers_numbers(section, by_hand):
-    """Lundvall et al. 2004, Tables 1 and 2, which are in N, mm, s; J and the bore as model.md, section 5, reads
-    them."""
+    """Lundvall et al. 2004, Tables 1 and 2; J and the bore as model.md, section 5, reads them."""
     read = numbers(getattr(load_scene(DEMO_FILE), section))
     assert len(read) == len(by_hand)
     for value, expected in zip(read, by_hand):
@@ -58,7 +57,7 @@ def test_the_demo_has_the_papers_numbers(section, by_hand):
 
 
 def test_the_scene_keeps_its_text_and_name():
-    """docs/promises.md, Result; the scene's text goes into the result, its file's name names the directory."""
+    """docs/promises.md, Result."""
     scene = load_scene(DEMO_FILE)
     assert (scene.text, scene.name, scene.title) == (DEMO, "lundvall2004", "Lundvall, Strömberg, Klarbring 2004")
     assert scene.tip_relief is None
@@ -80,13 +79,12 @@ def test_the_scene_keeps_its_text_and_name():
     ],
 )
 def test_relief_of_both_gears_and_of_one(section, pinion, wheel):
-    """docs/promises.md; [tip_relief] speaks of both gears, its subsections of one."""
+    """docs/promises.md."""
     assert scene_from_text(f"{DEMO}\n[tip_relief]\n{section}\n").tip_relief == TipRelief(pinion, wheel)
 
 
 def test_what_is_left_out_has_its_default():
-    """docs/promises.md; rack tip radius 0.38 modules, two cycles recorded (as many as there are), accuracy from the
-    scene."""
+    """docs/promises.md."""
     text = DEMO[: DEMO.index("[accuracy]")].replace("recorded_cycles = 2\n", "")
     scene = scene_from_text(text, "pair")
     assert scene.accuracy == data.Accuracy()
@@ -102,14 +100,14 @@ RAMP = '[speed_ramp]\nend_frequency = "260 Hz"\n'
     ("cycles", "section", "recorded"), [("30", "", 2), ("30", RAMP, 30), ('"hunting tooth period"', "", 48)]
 )
 def test_cycles_that_are_not_alike_are_all_recorded(cycles, section, recorded):
-    """docs/scene.md, which has the field's own words; a number that is given holds for all of them."""
+    """docs/scene.md."""
     text = DEMO.replace("mesh_cycles = 30 ", f"mesh_cycles = {cycles} ") + section
     assert scene_from_text(text.replace("recorded_cycles = 2\n", "")).motion.recorded_cycles == recorded
     assert scene_from_text(text).motion.recorded_cycles == 2
 
 
 def test_contact_fields_of_cycles_that_a_result_cannot_hold_are_left_out():
-    """The same; the run says so. So many that are asked for by number are refused."""
+    """docs/scene.md; so many that are asked for by number are refused."""
     text = DEMO.replace("mesh_cycles = 30 ", "mesh_cycles = 10000 ") + RAMP
     model = model_of(scene_from_text(text.replace("recorded_cycles = 2\n", "")))
     assert model.contact_steps == model.contact_cycles * model.resolution.steps_per_mesh_cycle + 1
@@ -140,6 +138,6 @@ def test_contact_fields_of_cycles_that_a_result_cannot_hold_are_left_out():
     ],
 )
 def test_what_the_hard_cases_ask_for_is_allowed(old, new):
-    """Hard cases 10, 14, 15, 16, 19, 20 and 23, which must run."""
+    """Hard cases 10, 14, 15, 16, 19, 20 and 23."""
     assert old in DEMO
     assert scene_from_text(DEMO.replace(old, new)).text != DEMO

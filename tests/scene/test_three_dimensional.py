@@ -1,5 +1,4 @@
-"""Scenes that name what has no meaning in a plane: what they are read as, what `gears check` says of them, and what
-cannot stand beside them."""
+"""Scenes that name what has no meaning in a plane."""
 
 import re
 from math import cos, radians
@@ -61,7 +60,7 @@ SPUR = (
 
 
 def test_what_is_written_is_what_is_read():
-    """Authority: the text itself, in mm and rad."""
+    """The text itself, in mm and rad."""
     scene = scene_from_text(HELICAL + LEAD + MISALIGNED)
     gears = scene.gears
     assert (gears.module, gears.helix_angle, gears.pinion_hand, gears.axial_offsets) == (
@@ -85,8 +84,7 @@ def test_what_is_written_is_what_is_read():
     (SPUR + '[bearings]\nstiffness = "1e5 N/mm"\n', False),
 ])  # fmt: skip
 def test_a_scene_is_three_dimensional_where_it_names_what_a_plane_has_not(text, expected):
-    """The rule; amounts of zero count, for they send a spur pair the three-dimensional way. An axial offset alone makes
-    a face narrower."""
+    """The rule: amounts of zero count; an axial offset alone makes a face narrower."""
     assert scene_from_text(text).three_dimensional is expected
 
 
@@ -133,7 +131,7 @@ REFUSED = [
 
 @pytest.mark.parametrize(("text", "place", "fragments"), REFUSED, ids=[place for _, place, _ in REFUSED])
 def test_what_cannot_be_is_refused_by_name(text, place, fragments):
-    """Hard case 26; place, value as written, what is allowed and the remedy, and nothing else is found wrong."""
+    """Hard case 26: place, value, what is allowed, the remedy, and nothing else."""
     with pytest.raises(SceneError) as raised:
         scene_from_text(text, "pair")
     words = str(raised.value)
@@ -142,7 +140,7 @@ def test_what_cannot_be_is_refused_by_name(text, place, fragments):
 
 
 def test_gears_that_do_not_overlap_axially_are_refused():
-    """Geometry; widths of 30 mm are apart from an offset of 30 mm on."""
+    """Geometry."""
     with pytest.raises(GeometryError, match=re.escape("do not overlap axially")) as raised:
         gear_pair(scene_from_text(HELICAL.replace('"2 mm"', '"31 mm"')).gears)
     assert (
@@ -153,10 +151,9 @@ def test_gears_that_do_not_overlap_axially_are_refused():
 
 
 def test_check_shows_the_third_dimension(tmp_path, capsys):
-    """docs/promises.md on `gears check`; numbers by the formulas of ISO 21771: eps_beta = 28 sin(15 deg)/(3 pi) =
-    0.769, beta_b = 14.08 deg."""
+    """ISO 21771: eps_beta = 28 sin(15 deg)/(3 pi) = 0.769, beta_b = 14.08 deg."""
     file = tmp_path / "pair.toml"
-    file.write_text(HELICAL + LEAD + MISALIGNED, encoding="utf-8")
+    file.write_text(HELICAL + LEAD + MISALIGNED)
     assert main(["check", str(file)]) == 0
     lines = {line.strip() for line in capsys.readouterr().out.splitlines()}
     shown = [" ".join(line.split()) for line in lines]
@@ -172,7 +169,7 @@ def test_check_shows_the_third_dimension(tmp_path, capsys):
 
 
 def test_a_misalignment_of_zero_is_none():
-    """The words: axes are parallel; the flanks are resolved over the face all the same."""
+    """Axes are parallel; the flanks are resolved over the face all the same."""
     scene = scene_from_text(SPUR + '[misalignment]\nin_plane = "0 um"\n')
     assert "misalignment" not in conditions(scene)
     (state,) = [each for each in effect_states(scene) if each.effect.section == "misalignment"]

@@ -1,5 +1,4 @@
-"""A scene's text follows from its data. Authority throughout: the reader of scene files, `scene_from_text`, which gives
-the same data, bit for bit."""
+"""A scene's text follows from its data: `scene_from_text` gives the same data, bit for bit."""
 
 import re
 import tomllib
@@ -21,7 +20,7 @@ DEMOS = Path(__file__).parents[2] / "demos"
 SCENES = [
     path
     for path in sorted(DEMOS.rglob("*.toml"))
-    if "teeth" in path.read_text(encoding="utf-8") and "sweep" not in tomllib.loads(path.read_text(encoding="utf-8"))
+    if "teeth" in path.read_text() and "sweep" not in tomllib.loads(path.read_text())
 ]
 # What no demonstration has, each in a section that the paper's scene then has in place of its own.
 FURTHER = {
@@ -60,24 +59,22 @@ FURTHER = {
 
 
 def plain(scene: Scene) -> Scene:
-    """The scene without what it is called and where it was read."""
     return replace(scene, title="", name="", derived=(), written="", folder="")
 
 
 def assert_written(scene: Scene) -> None:
-    """Its data alone give a text that gives them."""
     found = scene_from_text(as_toml(section_trees(scene)), scene.name, directory=Path(scene.folder))
     assert plain(found) == plain(scene) and found.title == (scene.title or scene.name)
 
 
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
 def test_every_demonstration_is_written_from_its_data(path):
-    """The reader's round trip, over all scenes of the demonstrations."""
+    """Over all scenes of the demonstrations."""
     assert_written(load_scene(path))
 
 
 def test_every_effect_is_written_from_its_data():
-    """The same, over the example of each effect, and what these and the demonstrations leave out."""
+    """Over the examples of effects."""
     for section in EXAMPLES:
         assert_written(scene_of(*with_needs(section, "tooth_elasticity")))
     base = scene_of("tooth_elasticity").text.replace("mesh_cycles = 1\n", "mesh_cycles = 3\n")
@@ -86,7 +83,7 @@ def test_every_effect_is_written_from_its_data():
 
 
 def test_gears_and_motions_that_no_demonstration_has_are_written_from_their_data(paper_scene):
-    """The same, of a width, place, rack and web of a gear's own, and of other lengths of a run."""
+    """A width, place, rack and web of a gear's own, other lengths of a run."""
     web = '[gears.pinion.web]\nrim_inner_diameter = "45 mm"\nwidth = "5.1 mm"\n'
     own = 'face_width = "23 mm"\naxial_offset = "1.5 mm"\n' + web
     assert_written(scene_from_text(SCENE.format(gears=RACK, pinion=own)))
@@ -98,7 +95,7 @@ def test_gears_and_motions_that_no_demonstration_has_are_written_from_their_data
 @settings(max_examples=4)
 @given(valid_scenes())
 def test_random_scenes_are_written_from_their_data(scene):
-    """The same, over random gears, loads, speeds and effects."""
+    """Over random gears, loads, speeds and effects."""
     assert_written(scene)
 
 
@@ -106,15 +103,14 @@ def test_random_scenes_are_written_from_their_data(scene):
 @settings(max_examples=500)
 @given(valid_scenes())
 def test_many_random_scenes_are_written_from_their_data(scene):
-    """The same, and with a larger load (a smaller one may be less than a torque ripple), where the other sections stay
-    as they were written."""
+    """The same, and with a larger load, where the other sections stay as written."""
     assert_written(scene)
     changed = replace(scene, load=Load(1.03 * scene.load.wheel_torque))
     assert plain(scene_from_text(changed.text)) == plain(changed) and changed.text.count("\n") > 10
 
 
 def test_a_change_shows_in_the_text_and_the_rest_stays_as_written(paper_scene):
-    """The reader; and untouched sections keep the spelling of the file, which says 62.50 mm."""
+    """Untouched sections keep the file's spelling, 62.50 mm."""
     assert "# " in paper_scene.text and paper_scene.text == paper_scene.written
     changed = replace(
         paper_scene,
@@ -139,8 +135,7 @@ def test_a_change_shows_in_the_text_and_the_rest_stays_as_written(paper_scene):
 
 
 def test_what_no_file_gives_is_said(paper_scene):
-    """A Poisson's ratio that no file may have: the text is no scene, so that nobody takes it for that of another
-    one."""
+    """A Poisson's ratio that no file may have."""
     material = Material(206e3, 0.6)
     odd = replace(
         paper_scene,

@@ -1,7 +1,4 @@
-"""A checkout of somebody else's, and no home: as in a container that is started with another user's number.
-
-Authority: what the README promises of `./gears`. Becoming another user needs root, as in containers.
-"""
+"""A checkout of somebody else's, and no home, as in a container; needs root."""
 
 import os
 import shutil
@@ -17,7 +14,7 @@ NOBODY = 65534
 
 @pytest.fixture
 def as_another():
-    """A function that runs Python as a user who may write one folder only, the one of temporary files; that folder."""
+    """Runs Python as a user who may write one folder only; that folder."""
     setpriv = shutil.which("setpriv")
     if os.geteuid() != 0 or setpriv is None:
         pytest.skip("only root can become another user")
@@ -39,8 +36,7 @@ def as_another():
 
 
 def test_compiled_loops_find_a_place(as_another):
-    """Numba refuses to be loaded by who can write neither beside the sources nor at home; a sentence says where it
-    writes."""
+    """Numba refuses to be loaded where nothing can be written; a sentence says where it writes."""
     run, folder = as_another
     program = "from fenics_gears.system import environment; environment.prepare()\n"
     program += "from fenics_gears.contact import laws; print(laws.next_status._cache.cache_path)"
@@ -52,14 +48,13 @@ def test_compiled_loops_find_a_place(as_another):
 
 @pytest.mark.nightly
 def test_every_command_runs(as_another):
-    """A scene is checked, run, drawn and reported, a study is run: matplotlib, DOLFINx and the cache of gears have
-    places."""
+    """matplotlib, DOLFINx and the cache of gears have places."""
     run, folder = as_another
     shutil.copy(ROOT / "demos" / "lundvall2004.toml", folder)
     study = (
         'scene = "lundvall2004.toml"\nwithout = ["inertia", "damping"]\n[sweep]\nfriction.coefficient = [0.05, 0.1]\n'
     )
-    (folder / "study.toml").write_text(study, encoding="utf-8")
+    (folder / "study.toml").write_text(study)
     made = "results/lundvall2004"
     for command in (
         "check lundvall2004.toml",

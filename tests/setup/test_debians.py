@@ -1,4 +1,4 @@
-"""tests/debians/run without making a system: what it reads. It itself is tried by being run."""
+"""tests/debians/run without making a system: what it reads."""
 
 from pathlib import Path
 
@@ -9,8 +9,7 @@ CHECKOUT = Path(__file__).parents[2]
 
 
 def test_dockerfile_is_the_debian_13_case_of_the_script():
-    """Issue 7: it starts from Debian 13, is set up by the one command that sets up every Debian, and its container runs
-    the program."""
+    """From Debian 13, by the one command that sets up every Debian."""
     docker = read_dockerfile()
     assert SUITES[docker.suite] == "Debian 13"
     assert docker.commands[0].startswith(f"{docker.copied_to}/gears --set-up-only")
@@ -20,7 +19,7 @@ def test_dockerfile_is_the_debian_13_case_of_the_script():
 
 @pytest.mark.parametrize("suite", SUITES)
 def test_every_suite_has_its_lists_of_packages(suite):
-    """Without a list of its own a release would be set up as unstable."""
+    """A release without would be set up as unstable."""
     assert (CHECKOUT / f"setup/{suite}.apt").exists() and (CHECKOUT / f"setup/{suite}-test.apt").exists()
 
 

@@ -1,8 +1,5 @@
-"""The launcher without installing anything: authority is what the README promises of `./gears`.
-
-Each test has a checkout of its own in a folder with spaces; its program only tells how it was called. The system's
-tools are stood in for by scripts of a few lines, first and only on PATH.
-"""
+"""The launcher, by what the README promises: a checkout in a folder with spaces, scripts in place of the system's
+tools."""
 
 import os
 import re
@@ -36,7 +33,7 @@ def checkout(tmp_path):
 
 @pytest.fixture
 def machine(tmp_path):
-    """Make a machine: a PATH with the usual tools and the given commands, each a line of shell."""
+    """A PATH with the usual tools and the given commands, each a line of shell."""
 
     def make(**commands):
         folder = tmp_path / "bin"
@@ -54,7 +51,6 @@ def machine(tmp_path):
 
 @pytest.fixture
 def this_python(checkout):
-    """The tests' own environment, naming the Python they run in, which has the little that this checkout then needs."""
     check = checkout / "setup/check.py"
     check.write_text(re.sub(r"^NEEDED = \([^)]*\)", 'NEEDED = ("tomllib",)', check.read_text(), flags=re.MULTILINE))
     check.write_text(
@@ -70,13 +66,12 @@ def call(launcher, *arguments, environment, folder="/"):
 
 
 def set_up_already(checkout, environment):
-    """Have the launcher know a Python without looking for one."""
     done = call(checkout / "gears", "--set-up-only", environment=environment)
     assert done.returncode == 0, done.stderr
 
 
 def test_existing_python_is_tried_once_and_remembered(checkout, this_python):
-    """The second call must not start the set-up: there is none to start any more, and it still works."""
+    """There is no set-up to start any more, and the second call still works."""
     set_up_already(checkout, this_python)
     (checkout / "setup/install").chmod(0o644)
     again = call(checkout / "gears", "run", environment=this_python)
@@ -84,7 +79,7 @@ def test_existing_python_is_tried_once_and_remembered(checkout, this_python):
 
 
 def test_program_runs_in_the_callers_folder_by_a_link_and_from_this_checkout(checkout, this_python, tmp_path):
-    """Paths given to the program count from the caller's folder, and no file there takes the program's place."""
+    """Paths count from the caller's folder, and no file there takes the program's place."""
     set_up_already(checkout, this_python)
     elsewhere = tmp_path / "else where"
     elsewhere.mkdir()
@@ -96,8 +91,7 @@ def test_program_runs_in_the_callers_folder_by_a_link_and_from_this_checkout(che
 
 
 def test_hot_loops_are_compiled_after_each_change_of_their_sources(checkout, this_python, tmp_path):
-    """As the last step of the set-up, and before the next run where a file with compiled functions is newer; not after
-    other changes, nor for help."""
+    """Only where a file with compiled functions is newer; not for help."""
     package, done = checkout / "fenics_gears", tmp_path / "compiled"
     for folder in ("contact", "dynamics", "simulation"):
         (package / folder).mkdir()
@@ -120,7 +114,7 @@ def test_hot_loops_are_compiled_after_each_change_of_their_sources(checkout, thi
 
 
 def test_change_of_what_is_needed_leads_to_a_new_set_up(checkout, this_python):
-    """A checkout brought up to date may need packages that an earlier one did not."""
+    """More packages may be needed."""
     set_up_already(checkout, this_python)
     check = checkout / "setup/check.py"
     check.write_text(check.read_text().replace('"tomllib"', '"tomllib", "no_such_module"'))
@@ -130,7 +124,7 @@ def test_change_of_what_is_needed_leads_to_a_new_set_up(checkout, this_python):
 
 
 def test_machine_without_apt_is_told_what_to_install(checkout, machine):
-    """One message with what is missing and two ways on; no program is started."""
+    """What is missing and two ways on; no program is started."""
     done = call(checkout / "gears", "run", environment=machine(python3=BARE_PYTHON))
     assert done.returncode == 1 and done.stdout == ""
     for part in ("no apt", "dolfinx", "petsc4py", "conda", "Dockerfile"):
@@ -139,14 +133,14 @@ def test_machine_without_apt_is_told_what_to_install(checkout, machine):
 
 
 def test_named_python_that_is_not_there(checkout, machine):
-    """The variable and its value are named; nothing else is tried in its place."""
+    """The variable and its value; nothing else is tried."""
     environment = machine(python3=BARE_PYTHON, apt_get=NO_PACKAGES) | {"FENICS_GEARS_PYTHON": "/no/python"}
     done = call(checkout / "gears", "run", environment=environment)
     assert done.returncode == 1 and "FENICS_GEARS_PYTHON=/no/python" in done.stderr
 
 
 def test_debian_without_root_or_sudo_is_told_the_command(checkout, machine):
-    """The command for the administrator names the packages that are missing."""
+    """The missing packages."""
     environment = machine(python3=BARE_PYTHON, apt_get=NO_PACKAGES, dpkg_query=NO_PACKAGES, id="echo 1000")
     done = call(checkout / "gears", "run", environment=environment)
     assert done.returncode == 1
@@ -159,8 +153,7 @@ def test_debian_without_root_or_sudo_is_told_the_command(checkout, machine):
 
 
 def test_what_a_relative_of_debian_lacks_for_some_tests_is_left_out(checkout, machine, tmp_path):
-    """Ubuntu has no chromium; that is told and left out, while a package of the program that is not offered is still
-    asked for and fails."""
+    """Ubuntu has no chromium; a package of the program is still asked for and fails."""
     environment = machine(
         python3=BARE_PYTHON, apt_get=f'echo "$*" >>{tmp_path}/asked; case "$*" in *install*) exit 100;; esac',
         dpkg=NO_PACKAGES,
@@ -175,8 +168,7 @@ def test_what_a_relative_of_debian_lacks_for_some_tests_is_left_out(checkout, ma
 
 
 def test_program_is_ready_without_what_the_tests_need(checkout, this_python):
-    """Where only a module of the tests is lacking the program runs; the tests say what is lacking and leave the program
-    ready."""
+    """The tests say what is lacking and leave the program ready."""
     check = checkout / "setup/check.py"
     check.write_text(check.read_text().replace("NEEDED_BY_TESTS = (", 'NEEDED_BY_TESTS = ("no_such_module", '))
     set_up_already(checkout, this_python)
@@ -196,7 +188,7 @@ def test_program_is_ready_without_what_the_tests_need(checkout, this_python):
     ],
 )
 def test_failure_of_apt_is_one_sentence_with_its_reason(checkout, machine, printed, sentence):
-    """The last line says why it failed and where the details are; the next call starts over."""
+    """Why it failed and where the details are; the next call starts over."""
     environment = machine(
         python3=BARE_PYTHON,
         apt_get=f'echo "{printed}"; exit 100',
@@ -212,7 +204,7 @@ def test_failure_of_apt_is_one_sentence_with_its_reason(checkout, machine, print
 
 
 def test_interrupted_set_up_leaves_nothing_that_looks_finished(checkout, machine):
-    """Ctrl-C while apt works: exit code 130 and no mark, so that the next call sets up."""
+    """Exit code 130 and no mark."""
     # The stand-in of apt reaches all of the call's processes, as the terminal's Ctrl-C does.
     apt = "kill -INT 0; exec sleep 30"
     environment = machine(
@@ -234,7 +226,7 @@ def test_interrupted_set_up_leaves_nothing_that_looks_finished(checkout, machine
 
 @pytest.mark.parametrize("script", ["gears", "setup/install", ".ci/run"])
 def test_scripts_are_free_of_shellcheck_findings(script):
-    """ShellCheck's catalogue of mistakes in shell scripts, where it is installed."""
+    """ShellCheck, where it is installed."""
     if not shutil.which("shellcheck"):
         pytest.skip("shellcheck is not installed")
     done = subprocess.run(["shellcheck", "--severity=warning", ROOT / script], capture_output=True, text=True)

@@ -1,4 +1,4 @@
-"""The stack works together: what set-up installs is loaded by one process in the order the program loads it."""
+"""What set-up installs is loaded by one process."""
 
 import os
 import subprocess
@@ -41,7 +41,6 @@ if MPI.COMM_WORLD.rank == 0:
 
 
 def run(code, *arguments, launcher=()):
-    """Standard output of a fresh interpreter; what it wrote to standard error becomes the failure's text."""
     # As Python knows the environment: once MPI is initialised in this process, its C library has added variables to the
     # real one that make mpirun give up.
     environment = {name: value for name, value in os.environ.items() if name != "OMP_NUM_THREADS"}
@@ -54,8 +53,7 @@ def run(code, *arguments, launcher=()):
 
 
 def test_files_for_paraview_and_results_are_written_beside_dolfinx(tmp_path):
-    """VTK, DOLFINx and h5py in one process, the last two each with its HDF5: grid and dataset read back are those
-    written, exactly."""
+    """VTK, DOLFINx and h5py, each with its HDF5: read back exactly."""
     run(
         GRID_FILE.replace("sys.argv[1]", "sys.argv[2]") + RESULT_FILE,
         str(tmp_path / "run.nc"),
@@ -65,7 +63,7 @@ def test_files_for_paraview_and_results_are_written_beside_dolfinx(tmp_path):
 
 @pytest.mark.ranks
 def test_two_ranks_meet_with_one_thread_each():
-    """mpirun works as any user, root included, and each rank finds the other."""
+    """mpirun works as any user, and each rank finds the other."""
     from fenics_gears.system import environment
 
     environment.prepare()

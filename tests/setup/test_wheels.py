@@ -1,5 +1,4 @@
-"""The wheels of setup/*.pip fit each other and what Debian has. They are installed without pip's own resolution, so
-nobody else looks."""
+"""The wheels of setup/*.pip, which pip does not resolve, fit each other and what Debian has."""
 
 import platform
 from importlib import metadata
@@ -13,14 +12,12 @@ SETUP = Path(__file__).parents[2] / "setup"
 
 
 def wheels(suite):
-    """Name and version of every wheel in a suite's list."""
-    lines = (SETUP / f"{suite}.pip").read_text(encoding="utf-8").splitlines()
+    lines = (SETUP / f"{suite}.pip").read_text().splitlines()
     return dict(line.split("==") for line in lines if not line.startswith("#"))
 
 
 def here():
-    """The wheels of this system; skips the test where all comes from Debian, whose packages say themselves what
-    fits."""
+    """Skips the test where all comes from Debian."""
     try:
         suite = platform.freedesktop_os_release().get("VERSION_CODENAME", "")
     except OSError:
@@ -42,13 +39,12 @@ def _installed(name):
 
 @pytest.mark.parametrize("suite", [path.stem for path in SETUP.glob("*.pip")])
 def test_no_wheel_brings_what_dolfinx_is_built_on(suite):
-    """DOLFINx, petsc4py and mpi4py are compiled against Debian's numpy and MPI; h5py's wheel carries an HDF5 of its
-    own."""
+    """DOLFINx, petsc4py and mpi4py are compiled against Debian's numpy and MPI."""
     assert not {"numpy", "scipy", "mpi4py", "petsc4py", "h5py", "numba", "fenics-dolfinx"} & wheels(suite).keys()
 
 
 def test_what_the_wheels_require_is_there():
-    """Each wheel's own metadata; a version out of its range, of numpy above all, fails only in use."""
+    """Each wheel's own metadata."""
     wanting = []
     for wheel in here():
         for requirement in map(Requirement, metadata.requires(wheel) or ()):
@@ -61,6 +57,6 @@ def test_what_the_wheels_require_is_there():
 
 
 def test_the_one_numpy_is_debians():
-    """Where Debian puts its modules; the wheels' own folder has no numpy in front of it."""
+    """Where Debian puts its modules."""
     here()
     assert Path(numpy.__file__).is_relative_to("/usr/lib/python3/dist-packages")

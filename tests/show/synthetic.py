@@ -1,4 +1,4 @@
-"""A small made-up result with the names, units and shapes of a real one; its numbers need not be mechanics."""
+"""A small made-up result with the names, units and shapes of a real one."""
 
 import numpy as np
 import xarray as xr
@@ -17,8 +17,7 @@ BARE = ("centre_y", "friction_force")
 
 
 def made_up_run(*, steps=21, cycles=2.0, nodes=5, scene="", **attributes) -> xr.Dataset:
-    """Every variable that a picture shows, over `cycles` mesh cycles that begin with cycle 28; three tooth pairs a
-    cycle wide and more, in slots as those of any result."""
+    """Every variable that a picture shows, over `cycles` mesh cycles from cycle 28 on; three tooth pairs in slots."""
     phase = 28.0 + np.linspace(0.0, cycles, steps)
     wave = np.sin(2 * np.pi * phase)
     pairs = np.arange(27, 29 + int(cycles))
@@ -65,12 +64,11 @@ def made_up_run(*, steps=21, cycles=2.0, nodes=5, scene="", **attributes) -> xr.
 
 
 def words(axes) -> list[str]:
-    """All words and numbers that stand in and around a panel: of ticks, of the upright axes, of flags."""
     return [text.get_text() for text in axes.texts]
 
 
 def right_scale(axes) -> list[tuple[float, float]]:
-    """Numbers of the second upright scale with the heights on the first at which they stand."""
+    """Numbers of the second upright scale with the heights on the first."""
     return [
         (float(text.get_text().replace("−", "-")), text.get_position()[1])
         for text in axes.texts

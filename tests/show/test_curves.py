@@ -1,37 +1,39 @@
-"""Curves show the dataset's own values, converted by exact SI prefixes; what a result lacks has no panel."""
+"""Curves and the map of contact pressure show the dataset's own values."""
+
+import math
 
 import numpy as np
 import pytest
+from matplotlib.collections import QuadMesh
 from tests.show.synthetic import made_up_run, right_scale, words
 
 from fenics_gears.results import by_pair
 from fenics_gears.show.panels import tick_labels, ticks
 from fenics_gears.show.plots import run_figures
+from fenics_gears.show.pressure import MOST_COLUMNS, node_edges, pressure_field
+from fenics_gears.show.run import Run
 
 
 def transmission_error(run):
-    """That picture of a run."""
     return run_figures(run)["transmission_error.png"]
 
 
 def mesh_forces(run):
-    """That picture of a run; None where it has none."""
     return run_figures(run).get("mesh_forces.png")
 
 
 def load_sharing(run):
-    """That picture of a run; None where it has none."""
     return run_figures(run).get("load_sharing.png")
 
 
 def curve(axes, which=-1):
-    """The data of one of the panel's curves; lines across the panel are no curves."""
+    """Data of one of the panel's curves; lines across the panel are none."""
     lines = [line for line in axes.get_lines() if len(np.asarray(line.get_xdata())) > 2]
     return np.asarray(lines[which].get_xdata()), np.asarray(lines[which].get_ydata())
 
 
 def test_transmission_error_and_the_wheels_sideways_motion():
-    """The dataset's values times exact prefixes; the length axis is rb2 T_E (model.md, section 4)."""
+    """Exact prefixes; the length axis is rb2 T_E (model.md, section 4)."""
     run = made_up_run()
     above, below = transmission_error(run).get_axes()
     for axes, name, values in [
@@ -50,7 +52,7 @@ def test_transmission_error_and_the_wheels_sideways_motion():
 
 
 def test_the_peak_to_peak_is_named():
-    """400 µrad by construction (amplitude 200 µrad, extremes on steps), 20 µm on a base radius of 50 mm."""
+    """400 µrad by construction, 20 µm on a base radius of 50 mm."""
     above, _ = transmission_error(made_up_run(steps=41)).get_axes()
     assert above.get_title(loc="left") == "Transmission error on the wheel's base circle: peak to peak 20.00 µm"
 
@@ -64,8 +66,7 @@ def test_a_motion_of_rounding_errors_is_shown_as_none():
 
 
 def test_without_friction_the_shaft_is_shown_along_the_line_of_action():
-    """Without friction the motion off the line of action is exactly zero (model.md, claim 1): a line of nothing shows
-    nothing."""
+    """model.md, claim 1: the motion off the line of action is zero."""
     run = made_up_run()
     run["centre_x"] = (2.0 * run["centre_y"]).assign_attrs(units="mm")
     for friction, name, title in ((True, "centre_y", "off"), (False, "centre_x", "along")):
@@ -76,8 +77,7 @@ def test_without_friction_the_shaft_is_shown_along_the_line_of_action():
 
 
 def test_a_long_run_shows_its_last_cycles_and_all_of_them_cycle_by_cycle():
-    """The dataset: the last four mesh cycles; below, least and largest value of each of the twelve, where they are not
-    alike."""
+    """The last four mesh cycles; below, least and largest value of each of the twelve."""
     run = made_up_run(steps=241, cycles=12.0)
     assert [axes.get_xlim() for axes in transmission_error(run).get_axes()] == [(36.0, 40.0)] * 2
     growing = run["transmission_error"] * (1.0 + 0.1 * (run["mesh_phase"] - 28.0))
@@ -91,7 +91,7 @@ def test_a_long_run_shows_its_last_cycles_and_all_of_them_cycle_by_cycle():
 
 
 def test_load_sharing_of_a_long_run_names_the_pairs_that_are_seen():
-    """The dataset: of 47 cycles' pairs those that carry in the last four."""
+    """Of 47 cycles' pairs those that carry in the last four."""
     run = made_up_run(steps=941, cycles=47.0)
     names = [line.get_label() for line in load_sharing(run).get_axes()[0].get_lines()]
     last = int(run["pair_number"].max())
@@ -99,7 +99,7 @@ def test_load_sharing_of_a_long_run_names_the_pairs_that_are_seen():
 
 
 def test_mesh_forces():
-    """Authority: the dataset's values; N mm become N m."""
+    """The dataset; N mm become N m."""
     run = made_up_run()
     normal, friction, torques = mesh_forces(run).get_axes()
     np.testing.assert_array_equal(curve(normal)[1], run["normal_force"].values)
@@ -114,7 +114,7 @@ def test_mesh_forces():
 
 
 def test_load_sharing():
-    """Each curve is its pair's force while it carries, and the pairs' sum is the mesh's normal force."""
+    """Each pair's force while it carries; their sum is the mesh's."""
     run = made_up_run()
     (axes,) = load_sharing(run).get_axes()
     lines = {line.get_label(): line for line in axes.get_lines()}
@@ -142,8 +142,7 @@ def test_load_sharing():
     ((20.0, 150.0), True, ["20", "50", "100"]),
 ])  # fmt: skip
 def test_ticks_are_round_numbers_written_with_the_decimals_they_need(ends, logarithmic, expected):
-    """Arithmetic: multiples of 1, 2, 2.5 or 5 times a power of ten within the ends; what is written is the place
-    itself."""
+    """Arithmetic: multiples of 1, 2, 2.5 or 5 times a power of ten."""
     places = ticks(ends, 5.0, logarithmic)
     assert tick_labels(places, logarithmic) == expected
     np.testing.assert_allclose([float(each.replace("−", "-")) for each in expected], places, atol=1e-9 * np.ptp(ends))
@@ -152,3 +151,88 @@ def test_ticks_are_round_numbers_written_with_the_decimals_they_need(ends, logar
 def test_ticks_that_differ_by_round_off_are_one_number():
     """The promise; a result that a study does not change but for round-off has a picture."""
     assert tick_labels(np.array([1.0, 1.0 + 1e-13, 1.0 + 2e-13])) == ["1", "1", "1"]
+
+
+def contact_pressure(run):
+    return run_figures(run).get("contact_pressure.png")
+
+
+def mesh(figure):
+    return next(each for each in figure.get_axes()[0].collections if isinstance(each, QuadMesh))
+
+
+def field_of(run):
+    """The raster of a run's drive flanks, and what it is of."""
+    pressure, place, phase, _ = Run(run).fields("")
+    return pressure_field(pressure, place, phase, pressure.max()), pressure, place, phase
+
+
+@pytest.mark.parametrize("steps", [21, 2000])
+def test_every_node_under_pressure_is_in_the_raster(steps):
+    """The cell at a node's place has its pressure, or a higher one that falls into it; no cell has another."""
+    field, pressure, place, phase = field_of(made_up_run(steps=steps))
+    assert field.values.shape[1] <= MOST_COLUMNS and field.x[0] == phase[0] and field.x[-1] == phase[-1]
+    step, slot, node = np.nonzero(pressure > 0.0)
+    rows = np.searchsorted(field.y, place[step, slot, node]) - 1
+    columns = np.clip(np.searchsorted(field.x, phase[step] + 1e-9) - 1, 0, field.values.shape[1] - 1)
+    assert (field.values[rows, columns] >= pressure[step, slot, node] - 1e-9).all()
+    assert np.nanmax(field.values) == pressure.max()
+    assert np.isin(field.values[np.isfinite(field.values)], pressure).all()
+
+
+@pytest.mark.parametrize("falling", [False, True])
+def test_cells_tile_uneven_nodes_without_gap_or_overlap(falling):
+    """Half-way points; the ends mirror."""
+    rolls, edges = np.array([1.0, 1.2, 1.6, 2.4, 4.0]), np.array([0.9, 1.1, 1.4, 2.0, 3.2, 4.8])
+    low, high = node_edges(rolls[::-1] if falling else rolls)
+    np.testing.assert_allclose(np.sort(low), edges[:-1], rtol=1e-13)
+    np.testing.assert_allclose(np.sort(high), edges[1:], rtol=1e-13)
+
+
+def test_a_peak_far_above_all_others_is_said_and_leaves_the_scale_alone():
+    """By construction: 9000 MPa among cells below 1700 MPa; the peak away from edges decides."""
+    run = made_up_run(steps=101)
+    there = np.flatnonzero(run["contact_pressure"].values[50, :, 2] > 0.0)[0]
+    run["contact_pressure"][50, there, 2] = 9000.0
+    figure = contact_pressure(run)
+    assert mesh(figure).norm.vmax < 1700.0
+    assert mesh(contact_pressure(run.assign_attrs(peak_contact_pressure=1400.0))).norm.vmax == pytest.approx(1540.0)
+    assert figure.get_axes()[0].get_title(loc="left").endswith("beyond the colours up to 9000 MPa at mesh cycle 29.00")
+
+
+def test_pitch_point_and_the_wheels_axis(paper_scene):
+    """Exact: either roll angle is tan(alpha_w), 22.44 deg."""
+    (axes, _) = contact_pressure(made_up_run(scene=paper_scene.text)).get_axes()
+    line = next(each for each in axes.get_lines() if each.get_label() == "pitch point")
+    roll = float(line.get_ydata()[0])
+    assert roll == pytest.approx(math.degrees(math.tan(math.radians(22.44))), abs=0.01)
+    angles = right_scale(axes)
+    # Along the line of action the wheel's roll angle falls by z1/z2 of what the pinion's rises.
+    assert "Roll angle on the wheel's flank (deg)" in words(axes) and len(angles) > 3
+    assert all(wheel == pytest.approx(roll - (pinion - roll) * 16 / 24, abs=1e-9) for wheel, pinion in angles)
+
+
+def test_no_contact_at_all_and_no_pressure_variable():
+    """hard_cases.md, 18: an empty flank; no variable, no picture."""
+    run = made_up_run()
+    run["contact_pressure"][:] = 0.0
+    assert mesh(contact_pressure(run)).get_array().count() == 0
+    assert contact_pressure(run.drop_vars("contact_pressure")) is None
+
+
+def test_pressure_on_the_coast_flanks_has_a_panel_of_its_own():
+    """A pair that the wheel drives presses on its coast flanks only, another one on both in turn."""
+    run = made_up_run()
+    zero = run["contact_pressure"] * 0.0
+    run["coast_contact_roll_angle"] = run["contact_roll_angle"]
+    coasting = run.assign(
+        coast_contact_pressure=run["contact_pressure"],
+        contact_pressure=zero.assign_attrs(run["contact_pressure"].attrs),
+    )
+    figure = contact_pressure(coasting)
+    np.testing.assert_array_equal(
+        mesh(figure).get_array().compressed(), mesh(contact_pressure(run)).get_array().compressed()
+    )
+    assert figure.get_axes()[0].get_title(loc="left") == "Contact pressure of single nodes on the coast flanks"
+    both = contact_pressure(run.assign(coast_contact_pressure=run["contact_pressure"]))
+    assert [axes.get_title(loc="left").split()[-2] for axes in both.get_axes()[:2]] == ["drive", "coast"]

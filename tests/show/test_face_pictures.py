@@ -1,4 +1,4 @@
-"""Pictures of a run whose flanks are resolved over the face, of a short coarse run."""
+"""Pictures over the face, of a short coarse run."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ def run():
 
 
 def test_pictures_of_the_face_are_written_beside_the_others(tmp_path):
-    """Each decodes and shows more than its ground; a plane run has none of them."""
+    """Each shows more than its ground; a plane run has none of them."""
     files = {file.name: file for file in draw_run(helical_run(), tmp_path)}
     rigid = FACE_PICTURE_FILES[:2]
     assert set(rigid) < set(files) and "contact_pressure.png" in files and "shafts.png" not in files
@@ -35,8 +35,7 @@ def test_pictures_of_the_face_are_written_beside_the_others(tmp_path):
 
 
 def test_pattern_shows_the_largest_pressure_where_it_is(run):
-    """The result's own fields. Cells hold the largest averaged pressure of their slice's nodes, at the diameter of the
-    node that has it."""
+    """The result's fields: cells hold the largest averaged pressure, at the diameter of its node."""
     pressure, rolls = (run.dataset[f"contact_{name}"].values for name in ("pressure", "roll_angle"))
     pressure = read_off(pressure, rolls)
     field = contact_patterns(run)[0].field
@@ -49,8 +48,8 @@ def test_pattern_shows_the_largest_pressure_where_it_is(run):
 
 
 def test_between_steps_the_pattern_goes_on_as_the_peak_does():
-    """Exact: a pressure that travels along the flank with a peak rising linearly in diameter leaves that line, whatever
-    the spacing of the steps; where two pairs follow each other nothing lies between them."""
+    """Exact: a travelling pressure whose peak rises linearly leaves that line; where two pairs follow each other
+    nothing is between."""
     places = np.linspace(0.2, 0.6, 9)
     rolls = places[:, None, None, None] + np.linspace(-0.01, 0.01, 5)
     pressure = np.broadcast_to(1000.0 * places[:, None, None, None] * [0.0, 0.7, 1.0, 0.7, 0.0], rolls.shape)
@@ -75,8 +74,7 @@ def test_between_steps_the_pattern_goes_on_as_the_peak_does():
 
 @pytest.mark.parametrize("side", ["", pytest.param("coast_", marks=pytest.mark.nightly)])
 def test_line_loads_add_up_to_the_forces(run, side):
-    """Identity: the line load of the mesh over the face is its normal force, of a tooth pair that pair's; and contact
-    ends where the lines are."""
+    """Identity: the normal force of mesh and pair; contact ends where the lines are."""
     run = Run(root_stress_run(coast=True)[1], stress=False) if side else run
     mesh, pair, _ = line_loads(run)
     widths = np.diff(mesh.field.y)
@@ -95,8 +93,8 @@ def test_line_loads_add_up_to_the_forces(run, side):
 
 
 def test_gears_in_space_are_coloured_where_they_touch(monkeypatch):
-    """Position: the camera looks at the pitch point, beside which lines of contact cross the flanks of either gear
-    alone, and nothing else is red; the words have the largest of the curves along the face."""
+    """The camera looks at the pitch point; nothing but the lines of contact is red; the words have the largest
+    values."""
     pytest.importorskip("pyvista")
     monkeypatch.setattr(face_picture, "PIXELS", 60)
     result = helical_run()

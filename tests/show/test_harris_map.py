@@ -1,4 +1,4 @@
-"""The Harris map: curves in um along the line of action, one for each load."""
+"""The Harris map."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,6 @@ LOADS = [50.0, 100.0, 200.0, 437.0]
 
 
 def errors(cycles=2.0, start=0.0, unit="um") -> xr.DataArray:
-    """A made-up transmission error that grows with the load (N m)."""
     phase = start + np.linspace(0.0, cycles, round(40 * cycles) + 1)
     values = np.array([0.04 * load * (1.0 + 0.2 * np.cos(2.0 * np.pi * phase)) for load in LOADS])
     return xr.DataArray(
@@ -27,7 +26,6 @@ def errors(cycles=2.0, start=0.0, unit="um") -> xr.DataArray:
 
 
 def drawn(chart) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Places and values of its curves, by name."""
     return {curve.name: (curve.x, curve.y) for curve in chart.curves if curve.mode != WORDS}
 
 
@@ -42,14 +40,14 @@ def test_two_mesh_cycles_of_every_load_are_drawn(cycles, start):
 
 
 def test_an_angle_of_the_wheel_is_a_length_on_its_base_circle():
-    """The length of an arc, base radius times angle."""
+    """Base radius times angle."""
     angle = (errors() / 54.2e3).assign_attrs(units="rad").to_dataset().assign_attrs(base_radius_wheel=54.2)
     for (_, length), (_, same) in zip(drawn(harris_map(errors())).values(), drawn(harris_map(angle)).values()):
         np.testing.assert_allclose(same, length, rtol=1e-12)
 
 
 def test_loads_stand_at_their_curves_and_apart(tmp_path):
-    """The names' least distance; the picture is written."""
+    """The names' least distance."""
     close = errors().assign_coords(load=("load", [50.0, 50.1, 50.2, 437.0], {"units": "N m"}))
     close[1:3] = close[0]
     chart = harris_map(close)

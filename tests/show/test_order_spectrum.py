@@ -1,4 +1,4 @@
-"""Orders of the transmission error: made-up errors whose lines are known, and the picture of them."""
+"""Orders of the transmission error."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ ERRORS = '\n[flank_errors.wheel.waviness]\namplitude = "1 um"\nwaves = 90\n[ecce
 
 
 def error_of(lines, cycles):
-    """A sum of cosines (order, amplitude) over so many mesh cycles, with a mean."""
+    """A sum of cosines (order, amplitude), with a mean."""
     turns = np.arange(int(cycles * STEPS) + 1) / (STEPS * TEETH[0])
     return 5.0 + sum(amplitude * np.cos(2.0 * np.pi * order * turns + order) for order, amplitude in lines)
 
@@ -35,20 +35,17 @@ def test_orders_are_told_by_what_they_come_back_with():
 
 
 def order_spectrum(run):
-    """That picture of a run; None where it has none."""
     return run_figures(run).get("order_spectrum.png")
 
 
 def made_up_turns(scene, cycles=float(PERIOD)):
-    """A made-up result over several turns, with run-out and waves of the wheel in its transmission error."""
     run = made_up_run(steps=int(cycles * STEPS) + 1, cycles=cycles, nodes=3, scene=scene)
     lines = [(1.0, 2e-4), (16.0, 3e-4), (60.0, 1e-5)]
     return run.assign(transmission_error=("time", error_of(lines, cycles) * 1e-3, {"units": "rad"}))
 
 
 def test_the_picture_names_mesh_orders_run_out_and_ghosts(paper_scene):
-    """Definition: amplitudes as lengths on the wheel's base circle; 90 waves on the wheel are order 60 of the pinion's
-    shaft."""
+    """Amplitudes on the wheel's base circle; 90 waves on the wheel are order 60 of the pinion's shaft."""
     run = made_up_turns(paper_scene.text + ERRORS)
     axes = order_spectrum(run).axes[0]
     flags = {text.get_text().strip(): text.xy for text in axes.texts if isinstance(text, Annotation)}
@@ -68,8 +65,7 @@ def test_the_picture_names_mesh_orders_run_out_and_ghosts(paper_scene):
 
 
 def test_a_run_of_a_turn_has_the_picture_and_a_shorter_one_has_not(paper_scene):
-    """Definition: drawn with a run's other pictures from a turn of the pinion on, 16 mesh cycles; needs the scene for
-    the teeth."""
+    """From a turn of the pinion on, 16 mesh cycles; needs the scene for the teeth."""
     for cycles, there in ((15.0, False), (16.0, True), (20.0, True)):
         assert ("order_spectrum.png" in run_figures(made_up_turns(paper_scene.text, cycles))) == there
     assert order_spectrum(made_up_turns("")) is None

@@ -1,5 +1,4 @@
-"""A turn for ParaView: what the files hold, read by other readers than the writers, and that their points are the same
-material points."""
+"""A turn for ParaView, read by other readers than the writers."""
 
 import base64
 import struct
@@ -8,6 +7,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from tests.paper_text import coarse_text
 
 from fenics_gears import results, scene_from_text
 from fenics_gears.commands.cli import main
@@ -20,32 +20,30 @@ pyvista = pytest.importorskip("pyvista")
 
 
 @pytest.fixture(scope="module")
-def run(paper_scene, tmp_path_factory):
-    """A run of two stored mesh cycles, four steps each, and its scene as it is in the file."""
+def run(tmp_path_factory):
+    """Two stored mesh cycles, four steps each, and its scene as in the file."""
     from fenics_gears.simulation.simulate import simulate
 
     directory = tmp_path_factory.mktemp("run")
-    head = paper_scene.text[: paper_scene.text.index("[shafts]")].replace("mesh_cycles = 30", "mesh_cycles = 2")
     coarse = (
         '[accuracy]\nelement = "P1"\nflank_element_size = "0.3 mm"\nbody_element_size = "3 mm"\ncontact_length = "4'
         ' mm"\ncontact_nodes = 14\nsteps_per_mesh_cycle = 4\n'
     )
-    scene = scene_from_text(head + coarse)
+    effects = ("shafts", "bearings", "inertia", "damping", "friction")
+    scene = scene_from_text(coarse_text(*effects, accuracy=coarse))
     results.save(simulate(scene), directory / "run.nc")
     return directory, scene
 
 
 @pytest.fixture(scope="module")
 def series(run, tmp_path_factory):
-    """The .pvd file of the run."""
     collection = tmp_path_factory.mktemp("paraview") / "turn.pvd"
     assert main(["picture", str(run[0]), "--pvd", str(collection), "--quiet"]) == 0
     return collection
 
 
 def array(file, name, section="PointData"):
-    """An array of a .vtu file by its published format (VTK file formats: inline binary, zlib blocks, 32-bit header),
-    with no part of VTK."""
+    """An array of a .vtu file by its published format (inline binary, zlib blocks, 32-bit header), without VTK."""
     root = ElementTree.parse(file).getroot()
     assert (
         root.attrib["header_type"] == "UInt32"
@@ -71,7 +69,7 @@ def array(file, name, section="PointData"):
 
 
 def test_collection_lists_the_steps_with_their_times(run, series):
-    """ParaView's format: a VTKFile of type Collection whose DataSets have a timestep and a file beside it."""
+    """ParaView's format."""
     result = results.load(run[0] / "run.nc")
     root = ElementTree.parse(series).getroot()
     assert (root.tag, root.get("type")) == ("VTKFile", "Collection")
@@ -90,7 +88,7 @@ def test_collection_lists_the_steps_with_their_times(run, series):
 
 
 def test_fields_survive(run, series):
-    """Read without VTK, displacement, stresses and points of a step are those of the recovery, to single precision."""
+    """Those of the recovery, to single precision, without VTK."""
     result, scene = results.load(run[0] / "run.nc"), run[1]
     with RunStresses(result, scene) as runs:
         mesh = runs.at(frame_steps(result)[5])
@@ -117,8 +115,7 @@ def test_fields_survive(run, series):
 
 
 def test_tooth_is_the_pair_that_loads_it(run, series):
-    """Teeth have the numbers of their tooth pairs: the loaded pairs' teeth, and no others, have flanks under
-    pressure."""
+    """The loaded pairs' teeth, and no others, have flanks under pressure."""
     result = contact_times(results.load(run[0] / "run.nc"))
     first = result["contact_pair_number"].attrs["number_at_phase_0"]
     for place, step in enumerate(frame_steps(result)):

@@ -1,4 +1,4 @@
-"""The files of a run's pictures: which there are, that they are whole, and what each says about the run."""
+"""The files of a run's pictures."""
 
 import matplotlib
 import numpy as np
@@ -15,7 +15,7 @@ OF_A_SHORT_RUN = set(PICTURES) - {"order_spectrum.png"}
 
 @pytest.mark.parametrize("absent", [(), BARE])
 def test_every_picture_is_written_whole_and_nothing_else(tmp_path, absent):
-    """The PNG decodes at 150 dots per inch over 10 inches, and shows more than its ground."""
+    """150 dots per inch over 10 inches, more than its ground."""
     files = draw_run(made_up_run().drop_vars(absent), tmp_path / "new")
     assert {file.name for file in files} == OF_A_SHORT_RUN == {file.name for file in (tmp_path / "new").iterdir()}
     for file in files:
@@ -36,7 +36,7 @@ def test_a_failure_leaves_the_pictures_of_before_alone(tmp_path):
 
 
 def test_an_incomplete_run_says_so_in_every_picture():
-    """The attribute `complete`; the run of 2 cycles from 28 is cut after half of its 20 steps."""
+    """The attribute `complete`; cut after half of its 20 steps."""
     whole, cut = made_up_run(), made_up_run(complete=0).isel(time=slice(0, 11))
     for figure in run_figures(cut).values():
         assert "INCOMPLETE RUN: stopped at mesh cycle 29.00" in figure._suptitle.get_text()
@@ -56,7 +56,7 @@ def test_the_heading_names_scene_and_conditions(paper_scene):
 
 
 def test_a_users_matplotlib_settings_neither_matter_nor_change(tmp_path):
-    """The same dataset gives the same pictures, byte for byte."""
+    """Byte for byte."""
     plain = [file.read_bytes() for file in draw_run(made_up_run(), tmp_path / "plain")]
     with matplotlib.rc_context(
         {"font.size": 40.0, "axes.facecolor": "black", "savefig.transparent": True, "lines.linewidth": 9.0}

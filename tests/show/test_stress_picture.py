@@ -1,9 +1,10 @@
-"""gears picture: what is written, what is refused, and that colours are where the stress is."""
+"""gears picture."""
 
 import numpy as np
 import pytest
 from matplotlib.image import imread
 from tests.coarse import coarse_scene
+from tests.paper_text import COARSE, coarse_text
 from tests.programs import python
 
 from fenics_gears import results, scene_from_text
@@ -15,20 +16,10 @@ environment.prepare()
 
 @pytest.fixture(scope="module")
 def run(paper_scene, tmp_path_factory):
-    """A run's directory: the paper's pair on a coarse mesh, its scene in the file as a user's would be."""
     from fenics_gears.simulation.simulate import simulate
 
     directory = tmp_path_factory.mktemp("run")
-    text = (
-        paper_scene.text[: paper_scene.text.index("[accuracy]")]
-        .replace("mesh_cycles = 30", "mesh_cycles = 1")
-        .replace("recorded_cycles = 2", "recorded_cycles = 1")
-    )
-    coarse = (
-        '[accuracy]\nelement = "P1"\nflank_element_size = "0.12 mm"\ncontact_length = "3 mm"\ncontact_nodes ='
-        " 26\nsteps_per_mesh_cycle = 40\n"
-    )
-    scene = scene_from_text(text + coarse)
+    scene = scene_from_text(coarse_text(cycles=1, recorded=1, accuracy=COARSE))
     assert scene.accuracy == coarse_scene(paper_scene).accuracy
     results.save(simulate(scene), directory / "run.nc")
     return directory
@@ -36,13 +27,12 @@ def run(paper_scene, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def picture(run):
-    """The picture at a quarter of a mesh cycle, (height, width, 3), 0 to 1."""
     assert main(["picture", str(run), "--at", "0.25", "--quiet"]) == 0
     return imread(run / "stress.png")[..., :3]
 
 
 def part(picture, place):
-    """The pixels of a panel given as left, bottom, width, height in parts of the figure."""
+    """Pixels of a panel: left, bottom, width, height in parts of the figure."""
     height, width = picture.shape[:2]
     left, bottom, wide, high = place
     return picture[
@@ -52,13 +42,13 @@ def part(picture, place):
 
 
 def strongly_coloured(pixels):
-    """Which pixels have the hues of the upper half of the scale: more red than blue by far."""
+    """Hues of the upper half of the scale."""
     return pixels[..., 0] - pixels[..., 2] > 0.35
 
 
 def test_picture_is_whole_and_colours_are_where_the_stress_is(picture):
-    """Known position: two tooth pairs touch at a quarter of the mesh cycle, both on the line of action; the enlarged
-    contact is in its panel's middle; bores, rims and tips far from the mesh are pale."""
+    """Two tooth pairs touch at a quarter of the mesh cycle, on the line of action; bores, rims and far tips are
+    pale."""
     assert picture.shape == (900, 1600, 3)
     enlarged = part(picture, (0.735, 0.36, 0.19, 0.49))
     coloured = np.argwhere(strongly_coloured(enlarged)) / enlarged.shape[:2]
@@ -78,7 +68,6 @@ def test_picture_is_whole_and_colours_are_where_the_stress_is(picture):
 
 @pytest.fixture
 def parted(run, tmp_path):
-    """A run whose teeth carry nothing."""
     dataset = results.load(run / "run.nc")
     forces = [name for name in dataset if "force" in name or "pressure" in name or "traction" in name]
     results.save(
@@ -89,7 +78,7 @@ def parted(run, tmp_path):
 
 @pytest.mark.nightly
 def test_teeth_that_have_parted_are_drawn_without_stress(parted, tmp_path):
-    """No forces, no stress: bodies in the colour of zero."""
+    """No forces: bodies in the colour of zero."""
     assert main(["picture", str(tmp_path), "--at", "0.25", "--quiet"]) == 0
     found = imread(tmp_path / "stress.png")[..., :3]
     assert not strongly_coloured(part(found, (0.015, 0.06, 0.90, 0.79))).any()
@@ -97,18 +86,18 @@ def test_teeth_that_have_parted_are_drawn_without_stress(parted, tmp_path):
 
 @pytest.mark.nightly
 def test_teeth_that_have_parted_move_and_are_reported(parted, tmp_path, monkeypatch):
-    """The same in a moving picture, for ParaView and in a report."""
+    """Also for ParaView and in a report."""
     from fenics_gears.show import stress_animation
 
     monkeypatch.setattr(stress_animation, "FRAMES_PER_CYCLE", 2)
     assert main(["picture", str(tmp_path), "--animate", "--pvd", str(tmp_path / "turn.pvd"), "--quiet"]) == 0
     assert (tmp_path / "stress.gif").is_file() and len(list(tmp_path.glob("turn_*.vtu"))) == 2
     assert main(["report", str(tmp_path), "--at", "0.25", "--quiet"]) == 0
-    assert "It could not be drawn" not in (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "It could not be drawn" not in (tmp_path / "report.html").read_text()
 
 
 def test_animation_goes_through_the_cycle_once(run, tmp_path, monkeypatch):
-    """Frames asked for, all of one size, which differ; the last is not the first again."""
+    """Frames of one size, which differ; the last is not the first again."""
     image = pytest.importorskip("PIL.Image")
     from fenics_gears.show import stress_animation
 
@@ -144,7 +133,7 @@ def test_calls_that_make_no_sense_are_refused(run, tmp_path, monkeypatch, capsys
 
 
 def test_command_line_does_not_load_vtk():
-    """Rule of the platform: neither the package nor its command line imports pyvista; only a file for ParaView does."""
+    """Only a file for ParaView imports pyvista."""
     code = (
         "import sys, fenics_gears, fenics_gears.commands.cli; from fenics_gears.commands import picture;"
         " print('pyvista' in sys.modules, 'vtkmodules' in sys.modules)"

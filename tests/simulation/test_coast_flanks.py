@@ -1,10 +1,11 @@
-"""Contact on the coast flanks: their place against the tooth outlines, and their forces against the drive flanks'."""
+"""Contact on the coast flanks."""
 
 from dataclasses import replace
 from math import radians
 
 import numpy as np
 import pytest
+from tests.coarse import COARSE, quasi_static
 
 from fenics_gears import simulate
 from fenics_gears.contact.tooth_pair import coast_place, drive_place
@@ -15,25 +16,17 @@ from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.involute import canonical_point
 from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.scene.data import Accuracy, Motion
-
-COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
+from fenics_gears.scene.data import Motion
 
 
 @pytest.fixture(scope="module")
 def both_flanks(paper_scene):
-    """The paper's pair with coast flanks, frictionless, at a coarse mesh."""
     return replace(paper_scene, friction=None, coast_flanks=CoastFlanks(), accuracy=COARSE, motion=Motion(200.0, 1, 1))
-
-
-def quasi_static(scene, **changes):
-    return replace(scene, inertia=None, damping=None, **changes)
 
 
 @pytest.mark.parametrize("part", [0.1, 0.5, 0.9])
 def test_coast_flanks_stand_where_the_tooth_outlines_have_them(paper_pair, part):
-    """Exact: the outlines' coast points with the place's roll angles lie on the mirrored line of action, a backlash
-    apart."""
+    """Exact: the outlines' coast points lie on the mirrored line of action, a backlash apart."""
     xi = paper_pair.path_start + part * (paper_pair.path_end - paper_pair.path_start)
     place, drive = coast_place(paper_pair, 0, xi), drive_place(paper_pair, 0, xi)
     behind = drive_place(paper_pair, -1, xi - paper_pair.base_pitch)
@@ -60,8 +53,7 @@ def test_coast_flanks_stand_where_the_tooth_outlines_have_them(paper_pair, part)
 
 
 def test_a_pair_that_stays_in_contact_does_not_feel_its_coast_flanks(both_flanks):
-    """Omitted equals not touched: the same transmission error but for the finer mesh along the coast flank; no coast
-    force."""
+    """The same transmission error but for the finer mesh; no coast force."""
     with_coast = simulate(quasi_static(both_flanks))
     without = simulate(quasi_static(both_flanks, coast_flanks=None))
     assert np.all(with_coast.coast_normal_force.values == 0.0)
@@ -70,8 +62,7 @@ def test_a_pair_that_stays_in_contact_does_not_feel_its_coast_flanks(both_flanks
 
 
 def test_run_out_beyond_the_backlash_wedges_the_teeth_and_is_named(both_flanks, paper_pair):
-    """Geometry. Run-out of the backlash and more closes it; with none both flanks press, along lines of action that the
-    load holds apart."""
+    """Geometry: run-out of the backlash presses both flanks."""
     towards = Eccentricity(
         Offset(2.0 * paper_pair.backlash, radians(-90.0) + paper_pair.operating_pressure_angle), None
     )

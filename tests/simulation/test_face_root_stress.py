@@ -1,4 +1,4 @@
-"""[output] root_stress over the face: against recovered sectors and plane strain."""
+"""[output] root_stress over the face."""
 
 import numpy as np
 import pytest
@@ -22,9 +22,8 @@ either = pytest.mark.parametrize("coast", [pytest.param(False, marks=pytest.mark
 
 @either
 def test_rows_give_what_the_recovered_sectors_have(coast):
-    """Exact identity (Betti): along the profile, across the tooth's trace, in every slice, on both gears and all teeth
-    in reach, to 1e-9 of the largest;
-    times the factors of the fine section, which have a test of their own."""
+    """Exact identity (Betti): in every slice, on both gears and all teeth in reach, times the fine section's
+    factors."""
     scene, result = root_stress_run(coast)
     largest = np.nanmax(np.abs(result["root_stress"].values))
     with RunStresses(result, scene) as stresses:
@@ -79,8 +78,7 @@ def _at_fillets(recovery, data, stress):
 
 @either
 def test_largest_values_are_those_over_the_face(coast):
-    """Definition: the curves of all steps hold the largest of the points and slices; a slot without a pair in reach has
-    none."""
+    """Definition: the largest of points and slices; a slot without a pair in reach has none."""
     scene, result = root_stress_run(coast)
     of_bending = OF_BENDING * section_angle(gear_pair(scene.gears).pinion)
     along, over_face = (

@@ -1,4 +1,4 @@
-"""Stresses of teeth over the face, recovered at stored times."""
+"""Stresses of teeth over the face."""
 
 import numpy as np
 import pytest
@@ -29,8 +29,7 @@ def mesh(stresses):
 
 
 def test_forces_on_the_teeth_are_those_of_the_mesh(stresses):
-    """Statics: turned into space, the forces on the flanks' nodes add up to the normal force of the run along the
-    contact normal, and to its torque."""
+    """Statics: forces on nodes add up to the run's along the contact normal, and to its torque."""
     model = stresses.model
     pair, stored = model.pair, stored_forces(stresses.result, model, stresses.cycle, STEP)
     force = float(stresses.result["normal_force"].values[STEP])
@@ -57,8 +56,7 @@ def test_forces_on_the_teeth_are_those_of_the_mesh(stresses):
 
 
 def test_roots_of_the_loaded_teeth_carry(mesh):
-    """Bending: the largest tension in the roots is at a loaded tooth, below that of the unloaded teeth beside by
-    far."""
+    """Bending: the largest tension is at a loaded tooth."""
     for gear in mesh.gears:
         tension = gear.principal[..., gear.in_root].max(axis=(1, 2))
         assert 1 <= tension.argmax() <= len(tension) - 2
@@ -67,8 +65,7 @@ def test_roots_of_the_loaded_teeth_carry(mesh):
 
 
 def test_pressure_is_painted_where_the_flanks_touch(mesh):
-    """Newton's third law and the run's own force: tiles of both gears lie on each other, on their involutes, and their
-    pressures add up to the mesh's force."""
+    """Newton's third law: tiles of both gears lie on each other, pressures add up to the mesh's force."""
     tiles = [pressed_tiles(mesh, helical_run(), gear, 0.0) for gear in (0, 1)]
     off = STAND_OFF * mesh.pair.pinion.module
     pinion, wheel = (each.corners.mean(axis=1) for each in tiles)
@@ -83,8 +80,7 @@ def test_pressure_is_painted_where_the_flanks_touch(mesh):
 
 
 def test_file_for_paraview(mesh, tmp_path):
-    """Another program: VTK reads wedges of positive volume, that of the sectors, and the stress that the picture
-    has."""
+    """VTK reads wedges of positive volume, and the picture's stress."""
     pyvista = pytest.importorskip("pyvista")
     save_vtu(mesh, tmp_path / "teeth.vtu")
     grid = pyvista.read(tmp_path / "teeth.vtu")

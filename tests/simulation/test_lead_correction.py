@@ -1,5 +1,4 @@
-"""Lead modifications that are proposed for an even line load, on bodies without finite elements; on an offset web by
-night."""
+"""Lead modifications that are proposed for an even line load, on bodies without finite elements."""
 
 from dataclasses import replace
 
@@ -44,14 +43,13 @@ class Runs:
         return (), cycle.with_gaps(gaps_of(model, cycle))
 
     def factor(self, slope, crowning):
-        """The face load factor of a run with these amounts, um."""
         leads = LeadModifications(pinion=LeadModification(crowning=1e-3 * crowning, helix_slope=1e-3 * slope))
         scene = replace(self.scene, lead_modifications=leads)
         return solved(scene, preparation=self.prepare).attrs["face_load_factor"]
 
     def check(self, foretold=3e-3, better_than=0.7):
-        """That nothing beside the proposal, and nothing of a scan, is better than it by more than 0.3 %, that a run has
-        what was foretold, and how much is gained."""
+        """Nothing beside the proposal, and nothing of a scan, is better by more than 0.3 %; a run has what was
+        foretold."""
         found = simulate(self.scene, preparation=self.prepare)
         slope, crowning = (found.attrs[f"proposed_{name}"] for name in ("helix_slope", "crowning"))
         least = self.factor(slope, crowning)
@@ -68,7 +66,7 @@ class Runs:
 
 @pytest.mark.parametrize("name", TILTED)
 def test_no_slope_and_crowning_are_better(name):
-    """Brute force, a scan of both amounts by whole runs."""
+    """Brute force, a scan of both amounts."""
     more, helix, load = TILTED[name]
     model = model_of(helical_scene(more, helix=helix, offset=2.0, accuracy=ACCURACY, **load))
     found = Runs(model.scene, on_stand_in_bodies(model)).check(0.03 if FRICTION in more else 3e-3)
@@ -76,8 +74,7 @@ def test_no_slope_and_crowning_are_better(name):
 
 
 def test_a_proposal_is_in_place_of_what_is_there():
-    """By definition: a scene that has lead modifications gets the same proposal, to what the search leaves open; the
-    words of the summary are those of a scene with these amounts."""
+    """Definition: the same proposal whatever lead modifications there are; the summary's words."""
     model = model_of(helical_scene(MISALIGNED, helix=0.0, accuracy=ACCURACY))
     runs = Runs(model.scene, on_stand_in_bodies(model))
     plain = simulate(model, preparation=runs.prepare)
@@ -93,7 +90,7 @@ def test_a_proposal_is_in_place_of_what_is_there():
 
 
 def test_a_run_with_inertia_has_the_proposal_of_the_quasi_static_one():
-    """By definition: a proposal is quasi-static; shafts that vibrate have coordinates that the other run does not."""
+    """Definition: shafts that vibrate have coordinates that the other run does not."""
     found = []
     for more in (VIBRATING, ELASTIC):
         model = model_of(helical_scene(more, offset=2.0, accuracy=ACCURACY, frequency=200.0))
@@ -106,8 +103,7 @@ def test_a_run_with_inertia_has_the_proposal_of_the_quasi_static_one():
 
 
 def test_only_what_tilts_asks_for_a_correction():
-    """By definition: axes that are parallel are told apart from those that are not, and studies look for none; coast
-    flanks have no modifications (docs/model.md)."""
+    """Parallel axes, studies and coast flanks (docs/model.md) ask for none."""
     for torque in (-3e5, 3e5):
         on_coast = helical_scene(MISALIGNED + "\n[coast_flanks]\n", helix=0.0, accuracy=ACCURACY, torque=torque)
         assert wanted(model_of(on_coast)) == (torque > 0.0)
@@ -125,7 +121,7 @@ WEB = '[gears.wheel.web]\nrim_inner_diameter = "82 mm"\nhub_diameter = "60 mm"\n
 @pytest.mark.parametrize("web", ["", WEB], ids=["solid", "web"])
 @pytest.mark.parametrize("more", [STRAIGHT, MISALIGNED, ELASTIC, ELASTIC + MISALIGNED])
 def test_bodies_of_finite_elements_have_the_best_of_a_scan_too(more, web):
-    """Brute force, as above; a web off mid-width alone, and beside shafts and misalignment."""
+    """Brute force; a web off mid-width alone, and beside shafts and misalignment."""
     if web or more != STRAIGHT:
         scene = helical_scene(more, helix=0.0, width=20.0, accuracy=FEW.replace("5", "8"))
         Runs(scene_from_text(text_of(scene) + web)).check()

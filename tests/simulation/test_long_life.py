@@ -20,7 +20,6 @@ MOST_MORE = 60e6
 
 
 def kinds(scene):
-    """Runs whose routes, solvers and results differ."""
     still = quasi_static(scene)
     return {
         "quasi-static with friction": (still, in_the_plane),
@@ -36,8 +35,7 @@ BY_NIGHT = [pytest.param(kind, marks=pytest.mark.nightly) for kind in ("in time"
 
 @pytest.mark.parametrize("kind", ["quasi-static with friction", "over the face", *BY_NIGHT])
 def test_contact_operators_go_with_their_run(paper_scene, kind):
-    """Definition: nothing but the result is left of a run, without a search for garbage. Operators are most of its
-    memory; a circle of references kept them."""
+    """Definition: nothing but the result is left of a run."""
     scene, prepare = kinds(coarse_scene(paper_scene, cycles=1))[kind]
     left = []
 
@@ -58,7 +56,7 @@ def test_contact_operators_go_with_their_run(paper_scene, kind):
 @pytest.mark.nightly
 @pytest.mark.parametrize(("kind", "pairs"), [("plane", 10), ("face", 3)])
 def test_different_pairs_take_no_more_and_more(kind, pairs):
-    """What the system counts (proc(5), VmRSS) after the first and after the last of some pairs, no two alike."""
+    """proc(5), VmRSS, after the first and the last of some pairs."""
     said = python("-P", "-m", "tests.benchmarks.long_life", kind, pairs).stdout
     held = [1e6 * float(line.split()[1]) for line in said.splitlines()[1:]]
     assert len(held) > 2 and max(held) < held[0] + MOST_MORE

@@ -1,5 +1,4 @@
-"""Memory that a run may take: what does not fit is made again, with the same numbers, or refused before anything is
-computed."""
+"""Memory that a run may take."""
 
 import re
 
@@ -18,7 +17,7 @@ from fenics_gears.system.memory import MEMORY_VARIABLE, allowed_memory, size_in_
 
 @pytest.mark.parametrize("share", [pytest.param(0.0, marks=pytest.mark.nightly), 0.4])
 def test_operators_that_are_not_kept_change_no_number(paper_scene, monkeypatch, share):
-    """Two routes to the same number: operators made again in every mesh cycle, and operators kept."""
+    """Operators made again in every mesh cycle, and operators kept."""
     scene = coarse_scene(paper_scene, cycles=3)
     whole, made = simulate(scene), []
 
@@ -45,7 +44,7 @@ def test_operators_that_are_not_kept_change_no_number(paper_scene, monkeypatch, 
 
 
 def test_a_run_that_does_not_fit_is_refused(paper_scene, monkeypatch):
-    """Row 26: before anything is computed, with the size, what is allowed, and what to change."""
+    """Row 26: with the size, what is allowed, and what to change."""
     monkeypatch.setenv(MEMORY_VARIABLE, "20 MB")
     with pytest.raises(
         ComputationError,
@@ -55,13 +54,10 @@ def test_a_run_that_does_not_fit_is_refused(paper_scene, monkeypatch):
 
 
 def test_check_says_that_a_scene_cannot_fit(tmp_path, monkeypatch, capsys):
-    """Row 26: as a run of it, but with the description first; exit code 3, for the scene itself is right. With the
-    memory of another machine it fits."""
+    """Row 26: as a run, after the description; exit code 3. With another machine's memory it fits."""
     wide = tmp_path / "wide.toml"
     wide.write_text(
-        (DEMO.parent / "misaligned_spur" / "misaligned.toml")
-        .read_text(encoding="utf-8")
-        .replace("slices = 12", "slices = 300"),
+        (DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text().replace("slices = 12", "slices = 300"),
         encoding="utf-8",
     )
     monkeypatch.setenv(MEMORY_VARIABLE, "8 GB")
@@ -75,7 +71,7 @@ def test_check_says_that_a_scene_cannot_fit(tmp_path, monkeypatch, capsys):
 
 
 def test_sizes_of_memory(monkeypatch):
-    """Definition: decimal units; a wrong size is named with its variable; without one, a share of what is free."""
+    """Definition: decimal units; without one, a share of what is free."""
     assert size_in_bytes("1.5 GB", "x", "") == 1.5e9
     monkeypatch.setenv(MEMORY_VARIABLE, "much")
     with pytest.raises(SceneError, match="FENICS_GEARS_MEMORY = 'much' is no size"):

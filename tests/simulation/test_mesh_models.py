@@ -1,4 +1,4 @@
-"""The cheaper models of the mesh against the limits in which they are exact, and what they leave out."""
+"""The cheaper models of the mesh."""
 
 from dataclasses import replace
 
@@ -22,19 +22,17 @@ def by(scene, name: str, **accuracy):
 
 @pytest.fixture(scope="module")
 def static(paper_scene):
-    """The paper's scene without inertia and friction, one coarse mesh cycle."""
     return replace(frictionless(quasi_static(coarse_scene(paper_scene))), motion=Motion(200.0, 1, 1))
 
 
 def distance(found, expected) -> float:
-    """Largest difference of the transmission error in parts of its peak-to-peak value."""
+    """In parts of the transmission error's peak-to-peak value."""
     error = expected.transmission_error.values
     return float(np.abs(found.transmission_error.values - error).max() / np.ptp(error))
 
 
 def test_table_is_the_full_model_at_its_own_load(static, paper_scene):
-    """Exact: quasi-static and frictionless, at the loads that the table was made at, the mesh gives way as the full
-    contact does; with removed material, and for a negative load on the coast flanks."""
+    """Exact: at the table's own loads the full contact, with removed material, and on the coast flanks."""
     text = paper_scene.text + '\n[tip_relief]\ndepth = "31 um"\nstart = "HPSTC"\n\n[coast_flanks]\n'
     scene = replace(
         scene_from_text(text), inertia=None, damping=None, friction=None, accuracy=static.accuracy, motion=static.motion
@@ -48,8 +46,7 @@ def test_table_is_the_full_model_at_its_own_load(static, paper_scene):
 
 
 def test_table_in_motion(paper_scene):
-    """Limit: teeth without mass and friction are a mesh spring at any speed; at 200 Hz only the table's own
-    interpolation is between them."""
+    """Limit: teeth without mass and friction are a spring; at 200 Hz but for interpolation."""
     scene = frictionless(coarse_scene(paper_scene, cycles=4))
     table = simulate(by(scene, STIFFNESS_TABLE))
     assert distance(table, simulate(scene)) <= 1e-3
@@ -57,8 +54,7 @@ def test_table_in_motion(paper_scene):
 
 
 class WithoutBending:
-    """A mesh cycle whose friction forces do not bend the teeth: no coupling of normal and tangential directions in the
-    compliance."""
+    """A mesh cycle whose friction forces do not bend the teeth."""
 
     def __init__(self, cycle):
         self._cycle, self.traits = cycle, replace(cycle.traits, divisible=False)
@@ -77,7 +73,7 @@ class WithoutBending:
 
 
 def unlike(found, expected) -> float:
-    """Difference of the transmission error without its mean, in the L2 norm, in parts of the expected one's."""
+    """Difference without means, in the L2 norm, in parts of the expected one's."""
     first, second = (
         each.transmission_error.values - each.transmission_error.values.mean() for each in (found, expected)
     )
@@ -85,9 +81,7 @@ def unlike(found, expected) -> float:
 
 
 def test_friction_of_mesh_springs_does_not_bend_the_teeth(paper_scene):
-    """Limit: with friction the table is the full contact whose friction forces do not bend the teeth, but for where on
-    the flank they act;
-    what it lacks besides is that bending, a sixth of the transmission error's variation on this pair."""
+    """Limit: the full contact whose friction does not bend the teeth; that bending is a sixth of the variation."""
     scene = quasi_static(coarse_scene(paper_scene))
 
     def without_bending(model, progress, cache):
@@ -107,7 +101,7 @@ def test_friction_of_mesh_springs_does_not_bend_the_teeth(paper_scene):
 
 
 def test_friction_force_is_that_of_its_pairs(paper_scene):
-    """Exact: every pair slides but near the pitch point, and then its friction is mu times its normal force."""
+    """Exact: mu times the normal force but near the pitch point."""
     result = simulate(by(quasi_static(coarse_scene(paper_scene)), STIFFNESS_TABLE))
     normal, friction = result.pair_normal_force.values, result.pair_friction_force.values
     sliding = np.abs(np.abs(friction) - 0.1 * normal) <= 1e-9 * normal.max()
@@ -117,8 +111,7 @@ def test_friction_force_is_that_of_its_pairs(paper_scene):
 
 
 def test_iso_deflection(static):
-    """Exact: teeth alone give way by F/(c' b) where one pair is in mesh, and the mean stiffness is c_gamma = c' (0.75
-    eps + 0.25)."""
+    """Exact: F/(c' b) where one pair is in mesh; c_gamma = c' (0.75 eps + 0.25)."""
     scene = by(replace(static, shafts=None, bearings=None), ISO_6336, steps_per_mesh_cycle=1000)
     model, result = model_of(scene), simulate(scene)
     force = scene.load.wheel_torque / model.pair.wheel.base_radius
@@ -131,8 +124,7 @@ def test_iso_deflection(static):
 
 
 def test_friction_of_rigid_teeth(paper_scene):
-    """Exact statics: with the pair's force N at arm x2 of the wheel, N rb2 + mu s N x2 = T, s the sense of sliding,
-    shares even."""
+    """Exact statics: N rb2 + mu s N x2 = T, s the sense of sliding."""
     scene = by(quasi_static(coarse_scene(paper_scene)), RIGID_TEETH)
     model, result = model_of(scene), simulate(scene)
     normal, friction = result.pair_normal_force.values, result.pair_friction_force.values
@@ -151,7 +143,7 @@ def test_friction_of_rigid_teeth(paper_scene):
 
 @pytest.mark.parametrize("name", MODELS)
 def test_every_effect_goes_with_every_model(name, paper_scene):
-    """From the task: valid in every scene; backlash, errors of single teeth, run-out, ripple, a ramp, lost contact."""
+    """Backlash, errors of single teeth, run-out, ripple, a ramp, lost contact."""
     text = (
         paper_scene.text.replace('"437 N m"', '"40 N m"')
         + """
@@ -189,7 +181,7 @@ start = "HPSTC"
     ],
 )
 def test_what_a_model_lacks_is_refused(name, line, said, paper_scene):
-    """Rule of the house: no option is ignored silently."""
+    """House rule: no option is ignored silently."""
     text = paper_scene.text.replace('condensation = "once"', f'model = "{name}"\n{line}')
     with pytest.raises(SceneError, match=said.replace("[", r"\[")):
         scene_from_text(text)

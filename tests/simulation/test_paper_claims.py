@@ -1,4 +1,4 @@
-"""Claims 1-4 of the paper (model.md section 6), measured on its own gear pair with finite element teeth."""
+"""Claims 1-4 of the paper (model.md section 6)."""
 
 from dataclasses import replace
 
@@ -11,7 +11,7 @@ from fenics_gears.scene.data import Motion
 
 @pytest.fixture(scope="module")
 def static(paper_scene):
-    """The quasi-static runs of Figs. 2 and 4, two mesh cycles, with friction and without."""
+    """The quasi-static runs of Figs. 2 and 4, with friction and without."""
     scene = replace(paper_scene, inertia=None, damping=None, motion=Motion(200.0, 3, 2))
     return {"friction": simulate(scene), "plain": simulate(replace(scene, friction=None))}
 
@@ -21,19 +21,18 @@ def phase(result):
 
 
 def single_contact(result):
-    """Steps at which exactly one tooth pair carries."""
+    """Steps at which one tooth pair carries."""
     return (result.pair_normal_force.values > 0.0).sum(axis=1) == 1
 
 
 def test_claim_1_without_friction_nothing_moves_off_the_line_of_action(static):
-    """Fig. 2: exactly zero, since nothing in the frictionless model pulls that way."""
+    """Fig. 2: exactly zero."""
     assert np.all(static["plain"].centre_y.values == 0.0)
     assert np.abs(static["friction"].centre_y.values).max() > 5e-3
 
 
 def test_claim_2_displacement_is_small_with_two_pairs_and_jumps_with_one(static, paper_scene):
-    """Figs. 2, 3: about zero at the beginning of a cycle; with one pair +-mu F/k_b, its sign changing at the pitch
-    point."""
+    """Figs. 2, 3: with one pair +-mu F/k_b, its sign changing at the pitch point."""
     result = static["friction"]
     wheel = result.centre_y.sel(gear="wheel").values
     full = paper_scene.friction.coefficient * result.normal_force.values / paper_scene.bearings.stiffness
@@ -46,7 +45,7 @@ def test_claim_2_displacement_is_small_with_two_pairs_and_jumps_with_one(static,
 
 
 def test_claim_3_friction_changes_the_static_error_suddenly_at_the_end_of_the_cycle(static):
-    """Fig. 2: at the pitch point the transmission error falls by many times what it does without friction."""
+    """Fig. 2: many times what it does without friction."""
     fall = {}
     for name, result in static.items():
         error = result.transmission_error.values
@@ -58,8 +57,7 @@ def test_claim_3_friction_changes_the_static_error_suddenly_at_the_end_of_the_cy
 
 
 def test_claim_4_friction_makes_reactions_and_input_couple_vary_at_constant_output(static, paper_scene):
-    """Fig. 4: R_x1, R_y1 and C_z1 vary by several per cent with friction; without, all three are constant to
-    round-off."""
+    """Fig. 4: R_x1, R_y1 and C_z1 vary by several per cent with friction, constant without."""
     for name, varies in (("friction", True), ("plain", False)):
         result = static[name]
         pinion, wheel = result.sel(gear="pinion"), result.sel(gear="wheel")

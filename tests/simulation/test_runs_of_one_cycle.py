@@ -1,4 +1,4 @@
-"""What runs on one mesh cycle have in common: layouts of contact nodes, the quasi-static run beside."""
+"""What runs on one mesh cycle share."""
 
 from dataclasses import replace
 
@@ -18,7 +18,7 @@ from fenics_gears.simulation import dynamic_factor
 
 
 def variants(paper_scene) -> list:
-    """A scene, the same at another speed and under another torque; those on one cycle have the same operators."""
+    """A scene, and the same at another speed and torque."""
     scene = replace(coarse_scene(paper_scene), motion=Motion(200.0, 2, 1))
     return [
         scene,
@@ -28,8 +28,7 @@ def variants(paper_scene) -> list:
 
 
 def test_runs_that_share_a_cycle_are_those_that_do_not(paper_scene, monkeypatch):
-    """Brute force: each run with a cycle of its own, to the last bit. The quasi-static run is made again for another
-    torque only."""
+    """Brute force: each run with its own cycle, to the last bit."""
     scenes, store, recorders = variants(paper_scene), GearStore(), []
     alone = [simulate(scene) for scene in scenes]
     monkeypatch.setattr(
@@ -42,7 +41,7 @@ def test_runs_that_share_a_cycle_are_those_that_do_not(paper_scene, monkeypatch)
 
 
 def are_the_same(found, expected):
-    """Two results, to the last bit, but for the times and, without friction, the iterations that they took."""
+    """To the last bit, but for times and, without friction, iterations."""
     assert list(found.variables) == list(expected.variables)
     spent = ("time_", "newton_iterations") if "friction_coefficient" not in expected.attrs else ("time_",)
     for name, variable in expected.variables.items():
@@ -69,9 +68,7 @@ FEW = 'contact_nodes = 13\nsteps_per_mesh_cycle = 8\ncontact_length = "1 mm"\nfl
     pytest.param(CROWNED, "", id="over the face, frictionless", marks=pytest.mark.nightly),
 ])  # fmt: skip
 def test_designs_share_operators_and_nothing_else(friction, always):
-    """Brute force: designs that differ in reliefs, leads, misalignment or errors of teeth, one after the other on the
-    operators of the first, are to the last bit what each is alone; and nothing but the first is built at whole
-    steps."""
+    """Brute force: each design alone, to the last bit; only the first is built at whole steps."""
     accuracy = f"slices = 5\n{FEW}" if always else FEW
     designs = ["", RUN_OUT, RELIEF + ERRORS, *((TILTED + RELIEF, SLOPING) if always else (RELIEF, ERRORS))]
     models = [
@@ -96,8 +93,8 @@ def test_designs_share_operators_and_nothing_else(friction, always):
 
 
 def test_cycles_of_the_same_bodies_stay_while_there_is_room():
-    """Property: torques with contact nodes of their own do not drive out each other's operators, unless these take more
-    than their part of the memory; other gears do."""
+    """Property: torques with contact nodes of their own do not drive out each other's operators unless memory is
+    short; other gears do."""
     models = [
         model_of(helical_scene(CROWNED, accuracy=f"slices = 5\n{FEW}".replace("nodes = 13", f"nodes = {nodes}")))
         for nodes in (9, 11, 9, 11, 13)
@@ -121,8 +118,7 @@ def test_cycles_of_the_same_bodies_stay_while_there_is_room():
 
 
 def test_places_between_steps_are_built_once(paper_scene, monkeypatch):
-    """Identity: a run that is repeated builds no position again, neither at steps nor at places in common between
-    them."""
+    """Identity: a repeated run builds no position again."""
     store, count = GearStore(), []
     build = Cycle._build
     monkeypatch.setattr(Cycle, "_build", lambda *given: count.append(given[1]) or build(*given))

@@ -27,8 +27,6 @@ OF_ITS_OWN = ("wall_time", "time_march", "newton_iterations_total")
 
 
 def designs(scene):
-    """Scenes with other reliefs and loads: with and without a kink, of one gear, crowned profiles."""
-
     def both(depth, length, shape="linear"):
         return TipRelief(*(Relief(depth, length_on_path=length, shape=shape) for _ in "pw"))
 
@@ -46,7 +44,7 @@ def designs(scene):
 
 
 def sharing(scene, flanks):
-    """A preparation of runs on the same operators, with gaps of their own, on teeth without finite elements."""
+    """Runs on the same operators, with gaps of their own, on teeth without finite elements."""
     model = model_of(scene)
     mesh, tangential = elastic_mesh(flanks, model.resolution.contact_grid), scene.friction is not None
     cycle = Cycle(mesh, model.resolution.steps_per_mesh_cycle, model.drivetrain.indices, tangential)
@@ -54,7 +52,6 @@ def sharing(scene, flanks):
 
 
 def steady(paper_scene, friction, cycles=1):
-    """The paper's pair without inertia, on a coarse mesh."""
     scene = quasi_static(coarse_scene(paper_scene, cycles))
     return scene if friction else frictionless(scene)
 
@@ -62,8 +59,7 @@ def steady(paper_scene, friction, cycles=1):
 @pytest.mark.parametrize("friction", [False, True], ids=["frictionless", "with friction"])
 @pytest.mark.parametrize("cycles", [1, 2])
 def test_runs_together_have_the_numbers_of_runs_alone(paper_scene, stand_in_flanks, friction, cycles):
-    """Identity: all numbers that can be asked for, of other reliefs and another load, to the last digit. With friction
-    each has a step that Newton's method solves through stick alone."""
+    """Identity, to the last digit. With friction each has a step through stick."""
     scene = steady(paper_scene, friction, cycles)
     models, preparation = [model_of(each) for each in designs(scene)], sharing(scene, stand_in_flanks)
     assert can_be_solved_together(models[0], OFFERED)
@@ -81,8 +77,7 @@ def test_runs_together_have_the_numbers_of_runs_alone(paper_scene, stand_in_flan
 
 
 def test_only_what_is_asked_for_is_found(paper_scene, stand_in_flanks):
-    """Definition: T_EPP alone is what it is beside all others, and the largest force, of which steps alone would say
-    something else, is not there."""
+    """Definition: T_EPP as beside all others; the largest force, which steps alone would give wrong, is not there."""
     scene = steady(paper_scene, False)
     models, preparation = [model_of(each) for each in designs(scene)[:2]], sharing(scene, stand_in_flanks)
     few, many = (solved_together(models, preparation, asked) for asked in ([ERROR], OFFERED))
@@ -91,8 +86,7 @@ def test_only_what_is_asked_for_is_found(paper_scene, stand_in_flanks):
 
 
 def test_a_run_of_which_there_is_more_to_say_is_left_to_itself(paper_scene, stand_in_flanks, monkeypatch):
-    """Authority: the promise of `numbers_together`. A torque a hundred times as large turns the wheel by more than its
-    pitch; steps without solution are made up."""
+    """`numbers_together`: a torque a hundred times as large; steps without solution, made up."""
     scene = steady(paper_scene, False)
     models, preparation = [model_of(each) for each in designs(scene)[:3]], sharing(scene, stand_in_flanks)
     through = model_of(replace(models[0].scene, load=Load(80e6)))
@@ -110,7 +104,7 @@ def test_a_run_of_which_there_is_more_to_say_is_left_to_itself(paper_scene, stan
 
 
 def test_which_runs_are_solved_together(paper_scene):
-    """Definition: quasi-static plane runs that ask for no more than is offered and differ in load and reliefs."""
+    """Definition: quasi-static plane runs that differ in load and reliefs."""
     scene = steady(paper_scene, True)
     model = model_of(scene)
     assert can_be_solved_together(model, [ERROR]) and not can_be_solved_together(model, [ERROR, "rms_normal_force"])
@@ -125,7 +119,7 @@ def test_which_runs_are_solved_together(paper_scene):
 
 
 def test_an_error_of_all_is_raised(paper_scene, stand_in_flanks, monkeypatch):
-    """Authority: docstring; memory that is too small for one run is too small for all."""
+    """Memory that is too small for one run is too small for all."""
     scene = steady(paper_scene, False)
     monkeypatch.setenv("FENICS_GEARS_MEMORY", "1 MB")
     with pytest.raises(ComputationError, match="memory"):

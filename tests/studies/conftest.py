@@ -3,39 +3,29 @@
 from pathlib import Path
 
 import pytest
-from tests.programs import DEMO
-
-ACCURACY = """[accuracy]
-flank_element_size = "0.3 mm"
-contact_length = "2.4 mm"
-contact_nodes = 9
-steps_per_mesh_cycle = 20
-"""
+from tests.paper_text import coarse_text
 
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    """A folder with the coarse scene `pair.toml`, and the present directory."""
+    """A folder with the coarse scene `pair.toml`, as the present directory."""
     monkeypatch.chdir(tmp_path)
-    text = DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 2 ")
-    (tmp_path / "pair.toml").write_text(text[: text.index("[accuracy]")] + ACCURACY, encoding="utf-8")
+    (tmp_path / "pair.toml").write_text(coarse_text())
     return tmp_path
 
 
 @pytest.fixture
 def undrawn(monkeypatch):
-    """Studies in this process are not drawn, which takes longer than their runs; the first test of test_run_study.py
-    draws one."""
+    """Studies in this process are not drawn, which takes longer than their runs."""
     monkeypatch.setattr("fenics_gears.show.plots.draw_study", lambda file: [])
 
 
 def write_study(folder, text, name="study.toml"):
-    """Write a study file of the coarse scene."""
     path = Path(folder) / name
-    path.write_text('scene = "pair.toml"\n' + text, encoding="utf-8")
+    path.write_text('scene = "pair.toml"\n' + text)
     return path
 
 
 def stamps(directory):
-    """Inode and time of change of every case's file; the same only for a file that was not written again."""
+    """Inode and time of change of every case's file."""
     return {path.name: (path.stat().st_ino, path.stat().st_mtime_ns) for path in Path(directory, "cases").glob("*.nc")}

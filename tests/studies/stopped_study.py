@@ -1,10 +1,6 @@
-"""`gears study` that a signal reaches in its middle: python -m tests.studies.stopped_study SIGNAL CASES RANK ARGUMENTS
-OF THE COMMAND.
-
-The process sends itself the signal when it has done so many cases, which is the same moment every time; one from
-outside is not. Under mpirun only the rank of that number does, and every other one that has done as many waits for
-mpirun to end it. Alone the process has no mpi4py, for a study alone must run where MPI is absent or broken.
-"""
+"""`gears study` that sends itself a signal when it has done so many cases: python -m tests.studies.stopped_study
+SIGNAL CASES RANK ARGUMENTS OF THE COMMAND. Under mpirun the rank of that number does, the others wait for mpirun to
+end them. Alone the process has no mpi4py."""
 
 import os
 import signal
@@ -22,7 +18,6 @@ done = 0
 
 
 def stopped(store, run, tick=None):
-    """As the program does, then the signal."""
     global done
     outcome = computed(store, run, tick)
     done += 1

@@ -1,5 +1,4 @@
-"""`gears accuracy`: the settings of a small scene refined, told, written and drawn; times of this machine, errors of
-the method."""
+"""`gears accuracy`: settings of a small scene refined, told, written and drawn."""
 
 import csv
 from dataclasses import replace
@@ -35,7 +34,7 @@ SETTINGS = Accuracy(
 
 
 def coarse_default(scene):
-    """The program's own setting but for its flank elements and steps, which take seconds."""
+    """The program's own setting but for flank elements and steps."""
     size = half_width(scene) / 1.4
     return replace(default_setting(scene), flank=size, spacing=NODE_SPACING * size, steps=20)
 
@@ -46,7 +45,6 @@ def measured(*arguments):
 
 @pytest.fixture(scope="module", autouse=True)
 def tiny():
-    """Few levels for `quick`."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(refinement, "QUICK_IN_THE_PLANE", replace(QUICK_IN_THE_PLANE, values=TINY, fine=TINY_FINE))
         patch.setattr(reports, "refinements", measured)
@@ -57,13 +55,12 @@ def tiny():
 
 @pytest.fixture(scope="module")
 def scene():
-    """The paper's pair, quasi-static and without friction, at a coarse setting."""
     return replace(scene_of(TEETH), accuracy=SETTINGS)
 
 
 @pytest.fixture(scope="module")
 def report(scene, tiny, tmp_path_factory):
-    """Its study. The cache is left alone, so that condensing is timed."""
+    """Its study; the cache is left alone, so that condensing is timed."""
     cache = tmp_path_factory.mktemp("accuracy") / "cache"
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("FENICS_GEARS_CACHE", str(cache))
@@ -77,7 +74,7 @@ def refined(report, name):
 
 
 def test_the_scenes_own_setting_is_the_scenes_own_run(report, scene):
-    """Identity; error and answers are those of `gears run` of the scene as it stands."""
+    """Identity with `gears run`."""
     run = simulate(scene)
     reference = report.own.errors[SPAN]
     span = run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"]
@@ -88,7 +85,7 @@ def test_the_scenes_own_setting_is_the_scenes_own_run(report, scene):
 
 
 def test_every_setting_of_the_issue_is_refined_with_the_others_fine(scene, report):
-    """Issue 6; each level differs from its base in its own fields alone, and that is the fine setting."""
+    """Each level differs from its base in its own fields alone."""
     every = refinement.refinements(scene, True)
     assert {each.name for each in every} == {
         *MEASURED, "flank element size", "contact node spacing", "contact length", "element", "elastic teeth",
@@ -101,7 +98,7 @@ def test_every_setting_of_the_issue_is_refined_with_the_others_fine(scene, repor
 
 
 def test_cheaper_models_stand_beside_them(report):
-    """Rigid teeth without errors of form have no transmission error: all of it is lost, and there is no pressure."""
+    """Rigid teeth have no transmission error and no pressure: all is lost."""
     models = {each.name: each for each in report.models}
     assert set(models) == set(QUICK_IN_THE_PLANE.models)
     rigid = models[RIGID_TEETH]
@@ -110,8 +107,7 @@ def test_cheaper_models_stand_beside_them(report):
 
 
 def test_root_stress_has_errors_and_orders(report):
-    """Issue 6; every level and whole setting has one, cheaper models without flanks in contact have none, and it costs
-    no time."""
+    """Every level and whole setting has one, models without flanks in contact none, and it costs no time."""
     assert all(np.isfinite(each.errors[ROOT]) for result in report.refinements for each in result.levels)
     assert all(np.isfinite(each.errors[ROOT]) for each in report.settings) and all(
         np.isnan(each.errors[ROOT]) for each in report.models
@@ -122,8 +118,7 @@ def test_root_stress_has_errors_and_orders(report):
 
 
 def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, monkeypatch):
-    """Issue 6 names it; it is a model of its own, compared in one setting that both routes have, and limits no
-    setting."""
+    """A model of its own, in one setting that both routes have; it limits no setting."""
     coarse = {FLANK: 1.4, NODES: 1.4, BODY: 4.0, STEPS: 4}
     monkeypatch.setattr(refinement, "REMESHED_FINE", coarse)
     assert [each.name for each in refinement.refinements(scene)][-1] == "condensation"
@@ -158,19 +153,19 @@ def test_the_sentence_says_no_more_than_the_reference_can(report):
     ],
 )
 def test_what_cannot_be_measured_is_refused_with_the_remedy(scene, changes, words):
-    """Authority: house rule; no option is silently ignored."""
+    """House rule: no option is silently ignored."""
     with pytest.raises(SceneError, match=words):
         reports.measure(replace(scene, **changes))
 
 
 def test_without_load_there_is_nothing_to_measure(scene):
-    """House rule; an error says what, and the remedy."""
+    """What, and the remedy."""
     with pytest.raises(SceneError, match="wheel_torque is 0"):
         reports.measure(replace(scene, load=replace(scene.load, wheel_torque=0.0)))
 
 
 def test_a_level_that_fails_is_told_and_the_others_are_measured(scene, monkeypatch):
-    """House style, a failed case is a record among the results."""
+    """House rule."""
 
     def fails(model, gears, progress):
         if model.scene.accuracy.interpolation == "collocated":
@@ -186,16 +181,16 @@ def test_a_level_that_fails_is_told_and_the_others_are_measured(scene, monkeypat
 
 
 def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monkeypatch, capsys):
-    """Issue 6; tables and the sentence on the terminal, DIR/accuracy.csv and DIR/accuracy.png."""
+    """Tables and the sentence on the terminal, DIR/accuracy.csv and DIR/accuracy.png."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(reports, "measure", lambda *arguments, **options: report)
-    (tmp_path / "small.toml").write_text(text_of(TEETH), encoding="utf-8")
+    (tmp_path / "small.toml").write_text(text_of(TEETH))
     assert main(["accuracy", "small.toml", "--quick", "--output", "there"]) == 0
     output = capsys.readouterr().out
     assert sorted(file.name for file in (tmp_path / "there").iterdir()) == ["accuracy.csv", "accuracy.png"]
     assert (tmp_path / "there" / "accuracy.png").read_bytes().startswith(b"\x89PNG")
     assert "The scene's own settings have an error of" in output and "rigid teeth" in output
-    with open(tmp_path / "there" / "accuracy.csv", encoding="utf-8", newline="") as file:
+    with open(tmp_path / "there" / "accuracy.csv", newline="") as file:
         lines = list(csv.DictReader(file))
     assert {line["kind"] for line in lines} == {"single setting", "setting", "model", "reference"}
     own = next(line for line in lines if line["name"] == reports.OWN)
@@ -207,7 +202,7 @@ def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monke
 
 
 def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
-    """The exit codes; 130, and no half of a comparison is kept."""
+    """Exit code 130."""
     from fenics_gears.runs import runs
     from fenics_gears.simulation.simulate import solved
 
@@ -219,7 +214,7 @@ def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
         return result
 
     monkeypatch.setattr(runs, "solved", interrupted)
-    (tmp_path / "small.toml").write_text(text_of(TEETH), encoding="utf-8")
+    (tmp_path / "small.toml").write_text(text_of(TEETH))
     assert main(["accuracy", "small.toml", "--quick", "--output", "there"]) == 130
     assert "Interrupted" in capsys.readouterr().err
     assert not (tmp_path / "there").exists()
@@ -227,16 +222,14 @@ def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
 
 @pytest.mark.parametrize("frequency, order", [(200.0, 2.0), (0.02, 1.0)])
 def test_the_order_expected_of_steps_is_that_of_the_time_stepping(frequency, order):
-    """Newmark, average acceleration h^2; backward Euler, which long steps take, h; friction by the exact slip over a
-    step keeps them."""
+    """Newmark, average acceleration h^2; backward Euler h; friction by the exact slip keeps them."""
     scene = replace(scene_of(TEETH, "inertia", "friction"), motion=Motion(frequency, 2, 1))
     steps = next(each for each in refinement.refinements(scene, quick=True) if each.name == STEPS)
     assert steps.expected == order
 
 
 def test_settings_of_targets_and_numbers_over_the_face_are_drawn(report):
-    """Definition: a target's settings are charged their distance alone and stand on no front; over the face peak to
-    peak, mean and face load factor have curves of their own."""
+    """Definition: a target's settings are charged their distance alone; over the face there are curves of their own."""
     numbers = {MEAN: 0.01, FACE_LOAD: 0.02}
     own = replace(report.own, errors={**report.own.errors, **numbers})
     chosen = replace(own, name="target 5 %", parts={}, target=0.05)

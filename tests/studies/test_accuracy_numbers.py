@@ -26,13 +26,12 @@ def sequence(sizes, order, constant=0.3):
 @pytest.mark.parametrize("order", [0.7, 1.0, 2.0, 3.0, 4.0])
 @pytest.mark.parametrize("sizes", [(0.8, 0.4, 0.2), (1.0, 0.7, 0.3), (1.0 / 100, 1.0 / 160, 1.0 / 320)])
 def test_the_order_of_an_exact_power_is_found(sizes, order):
-    """Authority: manufactured sequence; sizes need not halve."""
+    """Manufactured sequence; sizes need not halve."""
     assert observed_order(sequence(sizes, order), sizes) == pytest.approx(order, rel=1e-6)
 
 
 def test_richardson_on_archimedes_polygons():
-    """N sin(pi/n) goes to pi as 1/n^2; three polygons give an order near 2, and the limit lies within its
-    uncertainty."""
+    """N sin(pi/n) goes to pi as 1/n^2."""
     counts = (24, 48, 96)
     values = [np.array([n * np.sin(np.pi / n)]) for n in counts]
     limit = richardson(values, [1.0 / n for n in counts], expected=2.0)
@@ -43,7 +42,7 @@ def test_richardson_on_archimedes_polygons():
 
 @pytest.mark.parametrize("values", [(1.0, 0.9, 0.95), (1.0, 0.9, 0.7), (1.0, 1.0, 1.0)])
 def test_without_an_order_nothing_is_extrapolated(values):
-    """Roache; where a sequence turns back, diverges or stands still, three times its last difference is uncertain."""
+    """Roache: where a sequence turns back, diverges or stands still, three times its last difference is uncertain."""
     terms = [np.array([value]) for value in values]
     limit = richardson(terms, (0.4, 0.2, 0.1), expected=2.0)
     assert limit.order is None
@@ -53,8 +52,7 @@ def test_without_an_order_nothing_is_extrapolated(values):
 
 
 def test_differences_that_point_anywhere_have_an_order_and_are_not_extrapolated():
-    """Errors of size h in directions at right angles; their norms fall with the first power, their sum has no one
-    direction."""
+    """Errors of size h at right angles: norms of order 1, no one direction."""
     directions, sizes = np.eye(3), (4.0, 2.0, 1.0)
     steps = [directions[0] * 2.0, directions[1] * 1.0]
     values = [np.full(3, 9.0) - steps[0] - steps[1], np.full(3, 9.0) - steps[1], np.full(3, 9.0)]
@@ -79,8 +77,6 @@ def test_limits_of_several_settings_add_and_so_do_their_uncertainties():
 
 
 def brute_front(points):
-    """All points that no other one beats, by comparing each with each."""
-
     def beaten(mine, other):
         return other[0] <= mine[0] and other[1] <= mine[1] and other != mine
 
@@ -89,7 +85,7 @@ def brute_front(points):
 
 @pytest.mark.parametrize("seed", range(20))
 def test_the_front_is_that_of_comparing_each_with_each(seed):
-    """Definition; random points on a coarse lattice, so that there are ties and equal points."""
+    """Definition, with ties and equal points."""
     random = np.random.default_rng(seed)
     points = [tuple(map(float, point)) for point in random.integers(1, 9, size=(25, 2))]
     front = whole.pareto_front(points)
@@ -99,7 +95,7 @@ def test_the_front_is_that_of_comparing_each_with_each(seed):
 
 
 def test_errors_that_cancel_are_no_accuracy():
-    """Issue 6; +5 % of one setting and -5 % of another give the right answer and are charged 10 %."""
+    """+5 % and -5 % give the right answer and are charged 10 %."""
 
     def span(h, k):
         return np.array([10.0 * (1.0 + 0.05 * h**2 - 0.05 * k**2)])
@@ -120,7 +116,6 @@ def test_errors_that_cancel_are_no_accuracy():
 
 
 def refinement(name, field, values, expected=2.0):
-    """A setting of synthetic levels."""
     levels = tuple(Level(str(value), replace(BASE, **{field: value}), float(value)) for value in values)
     return Refinement(name, (field,), levels, expected, "made up", BASE)
 
@@ -131,14 +126,13 @@ ERRORS |= {("steps", place): error for place, error in enumerate((0.2, 0.05, 0.0
 
 
 def test_the_path_refines_what_limits_it():
-    """By hand; 0.28, 0.13, 0.07, 0.032, 0.017 by turns of the larger error, kept where the sum falls to 0.7 or
-    below."""
+    """By hand; 0.28, 0.13, 0.07, 0.032, 0.017 by turns of the larger error."""
     found = [(setting.flank, setting.steps) for setting in whole.path(BASE, [FLANK, STEPS], ERRORS)]
     assert found == [(0.16, 20), (0.16, 40), (0.08, 40), (0.08, 80), (0.04, 80), (0.04, 160)]
 
 
 def test_parts_are_those_of_the_settings_own_levels():
-    """Authority: identity; and the largest names what limits."""
+    """Identity."""
     for (i, flank), (j, steps) in itertools.product(enumerate((0.16, 0.08, 0.04)), enumerate((20, 40, 80, 160))):
         parts = whole.parts_of(replace(BASE, flank=flank, steps=steps), [FLANK, STEPS], ERRORS)
         assert parts == {"flank": ERRORS["flank", i], "steps": ERRORS["steps", j]}
@@ -146,7 +140,7 @@ def test_parts_are_those_of_the_settings_own_levels():
 
 
 def run(steps, amplitude=1.0, nodes=41, first_pair=0):
-    """A made-up result of two mesh cycles: a sine for a transmission error, a parabola of pressure on two pairs."""
+    """A made-up result: a sine for a transmission error, a parabola of pressure on two pairs."""
     phase = np.arange(2 * steps + 1) / steps
     offsets = np.broadcast_to(np.linspace(-1.0, 1.0, nodes), (len(phase), 2, nodes))
     pressure = amplitude * 100.0 * (1.0 - offsets**2)
@@ -175,7 +169,7 @@ def run(steps, amplitude=1.0, nodes=41, first_pair=0):
 
 
 def test_measures_of_a_sine_and_a_parabola():
-    """Exact: 2 a rb peak to peak, rms a rb/sqrt 2 without the mean of 7 rad, F^2/(2U) = 2500, defect 0.2/100."""
+    """Exact: 2 a rb peak to peak, rms a rb/sqrt 2 without the mean, F^2/(2U) = 2500, defect 0.2/100."""
     found = measures.answer(run(640), window=2.0)
     assert found[SPAN][0] == pytest.approx(0.1, rel=1e-4)
     assert np.sqrt(np.mean(found[CURVE] ** 2)) == pytest.approx(0.05 / np.sqrt(2.0), rel=1e-4)
@@ -185,8 +179,7 @@ def test_measures_of_a_sine_and_a_parabola():
 
 
 def test_distances_are_relative_and_do_not_see_the_grid():
-    """Linearity; 10 % more is 0.1 in every measure; the same parabola on other nodes and steps is the same but for
-    h^2."""
+    """Linearity; the same parabola on other nodes and steps but for h^2."""
     one, more = measures.answer(run(640), 2.0), measures.answer(run(640, 1.1), 2.0)
     for name in (CURVE, SPAN, PRESSURE, PEAK):
         assert measures.distance(more, one, name) == pytest.approx(0.1, rel=1e-6)
@@ -200,8 +193,7 @@ def test_distances_are_relative_and_do_not_see_the_grid():
     "counts, common", [((40, 80, 160), 40), ((100, 80), 20), ((200, 1280), 40), ((30, 40), 30), ((10, 20), 10)]
 )
 def test_curves_of_other_steps_are_compared_at_phases_that_both_have(counts, common):
-    """By hand; their greatest common divisor from 20 on, else those of the fewest steps. Values are those of the curve
-    there, without their mean."""
+    """By hand: the greatest common divisor from 20 on, else the phases of the fewest steps."""
     curves = [np.arange(1, count + 1) / count for count in counts]
     phases = np.arange(1, common + 1) / common
     for found in measures.comparable(curves, CURVE):
@@ -209,8 +201,7 @@ def test_curves_of_other_steps_are_compared_at_phases_that_both_have(counts, com
 
 
 def test_a_kink_between_steps_adds_no_error_to_exact_values():
-    """Identity: runs with exact values at their steps differ by nothing, however few the steps; straight lines between
-    them lost 1.5 per cent here."""
+    """Identity, however few the steps; straight lines between them lost 1.5 per cent."""
 
     def exact(count):
         return {CURVE: np.abs(np.arange(1, count + 1) / count - 0.51)}

@@ -1,5 +1,4 @@
-"""`gears accuracy` and `[accuracy] target` of scenes whose flanks are resolved over the face: what is refined and
-chosen, without running it."""
+"""`gears accuracy` and `[accuracy] target` over the face, without running it."""
 
 from dataclasses import replace
 
@@ -34,8 +33,7 @@ def scene():
 
 
 def test_a_setting_gives_the_face_that_it_says(scene):
-    """Identity: the scene's own setting is that of its model, and a scene with a setting has its slices, layers and
-    body elements."""
+    """Identity."""
     own, model = own_setting(scene), model_of(scene)
     assert (own.slices, own.layers, own.body) == (model.face.evenly, face_discretisation(model, 0).layers, 1.0)
     again = model_of(own.of(scene))
@@ -47,8 +45,7 @@ def test_a_setting_gives_the_face_that_it_says(scene):
 
 @pytest.mark.parametrize("quick", [True, False])
 def test_slices_layers_and_body_elements_are_refined_one_at_a_time(scene, quick):
-    """Definition: levels differ from the base in their own field alone and run from coarse to fine; choices of the
-    plane are left out."""
+    """Definition: from coarse to fine; choices of the plane are left out."""
     found = {each.name: each for each in refinements(scene, quick)}
     assert set(found) == {SLICES, LAYERS, BODY, FAMILY, STEPS, LENGTH}
     for name, field in ((SLICES, "slices"), (LAYERS, "layers"), (BODY, "body")):
@@ -61,8 +58,7 @@ def test_slices_layers_and_body_elements_are_refined_one_at_a_time(scene, quick)
 
 
 def test_the_plane_rung_is_the_transverse_section_in_plane_strain(scene):
-    """ISO 21771; the transverse section of a helical pair has its base circles and transverse contact ratio, and
-    nothing over the face is left."""
+    """ISO 21771: base circles and transverse contact ratio; nothing over the face is left."""
     plane = in_the_plane(scene)
     assert not plane.three_dimensional and model_of(plane).face.slices == 1
     assert reports.scene_of(scene, PLANE, None) == plane
@@ -78,8 +74,7 @@ def test_the_plane_rung_is_the_transverse_section_in_plane_strain(scene):
 
 
 def test_errors_over_the_face_are_judged_and_the_plane_is_not_charged_for_them():
-    """Definition: the worst of all that a target promises counts; a run in the plane has no line load along the
-    face."""
+    """Definition: the worst of all counts; a run in the plane has no line load along the face."""
     one = {
         CURVE: np.ones(4),
         SPAN: np.ones(1),

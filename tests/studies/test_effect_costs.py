@@ -1,4 +1,4 @@
-"""Subsets of a scene's effects: which are run, what is measured of them, and how it is told."""
+"""Subsets of a scene's effects."""
 
 import csv
 import re
@@ -25,7 +25,7 @@ def subsets(scene):
 
 
 def test_the_papers_scene_is_run_bare_with_each_effect_and_without_each():
-    """Issue 5, each effect alone, all, all but one; damping is inertia's, friction is the elastic teeth's."""
+    """Each effect alone, all, all but one; damping is inertia's, friction the elastic teeth's."""
     found = subsets(scene_of(*PAPER))
     assert {name: subset.sections for name, subset in found.items()} == {
         "rigid flanks, no effect": set(),
@@ -48,8 +48,7 @@ def test_the_papers_scene_is_run_bare_with_each_effect_and_without_each():
 
 
 def test_the_scenes_own_rules_decide_what_a_subset_may_be():
-    """The rule of [damping]; damping by stiffness alone damps nothing without a spring, so the first spring comes
-    too."""
+    """The rule of [damping]: damping by stiffness needs a spring."""
     text = text_of(*PAPER).replace('mass_proportional = "0.5e-3 1/s"', 'mass_proportional = "0 1/s"')
     found = subsets(scene_from_text(text))
     assert found["+ damping, shafts, inertia"].sections == {TEETH, "shafts", "inertia", "damping"}
@@ -57,7 +56,7 @@ def test_the_scenes_own_rules_decide_what_a_subset_may_be():
 
 
 def test_a_subset_that_no_neighbour_makes_valid_is_skipped_with_the_rules_reason():
-    """The rule of [coast_flanks]; a negative torque cannot do without them."""
+    """The rule of [coast_flanks]."""
     text = text_of(TEETH, "shafts", "coast_flanks").replace('"437 N m"', '"-437 N m"')
     run, skipped = subsets_of(scene_from_text(text))
     assert {subset.name for subset in run} == {"+ coast_flanks", "all - tooth_elasticity", "all"}
@@ -67,12 +66,11 @@ def test_a_subset_that_no_neighbour_makes_valid_is_skipped_with_the_rules_reason
 
 @pytest.fixture(scope="module")
 def report():
-    """The paper's effects at the coarse mesh, timed three times."""
     return measured.measure(scene_of(*PAPER), rounds=3)
 
 
 def test_every_row_answers_as_the_scene_itself_does(report):
-    """Identity; a row's transmission error and force are those of `gears run` of that scene."""
+    """Identity with `gears run`."""
     rows = [(BARE, "", {TEETH}), (ALONE, "friction", {TEETH, "friction"}), (LEFT_OUT, "shafts", {*PAPER} - {"shafts"})]
     for kind, section, sections in rows:
         row = report.row(kind, section)
@@ -102,7 +100,7 @@ def test_the_unknowns_are_those_that_the_sections_free(report):
 
 
 def test_times_are_medians_of_rounds_and_gears_are_condensed_for_elastic_teeth_only(report):
-    """The task; at least three repeats each, and rigid flanks condense nothing."""
+    """At least three repeats each; rigid flanks condense nothing."""
     for row in report.rows:
         assert len(row.step_times) == 3 and row.step_time == np.median(row.step_times) > 0.0
         assert (row.condense > 0.0) == (TEETH in row.subset.sections)
@@ -110,7 +108,7 @@ def test_times_are_medians_of_rounds_and_gears_are_condensed_for_elastic_teeth_o
 
 
 def test_all_accuracy_is_that_of_the_whole_scene():
-    """Identity; without [accuracy] the steps would follow from each subset's own frequencies."""
+    """Identity."""
     text = re.sub(r"\[accuracy\].*?\n\n", "", text_of(TEETH, "inertia", "shafts"), flags=re.S)
     assert "[accuracy]" not in text and "[gears.material]" in text
     scene = measured.at_one_accuracy(scene_from_text(text))
@@ -121,16 +119,16 @@ def test_all_accuracy_is_that_of_the_whole_scene():
 
 
 def test_remeshing_at_every_step_is_refused_with_the_remedy():
-    """Authority: house rule; no option is silently ignored."""
+    """House rule: no option is silently ignored."""
     scene = scene_of(TEETH)
     with pytest.raises(SceneError, match='Take "once"'):
         measured.measure(replace(scene, accuracy=replace(scene.accuracy, condensation="every step")))
 
 
 def test_csv_holds_every_row_with_units_in_its_names(report, tmp_path):
-    """Identity; what is written is what was measured."""
+    """Identity."""
     table.write_csv(report, tmp_path / "effects.csv")
-    with open(tmp_path / "effects.csv", encoding="utf-8", newline="") as file:
+    with open(tmp_path / "effects.csv", newline="") as file:
         reader = csv.DictReader(file)
         lines = list(reader)
     assert tuple(reader.fieldnames) == table.CSV_COLUMNS  # by which the report knows the file
@@ -142,10 +140,10 @@ def test_csv_holds_every_row_with_units_in_its_names(report, tmp_path):
 
 
 def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monkeypatch, capsys):
-    """Issue 5; a table on the terminal, DIR/effects.csv and DIR/effects.png, of what was measured."""
+    """A table on the terminal, DIR/effects.csv and DIR/effects.png."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(measured, "measure", lambda scene, progress: report)
-    (tmp_path / "small.toml").write_text(text_of(*PAPER), encoding="utf-8")
+    (tmp_path / "small.toml").write_text(text_of(*PAPER))
     assert main(["effects", "small.toml", "--output", "there"]) == 0
     output = capsys.readouterr().out
     assert sorted(file.name for file in (tmp_path / "there").iterdir()) == ["effects.csv", "effects.png"]
@@ -158,7 +156,7 @@ def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monke
 
 
 def test_a_subset_that_fails_is_a_line_with_its_reason(monkeypatch):
-    """House style, a failed case is a record among the results; the others are measured."""
+    """House rule."""
     from fenics_gears.errors import ComputationError
 
     def fails_with_friction(model, **options):
@@ -186,8 +184,7 @@ places = { pinion = ["-40 mm", "60 mm"] }
 
 
 def test_parts_of_effects_over_the_face_are_left_out_one_at_a_time():
-    """Definition; each lead modification, tilting and axial motion, the rest of the scene as it is; without all of them
-    it is a plane scene."""
+    """Definition; without all of them it is a plane scene."""
     whole = scene_from_text(text_of(TEETH).replace("[accuracy]", "[accuracy]\nslices = 7") + OVER_FACE)
     assert whole.three_dimensional
     found = subsets(whole)

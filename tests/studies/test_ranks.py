@@ -1,5 +1,4 @@
-"""Studies under mpirun: the same numbers as alone, for any number of ranks. Failing and killed ranks are hard case
-28."""
+"""Studies under mpirun. Failing and killed ranks are hard case 28."""
 
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -19,8 +18,7 @@ pytestmark = pytest.mark.ranks
 
 @pytest.mark.nightly
 def test_a_study_of_more_ranks_than_cases_gives_what_it_gives_alone(folder, undrawn):
-    """Exact identity; a case's run does not depend on where it runs, but for the sets that it begins with: another test
-    of this process may have left some. Two ranks are compared in hard case 28."""
+    """Exact identity but for the sets that a run begins with."""
     study = write_study(folder, '[sweep]\nfriction = ["absent", "present"]\n')
     assert main(["study", str(study), "--output", "alone", "--quiet"]) == 0
     together = gears(folder, "study", study, "--output", "here", ranks=3)
@@ -31,8 +29,7 @@ def test_a_study_of_more_ranks_than_cases_gives_what_it_gives_alone(folder, undr
 
 
 def test_what_the_end_needs_is_made_while_others_compute():
-    """Order of events: a worker computes while rank 0 makes it, once for a job, and not where there
-    are few tasks."""
+    """Order of events: once for a job, and not where there are few tasks."""
     begun, made = Event(), []
     with ThreadPoolExecutor(1) as executor:
         team = Together(executor, 2, lambda: made.append(begun.wait(timeout=60)))
@@ -46,8 +43,8 @@ def test_what_the_end_needs_is_made_while_others_compute():
 
 @pytest.mark.nightly
 def test_both_of_two_ranks_compute_and_a_wrong_study_ends_both(folder):
-    """Issue 3; rank 0 does not merely hand out: a task ends when one of the other rank's has begun. docs/promises.md: a
-    wrong study ends with exit code 2, nothing written, and no rank is left waiting."""
+    """A task ends when one of the other rank's has begun. docs/promises.md: exit code 2, nothing written, no rank
+    left waiting."""
     program = (
         "import os, sys, time\n"
         "from pathlib import Path\n"
@@ -79,7 +76,7 @@ def test_both_of_two_ranks_compute_and_a_wrong_study_ends_both(folder):
 
 @pytest.mark.nightly
 def test_ranks_of_a_study_condense_each_body_over_the_face_once(folder):
-    """Count: two bodies for three cases on three ranks, which all need both. Each computation adds a line to a file."""
+    """Count: two bodies for three cases on three ranks; each computation adds a line to a file."""
     program = (
         "import sys\n"
         "from fenics_gears.commands.cli import main\n"
@@ -92,7 +89,7 @@ def test_ranks_of_a_study_condense_each_body_over_the_face_once(folder):
         "sys.exit(main(['study', 'study.toml', '--output', 'here']))\n"
     )
     Path("program.py").write_text(program)
-    Path("pair.toml").write_text(FACE, encoding="utf-8")
+    Path("pair.toml").write_text(FACE)
     write_study(folder, '[sweep]\nmisalignment.in_plane = ["0 um", "10 um", "20 um"]\n')
     python("program.py", folder=folder, ranks=3, FENICS_GEARS_CACHE=str(folder / "cache"))
     assert Path("computed").read_text().splitlines() == ["a body"] * 2
@@ -108,7 +105,7 @@ def test_processes_that_mpi4py_cannot_join_are_refused(folder, monkeypatch, caps
 
 
 def test_an_error_of_a_task_is_its_outcome():
-    """The promise of `run`; one task's error is not another's."""
+    """The promise of `run`."""
 
     def inverse(task, tick):
         return 1 / task

@@ -1,4 +1,4 @@
-"""Running a study in one process: its files, what is kept, what is computed again, and what fails."""
+"""Running a study in one process."""
 
 import re
 import signal
@@ -25,7 +25,6 @@ THREE = 'without = ["inertia", "damping"]\n[sweep]\nfriction.coefficient = [0.1,
 
 
 def load(directory):
-    """The combined dataset in memory."""
     import xarray
 
     with xarray.open_dataset(Path(directory) / "study.nc", engine="h5netcdf") as opened:
@@ -33,7 +32,7 @@ def load(directory):
 
 
 def test_every_case_is_what_a_run_of_its_scene_gives(folder):
-    """Exact identity; what cases share changes no digit. The run of each scene alone is the reference."""
+    """Exact identity with a run of each scene alone."""
     study = write_study(folder, FOUR)
     assert main(["study", str(study), "--quiet"]) == 0
     combined = load("results/study")
@@ -54,13 +53,13 @@ def test_every_case_is_what_a_run_of_its_scene_gives(folder):
         )
     assert np.isnan(combined["friction_force"].sel(friction="absent")).all()
     assert np.isfinite(combined["friction_force"].sel(friction="present")).all()
-    assert combined.attrs["complete"] == 1 and combined.attrs["study"] == study.read_text(encoding="utf-8")
+    assert combined.attrs["complete"] == 1 and combined.attrs["study"] == study.read_text()
     assert all(combined[name].attrs["units"] == "rad" for name in ("transmission_error", "mean_transmission_error"))
 
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_study_run_again_computes_only_what_is_new(folder, capsys):
-    """Inode and time of each file; cases are found by content, wherever they stand in the sweep."""
+    """Inode and time of each file; cases are found by content."""
     study = write_study(folder, TWO)
     main(["study", str(study), "--quiet", "--output", "here"])
     before, combined = stamps("here"), load("here")
@@ -87,17 +86,16 @@ def test_a_study_run_again_computes_only_what_is_new(folder, capsys):
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_changed_base_scene_is_noticed_and_so_are_other_numbers(folder, capsys, monkeypatch):
-    """Hash of what the scene says; a comment is no change, another face width is one, and so is another version of the
-    numbers."""
+    """Hash of what the scene says: a comment is no change, a width is, and so is another version of the numbers."""
     study = write_study(folder, TWO)
     main(["study", str(study), "--quiet", "--output", "here"])
     before, old = stamps("here"), load("here")
     scene = folder / "pair.toml"
-    text = scene.read_text(encoding="utf-8")
-    scene.write_text("# a comment\n" + text, encoding="utf-8")
+    text = scene.read_text()
+    scene.write_text("# a comment\n" + text)
     main(["study", str(study), "--output", "here"])
     assert "has changed" not in capsys.readouterr().err and stamps("here") == before
-    scene.write_text(text.replace('face_width = "15 mm"', 'face_width = "16 mm"'), encoding="utf-8")
+    scene.write_text(text.replace('face_width = "15 mm"', 'face_width = "16 mm"'))
     assert main(["study", str(study), "--output", "here"]) == 0
     assert "2 to be computed. The base scene has changed" in capsys.readouterr().err
     after = stamps("here")
@@ -123,7 +121,7 @@ def test_a_changed_base_scene_is_noticed_and_so_are_other_numbers(folder, capsys
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_failed_case_is_a_record_and_the_others_go_on(folder, capsys, monkeypatch):
-    """Issue 3; the error is the contact's own. Exit code 3; tried again the next time."""
+    """The contact's own error; exit code 3; tried again the next time."""
 
     def fails_once(model, **options):
         if model.scene.friction.coefficient == 0.3:
@@ -140,7 +138,7 @@ def test_a_failed_case_is_a_record_and_the_others_go_on(folder, capsys, monkeypa
     assert "contact did not converge" in str(combined["failure"].values[1]) and str(combined["failure"].values[0]) == ""
     assert combined.attrs["complete"] == 0 and combined.attrs["cases_failed"] == 1
     (note,) = Path("here/cases").glob("*.failed.txt")
-    text = note.read_text(encoding="utf-8")
+    text = note.read_text()
     assert "contact did not converge" in text and "Traceback" in text and "coefficient = 0.3" in text
     before = stamps("here")
     assert main(["study", str(study), "--output", "here"]) == 3
@@ -151,8 +149,7 @@ FIVE = '[sweep]\nmotion.mesh_frequency = { start = "100 Hz", stop = "400 Hz", co
 
 
 def stopped_in_the_middle(folder, study, how, ranks=0):
-    """A study that a signal stops once a process, under mpirun rank 1, has done three cases, there two; the ended
-    process."""
+    """A study stopped by a signal when a process, under mpirun rank 1, has done three cases, there two."""
     # Alone it has no mpi4py, which DOLFINx needs: its gears come from the cache.
     gear_bodies(model_of(load_scene(folder / "pair.toml")), SilentProgress(), user_cache())
     call = command("study", study, "--output", "here", ranks=ranks)
@@ -162,8 +159,7 @@ def stopped_in_the_middle(folder, study, how, ranks=0):
 
 
 def test_ctrl_c_keeps_what_is_done(folder):
-    """docs/promises.md; exit code 130, what was done is kept, marked incomplete. Alone MPI is never touched: this
-    process has no mpi4py."""
+    """docs/promises.md: exit code 130, marked incomplete. Alone MPI is never touched."""
     study = write_study(folder, FIVE)
     done = stopped_in_the_middle(folder, study, signal.SIGINT)
     assert (

@@ -1,4 +1,4 @@
-"""Scenes that are another scene with other reliefs against the same scenes read from the start."""
+"""Scenes with other reliefs against the same scenes read from the start."""
 
 import pickle
 import tomllib
@@ -18,7 +18,7 @@ from fenics_gears.studies import scenes
 from fenics_gears.studies.scenes import Models, NoScene, model_of_tree
 
 DEMOS = Path(__file__).parents[2] / "demos"
-BASE = tomllib.loads((DEMOS / "lundvall2004.toml").read_text(encoding="utf-8")) | {
+BASE = tomllib.loads((DEMOS / "lundvall2004.toml").read_text()) | {
     "tip_relief": {"depth": "20 um", "length_on_path": "5 mm", "wheel": {"depth": "15 um"}},
     "profile_modifications": {"pinion": {"slope": "2 um"}},
 }
@@ -42,14 +42,12 @@ WRONG = {
 
 
 def changed(change):
-    """The base with a change; None removes a section."""
     return {name: each for name, each in (BASE | change).items() if each is not None}
 
 
 @pytest.mark.parametrize("name", CHANGES)
 def test_a_scene_with_other_reliefs_is_that_scene(name, monkeypatch):
-    """Identity: the same scene, pair, drivetrain, settings, reliefs and key as from the parsed file; a scene whose
-    reliefs have other numbers alone is not read again. Its text gives the same data."""
+    """Identity with the parsed file; other numbers of reliefs alone are not read again."""
     models, read = Models("design", DEMOS), []
     models.of(BASE)
     monkeypatch.setattr(scenes, "model_of_tree", lambda *given: read.append(given) or model_of_tree(*given))
@@ -66,7 +64,7 @@ def test_a_scene_with_other_reliefs_is_that_scene(name, monkeypatch):
 
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_reliefs_are_refused_in_the_same_words(name):
-    """Identity: what is wrong with the parsed file."""
+    """Identity."""
     models = Models("design", DEMOS)
     models.of(BASE)
     with pytest.raises(NoScene) as found:
@@ -77,15 +75,14 @@ def test_wrong_reliefs_are_refused_in_the_same_words(name):
 
 
 def test_the_key_of_a_scene_is_that_of_all_it_says():
-    """Definition: the hash of its values, so that runs that were kept are found whichever way the key is put
-    together."""
+    """Definition: the hash of its values, whichever way it is put together."""
     scene = model_of_tree("design", BASE, DEMOS).scene
     said = {each.name: getattr(scene, each.name) for each in fields(scene) if each.name not in WORDS}
     assert scene_key(scene) == scene_key(scene) == content_key({"scene": said, "numbers": NUMBERS_VERSION})
 
 
 def test_a_line_without_what_is_asked_for_is_no_run(tmp_path):
-    """Definition: a run is known that has all numbers asked for, also from two lines, or has failed."""
+    """Definition: all numbers asked for, also from two lines, or a failure."""
     for key, said in (
         ("one", {"numbers": {"a": 1.0}}),
         ("both", {"numbers": {"a": 1.0}}),

@@ -1,4 +1,4 @@
-"""Study files: what they sweep, and the mistakes that are refused."""
+"""Study files."""
 
 import copy
 
@@ -16,7 +16,6 @@ FREQUENCIES = 'motion.mesh_frequency = ["100 Hz", "200 Hz"]\n'
 
 
 def swept(folder, text):
-    """The study of a text below [sweep]."""
     return load_study(write_study(folder, "[sweep]\n" + text))
 
 
@@ -65,7 +64,7 @@ def test_a_range_is_the_list_it_stands_for(folder, written, numbers):
     ],
 )
 def test_dotted_names_may_be_bare_quoted_or_tables(folder, spelling):
-    """TOML, where the first and the last are the same."""
+    """TOML."""
     assert swept(folder, spelling).axes[0].path == ("motion", "mesh_frequency")
 
 
@@ -78,19 +77,19 @@ def test_sections_can_be_absent_present_or_written_out(folder):
 
 @pytest.mark.parametrize("section", ["coast_flanks = {}", "[set.coast_flanks]"])
 def test_a_section_without_fields_can_be_set_and_swept(folder, section):
-    """docs/studies.md: "present" is the section as the base scene and [set] have it."""
+    """docs/studies.md."""
     path = write_study(folder, f'[set]\n{section}\n[sweep]\ncoast_flanks = ["absent", "present"]\n')
     assert [case.scene.coast_flanks is not None for case in load_study(path).cases] == [False, True]
 
 
 def test_a_section_set_without_fields_keeps_those_of_the_scene(folder):
-    """[set] adds to the scene; what is to go stands in `without`."""
+    """docs/studies.md."""
     study = load_study(write_study(folder, '[set]\nfriction = {}\n[sweep]\nload.wheel_torque = ["1 N m"]\n'))
     assert study.cases[0].scene.friction.coefficient == 0.1
 
 
 def test_what_is_left_out_is_gone_before_what_is_set(folder):
-    """Authority: the definition of `without` and `[set]`."""
+    """docs/studies.md."""
     study = load_study(
         write_study(
             folder,
@@ -104,17 +103,16 @@ def test_what_is_left_out_is_gone_before_what_is_set(folder):
 
 
 def test_a_case_is_known_by_what_it_says_not_by_how_it_is_written(folder):
-    """Unit conversion; 200 Hz are 0.2 kHz, and a comment changes nothing."""
+    """200 Hz are 0.2 kHz, and a comment changes nothing."""
     first = swept(folder, 'motion.mesh_frequency = ["200 Hz", "100 Hz"]')
     scene = folder / "pair.toml"
-    scene.write_text("# another comment\n" + scene.read_text(encoding="utf-8"), encoding="utf-8")
+    scene.write_text("# another comment\n" + scene.read_text())
     second = swept(folder, 'motion.mesh_frequency = ["0.2 kHz"]')
     assert first.cases[0].key == second.cases[0].key != first.cases[1].key
 
 
 WRONG = {
     "no sweep": ("", ["sweep", "is missing"]),
-    "empty sweep": ("[sweep]\n", ["sweep", "is missing"]),
     "unknown key": ("swep = 1\n[sweep]\n" + FREQUENCIES, ["swep = 1", 'Did you mean "sweep"?']),
     "scene's section": ('[load]\nwheel_torque = "1 N m"\n[sweep]\n' + FREQUENCIES, ["[load]", "[set]"]),
     "unknown field": (
@@ -122,16 +120,11 @@ WRONG = {
         ["mesh_frequenzy", 'Did you mean "motion.mesh_frequency"?', ":3:"],
     ),
     "field without section": ('[sweep]\nmesh_frequency = ["1 Hz"]', ["mesh_frequency", "motion.mesh_frequency"]),
-    "unknown in set": ('[set]\nload.torque = "1 N m"\n[sweep]\n' + FREQUENCIES, ["load.torque", "load.wheel_torque"]),
     "unknown in without": ('without = ["inertea"]\n[sweep]\n' + FREQUENCIES, ["inertea", 'Did you mean "inertia"?']),
     "one value": ('[sweep]\nmotion.mesh_frequency = "1 Hz"', ['"1 Hz"', "Allowed: a list of values", "[set]"]),
     "empty list": ("[sweep]\nmotion.mesh_frequency = []", ["is an empty list"]),
     "wrong unit": ('[sweep]\nmotion.mesh_frequency = ["1 Hz", "3 mm"]', ['"3 mm"', "is a length", "Allowed"]),
     "no unit": ("[sweep]\nmotion.mesh_frequency = [200]", ["without its unit", '"200 Hz"']),
-    "out of range": (
-        "[sweep]\nfriction.coefficient = [0.1, 0]",
-        ["friction.coefficient = 0", "leave the section [friction] out"],
-    ),
     "section as number": ("[sweep]\nfriction = [0.1]", ["friction", "is a section", '"absent"']),
     "misspelt absent": ('[sweep]\nfriction = ["absnt"]', ['Did you mean "absent"?']),
     "present but absent": (
@@ -184,13 +177,12 @@ WRONG = {
     "effects that do not fit": ('[sweep]\ninertia = ["present", "absent"]', ["damping", "inertia", "needs"]),
     "impossible gears": ('[sweep]\ngears.centre_distance = ["91.5 mm", "95.5 mm"]', ["contact ratio", "95.5 mm"]),
     "half a relief": ('[sweep]\ntip_relief.depth = ["10 um"]', ["tip_relief.start", "is missing"]),
-    "no TOML": ("[sweep\n", ["is not valid TOML"]),
 }
 
 
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_studies_are_refused_before_anything_is_written(folder, capsys, name):
-    """Hard case 26; file, field, value, what is allowed, nearest name; exit code 2; nothing written."""
+    """Hard case 26."""
     text, fragments = WRONG[name]
     study = write_study(folder, text)
     before = sorted(folder.rglob("*"))
@@ -203,10 +195,10 @@ def test_wrong_studies_are_refused_before_anything_is_written(folder, capsys, na
 
 
 def test_a_wrong_base_scene_is_told_as_the_scenes_own_mistake(folder, capsys):
-    """Hard case 26; the file named is the one to mend."""
+    """Hard case 26."""
     study = write_study(folder, "[sweep]\n" + FREQUENCIES)
     scene = folder / "pair.toml"
-    scene.write_text(scene.read_text(encoding="utf-8").replace('"4.5 mm"', '"4.5"'), encoding="utf-8")
+    scene.write_text(scene.read_text().replace('"4.5 mm"', '"4.5"'))
     assert main(["study", str(study)]) == 2
     assert "pair.toml:" in capsys.readouterr().err
 
@@ -234,7 +226,7 @@ def test_a_mistake_of_many_cases_is_said_once(folder, capsys):
     ],
 )
 def test_a_change_leaves_the_base_scene_as_it_was(path, value):
-    """A case's scene is the base scene with its own changes, not with those of the cases before it."""
+    """Its own changes, not those of the cases before it."""
     tree = {"gears": {"pinion": {"teeth": 16}}, "load": {"wheel_torque": "1 N m"}}
     before = copy.deepcopy(tree)
     changed = fields.changed(tree, path, value)
@@ -259,7 +251,7 @@ LISTED = {
     ],
 )
 def test_tables_that_are_listed_are_counted_from_1(path, value, found):
-    """The places in the list; the scene that is changed stays as it was."""
+    """The places in the list; the scene that is changed stays."""
     before = copy.deepcopy(LISTED)
     path = tuple(path.split("."))
     assert fields.why_unknown(path) is None
@@ -274,7 +266,7 @@ def test_tables_that_are_listed_are_counted_from_1(path, value, found):
 
 
 def test_a_table_that_is_not_in_the_list_is_told():
-    """A name without table is unknown, a number beyond the list says how many there are."""
+    """How many there are."""
     assert fields.is_numeric(("bearings", "wheel", "1", "rolling", "clearance"))
     assert "no section or field" in fields.why_unknown(("gears", "1", "module"))
     assert "no section or field" in fields.why_unknown(("bearings", "pinion", "1", "rolling", "module"))

@@ -1,8 +1,5 @@
-"""`gears` under mpirun, of which one rank fails at a stage: python -m tests.system.failing_rank STAGE RANK HOW VICTIM
-ARGUMENTS OF THE COMMAND.
-
-RANK is the one that comes to the stage; it fails there itself, or kills the VICTIM and waits for its own end.
-"""
+"""`gears` under mpirun, of which RANK fails at a STAGE, or kills the VICTIM: python -m tests.system.failing_rank
+STAGE RANK HOW VICTIM ARGUMENTS OF THE COMMAND."""
 
 import importlib
 import os
@@ -41,7 +38,6 @@ ERRORS = {
 
 
 def main(stage: str, rank: str, how: str, victim: str, *arguments: str) -> int:
-    """The exit code of this rank."""
     Path(f"process.{OWN}").write_text(str(os.getpid()))
 
     def failure(*_, **__):

@@ -1,5 +1,5 @@
-"""The kernels of OpenBLAS: authority is what the library itself says that it runs (`openblas_get_corename`), and
-products of whole numbers, which have no round-off."""
+"""OpenBLAS, by what it says that it runs (`openblas_get_corename`), and products of whole numbers, without
+round-off."""
 
 import os
 import subprocess
@@ -23,7 +23,7 @@ print(*{each["kernels"] for each in blas.libraries()})
 
 @pytest.fixture
 def machine(monkeypatch, tmp_path):
-    """Makes a processor with these flags, whose OpenBLAS takes these kernels by itself; returns what was looked for."""
+    """A processor with these flags, whose OpenBLAS takes these kernels; returns what was looked for."""
     if not blas.libraries() or not blas.INSTRUCTIONS <= {*blas._processor().get("flags", "").split()}:
         pytest.skip("needs OpenBLAS, and a processor with AVX2 and FMA")
     looked, look = [], blas.in_another_process
@@ -41,7 +41,7 @@ def machine(monkeypatch, tmp_path):
 
 
 def test_a_processor_that_openblas_does_not_know_gets_the_tried_kernels(machine):
-    """They are found out once, and read from the file afterwards."""
+    """Found out once, then read from the file."""
     looked = machine(MODERN, "Prescott")
     assert blas.choice().kernels == "Haswell"
     assert "takes Prescott's" in blas.choice().why
@@ -51,7 +51,7 @@ def test_a_processor_that_openblas_does_not_know_gets_the_tried_kernels(machine)
 
 @pytest.mark.parametrize(("flags", "by_itself"), [(OLD, "Prescott"), (MODERN, "Haswell")])
 def test_openblas_is_left_to_itself_where_its_kernels_suit(machine, flags, by_itself):
-    """On a processor without AVX2 others would end the program by an illegal instruction."""
+    """Others would end the program by an illegal instruction without AVX2."""
     machine(flags, by_itself)
     assert blas.choice().kernels == ""
     assert "chosen by OpenBLAS" in blas.choice().why
@@ -59,7 +59,7 @@ def test_openblas_is_left_to_itself_where_its_kernels_suit(machine, flags, by_it
 
 @pytest.mark.parametrize("wrong", [None, "Haswell"])
 def test_kernels_with_wrong_products_are_not_taken(machine, monkeypatch, wrong):
-    """Neither those that OpenBLAS takes by itself nor the tried ones."""
+    """Neither OpenBLAS's own nor the tried ones."""
     machine(MODERN, "Haswell" if wrong is None else "Prescott")
     look = blas.in_another_process
 
@@ -90,7 +90,7 @@ def test_a_wrong_product_is_found(monkeypatch):
 
 @pytest.mark.parametrize(("given", "kernels"), [(None, "Haswell"), ("Prescott", "Prescott")])
 def test_kernels_are_chosen_before_the_library_is_loaded(machine, tmp_path, given, kernels):
-    """The library itself says which ones it runs; a user's own choice is left alone."""
+    """The library itself; a user's own choice is left alone."""
     environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path)}
     environment.pop(blas.VARIABLE, None)
     environment |= {blas.VARIABLE: given} if given else {}
@@ -99,7 +99,7 @@ def test_kernels_are_chosen_before_the_library_is_loaded(machine, tmp_path, give
 
 
 def test_the_version_says_which_kernels_and_why(machine, monkeypatch, capsys):
-    """`gears --version -v` names each library's file, and who chose its kernels."""
+    """Each library's file, and who chose its kernels."""
     machine(MODERN, "Haswell")
     monkeypatch.delenv(blas.VARIABLE, raising=False)
     assert main(["--version", "-v"]) == 0

@@ -1,4 +1,4 @@
-"""Compiled code looks for no index beyond an array: by itself it reads there what happens to be in memory."""
+"""Compiled code looks for no index beyond an array."""
 
 import sys
 
@@ -15,7 +15,7 @@ PARTS = (
 
 @pytest.mark.nightly
 def test_no_index_is_beyond_its_array(tmp_path):
-    """Tests of those parts pass with numba's look at each index; what a C function raises is printed only."""
+    """numba's look at each index; what a C function raises is printed only."""
     call = [sys.executable, "-m", "pytest", "-n", "0", "-q", "-s", "--tb=line", "-p", "no:cacheprovider"]
     done = ended(
         [*call, *(CHECKOUT / "tests" / part for part in PARTS)], timeout=1200, NUMBA_BOUNDSCHECK="1",

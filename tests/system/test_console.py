@@ -1,7 +1,4 @@
-"""Standard streams take any text.
-
-Authority: /dev/full and closed descriptors of POSIX systems, and the encodings of consoles that are not UTF-8.
-"""
+"""Standard streams take any text: /dev/full, closed descriptors, encodings that are not UTF-8."""
 
 import io
 import os
@@ -36,7 +33,7 @@ wheel_torque = "100 N m"
 
 @pytest.mark.parametrize("encoding", ["latin-1", "ascii"])
 def test_a_console_that_lacks_a_letter_gets_another(tmp_path, monkeypatch, encoding):
-    """What the encoding has stays, what it lacks is a question mark; of help, a description and an error."""
+    """What the encoding lacks is a question mark."""
     (tmp_path / "pair.toml").write_text(GREEK, encoding="utf-8")
     out, err = (io.TextIOWrapper(io.BytesIO(), encoding, errors="strict") for _ in range(2))
     monkeypatch.setattr(sys, "stdout", out)
@@ -61,7 +58,7 @@ def test_a_full_disk_behind_the_output_is_said(tmp_path, monkeypatch, capsys):
 
 
 def test_closed_streams_take_everything_and_lend_their_numbers_to_no_file(tmp_path):
-    """A library's print to descriptor 1 must not reach a file of results that was opened next."""
+    """A library's print to descriptor 1 must not reach a file of results."""
     program = (
         "import os, sys; os.chdir(sys.argv[1])\n"
         "from fenics_gears.system.console import prepare_streams; prepare_streams()\n"
@@ -75,6 +72,6 @@ def test_closed_streams_take_everything_and_lend_their_numbers_to_no_file(tmp_pa
 
 
 def test_what_a_terminal_would_obey_is_not_printed(monkeypatch, capsys):
-    """ECMA-48: escape sequences begin with a control character. Lone surrogates stand for bytes of a name."""
+    """ECMA-48; lone surrogates stand for bytes of a name."""
     console.print_rows("a\x1b[31m", [("b\x9b31m", "c\x07\udcff", "")])
     assert capsys.readouterr().out.split() == ["a\ufffd[31m", "b\ufffd31m", "c\ufffd\ufffd"]

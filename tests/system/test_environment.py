@@ -1,5 +1,4 @@
-"""The settings given to MPI and BLAS: authority is each library's documented variable, and that a user's own setting
-wins."""
+"""The settings given to MPI and BLAS: each library's documented variables; a user's own setting wins."""
 
 import os
 
@@ -9,18 +8,17 @@ from fenics_gears.system import environment
 
 
 def prepared(**given):
-    """The environment `given` after `prepare`."""
     environment.prepare(given)
     return given
 
 
 def test_one_thread_for_each_rank_under_mpirun():
-    """Two ranks with all cores each would compete for them; Open MPI announces the number of ranks."""
+    """Ranks with all cores each would compete; Open MPI announces the number of ranks."""
     assert prepared(OMPI_COMM_WORLD_SIZE="2", OMPI_COMM_WORLD_LOCAL_SIZE="2")["OMP_NUM_THREADS"] == "1"
 
 
 def test_tcp_is_left_out_on_one_machine_and_kept_across_machines():
-    """Ranks on two machines reach each other by TCP; those on one machine do not need it."""
+    """Ranks on two machines reach each other by TCP."""
     assert prepared()["OMPI_MCA_btl"] == "^tcp,ofi"
     assert prepared(OMPI_COMM_WORLD_SIZE="4", OMPI_COMM_WORLD_LOCAL_SIZE="4")["OMPI_MCA_btl"] == "^tcp,ofi"
     assert "OMPI_MCA_btl" not in prepared(OMPI_COMM_WORLD_SIZE="4", OMPI_COMM_WORLD_LOCAL_SIZE="2")
@@ -48,13 +46,12 @@ def test_tcp_is_left_out_on_one_machine_and_kept_across_machines():
     ],
 )
 def test_ranks_are_counted(given, together, here):
-    """Documented variables of Open MPI, of MPICH's Hydra and of Slurm's srun; what is no number above 0 counts as one
-    process."""
+    """Variables of Open MPI, Hydra and srun; what is no number above 0 counts as one process."""
     assert (environment.started_ranks(given), environment.local_ranks(given)) == (together, here)
 
 
 def test_mpirun_may_run_as_root_only_where_the_user_is_root(monkeypatch):
-    """Open MPI refuses root unless both variables are set; nobody else needs them."""
+    """Open MPI refuses root unless both variables are set."""
     names = {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"}
     monkeypatch.setattr(os, "geteuid", lambda: 0)
     assert names <= prepared().keys()

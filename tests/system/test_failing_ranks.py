@@ -1,4 +1,4 @@
-"""One rank of a job fails: each stage of each command that ranks share, each rank of two. `python -m
+"""One rank of a job fails, at each stage of each command that ranks share. `python -m
 tests.system.test_failing_ranks` prints the table."""
 
 import signal
@@ -10,21 +10,18 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from tests.paper_text import coarse_text
 from tests.programs import DEMO, environment, gears, mpirun
-from tests.studies.conftest import ACCURACY
 from tests.system.failing_rank import WORDS
 
 from fenics_gears.results import load
 
 pytestmark = pytest.mark.ranks
 
-PLANE = (
-    DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 2 ").partition("[accuracy]")[0]
-    + ACCURACY
-)
+PLANE = coarse_text()
 EVERY_STEP = PLANE.replace("steps_per_mesh_cycle = 20", 'steps_per_mesh_cycle = 2\ncondensation = "every step"')
 FACE = (
-    (DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text(encoding="utf-8").partition("[accuracy]")[0]
+    (DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text().partition("[accuracy]")[0]
     + '[accuracy]\nflank_element_size = "0.6 mm"\nbody_element_size = "9 mm"\nlayers = 1\nslices = 2\ncontact_length '
     '= "3 mm"\ncontact_nodes = 9\nsteps_per_mesh_cycle = 4\n'
 )
@@ -49,8 +46,8 @@ CODES = {"refuses": 2, "fails": 3, "breaks": 3, "interrupted": 130, "killed": 12
 
 
 def failures(stages, shared=SHARED, goes_on=()):
-    """Stage, rank and way of each failure of a command; a failure at a stage of `goes_on` ends nothing, unless the
-    process is killed."""
+    """Stage, rank and way of each failure; a failure at a stage of `goes_on` ends nothing, unless the process is
+    killed."""
     return [
         (stage, rank, how)
         for stage in stages
@@ -71,8 +68,7 @@ MATRIX = [(command, *each) for command, stages in STAGES_OF.items() for each in 
 
 @dataclass(frozen=True)
 class End:
-    """How a job ended: exit code, what it wrote to the standard error, seconds after the failure, processes that are
-    still there."""
+    """How a job ended: exit code, what it said, seconds after the failure, processes that are still there."""
 
     code: int
     told: str
@@ -81,10 +77,10 @@ class End:
 
 
 def ended(folder: Path, command, stage: str, rank: int, how: str, *more: str, shared=SHARED) -> End:
-    """A command of two ranks, its arguments and files, of which one rank fails at a stage, until its end."""
+    """A command of two ranks of which one fails at a stage, until its end."""
     arguments, files = command
     for name, text in files.items():
-        (folder / name).write_text(text, encoding="utf-8")
+        (folder / name).write_text(text)
     comes = rank if stage in shared else 0
     call = [
         *mpirun(2),
@@ -124,31 +120,27 @@ def ended(folder: Path, command, stage: str, rank: int, how: str, *more: str, sh
 @pytest.mark.nightly
 @pytest.mark.parametrize(("command", "stage", "rank", "how"), MATRIX)
 def test_an_error_of_a_rank_ends_all(tmp_path, command, stage, rank, how):
-    """Hard case 28 and the exit codes of the command line: no rank waits for ever, none is left behind, and the error
-    is said once with its exit code."""
+    """Hard case 28 and the exit codes: no rank waits for ever, none is left behind, the error is said once."""
     check_end(ended(tmp_path, COMMANDS[command], stage, rank, how), how)
 
 
 def check_end(end, how):
-    """The exit code is that of the failure, which is said, and no process is left."""
     assert end.code == CODES[how], end.told
     assert not end.left
     assert {"killed": "", "interrupted": "Interrupted"}.get(how, WORDS) in end.told
 
 
 def test_a_run_that_does_not_fit_ends_all_ranks(tmp_path):
-    """The same of a real refusal: rank 0 alone says it, once, and the other does not wait for the bodies."""
-    (tmp_path / "pair.toml").write_text(FACE, encoding="utf-8")
+    """Rank 0 alone says it, once."""
+    (tmp_path / "pair.toml").write_text(FACE)
     done = gears(tmp_path, "run", "pair.toml", "--memory", "100 MB", ranks=2)
     assert done.returncode == 3 and done.stderr.count("0.1 GB are allowed. Nothing was computed.") == 1, done.stderr
 
 
 @pytest.mark.nightly
 def test_ranks_share_a_run_whose_settings_are_chosen_by_a_target(tmp_path):
-    """Definition: the ranks condense the bodies of the chosen settings, which rank 0 alone knows."""
-    (tmp_path / "pair.toml").write_text(
-        FACE.partition("[accuracy]")[0] + '[accuracy]\ntarget = "20 %"\n', encoding="utf-8"
-    )
+    """Definition: the bodies of the chosen settings, which rank 0 alone knows."""
+    (tmp_path / "pair.toml").write_text(FACE.partition("[accuracy]")[0] + '[accuracy]\ntarget = "20 %"\n')
     done = gears(tmp_path, "run", "pair.toml", "--no-pictures", "--output", "here", ranks=2)
     assert done.returncode == 0, done.stderr
     assert load(tmp_path / "here" / "run.nc").attrs["target"] == pytest.approx(0.2)

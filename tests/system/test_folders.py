@@ -1,7 +1,4 @@
-"""Folders for caches and temporary files of users who cannot write their own.
-
-Authority: the XDG base directory specification, and the variables that each library's documentation names.
-"""
+"""Folders for users who cannot write their own: the XDG specification and each library's variables."""
 
 import os
 
@@ -12,7 +9,6 @@ from fenics_gears.system import environment as folders
 
 @pytest.fixture
 def temporary(tmp_path, monkeypatch):
-    """A folder for temporary files, empty."""
     monkeypatch.setattr(folders.tempfile, "gettempdir", lambda: str(tmp_path))
     # Copying what is compiled takes longer than these tests.
     monkeypatch.setattr(folders, "_copy_compiled", lambda folder: None)
@@ -23,7 +19,7 @@ def temporary(tmp_path, monkeypatch):
     "given", [{"HOME": "/dev/null/a"}, {"HOME": "relative"}, {"HOME": "/", "XDG_CACHE_HOME": "/dev/null"}]
 )
 def test_a_user_without_a_folder_for_caches_has_one_and_is_told_once(temporary, capsys, given):
-    """One sentence that names the variable; the second process finds the same folder and says nothing."""
+    """One sentence that names the variable; the second process says nothing."""
     for sentences in (1, 0):
         environment = dict(given)
         folders.have_folders(environment, aloud=True)
@@ -36,7 +32,7 @@ def test_a_user_without_a_folder_for_caches_has_one_and_is_told_once(temporary, 
 
 
 def test_a_folder_that_somebody_else_could_write_is_not_used(temporary):
-    """Compiled code in it would be run: a user of the same machine may not lay some there."""
+    """Compiled code in it would be run."""
     laid = temporary / f"fenics_gears-{os.getuid()}"
     laid.mkdir()
     laid.chmod(0o777)
@@ -47,7 +43,7 @@ def test_a_folder_that_somebody_else_could_write_is_not_used(temporary):
 
 
 def test_a_user_with_a_home_is_left_alone(tmp_path, capsys):
-    """Nothing set, nothing made, nothing said; unless one cache of the four cannot be written."""
+    """Nothing set, made or said, unless one cache of the four cannot be written."""
     environment = {"HOME": str(tmp_path), "TMPDIR": str(tmp_path)}
     folders.have_folders(environment, aloud=True)
     assert environment == {"HOME": str(tmp_path), "TMPDIR": str(tmp_path)}
@@ -58,7 +54,7 @@ def test_a_user_with_a_home_is_left_alone(tmp_path, capsys):
 
 
 def test_temporary_files_go_where_there_is_room(tmp_path, capsys):
-    """MPI would end the process; a full disk is one with less room than is needed."""
+    """MPI would end the process; a full disk has less room than is needed."""
     environment = {"HOME": str(tmp_path), "TMPDIR": "/dev/null"}
     folders.have_folders(environment, aloud=True)
     assert environment["TMPDIR"] in folders.TEMPORARY and "cannot be written into /dev/null" in capsys.readouterr().err

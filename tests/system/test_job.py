@@ -1,4 +1,4 @@
-"""Work that all ranks of a job carry out together. Each stage of the program's own is in test_failing_ranks.py."""
+"""Work that all ranks carry out together. The program's own stages are in test_failing_ranks.py."""
 
 import pytest
 from tests.programs import python
@@ -34,10 +34,9 @@ sys.exit(job.led(lead))
 
 
 def test_an_error_of_one_rank_is_an_error_of_all(tmp_path):
-    """Definitions: each rank's value, rank 0 alone gets what is its own; a SceneError of rank 1 is rank 0's, and the
-    work goes on. Where rank 0 waits for it inside
-    MPI for ever, MPI's Abort ends both with the error's words and exit code. Both ranks are on this machine."""
-    (tmp_path / "program.py").write_text(PROGRAM, encoding="utf-8")
+    """Definitions; a SceneError of rank 1 is rank 0's, and the work goes on. Where rank 0 waits inside MPI, Abort
+    ends both with the error's words and exit code."""
+    (tmp_path / "program.py").write_text(PROGRAM)
     done = python("program.py", folder=tmp_path, ranks=2, ends=2, timeout=60)
     assert done.stdout.splitlines() == ["[19, 10] 2", "rank 1: no more chalk exit code 2"], done.stderr
     assert "rank 1: no more chalk" in done.stderr

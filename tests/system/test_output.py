@@ -1,7 +1,4 @@
-"""Where results are written.
-
-Authority: hard cases 26 and 27: refused before any computation; no half result, and nothing of somebody else's removed.
-"""
+"""Where results are written and files of users are read (hard cases 26 and 27)."""
 
 import os
 import subprocess
@@ -10,18 +7,17 @@ import sys
 import pytest
 
 from fenics_gears import SceneError
-from fenics_gears.system import output
+from fenics_gears.system import output, user_file
 
 
 def dead_process():
-    """The number of a process that has ended."""
     process = subprocess.Popen([sys.executable, "-I", "-S", "-c", ""])
     process.wait()
     return process.pid
 
 
 def test_what_a_killed_process_left_is_removed_and_nothing_else(tmp_path):
-    """Of this machine and of a process that has ended. Not of a live one, of another machine, or in a folder within."""
+    """Of this machine and of a process that has ended; not of a live one, another machine, or a folder within."""
     here, dead = f"{output.UNFINISHED}{output._machine()}-", dead_process()
     left, alive, elsewhere = (
         f"{here}{dead}-abc",
@@ -43,7 +39,7 @@ def test_what_a_killed_process_left_is_removed_and_nothing_else(tmp_path):
 
 
 def test_a_killed_writer_is_recognised(tmp_path):
-    """A process that kills itself while it writes leaves a folder that the next writer removes."""
+    """A process that kills itself while it writes."""
     program = "import os, signal, sys; from pathlib import Path; from fenics_gears.system.output import write_whole\n"
     program += "write_whole(Path(sys.argv[1], 'a'), lambda path: os.kill(os.getpid(), signal.SIGKILL))"
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
@@ -54,7 +50,6 @@ def test_a_killed_writer_is_recognised(tmp_path):
 
 
 def places(folder):
-    """Directories that take no result, by why."""
     (folder / "file").touch()
     (folder / "dangling").symlink_to("/nowhere/at/all")
     (folder / "own" / "run.nc").mkdir(parents=True)
@@ -78,14 +73,55 @@ WHY = ("is a file", "is a link to /nowhere/at/all", "is no file", "levels of sym
 
 @pytest.mark.parametrize("why", WHY)
 def test_places_that_take_no_result_are_refused(tmp_path, why):
-    """Each with what it is and the remedy."""
+    """What it is, and the remedy."""
     with pytest.raises(SceneError, match=rf"(?i){why}.*--output"):
         output.check_writable(places(tmp_path)[why], "run.nc")
 
 
 def test_places_that_take_a_result_are_left_as_they_are(tmp_path):
-    """There or not; also where a file of the name is replaced."""
+    """There or not; also where a file is replaced."""
     (tmp_path / "run.nc").touch()
     for directory in (tmp_path, tmp_path / "new" / "one"):
         output.check_writable(directory, "run.nc", "a.png")
     assert [each.name for each in tmp_path.iterdir()] == ["run.nc"]
+
+
+def kinds(folder):
+    made = {name: folder / name for name in WORDS if name != "a name with NUL"}
+    os.mkfifo(made["a pipe"])
+    made["a folder"].mkdir()
+    made["a link to itself"].symlink_to("a link to itself")
+    made["a link to a device"].symlink_to("/dev/zero")
+    made["text with NUL"].write_bytes(b"a\r\nb\0")
+    made["no UTF-8"].write_bytes(b"ab\xff")
+    with open(made["large"], "wb") as file:
+        file.truncate(3_000_000_000)
+    return made | {"a name with NUL": f"{folder}/a\0b"}
+
+
+WORDS = {
+    "a pipe": "it is a device or a pipe, not a file",
+    "a folder": "it is a folder",
+    "a link to itself": "Too many levels of symbolic links",
+    "a link to a device": "it is a device or a pipe, not a file",
+    "text with NUL": "the character NUL in line 2",
+    "no UTF-8": r"is not a text in UTF-8 \(byte 2\)",
+    "large": "has 3000 MB; a file of more than 10 MB is not read",
+    "missing": "there is no such file",
+    "a name with NUL": "cannot be read: ",
+}
+
+
+@pytest.mark.parametrize("kind", WORDS)
+def test_what_is_no_text_is_refused_in_words(tmp_path, kind):
+    """A pipe would be waited for, a device would fill the memory."""
+    with pytest.raises(user_file.Unreadable, match=WORDS[kind]):
+        user_file.text_of(kinds(tmp_path)[kind], user_file.LARGEST_SCENE)
+
+
+def test_a_file_that_grows_while_it_is_read_is_refused(tmp_path, monkeypatch):
+    """Its length is read once more."""
+    (tmp_path / "grows").write_bytes(b"x" * 11)
+    monkeypatch.setattr(user_file, "check_file", lambda path, largest: None)
+    with pytest.raises(user_file.Unreadable, match="has more than 0 MB"):
+        user_file.content_of(tmp_path / "grows", 10)

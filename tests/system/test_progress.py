@@ -1,4 +1,4 @@
-"""How progress is reported: lines in a log, a bar on a terminal."""
+"""How progress is reported."""
 
 import io
 
@@ -8,8 +8,6 @@ from fenics_gears.system import progress
 
 
 class Clock:
-    """A clock that is set by hand."""
-
     now = 0.0
 
     def __call__(self):
@@ -17,7 +15,7 @@ class Clock:
 
 
 def test_lines_come_at_most_every_few_seconds_and_say_the_time_left():
-    """Identity; a fifth done after 6 s leaves 24 s at the same pace."""
+    """A fifth done after 6 s leaves 24 s."""
     clock, stream = Clock(), io.StringIO()
     lines = progress.LineProgress(stream, interval=5.0, clock=clock)
     lines.stage("march")
@@ -32,8 +30,7 @@ def test_lines_come_at_most_every_few_seconds_and_say_the_time_left():
 
 
 def test_no_time_left_is_said_before_enough_is_known():
-    """Of a real run of 75 s: its first mesh cycle took half of the time, and the estimates then were hours. And of
-    cases of 20 s each, whose number is looked at more often than it changes. What is said is at most a factor of two
+    """A real run of 75 s, whose first mesh cycle took half of the time; cases of 20 s each. At most a factor of two
     off."""
     steps = [done if done < 40 else 40.0 + 35.0 * (done - 40) / 7160 for done in range(7201)]
     for times, counts, whole in (
@@ -51,7 +48,7 @@ def test_no_time_left_is_said_before_enough_is_known():
 
 
 def test_a_bar_stops_where_the_work_stopped():
-    """Issue 2; an interrupted run must not look finished."""
+    """An interrupted run must not look finished."""
     console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)
     bar = progress.BarProgress(console)
     bar.stage("condense pinion")
@@ -64,7 +61,7 @@ def test_a_bar_stops_where_the_work_stopped():
 
 @pytest.mark.parametrize(("done", "said"), [(5, False), (50, True)])
 def test_a_bar_says_the_time_left_once_enough_is_known(done, said):
-    """The rule of the lines: a pace is there after two updates, but a twentieth of the whole may be its beginning."""
+    """The rule of the lines: a twentieth of the whole may be its beginning."""
     console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)
     bar = progress.BarProgress(console)
     bar.stage("march")

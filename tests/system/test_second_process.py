@@ -1,5 +1,4 @@
-"""A second process beside this one: authority is what the same function gives here, and the operating system's list of
-processes."""
+"""A second process beside this one."""
 
 import os
 import signal
@@ -84,7 +83,7 @@ def test_it_ends_with_what_it_was_started_for(tmp_path, monkeypatch):
 
 
 def test_threads(monkeypatch):
-    """As the user says, at most as there are cores; a rank of a job has one."""
+    """At most as there are cores; a rank of a job has one."""
     cores = len(os.sched_getaffinity(0))
     for name in (*second_process.THREADS, *second_process.RANK_COUNTS):
         monkeypatch.delenv(name, raising=False)

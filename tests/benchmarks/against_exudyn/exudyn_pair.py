@@ -1,13 +1,6 @@
-"""A gear pair as Exudyn has it: rigid bodies, point masses and springs; run by a Python that has Exudyn, without this
-program.
-
-Reads a JSON object from standard input and writes natural frequencies (Hz) and a response to standard output. N, mm, s,
-rad.
-
-Two rigid bodies turn and move in the plane, the pinion about (0, 0), the wheel about (L, -(rb1 + rb2)). The mesh is a
-spring between the points of both where the line of action touches their base circles, so that Exudyn's own kinematics
-makes rb phi of it; bearings and shafts are springs on single coordinates, and the load a rotor on the output shaft.
-"""
+"""A gear pair as Exudyn has it: rigid bodies, point masses and springs; JSON in, JSON out, by a Python that has
+Exudyn. N, mm, s, rad. The mesh is a spring between the points of both bodies where the line of action touches their
+base circles."""
 
 import json
 import sys
@@ -89,8 +82,7 @@ def at_rest(system, tolerance=1e-10):
 
 
 def main():
-    """Frequencies about the unloaded position; static equilibrium, then the response of both gears' rotations to the
-    added couple."""
+    """Frequencies about the unloaded position; the response of both rotations to the added couple."""
     given = json.load(sys.stdin)
     container, system, *_ = assembled({**given, "couple": 0.0})
     frequencies = frequencies_of(system)

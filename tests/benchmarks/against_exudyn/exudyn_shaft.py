@@ -1,9 +1,5 @@
-"""A shaft on its bearings as Exudyn has it: shear deformable beam elements; run by a Python that has Exudyn, without
-this program.
-
-Reads a JSON object from standard input and writes natural frequencies (Hz) with a disc on the shaft to standard output.
-N, mm, s, rad. The axis is Exudyn's x.
-"""
+"""Natural frequencies (Hz) of a shaft on its bearings with a disc, by Exudyn's shear deformable beams along its x;
+JSON in, JSON out, by a Python that has Exudyn. N, mm, s, rad."""
 
 import json
 import sys

@@ -1,13 +1,5 @@
-"""A gear pair in space as Exudyn has it: rigid bodies on bearings along their shafts; run by a Python that has Exudyn,
-without this program.
-
-Reads a JSON object from standard input and writes natural frequencies (Hz), and static displacements under a torque, to
-standard output. N, mm, s, rad.
-
-Two rigid bodies move about their mid-widths; each bearing is a spring in x and y between a point of the body's axis and
-the ground, the mesh two springs along the contact normal between points of both bodies. All that tilts and couples is
-Exudyn's own kinematics.
-"""
+"""A gear pair in space as Exudyn has it, each bearing a spring between a point of the body's axis and the ground,
+the mesh two springs along the contact normal; JSON in, JSON out, by a Python that has Exudyn. N, mm, s, rad."""
 
 import json
 import sys
@@ -33,7 +25,6 @@ TURN = 5  # about z, among the coordinates of a body
 
 
 def assembled(given):
-    """The system and the nodes of both gears."""
     container = exu.SystemContainer()
     system = container.AddSystem()
     base = system.AddObject(ObjectGround())
@@ -78,7 +69,7 @@ def spring_in_space(system, base, body, centre, place, stiffness):
 
 
 def main():
-    """Frequencies about the unloaded position; displacements of both gears, x, y, z and about x, y, z, under the
+    """Frequencies about the unloaded position; displacements of both gears, x, y, z and about them, under the
     torque."""
     given = json.load(sys.stdin)
     container, system, *_ = assembled(given)

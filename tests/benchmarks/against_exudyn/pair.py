@@ -1,14 +1,5 @@
 """Natural frequencies and a time response of an unequal pair on a constant mesh stiffness, by this program and by
-Exudyn: `python -m tests.evidence exudyn --python PYTHON`, PYTHON of an environment that has Exudyn.
-
-Exudyn (J. Gerstmayr, https://github.com/jgerstm/EXUDYN) is a multi-body program of the University of Innsbruck. It is
-given rigid bodies and springs only (`exudyn_pair.py`); this program its drivetrain with a mesh of one spring
-(`contact.spring_mesh`), marched as any run. The pair is pair_19_48.toml of this folder, J1 : J2 = 1 : 19, with another
-bearing in every direction and another stiffness of either shaft.
-
-Exudyn 1.13.6 gave the seven natural frequencies, 215.3 to 4818.5 Hz, the same within 3e-15 of each, and the response to
-a step of the couple, both by average acceleration at 2 us, the same within 4e-8 of its swing over 10 ms.
-"""
+the multi-body program Exudyn (https://github.com/jgerstm/EXUDYN): `python -m tests.evidence exudyn --python PYTHON`."""
 
 import json
 import subprocess
@@ -83,7 +74,6 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
 
 
 def asked(python: str, script: str, given: dict) -> dict:
-    """What a script of this folder finds in the Exudyn of a Python."""
     done = subprocess.run([python, HERE / script], input=json.dumps(given), capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"Exudyn failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}")

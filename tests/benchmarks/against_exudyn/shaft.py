@@ -1,16 +1,12 @@
-"""Natural frequencies of the shafts of tests.benchmarks.against_ross with a disc, by this program and by Exudyn's shear
-deformable beam elements, side by side.
+"""Natural frequencies of the shafts of tests.benchmarks.against_ross with a disc, by this program and by Exudyn's
+shear deformable beam elements: `python -m tests.evidence exudyn --python PYTHON`."""
 
-    python -m tests.benchmarks.against_exudyn.shaft PYTHON    # PYTHON: that of an environment that has Exudyn
-"""
-
-import sys
 from itertools import pairwise
 from math import ceil
 
 import numpy as np
 from tests.benchmarks.against_exudyn.pair import asked
-from tests.benchmarks.against_ross.__main__ import BEARINGS, DENSITY, DISC, SHAFTS, UP_TO, elastic, free_frequencies
+from tests.benchmarks.against_ross.shafts import BEARINGS, DENSITY, DISC, SHAFTS, UP_TO, elastic, free_frequencies
 
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, properties
 from fenics_gears.dynamics.elastic_shaft_modes import vibrating
@@ -19,11 +15,11 @@ from fenics_gears.dynamics.elastic_shaft_modes import vibrating
 ELEMENT = 1.0
 
 
-def given_for(shaft: ElasticShaft, longest: float) -> dict:
+def given_for(shaft: ElasticShaft) -> dict:
     """What Exudyn is to be given: each element has the section of its middle."""
     ends = np.cumsum([0.0, *(each.length for each in shaft.sections)])
     stops = np.unique([*ends, shaft.gear_at, *(each.at for each in shaft.bearings)])
-    places = [np.linspace(a, b, ceil((b - a) / longest) + 1)[:-1] for a, b in pairwise(stops)]
+    places = [np.linspace(a, b, ceil((b - a) / ELEMENT) + 1)[:-1] for a, b in pairwise(stops)]
     places = np.append(np.concatenate(places), stops[-1])
     along, (modulus, ratio) = properties(shaft.sections, shaft.material, places, 1), shaft.material
     shear_modulus = modulus / (2.0 * (1.0 + ratio))
@@ -43,23 +39,11 @@ def given_for(shaft: ElasticShaft, longest: float) -> dict:
     }
 
 
-def compared(python: str, longest: float = ELEMENT) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+def compared(python: str) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Natural frequencies, Hz, by this program and by Exudyn, for each shaft."""
     found = {}
     for name, (sections, gear_at, _) in SHAFTS.items():
         shaft = ElasticShaft("pinion", sections, (206e3, 0.3), gear_at, 0.0, 0.0, BEARINGS)
-        there = asked(python, "exudyn_shaft.py", given_for(shaft, longest))["frequencies"]
+        there = asked(python, "exudyn_shaft.py", given_for(shaft))["frequencies"]
         found[name] = free_frequencies(vibrating(shaft, DENSITY, UP_TO)), elastic(np.array(there))
     return found
-
-
-def main(python: str) -> None:
-    """Print how far both are apart with elements of three lengths."""
-    print("longest element, mm; shaft; frequencies; largest difference in parts")
-    for longest in (4.0 * ELEMENT, 2.0 * ELEMENT, ELEMENT):
-        for name, (own, other) in compared(python, longest).items():
-            print(f"{longest:g}; {name}; {len(own)}; {np.abs(own / other - 1.0).max():.1e}")
-
-
-if __name__ == "__main__":
-    main(sys.argv[1])

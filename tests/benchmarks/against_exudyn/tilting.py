@@ -1,15 +1,5 @@
-"""Natural frequencies and static displacements of a helical pair whose gears tilt and move axially, by this program and
-by Exudyn.
-
-The pair is pair_19_48.toml of this folder with a helix of 20 degrees on its sections as they are, gears that are not
-opposite each other, bearings at unequal distances from mid-width and of another stiffness in every direction. Exudyn
-has rigid bodies in space, and springs between their points (`exudyn_tilting_pair.py`); this program its drivetrain of
-13 coordinates with the mesh as its natural frequencies have it.
-
-Exudyn 1.13.6 gave the 13 natural frequencies, 208.2 to 5088.0 Hz, the same within 4e-15 of each, and the twelve static
-displacements the same within 1.1e-6 of each. These differences are Exudyn's large displacements: they fall in
-proportion to the torque.
-"""
+"""Natural frequencies and static displacements of a helical pair whose gears tilt and move axially, by this program
+and by Exudyn. Its large displacements make differences that fall in proportion to the torque."""
 
 from dataclasses import replace
 from math import radians, sqrt

@@ -1,14 +1,6 @@
-"""A gear pair as GetFEM has it: two elastic bodies in large-sliding contact; run by a Python that has GetFEM, without
-this program.
-
-Reads a JSON object from standard input and writes, for each position, the wheel's rotation (rad) under the torque, what
-the torques on both bores say of the equilibrium, and seconds, to standard output. N, mm, rad; plane strain, per mm of
-face width.
-
-The integral large-sliding contact brick with ray tracing (K. Poulios, Y. Renard, "An unconstrained integral
-approximation of large sliding frictional contact between deformable solids", Computers & Structures 153, 2015), without
-friction: quadratic displacements, linear multipliers.
-"""
+"""A gear pair as GetFEM has it, two bodies in the integral large-sliding contact with ray tracing of K. Poulios, Y.
+Renard, Computers & Structures 153, 2015, without friction: for each position the wheel's rotation (rad) under the
+torque, the torques on both bores and seconds; JSON in, JSON out. N, mm, rad, per mm of face width."""
 
 import json
 import sys
@@ -41,7 +33,6 @@ def body(points, cells, contact, hub, region):
 
 
 def points_on(mesh, face):
-    """The middle node of a face."""
     nodes = mesh.pts(mesh.pid_in_faces(face.reshape(2, 1)))
     ends = nodes.mean(axis=1)
     return nodes[:, np.argmin(np.linalg.norm(nodes - ends[:, None], axis=0))]
@@ -54,8 +45,8 @@ def near(points, others):
 
 
 def pair(given, position):
-    """The model at a position, and a function that turns the wheel's bore and gives the torques on both bores (N mm per
-    mm)."""
+    """The model at a position: what turns the wheel's bore and gives the torques on both bores (N mm per mm), and
+    unknowns."""
     young, poisson = given["youngs_modulus"], given["poissons_ratio"]
     lame, shear = young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))
     model = gf.Model("real")
@@ -125,7 +116,6 @@ def rotation_under(turn, torque, guess):
 
 
 def main():
-    """One answer for each position."""
     given = json.load(sys.stdin)
     gf.util_trace_level(0)
     answers = []

@@ -1,9 +1,6 @@
-"""A shaft on its bearings as the rotor program ROSS has it; run by a Python that has ROSS, without this program.
-
-Reads a JSON object from standard input and writes to standard output the displacements of a node (x, y, z, tilts about
-x and y) under a force and a moment on it, by the directions of the load, and the natural frequencies (Hz) with a disc
-there. N, mm, s, rad; ROSS counts in metres.
-"""
+"""A shaft on its bearings as the rotor program ROSS has it; JSON in, JSON out: displacements of a node (x, y, z,
+tilts) by the directions of the load, and natural frequencies (Hz) with a disc there. N, mm, s, rad; ROSS counts in
+metres."""
 
 import json
 import sys

@@ -23,7 +23,6 @@ NAMES = (
 
 
 def main(words: list[str]) -> None:
-    """Each benchmark in turn."""
     for name in [word for word in words if word != "--draw"] or NAMES:
         benchmark = import_module(f"tests.benchmarks.third_dimension.{name}")
         if "--draw" not in words:

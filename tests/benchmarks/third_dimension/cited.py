@@ -58,7 +58,6 @@ def derived(name: str) -> dict[str, float]:
 
 
 def root_stress(name: str) -> dict[str, float]:
-    """Largest root stress of a mesh cycle, MPa, of a scene that asks for it."""
     scene = load_scene(CITED / f"{name}.toml")
     if not scene.output.root_stress:
         return {}
@@ -88,7 +87,6 @@ def measure() -> None:
 
 
 def section() -> str:
-    """Table."""
     lines = []
     for row in read_rows(NAME):
         name = list(PRINTED)[round(row["scene"])]

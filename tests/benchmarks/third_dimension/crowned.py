@@ -1,9 +1,5 @@
-"""Crowned spur flanks at the pitch point against Hertz's point contact, over the axis ratio of the ellipse.
-
-Each slice sees its contact in plane strain across the line of contact, and its neighbours through the body. Long
-ellipses are that; short ones are not. What the bodies' shape adds to the approach is proportional to the load as long
-as the ellipse is small: it cancels in the difference of approach per load of two loads on the same flanks.
-"""
+"""Crowned spur flanks at the pitch point against Hertz's point contact, over the axis ratio of the ellipse. What the
+bodies' shape adds cancels in the difference of approach per load of two loads."""
 
 from dataclasses import dataclass, replace
 from math import ceil, sqrt
@@ -45,10 +41,8 @@ class Pressed:
 
 
 class CrownedFlanks:
-    """The pair crowned so that an ellipse of LONG_AXIS and an axis ratio comes out under Hertz's load.
-
-    The middle of the face stands on the boundary of two layers, where the coarse body errs most.
-    """
+    """The pair crowned so that an ellipse of LONG_AXIS and an axis ratio comes out under Hertz's load. The middle of
+    the face stands on the boundary of two layers, where the coarse body errs most."""
 
     def __init__(self, ratio: float, layers: int = LAYERS, slices: int = SLICES):
         gears = standard_pair(WIDTH * MODULE)
@@ -69,7 +63,6 @@ class CrownedFlanks:
         self.operator = self.cycle.between(phase, phase).operator
 
     def pressed(self, part: float) -> Pressed:
-        """Under a part of the load."""
         operator, exact = self.operator, self.exact.under(part)
         rotation = np.abs(operator.jacobian[:, [self.cycle.coordinates.index(CENTRE_COORDINATES.index("rotation_2"))]])
         solution = pressed(operator, exact.load, rotation)
@@ -108,7 +101,6 @@ class CrownedFlanks:
 
 
 def measure() -> list[Row]:
-    """The ladders of axis ratios and of layers."""
     rows: list[Row] = []
     for ratio, layers, slices in [
         *((ratio, LAYERS, SLICES) for ratio in RATIOS),
@@ -127,7 +119,6 @@ def measure() -> list[Row]:
 
 
 def section() -> str:
-    """Table."""
     names = (*QUANTITIES, "approach")
     lines = [
         [

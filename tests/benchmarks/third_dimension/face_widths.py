@@ -97,7 +97,6 @@ def quotients(rows: list[Row]) -> list[tuple[Row, Row]]:
 
 
 def section() -> str:
-    """Table."""
     lines = []
     for row, equal in quotients(read_rows(NAME)):
         space, plane = row["space"] / equal["space"], row["plane"] / equal["plane"]

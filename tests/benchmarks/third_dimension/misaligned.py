@@ -1,10 +1,6 @@
-"""Line load of a misaligned spur pair on stiff shafts, against a uniform foundation and ISO 6336-1, method C.
-
-Foundation: springs of c (N/mm per mm of face and mm of approach) that know nothing of their neighbours. Under the force
-F over the face width b and a misalignment f the largest line load is ``1 + c b f/(2 F)`` times the mean one while the
-whole face touches, ``2 sqrt(c b f/(2 F))`` times beyond. ISO 6336-1, 7.5 (method C) has the same formulas with
-``c_gamma_beta = 0.85 c_gamma_alpha`` and the misalignment after running-in.
-"""
+"""Line load of a misaligned spur pair against a uniform foundation and ISO 6336-1, 7.5 (method C). With springs c
+the largest line load is ``1 + c b f/(2 F)`` times the mean one while the whole face touches, ``2 sqrt(c b f/(2 F))``
+times beyond."""
 
 from dataclasses import replace
 from math import sqrt
@@ -41,8 +37,7 @@ def foundation(z: np.ndarray, width: float, stiffness: float, misalignment: floa
 
 
 def tilting_stiffness(z: np.ndarray, load: np.ndarray, width: float, misalignment: float) -> float:
-    """Stiffness (N/mm^2) of the foundation that has the same moment under a misalignment (mm over the width): c f
-    b^2/12 of line loads (k,) at z (k,)."""
+    """Stiffness (N/mm^2) of the foundation of the same moment under a misalignment (mm over the width): c f b^2/12."""
     return -12.0 * float(np.mean(load * z)) / (misalignment * width)
 
 
@@ -53,7 +48,6 @@ def single_pair_step(result) -> int:
 
 
 def measure() -> list[Row]:
-    """The ladder of misalignments, and the line loads of each."""
     gears, rows, lines = standard_pair(WIDTH * MODULE), [], []
     pair = gear_pair(gears)
     mesh = METHOD_C * mesh_factor(pair.contact_ratio) * single_stiffness(gears)[1]
@@ -126,7 +120,6 @@ def picture(rows: list[Row], lines: list[Row]) -> Figure:
 
 
 def section() -> str:
-    """Picture and table."""
     rows = read_rows(NAME)
     picture(rows, read_rows(LINES)).savefig(PICTURES / f"{NAME}.png")
     least, width = rows[1]["misalignment"], WIDTH * MODULE

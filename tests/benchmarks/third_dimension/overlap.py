@@ -1,9 +1,5 @@
-"""Peak-to-peak transmission error of helical pairs over the overlap ratio: least where it is a whole number.
-
-Where the overlap ratio is whole, the contact lines' length in the mesh is the same at every position. A uniform
-foundation under each line, stiffer or softer along the path as it may be, would give no ripple at all; what is left is
-what the ends of the face and the entering of corners make.
-"""
+"""Peak-to-peak transmission error of helical pairs over the overlap ratio: least where it is a whole number, since
+the length of the contact lines then is the same at every position."""
 
 from math import ceil, degrees, radians
 
@@ -85,7 +81,6 @@ def picture(rows: list[Row]) -> Figure:
 
 
 def section() -> str:
-    """Picture and table."""
     rows = read_rows(NAME)
     picture(rows).savefig(PICTURES / f"{NAME}.png")
     spur = rows[0]["peak_to_peak"]

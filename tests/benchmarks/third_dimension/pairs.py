@@ -1,5 +1,4 @@
-"""Pairs of the benchmarks over the face: standard teeth with any helix, in steel, with nothing but teeth and gear
-bodies to give way."""
+"""Standard teeth with any helix, in steel, with nothing but teeth and gear bodies to give way."""
 
 from dataclasses import replace
 from math import atan, cos, pi, radians, sin, tan
@@ -40,11 +39,7 @@ def standard_pair(
 
 
 def scene_of(gears: GearPairData, accuracy: Accuracy, line_load: float = LINE_LOAD) -> Scene:
-    """Quasi-static, without friction, on rigid shafts; line_load N/mm: transverse force along the line of action over
-    the face width.
-
-    A spur pair goes the three-dimensional way, too: it has a misalignment, of nothing.
-    """
+    """Quasi-static, without friction, on rigid shafts, over the face; line_load N/mm along the line of action."""
     transverse = atan(tan(PRESSURE_ANGLE) / cos(gears.helix_angle))
     base_radius = 0.5 * gears.wheel.teeth * gears.module / cos(gears.helix_angle) * cos(transverse)
     load = Load(line_load * gears.face_width * base_radius)
@@ -52,6 +47,5 @@ def scene_of(gears: GearPairData, accuracy: Accuracy, line_load: float = LINE_LO
 
 
 def in_plane(scene: Scene) -> Scene:
-    """The same pair by the plane route."""
     accuracy = replace(scene.accuracy, slices=None, layers=None, body_element_size=None)
     return replace(scene, misalignment=None, lead_modifications=None, accuracy=accuracy)

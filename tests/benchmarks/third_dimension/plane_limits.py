@@ -52,7 +52,6 @@ def measure() -> list[Row]:
 
 @styled
 def picture(rows: list[Row]) -> Figure:
-    """Mean transmission error over the face width between its two limits."""
     figure = Figure(figsize=(9.0, 4.8), layout="constrained")
     axes = figure.subplots()
     stress, *between, strain = rows
@@ -72,7 +71,6 @@ def picture(rows: list[Row]) -> Figure:
 
 
 def section() -> str:
-    """Picture and table."""
     rows = read_rows(NAME)
     picture(rows).savefig(PICTURES / f"{NAME}.png")
     stress, strain = rows[0], rows[-1]

@@ -13,7 +13,6 @@ NAME, SLICES, LAYERS = "resolved", 16, 8
 
 
 def measure() -> list[Row]:
-    """All analyses of the file; openings by their numbers in OPENINGS."""
     rows: list[Row] = []
     for (helix, phase, opening), found in groupby(
         reference(), key=lambda row: (row.helix_angle, row.phase, row.opening)
@@ -34,7 +33,6 @@ def measure() -> list[Row]:
 
 
 def section() -> str:
-    """Table."""
     lines = []
     for (helix, phase, opening), found in groupby(
         read_rows(NAME), key=lambda row: (row["helix_angle"], row["phase"], row["opening"])

@@ -21,7 +21,6 @@ GEARS = ("pinion", "wheel")
 
 
 def measure() -> list[Row]:
-    """The ladder of helix angles."""
     rows = []
     for degrees in HELIX_ANGLES:
         gears = standard_pair(WIDTH * MODULE, radians(degrees), bore=BORE)
@@ -53,7 +52,6 @@ def measure() -> list[Row]:
 
 
 def section() -> str:
-    """Table."""
     lines = []
     for row in read_rows(NAME):
         older = row["nominal"] * row["form"] * row["correction"] * row["helix_factor"]

@@ -1,11 +1,5 @@
-"""Mesh stiffness over the mesh cycle against the published function of Gu, Velex, Sainsot and Bruyère, at the contact
-ratios of their Fig. 5.
-
-The function needs the two contact ratios alone: 1.667 and 1.343 give that figure's curve. The pair has these by its
-helix angle and its face width. The function is of the mesh; gear bodies give way with it at all phases alike, the less
-the larger their bores are. What elastic coupling along the face does, a mean of plane slices in parallel shows, which
-have none.
-"""
+"""Mesh stiffness over the mesh cycle against the function of Gu, Velex, Sainsot and Bruyère, at the contact ratios
+of their Fig. 5; and a mean of plane slices in parallel, which elastic coupling along the face does not join."""
 
 from dataclasses import replace
 from math import ceil, radians
@@ -101,7 +95,6 @@ def _shares(rows: list[Row]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
 
 @styled
 def picture(rows: list[Row]) -> Figure:
-    """Stiffness over its mean, over the mesh phase."""
     figure = Figure(figsize=(9.0, 4.8), layout="constrained")
     axes = figure.subplots()
     phases, shares = _shares(rows)
@@ -117,7 +110,6 @@ def picture(rows: list[Row]) -> Figure:
 
 
 def section() -> str:
-    """Picture and table."""
     rows = read_rows(NAME)
     picture(rows).savefig(PICTURES / f"{NAME}.png")
     _, shares = _shares(rows)

@@ -9,7 +9,6 @@ Row = dict[str, float]
 
 
 def write_rows(name: str, rows: list[Row]) -> None:
-    """Keep rows in the CSV of a benchmark."""
     PICTURES.mkdir(parents=True, exist_ok=True)
     with open(PICTURES / f"{name}.csv", "w", encoding="utf-8", newline="") as opened:
         writer = csv.DictWriter(opened, list(rows[0]), lineterminator="\n")
@@ -18,11 +17,9 @@ def write_rows(name: str, rows: list[Row]) -> None:
 
 
 def read_rows(name: str) -> list[Row]:
-    """Rows that `write_rows` kept."""
     with open(PICTURES / f"{name}.csv", encoding="utf-8", newline="") as opened:
         return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(opened)]
 
 
 def table(headings: list[str], lines: list[list[str]]) -> list[str]:
-    """Lines of a table."""
     return [f"| {' | '.join(cells)} |" for cells in (headings, ["---"] * len(headings), *lines)]

@@ -1,5 +1,5 @@
-"""Bodies of revolution: by the program's sectors, and by finite elements of the meridian section, one harmonic around
-the axis at a time, an authority that shares nothing with the sectors but the library. Young's modulus 1 MPa."""
+"""Bodies of revolution: by the program's sectors, and by finite elements of the meridian section, one harmonic at a
+time. Young's modulus 1 MPa."""
 
 from math import pi
 from typing import NamedTuple
@@ -27,8 +27,7 @@ SECTORS, ARCS, BORE, OUTER = 24, 6, 20.0, 60.0
 
 
 def ring_sector(rim):
-    """A sector whose centreline stands upright, with its radii from bore to `rim` and to the outer circle; "flank": a
-    part of the latter."""
+    """A sector with an upright centreline, radii from bore to `rim` and outer circle; "flank": a part of the latter."""
     radii = np.concatenate([np.linspace(BORE, rim, 17), np.linspace(rim, OUTER, 4)[1:]])
     angles = 0.5 * pi + pi / SECTORS * np.linspace(-1.0, 1.0, ARCS + 1)
     points = (radii[:, None, None] * np.stack([np.cos(angles), np.sin(angles)], axis=-1)).reshape(-1, 2)
@@ -41,8 +40,7 @@ def ring_sector(rim):
 def motion(rim, width, thickness, order, direction, offset=0.0, hub=0.5 * BORE, layers=4):
     """Heights (h,), and what the outer circle moves there (h, 3), radially, around and along the axis, under forces
     cos(order theta) in a `direction` (3,), of 1 N in every sector and even over the face. A rim of a `width` is on a
-    web of a `thickness` (mm), and that on a `hub` as wide as the rim, if its radius is beyond the bore, which is
-    held."""
+    web of a `thickness` (mm), that on a `hub` as wide as the rim; the bore is held."""
     mesh = ring_sector(rim)
     web = SweptWeb(hub, rim, offset - 0.5 * thickness, offset + 0.5 * thickness)
     sweep = Sweep(layers_with_web(layers_of_face(layers, width), web.low, web.high), 0.0, web)
@@ -65,8 +63,6 @@ def motion(rim, width, thickness, order, direction, offset=0.0, hub=0.5 * BORE, 
 
 
 class Part(NamedTuple):
-    """A ring of rectangular section: radii and heights, mm."""
-
     inner: float
     outer: float
     low: float
@@ -74,15 +70,15 @@ class Part(NamedTuple):
 
 
 def simpson(count):
-    """Weights (count,), whose sum is 1, of nodes at equal distances, of elements of second order."""
+    """Simpson's weights (count,), whose sum is 1."""
     found = np.tile([2.0, 4.0], count)[:count]
     found[[0, -1]] = 1.0
     return found / found.sum()
 
 
 class Meridian:
-    """A body of parts, in squares of second order of a `size` (mm) that divides all of their edges, with u_r = u cos(n
-    theta), u_t = v sin(n theta), u_z = w cos(n theta) of an order n; dofs (u, v, w) by node."""
+    """A body of parts, in squares of second order of a `size` (mm), with u_r = u cos(n theta), u_t = v sin(n theta),
+    u_z = w cos(n theta) of an order n; dofs (u, v, w) by node."""
 
     def __init__(self, parts, order, size):
         edges = np.array(parts)
@@ -100,7 +96,6 @@ class Meridian:
         self.stiffness = assembled(adapter.assemble_matrix(adapter.compile_form(self._energy(space)))).tocsc()
 
     def _energy(self, space):
-        """Of trial and test functions, over the circle."""
         order, radius = self.order, ufl.SpatialCoordinate(space.mesh)[0]
         lame, shear = POISSON / ((1.0 + POISSON) * (1.0 - 2.0 * POISSON)), 0.5 / (1.0 + POISSON)
 
@@ -115,19 +110,18 @@ class Meridian:
         return pi * energy * radius * ufl.dx
 
     def at_radius(self, radius):
-        """Nodes on a cylinder, by height."""
         found = np.flatnonzero(abs(self.nodes[:, 0] - radius) < 1e-9)
         return found[np.argsort(self.nodes[found, 1])]
 
     def even_over(self, radius, component):
-        """Weights of the dofs: what a cylinder moves in a component on the average over its height."""
+        """Weights of the dofs: a cylinder's motion in a component on the average over its height."""
         nodes, found = self.at_radius(radius), np.zeros(3 * len(self.nodes))
         found[3 * nodes + component] = simpson(len(nodes))
         return found
 
     def section_moved(self, height, outer):
-        """The same (2, dofs) of the mean displacement along x of a cross section, as far out as a radius, and of its
-        mean tilt about y; of order 1."""
+        """The same (2, dofs) of the mean displacement along x of a cross section out to a radius, and of its mean
+        tilt about y."""
         nodes = np.flatnonzero((abs(self.nodes[:, 1] - height) < 1e-9) & (self.nodes[:, 0] < outer + 1e-9))
         nodes = nodes[np.argsort(self.nodes[nodes, 0])]
         r = self.nodes[nodes, 0]
@@ -139,8 +133,8 @@ class Meridian:
         return found
 
     def solved(self, loads, held=None, springs=()):
-        """Displacements (dofs, l) under loads (dofs, l), with nodes (n,) of those `held`, on `springs` of a stiffness
-        each, N/mm, against what weights (dofs,) average."""
+        """Displacements (dofs, l) under loads (dofs, l), nodes (n,) `held`, on `springs` of a stiffness each, N/mm,
+        against what weights (dofs,) average."""
         stiffness, free = self.stiffness, np.ones(len(loads), dtype=bool)
         for spring, weights in springs:
             row = scipy.sparse.csc_matrix(weights[:, None])

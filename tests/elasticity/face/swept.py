@@ -1,4 +1,4 @@
-"""Small swept bodies that the tests share, and the rigid motions of one."""
+"""Small swept bodies, and their rigid motions."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -23,18 +23,15 @@ TWISTED = Sweep(np.array([-1.5, 0.0, 1.5]), TWIST)
 
 @lru_cache
 def mesh(both_flanks: bool = False):
-    """Section of the pinion of module one."""
     return sector_mesh(GEAR, replace(SIZES, both_flanks=both_flanks))
 
 
 @lru_cache
 def section():
-    """Its forms."""
     return SectionForms(mesh(), 0.3)
 
 
 def swept_points(section_points: np.ndarray, sweep: Sweep) -> np.ndarray:
-    """Section's points (n, 2) at all heights as (X, Y, z)."""
     return np.vstack(
         [np.column_stack([section_points, np.full(len(section_points), height)]) for height in sweep.heights]
     )
@@ -46,13 +43,11 @@ def in_place(points: np.ndarray, twist: float) -> np.ndarray:
 
 
 def in_frame(displacements: np.ndarray, points: np.ndarray, twist: float) -> np.ndarray:
-    """Displacements (k, 3, j) by their components in the section's frame at the height of each point (X, Y, z), as dofs
-    (3 k, j)."""
+    """Displacements (k, 3, j) by their components in the section's frame at each point's height, as dofs (3 k, j)."""
     return np.concatenate([rotation(twist * point[2], 3).T @ each for point, each in zip(points, displacements)])
 
 
 def rigid_motions(points: np.ndarray, twist: float) -> np.ndarray:
-    """Dofs (3 k, 6) of the six rigid motions of points (X, Y, z)."""
     placed = in_place(points, twist)
     turning = np.stack([np.cross(axis, placed) for axis in np.eye(3)], axis=-1)
     return in_frame(np.concatenate([np.broadcast_to(np.eye(3), turning.shape), turning], axis=-1), points, twist)
@@ -61,8 +56,8 @@ def rigid_motions(points: np.ndarray, twist: float) -> np.ndarray:
 def condense_swept(
     mesh, sweep: Sweep, poissons_ratio: float, lines: dict[str, np.ndarray], held: np.ndarray | None = None
 ) -> CondensedBody:
-    """Brute force: Schur complement of a swept body, not folded, onto surfaces swept from nodes (k, 2) of the section;
-    nodes (j, 2) are held."""
+    """Brute force: Schur complement of a swept body, not folded, onto surfaces swept from nodes (k, 2); nodes (j, 2)
+    are held."""
     section = SectionForms(mesh, poissons_ratio)
     nodes, heights = section.nodes.points, sweep.heights
     surfaces = {name: swept_nodes(nodes, line, len(heights)) for name, line in lines.items()}

@@ -1,4 +1,4 @@
-"""The flank compliance over a face: against brute force, symmetries, and the limits of thin and thick gears."""
+"""The flank compliance over a face."""
 
 from dataclasses import replace
 from math import radians, tan
@@ -25,7 +25,6 @@ from fenics_gears.elasticity.ring import turned_nodes
 from fenics_gears.geometry.outline import centreline_angle
 
 BOTH = Reach(1, (-1, 1))
-COARSEST = FaceDiscretisation(9.0, 1, 3.0, 0.006)
 # Wider than its mate, so that layers are of two thicknesses.
 TWISTED_PINION = FaceDiscretisation(
     2.7, 3, 15.0, tan(radians(15.0)) / PINION.reference_radius, overhang=4.0, overhang_layers=1
@@ -39,7 +38,6 @@ def both():
 
 @pytest.fixture(scope="module")
 def sector() -> SweptSector:
-    """A twisted sector with both flanks."""
     return swept_sector(mesh(both_flanks=True))
 
 
@@ -52,7 +50,7 @@ def flank_nodes(section_mesh, side):
 
 
 def test_the_shapes_of_a_flank_are_all_that_its_cuts_move():
-    """The matrix itself, of a rank that is known, and of full rank."""
+    """The matrix itself, of full rank."""
     numbers = np.random.default_rng(1)
     low, full = numbers.normal(size=(60, 15)) @ numbers.normal(size=(15, 40)), numbers.normal(size=(60, 40))
     for matrix, most in ((low, 25), (low.T, 25), (full, 60)):
@@ -72,15 +70,14 @@ def test_few_teeth_stand_for_many(sector, monkeypatch):
 
 
 def test_a_sector_without_a_neck_is_condensed_whole(sector, monkeypatch):
-    """Two ways to one elimination: tooth and body apart, and both at once."""
+    """Two ways to one elimination."""
     apart = ring_blocks(sector, GEAR.teeth, 1)
     monkeypatch.setattr(tooth_and_body, "_tooth", lambda nodes, half, fold, sweep: np.zeros_like(half))
     assert 0.0 < difference(ring_blocks(swept_sector(mesh(both_flanks=True)), GEAR.teeth, 1), apart) < 1e-10
 
 
 def test_hands_mirror_each_other():
-    """Exact symmetry: z -> -z turns a right-hand gear into a left-hand one; positions along z are even about
-    mid-width."""
+    """Exact symmetry: z -> -z turns hands."""
     right, left = (
         face_compliance(PINION, STEEL, replace(TWISTED_PINION, twist=sign * TWISTED_PINION.twist), Reach(1))
         for sign in (1.0, -1.0)
@@ -93,7 +90,7 @@ def test_hands_mirror_each_other():
 
 
 def even_load(compliance, component):
-    """Compliance (n, n) of the flank's nodes to loads of 1 N/mm, even along the face, mean over the face."""
+    """Compliance (n, n) to loads of 1 N/mm, even along the face, mean over the face."""
     heights, nodes = len(compliance.heights), len(compliance.roll_angle)
     share = np.zeros(heights)
     for layer, thickness in enumerate(np.diff(compliance.heights[::2])):
@@ -104,8 +101,8 @@ def even_load(compliance, component):
 
 @pytest.mark.parametrize(("width", "layers", "limit"), [(0.05, 1, "plane stress"), (270.0, 6, "plane strain")])
 def test_limits_of_a_spur_gear(width, layers, limit):
-    """Theory of elasticity: a thin gear is in plane stress, the plane strain of Poisson's ratio nu/(1 + nu) and modulus
-    E (1 + 2 nu)/(1 + nu)^2."""
+    """Theory of elasticity: a thin gear is in plane stress, the plane strain of nu/(1 + nu) and E (1 + 2 nu)/(1 +
+    nu)^2."""
     body = face_compliance(PINION, STEEL, FaceDiscretisation(2.7, layers, width), Reach(0))
     poisson, factor = STEEL.poissons_ratio, 1.0
     expected = body.plane.blocks[0]
@@ -121,7 +118,7 @@ def test_limits_of_a_spur_gear(width, layers, limit):
 
 
 def test_similar_gears_share_an_entry(both, tmp_path):
-    """Exact scaling: of similar gears displacement per force goes with 1/(E m); lengths go with the module."""
+    """Exact scaling: displacement per force goes with 1/(E m); lengths with the module."""
     twice = replace(
         PINION,
         **{
@@ -157,8 +154,7 @@ def test_impossible_bodies_are_refused(change, message):
 
 
 def test_sector_without_the_symmetry_is_refused(sector):
-    """Half a turn does not map a sector on itself whose coast flank is meshed otherwise than its drive flank, or one of
-    whose cuts is stiffer."""
+    """Half a turn does not map a sector on itself one of whose flanks or cuts differs."""
     with pytest.raises(ComputationError, match="not symmetric"):
         swept_sector(mesh())
     cut, cross = (0.5 * (sector.even.cut + sign * sector.odd.cut) for sign in (1.0, -1.0))

@@ -35,6 +35,6 @@ sys.exit(led(compare))
 @pytest.mark.nightly
 @pytest.mark.parametrize("ranks", [2, 3])
 def test_ranks_give_what_one_gives(tmp_path, ranks):
-    """Who eliminates and inverts which part changes nothing but round-off; rank 0 alone looks into the cache."""
-    (tmp_path / "program.py").write_text(PROGRAM, encoding="utf-8")
+    """Who eliminates which part changes nothing but round-off; rank 0 alone looks into the cache."""
+    (tmp_path / "program.py").write_text(PROGRAM)
     assert f"{ranks} ranks agree" in python("program.py", folder=tmp_path, ranks=ranks).stdout

@@ -1,4 +1,4 @@
-"""Displacement and stress recovered in swept sectors."""
+"""The stiffness of a swept section, and displacement and stress recovered in swept sectors."""
 
 from dataclasses import fields, replace
 from math import radians, tan
@@ -6,15 +6,19 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy import sparse
+from scipy.sparse.linalg import spsolve
 from tests.coarse_sector import PINION, STEEL
 from tests.elasticity.face.swept import SIZES, TWIST, TWISTED, in_frame, in_place, mesh, section, swept_points
 
 from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.condensation import by_radius, condense, dofs_of, without
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-from fenics_gears.elasticity.face.layers import Sweep, SweptWeb
-from fenics_gears.elasticity.face.swept_stiffness import SectionForms
+from fenics_gears.elasticity.face.layers import Sweep, SweptWeb, swept_nodes
+from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 from fenics_gears.elasticity.face.web import webbed_section
+from fenics_gears.elasticity.mesh_data import corner_areas
 from fenics_gears.elasticity.nodal_stress import NodalStress
 from fenics_gears.elasticity.recovery import gear_recovery
 from fenics_gears.elasticity.ring import rotation
@@ -27,21 +31,19 @@ PINION_BODY = FaceDiscretisation(2.7, 2, 15.0, tan(radians(15.0)) / PINION.refer
 
 @pytest.fixture(scope="module")
 def recovery():
-    """The paper's pinion with a helix, coarsely meshed."""
     with gear_recovery(PINION, STEEL, PINION_BODY) as found:
         yield found
 
 
 def test_flanks_move_as_their_compliance_says(recovery):
-    """Identity: what is recovered at the flanks of the loaded tooth and its neighbours is the condensed compliance
-    times the forces."""
+    """Identity: the condensed compliance times the forces, on the loaded tooth and its neighbours."""
     check_flanks(recovery, face_compliance(PINION, STEEL, PINION_BODY, Reach(1)))
 
 
 @pytest.mark.nightly
 @pytest.mark.parametrize("low", [-3.0, -7.5])
 def test_flanks_beside_a_web_move_as_their_compliance_says(low):
-    """The same identity, of a web in the middle and of one at the left end."""
+    """The same, of a web in the middle and of one at the left end."""
     web, width = SweptWeb(18.0, 25.0, low, low + 6.0), PINION_BODY.face_width
     gear = replace(PINION, web=Web(18.0, 25.0, 6.0 / width, offset=(low + 3.0) / width))
     body = replace(PINION_BODY, web=web)
@@ -50,7 +52,6 @@ def test_flanks_beside_a_web_move_as_their_compliance_says(low):
 
 
 def check_flanks(recovery, compliance):
-    """That recovered motions of the flanks are the compliance times the forces."""
     flank = recovery.sector.flank_nodes("flank")
     forces = np.random.default_rng(1).normal(size=(1, len(compliance.heights), len(compliance.roll_angle), 3))
     found = recovery.recovered({0: forces}, range(-1, 2)).displacement.reshape(3, -1, 3)[:, flank].reshape(3, -1)
@@ -59,8 +60,7 @@ def check_flanks(recovery, compliance):
 
 
 def test_loads_of_several_teeth_superpose(recovery):
-    """Linear: two loaded teeth move and are stressed as by each load alone, also where one has the number of a tooth a
-    whole turn on."""
+    """Linear: also where one tooth has the number of a tooth a whole turn on."""
     shape = (1, len(recovery.heights), len(recovery.sector.flank_nodes("flank")) // len(recovery.heights), 3)
     one, other = np.random.default_rng(2).normal(size=(2, *shape))
     together = recovery.recovered({0: one, 1 + PINION.teeth: other}, range(2))
@@ -71,7 +71,7 @@ def test_loads_of_several_teeth_superpose(recovery):
 
 
 def webbed():
-    """The pinion of module one with a web from its one end, twisted: forms, mesh and sweep."""
+    """The pinion of module one with a web from its one end, twisted."""
     gear = replace(PINION, web=Web(18.0, 25.0, 0.25)).of_module_one
     web = SweptWeb(gear.web.hub_radius, gear.web.rim_radius, -1.5, -0.5)
     mesh = webbed_section(gear, SIZES)
@@ -80,8 +80,7 @@ def webbed():
 
 @pytest.mark.parametrize("with_web", [False, True])
 def test_uniform_strain_has_its_stress(with_web):
-    """Exact: a displacement linear in space has one stress at all nodes of a twisted body, Hooke's, turned into each
-    height's frame; beside a web, where there is material."""
+    """Exact: Hooke's stress of a displacement linear in space, at all nodes, turned into each height's frame."""
     forms, _, sweep = webbed() if with_web else (section(), mesh(), TWISTED)
     there = forms.material(sweep)
     points = swept_points(forms.nodes.points, sweep)
@@ -100,8 +99,7 @@ def test_uniform_strain_has_its_stress(with_web):
 
 
 def test_the_surface_beside_a_web_encloses_its_body():
-    """Divergence theorem: the surface of all sectors, seen from outside, encloses the volume of the layers' cells; as
-    many wedges are written as there are cells."""
+    """Divergence theorem: the volume of the layers' cells; as many wedges as cells."""
     forms, mesh, sweep = webbed()
     nodes, sweep = forms.nodes, replace(sweep, twist=0.0)
     in_web, beside = layers_of(SimpleNamespace(section=nodes, sweep=sweep, mesh=mesh))
@@ -117,3 +115,62 @@ def test_the_surface_beside_a_web_encloses_its_body():
     volume = len(teeth) * (layers @ sweep.thicknesses)
     assert np.einsum("ki,ki->", a, np.cross(b, c)) / 6.0 == pytest.approx(volume, rel=1e-12)
     assert len(wedges(gear)) == len(teeth) * (len(nodes.cells) + len(beside[0].cells))
+
+
+def relative(difference, reference) -> float:
+    return float(abs(difference).max() / abs(reference).max())
+
+
+@pytest.mark.parametrize("twist", [0.0, TWIST])
+def test_patch_test(twist):
+    """Patch test, Irons and Razzaque 1972: a uniform strain leaves every inner node without force."""
+    sweep, nodes = Sweep(np.linspace(-1.5, 1.5, 4), twist), section().nodes
+    points = swept_points(nodes.points, sweep)
+    gradient = np.random.default_rng(1).normal(size=(3, 3))
+    forces = swept_stiffness(section(), sweep) @ in_frame(
+        (in_place(points, twist) @ gradient.T)[:, :, None], points, twist
+    )
+    inner = np.setdiff1d(np.arange(len(nodes.points)), nodes.boundary_sides)
+    assert abs(forces.reshape(-1, len(nodes.points), 3)[1:-1, inner]).max() < 1e-12 * abs(forces).max()
+
+
+@pytest.mark.parametrize("twist", [0.0, TWIST])
+def test_energy_of_uniform_strain(twist):
+    """Exact: energy density times volume, which parabolas make smaller by turn^4 / 480 (integral of abs(w)^2)."""
+    sweep = Sweep(np.linspace(-1.5, 1.5, 4), twist)
+    points = swept_points(section().nodes.points, sweep)
+    strain = np.diag([1.0, -0.4, 0.7]) + 0.3 * (np.ones((3, 3)) - np.eye(3))
+    dofs = in_frame((in_place(points, twist) @ strain)[:, :, None], points, twist)
+    area = 0.5 * corner_areas(mesh().points, mesh().cells)[:, 0].sum()
+    first_lame, shear = 0.3 / (1.3 * 0.4), 1.0 / 2.6
+    density = 0.5 * first_lame * np.trace(strain) ** 2 + shear * (strain**2).sum()
+    energy = 0.5 * (dofs.T @ (swept_stiffness(section(), sweep) @ dofs)).item()
+    assert energy == pytest.approx(3.0 * area * density * (1.0 - twist**4 / 480.0), rel=1e-10)
+
+
+def test_body_without_variation_along_the_face_is_the_plane_section():
+    """Exact identity: with u_z held and even loads, plane strain of the section's own mesh."""
+    sweep, nodes = Sweep(np.array([-1.5, -1.0, 0.2, 1.5])), section().nodes.points
+    hub = mesh().edge_nodes("hub", ELEMENT.order)
+    flank = by_radius(without(mesh().edge_nodes("flank", ELEMENT.order), hub))
+    plane = condense(mesh(), ELEMENT, 0.3, {"flank": flank, "hub": hub})
+    expected = np.linalg.inv(plane.between("flank", "flank"))
+    heights = len(sweep.heights)
+    at = swept_nodes(nodes, flank, heights)
+    # A load of 1 per length on a node of the section is, at the nodes' heights, the integral of each shape function.
+    share = np.zeros(heights)
+    for layer, thickness in enumerate(np.diff(sweep.boundaries)):
+        share[2 * layer : 2 * layer + 3] += thickness * np.array([1.0, 4.0, 1.0]) / 6.0
+    free = np.ones((heights * len(nodes), 3), dtype=bool)
+    free[:, 2], free[swept_nodes(nodes, hub, heights)] = False, False
+    free = np.flatnonzero(free.ravel())
+    loads = np.zeros((3 * heights * len(nodes), 2 * len(flank)))
+    loads[dofs_of(at, 3).reshape(heights, -1, 3)[:, :, :2].reshape(heights, -1)] = share[:, None, None] * np.eye(
+        2 * len(flank)
+    )
+    solved = np.zeros_like(loads)
+    solved[free] = spsolve(
+        swept_stiffness(section(), sweep)[free][:, free].tocsc(), sparse.csc_matrix(loads[free])
+    ).toarray()
+    for height in solved[dofs_of(at, 3)].reshape(heights, len(flank), 3, -1)[:, :, :2]:
+        assert relative(height.reshape(2 * len(flank), -1) - expected, expected) < 1e-8

@@ -1,4 +1,4 @@
-"""A wheel with web on an elastic shaft, by the program's parts, against one solid of shaft, hub, web and rim."""
+"""A wheel with web on an elastic shaft, by the program's parts, against one solid."""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -38,7 +38,6 @@ class Wheel(NamedTuple):
     offset: float = 6.0
 
     def rings(self):
-        """Radii and heights, from mid-width, of hub, web and rim."""
         half, thick = 0.5 * self.face, 0.5 * self.web
         web = (HUB, RIM, self.offset - thick, self.offset + thick)
         return (BORE, HUB, -half, half), web, (RIM, OUTER, -half, half)
@@ -48,8 +47,8 @@ WHEELS = {"web": Wheel(), "wide": Wheel(48.0, 8.0, 12.0), "disc": Wheel(FACE, FA
 
 
 def by_solid(name, size=1.0, wheel=Wheel()):
-    """Of the solid: AXIS, as means over a section of the shaft in the middle of the face; RIM_MOVES: on the average
-    over the face, and as slope over it, what the rim moves radially under the force, and its slope under the moment."""
+    """AXIS of the solid, as means over a section of the shaft in the middle of the face; RIM_MOVES: the rim's mean
+    radial motion and slope over the face under the force, and its slope under the moment."""
     at, bearings = SHAFTS[name]
     parts = [Part(INNER, BORE, 0.0, LENGTH)]
     parts += [Part(inner, outer, at + low, at + high) for inner, outer, low, high in wheel.rings()]
@@ -67,21 +66,19 @@ def by_solid(name, size=1.0, wheel=Wheel()):
 
 
 def shaft_of(name, sections, seat):
-    """The program's shaft, with a seat over a width (mm)."""
     at, bearings = SHAFTS[name]
     held = tuple(Bearing(each, BEARING, 1.0) for each in bearings)
     return ElasticShaft("wheel", sections, (1.0, POISSON), at, seat, 0.0, held)
 
 
 def axis(name, sections, seat):
-    """AXIS by the program, with a seat that is rigid over a width (mm)."""
     moved = np.linalg.inv(shaft_of(name, sections, seat).stiffness)
     return dict(zip(AXIS, (FORCE * moved[0, 0], FORCE * moved[4, 0], -MOMENT * moved[4, 4])))
 
 
 def by_program(name, wheel=Wheel(), press_fit=False):
-    """As `by_solid`: the body on its bore, and the shaft under that with a seat that is rigid over the face, or with
-    what hub and shaft give way there besides (RIM_MOVES alone)."""
+    """As `by_solid`: the body on its bore, and the shaft under that with a rigid seat, or with what hub and shaft
+    give way there besides (RIM_MOVES alone)."""
     found = axis(name, PLAIN, wheel.face)
     radial, axial, layers = *np.eye(3)[[0, 2]], round(wheel.face / LAYER)
     own, four, tilted = (
@@ -106,7 +103,7 @@ def by_program(name, wheel=Wheel(), press_fit=False):
 
 
 def with_cones(name):
-    """Sections of a shaft that is as thick as the hub but for cones of 45 degrees at both ends of the face."""
+    """A shaft as thick as the hub but for cones of 45 degrees at both ends of the face."""
     low, rise = SHAFTS[name][0] - 0.5 * FACE, HUB - BORE
     thick, thin = 2.0 * HUB, 2.0 * BORE
     return tuple(
@@ -127,8 +124,8 @@ PLAIN = (ShaftSection(LENGTH, 2.0 * BORE, bore=2.0 * INNER),)
 @pytest.mark.nightly
 @pytest.mark.parametrize("name", SHAFTS)
 def test_the_axis_of_a_solid_is_between_a_rigid_seat_and_none(name):
-    """Authority: finite elements of the solid's meridian section. A rigid seat gives way too little, a shaft that bends
-    under the face as beside it too much; the hub helps the shaft as cones of 45 degrees do."""
+    """Finite elements of the meridian: a rigid seat gives way too little, a shaft that bends as beside it too much;
+    the hub helps as cones of 45 degrees do."""
     solid, rigid, free, cones = (
         by_solid(name), axis(name, PLAIN, FACE), axis(name, PLAIN, 0.0), axis(name, with_cones(name), 0.0)
     )  # fmt: skip
@@ -141,8 +138,8 @@ def test_the_axis_of_a_solid_is_between_a_rigid_seat_and_none(name):
 
 @pytest.mark.nightly
 def test_an_overhung_wheel_with_web_on_a_rigid_seat_against_one_solid():
-    """Authority: as above; where the shaft bends beside the gear, not under it, axis and rim are within 2 %; so is
-    the rim's slope, what axis and web make of it against each other, by the axis's."""
+    """As above: where the shaft bends beside the gear axis and rim are within 2 %; so is the rim's slope, by the
+    axis's."""
     solid, found = by_solid("overhung"), by_program("overhung")
     for each in ("offset", "inclination", "rim"):
         assert found[each] == pytest.approx(solid[each], rel=0.02)
@@ -159,9 +156,8 @@ def test_an_overhung_wheel_with_web_on_a_rigid_seat_against_one_solid():
     ],
 )
 def test_a_press_fit_gives_way_as_one_solid_does(name, wheel, of_slope):
-    """Authority: as above. Mean of the rim within 1 %, slope under the moment within 2 %; the slope under a force, what
-    axis and web make of it against each other, within 2 % of the larger of itself and the axis's. On the wide face it
-    is 3.0 % off with layers of 6 mm, 2.2 % with these of 3 mm, and 1.3 % with a body of revolution for the sectors."""
+    """As above: mean of the rim within 1 %, slopes within 2 %, under a force of the larger of itself and the axis's.
+    On the wide face that is 3.0 % off with layers of 6 mm, 2.2 % with these of 3 mm."""
     solid, found = by_solid(name, wheel=WHEELS[wheel]), by_program(name, WHEELS[wheel], press_fit=True)
     assert found["rim"] == pytest.approx(solid["rim"], rel=0.01)
     assert found["slope by moment"] == pytest.approx(solid["slope by moment"], rel=0.02)
@@ -171,7 +167,7 @@ def test_a_press_fit_gives_way_as_one_solid_does(name, wheel, of_slope):
 
 @pytest.mark.nightly
 def test_finer_elements_of_the_solid_change_little():
-    """By refinement: squares of half the size."""
+    """Squares of half the size."""
     assert by_solid("overhung", 0.5) == pytest.approx(by_solid("overhung"), rel=2e-3)
 
 
@@ -180,8 +176,8 @@ OF_TEETH, SLICE = 14.7, 2.0
 
 
 def load_factor(compliance):
-    """Largest over mean line load between a rigid counterpart and slices (s,) that only press, whose rim moves so
-    (s, s) along the line of action per force."""
+    """Largest over mean line load between a rigid counterpart and slices (s,) that only press and move so (s, s) per
+    force."""
     size, pressed = len(compliance), np.ones(len(compliance), dtype=bool)
     whole = compliance + OF_TEETH / SLICE * np.eye(size)
     while True:
@@ -195,8 +191,7 @@ def load_factor(compliance):
 @pytest.mark.nightly
 @pytest.mark.parametrize("name", SHAFTS)
 def test_the_line_load_of_a_press_fit_is_that_of_one_solid(name):
-    """Authority: as above, with the force in each slice of the face alone: K_Hbeta within 2 %, where a rigid seat is
-    further off if the shaft bends under the hub."""
+    """As above, with the force in each slice alone: K_Hbeta within 2 %, where a rigid seat is further off."""
     (at, bearings), wheel = SHAFTS[name], Wheel()
     z = np.linspace(-0.5, 0.5, round(2.0 * FACE) + 1) * FACE
     slices, points = round(FACE / SLICE), round(2.0 * SLICE)

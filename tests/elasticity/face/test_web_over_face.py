@@ -1,4 +1,4 @@
-"""Gears with a web over the face: against bodies without one, exact solutions of plates and rings, and symmetries."""
+"""Gears with a web over the face."""
 
 from dataclasses import replace
 from math import pi
@@ -21,7 +21,6 @@ WEB = Web(18.0, 25.0, 0.4)
 
 
 def body(web=None, twist=0.0, reach=BOTH):
-    """The compliance of the paper's pinion on a coarse mesh."""
     gear, swept = PINION if web is None else replace(PINION, web=web), None
     if web is not None:
         sides = (WIDTH * (web.offset + side * web.share) for side in (-0.5, 0.5))
@@ -30,7 +29,7 @@ def body(web=None, twist=0.0, reach=BOTH):
 
 
 def under_even_load(found):
-    """Mean displacement (mm/N) of the drive flank along y under a force spread over it."""
+    """Mean displacement (mm/N) of the drive flank along y."""
     dofs = 3 * len(found.roll_angle) * len(found.heights)
     along = np.zeros(dofs)
     along[1::3] = 3.0 / dofs
@@ -43,19 +42,12 @@ def centred():
 
 
 def test_a_web_as_wide_as_the_face_is_the_gear_without_one():
-    """Identity, but for the mesh below the rim, which is another one: measured, 2e-5."""
+    """Identity, but for another mesh below the rim: measured, 2e-5."""
     assert under_even_load(body(Web(18.0, 25.0, 1.0))) == pytest.approx(under_even_load(body()), rel=1e-4)
 
 
-@pytest.mark.nightly
-def test_a_web_makes_the_gear_softer_the_more_the_farther_it_is_off():
-    """Less material gives way more, and a web towards one end tilts."""
-    offsets = [under_even_load(body(each, reach=Reach(0))) for each in (None, WEB, replace(WEB, offset=0.2))]
-    assert offsets[1] > 1.2 * offsets[0] and offsets[2] > 1.1 * offsets[1]
-
-
 def test_the_whole_sector_is_the_two_halves(centred, monkeypatch):
-    """The folded sector and its real harmonics are the authority for the whole one and its complex harmonics."""
+    """The folded sector and its real harmonics."""
     monkeypatch.setattr(Sweep, "alike", property(lambda sweep: False))
     whole = body(WEB, 0.01)
     np.testing.assert_allclose(whole.blocks, centred.blocks, rtol=0.0, atol=1e-9 * abs(centred.blocks).max())
@@ -63,7 +55,7 @@ def test_the_whole_sector_is_the_two_halves(centred, monkeypatch):
 
 @pytest.mark.nightly
 def test_webs_towards_either_end_mirror_each_other():
-    """z to -z, and the twist reversed: a plane of symmetry."""
+    """Symmetry: z to -z, the twist reversed."""
     left, right = (body(replace(WEB, offset=side), 0.05 * side, Reach(1)) for side in (-0.2, 0.2))
     dofs = np.arange(len(left.blocks[0])).reshape(len(left.heights), -1, 3)[::-1].ravel()
     signs = np.tile([1.0, 1.0, -1.0], len(dofs) // 3)
@@ -84,22 +76,22 @@ def test_expected_size_of_a_body_with_a_web(web):
 
 
 def test_layers_end_at_the_sides_of_a_web():
-    """Meaning: its sides are boundaries, two layers or more are within it, and none is a needle beside it."""
+    """Definition: sides are boundaries, two layers or more are within, none is a needle beside it."""
     found = layers_with_web(layers_of_face(10, 30.0), -1.1, 3.1)
     assert {-1.1, 3.1, -15.0, 15.0} <= set(found) and 3.0 not in found and 0.0 in found
     assert layers_with_web(layers_of_face(3, 30.0), 1.0, 2.0).tolist() == [-15.0, -5.0, 1.0, 1.5, 2.0, 5.0, 15.0]
 
 
 def moved(rim, width, thickness, order, radial, offset=0.0):
-    """The same on average over the face, in the forces' direction, radial or along the axis."""
+    """On average over the face, in the forces' direction, radial or along the axis."""
     direction = np.array([1.0, 0.0, 0.0] if radial else [0.0, 0.0, 1.0])
     heights, found = motion(rim, width, thickness, order, direction, offset)
     return slice_averages(heights, 2, np.zeros(1), np.array([width]))[0] @ found @ direction
 
 
 def plate_edge(order, thickness, radius):
-    """Forces (2, 2) on the edge of a plate, clamped at the bore, by its deflection and its slope there, those of a
-    harmonic; the classical theory of thin plates: w = sum of c_i R_i(r) cos(order theta)."""
+    """Forces (2, 2) on the edge of a thin plate, clamped at the bore, by its deflection and slope there: w = sum of
+    c_i R_i(r) cos(order theta)."""
     stiff, nu = thickness**3 / (12.0 * (1.0 - POISSON**2)), POISSON
     # Powers of r, and whether times ln r.
     kinds = [(0, 0), (0, 1), (2, 0), (2, 1)] if order == 0 else [(1, 0), (-1, 0), (3, 0), (1, 1)]
@@ -126,8 +118,8 @@ def plate_edge(order, thickness, radius):
 
 @pytest.mark.parametrize("order", [0, 1])
 def test_a_disk_under_an_axial_force_and_under_a_moment_at_its_rim(order):
-    """Authority: thin plates (Timoshenko and Woinowsky-Krieger, chapter 9), with the rim as a ring that bends and
-    twists (Roark's formulas). Force along the axis (0); tilting moment (1)."""
+    """Thin plates (Timoshenko and Woinowsky-Krieger, chapter 9), the rim a ring that bends and twists (Roark). Force
+    along the axis (0); tilting moment (1)."""
     rim, width, thickness, depth = 56.0, 12.0, 1.0, 4.0
     middle = 0.5 * (rim + OUTER)
     bending, torsion = (
@@ -144,8 +136,8 @@ def test_a_disk_under_an_axial_force_and_under_a_moment_at_its_rim(order):
 
 
 def annuli(circles, widths, order, load):
-    """Radial displacement of the outermost of circles under a harmonic radial `load` (N/mm of arc) there, the innermost
-    held: plane stress, exact in each annulus (Michell), u_r = sum of U r^s cos, u_t = sum of V r^s sin."""
+    """Radial displacement of the outermost circle under a harmonic radial `load` (N/mm of arc), the innermost held:
+    plane stress, exact in each annulus (Michell), u_r = sum of U r^s cos, u_t = sum of V r^s sin."""
     stiff, shear, n = 1.0 / (1.0 - POISSON**2), 0.5 / (1.0 + POISSON), order
     powers, columns = [n + 1, n - 1, 1 - n, -n - 1], []
     for s in powers:
@@ -176,8 +168,7 @@ def annuli(circles, widths, order, load):
 @pytest.mark.nightly
 @pytest.mark.parametrize("thickness", [1e-3, 1.0])
 def test_a_ring_that_is_nearly_free_and_one_on_a_web_that_becomes_oval(thickness):
-    """Authority: plane stress, exact; with next to no web that is a free ring, whose curved beam has the radial
-    displacement q R^4/(9 E I) by a load q cos(2 theta). The thinner web is a tenth of the thinnest of a scene."""
+    """Plane stress, exact; a free ring's curved beam has q R^4/(9 E I) by a load q cos(2 theta)."""
     rim, width, load = 54.0, 4.0, SECTORS / (2.0 * pi * OUTER)
     middle = 0.5 * (rim + OUTER)
     beam = load * OUTER / middle * middle**4 / (9.0 * width * (OUTER - rim) ** 3 / 12.0)
@@ -189,8 +180,7 @@ def test_a_ring_that_is_nearly_free_and_one_on_a_web_that_becomes_oval(thickness
 
 
 def resolved(rim, width, thickness, order, offset, size=0.5):
-    """Heights (k,), and radial displacement (k,) of the outer circle as `motion` has it under radial forces, by an
-    assembly of its own."""
+    """Heights (k,), and radial displacement (k,) of the outer circle under radial forces, by an assembly of its own."""
     web = Part(BORE, rim, offset - 0.5 * thickness, offset + 0.5 * thickness)
     body = Meridian([web, Part(rim, OUTER, -0.5 * width, 0.5 * width)], order, size)
     # Half the sectors' forces, since the mean of cos^2 is 1/2.
@@ -202,8 +192,7 @@ def resolved(rim, width, thickness, order, offset, size=0.5):
 @pytest.mark.nightly
 @pytest.mark.parametrize("offset", [0.0, 3.0])
 def test_a_rim_on_a_web_against_a_resolved_model(offset):
-    """Authority: finite elements of a meridian section by harmonics, which share nothing with the sectors but the
-    library. Bending and tilting of the rim by radial forces, 2 %; the difference of two harmonics as for the ring."""
+    """Finite elements of a meridian section by harmonics: bending and tilting of the rim, 2 %."""
     rim, width, thickness, radial = 54.0, 12.0, 3.0, np.array([1.0, 0.0, 0.0])
     means, tilts = [], []
     for order in (1, 2, 4):

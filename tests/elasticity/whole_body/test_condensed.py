@@ -1,17 +1,23 @@
-"""A gear meshed as a whole and condensed by its teeth: equal to a ring of sectors where it is one, to brute force where
-it is not."""
+"""A gear meshed as a whole and condensed by its teeth, by meshes as a user makes them in gmsh too."""
 
+import gmsh
 import numpy as np
 import pytest
 from tests.coarse_sector import COARSE, PINION, STEEL, coarse_condensed_sector, coarse_sector_mesh, relative
 from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
 from fenics_gears import ComputationError
+from fenics_gears.elasticity.body_mesh_file import read_body_mesh
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.element_sizes import Discretisation
+from fenics_gears.elasticity.gear_compliance import flank_compliance
+from fenics_gears.elasticity.gmsh_session import start
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import ring_compliance, rotation
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.outline import whole_body
+from fenics_gears.geometry.outline import tooth_outline
 from meshes.root_crack import RootCrack, cracked_gear_mesh
 
 
@@ -22,7 +28,7 @@ def standing_anywhere(mesh: BodyMesh) -> BodyMesh:
 
 @pytest.mark.parametrize("name", ["P2", "Q1 incompatible"])
 def test_a_whole_gear_of_equal_teeth_is_a_ring_of_sectors(name):
-    """Exact identity: the same mesh, once as a ring, once as a whole whose flanks had to be found."""
+    """Exact identity: the same mesh, whose flanks had to be found."""
     body = whole_body(standing_anywhere(whole_gear_mesh(coarse_sector_mesh(name), PINION.teeth)), PINION)
     found = whole_body_compliance(body.mesh, PINION, STEEL, element=name, tooth_offsets=2)
     ring = ring_compliance(coarse_condensed_sector(name), PINION.teeth, 2) / STEEL.youngs_modulus
@@ -35,7 +41,7 @@ def test_a_whole_gear_of_equal_teeth_is_a_ring_of_sectors(name):
 
 
 def test_a_cracked_gear_equals_brute_force():
-    """Exact identity: the whole gear's stiffness condensed at once, for the cracked tooth and its neighbours loaded."""
+    """Exact identity: the whole gear condensed at once."""
     body = whole_body(cracked_gear_mesh(PINION, COARSE, {8: RootCrack(3.0)}), PINION)
     found = whole_body_compliance(body.mesh, PINION, STEEL, element="P1", tooth_offsets=2)
     for loaded in (7, 8):
@@ -49,7 +55,7 @@ def test_a_cracked_gear_equals_brute_force():
 
 @pytest.mark.nightly
 def test_the_cache_knows_a_body_by_its_mesh(tmp_path):
-    """What is kept is what was computed, in another material too; a point moved by a hair is another body."""
+    """The same in another material; a point moved by a hair is another body."""
     mesh = whole_body(whole_gear_mesh(coarse_sector_mesh("P1"), PINION.teeth), PINION).mesh
     options = {"element": "P1", "tooth_offsets": 1, "cache": Cache(tmp_path)}
     first = whole_body_compliance(mesh, PINION, STEEL, **options)
@@ -63,3 +69,107 @@ def test_the_cache_knows_a_body_by_its_mesh(tmp_path):
     assert not whole_body_compliance(BodyMesh(points, mesh.cells, mesh.edges), PINION, STEEL, **options).timings[
         "from_cache"
     ]
+
+
+HOLE_RADIUS, HOLE_CIRCLE = 2.5, 22.0
+
+
+def gear_in_gmsh(path, holes: int = 0, standing: float = 0.4) -> None:
+    """The pinion's outline turned by an angle (rad), with round `holes` in its web."""
+    outline, turned = tooth_outline(PINION, 12), rotation(standing)
+    flank = outline.involute(np.linspace(PINION.form_roll_angle, PINION.tip_roll_angle, 16))
+    drive = np.vstack([outline.fillet[:-1], flank])
+    tooth = np.vstack([outline.coast(drive), drive[::-1]]) @ turned.T
+    start(gmsh)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        geo, corners = gmsh.model.geo, []
+        for number in range(PINION.teeth):
+            for x, y in tooth @ rotation(number * PINION.angular_pitch).T:
+                corners.append(geo.addPoint(x, y, 0.0, 0.7))
+        lines = [geo.addLine(a, b) for a, b in zip(corners, corners[1:] + corners[:1])]
+        loops = [geo.addCurveLoop(lines), circle(geo, (0.0, 0.0), PINION.bore_radius, 3.0)]
+        for number in range(holes):
+            angle = standing + 2.0 * np.pi * number / holes - 0.5 * np.pi
+            loops.append(circle(geo, HOLE_CIRCLE * np.array([np.cos(angle), np.sin(angle)]), HOLE_RADIUS, 1.2))
+        geo.addPlaneSurface(loops)
+        geo.synchronize()
+        for line in lines:
+            gmsh.model.mesh.setTransfiniteCurve(line, 2)
+        gmsh.model.mesh.generate(2)
+        gmsh.write(str(path))
+    finally:
+        gmsh.finalize()
+
+
+def written_as(version: float, binary: bool, source, path) -> None:
+    start(gmsh)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(str(source))
+        gmsh.option.setNumber("Mesh.MshFileVersion", version)
+        gmsh.option.setNumber("Mesh.Binary", int(binary))
+        gmsh.write(str(path))
+    finally:
+        gmsh.finalize()
+
+
+def circle(geo, centre, radius: float, size: float) -> int:
+    middle = geo.addPoint(*centre, 0.0)
+    angles = 0.5 * np.pi * np.arange(4)
+    points = [geo.addPoint(centre[0] + radius * np.cos(a), centre[1] + radius * np.sin(a), 0.0, size) for a in angles]
+    return geo.addCurveLoop([geo.addCircleArc(a, middle, b) for a, b in zip(points, points[1:] + points[:1])])
+
+
+def bending(rolls: np.ndarray, block: np.ndarray) -> float:
+    """Work of a smooth load of 1 N/mm about the middle of a flank."""
+    weight = np.exp(-(((rolls - 0.45) / 0.12) ** 2)) * np.gradient(rolls**2)
+    load = (weight[:, None] * np.column_stack([np.cos(rolls), -np.sin(rolls)]) / weight.sum()).ravel()
+    return float(load @ block @ load)
+
+
+def compliance_of(path):
+    mesh = whole_body(read_body_mesh(path), PINION).mesh
+    return whole_body_compliance(mesh, PINION, STEEL, tooth_offsets=1)
+
+
+@pytest.fixture(scope="module")
+def solid_file(tmp_path_factory):
+    path = tmp_path_factory.mktemp("gmsh") / "gear.msh"
+    gear_in_gmsh(path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def solid(solid_file):
+    return compliance_of(solid_file)
+
+
+def test_a_solid_gear_meshed_as_a_whole_has_the_compliance_of_a_ring(solid):
+    """The ring of sectors: all 16 unlike meshes of teeth within 0.2 %, the error of straight sides along fillets."""
+    ring = flank_compliance(PINION, STEEL, Discretisation("P2", 0.3), Reach(1))
+    own, beside = (bending(ring.roll_angle, ring.block(ahead)) for ahead in (0, 1))
+    for tooth in range(PINION.teeth):
+        assert bending(solid.rolls_of(tooth), solid.between(tooth, tooth)) == pytest.approx(own, rel=2e-3)
+        assert bending(solid.rolls_of(tooth), solid.between(tooth + 1, tooth)) == pytest.approx(beside, rel=1e-2)
+
+
+@pytest.mark.nightly
+def test_holes_in_the_web_soften_the_teeth_above_them(solid, tmp_path):
+    """Eight holes under sixteen teeth: every second tooth is alike, all are softer."""
+    gear_in_gmsh(tmp_path / "gear.msh", holes=8)
+    pierced, whole = (
+        np.array([bending(body.rolls_of(tooth), body.between(tooth, tooth)) for tooth in range(PINION.teeth)])
+        for body in (compliance_of(tmp_path / "gear.msh"), solid)
+    )
+    assert (pierced > 1.005 * whole).all()
+    for first in (0, 1):
+        assert np.ptp(pierced[first::2]) < 2e-3 * pierced.mean()
+    assert abs(pierced[0] - pierced[1]) > 5e-3 * pierced.mean()
+
+
+def test_another_format_of_gmsh_is_read(solid_file, tmp_path):
+    """Exact, but for the digits that are written."""
+    written_as(2.2, True, solid_file, tmp_path / "gear.msh")
+    found, expected = (read_body_mesh(path) for path in (tmp_path / "gear.msh", solid_file))
+    assert np.array_equal(found.cells, expected.cells) and np.abs(found.points - expected.points).max() < 1e-12

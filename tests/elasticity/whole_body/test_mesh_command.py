@@ -1,5 +1,4 @@
-"""`python -m meshes.cracked_gear` writes what a scene can name, and says what it cannot do; the mesh that lies in the
-repository is such a one."""
+"""`python -m meshes.cracked_gear`, and the mesh in the repository."""
 
 from pathlib import Path
 
@@ -17,7 +16,7 @@ SCENE = ROOT / "demos" / "lundvall2004.toml"
 
 
 def cracked_tooth(mesh, gear) -> int:
-    """The tooth, counted counter-clockwise, whose sector has the crack's points; -1 without a crack."""
+    """The tooth whose sector has the crack's points; -1 without."""
     faces = crack_faces(mesh)
     if not faces:
         return -1
@@ -28,7 +27,7 @@ def cracked_tooth(mesh, gear) -> int:
 
 
 def test_the_repositorys_mesh_is_the_papers_pinion_with_its_ninth_tooth_cracked():
-    """What the demonstration says of it: 3 mm in tooth 8."""
+    """The demonstration: 3 mm in tooth 8."""
     pair = model_of(load_scene(SCENE)).pair
     mesh = whole_body(read_body_mesh(ROOT / "meshes" / "cracked_pinion.msh"), pair.pinion).mesh
     assert cracked_tooth(mesh, pair.pinion) == 8
@@ -45,7 +44,7 @@ def test_the_repositorys_mesh_is_the_papers_pinion_with_its_ninth_tooth_cracked(
     [("wheel", 23, "0.1 in", 23), pytest.param("wheel", 0, None, -1, marks=pytest.mark.nightly)],
 )
 def test_a_mesh_is_written_for_either_gear(gear, tooth, depth, found, tmp_path, capsys):
-    """The file is the gear, read back; the command says how large it is."""
+    """The file read back; its size is told."""
     file = tmp_path / "gear.msh"
     words = [str(SCENE), str(file), "--gear", gear, "--tooth", str(tooth), "--flank-size", "0.8 mm"]
     assert main(words + (["--depth", depth] if depth else [])) == 0
@@ -64,14 +63,14 @@ def test_a_mesh_is_written_for_either_gear(gear, tooth, depth, found, tmp_path, 
     ],
 )
 def test_what_cannot_be_meshed_is_said_and_nothing_written(words, message, tmp_path, capsys):
-    """Exit code 2, as of the program's own commands."""
+    """Exit code 2."""
     file = tmp_path / "gear.msh"
     assert main([str(SCENE), str(file), *words]) == 2
     assert message in capsys.readouterr().err and not file.exists()
 
 
 def test_other_endings_and_elements_are_refused(tmp_path, capsys):
-    """gmsh would write another format by another name; meshes have triangles."""
+    """gmsh would write another format by another name."""
     assert main([str(SCENE), str(tmp_path / "gear.vtk")]) == 2
     assert "must end in .msh" in capsys.readouterr().err
     text = SCENE.read_text().replace('element = "P2"', 'element = "Q2"')

@@ -1,4 +1,4 @@
-"""Bore and flanks are found in any mesh of the gear, and whatever is no such mesh is named for what it is."""
+"""Bore and flanks are found in any mesh of the gear; what is no such mesh is named."""
 
 from dataclasses import replace
 
@@ -28,7 +28,7 @@ def unnamed(mesh: BodyMesh, points: np.ndarray | None = None) -> BodyMesh:
 
 @pytest.mark.parametrize("angle", [0.0, 0.15, -0.19, 0.3, 2.0, -3.0])
 def test_the_outline_is_found_at_any_angle_and_tooth_0_is_the_nearest(whole, angle):
-    """Exact: the sides that the mesh was made with; the mesh is turned back by less than half a pitch."""
+    """Exact: the sides that the mesh was made with."""
     found = whole_body(unnamed(whole, whole.points @ rotation(angle).T), PINION).mesh
     pitch = PINION.angular_pitch
     steps = round(angle / pitch)
@@ -48,21 +48,20 @@ def without_cells(mesh: BodyMesh, gone: np.ndarray) -> BodyMesh:
 
 
 def cut_off(mesh: BodyMesh) -> BodyMesh:
-    """A tooth that is left, but holds on to nothing."""
+    """A tooth that holds on to nothing."""
     centre = mesh.points[mesh.cells].mean(axis=1)
     radius, angle = np.linalg.norm(centre, axis=1), np.arctan2(centre[:, 1], centre[:, 0])
     return without_cells(mesh, (np.abs(radius - 31.5) < 1.5) & (np.abs(angle + 1.7) < 0.25))
 
 
 def broken_off(mesh: BodyMesh) -> BodyMesh:
-    """A tooth that is gone."""
     centre = mesh.points[mesh.cells].mean(axis=1)
     radius, angle = np.linalg.norm(centre, axis=1), np.arctan2(centre[:, 1], centre[:, 0])
     return without_cells(mesh, (radius > 33.0) & (np.abs(angle + 1.7) < 0.25))
 
 
 def moved(mesh: BodyMesh, part: str, shift: float) -> BodyMesh:
-    """Points of a named part, its ends left out, moved outwards along the radius."""
+    """Points of a named part, its ends left out, moved outwards."""
     inner = mesh.edge_points(part)
     inner = inner[np.argsort(np.linalg.norm(mesh.points[inner], axis=1))][1:-1]
     points = mesh.points.copy()
@@ -91,7 +90,7 @@ def moved(mesh: BodyMesh, part: str, shift: float) -> BodyMesh:
     ],
 )
 def test_a_mesh_that_is_not_this_gear_is_named_for_what_it_is(whole, change, message):
-    """Each says what, where, and what is allowed."""
+    """What, where, and what is allowed."""
     with pytest.raises(SceneError, match=message):
         whole_body(change(whole), PINION)
 
@@ -109,13 +108,13 @@ def test_a_mesh_that_is_not_this_gear_is_named_for_what_it_is(whole, change, mes
     ],
 )
 def test_a_mesh_of_another_gear_is_refused(whole, change, message):
-    """The scene's gear has another bore, other teeth, thicker teeth."""
+    """Another bore, other teeth, thicker teeth."""
     with pytest.raises(SceneError, match=message):
         whole_body(unnamed(whole), replace(PINION, **change))
 
 
 def test_a_flank_within_the_tolerance_is_taken(whole):
-    """Points of a flank half the tolerance off the involute are those of the flank still; twice as far they are not."""
+    """Half the tolerance off the involute; twice as far is refused."""
     tolerance = OUTLINE_TOLERANCE * PINION.module
     near = moved(whole, "flank 5", -0.5 * tolerance / PINION.base_radius)
     assert sides(whole_body(near, PINION).mesh.edges["flank 5"]) == sides(whole.edges["flank 5"])
@@ -124,7 +123,7 @@ def test_a_flank_within_the_tolerance_is_taken(whole):
 
 
 def test_a_crack_that_opens_on_a_flank_is_refused(whole):
-    """A doubled point in the middle of a flank leaves no line of elements; cells on one side have the twin."""
+    """A doubled point leaves no line of elements."""
     flank = whole.edge_points("flank 3")
     middle = flank[np.argsort(np.linalg.norm(whole.points[flank], axis=1))][len(flank) // 2]
     beyond = np.linalg.norm(whole.points[whole.cells].mean(axis=1), axis=1) > np.linalg.norm(whole.points[middle])
@@ -137,7 +136,7 @@ def test_a_crack_that_opens_on_a_flank_is_refused(whole):
 
 
 def test_teeth_need_not_be_meshed_alike():
-    """A gear whose teeth have two meshes in turn: every flank is found, with as many elements as it has."""
+    """Two meshes in turn: every flank with as many elements as it has."""
     from fenics_gears.elasticity.element_sizes import ElementSizes
     from fenics_gears.elasticity.sector_mesh import sector_mesh
 
@@ -168,7 +167,7 @@ def lift_one_point():
 
 
 def test_what_is_no_plane_mesh_of_straight_cells_is_refused(whole, tmp_path):
-    """A point out of the plane, second-order cells, and cells turned inside out are said in words."""
+    """A point out of the plane, second-order cells, cells inside out."""
     path = tmp_path / "gear.msh"
     edited(whole, path, lift_one_point)
     with pytest.raises(SceneError, match="is not plane: its points lie between z = 0 and 2"):

@@ -1,5 +1,4 @@
-"""A map over loads and speeds: what a user writes, the numbers of its runs, natural frequencies, and a map that goes on
-after a stop."""
+"""A map over loads and speeds."""
 
 from dataclasses import replace
 from math import pi, sqrt
@@ -24,7 +23,6 @@ from fenics_gears.simulation.dynamic_factor import quasi_static
 
 
 def mapped(loads=(), speeds=(), most=1000, **changes):
-    """The map of the paper's scene."""
     return load_map(DEMO, replace(load_scene(DEMO), **changes), loads, speeds, most)
 
 
@@ -33,10 +31,9 @@ def mapped(loads=(), speeds=(), most=1000, **changes):
     [('pinion_torque = "200 N m"', ("200 N m",), "20 kW"), ('power = "20 kW"', ("20 kW",), "200 N m")],
 )
 def test_a_map_sweeps_the_load_that_the_scene_names(tmp_path, load, loads, other):
-    """T_2 = T_1 z_2/z_1 and T_2 = P/(2 pi n_2), a power being the same at every speed; and the scene's own field, in
-    words and in the sweep."""
+    """T_2 = T_1 z_2/z_1 and T_2 = P/(2 pi n_2), a power being the same at every speed."""
     file = tmp_path / "pair.toml"
-    file.write_text(load_scene(DEMO).text.replace('wheel_torque = "437 N m"', load), encoding="utf-8")
+    file.write_text(load_scene(DEMO).text.replace('wheel_torque = "437 N m"', load))
     wanted = load_map(file, load_scene(file), (), ("100 Hz", "400 Hz"), 10)
     assert wanted.loads == loads and wanted.numbers == [float(loads[0].split()[0])]
     cases = {name: [case.scene for case in study.cases] for name, study in wanted.studies.items()}
@@ -80,8 +77,7 @@ def test_what_cannot_be_mapped_is_refused_by_name(arguments, changes, message):
 
 
 def test_the_studies_of_a_map():
-    """Definition: quasi-static without what needs inertia; steady speeds long enough for the start to die down;
-    settings that depend on the load the same for all."""
+    """Definition: quasi-static without inertia; steady speeds long enough for the start to die down."""
     scene, found = load_scene(DEMO), mapped(["50 N m", "400 N m"], ["750 rpm", "1500 rpm"]).studies
     still, moving = found[QUASI_STATIC].cases, found[OVER_SPEED].cases
     assert len(still) == 2 and len(moving) == 4
@@ -98,8 +94,8 @@ def test_the_studies_of_a_map():
 
 
 def test_settings_that_the_scene_leaves_open_are_the_same_for_all_loads():
-    """Definition: gears and contact operators are shared, so elements are those of the geometric mean of the loads,
-    here 200 N m, the window that of the largest."""
+    """Definition: elements are those of the geometric mean of the loads, here 200 N m, the window that of the
+    largest."""
     scene = replace(load_scene(DEMO), accuracy=Accuracy())
     middle, largest = (
         model_of(quasi_static(replace(scene, load=Load(torque)))).resolution for torque in (200e3, 400e3)
@@ -113,8 +109,7 @@ def test_settings_that_the_scene_leaves_open_are_the_same_for_all_loads():
 
 
 def test_natural_frequencies_are_those_of_two_inertias(paper_scene, paper_pair):
-    """Exact: two bodies that turn freely against a spring between their base circles vibrate at sqrt(k (rb1^2/J1 +
-    rb2^2/J2))/2 pi."""
+    """Exact: two free bodies against a spring vibrate at sqrt(k (rb1^2/J1 + rb2^2/J2))/2 pi."""
     scene = replace(
         paper_scene, bearings=None, friction=None, damping=None, shafts=Shafts(1e-5), inertia=Inertia(4.9e-3, 24.5)
     )
@@ -130,7 +125,7 @@ def test_natural_frequencies_are_those_of_two_inertias(paper_scene, paper_pair):
 
 
 def test_a_map_is_what_runs_of_its_scenes_give(folder, capsys):
-    """Exact identity with a run of each scene alone; tables read by pandas; a second call computes nothing."""
+    """Exact identity with a run of each scene alone; a second call computes nothing."""
     scene, coarse = load_scene("pair.toml"), 'model = "ISO 6336-1"\nsteps_per_mesh_cycle = 20\n'
     Path("pair.toml").write_text(f"{scene.text[: scene.text.index('[accuracy]')]}[accuracy]\n{coarse}")
     call = ["map", "pair.toml", "--loads", "100 N m", "200 N m", "--speeds", "300 Hz", "600 Hz", "--output", "out"]

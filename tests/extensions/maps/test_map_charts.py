@@ -1,4 +1,4 @@
-"""Charts of a map: what meets where in a Campbell diagram, what stands at which height in a waterfall."""
+"""Charts of a map."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,6 @@ SPEEDS, ORDERS = [100.0, 200.0, 300.0, 400.0], np.arange(1, 21) / 2.0
 
 
 def made_up(natural=((600.0, 2500.0), (600.0, 2500.0)), damping=0.1, motion=("", "pinion tilts")) -> xr.Dataset:
-    """A map of two loads, four speeds and two modes."""
     amplitudes = np.where(ORDERS % 1.0 == 0.0, 8.0 / ORDERS**2, 1e-9) * np.ones((2, 4, 1))
     return xr.Dataset(
         {
@@ -34,8 +33,7 @@ def made_up(natural=((600.0, 2500.0), (600.0, 2500.0)), damping=0.1, motion=("",
 
 
 def test_resonances_are_where_orders_meet_natural_frequencies():
-    """Arithmetic: 600 Hz is met by the n-th order at 600/n Hz, of which 300, 200, 150 and 120 Hz are among the speeds;
-    2500 Hz lies above five times 400 Hz."""
+    """Arithmetic: the n-th order meets 600 Hz at 600/n Hz; 2500 Hz lies above five times 400 Hz."""
     chart = campbell(made_up())
     (met,) = (curve for curve in chart.curves if curve.mode == MARKERS)
     assert met.x.tolist() == [300.0, 200.0, 150.0, 120.0] and set(met.y) == {600.0}
@@ -47,7 +45,7 @@ def test_resonances_are_where_orders_meet_natural_frequencies():
 
 
 def test_a_natural_frequency_that_depends_on_the_load_is_a_band():
-    """Definition: from that of the one load to that of the other; what tilts is said."""
+    """Definition: from that of the one load to that of the other."""
     chart = campbell(made_up(((600.0, 1000.0), (660.0, 1001.0))))
     bands = [curve.y for curve in chart.curves if np.ndim(curve.y) == 2]
     assert len(bands) == 1 and bands[0].tolist() == [[600.0, 600.0], [660.0, 660.0]]
@@ -58,8 +56,7 @@ def test_a_natural_frequency_that_depends_on_the_load_is_a_band():
 
 
 def test_a_waterfall_has_its_lines_at_multiples_of_the_speed():
-    """Definition: at order times mesh frequency; the highest line of all is `high`, one of 20 dB less half of that
-    where 40 dB are shown."""
+    """Definition: at order times mesh frequency, one of 20 dB less half as high where 40 dB are shown."""
     (chart,) = waterfall(made_up().sel(load=100.0))
     line = next(curve for curve in chart.curves if curve.name == "300 Hz")
     heights = {x: y for x, y in zip(line.x, line.y) if y > 300.0}

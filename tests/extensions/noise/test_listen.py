@@ -1,4 +1,4 @@
-"""gears listen: what is heard are the curve's own frequencies at their own loudness."""
+"""gears listen: the curve's own frequencies at their own loudness."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,6 @@ MESH = 400.0
 
 
 def run(values, time, phase=None, **attributes):
-    """A result with one curve."""
     return xr.Dataset(
         {
             "normal_force": ("time", values, {"units": "N", "long_name": "mesh force"}),
@@ -29,7 +28,6 @@ def run(values, time, phase=None, **attributes):
 
 
 def steady(*tones, cycles=3, steps=300):
-    """Tones (frequency, amplitude) over whole mesh cycles, on a mean of 5000 N."""
     time = np.arange(cycles * steps + 1) / (steps * MESH)
     return run(
         5000.0 + sum(amplitude * np.cos(2.0 * np.pi * frequency * time + 0.3) for frequency, amplitude in tones), time
@@ -37,14 +35,13 @@ def steady(*tones, cycles=3, steps=300):
 
 
 def lines(samples):
-    """Amplitudes by frequency in Hz, of samples that last a second; the middle, without the fading ends."""
+    """Amplitudes by frequency in Hz over a second in the middle."""
     middle = samples[SAMPLE_RATE // 2 : SAMPLE_RATE // 2 + SAMPLE_RATE]
     return 2.0 * np.abs(np.fft.rfft(middle)) / len(middle)
 
 
 def test_tones_are_heard_at_their_frequency_and_amplitude():
-    """Exact: two harmonics of the mesh, whose cycles are repeated without a seam, and nothing else, the mean among it.
-    The filter's passband is even within 0.02 dB, 0.2 %."""
+    """Exact: two harmonics of the mesh and nothing else; the filter's passband is even within 0.2 %."""
     amplitudes = lines(sound(steady((MESH, 100.0), (12 * MESH, 10.0)), "normal_force", 2.0).samples)
     assert amplitudes[400] == pytest.approx(100.0, rel=2e-3) and amplitudes[4800] == pytest.approx(10.0, rel=2e-3)
     amplitudes[[400, 4800]] = 0.0
@@ -52,15 +49,13 @@ def test_tones_are_heard_at_their_frequency_and_amplitude():
 
 
 def test_what_the_file_cannot_hold_is_filtered_out():
-    """Exact: a tone of 30 kHz, above half the rate of 48 kHz, would be heard at 18 kHz; it is 54 dB down, and a tone of
-    2 kHz beside it is not changed."""
+    """Exact: a tone of 30 kHz would be heard at 18 kHz; it is 54 dB down."""
     amplitudes = lines(sound(steady((5 * MESH, 10.0), (75 * MESH, 10.0), steps=3000), "normal_force", 2.0).samples)
     assert amplitudes[2000] == pytest.approx(10.0, rel=2e-3) and amplitudes[18000] < 0.02
 
 
 def test_a_ramp_is_heard_as_it_runs():
-    """Exact: a mesh frequency that rises evenly from 200 to 1000 Hz in 2 s; the frequency at an instant is the phase's
-    derivative."""
+    """Exact: a mesh frequency from 200 to 1000 Hz in 2 s; the frequency is the phase's derivative."""
     phase = np.arange(0.0, 1200.0 + 1e-9, 1.0 / 80.0)
     time = (-200.0 + np.sqrt(200.0**2 + 2.0 * 400.0 * phase)) / 400.0
     heard = sound(run(3000.0 + 50.0 * np.sin(2.0 * np.pi * phase), time, phase), "normal_force", 0.5).samples
@@ -72,7 +67,7 @@ def test_a_ramp_is_heard_as_it_runs():
 
 
 def test_the_file_plays_at_the_scale_that_is_said(tmp_path, capsys):
-    """Definition: 16 bits at 48 kHz; the loudest sample has 0.9 of the file, or what the given full scale makes it."""
+    """Definition: 16 bits at 48 kHz; the loudest sample has 0.9 of the file, or what the full scale makes it."""
     results.save(steady((MESH, 100.0)), tmp_path / "run.nc")
     assert main(["listen", str(tmp_path), "--seconds", "1"]) == 0
     assert "full scale 111.1 N" in capsys.readouterr().out
@@ -97,7 +92,7 @@ def test_the_file_plays_at_the_scale_that_is_said(tmp_path, capsys):
     ],
 )
 def test_wrong_calls_write_nothing(tmp_path, capsys, options, said):
-    """The interface: exit code 2, what is allowed, and no file."""
+    """Exit code 2, what is allowed, and no file."""
     results.save(steady((MESH, 100.0)), tmp_path / "run.nc")
     assert main(["listen", str(tmp_path), *options]) == 2
     assert said in capsys.readouterr().err and [each.name for each in tmp_path.iterdir()] == ["run.nc"]

@@ -16,7 +16,7 @@ STEPS, PERIOD, RADIUS = 40, 48, 50.0
 
 
 def made_up(scene, cycles, error, force=None, speed=None) -> xr.Dataset:
-    """A result with these curves over the mesh phase: transmission error in um, force in N, mesh frequency in Hz."""
+    """A result with these curves over the mesh phase: um, N, Hz."""
     phase = np.arange(round(cycles * STEPS) + 1) / STEPS
     variables = {
         "transmission_error": ("time", error(phase) * 1e-3 / RADIUS, {"units": "rad"}),
@@ -31,13 +31,12 @@ def made_up(scene, cycles, error, force=None, speed=None) -> xr.Dataset:
 
 
 def cosine(order, amplitude=1.0):
-    """A cosine of a mesh order."""
     return lambda phase: amplitude * np.cos(2.0 * np.pi * order * phase + 0.4)
 
 
 @pytest.mark.parametrize("window", [None, HANN, FLAT_TOP])
 def test_mesh_orders_have_their_levels(paper_scene, window):
-    """Exact: 10 um are 20 dB re 1 um, 50 N 33.98 dB re 1 N; bin-centred lines in any window to 1e-6."""
+    """Exact: 10 um are 20 dB re 1 um, 50 N 33.98 dB re 1 N, in any window."""
     found = noise_figures(made_up(paper_scene, 20, cosine(2.0, 10.0), cosine(3.0, 50.0)), window)
     assert (
         found["transmission_error_level"].attrs["units"] == "dB re 1 um"
@@ -54,8 +53,7 @@ def test_mesh_orders_have_their_levels(paper_scene, window):
 
 
 def test_run_out_of_the_pinion_shows_as_sidebands(paper_scene):
-    """Exact: an amplitude modulation of the depth m by the pinion's turn has m^2/2 of the energy of the line beside it,
-    none of it at turns of the wheel alone."""
+    """Exact: an amplitude modulation of depth m by the pinion's turn has m^2/2 of the energy of its line."""
     depth, mesh = 0.2, cosine(1.0, 4.0)
     found = noise_figures(
         made_up(paper_scene, PERIOD, lambda phase: mesh(phase) * (1.0 + depth * cosine(1.0 / 16.0)(phase)))
@@ -79,8 +77,7 @@ def test_a_short_record_has_mesh_orders_but_no_sidebands(paper_scene):
 
 
 def test_orders_of_a_ramp_are_those_that_scipy_finds(paper_scene):
-    """Another program: scipy.signal.stft over the same phases; and the amplitude that was put in, which grows with the
-    speed."""
+    """Another program: scipy.signal.stft; and the amplitude that was put in."""
     cycles = 100
     run = made_up(
         paper_scene,
@@ -102,7 +99,7 @@ def test_orders_of_a_ramp_are_those_that_scipy_finds(paper_scene):
 
 
 def test_the_command_writes_them(paper_scene, tmp_path, capsys):
-    """The files and the charts' axes, which name their reference."""
+    """The files, and the charts' axes."""
     run = made_up(paper_scene, PERIOD, cosine(1.0, 4.0), cosine(1.0, 30.0))
     save(run, tmp_path / "run.nc")
     assert main(["plot", str(tmp_path), "--spectrum", "flat-top"]) == 0

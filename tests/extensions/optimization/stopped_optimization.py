@@ -1,9 +1,5 @@
-"""`gears optimize` that is killed in its middle:
-python -m tests.extensions.optimization.stopped_optimization RUNS ARGUMENTS OF THE COMMAND.
-
-The process kills itself by SIGKILL when it has computed so many runs, in the middle of the line of the last one; alone,
-so that it has no mpi4py.
-"""
+"""`gears optimize` that kills itself in the middle of the line of its last run: python -m
+tests.extensions.optimization.stopped_optimization RUNS ARGUMENTS OF THE COMMAND."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""One rank of an optimisation fails: each of its stages, each rank of two."""
+"""One rank of an optimisation fails."""
 
 import pytest
 from tests.extensions.optimization.test_optimization import FEWER, GOAL, RIGID, VARIABLES

@@ -1,4 +1,4 @@
-"""`gears optimize`: its search against brute force, what it keeps, resumes and refuses, and its files."""
+"""`gears optimize`: its search, what it keeps, resumes and refuses, and its files."""
 
 import csv
 import json
@@ -52,15 +52,13 @@ SCATTER = (
 
 
 def write(folder, text, name="design.toml"):
-    """A design file in a folder."""
     path = Path(folder) / name
-    path.write_text(text, encoding="utf-8")
+    path.write_text(text)
     return path
 
 
 @pytest.fixture(autouse=True)
 def few(monkeypatch):
-    """Few runs around the chosen design, which are not what is tested."""
     monkeypatch.setattr(optimization, "VALUES", 2)
     monkeypatch.setattr(optimization, "TORQUES", (1.0,))
 
@@ -73,12 +71,11 @@ def unwritten(monkeypatch):
 
 
 def found(path, output=None):
-    """The outcome of a design file."""
     return optimize(path, output, SilentProgress(), quiet=True)
 
 
 def lines(directory):
-    """All whole lines of all processes."""
+    """Whole lines of all processes."""
     return [
         json.loads(line)
         for file in sorted(Path(directory, "runs").glob("*.jsonl"))
@@ -89,7 +86,7 @@ def lines(directory):
 
 @pytest.mark.usefixtures("unwritten")
 def test_the_chosen_design_is_a_scene_that_gives_its_goal(folder):
-    """Identity; a run of best.toml alone, without anything shared, has the numbers of the design that was chosen."""
+    """Identity: a run of best.toml alone."""
     path = write(folder, STILL + VARIABLES + GOAL + FEW)
     assert main(["optimize", str(path), "--quiet"]) == 0
     scene = load_scene("results/design/best.toml")
@@ -100,7 +97,7 @@ def test_the_chosen_design_is_a_scene_that_gives_its_goal(folder):
     )
     assert 1e3 * scene.tip_relief.pinion.depth == pytest.approx(float(best["tip_relief.depth"]), rel=1e-12)
     assert float(best[ERROR]) == float(designs[ERROR].min())
-    with open("results/design/designs.csv", encoding="utf-8") as file:
+    with open("results/design/designs.csv") as file:
         rows = list(csv.DictReader(file))
     assert [float(row[f"{ERROR} (um)"]) for row in rows] == designs[ERROR].values.tolist()
     quasi_static = designs["transmission_error"].sel(choice="best", load=437.0)
@@ -110,7 +107,7 @@ def test_the_chosen_design_is_a_scene_that_gives_its_goal(folder):
 
 
 def test_goals_over_loads_and_tolerances_are_those_of_single_runs(folder):
-    """Numpy on runs of each scene alone: weighted mean over loads, then the quantile over samples."""
+    """Numpy on runs of each scene alone: weighted mean over loads, quantile over samples."""
     design = load_design(write(folder, STILL + VARIABLES + OVER_LOADS + GOAL + SCATTER + FEW))
     deviations, values = samples(design), {"tip_relief.depth": 25.0, "tip_relief.length_on_path": 6.0}
     assert deviations.shape == (4, 5)
@@ -130,7 +127,7 @@ def test_goals_over_loads_and_tolerances_are_those_of_single_runs(folder):
 
 
 def test_operating_points_statistics_and_bounds():
-    """Authority: definitions, by hand."""
+    """Definitions, by hand."""
     values = np.array([[1.0, 4.0], [3.0, 2.0]])
     assert Loads(({}, {}), (1.0, 3.0)).combined(values).tolist() == [2.5, 2.5]
     assert Loads(({}, {}), (1.0, 1.0), WORST).combined(values).tolist() == [3.0, 4.0]
@@ -140,7 +137,7 @@ def test_operating_points_statistics_and_bounds():
 
 
 def test_the_front_is_that_of_every_pair_compared():
-    """By hand; a design that breaks a bound or failed is on no front, and one that is tried twice is there once."""
+    """By hand; no design that breaks a bound or failed, and none twice."""
     goals = [(1.0, 5.0), (2.0, 2.0), (2.0, 3.0), (5.0, 1.0), (0.5, 0.5), (0.1, 9.0), (2.0, 2.0)]
     tried = [
         Evaluation(
@@ -155,8 +152,7 @@ def test_the_front_is_that_of_every_pair_compared():
 @pytest.mark.nightly
 @pytest.mark.usefixtures("unwritten")
 def test_a_killed_search_repeats_nothing(folder):
-    """The search that was not stopped. SIGKILL in the middle of a line; then each run is there once, but for that
-    line's, and the result is the same."""
+    """The search that was not stopped; each run is there once."""
     path = write(folder, RIGID + VARIABLES + GOAL + FEW)
     whole = found(path, folder / "whole")
     call = (
@@ -183,7 +179,7 @@ def test_a_killed_search_repeats_nothing(folder):
 @pytest.mark.nightly
 @pytest.mark.ranks
 def test_any_number_of_processes_gives_the_same_result(folder):
-    """Authority: exact identity with one process."""
+    """Exact identity with one process."""
     path = write(folder, RIGID + VARIABLES + GOAL + FEWER)
     alone = found(path, folder / "alone")
     ended(command("optimize", path, "--output", folder / "two", ranks=2), folder, ends=0)
@@ -194,8 +190,7 @@ def test_any_number_of_processes_gives_the_same_result(folder):
 
 
 def test_page_and_pictures_show_what_was_found(folder):
-    """The chosen scene run alone with its relief's depth at either limit; a row of Pareto's front for each of its
-    designs; every picture has more than its ground."""
+    """The chosen scene run alone with its relief's depth at either limit; pictures have more than their ground."""
     text = RIGID + VARIABLES + GOAL + "max_normal_force = 1\n" + SCATTER + FEWER
     outcome = found(write(folder, text))
     design, chosen_tree = outcome.design, outcome.design.scene_tree(outcome.chosen.values)
@@ -206,7 +201,7 @@ def test_page_and_pictures_show_what_was_found(folder):
         scene = build_scene(scattered(chosen_tree, design.tolerances.scatters, deviation))
         numbers.append(f"{simulate(scene).attrs[ERROR] * 1e3 * gear_pair(scene.gears).wheel.base_radius:.4g}")
     assert rows["tip relief depth"] == ("± 4 um", *numbers)
-    page = write_page(outcome).read_text(encoding="utf-8")
+    page = write_page(outcome).read_text()
     assert all(f">{number}<" in page for number in numbers)
     assert f"The {len(outcome.front)} designs of the Pareto front" in page
     pictures = {file.stem: imread(file) for file in write_pictures(outcome)}
@@ -215,9 +210,8 @@ def test_page_and_pictures_show_what_was_found(folder):
 
 
 def test_the_number_of_runs_and_their_time_are_said_before_they_start(folder, monkeypatch, capsys, unwritten):
-    """Brute force: the runs that are computed, fewer only by those that two designs share. More time than is allowed is
-    refused, by its name, unless agreed to;
-    what is kept is not counted."""
+    """Brute force: the runs that are computed. More time than is allowed is refused unless agreed to; what is kept
+    is not counted."""
     monkeypatch.setattr("fenics_gears.extensions.optimization.expected.VALUES", 2)
     monkeypatch.setattr("fenics_gears.extensions.optimization.expected.TORQUES", (1.0,))
     path = write(folder, RIGID + VARIABLES + GOAL + OVER_LOADS + FEWER)
@@ -233,8 +227,8 @@ def test_the_number_of_runs_and_their_time_are_said_before_they_start(folder, mo
 
 
 def test_time_of_runs_that_are_solved_together_is_less_than_of_single_ones(folder):
-    """The rule of docs/optimize.md: quasi-static plane runs are solved together, but not for a number that only whole
-    results have; of many processes fewer are in a task."""
+    """docs/optimize.md: quasi-static plane runs are solved together, but not for a number that only whole results
+    have."""
     design = load_design(write(folder, STILL + VARIABLES + GOAL + FEW))
     models = [case.model for case in at_ends(design)]
     alone = replace(design, goals=(replace(design.goals[0], name="peak_to_peak_force"),))
@@ -245,8 +239,7 @@ def test_time_of_runs_that_are_solved_together_is_less_than_of_single_ones(folde
 
 
 def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
-    """The promise of the page; a design whose run fails has no numbers and the reason, is not chosen, and is not tried
-    again."""
+    """docs/optimize.md: no numbers and the reason, not chosen, not tried again."""
 
     def failing(model, **arguments):
         relief = model.scene.tip_relief
@@ -274,7 +267,7 @@ def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
 
 @pytest.mark.nightly
 def test_bounds_are_kept_and_refused_where_nothing_keeps_them(folder):
-    """The constraint itself; the best of what it allows, and an error in words where it allows nothing."""
+    """The best of what the constraint allows, and an error in words where it allows nothing."""
     text = STILL + VARIABLES + GOAL + FEW + '[constraints]\ntransmission_error_harmonic_2 = {{ at_most = "{} um" }}\n'
     reached = [
         each.at_points["transmission_error_harmonic_2"][0]
@@ -288,8 +281,7 @@ def test_bounds_are_kept_and_refused_where_nothing_keeps_them(folder):
 
 
 def test_several_goals_give_a_front_and_weights_choose_from_it(folder):
-    """Definition; the chosen design has the least weighted sum of goals in parts of those before, and lies on the
-    front."""
+    """Definition: the least weighted sum of goals in parts of those before, on the front."""
     outcome = found(write(folder, STILL + VARIABLES + GOAL + "peak_contact_pressure = 2\n" + FEW))
     assert outcome.best in outcome.front
 
@@ -375,7 +367,7 @@ def test_what_no_design_could_have_is_refused_by_name(folder, what):
 
 
 def test_a_missing_optimiser_is_said_before_anything_is_computed(folder, monkeypatch):
-    """Authority: the words themselves; no run is there."""
+    """The words themselves; no run is there."""
     monkeypatch.setitem(sys.modules, "optuna", None)
     with pytest.raises(ComputationError, match="needs Optuna and cmaes"):
         found(write(folder, RIGID + VARIABLES + GOAL + FEWER))

@@ -17,9 +17,8 @@ MATERIALS = (Material(206e3, 0.3), Material(206e3, 0.3))
 
 
 def test_it_is_the_temperature_under_a_moving_band(paper_pair):
-    """Exact: a semi-elliptic band of heat on a half-space that moves fast, T(x) = 1/(B sqrt(pi v)) int q(s)/sqrt(x - s)
-    ds; heat splits so that both flanks, the one slower than the other, have the same largest temperature. The formula's
-    0.80 is the rounded largest value, 0.7924 by the integral."""
+    """Exact: a semi-elliptic band of heat on a half-space, T(x) = 1/(B sqrt(pi v)) int q(s)/sqrt(x - s) ds, split so
+    that both flanks have the same largest temperature. The formula's 0.80 is the rounded 0.7924."""
     position, force, friction, speed = 0.75 * paper_pair.path_end, 400.0, 0.1, 1500.0
     first, second = position, paper_pair.line_of_action_length - position
     radius = first * second / (first + second)
@@ -54,8 +53,7 @@ def test_load_share_of_unmodified_teeth(paper_pair):
 
 
 def test_computed_forces_enter_in_the_transverse_section_as_the_standards_do():
-    """Statics: a tooth pair of a helical gear that carries F_bt/cos(beta_b) along the contact normal has the flash
-    temperature of the line force F_bt/b."""
+    """Statics: F_bt/cos(beta_b) along the contact normal has the flash temperature of the line force F_bt/b."""
     scene = wide_pair("[friction]\ncoefficient = 0.05\n")
     operation = _operation(scene, Finish(), xr.Dataset())
     pair, force = operation.pair, scene.load.wheel_torque / operation.pair.wheel.base_radius

@@ -1,8 +1,4 @@
-"""The paper's pair as a REXS model, read here from the demo's file, and models as files of each form, written from the
-specification's description of them.
-
-A model is the JSON tree of REXS 1.7; `as_xml` writes the same in the XML form.
-"""
+"""The paper's pair as a REXS model, the JSON tree of REXS 1.7, and models as files of each form."""
 
 import copy
 import io
@@ -27,7 +23,6 @@ PINION_FLANKS, WHEEL_FLANKS, PINION_DATA, WHEEL_DATA, PINION_TOOL, WHEEL_TOOL, S
 
 
 def attribute(name, value, unit="none"):
-    """An attribute of the kind that its value has."""
     return {"id": name, "unit": unit, KINDS[type(value)]: value}
 
 
@@ -37,7 +32,6 @@ def _component(number, kind, *attributes, name=""):
 
 
 def relation(number, kind, order=None, **roles):
-    """A relation of components, given by their roles."""
     ordered = {"order": int(order)} if order else {}
     return {
         "id": number,
@@ -48,8 +42,7 @@ def relation(number, kind, order=None, **roles):
 
 
 def paper_model():
-    """The pair of demos/lundvall2004.rexs between two shafts, with the torque on the output shaft and the speed of the
-    input shaft."""
+    """The pair of demos/lundvall2004.rexs, with the torque on the output shaft and the speed of the input shaft."""
     root = ElementTree.parse(DEMOS / "lundvall2004.rexs").getroot()
     relations = [
         relation(
@@ -80,7 +73,6 @@ def _read_attribute(element):
 
 
 def component(model, number):
-    """The component of a number."""
     return next(each for each in model["model"]["components"] if each["id"] == number)
 
 
@@ -94,7 +86,6 @@ def with_value(model, number, name, value, unit="none"):
 
 
 def with_values(model, *changes):
-    """The model with several attributes set, each as `with_value` takes it."""
     for change in changes:
         model = with_value(model, *change)
     return model
@@ -110,7 +101,7 @@ def with_component(model, number, kind, *attributes, **relations):
 
 
 def on_flanks(model, number, flanks):
-    """The model whose `flanks` have the component of a number as their modification."""
+    """The model whose `flanks` have a component as their modification."""
     changed = copy.deepcopy(model)
     for flank in flanks:
         given = relation(10 * number + flank, "reference", origin=flank, referenced=number)
@@ -119,12 +110,10 @@ def on_flanks(model, number, flanks):
 
 
 def as_json(model):
-    """The content of a .rexsj file."""
     return json.dumps(model, ensure_ascii=False, indent=1).encode()
 
 
 def as_xml(model, namespace=""):
-    """The content of a .rexs file, whose numbers have the digits of the JSON form."""
     tree = model["model"]
     root = ElementTree.Element(
         "model", {name: tree[name] for name in ("version", "applicationId", "applicationVersion", "date")}
@@ -173,7 +162,7 @@ def _xml_component(parent, tree):
 
 
 def as_zip(*files):
-    """The content of a .rexsz file that holds files, each a name and its content."""
+    """A .rexsz file of files, each a name and its content."""
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, data in files:

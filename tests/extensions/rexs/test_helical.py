@@ -1,9 +1,5 @@
-"""Helical pairs and lead modifications from REXS.
-
-Authority: the schema of REXS 1.6 for names and kinds (helix_crowning, helix_slope, end_relief_datum_face,
-end_relief_non_datum_face), ISO 21771 for the sign of the helix angle and for what left and right flanks are, and files
-of other programs for coordinates (from mid-width, datum face negative).
-"""
+"""Helical pairs and lead modifications: the schema of REXS 1.6, ISO 21771 for the helix angle's sign and for left
+and right flanks, and files of other programs for coordinates (from mid-width, datum face negative)."""
 
 from math import cos, radians
 
@@ -18,8 +14,6 @@ STRETCH = 1.0 / cos(radians(20.0))
 
 
 def helical(pinion=20.0, wheel=-20.0):
-    """The paper's teeth on a helix, at a centre distance with some backlash; its circles follow from the file's shifts
-    and the standard."""
     angles = [
         (gear, "helix_angle_reference_diameter", angle, "deg")
         for gear, angle in ((rexs.PINION, pinion), (rexs.WHEEL, wheel))
@@ -39,15 +33,14 @@ def helical(pinion=20.0, wheel=-20.0):
     [((20.0, -20.0), "right"), ((-20.0, 20.0), "left"), ((20.0, None), "right"), ((None, 20.0), "left")],
 )
 def test_helix_angle_and_hand(tmp_path, angles, hand):
-    """A positive angle is a right-hand helix; where one gear has none it is that of its mate, of the other hand."""
+    """ISO 21771: a positive angle is a right-hand helix; a mate without one has the other hand."""
     scene, found = scene_of(tmp_path, helical(*angles))
     assert (scene.gears.helix_angle, scene.gears.pinion_hand) == (pytest.approx(radians(20.0), rel=1e-15), hand)
     assert scene.three_dimensional and not assumed_fields(found) & {"gears.helix_angle", "gears.pinion_hand"}
 
 
 def test_circles_and_shifts_count_in_normal_modules(tmp_path):
-    """d_a = m_n (z/cos(beta) + 2 (x + 1)), d_f = m_n (z/cos(beta) + 2 (x - 1.25)); a reference diameter repeated is m_n
-    z/cos(beta)."""
+    """d_a = m_n (z/cos(beta) + 2 (x + 1)), d_f = m_n (z/cos(beta) + 2 (x - 1.25))."""
     model = rexs.with_values(helical(), (rexs.PINION, "reference_circle_diameter", 72.0 * STRETCH, "mm"))
     scene, _ = scene_of(tmp_path, model)
     pinion = scene.gears.pinion
@@ -60,8 +53,7 @@ def test_circles_and_shifts_count_in_normal_modules(tmp_path):
 
 
 def test_missing_shift_of_a_helical_gear_follows_from_the_centre_distance(tmp_path):
-    """At the centre distance without backlash, which geometry.pair computes its own way, the other gear's shift comes
-    out."""
+    """At the centre distance without backlash, which geometry.pair computes, the other gear's shift comes out."""
     touching = gear_pair(scene_of(tmp_path, helical())[0].gears).centre_distance_without_backlash
     model = rexs.with_values(
         helical(),
@@ -81,7 +73,6 @@ def test_helices_that_do_not_mesh_are_refused(tmp_path, angles):
 
 
 def with_modification(kind, *attributes):
-    """The paper's spur pair with a component that modifies the pinion's flanks."""
     model = rexs.with_component(rexs.paper_model(), 40, kind, *attributes)
     return rexs.on_flanks(model, 40, rexs.PINION_FLANKS)
 
@@ -112,20 +103,17 @@ def end_relief(face, depth=10.0, length=4.0, shape="linear"):
 
 
 def loaded(model, side):
-    """The model with the loaded flank of the pinion said."""
     return rexs.with_value(model, rexs.PINION_DATA, "loaded_tooth_flank", side)
 
 
 def lead_of(tmp_path, model):
-    """Modification of the pinion."""
     scene, found = scene_of(tmp_path, model)
     assert scene.lead_modifications.wheel is None and not found.left_out
     return scene.lead_modifications.pinion
 
 
 def test_crowning(tmp_path):
-    """The height at the ends of the face (15 mm); given at 5 mm from mid-width the parabola is (7.5/5)^2 as high at the
-    ends."""
+    """Height at the ends of the face (15 mm): given at 5 mm from mid-width it is (7.5/5)^2 as high."""
     assert lead_of(tmp_path, with_modification("helix_crowning", *crowning())) == LeadModification(crowning=0.006)
     assert lead_of(tmp_path, with_modification("helix_crowning", *crowning(at=(-7.5, 7.5)))) == LeadModification(
         crowning=0.006
@@ -142,16 +130,15 @@ def test_crowning(tmp_path):
     ],
 )
 def test_end_relief_is_at_the_end_that_the_loaded_flank_says(tmp_path, side, ends):
-    """A pinion whose left flank drives, seen from its datum face, turns counter-clockwise from there: that face is the
-    scene's right end."""
+    """A pinion whose left flank drives, seen from its datum face, turns counter-clockwise: that face is the right
+    end."""
     for face, end in ends.items():
         model = loaded(with_modification(f"end_relief_{face}", *end_relief(face, shape="parabolic")), side)
         assert lead_of(tmp_path, model) == LeadModification(end_relief=EndRelief(0.01, 4.0, end, "parabolic"))
 
 
 def test_helix_slope_has_the_sign_of_the_end(tmp_path):
-    """Removed towards the face opposite the datum face, which is said to be assumed; over a shorter evaluation it is
-    steeper over the face."""
+    """Removed towards the face opposite the datum face; over a shorter evaluation it is steeper over the face."""
     slope = with_modification("helix_slope", ("helix_slope", 8.0, "mum"))
     assert lead_of(tmp_path, loaded(slope, "right")).helix_slope == pytest.approx(0.008, rel=1e-11)
     assert lead_of(tmp_path, loaded(slope, "left")).helix_slope == pytest.approx(-0.008, rel=1e-11)

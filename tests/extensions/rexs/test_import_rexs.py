@@ -1,4 +1,4 @@
-"""gears import: what is written, what is told, what is refused."""
+"""`gears import`."""
 
 import shutil
 
@@ -12,14 +12,13 @@ from fenics_gears.commands.cli import main
 
 @pytest.fixture
 def here(tmp_path, monkeypatch):
-    """An empty directory with the demo's REXS file in it."""
     shutil.copy(DEMOS / "lundvall2004.rexs", tmp_path)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
 
 def test_scene_is_written_beside_nothing_else_and_can_be_checked(here, paper_scene, capsys):
-    """The scene has the file's name, every field says where it is from, and `gears check` takes it."""
+    """Every field says where it is from, and `gears check` takes the scene."""
     assert main(["import", "lundvall2004.rexs"]) == 0
     assert sorted(path.name for path in here.iterdir()) == ["lundvall2004.rexs", "lundvall2004.toml"]
     said = capsys.readouterr().out
@@ -27,9 +26,7 @@ def test_scene_is_written_beside_nothing_else_and_can_be_checked(here, paper_sce
     assert "Next: gears check lundvall2004.toml" in said and "motion.mesh_cycles = 1" in said
     assert load_scene("lundvall2004.toml").gears == paper_scene.gears
     fields = [
-        line
-        for line in (here / "lundvall2004.toml").read_text(encoding="utf-8").splitlines()
-        if " = " in line and line[0] not in "#t["
+        line for line in (here / "lundvall2004.toml").read_text().splitlines() if " = " in line and line[0] not in "#t["
     ]
     assert len(fields) > 15 and all("  # " in line for line in fields)
     assert main(["check", "lundvall2004.toml"]) == 0

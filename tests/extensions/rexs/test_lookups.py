@@ -1,5 +1,4 @@
-"""Where a file does not give a value itself: what it follows from, what is assumed, and which of several parts is
-meant."""
+"""Where a file does not give a value itself: what it follows from, what is assumed, which part is meant."""
 
 import base64
 from math import cos, radians, sqrt
@@ -17,29 +16,26 @@ GEARS = (rexs.PINION, rexs.WHEEL)
 
 
 def scene_of(tmp_path, model, **choice):
-    """The scene of a model, and what was assumed and left out."""
     return imported(tmp_path, rexs.as_xml(model), **choice)
 
 
 def assumed_fields(found):
-    """The fields that were assumed, without how long the run takes."""
+    """The fields that were assumed, but for how long the run takes."""
     return {each.split(" = ")[0] for each in found.assumed} - {"motion.mesh_cycles"}
 
 
 def changed(*changes):
-    """The paper's model with values set."""
     return rexs.with_values(rexs.paper_model(), *changes)
 
 
 def refused(tmp_path, model, **choice):
-    """What is said of a model that is refused."""
     with pytest.raises(SceneError) as raised:
         scene_of(tmp_path, model, **choice)
     return str(raised.value)
 
 
 def test_root_diameter_follows_from_the_tool(tmp_path):
-    """d_f = m (z + 2 x - 2 h_aP0*), the cut of a rack; with the generating shift where the file has one (ISO 21771)."""
+    """d_f = m (z + 2 x - 2 h_aP0*), with the generating shift where the file has one (ISO 21771)."""
     model = changed(
         (rexs.PINION, "root_diameter", None), (rexs.PINION_TOOL, "addendum_coefficient_reference_profile", 1.4)
     )
@@ -60,8 +56,7 @@ def test_tooth_depth_gives_the_root(tmp_path):
 
 
 def test_what_no_part_says_is_of_the_standard_and_told(tmp_path):
-    """ISO 53, basic rack A: addendum 1, dedendum 1.25, tip radius 0.38 modules; steel of ISO 6336-1; each is told as
-    assumed."""
+    """ISO 53, basic rack A; steel of ISO 6336-1; each is told as assumed."""
     model = rexs.paper_model()
     names = ("tip_diameter", "root_diameter", "inner_diameter", "helix_angle_reference_diameter")
     model = rexs.with_values(
@@ -85,7 +80,7 @@ def test_what_no_part_says_is_of_the_standard_and_told(tmp_path):
 
 
 def test_each_gear_has_its_own_material_and_width(tmp_path):
-    """Where they differ; where they do not, it is the pair's."""
+    """Where they do not differ, it is the pair's."""
     model = rexs.with_component(
         changed((rexs.PINION, "face_width", 17.0, "mm")),
         21,
@@ -106,8 +101,7 @@ def test_each_gear_has_its_own_material_and_width(tmp_path):
 
 @pytest.mark.parametrize("version", ["1.0", "1.1", "1.2"])
 def test_older_versions_name_parts_otherwise(paper_scene, tmp_path, version):
-    """Up to 1.2 flanks are flank_geometry, gears refer to their tools themselves, and is_driving_gear says which gear
-    drives."""
+    """REXS up to 1.2: flank_geometry, tools of gears, is_driving_gear."""
     model = rexs.paper_model()
     model["model"]["version"] = version
     for each in model["model"]["components"]:
@@ -134,7 +128,7 @@ def test_older_versions_name_parts_otherwise(paper_scene, tmp_path, version):
 
 
 def two_stages():
-    """The paper's pair and a further one, whose pinion is on the paper's output shaft."""
+    """A further pair, whose pinion is on the paper's output shaft."""
     model = rexs.with_component(
         rexs.paper_model(),
         31,
@@ -160,8 +154,7 @@ def test_several_stages_are_listed_and_one_is_chosen(paper_scene, tmp_path):
 
 
 def test_torque_of_the_pinion_s_shaft_is_multiplied_and_of_the_stage_comes_first(tmp_path):
-    """M2 = M1 z2/z1; the sign is that of the shaft's axis and says nothing here; stage data say it of the mesh
-    itself."""
+    """M2 = M1 z2/z1; the sign is that of the shaft's axis; stage data say it of the mesh itself."""
     model = rexs.with_component(
         changed((rexs.LOAD, "torque_around_u_axis", None), (rexs.LOAD, "transmits_torque", False)),
         35,
@@ -175,7 +168,6 @@ def test_torque_of_the_pinion_s_shaft_is_multiplied_and_of_the_stage_comes_first
 
 
 def with_load_cases(*torques):
-    """The paper's model with a load spectrum."""
     model = changed((rexs.LOAD, "torque_around_u_axis", None), (rexs.SHAFT, "rotational_speed", None))
     cases = [
         {"id": number, "components": [
@@ -204,7 +196,6 @@ def test_load_cases(tmp_path, form):
 
 
 def with_relief(kind="tip_relief", sides=(0, 1), gear_flanks=rexs.PINION_FLANKS, **values):
-    """The paper's model with a relief on a gear's flanks."""
     attributes = {"depth": (31.0, "mum"), "datum_diameter": (79.0, "mm"), **values}
     given = [
         (name if name.startswith(("shape", "specify")) else f"{kind}_{name}", *value)
@@ -215,7 +206,7 @@ def with_relief(kind="tip_relief", sides=(0, 1), gear_flanks=rexs.PINION_FLANKS,
 
 
 def test_reliefs(tmp_path):
-    """Depth, start and shape are those of the file; the other gear has none."""
+    """Depth, start and shape are those of the file."""
     scene, found = scene_of(tmp_path, with_relief())
     assert (scene.tip_relief.pinion.depth, scene.tip_relief.pinion.start_diameter, scene.tip_relief.pinion.shape) == (
         pytest.approx(0.031),
@@ -241,8 +232,7 @@ def test_reliefs(tmp_path):
 
 @pytest.mark.parametrize("shape, power", [("linear", 1), ("parabolic", 2)])
 def test_relief_given_below_the_tip_is_extended_to_it(tmp_path, shape, power):
-    """depth ((v - v0)/(v1 - v0))^power with roll angles v = sqrt(d^2/db^2 - 1), the scene's own law, has the file's
-    depth where it says."""
+    """The scene's law, depth ((v - v0)/(v1 - v0))^power, v = sqrt(d^2/db^2 - 1), has the file's depth where it says."""
     scene, _ = scene_of(tmp_path, with_relief(evaluation_reference=(81.0, "mm"), shape_of_relief=(shape,)))
     base = 72.0 * cos(radians(20.0))
     start, there, tip = (sqrt((diameter / base) ** 2 - 1.0) for diameter in (79.0, 81.0, 82.64))
@@ -250,9 +240,7 @@ def test_relief_given_below_the_tip_is_extended_to_it(tmp_path, shape, power):
 
 
 def test_reliefs_by_their_length_of_roll(tmp_path):
-    """L_C of ISO 21771 is the scene's own length on the path of contact: where the relief of a tip starts, geometry
-    computes its own way; beside the diameter that it gives the length says nothing new; the depth at another diameter
-    is extended from that start."""
+    """L_C of ISO 21771; where the relief starts, geometry computes its own way."""
     base = 36.0 * cos(radians(20.0))
     length = sqrt(41.32**2 - base**2) - sqrt(39.5**2 - base**2)
     scene, _ = scene_of(tmp_path, with_relief(datum_length=(length, "mm")))
@@ -274,8 +262,7 @@ def test_reliefs_by_their_length_of_roll(tmp_path):
 @pytest.mark.parametrize("form", [rexs.as_xml, rexs.as_json])
 @pytest.mark.parametrize("dtype, code", [("<f4", "float32"), ("<f8", "float64")])
 def test_arrays(paper_scene, tmp_path, form, dtype, code):
-    """numpy's bytes. An array of one entry, plain or coded, with padding or without, is that entry; a longer one that
-    no scene has a place for is told with its range."""
+    """numpy's bytes; a longer array that no scene has a place for is told with its range."""
     amounts = np.array([-2.5, 0.25, 12.0], dtype)
     coded = {"code": code, "value": base64.b64encode(amounts.tobytes()).decode().rstrip("=")}
     one = {"code": code, "value": base64.b64encode(np.array([4.5], dtype).tobytes()).decode()}
@@ -295,8 +282,8 @@ def test_arrays(paper_scene, tmp_path, form, dtype, code):
 
 
 def test_tolerance_class(tmp_path):
-    """The class of both gears, the coarser of two, under its names of 1.3 and of 2.0; one that ISO 1328-1:2013 lacks is
-    left out."""
+    """The coarser class of both gears, under its names of 1.3 and of 2.0; one that ISO 1328-1:2013 lacks is left
+    out."""
     first, later = "tolerance_class_according_to_iso_1328_2013", "global_tolerance_class_iso_1328_2013"
     scene, _ = scene_of(tmp_path, changed((rexs.PINION, first, "6"), (rexs.WHEEL, first, "6")))
     assert scene.flank_errors.tolerance_class == 6 and scene.motion.mesh_cycles == 48
@@ -317,7 +304,7 @@ def test_narrower_gear_and_common_width(tmp_path):
 
 
 def test_loaded_flank_decides_where_flanks_differ(tmp_path):
-    """A relief of the left flank only: which flank is loaded must be known."""
+    """A relief of the left flank only."""
     model = with_relief(sides=(0,))
     assert "does not say which one is loaded" in refused(tmp_path, model)
     assert (

@@ -1,7 +1,4 @@
-"""The paper's pair from REXS: every form of the file and every unit give the scene that the demo is.
-
-Authority: demos/lundvall2004.toml, read by the scene's own reader.
-"""
+"""The paper's pair from REXS: every form and unit give demos/lundvall2004.toml."""
 
 from dataclasses import astuple, replace
 
@@ -16,7 +13,6 @@ from fenics_gears.extensions.rexs.imported import imported_scene
 
 
 def imported(tmp_path, content, name="file.rexs", **choice):
-    """The scene of a file's content, and what was assumed and left out."""
     path = tmp_path / name
     path.write_bytes(content)
     found = imported_scene(path, **choice)
@@ -36,8 +32,7 @@ def imported(tmp_path, content, name="file.rexs", **choice):
     ],
 )
 def test_every_form_gives_the_paper_s_pair(paper_scene, tmp_path, form):
-    """All gear fields are equal to the last digit, and so is the load; the speed is, once rpm are mesh cycles a
-    second."""
+    """Gears and load to the last digit; the speed once rpm are mesh cycles a second."""
     model = rexs.paper_model()
     xml, json = rexs.as_xml(model), rexs.as_json(model)
     content = {
@@ -81,7 +76,7 @@ QUANTITIES = [
 
 @given(data=st.data())
 def test_units_do_not_matter(paper_scene, tmp_path_factory, data):
-    """Property: whatever units the file has, the scene is the same, to rounding in the conversion written here."""
+    """Property: the same scene, to rounding."""
     model = rexs.paper_model()
     for units, places in QUANTITIES:
         for number, name in places:
@@ -96,7 +91,6 @@ def test_units_do_not_matter(paper_scene, tmp_path_factory, data):
 
 
 def assert_same_gears(found, expected):
-    """All fields of both gears and of the pair, to rounding."""
     for each, other in (
         (found.pinion, expected.pinion),
         (found.wheel, expected.wheel),
@@ -108,7 +102,7 @@ def assert_same_gears(found, expected):
 
 
 def test_the_gear_with_fewer_teeth_is_the_pinion(paper_scene, tmp_path):
-    """Meaning of the scene's sections; the file's stage may name its gears in any order."""
+    """The scene's meaning; a stage may name its gears in any order."""
     model = rexs.paper_model()
     stage = next(each for each in model["model"]["relations"] if each["type"] == "stage")
     roles = {"gear_1": "gear_2", "gear_2": "gear_1"}

@@ -1,7 +1,4 @@
-"""Files that make no scene: each is refused with the component, the attribute, the value and what is allowed.
-
-Authority: the specification's rules (units, single values, relations), and the limits of the README.
-"""
+"""Files that make no scene: the specification's rules, with component, attribute, value and what is allowed."""
 
 import pytest
 from hypothesis import given
@@ -16,7 +13,6 @@ from fenics_gears.extensions.rexs import read
 P, W, FLANK, MATERIAL = rexs.PINION, rexs.WHEEL, rexs.PINION_FLANKS[0], rexs.MATERIAL
 
 WRONG_VALUES = [
-    ((P, "normal_module", None), "component 5 (cylindrical_gear 'pinion'): normal_module is missing"),
     (
         (P, "normal_module", "abc", "mm"),
         "component 5 (cylindrical_gear 'pinion'): normal_module = abc mm does not begin with a number",
@@ -32,21 +28,8 @@ WRONG_VALUES = [
         (W, "normal_module", 5.0, "mm"),
         "normal_module of component 5 is 4.5 mm, but normal_module of component 6 is 5.0 mm",
     ),
-    ((P, "number_of_teeth", 16.5), "number_of_teeth = 16.5 is not a whole number"),
     ((P, "number_of_teeth", 16, "mm"), "number_of_teeth = 16 mm is not a whole number without unit"),
-    ((P, "number_of_teeth", 0), "number_of_teeth = 0 is not positive"),
     ((P, "number_of_teeth", -48), "component 5 (cylindrical_gear 'pinion') is an internal gear"),
-    (
-        (P, "helix_angle_reference_diameter", 10.0, "deg"),
-        (
-            "helix_angle_reference_diameter of component 5 is 10.0 deg, helix_angle_reference_diameter of component 6"
-            " is 0.0 deg. Allowed on parallel axes"
-        ),
-    ),
-    (
-        (P, "reference_circle_diameter", 73.0, "mm"),
-        "reference_circle_diameter = 73.0 mm contradicts its module and its 16 teeth, which give 72 mm",
-    ),
     ((P, "inner_diameter", -1.0, "mm"), "inner_diameter = -1.0 mm is negative"),
     (
         (FLANK, "normal_pressure_angle", 25.0, "deg"),
@@ -57,7 +40,6 @@ WRONG_VALUES = [
         "component 5 (cylindrical_gear 'pinion') has contradictory profile shifts",
     ),
     ((FLANK, "addendum_modification_coefficient", 0.196, "mm"), 'has the unit "mm". Allowed: "none" or "%"'),
-    ((rexs.STAGE, "center_distance", None), "component 4 (cylindrical_stage 'test stage'): center_distance is missing"),
     (
         (rexs.STAGE, "sum_of_addendum_modification_coefficients", 0.4),
         "contradicts the profile shifts of its gears, 0.196 and 0.125",
@@ -70,7 +52,6 @@ WRONG_VALUES = [
 
 @pytest.mark.parametrize("change, words", WRONG_VALUES, ids=[f"{change[1]}={change[2]}" for change, _ in WRONG_VALUES])
 def test_wrong_values_are_named(tmp_path, change, words):
-    """Component, attribute, value and what is allowed."""
     said = refused(tmp_path, changed(change))
     assert words in said and "Nothing was written." in said
 
@@ -85,8 +66,8 @@ def test_wrong_values_are_named(tmp_path, change, words):
     ],
 )
 def test_wrong_arrays_are_named(tmp_path, array, words):
-    """Where a value is asked for: an unknown code, bytes that are no whole numbers, no base64, more than one value (the
-    specification's example)."""
+    """An unknown code, bytes that are no whole numbers, no base64, more than one value (the specification's
+    example)."""
     model = rexs.paper_model()
     module = next(each for each in rexs.component(model, P)["attributes"] if each["id"] == "normal_module")
     del module["floating_point"]
@@ -98,7 +79,7 @@ def test_wrong_arrays_are_named(tmp_path, array, words):
 
 
 def test_all_mistakes_are_told_at_once(tmp_path):
-    """Three mistakes, three sentences; what only follows from them is not repeated."""
+    """What only follows from three mistakes is not repeated."""
     said = refused(
         tmp_path, changed((P, "normal_module", None), (W, "face_width", 15.0, "kg"), (MATERIAL, "poisson_ratio", None))
     )
@@ -129,7 +110,7 @@ def test_all_mistakes_are_told_at_once(tmp_path):
     ],
 )
 def test_wrong_reliefs_are_named(tmp_path, values, words):
-    """As other values are; a relief has a start, by one attribute or another."""
+    """A relief has a start, by one attribute or another."""
     assert words in refused(tmp_path, with_relief(**values))
     model = rexs.with_value(with_relief("root_relief"), 40, "root_relief_datum_diameter", None)
     assert "root_relief_datum_diameter is missing (and root_relief_datum_length of component 40)" in refused(
@@ -138,7 +119,7 @@ def test_wrong_reliefs_are_named(tmp_path, values, words):
 
 
 def test_pairs_that_are_none(tmp_path):
-    """Ring gears and other stages are refused as what they are."""
+    """Ring gears and other stages."""
     ring = rexs.paper_model()
     rexs.component(ring, W)["type"] = "ring_gear"
     assert "component 6 (ring_gear 'wheel') is an internal gear" in refused(tmp_path, ring)
@@ -160,7 +141,6 @@ def test_wrong_calls_are_refused(tmp_path):
 
 
 def edited(old, new):
-    """The XML form of the paper's model with one text put in another's place."""
     content = rexs.as_xml(rexs.paper_model()).decode()
     assert old in content
     return content.replace(old, new, 1).encode()
@@ -168,7 +148,6 @@ def edited(old, new):
 
 BROKEN = {
     "empty": (b" \n", "is empty"),
-    "no XML": (b"gears", "is not valid XML"),
     "cut off": (rexs.as_xml(rexs.paper_model())[:2000], "is not valid XML"),
     "other XML": (b"<svg/>", "its root is <svg>, not <model>"),
     "unknown encoding": (edited("utf-8", "klingon"), "is not valid XML"),
@@ -193,7 +172,6 @@ BROKEN = {
         "components 5, attributes has normal_module twice, with different values: 4.5 mm; 5 mm",
     ),
     "two models in one archive": (rexs.as_zip(("a.rexs", b""), ("b.rexsj", b"")), "but holds: a.rexs, b.rexsj"),
-    "archive without a model": (rexs.as_zip(("a.txt", b"")), "but holds: none"),
     "an archive that says it begins before its beginning": (
         rexs.as_zip(("a.rexs", b"x"))[:-6] + b"\xff\xff\xff\x7f\0\0",
         "cannot be unpacked: it is damaged",
@@ -202,16 +180,11 @@ BROKEN = {
         rexs.as_zip(("\u03a9.rexs", b"x")).replace("\u03a9".encode(), b"\xb6\xb6"),
         "cannot be unpacked: it is damaged",
     ),
-    "damaged archive": (
-        rexs.as_zip(("a.rexs", b"x" * 5000)).replace(b"PK\x03\x04", b"PK\x03\x05", 1),
-        "cannot be unpacked",
-    ),
 }
 
 
 @pytest.mark.parametrize("case", BROKEN)
 def test_broken_files_are_named_as_what_they_are(tmp_path, case):
-    """One sentence each, and the file's name."""
     content, words = BROKEN[case]
     with pytest.raises(SceneError) as raised:
         imported(tmp_path, content)
@@ -219,15 +192,13 @@ def test_broken_files_are_named_as_what_they_are(tmp_path, case):
 
 
 def test_missing_files_and_directories(tmp_path):
-    """As an operating system says it, in words."""
     for path, words in ((tmp_path / "none.rexs", "there is no such file"), (tmp_path, "cannot be read")):
         with pytest.raises(SceneError, match=words):
             read.read_model(path)
 
 
 def test_entities_are_not_expanded_and_files_not_read(tmp_path):
-    """A document type declaration could make ten lines fill the memory (a test that lets it never ends), or copy a file
-    into a scene."""
+    """Ten lines could fill the memory, or copy a file into a scene."""
     (tmp_path / "secret").write_text("42")
     laughs = "".join(f'<!ENTITY e{n} "{f"&e{n - 1};" * 10}">' for n in range(1, 12))
     for declarations, reference in (
@@ -254,7 +225,7 @@ def test_large_files_are_refused(tmp_path, monkeypatch):
 
 @given(data=st.data())
 def test_damaged_files_end_in_a_scene_or_in_a_sentence(tmp_path_factory, data):
-    """Property: whatever is cut out of a file or put into it, nothing but a SceneError comes of it."""
+    """Property: nothing but a SceneError."""
     form = data.draw(st.sampled_from([rexs.as_xml, rexs.as_json]))
     content = form(rexs.paper_model())
     for _ in range(data.draw(st.integers(1, 4))):
@@ -273,7 +244,7 @@ def test_damaged_files_end_in_a_scene_or_in_a_sentence(tmp_path_factory, data):
 
 
 def test_what_does_not_hang_together_is_told_together(tmp_path):
-    """A missing module hides neither a wrong shift nor a wrong diameter; shifts that both lack are one mistake."""
+    """A missing module hides no other mistake; shifts that both lack are one."""
     changes = (
         (P, "normal_module", None),
         (FLANK, "addendum_modification_coefficient", 0.2),
@@ -294,8 +265,6 @@ def test_what_does_not_hang_together_is_told_together(tmp_path):
 
 
 def test_parts_that_a_stage_cannot_have(tmp_path):
-    """A gear of another kind; two reliefs of one flank; in JSON, a number that is none and a value that is false where
-    a quantity is due."""
     bevel = rexs.paper_model()
     rexs.component(bevel, W)["type"] = "bevel_gear"
     assert "component 6 (bevel_gear 'wheel') is no cylindrical gear" in refused(tmp_path, bevel)

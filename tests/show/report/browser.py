@@ -1,5 +1,4 @@
-"""Chromium without a screen, led over a pipe by the DevTools protocol: pages are read, clicked and photographed,
-offline."""
+"""Chromium without a screen, led over a pipe by the DevTools protocol."""
 
 import base64
 import fcntl
@@ -23,10 +22,8 @@ COMMANDS, ANSWERS = 3, 4
 
 
 class Browser:
-    """One Chromium with one page, which has no network; use it in a `with`.
-
-    console: everything that pages wrote to the console or that went wrong in them; requests: every address asked for.
-    """
+    """One page, without network; use it in a `with`. console: what pages wrote there or went wrong; requests: every
+    address asked for."""
 
     def __init__(self, profile):
         self.console, self.requests, self._number, self._rest, self._session = [], [], 0, b"", None
@@ -65,7 +62,6 @@ class Browser:
         os.close(self._answers)
 
     def open(self, file, width, height):
-        """Show a page and wait until it has been loaded and its library unpacked."""
         self._call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
         self._call("Page.navigate", url=file.as_uri())
         self.wait(
@@ -74,20 +70,17 @@ class Browser:
         )
 
     def value(self, expression):
-        """The value of a JavaScript expression, which may be a promise."""
         found = self._call("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)
         assert "exceptionDetails" not in found, found["exceptionDetails"]
         return found["result"].get("value")
 
     def wait(self, condition):
-        """Wait until a JavaScript expression is true."""
         end = time.monotonic() + SECONDS
         while not self.value(condition):
             assert time.monotonic() < end, f"never came true: {condition}"
             time.sleep(0.05)
 
     def photograph(self, file):
-        """Save what is seen as PNG."""
         file.write_bytes(base64.b64decode(self._call("Page.captureScreenshot", format="png")["data"]))
 
     def _call(self, method, **parameters):

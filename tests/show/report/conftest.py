@@ -1,6 +1,7 @@
-"""Runs and a study on coarse meshes, made by the commands that people make them by."""
+"""Runs and a study on coarse meshes, made by commands."""
 
 import pytest
+from tests.paper_text import coarse_text
 
 from fenics_gears.commands.cli import main
 from fenics_gears.show.report import rendering
@@ -9,34 +10,14 @@ from fenics_gears.system import environment
 environment.prepare()
 
 DRAWN = "Normal force of the mesh"
-COARSE = """[accuracy]
-element = "P1"
-flank_element_size = "0.3 mm"
-contact_length = "2.4 mm"
-contact_nodes = 9
-steps_per_mesh_cycle = 20
-"""
-
-
-def scene_text(paper_scene, *, without=(), more="", cycles=2):
-    """The paper's scene on a coarse mesh, less some sections, with more of them before the accuracy; `cycles` mesh
-    cycles, one stored."""
-    head = paper_scene.text[: paper_scene.text.index("[accuracy]")]
-    head = head.replace("mesh_cycles = 30", f"mesh_cycles = {cycles}").replace(
-        "recorded_cycles = 2", "recorded_cycles = 1"
-    )
-    parts = head.split("\n[")
-    kept = [part for part in parts if part.partition("]")[0] not in without]
-    return "\n[".join(kept).rstrip("#\n ") + f"\n\n{more}\n{COARSE}"
 
 
 @pytest.fixture(scope="session")
 def made(tmp_path_factory):
-    """A function that runs a scene's text and returns the run's directory."""
 
     def make(text, name):
         directory = tmp_path_factory.mktemp(name)
-        (directory / f"{name}.toml").write_text(text, encoding="utf-8")
+        (directory / f"{name}.toml").write_text(text)
         assert (
             main(
                 ["run", str(directory / f"{name}.toml"), "--output", str(directory / "run"), "--quiet", "--no-pictures"]
@@ -49,14 +30,13 @@ def made(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
-def run(made, paper_scene):
-    """The directory of a dynamic run with friction and root stress."""
-    return made(scene_text(paper_scene, more="[output]\nroot_stress = true\n"), "dynamic")
+def run(made):
+    return made(coarse_text(more="[output]\nroot_stress = true\n", recorded=1), "dynamic")
 
 
 @pytest.fixture(scope="session")
 def report(run, request):
-    """The page of that run; by day one of its charts is drawn as an image, by night all."""
+    """The page of that run; by day one of its charts is drawn as an image."""
     draw, by_night = rendering.still, request.config.option.markexpr == "nightly"
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(rendering, "still", lambda each: draw(each) if by_night or each.caption == DRAWN else b"<svg/>")
@@ -66,17 +46,14 @@ def report(run, request):
 
 @pytest.fixture
 def without_stills(monkeypatch):
-    """Pages of this test have an empty image before each chart: drawing them takes longer than all else, and one page's
-    are looked at."""
     monkeypatch.setattr(rendering, "still", lambda chart: b"<svg/>")
 
 
 @pytest.fixture(scope="session")
-def study(paper_scene, tmp_path_factory):
-    """The directory of a study of three frequencies, with friction and without."""
+def study(tmp_path_factory):
     directory = tmp_path_factory.mktemp("study")
-    (directory / "pair.toml").write_text(scene_text(paper_scene), encoding="utf-8")
+    (directory / "pair.toml").write_text(coarse_text(recorded=1))
     sweep = '[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz", "300 Hz"]\nfriction = ["absent", "present"]\n'
-    (directory / "study.toml").write_text('title = "Three speeds <i>"\nscene = "pair.toml"\n' + sweep, encoding="utf-8")
+    (directory / "study.toml").write_text('title = "Three speeds <i>"\nscene = "pair.toml"\n' + sweep)
     assert main(["study", str(directory / "study.toml"), "--output", str(directory / "out"), "--quiet"]) == 0
     return directory / "out"

@@ -1,5 +1,4 @@
-"""A report's HTML as the tests look at it: whether it is well formed, its sections and their words, what it would
-load."""
+"""A report's HTML as the tests look at it."""
 
 from dataclasses import dataclass, field
 from html.parser import HTMLParser
@@ -11,8 +10,6 @@ FETCHED = {"src", "srcset", "poster", "data", "background", "action", "formactio
 
 @dataclass
 class Seen(HTMLParser):
-    """Everything that a test asks of a page."""
-
     open: list = field(default_factory=list)
     faults: list = field(default_factory=list)
     names: list = field(default_factory=list)
@@ -54,7 +51,6 @@ class Seen(HTMLParser):
 
 
 def seen(file) -> Seen:
-    """A page's file, read."""
     page = Seen()
     page.feed(file.read_text(encoding="utf-8"))
     page.close()

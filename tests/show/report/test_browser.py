@@ -1,4 +1,4 @@
-"""The report in a browser: Debian's Chromium without a screen and without a network."""
+"""The report in a browser without a network."""
 
 import numpy as np
 import pytest
@@ -16,21 +16,19 @@ LINKED = f"{PLOTS}.filter(plot => plot.dataset.linked === 'time')"
 
 @pytest.fixture
 def browser(tmp_path):
-    """A browser for one test."""
     with Browser(tmp_path / "profile") as browser:
         yield browser
 
 
 def check_alone(browser, page):
-    """Nothing was fetched but the page itself and what is inside it; nothing was said in the console; nothing sticks
-    out sideways."""
+    """Nothing but the page was fetched; nothing was said in the console; nothing sticks out sideways."""
     assert [each for each in browser.requests if not each.startswith("data:")] == [page.as_uri()]
     assert browser.console == []
     assert browser.value("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
 
 
 def draw_all(browser):
-    """Scroll along the page until every plot has been drawn; return how many plots that are."""
+    """Scroll until every plot has been drawn; how many those are."""
     count = browser.value(f"{PLOTS}.length")
     for place in range(count):
         browser.value(f"{PLOTS}[{place}].scrollIntoView({{behavior: 'instant'}})")
@@ -39,7 +37,7 @@ def draw_all(browser):
 
 
 def test_a_run_is_drawn_and_zoomed_without_a_network(browser, report):
-    """Plots are drawn when the window comes to them, each as an svg with lines; those over time are zoomed together."""
+    """Plots are drawn when the window comes to them; those over time are zoomed together."""
     browser.open(report, 1300, 900)
     drawn = browser.value(f"{PLOTS}.filter(plot => plot.querySelector('svg')).length")
     assert draw_all(browser) == seen(report).plots > 15 > drawn
@@ -73,7 +71,7 @@ def test_a_plot_that_is_drawn_later_has_the_zoom_of_the_others(browser, report):
 
 
 def test_all_charts_are_there_to_be_printed(browser, report):
-    """What the window has not come to is an image that is loaded and has a size; folded parts are opened."""
+    """What the window has not come to is an image; folded parts are opened."""
     browser.open(report, 1300, 900)
     browser.value("dispatchEvent(new Event('beforeprint'))")
     image = "plot.querySelector('img')?.complete && plot.querySelector('img').getBoundingClientRect().height > 150"
@@ -84,8 +82,7 @@ def test_all_charts_are_there_to_be_printed(browser, report):
 
 @pytest.mark.parametrize("width", [1300, 400])
 def test_a_run_on_a_screen(browser, report, tmp_path, width):
-    """On a desk and on a telephone the page is neither blank nor black, from its top to its end, and nothing sticks
-    out."""
+    """On a desk and on a telephone the page is neither blank nor black."""
     browser.open(report, width, 900)
     draw_all(browser)
     height = min(browser.value("document.documentElement.scrollHeight"), 6000)

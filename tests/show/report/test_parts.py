@@ -25,7 +25,7 @@ from fenics_gears.show.run import Run
 
 @given(st.lists(st.floats(-1e6, 1e6) | st.just(float("nan")), min_size=1, max_size=400), st.sampled_from([10, 40]))
 def test_thinned_curves_keep_peaks_ends_and_gaps(values, most):
-    """The whole curve: its extremes, its ends, and a gap in each slice that has one; places in order, and few."""
+    """The whole curve: its extremes, its ends, and a gap in each slice that has one."""
     values = np.array(values)
     places = thinned(values, most)
     assert places[0] == 0 and places[-1] == len(values) - 1 and (np.diff(places) > 0).all()
@@ -41,13 +41,12 @@ def test_thinned_curves_keep_peaks_ends_and_gaps(values, most):
 
 
 def ramp_of(paper_scene, cycles):
-    """A made-up run whose scene falls from 200 to 50 Hz."""
     text = f'{paper_scene.text}\n[speed_ramp]\nend_frequency = "50 Hz"\n'
     return made_up_run(scene=text, cycles=cycles, steps=int(20 * cycles) + 1)
 
 
 def test_a_ramp_points_to_orders_cycle_by_cycle_only_where_they_are_drawn(paper_scene, tmp_path):
-    """They are drawn from eight stored mesh cycles on."""
+    """From eight stored mesh cycles on."""
     for cycles in (2.0, 9.0):
         section = spectra(Run(ramp_of(paper_scene, cycles), tmp_path / "run.nc"))
         drawn = [block.caption for block in section.blocks if "cycle by cycle" in getattr(block, "caption", "")]
@@ -55,14 +54,12 @@ def test_a_ramp_points_to_orders_cycle_by_cycle_only_where_they_are_drawn(paper_
 
 
 def tiles_of(dataset, tmp_path):
-    """The summary's tiles by their labels."""
     (tiles,) = summary(Run(dataset, tmp_path / "run.nc")).blocks
     return {tile.label: tile for tile in tiles.tiles}
 
 
 def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal(paper_scene, tmp_path):
-    """Statics: F_bn = T_2/(r_b2 cos(beta_b)); a mesh force of just that size is 1.000 times the nominal one, of a
-    helical pair too."""
+    """Statics: F_bn = T_2/(r_b2 cos(beta_b)), of a helical pair too."""
     for scene, helix in ((paper_scene.text, 0.0), (wide_pair().text, 15.0)):
         run = made_up_run(scene=scene)
         pair = Run(run).pair
@@ -73,8 +70,7 @@ def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal
 
 
 def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp_path):
-    """Conservation of energy: a wheel that drives does the larger work, of which shares are; what is taken from it is
-    positive."""
+    """Conservation of energy: a wheel that drives does the larger work."""
     dataset = made_up_run(scene=paper_scene.text)
     work = {
         "work_input": -96.0,
@@ -103,8 +99,7 @@ def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp
 
 @pytest.mark.parametrize("coast", [False, True])
 def test_the_drawn_gears_touch_at_the_pitch_point_and_nowhere_overlap(paper_pair, coast):
-    """At the phase that is drawn a tooth pair touches at the pitch point; rigid involutes with backlash do not overlap.
-    Outlines are chords of 14 points a flank, so a few thousandths of a millimetre off."""
+    """Rigid involutes with backlash; outlines are chords, a few thousandths of a millimetre off."""
     phase = (paper_pair.pitch_point - paper_pair.path_start) / paper_pair.base_pitch
     outlines = [gear_outline(paper_pair, gear, phase, coast) for gear in (0, 1)]
     pitch = _on_line(paper_pair, [paper_pair.pitch_point], coast)[0]
@@ -122,13 +117,12 @@ def test_the_drawn_gears_touch_at_the_pitch_point_and_nowhere_overlap(paper_pair
 
 
 def densely(points):
-    """Points along an outline, closer than a hundredth of a millimetre."""
     steps = np.linspace(0.0, 1.0, 400)[:, None]
     return (points[:-1, None] + steps * np.diff(points, axis=0)[:, None]).reshape(-1, 2)
 
 
 def test_pairs_of_a_long_run_have_curves_where_they_are_seen():
-    """The result's own slots: what the curves of the pairs show together is the mesh's force in the cycles shown."""
+    """What the curves show together is the mesh's force."""
     run = Run(made_up_run(steps=401, cycles=20.0))
     curves = run.of_pairs("pair_normal_force", "N")
     assert 4 <= len(curves) <= 7 and len({number for *_, number in curves}) == len(curves)
@@ -138,7 +132,7 @@ def test_pairs_of_a_long_run_have_curves_where_they_are_seen():
 
 
 def test_without_plotly_charts_stay_images_and_the_page_says_what_to_install(monkeypatch):
-    """The extra of pyproject.toml; with plotly there is the library and no such word."""
+    """The extra of pyproject.toml."""
     chart = Chart("A line", [Curve("one", np.arange(2.0), np.arange(2.0))], "x", "y")
     page = Page("Report", "A title", "", [Section("charts", "Charts", [chart])])
     assert 'id="library"' in rendered(page) and "[report]" not in rendered(page)

@@ -1,4 +1,4 @@
-"""The report on a run: which sections it has, what they say, and that it is one well-formed file that loads nothing."""
+"""The report on a run."""
 
 import base64
 import csv
@@ -10,7 +10,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.show.report.conftest import DRAWN, scene_text
+from tests.paper_text import coarse_text
+from tests.show.report.conftest import DRAWN
 from tests.show.report.pages import seen
 
 from fenics_gears import results
@@ -28,19 +29,17 @@ SECTIONS = [
 
 
 def page_of(dataset, directory, *options):
-    """The page of a dataset that is saved as a run."""
     results.save(dataset, directory / "run.nc")
     assert main(["report", str(directory), "--quiet", "--no-stress", *options]) == 0
     return seen(directory / "report.html")
 
 
 def captions(page):
-    """Names of a page's plots."""
     return [attributes["aria-label"] for tag, attributes in page.tags if attributes.get("class") == "curves"]
 
 
 def test_every_section_is_there_and_says_what_the_result_holds(report, run):
-    """Issue 7's list of sections; the numbers are those of the result's file."""
+    """The sections' list; the result's file."""
     page, dataset = seen(report), results.load(run / "run.nc")
     assert list(page.sections) == SECTIONS
     micrometres = dataset.attrs["peak_to_peak_transmission_error"] * dataset.attrs["base_radius_wheel"] * 1e3
@@ -76,8 +75,7 @@ def test_every_section_is_there_and_says_what_the_result_holds(report, run):
 
 
 def test_every_chart_is_an_image_before_any_script_runs(report):
-    """What is printed, photographed at once or opened without scripts has all charts: each as an SVG with its axes'
-    words."""
+    """Each as an SVG with its axes' words."""
     page = seen(report)
     images = {
         attributes["alt"]: attributes["src"]
@@ -90,7 +88,7 @@ def test_every_chart_is_an_image_before_any_script_runs(report):
 
 
 def test_every_chart_is_one_that_plotly_knows(report):
-    """plotly's own Python classes, which refuse names and values that its browser library does not read."""
+    """plotly's own Python classes."""
     from plotly.graph_objects import Figure
 
     page = seen(report)
@@ -99,7 +97,7 @@ def test_every_chart_is_one_that_plotly_knows(report):
 
 
 def test_the_page_is_well_formed(report):
-    """HTML's rules: every element closed in its order, each id once, each link of the contents to a section."""
+    """HTML: elements closed in order, each id once, each link to a section."""
     page = seen(report)
     assert page.faults == [] and len(page.names) == len(set(page.names))
     links = {attributes["href"] for tag, attributes in page.tags if tag == "a"}
@@ -107,7 +105,7 @@ def test_the_page_is_well_formed(report):
 
 
 def test_nothing_is_loaded_from_anywhere(report):
-    """Issue 7: needs no network. Addresses that a browser fetches are all `data:`; style and script fetch nothing."""
+    """Addresses that a browser fetches are all `data:`."""
     page = seen(report)
     assert page.fetched and all(value.startswith("data:") for _, _, value in page.fetched)
     assert not re.search(r"url\(|@import", "".join(page.styles))
@@ -115,9 +113,9 @@ def test_nothing_is_loaded_from_anywhere(report):
     assert "Plotly.newPlot" in own and not re.search(r"fetch\(|XMLHttpRequest|import\(|https?://", own)
 
 
-def test_a_scene_without_effects_has_neither_their_curves_nor_their_words(made, paper_scene):
-    """Rule 9 of the house: what a scene does not name is not in its result, and so not on the page."""
-    bare = made(scene_text(paper_scene, without=("shafts", "bearings", "inertia", "damping", "friction")), "bare")
+def test_a_scene_without_effects_has_neither_their_curves_nor_their_words(made):
+    """House rule 9."""
+    bare = made(coarse_text("shafts", "bearings", "inertia", "damping", "friction", recorded=1), "bare")
     assert main(["report", str(bare), "--quiet", "--no-stress"]) == 0
     page = seen(bare / "report.html")
     said = set(captions(page))
@@ -129,7 +127,7 @@ def test_a_scene_without_effects_has_neither_their_curves_nor_their_words(made, 
 
 
 def test_titles_and_scenes_are_shown_as_they_are_written(run, tmp_path):
-    """HTML: a title is text. Neither a tag nor the end of the page's own scripts can be made of it."""
+    """HTML: neither a tag nor the end of the page's scripts can be made of a title."""
     nasty = "<script>alert('x')</script> </script><!-- & \"quoted\" `code` %{x} 𝄞"
     dataset = results.load(run / "run.nc")
     warned = dataset.assign_attrs(title=nasty, scene=f"# {nasty}\n" + dataset.attrs["scene"], warnings=f"first {nasty}")
@@ -142,25 +140,24 @@ def test_titles_and_scenes_are_shown_as_they_are_written(run, tmp_path):
 
 @pytest.mark.parametrize("steps", [0, 1, 8])
 def test_an_incomplete_run_says_so(run, tmp_path, steps):
-    """The attribute `complete`; of fewer than two steps there is no curve, and the rest of the page is there."""
+    """The attribute `complete`; of fewer than two steps there is no curve."""
     whole = contact_times(results.load(run / "run.nc"))
     cut = whole.isel(time=slice(0, steps), contact_time=slice(0, steps)).assign_attrs(complete=0, stopped="interrupted")
     page = page_of(cut, tmp_path)
-    text = (tmp_path / "report.html").read_text(encoding="utf-8")
+    text = (tmp_path / "report.html").read_text()
     assert "INCOMPLETE RUN. It was interrupted." in text and list(page.sections) == SECTIONS and page.faults == []
     assert any(each.startswith("Transmission error on") for each in captions(page)) == (steps == 8)
     assert "of what is stored" in page.sections["summary"] or steps == 0
 
 
 def test_a_result_without_meaning_says_so_before_anything(run, tmp_path):
-    """The run's own warning; it stands above all sections."""
+    """The run's own warning, above all sections."""
     page_of(results.load(run / "run.nc").assign_attrs(warnings="a word\nthe result has no meaning: jammed"), tmp_path)
-    text = (tmp_path / "report.html").read_text(encoding="utf-8")
+    text = (tmp_path / "report.html").read_text()
     assert "NO MEANING: the result has no meaning: jammed." in text.partition('id="summary"')[0]
 
 
 def measured_lines(dataset, error):
-    """Lines of effects.csv: the bare scene and the whole one, with a transmission error in mm."""
     whole = "bearings damping friction inertia shafts tooth_elasticity"
     for name, sections, compared in (("bare", "tooth_elasticity", ""), ("all", whole, "")):
         line = dict.fromkeys(CSV_COLUMNS, "1") | {
@@ -178,8 +175,7 @@ def measured_lines(dataset, error):
 
 
 def write_measured(directory, lines):
-    """Write effects.csv."""
-    with open(directory / "effects.csv", "w", encoding="utf-8", newline="") as opened:
+    with open(directory / "effects.csv", "w", newline="") as opened:
         writer = csv.DictWriter(opened, CSV_COLUMNS)
         writer.writeheader()
         writer.writerows(lines)
@@ -187,8 +183,7 @@ def write_measured(directory, lines):
 
 
 def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
-    """--effects measures the run's own scene and writes what `gears effects` writes beside the run, before the page
-    reads it."""
+    """--effects writes what `gears effects` writes, before the page reads it."""
     from fenics_gears.commands import measuring
     from fenics_gears.studies.effect_costs import measured
 
@@ -208,7 +203,7 @@ def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
 
 
 def test_a_long_run_makes_a_small_page(run, tmp_path):
-    """30,000 steps stay below 10 MB, and the highest of them is drawn."""
+    """30,000 steps below 10 MB, the highest of them drawn."""
     dataset = (
         results.load(run / "run.nc")
         .drop_dims(["contact_time", "contact_node", "fillet_point", "fillet"], errors="ignore")
@@ -231,13 +226,12 @@ def test_a_long_run_makes_a_small_page(run, tmp_path):
 
 
 def refusal(capsys, *arguments):
-    """What is said of a call that is refused with exit code 2."""
     assert main(["report", *map(str, arguments)]) == 2
     return capsys.readouterr().err
 
 
 def test_wrong_calls_are_refused_before_anything_is_written(run, tmp_path, capsys):
-    """Exit code 2: nothing written; each message says what was given and what is allowed."""
+    """Exit code 2: what was given and what is allowed."""
     assert "no such file or directory" in refusal(capsys, tmp_path / "nowhere")
     assert "neither run.nc nor study.nc" in refusal(capsys, tmp_path)
     assert "give --output such a name" in refusal(capsys, run, "--output", tmp_path / "page.pdf")
@@ -251,10 +245,8 @@ def test_wrong_calls_are_refused_before_anything_is_written(run, tmp_path, capsy
 
 
 def test_an_installed_copy_has_the_template():
-    """Setuptools takes along what package-data names; each file of a package that is no module is so named."""
-    wanted = tomllib.loads((CHECKOUT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"][
-        "package-data"
-    ]["*"]
+    """package-data names each file that is no module."""
+    wanted = tomllib.loads((CHECKOUT / "pyproject.toml").read_text())["tool"]["setuptools"]["package-data"]["*"]
     files = [
         file
         for file in (CHECKOUT / "fenics_gears" / "show" / "report").iterdir()

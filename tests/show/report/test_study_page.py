@@ -1,4 +1,4 @@
-"""The report on a study: the table of cases, the curves over the parameters, what failed, what is not there yet."""
+"""The report on a study."""
 
 import json
 import shutil
@@ -29,13 +29,11 @@ SECTIONS = [
 
 
 def page_of(directory, *options):
-    """The page of a study's directory."""
     assert main(["report", str(directory), "--quiet", *options]) == 0
     return seen(directory / "report.html")
 
 
 def figures(page):
-    """The plots of a page by their captions."""
     names = [attributes["aria-label"] for tag, attributes in page.tags if attributes.get("class") == "curves"]
     return dict(zip(names, map(json.loads, page.scripts)))
 
@@ -62,7 +60,7 @@ def test_cases_and_curves_are_those_of_the_file(study):
 
 
 def test_a_study_writes_its_pictures(study):
-    """A picture for each number that cases are compared by, under the number's name in the study's file."""
+    """One for each number that cases are compared by."""
     assert {file.stem for file in study.glob("*.png")} == {
         "peak_to_peak_transmission_error",
         "mean_transmission_error",
@@ -71,8 +69,7 @@ def test_a_study_writes_its_pictures(study):
 
 
 def test_cases_lead_to_their_files_and_to_their_reports(study, tmp_path):
-    """A case's number leads to its report where `gears report` has made one, else to its file; from wherever the page
-    is."""
+    """To the report where there is one, else to the file; from wherever the page is."""
     copy = tmp_path / "with a space" / "out"
     shutil.copytree(study, copy)
     files = sorted((copy / "cases").glob("*.nc"))
@@ -85,7 +82,6 @@ def test_cases_lead_to_their_files_and_to_their_reports(study, tmp_path):
 
 
 def changed(study, directory, change):
-    """A copy of a study's dataset in a directory, after a change to it."""
     dataset = load_combined(study / "study.nc")
     change(dataset)
     save_study(dataset, directory)
@@ -93,7 +89,7 @@ def changed(study, directory, change):
 
 
 def test_failed_and_missing_cases_are_named(study, tmp_path):
-    """`failed` and `failure` of the dataset; a case without either and without a result is not computed yet."""
+    """`failed` and `failure` of the dataset; else not computed yet."""
 
     def fail(dataset):
         for name in ("peak_to_peak_transmission_error", "mean_transmission_error", "max_normal_force", "wall_time"):
@@ -111,14 +107,13 @@ def test_failed_and_missing_cases_are_named(study, tmp_path):
         "no <equilibrium> & no end" in page.sections["failures"]
         and "mesh frequency 100 Hz, without friction" in page.sections["failures"]
     )
-    assert "of 6 cases 1 failed, 1 not computed yet" in (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "of 6 cases 1 failed, 1 not computed yet" in (tmp_path / "report.html").read_text()
     assert "missing" in page.sections["cases"] and page.faults == []
     curves = figures(page)["Transmission error, peak to peak over mesh frequency"]["data"]
     assert curves[0]["y"][0] is None and curves[1]["y"][2] is None
 
 
 def made_up(**axes):
-    """A study's dataset over axes, its results the sum of the axes' places."""
     shape = tuple(map(len, axes.values()))
     coordinates = {
         name: (name, np.asarray(values), {"long_name": f"load.{name}", "units": "N"}) for name, values in axes.items()
@@ -131,14 +126,12 @@ def made_up(**axes):
 
 
 def drawn(tmp_path, **axes):
-    """The plot of the largest mesh force of a made-up study."""
     cases = Cases(made_up(**axes), tmp_path / "study.nc", tmp_path / "report.html")
     return over_parameter(cases, *cases.measures["max_normal_force"])
 
 
 def test_many_lines_become_a_map_or_a_choice(tmp_path):
-    """A legend of dozens cannot be read: two fields of numbers become a map, of more fields some combinations are
-    drawn, and it is said."""
+    """A legend of dozens cannot be read: two fields of numbers become a map, of more some are drawn, and it is said."""
     few = drawn(tmp_path, torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0])
     assert [curve.name for curve in few.curves] == ["offset 4 N", "offset 5 N"] and not few.logarithmic
     chart = drawn(tmp_path, torque=np.geomspace(1.0, 1000.0, 20), offset=np.arange(15.0))

@@ -1,4 +1,4 @@
-"""The paper's scenes at small resolutions, and a cache that the tests of this folder share."""
+"""The paper's scenes at small resolutions."""
 
 from dataclasses import replace
 
@@ -20,7 +20,6 @@ def reference_cache(suite_cache):
 
 @pytest.fixture(scope="session")
 def paper_cases(paper_scene):
-    """The paper's scene quasi-static and at 200 Hz, with and without friction."""
     static = replace(paper_scene, inertia=None, damping=None, motion=Motion(200.0, 2, 1))
     dynamic = replace(paper_scene, motion=Motion(200.0, 10, 1))
     return {
@@ -33,7 +32,7 @@ def paper_cases(paper_scene):
 
 @pytest.fixture(scope="session")
 def both_routes(reference_cache):
-    """Results of the fast and of the reference route at equal flank resolution; `preparation` is for the latter."""
+    """Results of both routes at equal flank resolution; `preparation` is for the reference."""
     known = {}
 
     def run(scene, element="P2", size=0.08, steps=STEPS, preparation=None):

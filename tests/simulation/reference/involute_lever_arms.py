@@ -1,10 +1,6 @@
-"""The reference route but for one thing: normal forces have the base radii as arms, as on the fast route.
-
-An involute turned by phi moves by rb phi along its own normal wherever it is touched. The published node-to-node
-equations see a material point at the height h off the line of action instead, which moves by h phi along e_x: they
-neglect that, moving tangentially, another part of a slanted flank takes its place. This part of the routes' difference
-stays under refinement.
-"""
+"""The reference route with the base radii as arms of normal forces: an involute turned by phi moves by rb phi along
+its own normal wherever it is touched. The published equations see a material point at the height h off the line of
+action, which moves by h phi along e_x."""
 
 from dataclasses import replace
 
@@ -17,8 +13,6 @@ from fenics_gears.simulation.reference_route import reference_route
 
 
 class InvoluteArms(Cycle):
-    """A remeshed cycle with involute arms; its steps are solved in the mixed form."""
-
     def __init__(self, cycle):
         mesh = replace(cycle.mesh, solve=by_newton, traits=MeshTraits())
         super().__init__(mesh, cycle.steps, cycle.coordinates, cycle.tangential)
@@ -36,6 +30,5 @@ class InvoluteArms(Cycle):
 
 
 def with_involute_arms(model, progress, cache):
-    """A `preparation` for `simulate`."""
     gears, cycle = reference_route(model, progress, cache)
     return gears, InvoluteArms(cycle)

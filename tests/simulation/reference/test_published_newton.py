@@ -1,4 +1,4 @@
-"""The Newton method of Appendix B against the program's own solver, and against its own definition."""
+"""The Newton method of Appendix B."""
 
 from dataclasses import replace
 
@@ -22,8 +22,7 @@ SEEDS = [pytest.param(seed, marks=pytest.mark.nightly if seed > 3 else ()) for s
 
 
 def random_problem(seed, tangential=True, friction=0.2):
-    """A step in the mixed form whose drivetrain is regular, and the same in [24], [25], [C.1] by K = (C + G K_eff^-1
-    G^T)^-1."""
+    """A step in the mixed form with a regular drivetrain, and in [24], [25], [C.1] by K = (C + G K_eff^-1 G^T)^-1."""
     generator = np.random.default_rng(seed)
     m = 2 * NODES if tangential else NODES
     factor = generator.normal(size=(m, m))
@@ -69,8 +68,7 @@ def solved(equations, most=200):
 @pytest.mark.parametrize("tangential", [True, False])
 @pytest.mark.parametrize("seed", SEEDS)
 def test_same_solution_as_active_sets(seed, tangential):
-    """Other solver: the active-set Newton on the mixed form, whose answers are checked against enumeration
-    elsewhere."""
+    """Other solver: the active-set Newton on the mixed form."""
     problem, equations = random_problem(seed, tangential)
     expected = solve_step(problem, cold_start(problem.gap, np.zeros(NODES, dtype=int)))
     found = solved(equations)[-1]
@@ -82,7 +80,7 @@ def test_same_solution_as_active_sets(seed, tangential):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_direction_is_newtons(seed):
-    """Finite differences: along z the directional derivative of H is -H [B.2], at points where no law has a kink."""
+    """Finite differences: along z the directional derivative of H is -H [B.2]."""
     _, equations = random_problem(seed)
     generator = np.random.default_rng(seed + 100)
     displacement, forces = generator.normal(size=2 * NODES) * 0.01, generator.normal(size=2 * NODES) * 2e3
@@ -95,8 +93,7 @@ def test_direction_is_newtons(seed):
 
 
 def test_what_it_cannot_solve_goes_to_the_ladder_and_is_told(paper_cases, reference_cache):
-    """Message: a load that pulls the flanks apart has no static equilibrium; the error lists the published method
-    first, then the ladder."""
+    """The error lists the published method first, then the ladder."""
     accuracy = Accuracy(
         element="P2",
         flank_element_size=0.3,

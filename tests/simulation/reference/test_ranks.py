@@ -12,8 +12,7 @@ pytestmark = pytest.mark.ranks
 
 @pytest.fixture(scope="module")
 def scene_file(tmp_path_factory):
-    """The paper's scene, coarse, remeshed at every step."""
-    text = (CHECKOUT / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
+    text = (CHECKOUT / "demos" / "lundvall2004.toml").read_text()
     for old, new in (
         ('condensation = "once"', 'condensation = "every step"'),
         ("steps_per_mesh_cycle = 100", "steps_per_mesh_cycle = 2"),
@@ -24,14 +23,13 @@ def scene_file(tmp_path_factory):
         assert old in text
         text = text.replace(old, new)
     path = tmp_path_factory.mktemp("ranks") / "every_step.toml"
-    path.write_text(text, encoding="utf-8")
+    path.write_text(text)
     return path
 
 
 @pytest.mark.parametrize("ranks", [pytest.param(number, marks=pytest.mark.nightly) for number in (2, 3)])
 def test_ranks_give_what_one_gives(scene_file, tmp_path, monkeypatch, ranks):
-    """Which process condenses a position changes nothing but, with its number of threads, round-off; and only rank 0
-    writes."""
+    """The number of threads changes round-off alone; only rank 0 writes."""
     monkeypatch.setenv("FENICS_GEARS_CACHE", str(tmp_path / "cache"))
     run = gears(tmp_path, "run", scene_file, "--output", tmp_path / "run", "--no-pictures", ranks=ranks)
     assert run.returncode == 0, run.stderr

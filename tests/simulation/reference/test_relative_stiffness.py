@@ -1,4 +1,4 @@
-"""The paper's elimination [22], [C.1] against the mixed form, which keeps the centre coordinates."""
+"""The paper's elimination [22], [C.1] against the mixed form."""
 
 from dataclasses import replace
 
@@ -28,7 +28,7 @@ def scene_of(scene, case):
 
 def elastic_gears(seed):
     """Stiffness of two gears over normals, tangents and centre that costs rigid motions nothing; compliances and
-    motions too."""
+    motions."""
     generator, gears = np.random.default_rng(seed), []
     for radius in RADII:
         factor = generator.normal(size=(2 * NODES, 2 * NODES))
@@ -46,7 +46,6 @@ def elastic_gears(seed):
 
 
 def mixed_form(gears, coordinates, tangential):
-    """C (m, m) and G (m, k) of u = G q - C p."""
     kept = 2 * NODES if tangential else NODES
     rigid = np.zeros((2 * NODES, 7))
     rigid[:, :3] = gears[0][2] / [1.0, 1.0, RADII[0]]
@@ -57,10 +56,8 @@ def mixed_form(gears, coordinates, tangential):
 @pytest.mark.parametrize("tangential", [True, False])
 @pytest.mark.parametrize("case", CASES)
 def test_elimination_equals_the_mixed_form(case, tangential, paper_scene, paper_pair):
-    """Exact identity: K q + G^T p = F and u = G q - C p satisfy K u + p + f = 0 [C.1], and the centre comes back.
-
-    With static cases K is singular; forces in equilibrium with the load are then taken, the free rotation at will.
-    """
+    """Exact identity: K q + G^T p = F and u = G q - C p satisfy K u + p + f = 0 [C.1]. Where K is singular forces
+    are in equilibrium, the free rotation at will."""
     shafts = drivetrain(scene_of(paper_scene, case), paper_pair)
     effective, generator = AverageAcceleration(shafts, 5e-5).stiffness, np.random.default_rng(7)
     gears = elastic_gears(3)
@@ -82,7 +79,7 @@ def test_elimination_equals_the_mixed_form(case, tangential, paper_scene, paper_
 
 
 def balanced(effective, rigid, force, forces):
-    """Forces changed so that the free motion of a singular K does no work, and one of the then many solutions q."""
+    """Forces changed so that the free motion of a singular K does no work, and one of the solutions q."""
     values, vectors = np.linalg.eigh(effective)
     free = vectors[:, np.abs(values) < 1e-9 * max(values.max(), 1.0)]
     assert free.shape[1] == 1
@@ -94,8 +91,7 @@ def balanced(effective, rigid, force, forces):
 
 @pytest.mark.nightly
 def test_long_steps_lose_no_more_digits(paper_cases, both_routes):
-    """Equilibrium: with the wheel's inertia vanishing its couple is the load's. [22] inverts K_qq + K^i, so that
-    4J/dt^2 may vanish."""
+    """Equilibrium: with the wheel's inertia vanishing its couple is the load's."""
     scene = replace(paper_cases["200 Hz"], motion=Motion(1e-6, 2, 1))
     reference = both_routes(scene)[1]
     couple = -reference.reaction_couple.sel(gear="wheel").values

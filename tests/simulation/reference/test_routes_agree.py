@@ -1,4 +1,4 @@
-"""The reference route against the fast route, which interpolates and averages where the reference remeshes."""
+"""The reference route against the fast route."""
 
 import numpy as np
 import pytest
@@ -8,8 +8,7 @@ CASES = ("static", "static frictionless", "200 Hz", "200 Hz frictionless")
 
 
 def distance(fast, reference):
-    """Root mean square difference of T_E by its mean, and difference of T_EPP by itself, of the same steps: the
-    reference has no positions between them."""
+    """Root mean square difference of T_E by its mean, and of T_EPP by itself."""
     difference = fast.transmission_error.values - reference.transmission_error.values
     mean = reference.transmission_error.values.mean()
     peaks = [np.ptp(result.transmission_error.values) for result in (fast, reference)]
@@ -18,8 +17,7 @@ def distance(fast, reference):
 
 @pytest.mark.parametrize("case", [*CASES[:3], pytest.param(CASES[3], marks=pytest.mark.nightly)])
 def test_routes_agree_on_the_papers_pair(case, paper_cases, both_routes):
-    """Other method, asked for: T_E over the cycle within 0.5 % of its mean and T_EPP within 3 % at equal flank
-    resolution."""
+    """T_E within 0.5 % of its mean and T_EPP within 3 % at equal flank resolution."""
     error, peak_to_peak = distance(*both_routes(paper_cases[case]))
     assert error < 0.005
     assert peak_to_peak < 0.03
@@ -36,8 +34,7 @@ def test_routes_agree_at_the_papers_resolution(case, element, paper_cases, both_
 
 @pytest.mark.nightly
 def test_routes_approach_each_other(paper_cases, both_routes):
-    """Other method: with the same arms of the normal forces nothing but discretisation is between the routes, of order
-    one at least."""
+    """With the same arms of the normal forces only discretisation is between the routes, of order one."""
     sizes = (0.16, 0.08)
     errors = [
         distance(*both_routes(paper_cases["200 Hz"], size=size, preparation=with_involute_arms))[0] for size in sizes
@@ -47,8 +44,7 @@ def test_routes_approach_each_other(paper_cases, both_routes):
 
 
 def test_published_arms_are_what_remains(paper_cases, both_routes):
-    """Exact kinematics of the involute: the published arms h = rb -+ y put the remaining difference in T_E, below y/rb
-    of the window."""
+    """Exact kinematics: the arms h = rb -+ y put the difference in T_E, below y/rb of the window."""
     published = distance(*both_routes(paper_cases["200 Hz"]))[0]
     involute = distance(*both_routes(paper_cases["200 Hz"], preparation=with_involute_arms))[0]
     assert involute < 0.5 * published
@@ -56,8 +52,7 @@ def test_published_arms_are_what_remains(paper_cases, both_routes):
 
 
 def test_published_method_solves_every_step(paper_cases, both_routes):
-    """The paper [B]: its Newton method with line search converges on its pair, the pitch point included; no step needs
-    the ladder."""
+    """The paper [B]: no step needs the ladder."""
     for case in CASES[:3]:
         reference = both_routes(paper_cases[case])[1]
         steps = reference.attrs["steps_by_rung: Newton with line search"]
@@ -65,7 +60,7 @@ def test_published_method_solves_every_step(paper_cases, both_routes):
 
 
 def test_result_is_labelled_and_complete(paper_cases, both_routes):
-    """docs/promises.md: the same dataset by either route, which says by which."""
+    """docs/promises.md: the same dataset, which says its route."""
     fast, reference = both_routes(paper_cases["static"])
     assert set(fast.data_vars) == set(reference.data_vars)
     assert (fast.attrs["condensation"], reference.attrs["condensation"]) == ("once", "every step")

@@ -1,4 +1,4 @@
-"""What a choice of settings rests on: errors of order 2 and the cheapest sizes, on errors and costs that are known."""
+"""What a choice of settings rests on, on errors and costs that are known."""
 
 from itertools import product
 from math import hypot, sqrt
@@ -51,8 +51,7 @@ class KnownRuns:
 @pytest.mark.parametrize("target", [0.02, 0.005, 0.001])
 @pytest.mark.parametrize("powers", [(2.0, 1.0), (1.0, 1.0), (1.0, 2.0)])
 def test_the_cheapest_sizes_are_lagranges(target, powers):
-    """Exact: with errors of order 2, whose squares add, and a cost mesh^-a steps^b the least cost has squares of errors
-    as a to b (Lagrange's multiplier)."""
+    """Lagrange's multiplier: errors of order 2 and a cost mesh^-a steps^b share squares of errors as a to b."""
     runs = KnownRuns((0.005, 0.02 * 60**2), powers)
     errors = runs.errors(TRIED)
     found = search(runs, TRIED, errors, target)
@@ -67,14 +66,13 @@ def test_the_cheapest_sizes_are_lagranges(target, powers):
 
 
 def test_errors_that_do_not_fall_are_refused():
-    """An error of order 0 is never below a target that it is above."""
+    """An error of order 0."""
     with pytest.raises(TargetNotReached, match="do not fall"):
         _chosen(KnownRuns((0.1, 0.1), order=0.0), MODULE, 0.002)
 
 
 def test_sizes_beyond_the_limits_are_not_chosen_and_the_reachable_target_is_named():
-    """Exact: with the mesh's error alone the finest mesh allowed has the error that is named, up to the search's
-    steps."""
+    """Exact: the mesh's error alone, up to the search's steps."""
     runs = KnownRuns((0.01, 0.0), finest=0.99, steps_matter=False)
     assert search(runs, TRIED, {MESH: 0.04}, 0.011).mesh >= 0.99
     with pytest.raises(TargetNotReached, match=r"^too fine; 1 % can be reached$"):
@@ -86,14 +84,14 @@ def test_sizes_beyond_the_limits_are_not_chosen_and_the_reachable_target_is_name
 
 @pytest.mark.parametrize("target", [0.5, 0.05, 0.01, 0.002, 0.0005])
 def test_first_sizes_go_with_the_root_of_the_target(target):
-    """Order 2; halves of the steps are whole numbers, at least the fewest without a warning."""
+    """Order 2; halves of the steps are whole numbers."""
     sizes, coarser = (first_sizes(each, FEWEST_STEPS, True) for each in (target, 4.0 * target))
     assert coarser.mesh <= 2.0 * sizes.mesh * (1.0 + 1e-12) and sizes.steps <= 2 * coarser.steps
     assert sizes.steps % ROUND_STEPS == 0 and sizes.steps >= FEWEST_STEPS and round_steps(1) == ROUND_STEPS
 
 
 class KnownRunsOverFace(KnownRuns):
-    """With slices and layers: errors of order 2 in them, a cost of the slices' square, and of the layers' over mesh."""
+    """With slices and layers: errors of order 2, a cost of the slices' square, and of the layers' over mesh."""
 
     slices, layers = 20, 10
 
@@ -108,8 +106,7 @@ class KnownRunsOverFace(KnownRuns):
 @pytest.mark.parametrize("steps_matter", [True, False])
 @pytest.mark.parametrize("target", [0.05, 0.01])
 def test_slices_and_layers_are_chosen_beside_mesh_and_steps(steps_matter, target):
-    """Brute force over meshes, slices, layers and steps: nothing that reaches the target is much cheaper. Layers tell
-    the slices apart."""
+    """Brute force: nothing that reaches the target is much cheaper; layers tell the slices apart."""
     runs = KnownRunsOverFace((0.002, 0.004 * 60**2), steps_matter=steps_matter)
     tried = first_sizes(target, FEWEST_STEPS, steps_matter, runs.slices, runs.layers)
     assert tried.slices == even(max(16, 14 * sqrt(0.01 / target))) and tried.layers == (6 if target == 0.01 else 4)

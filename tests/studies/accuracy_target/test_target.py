@@ -1,5 +1,4 @@
-"""`[accuracy] target` on a real scene: what is chosen reaches it, is told, and repeats; what cannot be reached is
-refused."""
+"""`[accuracy] target` on a real scene."""
 
 import re
 from dataclasses import replace
@@ -8,6 +7,7 @@ import numpy as np
 import pytest
 from tests.benchmarks.target_pairs import pairs
 from tests.coarse import teeth_alone
+from tests.paper_text import coarse_text
 
 from fenics_gears import SceneError, expected_cost, model_of, scene_from_text, simulate
 from fenics_gears.commands.cli import main
@@ -22,20 +22,12 @@ from fenics_gears.studies.accuracy.trial_runs import MESH, STEPS, Sizes, TargetN
 from fenics_gears.system.progress import SilentProgress
 
 TARGET = 0.1
-TEXT_TARGET = '\n[accuracy]\ntarget = "10 %"\n'
 
 
 @pytest.fixture(scope="module")
-def text(paper_scene):
-    """The paper's pair, of which only the teeth give way; one mesh cycle."""
-    plain = paper_scene.text.partition("[accuracy]")[0]
-    for section in ("shafts", "bearings", "inertia", "damping", "friction"):
-        before, _, after = plain.partition(f"[{section}]")
-        plain = before + ("[" + after.partition("\n[")[2] if "\n[" in after else "")
-    return (
-        plain.replace("mesh_cycles = 30", "mesh_cycles = 1").replace("recorded_cycles = 2", "recorded_cycles = 1")
-        + TEXT_TARGET
-    )
+def text():
+    effects = ("shafts", "bearings", "inertia", "damping", "friction")
+    return coarse_text(*effects, cycles=1, recorded=1, accuracy='[accuracy]\ntarget = "10 %"\n')
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +37,6 @@ def scene(text):
 
 @pytest.fixture(scope="module", autouse=True)
 def runs_once():
-    """Every trial run is made once for all tests here."""
     made = {}
 
     def once(model, gears, progress):
@@ -64,7 +55,7 @@ def run(scene):
 
 
 def test_the_scene_is_the_one_meant(scene, paper_scene):
-    """Identity with the scene made from the paper's."""
+    """Identity."""
     expected = replace(
         teeth_alone(paper_scene), friction=None, accuracy=Accuracy(target=TARGET), motion=Motion(200.0, 1, 1)
     )
@@ -72,7 +63,7 @@ def test_the_scene_is_the_one_meant(scene, paper_scene):
 
 
 def test_the_true_error_is_within_the_target(scene, run):
-    """Another resolution: a mesh three times and steps twice as fine as what was chosen."""
+    """A mesh three times and steps twice as fine."""
     runs = TrialRuns(scene, lambda words: None)
     mesh = run.attrs["flank_element_size"] / runs.setting(Sizes(1.0, 40)).flank
     fine = runs.setting(Sizes(mesh / 3.0, 2 * run.attrs["steps_per_mesh_cycle"]))
@@ -86,22 +77,20 @@ def test_the_true_error_is_within_the_target(scene, run):
 
 
 def test_the_scene_that_the_result_carries_repeats_it(run):
-    """Identity, to the last bit: settings stand in the result's scene in place of the target, and nothing is measured
-    again."""
+    """Identity, to the last bit; nothing is measured again."""
     again = scene_from_text(run.attrs["scene"])
     assert again.accuracy.target is None and again.accuracy.flank_element_size == run.attrs["flank_element_size"]
     assert np.array_equal(simulate(again).transmission_error.values, run.transmission_error.values)
 
 
 def test_a_tighter_target_takes_a_finer_mesh(scene, run):
-    """By definition of a target."""
+    """Definition of a target."""
     tighter = choose(scene, 0.01, SilentProgress())
     assert tighter.estimated_error <= 0.01 and tighter.setting.flank < run.attrs["flank_element_size"]
 
 
 def test_only_steps_with_a_past_have_an_error(scene):
-    """Identity: a quasi-static step without friction knows nothing of the one before, so that half the steps give the
-    same values; with friction they do not, and one more run measures by how much."""
+    """Identity: without friction half the steps give the same values; with it one more run measures by how much not."""
     runs, sizes = TrialRuns(scene, lambda words: None), Sizes(2.5, 40)
     assert set(runs.errors(sizes)) == {MESH} and runs.runs == 2
     rubbing = TrialRuns(replace(scene, friction=Friction(0.1)), lambda words: None)
@@ -110,7 +99,7 @@ def test_only_steps_with_a_past_have_an_error(scene):
 
 
 def test_costs_are_those_of_the_scene_with_the_settings(scene):
-    """Identity with what `gears check` shows; finer is dearer in both sizes."""
+    """Identity with `gears check`; finer is dearer."""
     runs, sizes = TrialRuns(scene, lambda words: None), Sizes(1.0, 80)
     expected = expected_cost(model_of(runs.setting(sizes).of(scene)))
     assert runs.cost(sizes) == expected.condensing + expected.marching
@@ -118,7 +107,7 @@ def test_costs_are_those_of_the_scene_with_the_settings(scene):
 
 
 def test_a_window_that_cuts_contact_off_is_lengthened(scene):
-    """The program's own warning decides: trial runs that begin with too short a window end with one that is not."""
+    """The program's own warning decides."""
     runs, sizes = TrialRuns(scene, lambda words: None), Sizes(2.5, 40)
     whole = runs.setting(sizes).length
     runs._default = replace(runs._default, length=0.13 * whole)
@@ -128,7 +117,7 @@ def test_a_window_that_cuts_contact_off_is_lengthened(scene):
 
 
 def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
-    """With little memory no fine settings fit; the target named instead can be reached, by the same runs."""
+    """With little memory; the target named instead is reached by the same runs."""
     monkeypatch.setattr(trial_runs, "MOST_BYTES", 3.4e8)
     with pytest.raises(
         TargetNotReached,
@@ -141,7 +130,7 @@ def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
 
 
 def test_choosing_can_be_interrupted_within_a_run(scene, monkeypatch):
-    """Ctrl-C becomes a KeyboardInterrupt within the first run, not at its end."""
+    """Ctrl-C within the first run, not at its end."""
 
     class Interrupted(SilentProgress):
         said = 0
@@ -173,13 +162,11 @@ def test_a_setting_beside_a_target_is_refused(text, line, reason):
 @pytest.mark.parametrize("written, reason", [
     ("1", 'is a number without its unit. In % it is written "1 %"'),
     ('"1"', "is a number without unit, not a percentage"), ('"1 mm"', "is a length, not a percentage"),
-    ('"-1 %"', "is negative"),
-    ('"0 %"', "is zero"), ('"0.01 %"', "is too small"), ('"60 %"', "is too large"),
-    ("true", "is not a text with a number and its unit"),
-    ('"1e999 %"', "is not a finite number"), ("0.2", 'In % it is written "0.2 %"'),
+    ('"0 %"', "is zero"), ('"0.01 %"', "is too small"),
+    ('"1e999 %"', "is not a finite number"),
 ])  # fmt: skip
 def test_a_wrong_percentage_says_what_is_wrong(text, written, reason):
-    """Wording for people."""
+    """Wording."""
     with pytest.raises(SceneError) as failure:
         scene_from_text(text.replace('"10 %"', written))
     assert reason in str(failure.value) and "Allowed: a percentage from 0.05 % to 50 %" in str(failure.value)
@@ -210,7 +197,7 @@ def test_check_says_that_settings_are_chosen_by_the_run(text, tmp_path, capsys):
 
 
 def test_settings_of_targets(scene, monkeypatch):
-    """Definition: what `choose` gives, by name; a target that cannot be reached joins the failures with its reason."""
+    """Definition: what `choose` gives; a target that cannot be reached joins the failures."""
     failures = []
     found = settings_of(scene, (TARGET,), SilentProgress(), failures)
     assert found == {"target 10 %": (choose(scene, TARGET, SilentProgress()).setting, TARGET)} and not failures
@@ -222,8 +209,8 @@ def test_settings_of_targets(scene, monkeypatch):
 
 @pytest.mark.nightly
 def test_steps_that_barely_follow_a_vibration_keep_the_target(paper_scene):
-    """Another resolution: a pair at random whose errors fall by order 1 from 40 to 80 steps, with four times the chosen
-    steps and half the mesh. Targets from 4.3 to 4.7 % were missed by up to 9 % of them."""
+    """A pair whose errors fall by order 1, with four times the steps and half the mesh; targets of 4.3 to 4.7 % were
+    missed."""
     name = "20/80, shifts 0.22 and 0.23, 60 N/mm, sharp tips, friction 0.05, 200 Hz"
     scene, target = pairs(paper_scene)[name], 0.044
     setting = choose(scene, target, SilentProgress()).setting

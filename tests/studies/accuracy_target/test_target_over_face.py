@@ -1,5 +1,4 @@
-"""`[accuracy] target` of pairs whose flanks are resolved over the face: all that it promises holds against a finer
-run."""
+"""`[accuracy] target` over the face."""
 
 from dataclasses import replace
 
@@ -25,8 +24,8 @@ PAIRS = {
 @pytest.mark.nightly
 @pytest.mark.parametrize("name", PAIRS)
 def test_all_that_a_target_promises_holds(name):
-    """Another resolution: flank elements, contact nodes, slices and layers twice as fine as what was chosen, body
-    elements by half. None of what was chosen is warned of."""
+    """Flank elements, contact nodes, slices and layers twice as fine, body elements by half; nothing chosen is
+    warned of."""
     more, helix = PAIRS[name]
     run = simulate(
         helical_scene(

@@ -1,7 +1,5 @@
-"""Static displacements of shafts at their gear under a force and a moment, and natural frequencies with a disc there,
-by this program and by the rotor program ROSS, side by side.
-
-    python -m tests.benchmarks.against_ross PYTHON   # PYTHON: one that has ROSS, `pip install ross-rotordynamics`
+"""Displacements of shafts at their gear and natural frequencies with a disc there, by this program and by the rotor
+program ROSS: `python -m tests.evidence ross --python PYTHON`, of a Python that has `ross-rotordynamics`.
 
 The gear's seat has no width here, since ROSS has no rigid part of a shaft. Each section is divided into as many
 elements of ROSS as the second number of its row says.
@@ -9,7 +7,6 @@ elements of ROSS as the second number of its row says.
 
 import json
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -87,19 +84,3 @@ def compared(python: str) -> dict[str, tuple[tuple[np.ndarray, np.ndarray], tupl
         own = np.linalg.inv(shaft.stiffness), free_frequencies(vibrating(shaft, DENSITY, UP_TO))
         found[name] = own, by_ross(python, shaft, pieces)
     return found
-
-
-def main(python: str) -> None:
-    """Print displacements and largest differences."""
-    print("shaft; um along x under 1 kN: this program, ROSS; largest difference, part of each entry's own size")
-    every = compared(python)
-    for name, ((own, _), (other, _)) in every.items():
-        size = np.sqrt(np.outer(np.diag(own), np.diag(own)))
-        print(f"{name}; {1e6 * own[0, 0]:.6f}, {1e6 * other[0, 0]:.6f}; {np.abs((own - other) / size).max():.1e}")
-    print(f"natural frequencies up to {COMPARED:g} Hz: how many, lowest by both, largest difference in parts")
-    for name, ((_, own), (_, other)) in every.items():
-        print(f"{name}; {len(own)}; {own[0]:.3f}, {other[0]:.3f}; {np.abs(own / other - 1.0).max():.1e}")
-
-
-if __name__ == "__main__":
-    main(sys.argv[1])
