@@ -90,7 +90,7 @@ def _run(
         work.check(design.title, team.size)
     if not quiet:
         print(_opening(design, len(deviations), evaluator, work, team.size), file=sys.stderr, flush=True)
-    evaluator.runs.condense(at_ends(design)[-1:], progress)
+    evaluator.runs.condense([case for end in at_ends(design)[-1:] for case in end], progress)
     progress.stage("before")
     (before,) = evaluator.of_trees([design.before], [{}], deviations)
     progress.stage("search")

@@ -230,7 +230,7 @@ def test_time_of_runs_that_are_solved_together_is_less_than_of_single_ones(folde
     """docs/optimize.md: quasi-static plane runs are solved together, but not for a number that only whole results
     have."""
     design = load_design(write(folder, STILL + VARIABLES + GOAL + FEW))
-    models = [case.model for case in at_ends(design)]
+    models = [case.model for end in at_ends(design) for case in end]
     alone = replace(design, goals=(replace(design.goals[0], name="peak_to_peak_force"),))
     assert runs.solved_at_once(models, design.asked) and not runs.solved_at_once(models, alone.asked)
     one, two, single = (expected_work(*each) for each in ((design, 0), (design, 0, 2), (alone, 0)))
