@@ -8,9 +8,9 @@ import numpy as np
 from tests.contact.problems import pressed
 
 from fenics_gears import Gear, Scene, model_of
+from fenics_gears.contact.kinematics import CENTRE_COORDINATES
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach

@@ -6,8 +6,7 @@ import numpy as np
 
 from fenics_gears.errors import ComputationError
 
-from .laws import STATUS_NAMES
-from .newton import RESIDUAL_NAMES, RESIDUAL_UNITS
+from .laws import RESIDUAL_NAMES, RESIDUAL_UNITS, STATUS_NAMES
 
 
 class ContactNotConverged(ComputationError):

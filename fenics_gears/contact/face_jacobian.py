@@ -6,7 +6,8 @@ from __future__ import annotations
 import numpy as np
 
 from .face import Face
-from .operator import FACE_COORDINATES, Lines, per_node
+from .kinematics import FACE_COORDINATES, Lines
+from .tooth_pair import per_node
 
 SENSES = (1.0, -1.0)  # of the relative displacement: the pinion approaches with +n, the wheel with -n
 

@@ -12,10 +12,21 @@ from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from .face import Face
 from .face_pairing import FacePair, FacePairing
 from .mesh import Mesh, MeshTraits, flank_nodes
-from .mesh_cycle import Cycle, Opening, PerPosition, Position
-from .operator import node_ends, over_nodes, per_node
+from .mesh_cycle import Cycle, Opening, PerPosition
+from .operator import Position
 from .places import face_places
-from .tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, interpolations, rolls_of
+from .tooth_pair import (
+    COAST,
+    DRIVE,
+    Flanks,
+    PairNodes,
+    Place,
+    interpolations,
+    node_ends,
+    over_nodes,
+    per_node,
+    rolls_of,
+)
 from .window import ContactGrid, coast_roll_angles, contact_roll_angles
 
 # Gap (k,), mm along the line of action, between flanks at heights z (k,), mm, and positions (k,), mm from T1.

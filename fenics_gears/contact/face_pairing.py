@@ -25,7 +25,8 @@ from .face import Face
 from .fine_sections import BEGIN, IN_SLICE, OF_SLICE, SLICE, TOOTH, Fine, Side, stacked
 from .formed_rows import FormedRows, fine_section, uncertain_slices
 from .interpolation import FlankInterpolation
-from .operator import Passage, Response, turned
+from .kinematics import turned
+from .operator import Passage, Response
 from .pairing import LAYER, SMALLEST_PIVOT, dependent_rows
 from .tooth_pair import Flanks, Place, ToothPair
 

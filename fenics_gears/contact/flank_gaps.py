@@ -20,9 +20,10 @@ from fenics_gears.geometry.pair import GearPair
 from .face import Face
 from .flank_at_height import roll_angle_at_height
 from .interpolation import node_average, quadrature_offsets
-from .mesh_cycle import PerPosition, Position
-from .operator import IN_THE_PLANE, node_slices
-from .tooth_pair import DRIVE, PairNodes, ToothPair
+from .kinematics import IN_THE_PLANE
+from .mesh_cycle import PerPosition
+from .operator import Position
+from .tooth_pair import DRIVE, PairNodes, ToothPair, node_slices
 
 if TYPE_CHECKING:
     from fenics_gears.effects.flank_errors_sections import FlankErrors

@@ -1,9 +1,11 @@
-"""Signorini's and Coulomb's laws at a contact node, as projections [24], [25], and the tolerance of a solution."""
+"""Signorini's and Coulomb's laws at a contact node, as projections [24], [25]; by how much an iterate violates them and
+equilibrium, and what is tolerated."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 from numba import njit
 
 # States of a contact node. Without friction a closed node counts as SLIP_FORWARD: it carries no tangential force.
@@ -51,3 +53,101 @@ def next_status(status, normal, pressed, frictional, trial, friction, through_st
     if through_stick and status != OPEN and status != STICK and status != wanted:
         return STICK
     return wanted
+
+
+ROUND_OFF = 1e-12
+
+
+PENETRATION, TENSION, CONE_EXCESS, STICK_SLIP, EQUILIBRIUM = range(5)
+
+
+RESIDUAL_NAMES = ("penetration", "tension", "cone excess", "stick slip", "equilibrium")
+
+
+RESIDUAL_UNITS = ("mm", "N", "N", "mm", "N")
+
+
+@njit(cache=True, error_model="numpy")
+def _force_round_off(equations, coordinates):
+    """Round-off (N) of the forces: that of the load, and that of the lengths times the stiffnesses of springs and
+    teeth."""
+    stiffness, load, gap = equations.stiffness, equations.load, equations.gap
+    largest_load, largest_spring, length = 0.0, 0.0, 0.0
+    for c in range(len(load)):
+        spring = 0.0
+        for d in range(len(load)):
+            spring += abs(stiffness[c, d] * coordinates[d])
+        largest_load, largest_spring = max(largest_load, abs(load[c])), max(largest_spring, spring)
+        length = max(length, abs(coordinates[c]))
+    terms = largest_load + largest_spring
+    if len(gap):
+        for each in gap:
+            length = max(length, abs(each))
+        terms += 1e-2 * length / equations.compliance[0, 0]
+    return ROUND_OFF * terms
+
+
+@njit(cache=True)
+def measure(residual, equations, iterate):
+    """Violation of the laws and of equilibrium by an iterate, into `residual` (5,).
+
+    Equilibrium is solved, not iterated: a residual within the round-off of a row's terms is no violation. A slip
+    against its friction counts in proportion to that friction, as far as it exceeds the round-off of the forces.
+    """
+    _, load, _, _, gap, slip_before, friction, _, _ = equations
+    status, forces, coordinates, displacement = iterate
+    n, penetration, tension, excess, stick_slip = len(gap), 0.0, 0.0, 0.0, 0.0
+    for j in range(n):
+        penetration, tension = max(penetration, displacement[j] - gap[j]), max(tension, -forces[j])
+    if len(slip_before):
+        negligible = ROUND_OFF + _force_round_off(equations, coordinates) if len(load) else ROUND_OFF
+        for j in range(n):
+            excess = max(excess, abs(forces[n + j]) - friction * max(forces[j], 0.0))
+            slip = displacement[n + j] + slip_before[j]
+            against = forces[n + j] * slip < 0.0 and abs(forces[n + j]) > negligible
+            if status[j] == STICK or status[j] != OPEN and against:
+                stick_slip = max(stick_slip, abs(slip))
+    residual[PENETRATION], residual[TENSION], residual[CONE_EXCESS] = penetration, tension, excess
+    residual[STICK_SLIP], residual[EQUILIBRIUM] = stick_slip, _imbalance(equations, iterate)
+
+
+@njit(cache=True)
+def _imbalance(equations, iterate):
+    """The largest force (N) by which a centre coordinate is out of equilibrium, beyond the round-off of its terms."""
+    stiffness, load, jacobian = equations.stiffness, equations.load, equations.jacobian
+    forces, coordinates, largest = iterate.forces, iterate.coordinates, 0.0
+    balance = np.empty((2, len(load)))
+    for c in range(len(load)):
+        total, terms = -load[c], abs(load[c])
+        for d in range(len(load)):
+            term = stiffness[c, d] * coordinates[d]
+            total, terms = total + term, terms + abs(term)
+        balance[0, c], balance[1, c] = total, terms
+    for i in range(len(forces)):
+        force = forces[i]
+        if force != 0.0:
+            for c in range(len(load)):
+                term = jacobian[i, c] * force
+                balance[0, c] += term
+                balance[1, c] += abs(term)
+    for c in range(len(load)):
+        largest = max(largest, abs(balance[0, c]) - ROUND_OFF * balance[1, c])
+    return largest
+
+
+@njit(cache=True)
+def within(residual, equations, coordinates, method):
+    """Whether a residual (5,) is within the tolerances of a `newton.Method`, or round-off."""
+    # Equilibrium is solved, not iterated: only the round-off of its largest terms may be left. A gap is a difference of
+    # displacements and is known to their round-off only.
+    longest = 0.0
+    for each in coordinates:
+        longest = max(longest, abs(each))
+    length_tolerance, force_tolerance = method.length_tolerance + 1e-14 * longest, method.force_tolerance
+    return (
+        residual[EQUILIBRIUM] <= 1e-2 * force_tolerance + _force_round_off(equations, coordinates)
+        and residual[PENETRATION] <= length_tolerance
+        and residual[STICK_SLIP] <= length_tolerance
+        and residual[TENSION] <= force_tolerance
+        and residual[CONE_EXCESS] <= force_tolerance
+    )

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from .corner import CornerContact
     from .face import Face
-    from .mesh_cycle import Position
+    from .operator import Position
 
 # Contact nodes of the tooth pairs that can touch at a phase (0 <= phase < 1).
 Nodes = Callable[[float], tuple[PairNodes, ...]]

@@ -8,111 +8,27 @@ gaps alone have all operators in common, also those of places between steps that
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass, replace
-from functools import cached_property
 from math import ceil, inf
 from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from .addresses import GAP, NODES, row_of
+from .addresses import GAP, NODES
 from .face import one_slice
-from .mesh import Mesh, Nodes
-from .node_before import nodes_before
-from .operator import ContactOperator, Passage, contact_operator, over_nodes
+from .kinematics import nodes_before
+from .mesh import Mesh
+from .operator import Passage, Position, StepRows, contact_operator
 from .step_solver import StepProblem, StepSolution
-from .tooth_pair import PairNodes
+from .tooth_pair import PairNodes, over_nodes
 
 # Of the memory that contact operators may take: what is kept for good, and what a march holds of a block of steps, the
 # one before it beside.
 SHARE_KEPT, SHARE_OF_A_BLOCK = 0.7, 0.12
-# Of an operator whose rows are formed when nodes are closed.
-SHARE_FORMED = 0.3
 # Places between steps that runs have in common divide a step by so many.
 COMMON_PLACES = 64
-
-
-@dataclass(frozen=True)
-class Position:
-    """The contact operator of one phase, and for each node the one it was a step before, (n,), -1 where it is new.
-
-    `index`: place in the mesh cycle, in steps; `nodes`: what gave the contact nodes there, as of a Mesh.
-    """
-
-    operator: ContactOperator
-    node_before: np.ndarray
-    index: float = 0
-    nodes: Nodes | None = None
-
-    @cached_property
-    def in_memory(self) -> tuple[np.ndarray, list[np.ndarray]]:
-        """For compiled code: the operator's row of `contact.addresses`, and the arrays whose addresses it has.
-
-        The previous compliance lies there by columns: few nodes are loaded.
-        """
-        operator = self.operator
-        (rows, forms), (columns, forms_before) = operator.stored, operator.stored_before or (None, 0)
-        now, before = operator.stored_jacobians
-        return row_of(operator.nodes, (
-            rows, now, operator.gap, operator.on_drive_flanks, operator.node_pair,
-            self.node_before, operator.rigid_slip, before, columns, operator.sliding,
-            forms, forms_before, now.shape[1],
-        ))  # fmt: skip
-
-    @property
-    def bytes(self) -> int:
-        """Size of the arrays of the contact operator."""
-        whole = sum(array.nbytes for array in self.in_memory[1])
-        return whole if not self.operator.stored.address else int(SHARE_FORMED * whole)
-
-    def with_gap(self, gap: np.ndarray, row: np.ndarray | None = None) -> Position:
-        """The same position with other gaps (n,), mm, in one piece; what is known of it already is not found again.
-        `row`: as of `in_memory` with these gaps, where it is known."""
-        opened = _Opened.__new__(_Opened)
-        opened.__dict__.update(node_before=self.node_before, index=self.index, nodes=self.nodes, true=self, gap=gap)
-        if row is not None:
-            opened.__dict__["in_memory"] = row, [*self.in_memory[1], gap]
-        return opened
-
-
-class StepRows:
-    """The rows (steps, r) of all positions of a mesh cycle, whatever opens them."""
-
-    table: np.ndarray | None = None
-
-    def of(self, positions: Sequence[Position]) -> np.ndarray:
-        """Those of the positions of the cycle that these rows go with."""
-        if self.table is None:
-            self.table = np.array([position.in_memory[0] for position in positions])
-        return self.table
-
-
-class _Opened(Position):
-    """A position `true` with another `gap`. Of most steps compiled code alone reads it, so that its operator is put
-    together when it is asked for."""
-
-    true: Position
-    gap: np.ndarray
-
-    @cached_property
-    def operator(self) -> ContactOperator:  # type: ignore[override]
-        """That of the position with these gaps."""
-        true = self.true.operator
-        # As `replace`, which would form all rows, and in a tenth of the time that `copy` takes.
-        operator = ContactOperator.__new__(ContactOperator)
-        operator.__dict__.update(true.__dict__)
-        operator.__dict__.update(gap=self.gap, node_pair=true.node_pair, on_drive_flanks=true.on_drive_flanks)
-        return operator
-
-    @cached_property
-    def in_memory(self) -> tuple[np.ndarray, list[np.ndarray]]:
-        """As of the position, with these gaps."""
-        row, held = self.true.in_memory
-        row = row.copy()
-        row[GAP] = self.gap.ctypes.data
-        return row, [*held, self.gap]
 
 
 @dataclass

@@ -11,8 +11,6 @@ For the closed nodes (normals), the sticking ones (tangents) and all centre coor
 Eliminating q first would divide by a stiffness that vanishes with growing time step (model.md section 4).
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -23,12 +21,9 @@ from .addresses import call, form_rows, not_inlined, solver_of, to_number
 from .compliance_product import add_multiple
 from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 
-# Unknowns up to which elimination in compiled code is faster than LAPACK.
-SMALL_SYSTEM = 40
-# Pivots of forces as part of the first one, below which larger ones are looked for.
-LEAST_PIVOT = 1e-2
-# Friction coefficient up to which the compliance's diagonal serves as pivots.
-WEAK_FRICTION = 0.25
+SMALL_SYSTEM = 40  # unknowns up to which elimination in compiled code is faster than LAPACK
+LEAST_PIVOT = 1e-2  # of forces, in parts of the first one: below it larger ones are looked for
+WEAK_FRICTION = 0.25  # coefficient up to which the compliance's diagonal serves as pivots
 
 
 class Equations(NamedTuple):
@@ -188,8 +183,7 @@ def solve_factored(equations, iterate, rows, slip, opening):
 
 @njit(cache=True)
 def system_of(size):
-    """Room for the matrix of a linear system that is to be `solved`: of a small one whole groups of four columns, those
-    behind its own zero."""
+    """Room for the matrix of a system that is to be `solved`: of a small one groups of four columns, the last zero."""
     width = size if size > SMALL_SYSTEM else (size + 3) // 4 * 4
     matrix = np.empty((size, width))
     matrix[:, size:] = 0.0

@@ -22,7 +22,7 @@ from .addresses import (
     to_number,
     to_set,
 )  # fmt: skip
-from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, next_status, presses
+from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, measure, next_status, presses, within
 from .mixed_form import Equations, Iterate, product, relative_displacement, solve_sets
 
 CONVERGED, CYCLED, SINGULAR = 0, 1, 2
@@ -30,15 +30,11 @@ OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no sol
 COUNT, FAILED = len(OUTCOMES), -1
 # Sizes, addresses and settings that the C function takes.
 NUMBERS = 21
-ROUND_OFF = 1e-12
 MOST_ITERATIONS = 40
 # How sets change: every node by its projection; the same with reversals of slip stopping at stick first; or only the
 # first node that wants to change. The last is Murty's least-index rule, which cannot cycle where the matrix is a
 # P-matrix (K. G. Murty, Linear Complementarity, Linear and Nonlinear Programming, 1988, chapter 4).
 ALL_AT_ONCE, THROUGH_STICK, ONE_AT_A_TIME = 0, 1, 2
-PENETRATION, TENSION, CONE_EXCESS, STICK_SLIP, EQUILIBRIUM = range(5)
-RESIDUAL_NAMES = ("penetration", "tension", "cone excess", "stick slip", "equilibrium")
-RESIDUAL_UNITS = ("mm", "N", "N", "mm", "N")
 
 
 class Method(NamedTuple):
@@ -113,91 +109,6 @@ def _update_status(equations, iterate, new, r_scale, rule):
     return changed
 
 
-@njit(cache=True, error_model="numpy")
-def _force_round_off(equations, coordinates):
-    """Round-off (N) of the forces: that of the load, and that of the lengths times the stiffnesses of springs and
-    teeth."""
-    stiffness, load, gap = equations.stiffness, equations.load, equations.gap
-    largest_load, largest_spring, length = 0.0, 0.0, 0.0
-    for c in range(len(load)):
-        spring = 0.0
-        for d in range(len(load)):
-            spring += abs(stiffness[c, d] * coordinates[d])
-        largest_load, largest_spring = max(largest_load, abs(load[c])), max(largest_spring, spring)
-        length = max(length, abs(coordinates[c]))
-    terms = largest_load + largest_spring
-    if len(gap):
-        for each in gap:
-            length = max(length, abs(each))
-        terms += 1e-2 * length / equations.compliance[0, 0]
-    return ROUND_OFF * terms
-
-
-@njit(cache=True)
-def measure(residual, equations, iterate):
-    """Violation of the laws and of equilibrium by an iterate, into `residual` (5,).
-
-    Equilibrium is solved, not iterated: a residual within the round-off of a row's terms is no violation. A slip
-    against its friction counts in proportion to that friction, as far as it exceeds the round-off of the forces.
-    """
-    _, load, _, _, gap, slip_before, friction, _, _ = equations
-    status, forces, coordinates, displacement = iterate
-    n, penetration, tension, excess, stick_slip = len(gap), 0.0, 0.0, 0.0, 0.0
-    for j in range(n):
-        penetration, tension = max(penetration, displacement[j] - gap[j]), max(tension, -forces[j])
-    if len(slip_before):
-        negligible = ROUND_OFF + _force_round_off(equations, coordinates) if len(load) else ROUND_OFF
-        for j in range(n):
-            excess = max(excess, abs(forces[n + j]) - friction * max(forces[j], 0.0))
-            slip = displacement[n + j] + slip_before[j]
-            against = forces[n + j] * slip < 0.0 and abs(forces[n + j]) > negligible
-            if status[j] == STICK or status[j] != OPEN and against:
-                stick_slip = max(stick_slip, abs(slip))
-    residual[PENETRATION], residual[TENSION], residual[CONE_EXCESS] = penetration, tension, excess
-    residual[STICK_SLIP], residual[EQUILIBRIUM] = stick_slip, _imbalance(equations, iterate)
-
-
-@njit(cache=True)
-def _imbalance(equations, iterate):
-    """The largest force (N) by which a centre coordinate is out of equilibrium, beyond the round-off of its terms."""
-    stiffness, load, jacobian = equations.stiffness, equations.load, equations.jacobian
-    forces, coordinates, largest = iterate.forces, iterate.coordinates, 0.0
-    balance = np.empty((2, len(load)))
-    for c in range(len(load)):
-        total, terms = -load[c], abs(load[c])
-        for d in range(len(load)):
-            term = stiffness[c, d] * coordinates[d]
-            total, terms = total + term, terms + abs(term)
-        balance[0, c], balance[1, c] = total, terms
-    for i in range(len(forces)):
-        force = forces[i]
-        if force != 0.0:
-            for c in range(len(load)):
-                term = jacobian[i, c] * force
-                balance[0, c] += term
-                balance[1, c] += abs(term)
-    for c in range(len(load)):
-        largest = max(largest, abs(balance[0, c]) - ROUND_OFF * balance[1, c])
-    return largest
-
-
-@njit(cache=True)
-def _within(residual, equations, coordinates, method):
-    # Equilibrium is solved, not iterated: only the round-off of its largest terms may be left. A gap is a difference of
-    # displacements and is known to their round-off only.
-    longest = 0.0
-    for each in coordinates:
-        longest = max(longest, abs(each))
-    length_tolerance, force_tolerance = method.length_tolerance + 1e-14 * longest, method.force_tolerance
-    return (
-        residual[EQUILIBRIUM] <= 1e-2 * force_tolerance + _force_round_off(equations, coordinates)
-        and residual[PENETRATION] <= length_tolerance
-        and residual[STICK_SLIP] <= length_tolerance
-        and residual[TENSION] <= force_tolerance
-        and residual[CONE_EXCESS] <= force_tolerance
-    )
-
-
 @njit(cache=True)
 def _with_one_closed(status, equations, displacement):
     """Where only contact holds the load and no node is closed, close the one that touches first as the drivetrain moves
@@ -254,7 +165,7 @@ def _newton(equations, iterate, method, history, sets):
         iteration += 1
         if repeated:
             outcome = CYCLED if changed else SINGULAR
-            if _within(history[iteration - 1], equations, iterate.coordinates, method):
+            if within(history[iteration - 1], equations, iterate.coordinates, method):
                 # Sets may also alternate between solutions that are the same within the tolerance.
                 outcome = CONVERGED
             break

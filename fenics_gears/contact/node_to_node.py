@@ -14,17 +14,9 @@ from fenics_gears.elasticity.remeshed_gear import LoadedTooth
 from fenics_gears.geometry.pair import GearPair
 
 from .interpolation import hat_integrals
-from .operator import (
-    Response,
-    count_of,
-    displacement_jacobian,
-    earlier_tangential_jacobian,
-    lines_of,
-    node_slices,
-    over_nodes,
-    turned,
-)
-from .tooth_pair import PairNodes, Place, Removal, facing_points_at
+from .kinematics import displacement_jacobian, earlier_tangential_jacobian, lines_of, turned
+from .operator import Response
+from .tooth_pair import PairNodes, Place, Removal, count_of, facing_points_at, node_slices, over_nodes
 from .window import ContactGrid, flank_ends, node_offsets
 
 # A node this near to the end of a flank (in spacings) would leave an element too small for a mesh beside it.

@@ -7,33 +7,32 @@ them.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import accumulate
-from math import cos, sin
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from fenics_gears.geometry.pair import GearPair
 
-from .face import Face, one_slice
-from .tooth_pair import DRIVE, PairNodes
+from .addresses import GAP, row_of
+from .face import Face
+from .kinematics import (
+    COORDINATES,
+    IN_THE_PLANE,
+    displacement_jacobian,
+    earlier_tangential_jacobian,
+    lines_of,
+    slip_of_rigid_flanks,
+    turned,
+)
+from .tooth_pair import DRIVE, PairNodes, over_nodes, per_node
 
 if TYPE_CHECKING:
     from .formed_rows import FormedRows
 
-# The centre coordinates q of the model: seven in the plane. Rotations are carried as arc lengths rb1 phi1, rb2 phi2
-# (mm), so that every coordinate is a length and every row a force, and no equation is scaled against another. The
-# output shaft's end goes by its twist rb2 (phi3 - phi2): as the difference of two rotations the twist of a stiff shaft
-# would be lost in round-off.
-CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "centre_y2", "rotation_2", "shaft_twist")
-# Six more of gears that also move along their axes and tilt; tilts are carried as arc lengths, rb theta.
-FACE_COORDINATES = ("axial_1", "tilt_x1", "tilt_y1", "axial_2", "tilt_x2", "tilt_y2")
-COORDINATES = CENTRE_COORDINATES + FACE_COORDINATES
 NO_NODES_BEFORE = np.empty(0, dtype=np.int64)
-IN_THE_PLANE = one_slice(1.0)
 
 
 class _FormedWhenRead:
@@ -148,98 +147,6 @@ class ContactOperator:
         return np.array([pair.place.flank == DRIVE for pair in self.pairs], dtype=bool)[self.node_pair]
 
 
-def node_slices(pairs: Sequence[PairNodes]) -> list[slice]:
-    """Where each pair's contact nodes stand among those of all pairs, one pair after the other."""
-    ends = list(accumulate((len(pair.offsets) for pair in pairs), initial=0))
-    return [slice(start, end) for start, end in zip(ends[:-1], ends[1:])]
-
-
-def node_ends(pairs: Sequence[PairNodes]) -> np.ndarray:
-    """Where each pair's contact nodes begin among those of all pairs, and where the last one's end (P + 1,)."""
-    return np.array(list(accumulate((len(pair.offsets) for pair in pairs), initial=0)))
-
-
-def count_of(pairs: Sequence[PairNodes]) -> int:
-    """Number of the pairs' contact nodes."""
-    return sum(len(pair.offsets) for pair in pairs)
-
-
-def over_nodes(pairs: Sequence[PairNodes], name: str) -> np.ndarray:
-    """An array of every pair's contact nodes, one pair after the other."""
-    return np.concatenate([getattr(pair, name) for pair in pairs]) if pairs else np.empty(0)
-
-
-def per_node(pairs: Sequence[PairNodes], values: np.ndarray) -> np.ndarray:
-    """A value of each pair (pairs, ...) repeated for its contact nodes (n, ...)."""
-    return np.repeat(values, [len(pair.offsets) for pair in pairs], axis=0)
-
-
-@dataclass(frozen=True)
-class Lines:
-    """Line of action of each contact node: its direction `normal` (n, 2) in space, from pinion to wheel, `tangent` (n,
-    2) across it, sign (n,) of rotations there, and `lever_arms` (n,), mm, of normal forces about the centres of pinion
-    and wheel.
-
-    Lever arms are the base radii, and at a tip's edge those of the mate's normal. An involute turned by phi moves by rb
-    phi along its own normal wherever it is touched, so that T1/rb1 = T2/rb2 holds exactly without friction.
-    """
-
-    pairs: Sequence[PairNodes]
-    normal: np.ndarray
-    tangent: np.ndarray
-    turn: np.ndarray
-    lever_arms: tuple[np.ndarray, np.ndarray]
-
-    @cached_property
-    def friction_arms(self) -> tuple[np.ndarray, np.ndarray]:
-        """Lever arms (n,), mm, of friction about the centres of pinion and wheel."""
-        return over_nodes(self.pairs, "pinion_lever_arm"), over_nodes(self.pairs, "wheel_lever_arm")
-
-
-def lines_of(pairs: Sequence[PairNodes], base_radii: tuple[float, float]) -> Lines:
-    """The lines of action of the pairs' nodes."""
-    places = [pair.place for pair in pairs]
-    of_pairs = [
-        (*place.axes[0], *place.axes[1], place.turn, *(base_radii if place.line is None else place.line.lever_arms))
-        for place in places
-    ]
-    values = per_node(pairs, np.array(of_pairs).reshape(len(pairs), 7))
-    return Lines(pairs, values[:, :2], values[:, 2:4], values[:, 4], (values[:, 5].copy(), values[:, 6].copy()))
-
-
-def normals(pairs: Sequence[PairNodes]) -> np.ndarray:
-    """Direction (n, 2) in space of each node's line of action, from pinion to wheel."""
-    return lines_of(pairs, (0.0, 0.0)).normal
-
-
-def displacement_jacobian(
-    pairs: tuple[PairNodes, ...],
-    base_radii: tuple[float, float],
-    normal_lever_arms: tuple[np.ndarray, np.ndarray],
-    tangential: bool,
-    lines: Lines | None = None,
-    face: Face = IN_THE_PLANE,
-) -> np.ndarray:
-    """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm;
-    over a `face` of many slices (m, 13).
-
-    `lines`: of the nodes, where they are known.
-    """
-    nodes, lines = len(normal_lever_arms[0]), lines or lines_of(pairs, base_radii)
-    normal, tangent, turn = lines.normal, lines.tangent, lines.turn
-    rows = np.zeros((2 * nodes if tangential else nodes, len(CENTRE_COORDINATES)))
-    rows[:nodes, 0:2], rows[:nodes, 2] = normal, turn * normal_lever_arms[0] / base_radii[0]
-    rows[:nodes, 3:5], rows[:nodes, 5] = -normal, turn * normal_lever_arms[1] / base_radii[1]
-    if tangential:
-        rows[nodes:, 0:2], rows[nodes:, 2] = tangent, turn * lines.friction_arms[0] / base_radii[0]
-        rows[nodes:, 3:5], rows[nodes:, 5] = -tangent, turn * lines.friction_arms[1] / base_radii[1]
-    if face.slices == 1:
-        return rows
-    from .face_jacobian import on_face
-
-    return on_face(rows, lines, face, base_radii)
-
-
 class Passage(NamedTuple):
     """Contact nodes on their way from one position to the next: the `pairs` now and the `previous` ones, None without
     friction; the node before of each node now (`node_before`, as of a Position); the place of both in the mesh cycle,
@@ -302,47 +209,91 @@ def contact_operator(
     )
 
 
-def turned(gears: GearPair, advance: float) -> tuple[float, float]:
-    """By how much (rad) the roll angles of pinion and wheel rise while the pinion turns by `advance`; the wheel's
-    fall."""
-    return advance, -advance * gears.pinion.base_radius / gears.wheel.base_radius
-
-
 def _of_unknowns(rows: np.ndarray, coordinates: list[int]) -> np.ndarray:
     """The columns of those coordinates that contact moves."""
     return rows.take([each for each in coordinates if each < len(COORDINATES)], axis=1)
 
 
-def slip_of_rigid_flanks(lines: Lines, turned: tuple[float, float]) -> np.ndarray:
-    """Slip (n,), mm, of the points touching now while rigid gears turned to here: the exact integral of the sliding
-    speed [12].
+# Of an operator whose rows are formed when nodes are closed.
+SHARE_FORMED = 0.3
 
-    The sliding speed times the step would be of first order only: the speed grows in proportion to the distance from
-    the pitch point.
+
+@dataclass(frozen=True)
+class Position:
+    """The contact operator of one phase, and for each node the one it was a step before, (n,), -1 where it is new.
+
+    `index`: place in the mesh cycle, in steps; `nodes`: what gave the contact nodes there, as of a Mesh.
     """
-    lever_arms, offsets = lines.friction_arms, over_nodes(lines.pairs, "offsets")
-    straight = lines.turn * (lever_arms[0] * sin(turned[0]) + lever_arms[1] * sin(turned[1]))
-    return (
-        straight
-        - (lines.lever_arms[0] - offsets) * (1.0 - cos(turned[0]))
-        - (lines.lever_arms[1] + offsets) * (1.0 - cos(turned[1]))
-    )
+
+    operator: ContactOperator
+    node_before: np.ndarray
+    index: float = 0
+    nodes: Callable[[float], tuple[PairNodes, ...]] | None = None
+
+    @cached_property
+    def in_memory(self) -> tuple[np.ndarray, list[np.ndarray]]:
+        """For compiled code: the operator's row of `contact.addresses`, and the arrays whose addresses it has.
+
+        The previous compliance lies there by columns: few nodes are loaded.
+        """
+        operator = self.operator
+        (rows, forms), (columns, forms_before) = operator.stored, operator.stored_before or (None, 0)
+        now, before = operator.stored_jacobians
+        return row_of(operator.nodes, (
+            rows, now, operator.gap, operator.on_drive_flanks, operator.node_pair,
+            self.node_before, operator.rigid_slip, before, columns, operator.sliding,
+            forms, forms_before, now.shape[1],
+        ))  # fmt: skip
+
+    @property
+    def bytes(self) -> int:
+        """Size of the arrays of the contact operator."""
+        whole = sum(array.nbytes for array in self.in_memory[1])
+        return whole if not self.operator.stored.address else int(SHARE_FORMED * whole)
+
+    def with_gap(self, gap: np.ndarray, row: np.ndarray | None = None) -> Position:
+        """The same position with other gaps (n,), mm, in one piece; what is known of it already is not found again.
+        `row`: as of `in_memory` with these gaps, where it is known."""
+        opened = _Opened.__new__(_Opened)
+        opened.__dict__.update(node_before=self.node_before, index=self.index, nodes=self.nodes, true=self, gap=gap)
+        if row is not None:
+            opened.__dict__["in_memory"] = row, [*self.in_memory[1], gap]
+        return opened
 
 
-def earlier_tangential_jacobian(
-    lines: Lines, radii: tuple[float, float], turned: tuple[float, float], face: Face = IN_THE_PLANE
-) -> np.ndarray:
-    """Tangential rigid displacement (n, 7), over a `face` of many slices (n, 13), of the points touching now,
-    per centre coordinate one step before."""
-    offsets, (arm_1, arm_2) = over_nodes(lines.pairs, "offsets"), lines.friction_arms
-    height_1, height_2 = lines.lever_arms[0] - offsets, lines.lever_arms[1] + offsets
-    tangent, turn = lines.tangent, lines.turn
-    rows = np.zeros((len(offsets), len(CENTRE_COORDINATES)))
-    # A point (x, -h) of the pinion stood at (x cos a - h sin a, ...) before the pinion turned by a; likewise the wheel.
-    rows[:, 0:2], rows[:, 2] = tangent, turn * (arm_1 * cos(turned[0]) - turn * height_1 * sin(turned[0])) / radii[0]
-    rows[:, 3:5], rows[:, 5] = -tangent, turn * (arm_2 * cos(turned[1]) - turn * height_2 * sin(turned[1])) / radii[1]
-    if face.slices == 1:
-        return rows
-    from .face_jacobian import earlier_tangents_on_face
+class StepRows:
+    """The rows (steps, r) of all positions of a mesh cycle, whatever opens them."""
 
-    return earlier_tangents_on_face(rows, lines, face, radii)
+    table: np.ndarray | None = None
+
+    def of(self, positions: Sequence[Position]) -> np.ndarray:
+        """Those of the positions of the cycle that these rows go with."""
+        if self.table is None:
+            self.table = np.array([position.in_memory[0] for position in positions])
+        return self.table
+
+
+class _Opened(Position):
+    """A position `true` with another `gap`. Of most steps compiled code alone reads it, so that its operator is put
+    together when it is asked for."""
+
+    true: Position
+    gap: np.ndarray
+
+    @cached_property
+    def operator(self) -> ContactOperator:  # type: ignore[override]
+        """That of the position with these gaps."""
+        true = self.true.operator
+        # As `replace`, which would form all rows, and in a tenth of the time that `copy` takes.
+        operator = ContactOperator.__new__(ContactOperator)
+        operator.__dict__.update(true.__dict__)
+        operator.__dict__.update(gap=self.gap, node_pair=true.node_pair, on_drive_flanks=true.on_drive_flanks)
+        return operator
+
+    @cached_property
+    def in_memory(self) -> tuple[np.ndarray, list[np.ndarray]]:
+        """As of the position, with these gaps."""
+        row, held = self.true.in_memory
+        row = row.copy()
+        row[GAP] = self.gap.ctypes.data
+        return row, [*held, self.gap]

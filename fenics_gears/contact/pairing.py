@@ -9,8 +9,9 @@ import numpy as np
 from scipy.linalg.lapack import dpstrf
 
 from .compliance_product import compliance_product, directions
-from .operator import Passage, Response, count_of, turned
-from .tooth_pair import Flanks, Place, ToothPair
+from .kinematics import turned
+from .operator import Passage, Response
+from .tooth_pair import Flanks, Place, ToothPair, count_of
 
 # Nodes that coincide, or more nodes on an element than it has degrees of freedom, yield together: elasticity does not
 # determine how they share a force. Each node then gets a thin elastic layer of its own, and nodes that coincide share

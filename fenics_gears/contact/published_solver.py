@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .laws import OPEN
-from .mesh_cycle import Position
+from .operator import Position
 from .published_newton import Equations, Iterate, iterates
 from .relative_stiffness import RelativeStiffness
 from .step_solver import PUBLISHED, StepProblem, StepSolution, solve_step

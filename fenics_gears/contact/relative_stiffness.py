@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
-from .operator import CENTRE_COORDINATES
+from .kinematics import CENTRE_COORDINATES
 
 # Centre coordinates of pinion and wheel in CENTRE_COORDINATES, each with how it moves (dx, dy, rb phi) in the gear's
 # own frame.

@@ -11,9 +11,9 @@ import numpy as np
 from fenics_gears.geometry.relief import side_by_side
 
 from .interpolation import INTERPOLATIONS, Averages, Points
-from .mesh_cycle import Cycle, Gaps, PerPosition, Position
-from .operator import node_ends, over_nodes
-from .tooth_pair import DRIVE, Removal, facing_points, seen_gap
+from .mesh_cycle import Cycle, Gaps, PerPosition
+from .operator import Position
+from .tooth_pair import DRIVE, Removal, facing_points, node_ends, over_nodes, seen_gap
 
 
 @dataclass(frozen=True)

@@ -10,16 +10,16 @@ from fenics_gears.geometry.sliding import sliding_per_rotation
 
 from .errors import NoStaticEquilibrium
 from .interpolation import hat_integrals
+from .kinematics import lines_of
 from .laws import OPEN
 from .mesh import Mesh, MeshTraits, nodes_at
-from .mesh_cycle import Position
 from .mixed_form import Iterate
 from .newton import ALL_AT_ONCE, CONVERGED, Method
-from .operator import ContactOperator, Passage, Response, count_of, lines_of
+from .operator import ContactOperator, Passage, Position, Response
 from .places import pair_places
 from .rigid_step import Sides, rigid_step
 from .step_solver import NEWTON, StepProblem, StepSolution
-from .tooth_pair import DRIVE, PairNodes, Place, Removal, facing_points_at
+from .tooth_pair import DRIVE, PairNodes, Place, Removal, count_of, facing_points_at
 from .window import ContactGrid, flank_ends, node_offsets
 
 

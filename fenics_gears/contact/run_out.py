@@ -15,8 +15,9 @@ import numpy as np
 
 from fenics_gears.geometry.pair import GearPair
 
-from .mesh_cycle import PerPosition, Position
-from .operator import normals
+from .kinematics import normals
+from .mesh_cycle import PerPosition
+from .operator import Position
 
 if TYPE_CHECKING:
     from fenics_gears.effects.eccentricity import Eccentricity, Offset

@@ -17,8 +17,8 @@ import numpy as np
 from fenics_gears.geometry.pair import GearPair
 
 from .mesh import Mesh, MeshTraits
-from .operator import Passage, Response, over_nodes
-from .tooth_pair import DRIVE, PairNodes, coast_place, drive_place
+from .operator import Passage, Response
+from .tooth_pair import DRIVE, PairNodes, coast_place, drive_place, over_nodes
 from .window import ContactGrid
 
 # The springs of a pair stand at one point; this distance (mm) between them tells them apart from step to step.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .addresses import form_rows, row_of
-from .laws import OPEN, SLIP_FORWARD, Tolerance
+from .laws import OPEN, RESIDUAL_NAMES, SLIP_FORWARD, Tolerance, measure
 from .mixed_form import Equations, Iterate
 from .newton import (
     ALL_AT_ONCE,
@@ -17,9 +17,7 @@ from .newton import (
     MOST_ITERATIONS,
     ONE_AT_A_TIME,
     OUTCOMES,
-    RESIDUAL_NAMES,
     THROUGH_STICK,
-    measure,
     newton_at,
     newton_solver,
 )
@@ -59,7 +57,7 @@ class StepProblem:
     def residual(
         self, status: np.ndarray, forces: np.ndarray, coordinates: np.ndarray, displacement: np.ndarray
     ) -> np.ndarray:
-        """By how much (5,) a solution with these sets violates the laws and equilibrium, as `newton.measure` has it."""
+        """By how much (5,) a solution with these sets violates the laws and equilibrium (`laws.measure`)."""
         row = np.zeros(len(RESIDUAL_NAMES))
         measure(row, self.equations, Iterate(status, forces, coordinates, displacement))
         return row

@@ -263,3 +263,29 @@ def interpolations(
         )  # fmt: skip
         found.append(INTERPOLATIONS[grid.interpolation].of_flank(seeing))
     return list(zip(*found))
+
+
+def node_slices(pairs: Sequence[PairNodes]) -> list[slice]:
+    """Where each pair's contact nodes stand among those of all pairs, one pair after the other."""
+    ends = list(accumulate((len(pair.offsets) for pair in pairs), initial=0))
+    return [slice(start, end) for start, end in zip(ends[:-1], ends[1:])]
+
+
+def node_ends(pairs: Sequence[PairNodes]) -> np.ndarray:
+    """Where each pair's contact nodes begin among those of all pairs, and where the last one's end (P + 1,)."""
+    return np.array(list(accumulate((len(pair.offsets) for pair in pairs), initial=0)))
+
+
+def count_of(pairs: Sequence[PairNodes]) -> int:
+    """Number of the pairs' contact nodes."""
+    return sum(len(pair.offsets) for pair in pairs)
+
+
+def over_nodes(pairs: Sequence[PairNodes], name: str) -> np.ndarray:
+    """An array of every pair's contact nodes, one pair after the other."""
+    return np.concatenate([getattr(pair, name) for pair in pairs]) if pairs else np.empty(0)
+
+
+def per_node(pairs: Sequence[PairNodes], values: np.ndarray) -> np.ndarray:
+    """A value of each pair (pairs, ...) repeated for its contact nodes (n, ...)."""
+    return np.repeat(values, [len(pair.offsets) for pair in pairs], axis=0)

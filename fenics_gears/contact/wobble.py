@@ -14,8 +14,9 @@ import numpy as np
 
 from fenics_gears.geometry.pair import GearPair
 
-from .mesh_cycle import PerPosition, Position
-from .operator import COORDINATES, displacement_jacobian
+from .kinematics import COORDINATES, displacement_jacobian
+from .mesh_cycle import PerPosition
+from .operator import Position
 from .run_out import RunOut
 
 if TYPE_CHECKING:

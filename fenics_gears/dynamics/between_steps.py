@@ -11,7 +11,8 @@ import numpy as np
 
 from fenics_gears.contact.addresses import Arrays, row_of
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.operator import Position
 from fenics_gears.contact.step_solver import NEWTON
 
 from .compiled_march import NO_SETS, STATIC, Course, Motion, solve_steps

@@ -24,7 +24,6 @@ from .average_acceleration import with_history
 from .backward_euler import advanced as advanced_backward
 from .backward_euler import history as backward_history
 from .drivetrain import Drivetrain
-from .eliminated_modes import eliminated, left_load, put_modes
 from .steps import Steps, in_block
 
 STATIC, AVERAGE_ACCELERATION, BACKWARD_EULER = range(3)
@@ -96,6 +95,39 @@ def solve_steps(steps: Steps, first: int, end: int, motion: Motion, course: Cour
         # Sets that leave the system singular: the step after the last one done.
         pass
     return int(places[0])
+
+
+class Eliminated(NamedTuple):
+    """Modes that are eliminated from equations of motion over c other coordinates and m modes: the `stiffness` (c, c)
+    that is left, how the modes `follow` (m, c) the others, and their own `flexibility` (m, m)."""
+
+    stiffness: np.ndarray
+    follow: np.ndarray
+    flexibility: np.ndarray
+
+
+def eliminated(stiffness, modes):
+    """Eliminate so many last coordinates from equations with a stiffness (k, k)."""
+    c = len(stiffness) - modes
+    if modes == 0:
+        return Eliminated(stiffness, np.empty((0, c)), np.empty((0, 0)))
+    flexibility = np.ascontiguousarray(np.linalg.inv(np.ascontiguousarray(stiffness[c:, c:])))
+    follow = flexibility @ np.ascontiguousarray(stiffness[c:, :c])
+    left = stiffness[:c, :c] - np.ascontiguousarray(stiffness[:c, c:]) @ follow
+    return Eliminated(left, follow, flexibility)
+
+
+def left_load(load, modes):
+    """The load (c,) on the other coordinates, with what modes hand on to them, of that (k,) on all."""
+    c = len(modes.stiffness)
+    return load[:c] - load[c:] @ modes.follow if c < len(load) else load
+
+
+def put_modes(coordinates, load, modes):
+    """Put the modes' coordinates into place behind the others (k,), under the load (k,) on all."""
+    c = len(modes.stiffness)
+    if c < len(load):
+        coordinates[c:] = modes.flexibility @ load[c:] - modes.follow @ coordinates[:c]
 
 
 _eliminated, _left_load, _put_modes = (njit(cache=True)(each) for each in (eliminated, left_load, put_modes))

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from fenics_gears.contact.flank_forces import flank_rows
-from fenics_gears.contact.operator import node_slices
+from fenics_gears.contact.tooth_pair import node_slices
 from fenics_gears.contact.whole_body_mesh import GEARS, first_tooth
 
 from .steps import Record

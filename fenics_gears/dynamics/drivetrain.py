@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.operator import COORDINATES, FACE_COORDINATES
+from fenics_gears.contact.kinematics import COORDINATES, FACE_COORDINATES
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
 
@@ -27,24 +27,15 @@ if TYPE_CHECKING:
     from .elastic_shaft import ElasticShaft
     from .tilting import MeshOverFace
 
-
 # The load's moment of inertia over the wheel's, at most: their sum keeps six digits of the wheel's.
 MOST_OF_WHEEL = 1e10
 FREE = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 # Each centre's translations: of which gear, in which direction.
 TRANSLATIONS = {
-    "centre_x1": ("pinion", "x"),
-    "centre_y1": ("pinion", "y"),
-    "centre_x2": ("wheel", "x"),
-    "centre_y2": ("wheel", "y"),
+    f"centre_{axis}{number}": (gear, axis) for gear, number in (("pinion", 1), ("wheel", 2)) for axis in "xy"
 }
 # Each coordinate's gear, with the shaft and the bearings that are on its side of the mesh.
-SIDE = {name: gear for name, (gear, _) in TRANSLATIONS.items()} | {
-    "rotation_1": "pinion",
-    "rotation_2": "wheel",
-    "shaft_twist": "wheel",
-}
-SIDE |= {name: "pinion" if name.endswith("1") else "wheel" for name in FACE_COORDINATES}
+SIDE = {name: "pinion" if name.endswith("1") else "wheel" for name in COORDINATES}
 # What of a gear is moved, by the first word of the coordinate's name; a mode of a shaft that bends is a length.
 MOVED = {
     "centre": "mass",

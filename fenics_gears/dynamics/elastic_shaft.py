@@ -36,8 +36,7 @@ NUMBERS = {"pinion": "1", "wheel": "2"}
 OF_CYLINDER, OF_CONE, STEEPEST_CONE = 2, 30, 10.0
 # The same of a shaft's mass within an element, exact for both.
 MASS_POINTS = 5
-# MOTIONS and the twist.
-SIX = 6
+SIX = 6  # MOTIONS and the twist
 # Part of the largest stiffness, tilts taken over the shaft's length, below which a motion is free.
 LEAST_HELD = 1e-12
 

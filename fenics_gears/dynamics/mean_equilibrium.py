@@ -18,7 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.operator import Position
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start
 
 from .drivetrain import Drivetrain

@@ -12,14 +12,14 @@ import numpy as np
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import Cycle, Position, in_common
+from fenics_gears.contact.mesh_cycle import Cycle, in_common
+from fenics_gears.contact.operator import Position
 from fenics_gears.contact.step_solver import HALVED, StepProblem, StepSolution, cold_start
 
 from .average_acceleration import AverageAcceleration, State
 from .clock import FOLLOWING, Clock, SteadyClock, TimeScales
-from .compiled_march import NO_SETS, begin, slip_at_start
+from .compiled_march import NO_SETS, begin, eliminated, left_load, put_modes, slip_at_start
 from .drivetrain import Drivetrain
-from .eliminated_modes import eliminated, left_load, put_modes
 from .steps import Record
 
 if TYPE_CHECKING:

@@ -1,5 +1,4 @@
-"""Consecutive steps of a march as arrays: their contact nodes stand one step's after the other's, so that all are
-treated at once."""
+"""Consecutive steps of a march as arrays, one step's contact nodes after the other's: all are treated at once."""
 
 from __future__ import annotations
 
@@ -13,8 +12,7 @@ from numba import carray, njit
 
 from fenics_gears.contact.addresses import NODES, ROW, arrays_of, to_integer, to_number, to_row, to_set
 from fenics_gears.contact.laws import OPEN
-from fenics_gears.contact.mesh_cycle import Position
-from fenics_gears.contact.operator import ContactOperator
+from fenics_gears.contact.operator import ContactOperator, Position
 from fenics_gears.contact.step_solver import StepSolution
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 

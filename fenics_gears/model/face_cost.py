@@ -5,7 +5,7 @@ from functools import lru_cache
 import numpy as np
 
 from fenics_gears.contact.face import Face
-from fenics_gears.contact.mesh_cycle import SHARE_FORMED
+from fenics_gears.contact.operator import SHARE_FORMED
 from fenics_gears.contact.places import face_places
 from fenics_gears.contact.window import ends_of, offsets_of
 from fenics_gears.elasticity.face.cost import expected_memory, expected_size

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, rows_in_slice, sector_of
-from fenics_gears.contact.mesh_cycle import Cycle, Position
-from fenics_gears.contact.operator import node_slices
-from fenics_gears.contact.tooth_pair import ToothPair
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.operator import Position
+from fenics_gears.contact.tooth_pair import ToothPair, node_slices
 from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.pair import GearPair

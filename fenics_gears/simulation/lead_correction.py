@@ -20,7 +20,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import per_node
+from fenics_gears.contact.tooth_pair import per_node
 from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.dynamics.march import thread_pools
 from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications

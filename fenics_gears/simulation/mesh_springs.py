@@ -6,9 +6,9 @@ from time import perf_counter
 
 import numpy as np
 
+from fenics_gears.contact.kinematics import CENTRE_COORDINATES
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.spring_mesh import PairSprings, Springs, spring_mesh
 from fenics_gears.contact.stiffness_table import LOADS, stiffness_table
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, coast_place, drive_place, facing_points_at

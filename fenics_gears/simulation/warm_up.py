@@ -18,10 +18,9 @@ from fenics_gears.contact.interpolation import (
     node_average,
     quadrature_offsets,
 )
+from fenics_gears.contact.kinematics import nodes_before
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
-from fenics_gears.contact.mesh_cycle import Position
-from fenics_gears.contact.node_before import nodes_before
-from fenics_gears.contact.operator import ContactOperator
+from fenics_gears.contact.operator import ContactOperator, Position
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, solve_step
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, seen_gap
 from fenics_gears.contact.window import ContactGrid, node_offsets

@@ -5,8 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from fenics_gears.contact.mesh import MeshTraits
-from fenics_gears.contact.mesh_cycle import Position
-from fenics_gears.contact.operator import Stored
+from fenics_gears.contact.operator import Position, Stored
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution, solve_step
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.drivetrain import Drivetrain

@@ -11,8 +11,8 @@ from fenics_gears.contact.face import Face, even_slices
 from fenics_gears.contact.face_mesh import face_mesh
 from fenics_gears.contact.flank_gaps import flank_gaps
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import node_slices
 from fenics_gears.contact.run_out import RunOut
+from fenics_gears.contact.tooth_pair import node_slices
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.contact.wobble import WobblingRunOut
 from fenics_gears.effects.eccentricity import Eccentricity, Offset

@@ -6,7 +6,7 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from fenics_gears.contact.operator import COORDINATES
+from fenics_gears.contact.kinematics import COORDINATES
 from fenics_gears.dynamics.clock import FOLLOWING
 from fenics_gears.dynamics.drivetrain import LumpedGear
 from fenics_gears.dynamics.frequencies import Vibration, natural_frequencies, vibrations

@@ -11,9 +11,9 @@ from tests.face_reference.reference import OPENINGS
 
 from fenics_gears.contact.face import Face, even_slices
 from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
+from fenics_gears.contact.kinematics import COORDINATES
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps
-from fenics_gears.contact.operator import COORDINATES, node_slices
-from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.contact.tooth_pair import Flanks, node_slices
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation

@@ -7,8 +7,8 @@ import xarray as xr
 from tests.contact.laws_of_contact import law_residual
 
 from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.kinematics import displacement_jacobian
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import displacement_jacobian
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.elasticity.compliance import Bodies
 from fenics_gears.model.model import Model

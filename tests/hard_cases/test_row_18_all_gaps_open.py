@@ -11,8 +11,8 @@ from tests.frozen_gears import frozen_marcher
 
 from fenics_gears.contact.errors import NoStaticEquilibrium
 from fenics_gears.contact.mesh import elastic_mesh
-from fenics_gears.contact.mesh_cycle import Cycle, Position
-from fenics_gears.contact.operator import Stored
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.operator import Position, Stored
 from fenics_gears.contact.step_solver import solve_step
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher

@@ -14,7 +14,7 @@ from tests.iso_tooth_root import nominal_root_stress, standard_gear
 from fenics_gears import Load, SceneError, scene_from_text, simulate
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, sector_of, unmirrored
-from fenics_gears.contact.operator import displacement_jacobian
+from fenics_gears.contact.kinematics import displacement_jacobian
 from fenics_gears.contact.tooth_pair import COAST
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache

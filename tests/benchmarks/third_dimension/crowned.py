@@ -11,7 +11,7 @@ from tests.contact.problems import pressed
 from tests.hertz_point_contact import PointContact
 
 from fenics_gears import gear_pair, model_of
-from fenics_gears.contact.operator import CENTRE_COORDINATES
+from fenics_gears.contact.kinematics import CENTRE_COORDINATES
 from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.resolution import plane_contact_modulus, relative_radius

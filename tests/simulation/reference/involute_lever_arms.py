@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from fenics_gears.contact.kinematics import displacement_jacobian, lines_of
 from fenics_gears.contact.mesh import MeshTraits, by_newton
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import displacement_jacobian, lines_of
 from fenics_gears.simulation.reference_route import reference_route
 
 
