@@ -1,12 +1,12 @@
 """What a run costs among others that differ in modifications, misalignment and torque, and what it costs by itself.
 
-``python -m tests.benchmarks.designs [--runs N] [--friction] [--plane]``: runs of the pair of `demos/helical_gearbox`
-over the face (left out by `--plane`), and of the paper's pair in the plane, quasi-static, drawn at random about the
-designs of the demonstrations; gears are condensed before. Processor seconds of a run in medians: of this process and of
-the kernel; contact operators that were built, positions between steps that were asked for, Newton's iterations.
-"alone": nothing but gears is shared;
-"shared": one after the other on the same contact operators, the second half of them; "together": as a search
-computes plane runs, a task at a time, of which T_EPP alone is asked.
+``python -m tests.benchmarks.designs [--runs N] [--friction] [--plane] [--element 0.12]``: runs of the pair of
+`demos/helical_gearbox` over the face (left out by `--plane`; its flank elements in mm: 0.12 gives some 870 contact
+nodes, 0.06 some 1,570), and of the paper's pair in the plane, quasi-static, drawn at random about the designs of the
+demonstrations; gears are condensed before. Processor seconds of a run in medians: of this process and of the kernel;
+contact operators that were built, positions between steps that were asked for, Newton's iterations.
+"alone": nothing but gears is shared; "shared": one after the other on the same contact operators, the second half of
+them; "together": as a search computes plane runs, a task at a time, of which T_EPP alone is asked.
 """
 
 from __future__ import annotations
@@ -28,15 +28,17 @@ from fenics_gears.simulation.together import solved_together
 from fenics_gears.studies.scenes import model_of_tree
 
 DEMOS = Path(__file__).parents[2] / "demos"
-ACCURACY = {"steps_per_mesh_cycle": 20, "flank_element_size": "0.06 mm", "contact_length": "1.2 mm"}
+ACCURACY = {"steps_per_mesh_cycle": 20, "contact_length": "1.2 mm", "slices": 28, "layers": 14}
 NO_FIELDS = {"output": {"contact_fields": False}}
 FRICTION = {"friction": {"coefficient": 0.05}}
 
 
-def over_the_face(friction: bool, draw: np.random.Generator) -> Iterator[Model]:
+def over_the_face(friction: bool, draw: np.random.Generator, element: float) -> Iterator[Model]:
     """Designs of the helical pair: relief, crowning, helix slope, misalignment, three torques."""
     tree = tomllib.loads((DEMOS / "helical_gearbox" / "gearbox.toml").read_text(encoding="utf-8"))
-    tree |= NO_FIELDS | {"accuracy": ACCURACY | {"slices": 28, "layers": 14}} | (FRICTION if friction else {})
+    tree |= (
+        NO_FIELDS | {"accuracy": ACCURACY | {"flank_element_size": f"{element} mm"}} | (FRICTION if friction else {})
+    )
     while True:
         depth, crowning, slope, lean = draw.uniform((18.0, 6.0, -3.0, 15.0), (26.0, 10.0, 3.0, 30.0))
         tree["tip_relief"] = tree["tip_relief"] | {"depth": f"{depth:.4g} um"}
@@ -46,7 +48,7 @@ def over_the_face(friction: bool, draw: np.random.Generator) -> Iterator[Model]:
             yield model_of_tree("design", tree | {"load": {"wheel_torque": f"{torque} N m"}}, DEMOS)
 
 
-def in_the_plane(friction: bool, draw: np.random.Generator) -> Iterator[Model]:
+def in_the_plane(friction: bool, draw: np.random.Generator, element: float) -> Iterator[Model]:
     """Designs of the search `demos/best_relief`."""
     tree = tomllib.loads((DEMOS / "lundvall2004.toml").read_text(encoding="utf-8"))
     left_out = ("inertia", "damping", "motion", *(() if friction else ("friction",)))
@@ -100,11 +102,13 @@ def main() -> None:
     parser.add_argument("--runs", type=int, default=24)
     parser.add_argument("--friction", action="store_true")
     parser.add_argument("--plane", action="store_true")
+    parser.add_argument("--element", type=float, default=0.12)
     options = parser.parse_args()
     print(f"{'':26}{'user ms':>9}{'kernel ms':>11}{'built':>7}{'between':>9}{'iterations':>12}")
     for name, designs in (("over the face", over_the_face), ("in the plane", in_the_plane))[options.plane :]:
         for way in ("alone", "shared", "together")[: 3 if designs is in_the_plane else 2]:
-            models, store = designs(options.friction, np.random.default_rng(1)), GearStore(None, way != "alone")
+            models = designs(options.friction, np.random.default_rng(1), options.element)
+            store = GearStore(None, way != "alone")
             runs = options.runs if way != "alone" else max(options.runs // 6, 2)
             each = (
                 together(models, store, runs)
