@@ -293,8 +293,8 @@ def relative_displacement(equations, iterate, first, end):
 
 @njit(cache=True, inline="always")
 def product(row, vector):
-    """Product of a row with as many numbers of a vector."""
+    """Product of two vectors as far as both go: rows leave out what contact does not move, or have room behind them."""
     total = 0.0
-    for c in range(len(row)):
+    for c in range(min(len(row), len(vector))):
         total += row[c] * vector[c]
     return total

@@ -177,7 +177,7 @@ def _flanks_are_resolved_over_the_face(tree: Tree) -> Broken:
         yield from _remeshed_gears_have_one_width(tree)
     gears = table(tree, "gears") or {}
     if "pinion_hand" in gears and "helix_angle" not in gears:
-        yield ("gears", "helix_angle"), 'is missing, beside pinion_hand. Add it, such as "15 deg", or leave both out.'
+        yield ("gears", "helix_angle"), 'is missing. Allowed: such as "15 deg". Or leave out pinion_hand.'
 
 
 def _remeshed_gears_have_one_width(tree: Tree) -> Broken:

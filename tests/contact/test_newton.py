@@ -14,7 +14,7 @@ from tests.contact.problems import all_open, random_problem
 from fenics_gears.contact.errors import SelfLocking
 from fenics_gears.contact.existence import locked_nodes, working
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
-from fenics_gears.contact.mixed_form import Iterate, solve_sets
+from fenics_gears.contact.mixed_form import Iterate, product, solve_sets
 from fenics_gears.contact.step_solver import StepProblem, solve_step
 from fenics_gears.contact.uniqueness import is_only_solution
 
@@ -192,3 +192,9 @@ def test_two_solutions_are_not_certified():
         assert solve_step(problem, np.array([start], dtype=np.int8)).forces[0] == pytest.approx(force, rel=1e-9)
     slides = solve_step(replace(problem, gap=np.array([-1e-3]), friction=0.5), np.array([OPEN], dtype=np.int8))
     assert slides.forces[0] == pytest.approx(1e-3 / (1e-6 - 0.6e-6 + 1e-9), rel=1e-9)
+
+
+def test_a_product_reads_no_further_than_both_vectors_go():
+    """Identity: what lies behind the shorter one in memory may be no number."""
+    numbers, padded = np.array([2.0, np.nan]), np.array([3.0, 0.0])
+    assert product(padded, numbers[:1]) == product(numbers[:1], padded) == 6.0
