@@ -12,7 +12,7 @@ from .operator import Passage, Response
 from .pairing import CompliancePairing
 from .places import pair_places
 from .step_solver import StepProblem, StepSolution, solve_step
-from .tooth_pair import Flanks, PairNodes, Place, ToothPair, tooth_pairs
+from .tooth_pair import Flanks, Nodes, PairNodes, Place, ToothPair, tooth_pairs
 from .window import ContactGrid
 
 if TYPE_CHECKING:
@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     from .corner import CornerContact
     from .face import Face
     from .operator import Position
-
-# Contact nodes of the tooth pairs that can touch at a phase (0 <= phase < 1).
-Nodes = Callable[[float], tuple[PairNodes, ...]]
 
 
 @dataclass(frozen=True)

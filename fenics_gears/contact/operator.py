@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from .kinematics import (
     slip_of_rigid_flanks,
     turned,
 )
-from .tooth_pair import DRIVE, PairNodes, over_nodes, per_node
+from .tooth_pair import DRIVE, Nodes, PairNodes, over_nodes, per_node
 
 if TYPE_CHECKING:
     from .formed_rows import FormedRows
@@ -35,40 +35,34 @@ if TYPE_CHECKING:
 NO_NODES_BEFORE = np.empty(0, dtype=np.int64)
 
 
-class _FormedWhenRead:
-    """A compliance of an operator, all of whose rows are formed when it is read (`contact.formed_rows`)."""
+class _ReadOtherwise:
+    """A field of an operator, without a default, of which `read` makes what is read of what is stored; None stays."""
+
+    def __init__(self, read: Callable[[Any, ContactOperator], np.ndarray]):
+        self._read = read
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
 
-    def __set__(self, operator: ContactOperator, compliance: np.ndarray | FormedRows | None) -> None:
-        operator.__dict__[self._name] = compliance
+    def __set__(self, operator: ContactOperator, stored: Any) -> None:
+        operator.__dict__[self._name] = stored
 
     def __get__(self, operator: ContactOperator | None, owner: type | None = None):
         if operator is None:
-            # The field has no default.
             raise AttributeError(self._name)
-        held = operator.__dict__[self._name]
-        return held if held is None or isinstance(held, np.ndarray) else held.whole()
+        stored = operator.__dict__[self._name]
+        return stored if stored is None else self._read(stored, operator)
 
 
-class _OfAllCoordinates:
-    """A jacobian of an operator, as it is read: with columns of zeros of the coordinates that move no contact."""
+def _with_all_rows(compliance: np.ndarray | FormedRows, operator: ContactOperator) -> np.ndarray:
+    """All rows are formed when a compliance is read (`contact.formed_rows`)."""
+    return compliance if isinstance(compliance, np.ndarray) else compliance.whole()
 
-    def __set_name__(self, owner: type, name: str) -> None:
-        self._name = name
 
-    def __set__(self, operator: ContactOperator, jacobian: np.ndarray | None) -> None:
-        operator.__dict__[self._name] = jacobian
-
-    def __get__(self, operator: ContactOperator | None, owner: type | None = None):
-        if operator is None:
-            # The field has no default.
-            raise AttributeError(self._name)
-        held, more = operator.__dict__[self._name], operator.coordinates
-        if held is None or held.shape[1] >= more:
-            return held
-        return np.pad(held, ((0, 0), (0, more - held.shape[1])))
+def _with_all_columns(jacobian: np.ndarray, operator: ContactOperator) -> np.ndarray:
+    """Columns of coordinates that move no contact are zero, and are not stored."""
+    more = operator.coordinates - jacobian.shape[1]
+    return np.pad(jacobian, ((0, 0), (0, more))) if more > 0 else jacobian
 
 
 class Stored(NamedTuple):
@@ -99,12 +93,12 @@ class ContactOperator:
     pairs: tuple[PairNodes, ...]
     base_radii: tuple[float, float]
     normal_lever_arms: tuple[np.ndarray, np.ndarray]
-    compliance: np.ndarray = _FormedWhenRead()  # type: ignore[assignment]
-    jacobian: np.ndarray = _OfAllCoordinates()  # type: ignore[assignment]
+    compliance: np.ndarray = _ReadOtherwise(_with_all_rows)  # type: ignore[assignment]
+    jacobian: np.ndarray = _ReadOtherwise(_with_all_columns)  # type: ignore[assignment]
     gap: np.ndarray
     rigid_slip: np.ndarray | None
-    previous_compliance: np.ndarray | None = _FormedWhenRead()  # type: ignore[assignment]
-    previous_jacobian: np.ndarray | None = _OfAllCoordinates()  # type: ignore[assignment]
+    previous_compliance: np.ndarray | None = _ReadOtherwise(_with_all_rows)  # type: ignore[assignment]
+    previous_jacobian: np.ndarray | None = _ReadOtherwise(_with_all_columns)  # type: ignore[assignment]
     dependent_rows: int = 0
     face: Face = IN_THE_PLANE
     sliding: np.ndarray | None = None
@@ -228,7 +222,7 @@ class Position:
     operator: ContactOperator
     node_before: np.ndarray
     index: float = 0
-    nodes: Callable[[float], tuple[PairNodes, ...]] | None = None
+    nodes: Nodes | None = None
 
     @cached_property
     def in_memory(self) -> tuple[np.ndarray, list[np.ndarray]]:

@@ -110,6 +110,10 @@ class PairNodes:
     pinion_roll: np.ndarray
 
 
+# Contact nodes of the tooth pairs that can touch at a phase (0 <= phase < 1).
+Nodes = Callable[[float], tuple[PairNodes, ...]]
+
+
 @dataclass(frozen=True)
 class ToothPair(PairNodes):
     """Contact nodes that see the flanks through the `interpolation` of either one."""

@@ -11,10 +11,9 @@ import numpy as np
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.kinematics import CENTRE_COORDINATES, COORDINATES, displacement_jacobian
 from fenics_gears.contact.laws import OPEN
-from fenics_gears.contact.mesh import Nodes
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import ContactOperator, Position
-from fenics_gears.contact.tooth_pair import DRIVE, node_ends, node_slices, over_nodes, per_node
+from fenics_gears.contact.tooth_pair import DRIVE, Nodes, node_ends, node_slices, over_nodes, per_node
 from fenics_gears.contact.window import ends_of
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.geometry.pair import GearPair
