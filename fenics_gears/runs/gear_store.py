@@ -15,8 +15,8 @@ from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 
-# Mesh cycles that are kept, as of torques with other elements or contact nodes, and the part of the memory for contact
-# operators that they and their bodies may take beside another one.
+# Mesh cycles of the same gears that are kept, as of torques with other elements or contact nodes, and the part of the
+# memory for contact operators that they and their bodies may take beside another one.
 MOST_CYCLES, SHARE_OF_OTHERS = 8, 0.35
 NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
 
@@ -49,7 +49,7 @@ class GearStore:
         if found is None:
             # Frees memory before the next is made.
             self._cycle_key = self._cycle = None
-            self._make_room()
+            self._make_room(key)
             found = self._made(model, progress, cache)
         # Last in the dictionary, last to be given up.
         self._operators[key] = found
@@ -66,7 +66,12 @@ class GearStore:
         """Bytes that all contact operators and their bodies take."""
         return sum(cycle.kept.taken + _bytes_of(bodies) for bodies, cycle in self._operators.values())
 
-    def _make_room(self) -> None:
+    def _make_room(self, key: tuple) -> None:
+        """Give up the contact operators of other gears than a key's, and the oldest where there are many or they take
+        much."""
+        # Keys begin with the gears.
+        if any(each[0] != key[0] for each in self._operators):
+            self._operators.clear()
         while self._operators and (
             len(self._operators) >= MOST_CYCLES
             or self._taken > SHARE_OF_OTHERS * min(cycle.kept.most for _, cycle in self._operators.values())
@@ -121,8 +126,10 @@ def operators_key(model: Model) -> tuple:
     shaping = (section for section in _shaping(scene) if section not in apart)
     in_operators = (scene.corner_contact, *(getattr(scene, section) for section in shaping))
     springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
+    divided = ((resolution.discretisation(gear), model.solid_discretisation(gear)) for gear in (0, 1))
     return (
-        bodies_key(model),
+        scene.gears,
+        (model.face.slices, *divided),
         in_operators,
         scene.coast_flanks is not None,
         (accuracy, springs, yielding_seats(model)),
@@ -130,16 +137,6 @@ def operators_key(model: Model) -> tuple:
         scene.friction is not None,
         bool(apart),
     )
-
-
-def bodies_key(model: Model) -> tuple:
-    """The gears of a mesh cycle and how they are divided."""
-    divided = (division for gear in (0, 1) for division in _divisions(model, gear))
-    return model.scene.gears, model.face.slices, *divided
-
-
-def _divisions(model: Model, gear: int) -> tuple:
-    return model.resolution.discretisation(gear), model.solid_discretisation(gear)
 
 
 def cycle_key(model: Model, of_operators: tuple | None = None) -> tuple:
