@@ -24,15 +24,15 @@ from .tooth_pair import (
     interpolations,
     node_ends,
     over_nodes,
-    per_node,
     rolls_of,
 )
 from .window import ContactGrid, coast_roll_angles, contact_roll_angles
 
 # Gap (k,), mm along the line of action, between flanks at heights z (k,), mm, and positions (k,), mm from T1.
 OverFace = Callable[[np.ndarray, np.ndarray], np.ndarray]
-# Of each pair's line of contact in its slice (p,): the flank, the height (mm), where it is on the path (mm from T1).
-OnLines = tuple[np.ndarray, np.ndarray, np.ndarray]
+# Of each pair's line of contact in its slice (p,): the flank, the height (mm), where it is on the path (mm from T1); and
+# how many contact nodes the pair has.
+OnLines = tuple[np.ndarray, np.ndarray, np.ndarray, list[int]]
 
 
 class LinesOfContact(dict[float, OnLines]):
@@ -89,19 +89,20 @@ def opening_over_face(cycle: Cycle, drive: OverFace, coast: OverFace | None = No
         return (contact_roll_angles if place.flank == DRIVE else coast_roll_angles)(pair, xi)[0]
 
     def lines(position: Position) -> OnLines:
-        places, phase = [pairs.place for pairs in position.operator.pairs], position.index / cycle.steps
+        pairs, phase = position.operator.pairs, position.index / cycle.steps
+        places, counts = [each.place for each in pairs], [len(each.offsets) for each in pairs]
         flanks, heights = (np.array([getattr(place, name) for place in places]) for name in ("flank", "height"))
-        return flanks, heights, pair.pinion.base_radius * np.array([roll(place, phase) for place in places])
+        return flanks, heights, pair.pinion.base_radius * np.array([roll(place, phase) for place in places]), counts
 
     lines_of = PerPosition(lines, cycle.beside(LinesOfContact))
 
     def opening(position: Position) -> np.ndarray:
-        flanks, heights, along = lines_of(position)
+        flanks, heights, along, counts = lines_of(position)
         found = np.zeros(len(flanks))
         for flank, over_face in ((DRIVE, drive), (COAST, coast)):
             if over_face is not None:
                 own = flanks == flank
                 found[own] = over_face(heights[own], along[own])
-        return per_node(position.operator.pairs, found)
+        return np.repeat(found, counts)
 
     return PerPosition(opening)

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from fenics_gears.geometry.relief import side_by_side
 
 from .interpolation import INTERPOLATIONS, Averages, Points
-from .mesh_cycle import Cycle, Gaps, PerPosition
+from .mesh_cycle import Cycle, Gaps, Opening, PerPosition
 from .operator import Position
 from .tooth_pair import DRIVE, Removal, facing_points, node_ends, over_nodes, seen_gap
 
@@ -67,10 +68,16 @@ def profile_of(
 
 class Profiles:
     """The gaps of several runs on the contact operators of one `cycle`, from whose flanks each has material of its own
-    removed: `removals` of pinion and wheel, by run."""
+    removed: `removals` of pinion and wheel, by run; and `openings` of its own, over a face."""
 
-    def __init__(self, cycle: Cycle, removals: Sequence[tuple[Removal | None, Removal | None]]):
-        self._cycle, self._removals, self._facing = cycle, removals, _facing_points(cycle)
+    def __init__(
+        self,
+        cycle: Cycle,
+        removals: Sequence[tuple[Removal | None, Removal | None]],
+        openings: Sequence[tuple[Opening, ...]],
+    ):
+        self._cycle, self._removals, self._openings = cycle, removals, openings
+        self._facing = _facing_points(cycle)
 
     def of_steps(self, positions: Sequence[Position]) -> np.ndarray:
         """Gaps (runs, n), mm along the normal, at all steps of the mesh cycle, one after the other."""
@@ -78,21 +85,37 @@ class Profiles:
             self._facing(position)
         together = self._cycle.beside(FacingPoints).of_steps(self._cycle.steps)
         assert together is not None
-        return self._cycle.face.cosine * np.array([_gaps(self._cycle, together, each) for each in self._removals])
+        # Samples of a design have its reliefs in common.
+        profiles: dict[Any, np.ndarray] = {}
+        for removal in self._removals:
+            if removal not in profiles:
+                profiles[removal] = _gaps(self._cycle, together, removal)
+        gaps = np.array([profiles[removal] for removal in self._removals])
+        for gap, openings in zip(gaps, self._openings):
+            for opening in openings:
+                gap += np.concatenate([opening(position) for position in positions])
+        return self._cycle.face.cosine * gaps
 
     def at(self, asked: Sequence[tuple[int, Position]]) -> np.ndarray:
         """Gaps (n,), mm along the normal, of runs at a position each, one after the other."""
         facing = [self._facing(position) for _, position in asked]
         counts = [len(each.gap) for each in facing]
         pinion, wheel = (side_by_side([self._removals[run][gear] for run, _ in asked], counts) for gear in (0, 1))
-        return self._cycle.face.cosine * _gaps(self._cycle, _joined(facing), (pinion, wheel))
+        gaps, first = _gaps(self._cycle, _joined(facing), (pinion, wheel)), 0
+        for run, position in asked:
+            end = first + position.operator.nodes
+            for opening in self._openings[run]:
+                gaps[first:end] += opening(position)
+            first = end
+        return self._cycle.face.cosine * gaps
 
     def of(self, run: int) -> Cycle:
         """The cycle with the gaps of a run."""
-        if self._removals[run] == (None, None):
+        removal, openings = self._removals[run], self._openings[run]
+        if removal == (None, None) and not openings:
             return self._cycle
-        profile, of_steps = profile_of(self._cycle, self._removals[run])
-        return self._cycle.with_gaps(Gaps(profile, of_steps=of_steps))
+        profile, of_steps = (None, None) if removal == (None, None) else profile_of(self._cycle, removal)
+        return self._cycle.with_gaps(Gaps(profile, openings, of_steps=of_steps))
 
 
 def _facing_points(cycle: Cycle) -> PerPosition[Facing]:

@@ -92,16 +92,41 @@ class Marches:
 
     def _solve(self, steps: Steps, sets: np.ndarray, at_rest: bool) -> None:
         """Solve all steps of each run but its first; `sets`, `at_rest`: as of a Course."""
-        own = len(steps) // self._count
+        own, turns = len(steps) // self._count, self.cycle.traits.repeats
         course = Course(np.zeros(len(steps)), np.repeat(self._loads, own, axis=0), sets, at_rest)
-        for run in np.flatnonzero(self.solved).tolist():
-            done, end = run * own + 1, (run + 1) * own
-            while self.solved[run] and (done := solve_steps(steps, done, end, self._motions[run], course)) < end:
-                record = self._by_itself(run, steps, done, at_rest and done == run * own + 1)
-                self.solved[run] = record is not None
-                if record is not None:
-                    steps.put(done, record)
-                    done += 1
+        # Over a face the operator of a position is larger than all else: runs take turns at it.
+        ends = range(2, own + 1) if turns else (own,)
+        for first, end in zip((1, *ends), ends):
+            before = None
+            for run in np.flatnonzero(self.solved).tolist():
+                if turns:
+                    self._put_known(steps, sets, (before, run), first)
+                self._solve_part(run, steps, (run * own + first, run * own + end), course)
+                before = run
+
+    def _put_known(self, steps: Steps, sets: np.ndarray, runs: tuple[int | None, int], at: int) -> None:
+        """Put those `sets` into place that a run begins a step with: its own a mesh cycle before or, without friction,
+        those of the run before."""
+        (before, run), own, starts = runs, len(steps) // self._count, steps.starts
+        if at >= self.cycle.steps:
+            then = run * own + at - self.cycle.steps
+        elif before is not None and not self.friction:
+            then = before * own + at
+        else:
+            return
+        now = run * own + at
+        sets[starts[now] : starts[now + 1]] = steps.status[starts[then] : starts[then + 1]]
+
+    def _solve_part(self, run: int, steps: Steps, part: tuple[int, int], course: Course) -> None:
+        """Solve the steps of a run at places from a first to before an end."""
+        done, end = part
+        while self.solved[run] and (done := solve_steps(steps, done, end, self._motions[run], course)) < end:
+            in_balance = course.at_rest and done % (len(steps) // self._count) == 1
+            record = self._by_itself(run, steps, done, in_balance)
+            self.solved[run] = record is not None
+            if record is not None:
+                steps.put(done, record)
+                done += 1
 
     def _by_itself(self, run: int, steps: Steps, place: int, in_balance: bool) -> Record | None:
         """A step of a run as a march by itself solves it, after the step before it or in balance; None where it has no
@@ -152,7 +177,8 @@ class Marches:
         stepper, starts = self._stepper, self.block.starts
         own = [stepper.known_before(step) for step in self._numbers.tolist()] if stepper.remembers else []
         known = NO_SETS
-        if any(map(len, own)):
+        if any(map(len, own)) or self.cycle.traits.repeats:
+            own = own or [NO_SETS] * len(self._numbers)
             counts = np.diff(starts[: len(self._numbers) + 1])
             sets = [of if len(of) else np.full(nodes, -1, dtype=np.int8) for of, nodes in zip(own, counts)]
             known = np.tile(np.concatenate(sets), self._count)
@@ -195,15 +221,21 @@ class Marches:
             else:
                 sets += [np.zeros(before[at, NODES], dtype=np.int8), stepper.sets_near(place, position)]
         loads = np.repeat([self._loads[run] for run, _ in asked], 2, axis=0)
-        course = Course(np.zeros(len(steps)), loads, np.concatenate(sets) if sets else NO_SETS, at_rest=True)
-        for at, (run, place) in enumerate(asked):
+        known, last = np.concatenate(sets) if sets else NO_SETS, {}
+        course = Course(np.zeros(len(steps)), loads, known, at_rest=True)
+        # Runs that ask for the same place take turns at it, each from the sets of the one before.
+        for at in sorted(range(len(asked)), key=lambda at: asked[at][1]):
+            (run, place), now = asked[at], slice(*steps.starts[2 * at + 1 : 2 * at + 3])
+            if place in last and not self.friction:
+                known[now] = last[place]
             if solve_steps(steps, 2 * at + 1, 2 * at + 2, self._motions[run], course) > 2 * at + 1:
                 record: Record | None = steps.record(2 * at + 1)
             else:
                 record = self._between_by_itself(run, place, steps.record(2 * at))
             self._between[run, place] = record
             if record is not None:
-                stepper.remember(place, record.solution.status)
+                last[place] = record.solution.status
+                stepper.remember(place, last[place])
 
     def _between_by_itself(self, run: int, place: float, last: Record) -> Record | None:
         """As `BetweenSteps` solves it after the step `last`."""

@@ -9,7 +9,6 @@ import xarray as xr
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
 
-from .face_ends import in_end_zone
 from .load_factors import load_factors
 from .pairs import carrying_side
 from .side_by_side import SideBySide
@@ -25,11 +24,6 @@ class AlongTheFace:
 
     def __init__(self, cycle: Cycle):
         self.face, self.pair, self.coast_flanks = cycle.face, cycle.pair, cycle.coast_flanks
-
-    @property
-    def end_slices(self) -> np.ndarray:
-        """Which slices (S,) are edges of the flanks."""
-        return in_end_zone(self.pair, self.face.positions)
 
     def fields(self, nodes: SideBySide) -> dict[str, np.ndarray]:
         """Line load of each tooth pair on its drive flanks, and on its coast flanks where they can touch (steps, slots,

@@ -161,10 +161,14 @@ class _Place:
 
 
 class EdgesAndKinks:
-    """The edges and kinks of a model's flanks; `end_slices` (S,): which slices are edges, none where None."""
+    """The edges and kinks of a model's flanks; over a face slices near its ends are edges."""
 
-    def __init__(self, model: Model, end_slices: np.ndarray | None = None):
-        self.half_width, self._end_slices = model.resolution.half_width, end_slices
+    def __init__(self, model: Model):
+        self.half_width, self._end_slices = model.resolution.half_width, None
+        if model.face.slices > 1:
+            from .face_ends import in_end_zone
+
+            self._end_slices = in_end_zone(model.pair, model.face.positions)
         self._places: list[_Place] = []
         gears = model.pair.pinion, model.pair.wheel
         for number, (gear, removal) in enumerate(zip(gears, model.removal)):

@@ -102,7 +102,7 @@ class Recorder:
         self._worked: dict[str, float] = {}
         self.along_face = _along_face(model, cycle)
         self._layouts = cycle.beside(KnownLayouts)
-        self._singular = EdgesAndKinks(model, next((along.end_slices for along in self.along_face), None))
+        self._singular = EdgesAndKinks(model)
         self._layouts.forget_beyond(cycle.steps)
 
     def _room_for(self, journal: Place | None) -> InMemory:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fenics_gears.contact.mesh import Mesh, elastic_mesh
-from fenics_gears.contact.mesh_cycle import Cycle, Gaps
+from fenics_gears.contact.mesh_cycle import Cycle, Gaps, Opening
 from fenics_gears.contact.tooth_pair import Flanks, Removal
 from fenics_gears.effects import ALONG_THE_FACE, effects_on, from_effects
 from fenics_gears.elasticity.cache import Cache
@@ -114,13 +114,18 @@ def sections_of_gaps(model: Model) -> tuple[str, ...]:
 
 def gaps_of(model: Model, cycle: Cycle) -> Gaps:
     """What opens the contact nodes of a cycle of the model, or of one that shares its contact operators."""
-    profile, of_steps, openings = None, None, ()
+    profile, of_steps = None, None
     if model.removal != (None, None) and reliefs_apart(model):
         from fenics_gears.contact.relief_gaps import profile_of
 
         profile, of_steps = profile_of(cycle, model.removal)
-    if cycle.face.slices > 1:
-        from fenics_gears.contact.face_mesh import opening_over_face
+    return Gaps(profile, openings_of(model, cycle), tuple(from_effects(model.scene, "gaps", model)), of_steps)
 
-        openings = (opening_over_face(cycle, model.face_opening, model.coast_face_opening),)
-    return Gaps(profile, openings, tuple(from_effects(model.scene, "gaps", model)), of_steps)
+
+def openings_of(model: Model, cycle: Cycle) -> tuple[Opening, ...]:
+    """What opens the contact nodes of such a cycle along the face."""
+    if cycle.face.slices == 1:
+        return ()
+    from fenics_gears.contact.face_mesh import opening_over_face
+
+    return (opening_over_face(cycle, model.face_opening, model.coast_face_opening),)
