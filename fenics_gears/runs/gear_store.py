@@ -4,6 +4,7 @@ import functools
 from dataclasses import replace
 
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.window import ContactGrid
 from fenics_gears.effects import ALONG_THE_FACE, effects_on
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies, Body
@@ -119,10 +120,11 @@ def own_gear_store() -> GearStore:
     return GearStore()
 
 
-def operators_key(model: Model) -> tuple:
-    """What the contact operators of a mesh cycle depend on, whatever opens their nodes."""
+def operators_key(model: Model, grid: ContactGrid | None = None) -> tuple:
+    """What the contact operators of a mesh cycle depend on, whatever opens their nodes; `grid`: the model's unless
+    given."""
     scene, resolution, apart = model.scene, model.resolution, sections_of_gaps(model)
-    accuracy = resolution.condensation, resolution.contact_grid, resolution.steps_per_mesh_cycle
+    accuracy = resolution.condensation, grid or resolution.contact_grid, resolution.steps_per_mesh_cycle
     shaping = (section for section in _shaping(scene) if section not in apart)
     in_operators = (scene.corner_contact, *(getattr(scene, section) for section in shaping))
     springs = scene.accuracy.model, None if scene.resolves_contact else scene.load

@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from fenics_gears.model.model import Model
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.validity import NO_MEANING
+from fenics_gears.runs.common_windows import CommonWindows
 from fenics_gears.runs.lines import Lines, kept
 from fenics_gears.runs.record import numbers_of
 from fenics_gears.runs.run import Run, run_of
@@ -69,7 +71,8 @@ class Evaluator:
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
         self.design, self._progress = design, progress
         self.runs, self.others = Runs(Lines(directory, line_of, self.design.asked), team), kept(directory)[1]
-        self._models, self.designs = Models(design.name, design.directory), (0, 0)
+        self._models, self._windows = Models(design.name, design.directory), CommonWindows()
+        self.designs = 0, 0
 
     def of_designs(self, designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray) -> list[Evaluation]:
         """Designs, by the values of their variables, under deviations (samples, scatters) in parts of their limits."""
@@ -80,14 +83,15 @@ class Evaluator:
     ) -> list[Evaluation]:
         """The same for parsed scenes; `designs` are only noted."""
         begun = time.perf_counter()
-        cases = [[self._case(each) for each in trees_of(self.design, tree, deviations)] for tree in trees]
+        cases = self._cases([trees_of(self.design, tree, deviations) for tree in trees])
         self.runs.spent.seconds += time.perf_counter() - begun
         self._run([case for of_tree in cases for case in of_tree if isinstance(case, Run)], len(trees))
         return [self._evaluation(dict(values), of_tree, len(deviations)) for values, of_tree in zip(designs, cases)]
 
     def curves(self, trees: Sequence[Mapping[str, Any]]) -> list[np.ndarray | None]:
         """Mesh phase and transmission error (2, steps), rad, of parsed scenes; None where a run failed."""
-        runs = [case for case in map(self._case, trees) if isinstance(case, Run)]
+        (found,) = self._cases([trees])
+        runs = [case for case in found if isinstance(case, Run)]
         cases = [replace(run, key=f"{run.key} curve", values={"curve": ""}) for run in runs]
         self._run(cases, len(trees))
         if len(cases) < len(trees):
@@ -95,10 +99,18 @@ class Evaluator:
         lines = (self.runs.known[case.key] for case in cases)
         return [None if isinstance(line, Failure) else np.array(line["curve"]) for line in lines]
 
-    def _case(self, tree: Mapping[str, Any]) -> Run | Failure:
-        """The run of a parsed scene, or why it is no scene."""
+    def _cases(self, trees: Sequence[Sequence[Mapping[str, Any]]]) -> list[list[Run | Failure]]:
+        """The runs of parsed scenes, or why they are no scenes."""
+        found = [[self._model(tree) for tree in of_tree] for of_tree in trees]
+        self._windows.take(each for of_tree in found for each in of_tree if isinstance(each, Model))
+        return [
+            [each if isinstance(each, Failure) else run_of(self._windows.of(each)) for each in of_tree]
+            for of_tree in found
+        ]
+
+    def _model(self, tree: Mapping[str, Any]) -> Model | Failure:
         try:
-            return run_of(self._models.of(self._without_fields(tree)))
+            return self._models.of(self._without_fields(tree))
         except NoScene as error:
             return Failure(error)
 
