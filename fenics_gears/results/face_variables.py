@@ -61,6 +61,29 @@ class AlongTheFace:
     def numbers(self, counted: xr.Dataset) -> dict[str, float | str]:
         return load_factors(counted, self.pair)
 
+    def numbers_of_curves(
+        self, curves: Mapping[str, np.ndarray], nodes: SideBySide, first: int, contact_steps: int
+    ) -> dict[str, float]:
+        """Load factors from the `curves` of a run, pair numbers among them, its steps counted from the `first` on;
+        fields of the last `contact_steps`."""
+        counted = {name: curves[name][first:] for name in ("time", "mesh_phase", "pair_number")}
+        stored = max(len(counted["time"]) - contact_steps, 0)
+        loads = {name: values[first:][stored:] for name, values in self.fields(nodes).items()}
+        last = {f"contact_{name}": values[stored:] for name, values in counted.items()}
+        forces = [name for name in curves if name.endswith("normal_force")]
+        variables = {
+            name: (("time", "slot") if name.startswith("pair_") else "time", curves[name][first:]) for name in forces
+        }
+        numbers = last.pop("contact_pair_number"), {"number_at_phase_0": nodes.first_number}
+        coordinates = {
+            **self.coordinates(),
+            "time": counted["time"],
+            **{name: ("contact_time", values) for name, values in last.items()},
+            "contact_pair_number": (("contact_time", "slot"), *numbers),
+        }
+        fields = {name: (("contact_time", "slot", "face_position"), values) for name, values in loads.items()}
+        return load_factors(xr.Dataset(variables | fields, coordinates), self.pair)
+
     def warnings(self, result: xr.Dataset) -> list[str]:
         """Where the flanks leave much of the face without load in all steps; nothing without stored contact fields."""
         if not result.sizes.get("contact_time"):

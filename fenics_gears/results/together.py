@@ -38,7 +38,8 @@ ERROR, FORCE, PRESSURE, LOSS = (
     "peak_to_peak_transmission_error", "largest_pair_force", "peak_contact_pressure", "friction_loss",
 )  # fmt: skip
 # What can be asked for, and what of it takes no other key numbers.
-OF_THEMSELVES = frozenset((ERROR, LOSS, "max_normal_force"))
+OVER_FACE = "face_load_factor", "largest_line_load_factor", "edge_line_load_factor", "transverse_load_factor"
+OF_THEMSELVES = frozenset((ERROR, LOSS, "max_normal_force", *OVER_FACE))
 OFFERED = OF_THEMSELVES | {FORCE, PRESSURE, *HARMONIC_NAMES}
 
 
@@ -83,7 +84,8 @@ def numbers_together(
     found: list[NumbersOfRun | None] = [None] * count
     if not runs:
         return found
-    curves, first = _curves(models, marches, errors, runs, asked), settled(model, model.steps).first
+    first = settled(model, model.steps).first
+    curves, factors = _curves(models, marches, errors, (runs, first), asked)
     counted = [{name: values[first:] for name, values in of_run.items()} for of_run in curves]
     loss = [_loss(*each) if LOSS in asked else {} for each in zip(curves, counted)]
     timed, key = model.scene.motion.speed_given, not OF_THEMSELVES.issuperset(asked)
@@ -95,7 +97,7 @@ def numbers_together(
     seconds = (time.perf_counter() - begun) / count
     for place, run in enumerate(runs):
         error, (of_error, of_force) = counted[place]["transmission_error"], located[place]
-        numbers = others[place] | loss[place] | of_error | of_force
+        numbers = others[place] | loss[place] | factors[place] | of_error | of_force
         numbers |= {
             "mean_transmission_error": float(error[:-1].mean()),
             "newton_iterations_total": int(iterations[run]),
@@ -129,18 +131,34 @@ def _loss(curves: Curves, counted: Curves) -> dict[str, float]:
 
 
 def _curves(
-    models: Sequence[Model], marches: Marches, errors: np.ndarray, runs: Sequence[int], asked: Collection[str]
-) -> list[Curves]:
-    model, found = models[0], []
+    models: Sequence[Model],
+    marches: Marches,
+    errors: np.ndarray,
+    counted: tuple[Sequence[int], int],
+    asked: Collection[str],
+) -> tuple[list[Curves], list[dict[str, float]]]:
+    """Curves of the runs that are `counted`, and load factors over a face where they are asked for, from a first step
+    on."""
+    (runs, first), model, found, factors = counted, models[0], [], []
     numbers = np.arange(model.steps + 1)
     common = {"time": model.clock.times(numbers), "mesh_phase": numbers / model.resolution.steps_per_mesh_cycle}
     nodes: SideBySide | None = None
+    over_face = not set(OVER_FACE).isdisjoint(asked)
     for run in runs:
         steps = marches.of(run)
         nodes = _nodes(marches.cycle, steps) if nodes is None else nodes.with_forces(steps)
-        of_nodes = _of_nodes(models[run], marches.cycle, nodes, asked)
-        found.append(common | {"transmission_error": errors[run]} | of_nodes)
-    return found
+        curves = common | {"transmission_error": errors[run]} | _of_nodes(models[run], marches.cycle, nodes, asked)
+        found.append(curves)
+        factors.append(_load_factors(models[run], nodes, curves, first) if over_face else {})
+    return found, factors
+
+
+def _load_factors(model: Model, nodes: SideBySide, curves: Curves, first: int) -> dict[str, float]:
+    # Imported here: plane runs do without.
+    from .face_variables import AlongTheFace
+
+    of_pairs = {"pair_number": nodes.pair_number, **pair_variables(model.scene, nodes)}
+    return AlongTheFace(nodes.cycle).numbers_of_curves(curves | of_pairs, nodes, first, model.contact_steps)
 
 
 def _nodes(cycle: Cycle, steps: Steps) -> SideBySide:

@@ -2,11 +2,11 @@
 
 from fenics_gears import HARMONIC_NAMES, Scene
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
+from fenics_gears.results.together import OVER_FACE
 from fenics_gears.runs.record import NUMBERS
 
 ERROR = "peak_to_peak_transmission_error"
 ROOT = ("largest_root_stress_pinion", "largest_root_stress_wheel")
-OVER_FACE = ("face_load_factor", "largest_line_load_factor", "edge_line_load_factor", "transverse_load_factor")
 ON_SHAFTS = ("largest_bearing_force",)
 NAMES = (
     ERROR, *HARMONIC_NAMES, "max_normal_force", "largest_pair_force", "dynamic_factor_by_force",
