@@ -9,6 +9,7 @@ import numpy as np
 from fenics_gears import SceneError, expected_cost
 from fenics_gears.command_line import seconds_in_words
 from fenics_gears.inputs.tree import GEARS
+from fenics_gears.runs.common_windows import CommonWindows
 from fenics_gears.runs.condensing import BODY, gear_tasks
 from fenics_gears.runs.gear_store import operators_key
 from fenics_gears.runs.run import Run, run_of
@@ -25,9 +26,10 @@ TIME_OF_A_RESULT, EXTREMES = 0.015, 10
 # Of runs that are solved together beside their march, seconds: of each, and of a task of them (measured on the paper's
 # pair, its march of 1.6 ms included: 2.7 ms a run of 32 in a task, 6.7 ms of 8, 10 ms of 4).
 TIME_OF_NUMBERS, TIME_OF_A_TASK = 0.001, 0.02
-# Of a run over the face whose contact operators a run before had: seconds, and its march in parts of a first one; of
-# both with friction (measured on a helical pair of 870 to 1,880 contact nodes: within 1.4 times).
-TIME_OVER_FACE, MARCH_AGAIN, WITH_FRICTION = 0.02, 0.1, 2.0
+# Of a run over the face whose contact operators a run before had, by itself and together with others: seconds, and its
+# march in parts of a first one; of both with friction (measured on a helical pair of 870 to 1,880 contact nodes: within
+# 1.4 times).
+ALONE_OVER_FACE, TOGETHER_OVER_FACE, WITH_FRICTION = (0.02, 0.1), (0.005, 0.04), 2.0
 # Values of a variable at which the chosen design's goals are evaluated, over its whole range.
 VALUES = 9
 # Torques of the Harris map where the operating points have one, in parts of it.
@@ -77,14 +79,16 @@ def expected_work(design: Design, kept: int, processes: int = 1) -> Work:
     tasks = len(gear_tasks(cases))
     bodies = 1 if tasks == len(gear_tasks(ends[0])) else designs
     first, position = marching - building, building / cases[0].model.resolution.steps_per_mesh_cycle
-    face, operators = cases[0].scene.three_dimensional, len({operators_key(case.model) for case in cases})
-    if solved_at_once([end[0].model for end in ends], design.asked):
+    operators = len({operators_key(case.model) for case in cases})
+    together = solved_at_once([end[0].model for end in ends], design.asked)
+    if cases[0].scene.three_dimensional:
+        own, march = TOGETHER_OVER_FACE if together else ALONE_OVER_FACE
+        again = (own + march * first) * (WITH_FRICTION if cases[0].scene.friction else 1.0)
+        made = designs * points if bodies > 1 else operators * processes
+        seconds = runs * again + min(made, runs) * (building + EXTREMES * position + first)
+    elif together:
         in_a_task = most_together(design.search.population * points * samples, processes)
         seconds = runs * (TIME_OF_NUMBERS + TIME_OF_A_TASK / in_a_task + first)
-    elif face:
-        again = (TIME_OVER_FACE + MARCH_AGAIN * first) * (WITH_FRICTION if cases[0].scene.friction else 1.0)
-        made = designs * points if bodies > 1 else operators * _batches(design)
-        seconds = runs * again + min(made, runs) * (building + EXTREMES * position + first)
     else:
         shared = operators == len({operators_key(case.model) for case in ends[0]})
         seconds = runs * (TIME_OF_A_RESULT + EXTREMES * position + first + (0.0 if shared else building))
@@ -92,21 +96,15 @@ def expected_work(design: Design, kept: int, processes: int = 1) -> Work:
     return Work(runs, seconds + (bodies * pairs * condensing if runs else 0.0))
 
 
-def _batches(design: Design) -> int:
-    """How often runs are handed out together, sorted by their contact operators: those before, of the search, along
-    each variable, under new samples, at limits of scatters and of the Harris map."""
-    of_search = ceil(design.search.evaluations / design.search.population)
-    return 2 + of_search + len(design.variables) + (2 if design.tolerances.scatters else 0)
-
-
 def at_ends(design: Design) -> list[list[Run]]:
     """The scenes with all variables at the beginning and at the end of their ranges, where they are scenes: each at all
     operating points."""
-    found, nominal = [], np.zeros((1, len(design.tolerances.scatters)))
+    found, nominal, windows = [], np.zeros((1, len(design.tolerances.scatters))), CommonWindows()
     for end in (0, -1):
         values = {each.name: (each.words or (each.low, each.high))[end] for each in design.variables}
         # All variables at their ends together may be gears that cannot be.
         with suppress(NoScene):
             trees = trees_of(design, design.scene_tree(values), nominal)
-            found.append([run_of(model_of_tree(design.name, tree, design.directory)) for tree in trees])
-    return found
+            found.append([model_of_tree(design.name, tree, design.directory) for tree in trees])
+            windows.take(found[-1])
+    return [[run_of(windows.of(model)) for model in end] for end in found]
