@@ -15,23 +15,13 @@ from .mesh import Mesh, MeshTraits, flank_nodes
 from .mesh_cycle import Cycle, Opening, PerPosition
 from .operator import Position
 from .places import face_places
-from .tooth_pair import (
-    COAST,
-    DRIVE,
-    Flanks,
-    PairNodes,
-    Place,
-    interpolations,
-    node_ends,
-    over_nodes,
-    rolls_of,
-)
+from .tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, interpolations, node_ends, over_nodes, rolls_of
 from .window import ContactGrid, coast_roll_angles, contact_roll_angles
 
 # Gap (k,), mm along the line of action, between flanks at heights z (k,), mm, and positions (k,), mm from T1.
 OverFace = Callable[[np.ndarray, np.ndarray], np.ndarray]
-# Of each pair's line of contact in its slice (p,): the flank, the height (mm), where it is on the path (mm from T1); and
-# how many contact nodes the pair has.
+# Of each pair's line of contact in its slice (p,): the flank, the height (mm), where it is on the path (mm from T1) and
+# how many contact nodes it has.
 OnLines = tuple[np.ndarray, np.ndarray, np.ndarray, list[int]]
 
 

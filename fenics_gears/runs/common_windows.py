@@ -41,4 +41,3 @@ class CommonWindows:
         grid = model.resolution.contact_grid
         assert grid.inner_length is not None
         return operators_key(model, replace(grid, inner_length=None)), grid.inner_length
-

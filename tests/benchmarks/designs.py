@@ -6,7 +6,7 @@ nodes, 0.06 some 1,570), and of the paper's pair in the plane, quasi-static, dra
 demonstrations; gears are condensed before. Processor seconds of a run in medians: of this process and of the kernel;
 contact operators that were built, positions between steps that were asked for, Newton's iterations.
 "alone": nothing but gears is shared; "shared": one after the other on the same contact operators, the second half of
-them; "together": as a search computes plane runs, a task at a time, of which T_EPP alone is asked.
+them; "together": as a search computes them, a task at a time, of which T_EPP alone is asked.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ import numpy as np
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.model.model import Model
+from fenics_gears.runs.common_windows import CommonWindows
 from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.runs.runs import MOST_TOGETHER, completed
 from fenics_gears.simulation.together import solved_together
@@ -84,9 +85,11 @@ def spent(model: Model, store: GearStore) -> list[float]:
 
 def together(models: Iterator[Model], store: GearStore, runs: int) -> list[float]:
     """As of `spent`, medians over tasks of runs that are computed together, the second half of so many."""
-    found = []
-    for _ in range(max(runs // MOST_TOGETHER, 2)):
+    found, windows = [], CommonWindows()
+    for _ in range(max(runs // MOST_TOGETHER, 4)):
         task = [next(models) for _ in range(MOST_TOGETHER)]
+        windows.take(task)
+        task = [windows.of(model) for model in task]
         before = resource.getrusage(resource.RUSAGE_SELF)
         results = solved_together(task, store.prepared, ["peak_to_peak_transmission_error"])
         after = resource.getrusage(resource.RUSAGE_SELF)
@@ -106,7 +109,7 @@ def main() -> None:
     options = parser.parse_args()
     print(f"{'':26}{'user ms':>9}{'kernel ms':>11}{'built':>7}{'between':>9}{'iterations':>12}")
     for name, designs in (("over the face", over_the_face), ("in the plane", in_the_plane))[options.plane :]:
-        for way in ("alone", "shared", "together")[: 3 if designs is in_the_plane else 2]:
+        for way in ("alone", "shared", "together"):
             models = designs(options.friction, np.random.default_rng(1), options.element)
             store = GearStore(None, way != "alone")
             runs = options.runs if way != "alone" else max(options.runs // 6, 2)

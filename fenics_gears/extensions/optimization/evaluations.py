@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from fenics_gears.model.model import Model
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.runs.common_windows import CommonWindows
@@ -102,13 +101,14 @@ class Evaluator:
     def _cases(self, trees: Sequence[Sequence[Mapping[str, Any]]]) -> list[list[Run | Failure]]:
         """The runs of parsed scenes, or why they are no scenes."""
         found = [[self._model(tree) for tree in of_tree] for of_tree in trees]
-        self._windows.take(each for of_tree in found for each in of_tree if isinstance(each, Model))
+        self._windows.take(each for of_tree in found for each in of_tree if not isinstance(each, Failure))
         return [
             [each if isinstance(each, Failure) else run_of(self._windows.of(each)) for each in of_tree]
             for of_tree in found
         ]
 
-    def _model(self, tree: Mapping[str, Any]) -> Model | Failure:
+    def _model(self, tree: Mapping[str, Any]) -> Any:
+        """The model of a parsed scene, or why it is no scene."""
         try:
             return self._models.of(self._without_fields(tree))
         except NoScene as error:

@@ -30,6 +30,8 @@ TIME_OF_NUMBERS, TIME_OF_A_TASK = 0.001, 0.02
 # march in parts of a first one; of both with friction (measured on a helical pair of 870 to 1,880 contact nodes: within
 # 1.4 times).
 ALONE_OVER_FACE, TOGETHER_OVER_FACE, WITH_FRICTION = (0.02, 0.1), (0.005, 0.04), 2.0
+# Marches until rolling bearings are as stiff as their loads make them.
+ON_ROLLING_BEARINGS = 3.0
 # Values of a variable at which the chosen design's goals are evaluated, over its whole range.
 VALUES = 9
 # Torques of the Harris map where the operating points have one, in parts of it.
@@ -84,6 +86,7 @@ def expected_work(design: Design, kept: int, processes: int = 1) -> Work:
     if cases[0].scene.three_dimensional:
         own, march = TOGETHER_OVER_FACE if together else ALONE_OVER_FACE
         again = (own + march * first) * (WITH_FRICTION if cases[0].scene.friction else 1.0)
+        again *= ON_ROLLING_BEARINGS if cases[0].model.drivetrain.on_rolling_bearings else 1.0
         made = designs * points if bodies > 1 else operators * processes
         seconds = runs * again + min(made, runs) * (building + EXTREMES * position + first)
     elif together:
