@@ -43,12 +43,19 @@ def on_slices(blocks: np.ndarray, weights: np.ndarray, flanks: int = 1) -> np.nd
     `weights` (S, h) of `slice_averages`; dofs of layers by flank, then height, then the section's own.
     """
     slices, heights = weights.shape
-    of_section = blocks.shape[1] // (heights * flanks)
-    shape = (flanks, heights, of_section)
-    found = []
-    for block in blocks:
-        averaged = np.einsum("sh,fhagkb->fsagkb", weights, block.reshape(*shape, *shape), optimize=True)
-        averaged = np.einsum("tk,fsagkb->fsgtab", weights, averaged, optimize=True)
-        found.append(averaged.reshape(flanks * slices, flanks * slices, of_section, of_section))
-    # What is read together at a position, two sections, lies together.
-    return np.stack([*(each.transpose(1, 0, 3, 2) for each in found[:0:-1]), *found])
+    own, ahead = blocks.shape[1] // (heights * flanks), len(blocks) - 1
+    found = np.empty((2 * ahead + 1, flanks * slices, flanks * slices, own, own))
+    for number, block in enumerate(blocks):
+        of_layers = block.reshape(flanks, heights, own, flanks, heights, own)
+        # Slice by slice, which stays in the processor's cache; a slice reaches over few layers.
+        for flank, place in np.ndindex(flanks, slices):
+            over, at = np.flatnonzero(weights[place]), flank * slices + place
+            averaged = np.tensordot(weights[place, over], of_layers[flank, over], 1)
+            for other in range(flanks):
+                others = slice(other * slices, (other + 1) * slices)
+                seen = np.matmul(weights, averaged[:, other]).transpose(1, 0, 2)
+                # What is read together at a position, two sections, lies together.
+                found[ahead + number, at, others] = seen
+                if number:
+                    found[ahead - number, others, at] = seen.transpose(0, 2, 1)
+    return found
