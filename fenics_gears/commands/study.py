@@ -1,8 +1,11 @@
 """``gears study STUDY``: run a parameter study and draw it, alone or under mpirun; a stopped study is continued."""
 
+from __future__ import annotations
+
 import argparse
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from fenics_gears.errors import ComputationError
 
@@ -16,6 +19,9 @@ from .shared import (
     under_mpirun,
 )
 
+if TYPE_CHECKING:
+    from fenics_gears.studies.run_study import Outcome
+
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("study", parents=[shared])
@@ -27,14 +33,31 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def study(options: argparse.Namespace) -> int:
-    if options.processes is not None:
-        return under_mpirun(options, ["study", str(options.study)])
-    from fenics_gears.studies.run_study import run_study
+    if options.processes is None:
+        from fenics_gears.studies.run_study import run_study
+
+        outcome = run_study(options.study, options.output, shown_progress(options.quiet), options.quiet, plots)
+        return 0 if outcome is None else _told(outcome, options)
+    outcome = _of_kept(options)
+    return under_mpirun(options, ["study", str(options.study)]) if outcome is None else _told(outcome, options)
+
+
+def _of_kept(options: argparse.Namespace) -> Outcome | None:
+    """The outcome where all cases are kept: several processes would take longer to start than one takes for that. None
+    where something is to be computed."""
+    from fenics_gears.studies.index import directory_of, seems_complete
+
+    if not seems_complete(options.study, directory_of(options.study, options.output)):
+        return None
+    from fenics_gears.studies.run_study import kept_study
+
+    return kept_study(options.study, options.output, shown_progress(options.quiet), options.quiet)
+
+
+def _told(outcome: Outcome, options: argparse.Namespace) -> int:
+    """Draw the study's dataset, say what came out of it, and return the exit code."""
     from fenics_gears.studies.summary import last_words, summary_rows
 
-    outcome = run_study(options.study, options.output, shown_progress(options.quiet), options.quiet, plots)
-    if outcome is None:
-        return 0
     pictures = [] if outcome.interrupted else plots().draw_study(outcome.file)
     if not options.quiet:
         from fenics_gears.system.console import print_rows

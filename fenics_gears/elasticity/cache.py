@@ -11,8 +11,10 @@ import io
 import json
 import logging
 import os
-from collections.abc import Callable
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -39,7 +41,7 @@ def as_json(inputs: Any) -> str:
 
 
 def _fields_of(data: Any) -> dict[str, Any]:
-    return {field.name: getattr(data, field.name) for field in fields(data)}
+    return {each.name: getattr(data, each.name) for each in fields(data)}
 
 
 def user_cache() -> Cache:
@@ -113,7 +115,9 @@ class Cache:
 
     def store(self, key: str, arrays: dict[str, np.ndarray]) -> None:
         """Keep arrays under a key; the file appears under its name only when it is complete."""
-        content = _file_content(key, arrays)
+        self._write(key, _file_content(key, arrays))
+
+    def _write(self, key: str, content: bytes) -> None:
         try:
             with whole_file(self.path(key)) as file:
                 file.write(content)
@@ -155,6 +159,27 @@ class Cache:
             if entry.path != stored:
                 _remove(entry.path)
                 size -= entry.size
+
+
+@dataclass(frozen=True)
+class _WritingMeanwhile(Cache):
+    """See `writing_meanwhile`. Entries are written and read in the order in which that was asked for."""
+
+    thread: ThreadPoolExecutor = field(kw_only=True)
+
+    def load(self, key: str) -> dict[str, np.ndarray] | None:
+        return self.thread.submit(super().load, key).result()
+
+    def _write(self, key: str, content: bytes) -> None:
+        self.thread.submit(super()._write, key, content)
+
+
+@contextmanager
+def writing_meanwhile(cache: Cache) -> Iterator[Cache]:
+    """The cache, its entries written by a thread while the block goes on: a body's takes a quarter of a second. At the
+    end of the block all are written."""
+    with ThreadPoolExecutor(1) as thread:
+        yield _WritingMeanwhile(cache.directory, cache.limit, thread=thread)
 
 
 def _mark_as_used(path: Path) -> None:

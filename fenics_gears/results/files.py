@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 import io
 import os
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -94,12 +94,11 @@ def load(path: str | Path) -> xr.Dataset:
     return result
 
 
-def read(path: str | Path, names: Collection[str] | None = None) -> xr.Dataset:
-    """Read a saved dataset into memory, or only its variables of these names. Raises ComputationError when it is
-    damaged or not written by `save`."""
+def read(path: str | Path) -> xr.Dataset:
+    """Read a saved dataset into memory. Raises ComputationError when it is damaged or not written by `save`."""
     try:
         with unsealed(Path(path)) as content:
-            return read_netcdf(content, names)
+            return read_netcdf(content)
     # HDF5 and xarray raise whatever they meet in a damaged file: RuntimeError, KeyError, AttributeError, TypeError.
     except Exception as failure:
         raise ComputationError(f"{path}: cannot be read as a result: {failure}") from failure
@@ -217,13 +216,12 @@ OF_THE_FORMAT = {
 NO_VARIABLE = "This is a netCDF dimension but not a netCDF variable"
 
 
-def read_netcdf(content, names: Collection[str] | None = None) -> xr.Dataset:
-    """The dataset in an open NetCDF-4 file, in memory, or only its variables of these names: as `xarray.open_dataset`,
-    in a third of the time."""
+def read_netcdf(content) -> xr.Dataset:
+    """The dataset in an open NetCDF-4 file, in memory: as `xarray.open_dataset`, in a third of the time."""
     variables = {}
     with h5py.File(content) as file:
         # As a group the root has its names in the order in which they were written.
-        for name in file["/"] if names is None else [name for name in names if name in file]:
+        for name in file["/"]:
             held = file[name]
             attributes = dict(held.attrs)
             if _text(attributes.get("NAME", "")).startswith(NO_VARIABLE):

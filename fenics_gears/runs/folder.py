@@ -6,24 +6,27 @@ import json
 import logging
 import os
 import traceback
-from collections.abc import Iterable, Iterator
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import ClassVar
+from typing import BinaryIO, ClassVar
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.dataset import RunResult
-from fenics_gears.results.files import read
-from fenics_gears.system.output import remove_left_over, write_whole
+from fenics_gears.results.stored import stored
+from fenics_gears.system.output import remove_left_over, unsealed, write_whole
 
-from .record import VARIABLES, Record, record_of
+from .record import Record, record_of
 from .run import Run
 from .runs import Failure, failure_of
 from .spent import seconds_of
 
 LOGGER = logging.getLogger(__name__)
 ENDING, FAILED_ENDING = ".nc", ".failed.txt"
+FILES_AHEAD = 8
 
 
 @dataclass(frozen=True)
@@ -36,10 +39,10 @@ class Folder:
     def known(self, runs: Iterable[Run]) -> dict[str, Record]:
         """Records of the runs whose whole and undamaged files are there."""
         files = {path.stem.rpartition("-")[2]: path for path in sorted(self.directory.glob(f"*{ENDING}"))}
+        there = [(run, path) for run in runs if (path := files.get(run.name.rpartition("-")[2])) is not None]
         found = {}
-        for run in runs:
-            path = files.get(run.name.rpartition("-")[2])
-            record = None if path is None else _undamaged(path, run)
+        for (run, path), opened in zip(there, _opened(path for _, path in there)):
+            record = _undamaged(path, run, opened)
             if record is not None:
                 found[run.key] = record
                 if path.stem != run.name:
@@ -71,12 +74,24 @@ class Folder:
         return self.directory / f"{run.name}{ending}"
 
 
-def _undamaged(path: Path, run: Run) -> Record | None:
+def _opened(paths: Iterable[Path]) -> Iterator[Callable[[], BinaryIO]]:
+    """What opens each of the files, as `unsealed`; a thread compares the digests of a few files ahead."""
+    with ThreadPoolExecutor(1) as thread:
+        waiting: deque[Future[BinaryIO]] = deque()
+        for path in paths:
+            waiting.append(thread.submit(unsealed, path))
+            if len(waiting) > FILES_AHEAD:
+                yield waiting.popleft().result
+        while waiting:
+            yield waiting.popleft().result
+
+
+def _undamaged(path: Path, run: Run, opened: Callable[[], BinaryIO]) -> Record | None:
     try:
-        result = read(path, VARIABLES)
-        if (result.attrs.get("case_key"), result.attrs.get("complete")) != (run.key, 1):
-            raise ValueError("it does not hold what was written into it")
-        return record_of(result)
+        with opened() as content, stored(content) as result:
+            if (result.attrs.get("case_key"), result.attrs.get("complete")) != (run.key, 1):
+                raise ValueError("it does not hold what was written into it")
+            return record_of(result)
     # A damaged HDF5 file is reported by many types, RuntimeError and KeyError among them.
     except Exception as error:
         LOGGER.warning("%s is not usable and its case is computed again: %s", path, error)

@@ -1,5 +1,6 @@
 """What is kept of a run in memory: its numbers, curves and warnings."""
 
+from collections import ChainMap
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,6 +11,7 @@ from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.pairs import shown_steps
 from fenics_gears.results.settled import settled_steps
+from fenics_gears.results.stored import Stored
 
 # Units and long name of each number that every record has.
 NUMBERS = {
@@ -25,8 +27,6 @@ CURVES = (
     "transmission_error", "centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "shaft_end_rotation",
     "normal_force", "friction_force", "mesh_stiffness",
 )  # fmt: skip
-# What a record is made of besides attributes: a twentieth of a result.
-VARIABLES = ("time", "mesh_phase", "coast_normal_force", *CURVES)
 
 
 @dataclass(frozen=True)
@@ -47,22 +47,26 @@ class Record:
     seconds: tuple[float, ...] = ()
 
 
-def numbers_of(run: RunResult | xr.Dataset) -> dict[str, float]:
+def numbers_of(run: RunResult | xr.Dataset | Stored) -> dict[str, float]:
     """The numbers of a complete run; the wall time is the attribute `wall_time`, s."""
-    said = run.attrs | {
-        "max_normal_force": largest_normal_force(run, settled_steps(run)),
-        "newton_iterations": run.attrs["newton_iterations_total"],
-    }
+    said = ChainMap(
+        {
+            "max_normal_force": largest_normal_force(run, settled_steps(run)),
+            "newton_iterations": run.attrs["newton_iterations_total"],
+        },
+        run.attrs,
+    )
     names = (*NUMBERS, *(name for name in STUDIED if name in said))
     return {name: float(said[name]) for name in names}
 
 
-def record_of(run: xr.Dataset) -> Record:
+def record_of(run: xr.Dataset | Stored) -> Record:
     """The record of a complete run."""
     last = shown_steps(run)
     phase = run["mesh_phase"].values[last]
-    curves = {name: run[name].values[last] for name in CURVES if name in run}
-    labels = {name: {key: run[name].attrs[key] for key in ("units", "long_name")} for name in curves}
+    taken = {name: run[name] for name in CURVES if name in run}
+    curves = {name: each.values[last] for name, each in taken.items()}
+    labels = {name: {key: each.attrs[key] for key in ("units", "long_name")} for name, each in taken.items()}
     return Record(
         numbers_of(run),
         phase - np.floor(phase[0]),

@@ -11,8 +11,9 @@ import xarray as xr
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
-from fenics_gears.results.files import read
+from fenics_gears.results.stored import stored
 from fenics_gears.results.validity import NO_MEANING
+from fenics_gears.system.output import unsealed
 
 from .panels import factor
 
@@ -164,10 +165,11 @@ class Cases:
 
     def _base_radius(self, case: int) -> float | None:
         try:
-            radius = read(self.file.parent / self.texts("case_file")[case], ()).attrs.get("base_radius_wheel")
-        except ComputationError:
+            with unsealed(self.file.parent / self.texts("case_file")[case]) as content, stored(content) as run:
+                return float(run.attrs["base_radius_wheel"])
+        # HDF5 raises whatever it met in a damaged file.
+        except Exception:
             return None
-        return None if radius is None else float(radius)
 
     @cached_property
     def measures(self) -> dict[str, tuple[np.ndarray, str, str]]:

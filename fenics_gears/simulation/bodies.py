@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from fenics_gears.effects import effects_on, from_effects
@@ -20,15 +23,18 @@ if TYPE_CHECKING:
     from fenics_gears.elasticity.face_compliance_data import FaceCompliance
     from fenics_gears.system.second_process import SecondProcess
 
+    Solids = tuple[FaceCompliance | None, FaceCompliance | None]
+
 
 def gear_bodies(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> Bodies:
     """Pinion and wheel, from the cache or condensed; `job`: whose ranks share the work on each body over its face."""
-    sections = []
-    for name in GEARS:
-        progress.stage(f"condense {name}")
-        sections.append(_section(model, name, cache))
-    pinion, wheel = map(Body.of, sections, solids_of(model, progress, cache, job))
-    return pinion, wheel
+    with _begun(model, progress, cache, job) as solids:
+        sections = []
+        for name in GEARS:
+            progress.stage(f"condense {name}")
+            sections.append(_section(model, name, cache))
+        pinion, wheel = map(Body.of, sections, solids())
+        return pinion, wheel
 
 
 def gear_body(model: Model, name: str, cache: Cache | None) -> Body:
@@ -70,30 +76,36 @@ def _section(model: Model, name: str, cache: Cache | None):
     return flank_compliance(gear, material, division, reach, cache)
 
 
-def solids_of(
-    model: Model, progress: Progress, cache: Cache | None, job: Job | None = None
-) -> tuple[FaceCompliance | None, FaceCompliance | None]:
+def solids_of(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> Solids:
     """Both bodies in three dimensions, at once where there are cores and memory for it; None of a plane scene."""
+    with _begun(model, progress, cache, job) as solids:
+        return solids()
+
+
+@contextmanager
+def _begun(model: Model, progress: Progress, cache: Cache | None, job: Job | None) -> Iterator[Callable[[], Solids]]:
+    """What gives both bodies in three dimensions. Where there are cores and memory for both at once, a second process
+    begins the wheel's here: to start it takes as long as both gears' sections."""
     if model.solid_discretisation(0) is None:
-        return None, None
+        yield lambda: (None, None)
+        return
     from fenics_gears.model.face_cost import both_at_once
     from fenics_gears.system.second_process import second_process, threads
 
     def begin(number: int) -> None:
         progress.stage(f"condense {GEARS[number]}'s body")
 
+    def by(wheel: Callable[[], FaceCompliance]) -> Solids:
+        begin(0)
+        pinion = solid_of(model, GEARS[0], cache, job)
+        begin(1)
+        return pinion, wheel()
+
     if job is None and threads() > 1 and both_at_once(model):
         with ThreadPoolExecutor(1) as waiting, second_process() as second:
-            wheel = waiting.submit(solid_of, model, GEARS[1], cache, second)
-            begin(0)
-            pinion = solid_of(model, GEARS[0], cache)
-            begin(1)
-            return pinion, wheel.result()
-    solids = []
-    for number, name in enumerate(GEARS):
-        begin(number)
-        solids.append(solid_of(model, name, cache, job))
-    return solids[0], solids[1]
+            yield partial(by, waiting.submit(solid_of, model, GEARS[1], cache, second).result)
+    else:
+        yield partial(by, lambda: solid_of(model, GEARS[1], cache, job))
 
 
 def solid_of(model: Model, name: str, cache: Cache | None, job: Job | SecondProcess | None = None) -> FaceCompliance:

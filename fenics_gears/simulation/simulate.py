@@ -13,7 +13,7 @@ import xarray as xr
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.effects import effects_on
-from fenics_gears.elasticity.cache import Cache, user_cache
+from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.errors import ComputationError
 from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.model import Model, model_of
@@ -104,7 +104,8 @@ def solved(
         decided, chosen = _with_chosen_settings(said, progress)
         model = scene if isinstance(scene, Model) and decided is said else model_of(decided)
         prepare = preparation or functools.partial(prepared, job=job)
-        result = _simulated(model, progress, cache, prepare, journal)
+        with writing_meanwhile(cache) as kept:
+            result = _simulated(model, progress, kept, prepare, journal)
     finally:
         # Here, where the run's own arrays are free.
         give_back()

@@ -1,23 +1,22 @@
 """A study from its file to its combined dataset: the stages, in order."""
 
-import json
 import logging
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.runs.folder import Folder, sole_writer
 from fenics_gears.runs.record import Record
 from fenics_gears.runs.run import Run
 from fenics_gears.runs.runs import Failure, Runs
 from fenics_gears.runs.spent import Spent
 from fenics_gears.runs.team import Alone, Meanwhile, Together, ranks
-from fenics_gears.system.output import check_writable, write_whole
+from fenics_gears.system.output import check_writable
 from fenics_gears.system.progress import Interruption, Progress
 
 from .combine import STUDY_FILE, combined, save_study
+from .index import INDEX, changed_since, directory_of
 from .study import Study
 from .study_file import load_study
 
@@ -43,29 +42,40 @@ def run_study(
 ) -> Outcome | None:
     """Run what is missing of a study and write its dataset; None on every rank of an MPI job but 0.
 
-    output: the study's directory, `results/<name of the study file>` where None; meanwhile: as in `ranks`. Raises
-    SceneError, before anything is computed or written, where the study is wrong; ComputationError where its directory
-    cannot be used.
+    output: as of `index.directory_of`; meanwhile: as in `ranks`. Raises SceneError, before anything is computed or
+    written, where the study is wrong; ComputationError where its directory cannot be used.
     """
     with ranks(meanwhile) as team:
-        if team is None:
-            return None
-        study = load_study(path)
-        return run_with(team, study, output or Path("results") / study.name, progress, quiet)
+        return None if team is None else run_with(team, load_study(path), directory_of(path, output), progress, quiet)
 
 
-def run_with(team: Alone | Together, study: Study, directory: Path, progress: Progress, quiet: bool = False) -> Outcome:
-    """Run what is missing of a study in its directory, with the processes of rank 0's team. Raises ComputationError
-    where the directory cannot be used."""
-    check_writable(directory, STUDY_FILE, "study.json")
+def kept_study(path: Path, output: Path | None, progress: Progress, quiet: bool = False) -> Outcome | None:
+    """As `run_study`, of a study of which nothing is missing, without other processes; else None, and nothing is
+    written."""
+    return run_with(Alone(), load_study(path), directory_of(path, output), progress, quiet, only_kept=True)
+
+
+def run_with(
+    team: Alone | Together,
+    study: Study,
+    directory: Path,
+    progress: Progress,
+    quiet: bool = False,
+    only_kept: bool = False,
+) -> Outcome | None:
+    """Run what is missing of a study in its directory, with the processes of rank 0's team; with `only_kept` do nothing
+    where something is, and return None. Raises ComputationError where the directory cannot be used."""
+    check_writable(directory, STUDY_FILE, INDEX)
     with sole_writer(directory):
-        return _run(study, directory, team, progress, quiet)
+        runs = Runs(Folder(directory / "cases"), team, study.cases)
+        if only_kept and runs.missing(study.cases):
+            return None
+        return _run(runs, study, directory, progress, quiet)
 
 
-def _run(study: Study, directory: Path, team: Alone | Together, progress: Progress, quiet: bool) -> Outcome:
-    runs = Runs(Folder(directory / "cases"), team, study.cases)
+def _run(runs: Runs, study: Study, directory: Path, progress: Progress, quiet: bool) -> Outcome:
     outcome, missing = Outcome(study, kept=runs.kept, spent=runs.spent), runs.missing(study.cases)
-    opening = _opening(study, runs.kept, len(missing), changed_since(study, directory), team.size)
+    opening = _opening(study, runs.kept, len(missing), changed_since(study, directory), runs.spent.processes)
     if not quiet:
         print(opening, file=sys.stderr, flush=True)
     with Interruption(progress) as interruption:
@@ -109,26 +119,3 @@ def _compute(runs: Runs, missing: list[Run], progress: Interruption) -> None:
 
     runs.compute(missing, count, finished)
     count()
-
-
-def changed_since(study: Study, directory: Path) -> str:
-    """A sentence where the study was last run here by a version of the program with other numbers, or with another base
-    scene; else empty. Writes `study.json` with the present ones, which also lists which file holds which case."""
-    path = directory / "study.json"
-    try:
-        index = json.loads(path.read_text(encoding="utf-8"))
-        before, numbers = index.get("base_scene"), index.get("numbers_version")
-    except (OSError, ValueError, AttributeError):
-        before = numbers = None
-    index = {
-        "title": study.title,
-        "base_scene": study.base_key,
-        "numbers_version": NUMBERS_VERSION,
-        "cases": {case.name: case.values for case in study.cases},
-    }
-    write_whole(path, lambda aside: aside.write_text(json.dumps(index, indent=1, ensure_ascii=False), encoding="utf-8"))
-    if before is None or before == study.base_key:
-        return ""
-    if numbers != NUMBERS_VERSION:
-        return "Results that are here of a version of the program with other numbers are not used."
-    return "The base scene has changed since the last time."

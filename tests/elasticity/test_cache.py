@@ -2,13 +2,21 @@
 
 import os
 import time
+from threading import Event
 
 import numpy as np
 import pytest
 
 from fenics_gears import SceneError
 from fenics_gears.commands.cli import main
-from fenics_gears.elasticity.cache import DIRECTORY_VARIABLE, SIZE_VARIABLE, Cache, content_key, user_cache
+from fenics_gears.elasticity.cache import (
+    DIRECTORY_VARIABLE,
+    SIZE_VARIABLE,
+    Cache,
+    content_key,
+    user_cache,
+    writing_meanwhile,
+)
 from fenics_gears.system.output import LONGEST_WRITING, UNFINISHED
 
 KEY = content_key({"gear": {"teeth": 16}, "size": 0.06})
@@ -29,6 +37,26 @@ def test_what_is_stored_comes_back_bit_for_bit(cache):
         np.testing.assert_array_equal(loaded[name], values)
         assert loaded[name].dtype == values.dtype
     assert [path.name for path in cache.directory.iterdir()] == [f"{KEY}.h5"]
+
+
+def test_a_block_goes_on_while_what_it_stores_is_written(cache, monkeypatch):
+    """Order of events: what is stored is what stood there then, is read when it is written, and is there at the end."""
+    went_on, write = Event(), Cache._write
+
+    def slowly(*given):
+        assert went_on.wait(timeout=60)
+        write(*given)
+
+    monkeypatch.setattr(Cache, "_write", slowly)
+    values = ARRAYS["blocks"].copy()
+    with writing_meanwhile(cache) as kept:
+        kept.store(KEY, {"blocks": values})
+        values *= 2.0
+        assert cache.load(KEY) is None
+        went_on.set()
+        np.testing.assert_array_equal(kept.load(KEY)["blocks"], ARRAYS["blocks"])
+        kept.store("another", ARRAYS)
+    assert cache.load("another").keys() == ARRAYS.keys() and kept.directory == cache.directory
 
 
 def test_directory_that_cannot_be_made_is_a_warning(tmp_path, caplog):

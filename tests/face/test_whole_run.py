@@ -1,18 +1,20 @@
 """A helical pair with finite element bodies from scene to result."""
 
 from math import radians
+from threading import Event
 
 import numpy as np
 import pytest
 from tests.benchmarks.third_dimension.pairs import MODULE, scene_of, standard_pair
 
-from fenics_gears import model_of, simulate
+from fenics_gears import ComputationError, model_of, simulate
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.runs import condensing
 from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Accuracy
-from fenics_gears.simulation.bodies import solids_of
+from fenics_gears.simulation import bodies as of_run
+from fenics_gears.simulation.bodies import gear_bodies, solid_of, solids_of
 from fenics_gears.system import second_process
 from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.progress import SilentProgress
@@ -46,6 +48,23 @@ def test_line_load_adds_up_to_the_normal_force(result):
     np.testing.assert_allclose(
         of_slices, result.normal_force.sel(time=result.contact_time.values, method="nearest").values, rtol=1e-12
     )
+
+
+def test_the_wheels_body_is_begun_before_the_sections(scene, monkeypatch):
+    """Order of events: the first section waits for it; its error ends both."""
+    begun = Event()
+
+    def fails(*given):
+        begun.set()
+        raise ComputationError("begun")
+
+    monkeypatch.setattr(SecondProcess, "together", fails)
+    monkeypatch.setattr(second_process, "threads", lambda: 2)
+    monkeypatch.setattr(of_run, "_section", lambda *given: begun.wait(timeout=60))
+    monkeypatch.setattr(of_run, "solid_of", lambda *given: given[-1] and solid_of(*given))
+    with pytest.raises(ComputationError, match="begun"):
+        gear_bodies(model_of(scene), SilentProgress(), None)
+    assert begun.is_set()
 
 
 def test_both_bodies_at_once_are_those_one_after_the_other(scene, monkeypatch, tmp_path):

@@ -10,6 +10,7 @@ from tests.show.synthetic import made_up_run
 from fenics_gears import ComputationError, results
 from fenics_gears.results import files
 from fenics_gears.results.files import read_netcdf, write_netcdf
+from fenics_gears.results.stored import stored
 
 
 def several_kinds(steps: int) -> xr.Dataset:
@@ -67,6 +68,25 @@ def test_files_are_read_as_another_program_reads_them():
                 assert {key: type(value) for key, value in each.attrs.items()} == {
                     key: type(value) for key, value in expected[name].attrs.items()
                 }
+
+
+def test_what_is_asked_for_of_a_file_is_what_is_there_when_all_is_read():
+    """Identity, of values, attributes and their types."""
+    content = io.BytesIO()
+    write_netcdf(several_kinds(5), content)
+    whole = read_netcdf(content)
+    with stored(content) as found:
+        assert "why" in found and "nothing" not in found
+        assert dict(found.attrs) == whole.attrs
+        assert {name: type(each) for name, each in found.attrs.items()} == {
+            name: type(each) for name, each in whole.attrs.items()
+        }
+        for name in ("force", "count", "time", "single"):
+            np.testing.assert_array_equal(found[name].values, whole[name].values)
+            assert np.asarray(found[name]).dtype == whole[name].dtype
+            assert whole[name].attrs.items() <= found[name].attrs.items()
+        with pytest.raises(KeyError):
+            found.attrs["nothing"]
 
 
 def _kind(type_of_values: np.dtype):

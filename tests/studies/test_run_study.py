@@ -10,6 +10,7 @@ from tests.programs import command, ended
 from tests.studies.conftest import stamps, write_study
 
 from fenics_gears import load_scene, model_of, results, simulate
+from fenics_gears.commands import study as commands_study
 from fenics_gears.commands.cli import main
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.elasticity.cache import user_cache
@@ -85,6 +86,31 @@ def test_a_study_run_again_computes_only_what_is_new(folder, capsys):
 
 
 @pytest.mark.usefixtures("undrawn")
+def test_processes_are_started_only_where_something_is_missing(folder, capsys, monkeypatch):
+    """Count of calls: a study of kept cases starts none, nor reads what is there where more is asked for."""
+    started, study = [], write_study(folder, TWO)
+    monkeypatch.setattr(commands_study, "under_mpirun", lambda options, arguments: started.append(arguments) or 7)
+    call = ["study", str(study), "--output", "here", "--processes", "2"]
+    assert main(call) == 7 and main(call[:-2]) == 0
+    combined = load("here")
+    capsys.readouterr()
+    assert main(call) == 0 and "2 kept, 0 to be computed.\n" in capsys.readouterr().err
+    assert len(started) == 1 and load("here").equals(combined)
+    # A file that turns out to be damaged, one that is not there, and a case more.
+    first, second = sorted(Path("here/cases").glob("*.nc"))
+    whole = first.read_bytes()
+    first.write_bytes(whole[:-1] + b"?")
+    assert main(call) == 7
+    first.write_bytes(whole)
+    second.rename(folder / "elsewhere.nc")
+    assert main(call) == 7
+    (folder / "elsewhere.nc").rename(second)
+    assert main(call) == 0
+    write_study(folder, TWO.replace('["100 Hz"', '["50 Hz", "100 Hz"'))
+    assert main(call) == 7 and len(started) == 4
+
+
+@pytest.mark.usefixtures("undrawn")
 def test_a_changed_base_scene_is_noticed_and_so_are_other_numbers(folder, capsys, monkeypatch):
     """Hash of what the scene says: a comment is no change, a width is, and so is another version of the numbers."""
     study = write_study(folder, TWO)
@@ -101,7 +127,7 @@ def test_a_changed_base_scene_is_noticed_and_so_are_other_numbers(folder, capsys
     after = stamps("here")
     assert {name: after[name] for name in before} == before and len(after) == 4
     with monkeypatch.context() as updated:
-        for module in ("runs.run", "studies.run_study"):
+        for module in ("runs.run", "studies.index"):
             updated.setattr(f"fenics_gears.{module}.NUMBERS_VERSION", 10**6)
         assert main(["study", str(study), "--output", "here"]) == 0
         assert (
