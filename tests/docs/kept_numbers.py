@@ -36,6 +36,7 @@ STAGES = {
     "factor": "MUMPS's factor",
     "operators": "contact operators",
     "solving": "solving the steps",
+    "friction": "solving the steps with friction",
 }
 # The most that settings for a target should cost, in the cheapest that reach it.
 TWICE = 2.0
