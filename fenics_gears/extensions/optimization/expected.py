@@ -27,8 +27,8 @@ TIME_OF_A_RESULT, EXTREMES = 0.015, 10
 # pair, its march of 1.6 ms included: 2.7 ms a run of 32 in a task, 6.7 ms of 8, 10 ms of 4).
 TIME_OF_NUMBERS, TIME_OF_A_TASK = 0.001, 0.02
 # Of a run over the face whose contact operators a run before had, by itself and together with others: seconds, and its
-# march with its numbers in parts of a march; of both with friction (measured on a helical pair of 870 to 1,880 contact nodes: within
-# 1.4 times).
+# march with its numbers in parts of a march; of both with friction (measured on a helical pair of 870 to 1,880 contact
+# nodes: within 1.5 times).
 ALONE_OVER_FACE, TOGETHER_OVER_FACE, WITH_FRICTION = (0.02, 1.4), (0.005, 0.56), 2.0
 # Marches until rolling bearings are as stiff as their loads make them.
 ON_ROLLING_BEARINGS = 3.0
