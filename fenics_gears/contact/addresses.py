@@ -6,7 +6,8 @@ Numbers of a row are addresses: whoever has one holds the arrays (`Position.in_m
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import NamedTuple
 
 import numpy as np
@@ -48,9 +49,11 @@ class Arrays(NamedTuple):
 ROW = np.dtype([(name, np.int64) for name in ("nodes", *Arrays._fields)])
 NODES, GAP = (ROW.names.index(name) for name in ("nodes", "gap"))
 # In the table of Factors (`contact.factored_compliance`), addresses of room and of what is factored there (its number
-# of forces, their rows, tangential forces per normal one), without friction; with friction so much later; and of
-# pivots.
-ROOM, KNOWN, OF_FRICTION, PIVOTS = 0, 1, 2, 4
+# of forces, then their rows), without friction; with friction so much later; of pivots; and of the forces that were
+# last solved for with friction. Then the number of the march that did so, and the address of `marching`.
+ROOM, KNOWN, OF_FRICTION, PIVOTS, LAST, MARCH, PRESENT = 0, 1, 2, 4, 5, 6, 7
+# The number of the present march with inertia, 0 where there is none; and how many of them have begun.
+marching = np.zeros(2, dtype=np.int64)
 # Of the closed nodes: where more than this were open over a face when friction was last solved for at the position, or
 # the other way round, the sets without friction are solved for. That takes two or three iterations of a third of the
 # cost, and two or three with friction follow in place of five.
@@ -118,26 +121,42 @@ def solver_of(address):
 
 
 @njit(cache=True)
-def factored_last(address, friction):
-    """Rows of the forces between which factors were made last at a position, with or without `friction`, by the table
-    of its Factors; none where none were."""
-    table = carray(to_integer(address), PIVOTS + 1)
-    numbers = to_number(table[KNOWN + OF_FRICTION if friction else KNOWN])
-    return carray(numbers, 1 + int(carray(numbers, 1)[0]))[1:]
+def forces_at(address):
+    """A number of forces, then their rows."""
+    return carray(to_integer(address), 1 + carray(to_integer(address), 1)[0])
+
+
+@contextmanager
+def march_with_inertia() -> Iterator[None]:
+    """Meanwhile steps with friction are solved by factors that this march has made, whatever sets these are of."""
+    before, marching[:] = marching[0], marching[1] + 1
+    try:
+        yield
+    finally:
+        marching[0] = before
+
+
+@njit(cache=True)
+def present_march(table):
+    """Its number, 0 where there is none with inertia, by the table of Factors."""
+    return carray(to_integer(table[PRESENT]), 1)[0]
 
 
 @njit(cache=True)
 def from_afar(address, status):
     """Whether the closed nodes are others than those with which friction was last solved for at this position, if it
-    was at all; `address` of the table of its Factors."""
-    n, known = len(status), factored_last(address, True)
+    was at all, in a march with inertia by this one; `address` of the table of its Factors."""
+    n, table = len(status), carray(to_integer(address), PRESENT + 1)
     closed, alike, had = 0, 0, 0
     for j in range(n):
         closed += status[j] != OPEN
-    for row in known:
+    present = present_march(table)
+    if present != 0 and table[MARCH] != present:
+        return True
+    for row in forces_at(table[LAST])[1:]:
         if row < n:
             had += 1
-            alike += status[int(row)] != OPEN
+            alike += status[row] != OPEN
     return closed + had - 2 * alike > SHARE_CHANGED * closed
 
 
@@ -145,11 +164,11 @@ def from_afar(address, status):
 def close_as_factored(address, status):
     """Close the nodes between which factors without friction were made last at this position, and no others;
     `address` as before."""
-    known = factored_last(address, False)
+    known = forces_at(carray(to_integer(address), KNOWN + 1)[KNOWN])[1:]
     if len(known):
         status[:] = OPEN
         for row in known:
-            status[int(row)] = SLIP_FORWARD
+            status[row] = SLIP_FORWARD
 
 
 @njit(cache=True)

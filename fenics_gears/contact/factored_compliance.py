@@ -7,7 +7,9 @@ of these forces,
 
 Factors are Cholesky's without friction, else those of elimination with pivots; with friction a position has both, for
 Newton's method begins without it. They last until the sets change: the march finds there those of the mesh cycle
-before; a run of a search, those of the run before. What they give is the same to the last digit whatever came before.
+before; a run of a search, those of the run before. In a march with inertia and friction they also serve sets that
+differ in a few nodes (`contact.border`), as long as they are its own: so what they give is the same to the last digit
+whatever came before.
 """
 
 from __future__ import annotations
@@ -21,16 +23,32 @@ from numba.extending import get_cython_function_address
 
 from fenics_gears.system.memory import pages
 
-from .addresses import KNOWN, OF_FRICTION, PIVOTS, ROOM, call, to_integer, to_number
-from .mixed_form import add_slip, put_entries, put_solution, system_of
+from .addresses import (
+    KNOWN,
+    LAST,
+    MARCH,
+    OF_FRICTION,
+    PIVOTS,
+    PRESENT,
+    ROOM,
+    call,
+    forces_at,
+    marching,
+    present_march,
+    to_integer,
+    to_number,
+)
+from .border import MOST_CHANGES, changes_from, no_changes, put_changes, put_columns, put_equations, put_forces
+from .mixed_form import SMALL_SYSTEM, add_slip, put_entries, put_solution, system_of
 
 # Of the largest pivot: a compliance with smaller ones is left to elimination that looks for pivots in all unknowns.
 LEAST_PIVOT = 1e-6
 # What LAPACK is told; and bytes of its integers.
 LOWER, TRANSPOSED = ord("L"), ord("T")
 INT = 4
-# After the addresses of rooms in the table of Factors those of LAPACK's functions.
-POTRF, POTRS, GETRF, GETRS = range(5, 9)
+# In the table of Factors after what `addresses` names: slip of what is factored with friction, room for `lines`; and
+# LAPACK's functions.
+SLIP, LINES, POTRF, POTRS, GETRF, GETRS = range(PRESENT + 1, PRESENT + 7)
 
 
 class Factors:
@@ -38,9 +56,11 @@ class Factors:
     is used; `table` is for compiled code."""
 
     def __init__(self, nodes: int, forces: int):
-        rooms = [(pages(size, size), np.zeros(2 * size + 1)) for size in (nodes, forces)]
-        self._arrays = *rooms[0], *rooms[1], np.zeros(forces, dtype=np.int32)
-        self.table = np.array([*(array.ctypes.data for array in self._arrays), *_lapack()])
+        rooms = [(pages(size, size), np.zeros(size + 1, dtype=np.int64)) for size in (nodes, forces)]
+        pivots, last, slip = np.zeros(forces, dtype=np.int32), np.zeros(forces + 1, dtype=np.int64), np.zeros(forces)
+        self._arrays = *rooms[0], *rooms[1], pivots, last, slip, pages(forces, forces)
+        addresses = [array.ctypes.data for array in self._arrays]
+        self.table = np.array([*addresses[:-2], -1, marching.ctypes.data, *addresses[-2:], *_lapack()])
 
 
 @cache
@@ -66,11 +86,17 @@ class _System(NamedTuple):
 
 
 class _Factored(NamedTuple):
-    """Factors: `matrix` (a, a), by columns as LAPACK reads them, of the transposed compliance; whose they are
-    (`known`); and the `table` of Factors."""
+    """Factors: `matrix` (a, a), by columns as LAPACK reads them, of the transposed compliance between the forces of
+    `rows` (a,) with their `slip`, as of a _System; and the `table` of Factors.
+
+    `of_forces` (k, a): G~; first among `lines` is C^-1 G, with friction as long as the factors last.
+    """
 
     matrix: np.ndarray
-    known: np.ndarray
+    rows: np.ndarray
+    slip: np.ndarray
+    of_forces: np.ndarray
+    lines: np.ndarray
     table: np.ndarray
 
 
@@ -84,7 +110,7 @@ def factored_solver():
 def _solve(address):
     """Returns 1, or 0 where the compliance is not safely regular or the drivetrain is loose."""
     at = carray(to_integer(address), 13)
-    m, k, size, slipping, table = at[1], at[2], at[3], at[4], carray(to_integer(at[0]), 9)
+    m, k, size, slipping, table = at[1], at[2], at[3], at[4], carray(to_integer(at[0]), GETRS + 1)
     compliance = carray(to_number(at[5]), (m, m))
     system = _System(
         compliance,
@@ -96,47 +122,91 @@ def _solve(address):
         carray(to_number(at[11]), size),
         1.0 / compliance[0, 0],
     )
-    room = OF_FRICTION if slipping else 0
-    factored = _Factored(
-        carray(to_number(table[room + ROOM]), (size, size)),
-        carray(to_number(table[room + KNOWN]), size + slipping + 1),
-        table,
-    )
-    if not _are_known(factored.known, system) and not _factor(factored, system):
-        return 0
-    return _solve_with(factored, system, carray(to_number(at[12]), m + k))
+    result = carray(to_number(at[12]), m + k)
+    return _solve_slipping(system, table, result) if slipping else _solve_frictionless(system, table, result)
 
 
 @njit(cache=True)
-def _are_known(known, system):
-    size, slip = len(system.rows), system.slip
-    if known[0] != size:
-        return False
-    for a in range(size):
-        if known[1 + a] != system.rows[a]:
-            return False
-    for b in range(len(slip)):
-        if known[1 + size + b] != slip[b]:
-            return False
-    return True
+def _solve_frictionless(system, table, result):
+    known = forces_at(table[KNOWN])
+    factored = _factored(table, system.rows, system.slip, len(system.load))
+    if not np.array_equal(known[1:], system.rows):
+        known[0] = 0
+        if not _factor(factored, system):
+            return 0
+        _know(table[KNOWN], system.rows)
+    _put_motions(factored, system)
+    return _solve_with(factored, system, no_changes(len(system.rows)), result)
+
+
+@njit(cache=True)
+def _solve_slipping(system, table, result):
+    rows, slip, known = system.rows, system.slip, forces_at(table[OF_FRICTION + KNOWN])
+    m, k = system.jacobian.shape
+    if 2 * k + 1 + MOST_CHANGES > m:
+        return 0
+    then, march, present = known[1:], table[MARCH], present_march(table)
+    slip_then = carray(to_number(table[SLIP]), np.searchsorted(then, m // 2))
+    if present != 0 and march == present:
+        changes, few = changes_from(then, slip_then, rows, slip, m // 2, min(MOST_CHANGES, SMALL_SYSTEM - k))
+        if few and _solve_with(_factored(table, then, slip_then, k), system, changes, result):
+            _know(table[LAST], rows)
+            return 1
+    factored = _factored(table, rows, slip, k)
+    if not (np.array_equal(then, rows) and np.array_equal(slip_then, slip)):
+        known[0] = forces_at(table[LAST])[0] = 0
+        if not _factor(factored, system):
+            return 0
+        _know(table[OF_FRICTION + KNOWN], rows)
+        carray(to_number(table[SLIP]), len(slip))[:] = slip
+    table[MARCH] = present
+    _know(table[LAST], rows)
+    _put_motions(factored, system)
+    return _solve_with(factored, system, no_changes(len(rows)), result)
+
+
+@njit(cache=True)
+def _know(address, rows):
+    known = carray(to_integer(address), 1 + len(rows))
+    known[0], known[1:] = len(rows), rows
+
+
+@njit(cache=True)
+def _factored(table, rows, slip, k):
+    """Room for the factors between some forces."""
+    size, frictional = len(rows), len(slip) > 0
+    matrix = carray(to_number(table[OF_FRICTION + ROOM if frictional else ROOM]), (size, size))
+    if frictional:
+        lines = carray(to_number(table[LINES]), (2 * k + 1 + MOST_CHANGES, size))
+    else:
+        lines = np.empty((2 * k + 1, size))
+    return _Factored(matrix, rows, slip, lines[:k], lines[k:], table)
 
 
 @njit(cache=True)
 def _factor(factored, system):
     """Put the factors of a system into place; returns whether they are safely regular."""
-    compliance, slip, rows, size = system.compliance, system.slip, system.rows, len(system.rows)
-    matrix, n = factored.matrix, len(compliance) // 2
-    for a in range(size):
+    compliance, slip, rows, matrix = system.compliance, system.slip, system.rows, factored.matrix
+    n = len(compliance) // 2
+    for a in range(len(rows)):
         row = compliance[rows[a]]
         put_entries(matrix[a], row, rows, np.int64(0) if len(slip) else a, system.unit)
         if len(slip):
             add_slip(matrix[a], row[n:], rows, slip, system.unit)
-    factored.known[0] = 0.0
-    if not _eliminate(factored, len(slip) > 0):
-        return False
-    factored.known[0], factored.known[1 : size + 1] = size, rows
-    factored.known[size + 1 : size + 1 + len(slip)] = slip
-    return True
+    return _eliminate(factored, len(slip) > 0)
+
+
+@njit(cache=True)
+def _put_motions(factored, system):
+    """Put what coordinates do to the factored forces into place, with friction solved for."""
+    rows, slip, jacobian, n = factored.rows, factored.slip, system.jacobian, len(system.jacobian) // 2
+    for a in range(len(rows)):
+        for c in range(len(factored.of_forces)):
+            factored.lines[c, a] = factored.of_forces[c, a] = jacobian[rows[a], c]
+            if a < len(slip):
+                factored.of_forces[c, a] += slip[a] * jacobian[n + rows[a], c]
+    if len(slip):
+        _put_solutions(factored, factored.lines[: len(factored.of_forces)], True)
 
 
 @njit(cache=True)
@@ -175,27 +245,33 @@ def _put_solutions(factored, sides, slipping):
 
 
 @njit(cache=True)
-def _solve_with(factored, system, result):
-    """Put forces (m,), N, and coordinates (k,), mm, into `result`; returns 1, or 0 where the drivetrain is loose."""
-    rows, slip, jacobian, unit = system.rows, system.slip, system.jacobian, system.unit
-    k, m, size = len(system.load), len(jacobian), len(rows)
-    n, sides, of_forces = m // 2, np.empty((k + 1, size)), np.empty((k, size))
-    sides[k] = system.opening
-    for a in range(size):
-        for c in range(k):
-            sides[c, a] = of_forces[c, a] = jacobian[rows[a], c]
-            if a < len(slip):
-                of_forces[c, a] += slip[a] * jacobian[n + rows[a], c]
-    _put_solutions(factored, sides, len(slip) > 0)
-    products = np.dot(of_forces, sides.T)
-    matrix, position = system_of(k), system.load / unit + products[:, k]
-    matrix[:, :k] = system.stiffness / unit + products[:, :k]
-    if not put_solution(matrix, position, np.int64(0)):
+def _solve_with(factored, system, changes, result):
+    """Put forces (m,), N, and coordinates (k,), mm, into `result`; returns 1, or 0 where the drivetrain is loose or the
+    `changes` leave the compliance not safely regular."""
+    compliance, jacobian, unit, count = system.compliance, system.jacobian, system.unit, len(changes.places)
+    k, size, frictional = len(system.load), len(factored.rows), len(factored.slip) > 0
+    lines, equations = factored.lines[: k + 1 + count], np.empty((count, size))
+    lines[k] = 0.0
+    for a in range(len(changes.old)):
+        if changes.old[a] >= 0:
+            lines[k, changes.old[a]] = system.opening[a]
+    put_columns(lines[k + 1 :], changes, factored.rows, compliance, unit)
+    put_equations(equations, changes, factored.rows, factored.slip, compliance, unit)
+    _put_solutions(factored, lines[k if frictional else 0 :], frictional)
+    by_forces, by_changes = np.dot(factored.of_forces, lines.T), np.dot(equations, lines.T)
+    matrix, found = system_of(count + k), np.empty(count + k)
+    put_changes(matrix, found, changes, system, (by_forces, by_changes))
+    for c in range(k):
+        found[count + c] = system.load[c] / unit + by_forces[c, k]
+        for d in range(k):
+            matrix[count + c, count + d] = system.stiffness[c, d] / unit + by_forces[c, d]
+    if not put_solution(matrix, found, np.int64(0)):
         return 0
-    found = np.dot(position, sides[:k]) - sides[k]
-    result[:m], result[m:] = 0.0, position
-    for a in range(size):
-        result[rows[a]] = unit * found[a]
-    for b in range(len(slip)):
-        result[n + rows[b]] += slip[b] * result[rows[b]]
+    for i in range(count):
+        if abs(matrix[i, i]) < LEAST_PIVOT:
+            return 0
+    parts = np.empty(k + 1 + count)
+    parts[:k], parts[k], parts[k + 1 :] = found[count:], -1.0, -found[:count]
+    put_forces(system, changes, np.dot(parts, lines), found, result)
+    result[len(jacobian) :] = found[count:]
     return 1

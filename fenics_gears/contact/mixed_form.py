@@ -18,7 +18,7 @@ from llvmlite.binding import add_symbol
 from numba import carray, cfunc, njit, types
 
 from .addresses import call, form_rows, not_inlined, solver_of, to_number
-from .compliance_product import add_multiple
+from .compliance_product import subtract_displaced
 from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 
 SMALL_SYSTEM = 40  # unknowns up to which elimination in compiled code is faster than LAPACK
@@ -279,16 +279,13 @@ _solve = types.ExternalFunction("fenics_gears_solve_in_place", types.int64(*[typ
 
 @njit(cache=True)
 def relative_displacement(equations, iterate, first, end):
-    """u = G q - C p, mm, into rows `first` to `end` of the displacement; only loaded nodes are summed, by rows of the
-    symmetric compliance."""
+    """u = G q - C p, mm, into rows `first` to `end` of the displacement."""
     # Taken out of the records once: in a loop that would cost more than the numbers.
     compliance, jacobian, displacement = equations.compliance, equations.jacobian, iterate.displacement[first:end]
     forces, coordinates = iterate.forces, iterate.coordinates
     for i in range(end - first):
         displacement[i] = product(jacobian[first + i], coordinates)
-    for j in range(len(forces)):
-        if forces[j] != 0.0:
-            add_multiple(displacement, -forces[j], compliance[j], first)
+    subtract_displaced(displacement, forces, compliance, first)
 
 
 @njit(cache=True, inline="always")

@@ -23,7 +23,7 @@ from .addresses import (
     to_set,
 )  # fmt: skip
 from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, measure, next_status, presses, within
-from .mixed_form import Equations, Iterate, product, relative_displacement, solve_sets
+from .mixed_form import Equations, Iterate, relative_displacement, solve_sets
 
 CONVERGED, CYCLED, SINGULAR = 0, 1, 2
 OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
@@ -44,45 +44,6 @@ class Method(NamedTuple):
     rule: int
     length_tolerance: float
     force_tolerance: float
-
-
-@njit(cache=True)
-def _tangents(equations, iterate):
-    """As `relative_displacement`, the tangential rows of the few nodes that are closed or close next; no other has a
-    slip that counts."""
-    not_inlined()
-    compliance, jacobian, gap, n = equations.compliance, equations.jacobian, equations.gap, len(equations.gap)
-    status, forces, coordinates, displacement = iterate
-    rows, count = np.empty(n, dtype=np.int64), 0
-    for j in range(n):
-        if status[j] != OPEN or displacement[j] > gap[j]:
-            rows[count], displacement[n + j] = n + j, product(jacobian[n + j], coordinates)
-            count += 1
-    places, loaded = rows[:count], np.flatnonzero(forces)
-    moved, first = displacement[places], len(loaded) % 4
-    for j in loaded[:first]:
-        _subtract(moved, forces[j], compliance[j], places)
-    for j in range(first, len(loaded), 4):
-        _subtract_four(moved, forces, compliance, loaded[j : j + 4], places)
-    displacement[places] = moved
-
-
-@njit(cache=True)
-def _subtract(moved, force, row, places):
-    """Subtract what a force displaces at some places, by its row of the compliance."""
-    for i in range(np.uint64(len(moved))):
-        moved[i] -= row[np.uint64(places[i])] * force
-
-
-@njit(cache=True)
-def _subtract_four(moved, forces, compliance, loaded, places):
-    """As `_subtract` with four forces, one after the other: so numbers are read and written once for all of them."""
-    # Unsigned places need no look for a negative index.
-    a, b, c, d = (compliance[loaded[0]], compliance[loaded[1]], compliance[loaded[2]], compliance[loaded[3]])
-    one, two, three, four = (forces[loaded[0]], forces[loaded[1]], forces[loaded[2]], forces[loaded[3]])
-    for i in range(np.uint64(len(moved))):
-        place = np.uint64(places[i])
-        moved[i] = moved[i] - a[place] * one - b[place] * two - c[place] * three - d[place] * four
 
 
 @njit(cache=True, error_model="numpy")
@@ -140,8 +101,8 @@ def _same(one, other):
 
 @njit(cache=True)
 def _newton(equations, iterate, method, history, sets):
-    """As `newton`, without the tangential displacement of open nodes; raises numpy.linalg.LinAlgError where the sets
-    leave the system singular."""
+    """As `newton`, without tangential displacement where there is no friction; raises numpy.linalg.LinAlgError where
+    the sets leave the system singular."""
     not_inlined()
     status, displacement = iterate.status, iterate.displacement
     n = len(equations.gap)
@@ -152,9 +113,7 @@ def _newton(equations, iterate, method, history, sets):
         _with_one_closed(status, equations, displacement)
         sets[iteration] = status
         solve_sets(equations, iterate)
-        relative_displacement(equations, iterate, none, n)
-        if len(equations.slip_before):
-            _tangents(equations, iterate)
+        relative_displacement(equations, iterate, none, n + len(equations.slip_before))
         measure(history[iteration], equations, iterate)
         changed = _update_status(equations, iterate, new, method.r_scale, method.rule)
         if _with_one_closed(new, equations, displacement):
@@ -186,8 +145,8 @@ def _without_friction(equations):
 @njit(cache=True)
 def _slip_as_they_move(equations, iterate):
     """Each closed node slips the way that it moves."""
-    _tangents(equations, iterate)
     status, displacement, n = iterate.status, iterate.displacement, len(iterate.status)
+    relative_displacement(equations, iterate, n, 2 * n)
     for j in range(n):
         if status[j] != OPEN:
             forward = displacement[n + j] + equations.slip_before[j] > 0.0
@@ -215,7 +174,8 @@ def _newton_over_face(equations, iterate, method, history, sets):
         through = Method(method.r_scale, np.int64(THROUGH_STICK), method.length_tolerance, method.force_tolerance)
         outcome, more = _newton(equations, iterate, through, history[done:], sets[done:])
         done += more
-    relative_displacement(equations, iterate, n, len(equations.compliance))
+    if not len(equations.slip_before):
+        relative_displacement(equations, iterate, n, len(equations.compliance))
     return outcome, done
 
 

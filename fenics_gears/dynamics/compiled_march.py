@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from fenics_gears.contact.addresses import arrays_of, form_rows, not_inlined
-from fenics_gears.contact.compliance_product import add_multiple
+from fenics_gears.contact.compliance_product import subtract_displaced
 from fenics_gears.contact.laws import OPEN, Tolerance
 from fenics_gears.contact.mixed_form import Equations, Iterate, product
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton, newton_solver
@@ -251,9 +251,7 @@ def slip_at_start(rigid_slip, previous_jacobian, columns, rows_before, position,
         displaced[node] = product(previous_jacobian[node], position)
     if rows_before != 0:
         form_rows(rows_before, np.flatnonzero(forces[: len(forces) // 2]))
-    for loaded in range(len(forces)):
-        if forces[loaded] != 0.0:
-            add_multiple(displaced, -forces[loaded], columns[loaded], np.int64(0))
+    subtract_displaced(displaced, forces, columns, np.int64(0))
     for node in range(len(displaced)):
         displaced[node] = rigid_slip[node] - displaced[node]
     return displaced

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
+from contextlib import nullcontext
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from itertools import compress
@@ -13,6 +14,7 @@ from math import ceil
 import numpy as np
 from threadpoolctl import ThreadpoolController
 
+from fenics_gears.contact.addresses import march_with_inertia
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import SHARE_OF_A_BLOCK, Cycle
 from fenics_gears.contact.step_solver import METHODS, NEWTON
@@ -137,7 +139,8 @@ class Marcher(Stepper):
 
         Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
         """
-        with thread_pools().limit(limits=1):
+        inert = march_with_inertia() if self.dynamic.inert and self.friction else nullcontext()
+        with inert, thread_pools().limit(limits=1):
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
             march = March(self.friction, self.dynamic.stiffness, kept, period)
             return self._run(
