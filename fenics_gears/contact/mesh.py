@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from fenics_gears.geometry.pair import GearPair
@@ -55,7 +56,7 @@ def by_newton(position: Position, problem: StepProblem, status: np.ndarray, last
 class Mesh:
     """A gear pair in mesh, as the contact equations are built of it.
 
-    `nodes`: of the tooth pairs that can touch; `response(passage)`: how these yield; `solve`: a step at a position.
+    `nodes`: of the tooth pairs that can touch; `responses`: how these yield; `solve`: a step at a position.
     `bodies`: flank compliance of pinion and wheel; empty where they have none. `corner`: tip edges that touch off the
     line of action; `face`: its slices along the axes; one unless given. `of_cycle(number)`: the mesh in a mesh cycle;
     where None this one, as teeth are all alike.
@@ -64,7 +65,7 @@ class Mesh:
     pair: GearPair
     grid: ContactGrid
     nodes: Nodes
-    response: Callable[[Passage], Response]
+    responses: Callable[[Sequence[Passage]], list[Response]]
     solve: Callable[[Position, StepProblem, np.ndarray, StepSolution | None], StepSolution] = by_newton
     traits: MeshTraits = MeshTraits()
     bodies: tuple[Any, ...] = ()
@@ -97,11 +98,15 @@ def elastic_mesh(
     given."""
     coast = flanks.compliance[0].flanks == 2
 
-    def nodes(phase: float) -> tuple[PairNodes, ...]:
-        return tuple(flank_nodes(flanks, grid, corner, pair_places(flanks.pair, grid, phase, coast, corner)))
+    def nodes(phases: Sequence[float]) -> list[tuple[PairNodes, ...]]:
+        places = [pair_places(flanks.pair, grid, phase, coast, corner) for phase in phases]
+        if corner is not None:
+            return [tuple(flank_nodes(flanks, grid, corner, each)) for each in places]
+        # All in one go: of a pair by itself Python takes several times what its nodes do.
+        found = {pair.place: pair for pair in flank_nodes(flanks, grid, None, list(chain(*places)))}
+        return [nodes_at(each, found.get) for each in places]
 
-    response = (pairing or CompliancePairing(flanks)).response
     return Mesh(
-        flanks.pair, grid, nodes, response,
+        flanks.pair, grid, nodes, (pairing or CompliancePairing(flanks)).responses,
         traits=ELASTIC_FLANKS, bodies=flanks.compliance, coast_flanks=coast, corner=corner,
     )  # fmt: skip

@@ -27,7 +27,7 @@ from .kinematics import (
     slip_of_rigid_flanks,
     turned,
 )
-from .tooth_pair import DRIVE, Nodes, PairNodes, over_nodes, per_node
+from .tooth_pair import DRIVE, Nodes, PairNodes, count_of, over_nodes, per_node
 
 if TYPE_CHECKING:
     from .formed_rows import FormedRows
@@ -167,40 +167,66 @@ class Response(NamedTuple):
     sliding: np.ndarray | None = None
 
 
-def contact_operator(
-    gears: GearPair, passage: Passage, coordinates: list[int], response: Response, face: Face = IN_THE_PLANE
-) -> ContactOperator:
-    """The contact equations of nodes whose normal forces act along their pair's line; those of friction too where the
-    passage has previous nodes.
+def contact_operators(
+    gears: GearPair,
+    passages: Sequence[Passage],
+    coordinates: list[int],
+    responses: Sequence[Response],
+    face: Face = IN_THE_PLANE,
+) -> list[ContactOperator]:
+    """The contact equations at the end of each of some passages, of nodes whose normal forces act along their pair's
+    line; those of friction too where the passages have previous nodes. All in one go: of a position by itself Python
+    takes several times what its numbers do.
 
     `coordinates`: which of COORDINATES are unknowns; those beyond, at the end, are of shafts, and move no contact.
     """
-    pairs, frictional = passage.pairs, passage.previous is not None
-    radii = gears.pinion.base_radius, gears.wheel.base_radius
-    lines, angles = lines_of(pairs, radii), turned(gears, passage.advance)
-    arms, slip, before, earlier = response.normal_lever_arms or lines.lever_arms, None, None, response.previous_jacobian
+    radii, frictional = (gears.pinion.base_radius, gears.wheel.base_radius), passages[0].previous is not None
+    counts = [count_of(passage.pairs) for passage in passages]
+    lines = lines_of([pair for passage in passages for pair in passage.pairs], radii)
+    arms, slip, before = lines.lever_arms, None, None
+    if responses[0].normal_lever_arms is not None:
+        arms = tuple(np.concatenate(each) for each in zip(*(response.normal_lever_arms for response in responses)))
+    rows = _of_unknowns(displacement_jacobian(lines.pairs, radii, arms, frictional, lines, face), coordinates)
     if frictional:
-        slip, before = slip_of_rigid_flanks(lines, angles), response.previous_compliance
-        if isinstance(before, np.ndarray):
-            before = np.asfortranarray(before)
-        if earlier is None:
-            earlier = earlier_tangential_jacobian(lines, radii, angles, face)
-        earlier = _of_unknowns(earlier, coordinates)
-    return ContactOperator(
-        pairs=pairs,
-        base_radii=radii,
-        normal_lever_arms=arms,
-        compliance=response.compliance,  # type: ignore[arg-type]
-        jacobian=_of_unknowns(displacement_jacobian(pairs, radii, arms, frictional, lines, face), coordinates),
-        gap=over_nodes(pairs, "gap") * face.cosine,
-        rigid_slip=slip,
-        previous_compliance=before,  # type: ignore[arg-type]
-        previous_jacobian=earlier,
-        dependent_rows=response.dependent_rows,
-        face=face,
-        sliding=response.sliding,
-        coordinates=len(coordinates),
-    )
+        angles = np.repeat([turned(gears, passage.advance) for passage in passages], counts, axis=0).T
+        slip = slip_of_rigid_flanks(lines, angles)
+        if responses[0].previous_jacobian is None:
+            before = earlier_tangential_jacobian(lines, radii, angles, face)
+        else:
+            before = np.concatenate([response.previous_jacobian for response in responses])
+        before = _of_unknowns(before, coordinates)
+    gap, starts, found = over_nodes(lines.pairs, "gap") * face.cosine, np.cumsum(counts) - counts, []
+    if frictional:
+        rows = _step_by_step(rows, starts, counts)
+    for passage, response, start, count in zip(passages, responses, starts.tolist(), counts):
+        own, kinds = slice(start, start + count), len(rows) // len(gap) if len(gap) else 1
+        earlier = response.previous_compliance
+        found.append(ContactOperator(
+            pairs=passage.pairs,
+            base_radii=radii,
+            normal_lever_arms=(arms[0][own], arms[1][own]),
+            compliance=response.compliance,  # type: ignore[arg-type]
+            jacobian=rows[kinds * start : kinds * (start + count)],
+            gap=gap[own],
+            rigid_slip=None if slip is None else slip[own],
+            previous_compliance=np.asfortranarray(earlier) if isinstance(earlier, np.ndarray) else earlier,
+            previous_jacobian=None if before is None else before[own],
+            dependent_rows=response.dependent_rows,
+            face=face,
+            sliding=response.sliding,
+            coordinates=len(coordinates),
+        ))  # fmt: skip
+    return found
+
+
+def _step_by_step(rows: np.ndarray, starts: np.ndarray, counts: Sequence[int]) -> np.ndarray:
+    """Rows (2 n, k) of the normals of all steps, then of all tangents, put in the order of steps: each one's normals,
+    then its tangents; the first nodes and how many each has."""
+    n = len(rows) // 2
+    normals = np.arange(n) + np.repeat(starts, counts)
+    found = np.empty_like(rows)
+    found[normals], found[normals + np.repeat(counts, counts)] = rows[:n], rows[n:]
+    return found
 
 
 def _of_unknowns(rows: np.ndarray, coordinates: list[int]) -> np.ndarray:

@@ -30,10 +30,11 @@ def rigid_mesh(
     return Mesh(
         pair,
         grid,
-        lambda phase: nodes_at(
-            pair_places(pair, grid, phase, coast_flanks), lambda place: _nodes(pair, removal, grid, place)
-        ),
-        lambda passage: _response(pair, passage),
+        lambda phases: [
+            nodes_at(pair_places(pair, grid, phase, coast_flanks), lambda place: _nodes(pair, removal, grid, place))
+            for phase in phases
+        ],
+        lambda passages: [_response(pair, passage) for passage in passages],
         solve_rigid,
         MeshTraits(has_pressure=False, rigid=True),
         coast_flanks=coast_flanks,
