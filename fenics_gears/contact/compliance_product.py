@@ -53,7 +53,8 @@ def compliance_products(tables, near, first, axes, responding):
             loaded, nodes = product[LOADED + before], position[NODES + before]
             if loaded != NO_FLANK:
                 rows = along[kinds * n :] if before else along[: kinds * n]
-                result = carray(to_number(position[COMPLIANCE + before]), (kinds * nodes, len(rows) // n * position[NODES]))
+                shape = kinds * nodes, len(rows) // n * position[NODES]
+                result = carray(to_number(position[COMPLIANCE + before]), shape)
                 places = product[LOADED_PLACE + before], nodes, product[OWN_PLACE], position[NODES]
                 half = not before and places[0] == places[2]
                 _at_nodes(result, rows, (places, n, start, half), (flanks[loaded], near, first), axes[loaded])
@@ -93,8 +94,8 @@ def _at_nodes(result, along, of, loaded, axes):
     """Add what forces on the contact nodes of a `loaded` flank displace to the rows of these forces in `result`.
 
     `of`: the first row, that of the next kind after so many, and the same of columns; how many nodes n `along` has of
-    each direction, the flank node it begins with; and whether those before the loaded node are left out. `axes` (e, 2): of
-    forces.
+    each direction, the flank node it begins with; and whether those before the loaded node are left out. `axes` (e, 2):
+    of forces.
     """
     (row, rows, column, columns), n, start, half = of
     flank, near, first = loaded

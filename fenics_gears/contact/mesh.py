@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from fenics_gears.geometry.pair import GearPair
 
-from .operator import Passage, Response
 from .pairing import CompliancePairing
+from .passage import Passage, Response
 from .places import pair_places
 from .step_solver import StepProblem, StepSolution, solve_step
 from .tooth_pair import Flanks, Nodes, PairNodes, Place, ToothPair, tooth_pairs

@@ -22,7 +22,8 @@ from .addresses import GAP, NODES
 from .face import one_slice
 from .kinematics import nodes_before
 from .mesh import Mesh
-from .operator import Passage, Position, StepRows, contact_operators
+from .operator import Position, StepRows
+from .passage import Passage, contact_operators
 from .step_solver import StepProblem, StepSolution
 from .tooth_pair import Nodes, PairNodes, over_nodes
 
@@ -210,7 +211,7 @@ class Cycle:
         """The same, all of one mesh."""
         indices = [(step % self.steps, before % self.steps) for step, before in steps]
         pairs_at = self._pairs_at((mesh.nodes, index) for both in indices for index in both)
-        passed, pairs, previous = [], [], []
+        pairs, previous = [], []
         for (step, before), (index, index_before) in zip(steps, indices):
             pairs.append(pairs_at[mesh.nodes, index])
             earlier, cycles = pairs_at[mesh.nodes, index_before], int(step // self.steps - before // self.steps)
