@@ -145,9 +145,11 @@ class Cycle:
         """The contact equations at `step` (any integer)."""
         return self._deviating(step, self._found(step))
 
-    def build(self, steps: Iterable[int]) -> None:
-        """Build the positions at some steps together, in half the time that each takes by itself; those that are not
-        kept are there until others are built so."""
+    def build(self, steps: Sequence[int]) -> None:
+        """Build the positions at consecutive steps together, in half the time that each takes by itself; those that are
+        not kept are there until others are built so."""
+        if self.alike:
+            steps = steps[: self.steps]
         missing = {(self._mesh_at(step), step % self.steps): step for step in steps}
         missing = {key: step for key, step in missing.items() if key not in self._built}
         if missing:
@@ -242,7 +244,7 @@ class Cycle:
 
     def _found(self, step: float) -> Position:
         """The position at a place in common, with the whole step before it as the one before: kept, or built."""
-        key = self._mesh_at(step), step % self.steps
+        key = (self.mesh if self.alike else self._mesh_at(step)), step % self.steps
         found = self._positions.get(key)
         if found is None:
             built = self._built.get(key) or self._held.get(key)

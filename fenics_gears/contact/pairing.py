@@ -138,11 +138,15 @@ class _FlankTable:
         self.near: list[np.ndarray] = []
         self.first: list[np.ndarray] = []
         self._numbers: dict[int, int] = {}
+        self._found: dict[tuple[int, int], list[_Seen]] = {}
         self._sizes: list[tuple[int, int, float, float]] = []
 
     def of(self, pairs: Sequence[ToothPair], gear: int) -> list[_Seen]:
-        """Those of a gear at a position."""
-        found, start = [], 0
+        """Those of a gear at a position, whose pairs are held as long as this table is."""
+        found = self._found.setdefault((id(pairs), gear), [])
+        if found:
+            return found
+        start = 0
         for pair in pairs:
             view, place = pair.interpolation[gear], pair.place
             number = self._numbers.get(id(view))

@@ -77,12 +77,14 @@ def _highest(overlap, node_pair):
 def _tangent(contact, nodes):
     """Force (N) on some nodes when all of them approach by 1 mm; over a face by what the march factored, where they are
     all that are closed."""
-    compliance, n, approach, nothing = contact.compliance, len(contact.gap), np.ones(len(nodes)), np.empty(0)
-    still, unmoved = np.eye(1), np.zeros((n, 1))
-    equations = Equations(still, np.zeros(1), compliance, unmoved, contact.gap, nothing, 0.0, nothing, contact.rows)
-    iterate = Iterate(np.empty(0, dtype=np.int8), np.zeros(n), np.zeros(1), nothing)
-    if solve_factored(equations, iterate, nodes, nothing, -approach):
-        return iterate.forces.sum()
+    compliance, n, approach = contact.compliance, len(contact.gap), np.ones(len(nodes))
+    # In the plane nothing is factored.
+    if contact.rows != 0:
+        still, unmoved, nothing = np.eye(1), np.zeros((n, 1)), np.empty(0)
+        equations = Equations(still, np.zeros(1), compliance, unmoved, contact.gap, nothing, 0.0, nothing, contact.rows)
+        iterate = Iterate(np.empty(0, dtype=np.int8), np.zeros(n), np.zeros(1), nothing)
+        if solve_factored(equations, iterate, nodes, nothing, -approach):
+            return iterate.forces.sum()
     # `solve_sets` would be compiled, and loaded by each run, once more.
     matrix = system_of(len(nodes))
     for i in range(len(nodes)):
