@@ -20,7 +20,7 @@ from .kinematics import (
     turned,
 )
 from .operator import ContactOperator
-from .tooth_pair import PairNodes, count_of, over_nodes
+from .tooth_pair import DRIVE, PairNodes, count_of, over_nodes, per_node
 
 if TYPE_CHECKING:
     from .formed_rows import FormedRows
@@ -85,6 +85,7 @@ def contact_operators(
     gap, starts, found = over_nodes(lines.pairs, "gap") * face.cosine, np.cumsum(counts) - counts, []
     if frictional:
         rows = _step_by_step(rows, starts, counts)
+    drive, pair_of_node = _pairs_of_nodes(passages)
     for passage, response, start, count in zip(passages, responses, starts.tolist(), counts):
         own, kinds = slice(start, start + count), len(rows) // len(gap) if len(gap) else 1
         earlier = response.previous_compliance
@@ -103,7 +104,18 @@ def contact_operators(
             sliding=response.sliding,
             coordinates=len(coordinates),
         ))  # fmt: skip
+        # Known here; each would find its own when asked.
+        found[-1].__dict__.update(on_drive_flanks=drive[own], node_pair=pair_of_node[own])
     return found
+
+
+def _pairs_of_nodes(passages: Sequence[Passage]) -> tuple[np.ndarray, np.ndarray]:
+    """Of the nodes (n,) of all passages whether each is on the drive flanks, and the position of its pair among those
+    of its passage, as of a ContactOperator."""
+    pairs = [pair for passage in passages for pair in passage.pairs]
+    drive = np.array([pair.place.flank == DRIVE for pair in pairs], dtype=bool)
+    position = np.array([position for passage in passages for position in range(len(passage.pairs))], dtype=int)
+    return per_node(pairs, drive), per_node(pairs, position)
 
 
 def _step_by_step(rows: np.ndarray, starts: np.ndarray, counts: Sequence[int]) -> np.ndarray:

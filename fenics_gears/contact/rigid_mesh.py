@@ -62,7 +62,8 @@ def _response(pair: GearPair, passage: Passage) -> Response:
         return Response(np.zeros((nodes, nodes)))
     lines = lines_of(passage.pairs, (pair.pinion.base_radius, pair.wheel.base_radius))
     sliding = np.sign(lines.turn * sliding_per_rotation(pair, lines.friction_arms[0]))
-    before = np.zeros((nodes, 2 * count_of(passage.previous)))
+    # By columns, as it is stored.
+    before = np.zeros((2 * count_of(passage.previous), nodes)).T
     return Response(np.zeros((2 * nodes, 2 * nodes)), before, sliding=sliding)
 
 

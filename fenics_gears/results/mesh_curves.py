@@ -23,7 +23,7 @@ from fenics_gears.dynamics.steps import Steps, forces_at, in_block, nodes_at, op
 from fenics_gears.model.model import Model
 from fenics_gears.model.modification import kinks
 
-from .side_by_side import SideBySide
+from .side_by_side import Layouts, SideBySide
 
 
 @njit(cache=True)
@@ -174,9 +174,16 @@ class EdgesAndKinks:
             rolls += [(gear.form_roll_angle, EDGE)] if gear.undercut else []
             self._places += [_Place(number, 0.5 * gear.base_radius * roll**2, kind) for roll, kind in rolls]
         self._places.sort(key=lambda place: place.kind)
+        # Most blocks of a march stand at the same positions.
+        self._last: tuple[Layouts | None, np.ndarray] = None, np.empty(0)
 
     def beside(self, nodes: SideBySide) -> np.ndarray:
         """What each contact node (N,) is beside: NOTHING, KINK or EDGE. Reliefs are of drive flanks alone."""
+        if self._last[0] is not nodes.layouts:
+            self._last = nodes.layouts, self._beside(nodes)
+        return self._last[1]
+
+    def _beside(self, nodes: SideBySide) -> np.ndarray:
         found, arcs = np.full(len(nodes.step), NOTHING), nodes.of("arcs")
         for place in self._places:
             near = np.abs(arcs[place.gear] - place.arc) <= REACH[place.kind] * self.half_width

@@ -52,7 +52,8 @@ def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool)
         found["on_edge"] = _on_edges(cycle, pairs, ends, of_flanks)
         found["arcs"] = _arcs(cycle.pair, pairs, np.ascontiguousarray(rolls), offsets, ends)
     rows = _reaction_rows(operators, pairs, tangential)
-    return found | {"rows_of_normals": rows[:, : len(offsets)], "rows_of_tangents": rows[:, len(offsets) :]}
+    normals, tangents = (np.ascontiguousarray(part) for part in np.split(rows, [len(offsets)], axis=1))
+    return found | {"rows_of_normals": normals, "rows_of_tangents": tangents}
 
 
 def _at_inner_end(cycle: Cycle, offsets: np.ndarray, ends: np.ndarray, of_flanks: np.ndarray) -> np.ndarray:
@@ -113,7 +114,8 @@ MOST_TIMES_JOINED = 8
 class Layouts:
     """The contact nodes of consecutive positions side by side (N,), joined once for each block of the mesh cycle.
 
-    `known`: the layout of nodes that hold those of each position, which begin and end there at `parts` (s, 2).
+    `known`: the layout of nodes that hold those of each position, which begin and end there at `parts` (s, 2);
+    `places` (N,): of all of these nodes there.
     """
 
     def __init__(self, known: dict[str, np.ndarray], parts: np.ndarray, dependent_rows: np.ndarray, kinds: int):
@@ -123,12 +125,12 @@ class Layouts:
         # Where the normal forces stand among all forces, a step's normals before its tangents.
         self.normal = np.arange(len(self.step)) + (kinds - 1) * np.repeat(self.starts[:-1], counts)
         self.tangential = self.normal + np.repeat(counts, counts)
-        self._places = np.arange(len(self.step)) + np.repeat(parts[:, 0] - self.starts[:-1], counts)
-        self._known, self._joined = known, {}
+        self.known, self.places = known, np.arange(len(self.step)) + np.repeat(parts[:, 0] - self.starts[:-1], counts)
+        self._joined: dict[str, np.ndarray] = {}
 
     def of(self, name: str) -> np.ndarray:
         if name not in self._joined:
-            self._joined[name] = self._known[name].take(self._places, axis=-1)
+            self._joined[name] = self.known[name].take(self.places, axis=-1)
         return self._joined[name]
 
 
