@@ -26,8 +26,8 @@ from .fine_sections import BEGIN, IN_SLICE, OF_SLICE, SLICE, TOOTH, Fine, Side, 
 from .formed_rows import FormedRows, fine_section, uncertain_slices
 from .interpolation import FlankInterpolation
 from .kinematics import turned
+from .operator import Passage, Response
 from .pairing import LAYER, SMALLEST_PIVOT, dependent_rows
-from .passage import Passage, Response
 from .tooth_pair import Flanks, Place, ToothPair
 
 GEARS = (0, 1)

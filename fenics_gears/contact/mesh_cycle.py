@@ -21,9 +21,8 @@ import numpy as np
 from .addresses import GAP, NODES
 from .face import one_slice
 from .kinematics import nodes_before
-from .mesh import Mesh
-from .operator import Position, StepRows
-from .passage import Passage, contact_operators
+from .mesh import Mesh, contact_operators
+from .operator import Passage, Position, StepRows
 from .step_solver import StepProblem, StepSolution
 from .tooth_pair import Nodes, PairNodes, over_nodes
 

@@ -15,7 +15,7 @@ from fenics_gears.geometry.pair import GearPair
 
 from .interpolation import hat_integrals
 from .kinematics import displacement_jacobian, earlier_tangential_jacobian, lines_of, turned
-from .passage import Response
+from .operator import Response
 from .tooth_pair import PairNodes, Place, Removal, count_of, facing_points_at, node_slices, over_nodes
 from .window import ContactGrid, flank_ends, node_offsets
 

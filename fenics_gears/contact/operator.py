@@ -22,6 +22,8 @@ from .tooth_pair import DRIVE, Nodes, PairNodes, per_node
 if TYPE_CHECKING:
     from .formed_rows import FormedRows
 
+NO_NODES_BEFORE = np.empty(0, dtype=np.int64)
+
 
 class _ReadOtherwise:
     """A field of an operator, without a default, of which `read` makes what is read of what is stored; None stays."""
@@ -127,6 +129,32 @@ class ContactOperator:
     def on_drive_flanks(self) -> np.ndarray:
         """Whether a node (n,) is on the drive flanks, not the coast flanks."""
         return np.array([pair.place.flank == DRIVE for pair in self.pairs], dtype=bool)[self.node_pair]
+
+
+class Passage(NamedTuple):
+    """Contact nodes on their way from one position to the next: the `pairs` now and the `previous` ones, None without
+    friction; the node before of each node now (`node_before`, as of a Position); the place of both in the mesh cycle,
+    in steps; and by how much (rad) the pinion turns (`advance`)."""
+
+    pairs: tuple[PairNodes, ...]
+    previous: tuple[PairNodes, ...] | None = None
+    node_before: np.ndarray = NO_NODES_BEFORE
+    index: float = 0
+    index_before: float = -1
+    advance: float = 0.0
+
+
+class Response(NamedTuple):
+    """How contact nodes yield: `compliance`, `previous_compliance` (None without friction), `dependent_rows` and
+    `sliding` of a ContactOperator; `normal_lever_arms` and `previous_jacobian`, over all coordinates, where they are
+    not those of flanks that slide along the line of action."""
+
+    compliance: np.ndarray | FormedRows
+    previous_compliance: np.ndarray | FormedRows | None = None
+    dependent_rows: int = 0
+    normal_lever_arms: tuple[np.ndarray, np.ndarray] | None = None
+    previous_jacobian: np.ndarray | None = None
+    sliding: np.ndarray | None = None
 
 
 # Of an operator whose rows are formed when nodes are closed.

@@ -10,7 +10,7 @@ from scipy.linalg.lapack import dpstrf
 
 from .compliance_product import NO_FLANK, OWN, compliance_products, directions
 from .kinematics import turned
-from .passage import Passage, Response
+from .operator import Passage, Response
 from .tooth_pair import Flanks, ToothPair, count_of
 
 # Nodes that coincide, or more nodes on an element than it has degrees of freedom, yield together: elasticity does not

@@ -11,7 +11,7 @@ from fenics_gears.geometry.pair import GearPair
 
 from .mesh import Mesh, MeshTraits, nodes_at
 from .node_to_node import NodePairs, NodeResponse, by_direction, node_pairs, node_to_node_response
-from .passage import Passage, Response
+from .operator import Passage, Response
 from .places import pair_places
 from .published_solver import PublishedSolver
 from .tooth_pair import Removal

@@ -15,8 +15,7 @@ from .laws import OPEN
 from .mesh import Mesh, MeshTraits, nodes_at
 from .mixed_form import Iterate
 from .newton import ALL_AT_ONCE, CONVERGED, Method
-from .operator import ContactOperator, Position
-from .passage import Passage, Response
+from .operator import ContactOperator, Passage, Position, Response
 from .places import pair_places
 from .rigid_step import Sides, rigid_step
 from .step_solver import NEWTON, StepProblem, StepSolution

@@ -17,7 +17,7 @@ import numpy as np
 from fenics_gears.geometry.pair import GearPair
 
 from .mesh import Mesh, MeshTraits
-from .passage import Passage, Response
+from .operator import Passage, Response
 from .tooth_pair import DRIVE, PairNodes, coast_place, drive_place, over_nodes
 from .window import ContactGrid
 

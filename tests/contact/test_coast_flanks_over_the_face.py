@@ -10,7 +10,7 @@ from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
 from fenics_gears.contact.face_pairing import FacePair, FacePairing
 from fenics_gears.contact.kinematics import displacement_jacobian
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps
-from fenics_gears.contact.passage import Passage
+from fenics_gears.contact.operator import Passage
 from fenics_gears.contact.tooth_pair import (
     COAST,
     DRIVE,

@@ -7,9 +7,9 @@ import pytest
 from tests.contact.outlines import centres, distance, placed, rotation_to_touch
 
 from fenics_gears.contact.corner import corner_contact, corner_pairs, corner_place
-from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh import contact_operators, elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.passage import Passage, contact_operators
+from fenics_gears.contact.operator import Passage
 from fenics_gears.contact.tooth_pair import coast_place, drive_place, tooth_pairs
 from fenics_gears.contact.window import ContactGrid
 

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.kinematics import CENTRE_COORDINATES
+from fenics_gears.contact.mesh import contact_operators
 from fenics_gears.contact.node_to_node import NodeResponse, node_pairs, node_to_node_response, roll_interpolation
-from fenics_gears.contact.passage import Passage, contact_operators
+from fenics_gears.contact.operator import Passage
 from fenics_gears.contact.tooth_pair import drive_place
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.ring import rotation

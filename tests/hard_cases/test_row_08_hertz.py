@@ -10,8 +10,9 @@ from tests.coarse import teeth_alone
 from tests.contact.problems import pressed as under
 
 from fenics_gears import model_of
+from fenics_gears.contact.mesh import contact_operators
+from fenics_gears.contact.operator import Passage
 from fenics_gears.contact.pairing import CompliancePairing
-from fenics_gears.contact.passage import Passage, contact_operators
 from fenics_gears.contact.tooth_pair import Flanks, drive_place, tooth_pairs
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import Reach

@@ -9,8 +9,9 @@ from tests.coarse_sector import relative
 from tests.contact.problems import pressed
 
 from fenics_gears import model_of, simulate
+from fenics_gears.contact.mesh import contact_operators
+from fenics_gears.contact.operator import Passage
 from fenics_gears.contact.pairing import CompliancePairing
-from fenics_gears.contact.passage import Passage, contact_operators
 from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, tooth_pairs
 from fenics_gears.elasticity.compliance import Reach

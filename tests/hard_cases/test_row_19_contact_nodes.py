@@ -8,8 +8,9 @@ from tests.coarse import coarse_scene, frictionless, teeth_alone
 from tests.contact.problems import pressed
 
 from fenics_gears import model_of, simulate
+from fenics_gears.contact.mesh import contact_operators
+from fenics_gears.contact.operator import Passage
 from fenics_gears.contact.pairing import CompliancePairing
-from fenics_gears.contact.passage import Passage, contact_operators
 from fenics_gears.contact.tooth_pair import drive_place, tooth_pairs
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.progress import SilentProgress
