@@ -19,11 +19,11 @@ def directions(contact_roll: float | np.ndarray, tangential: bool) -> np.ndarray
 # Columns of the tables of `compliance_products`. Of positions: addresses of the compliance and of that before, and how
 # many contact nodes there are, and were a step before. Of flanks: where the weights of their contact nodes begin, and
 # how many a node has, where their first flank nodes begin, and how many contact nodes there are. Of products: the
-# position, address and columns of the bodies' block, the flank that responds, those loaded now and a step before or
-# NO_FLANK, and the place of the first node of each among all.
+# position, address, size and columns of the bodies' block, the flank that responds, those loaded now and a step
+# before or NO_FLANK, and the place of the first node of each among all.
 COMPLIANCE, NODES = 0, 2
 NEAR, WIDTH, FIRST, COUNT = range(4)
-POSITION, BLOCK, COLUMNS, OWN, LOADED, OWN_PLACE, LOADED_PLACE = 0, 1, 2, 3, 4, 6, 7
+POSITION, BLOCK, SIZE, COLUMNS, OWN, LOADED, OWN_PLACE, LOADED_PLACE = 0, 1, 2, 3, 4, 5, 7, 8
 NO_FLANK = -1
 
 
@@ -80,7 +80,7 @@ def _put_along(along, sums, of, near, first, directions):
     flank node from `start` on, into (d n, 2 k)."""
     product, own, start = of
     n, width, columns, forces = own[COUNT], own[WIDTH], product[COLUMNS], along.shape[1]
-    block, x, y = carray(to_number(product[BLOCK]), columns * columns), sums[0, :forces], sums[1, :forces]
+    block, x, y = carray(to_number(product[BLOCK]), product[SIZE]), sums[0, :forces], sums[1, :forces]
     for i in range(n):
         weights, at = near[own[NEAR] + i * width :][:width], 2 * (first[own[FIRST] + i] * columns + start)
         _put_weighted(x, weights, block, at, 2 * columns)

@@ -58,8 +58,8 @@ class CompliancePairing:
             found.append(Response(compliance, before, dependent))
         return found
 
-    def _block(self, gear: int, responding: _Flank, loaded: _Flank) -> tuple[int, int]:
-        """Address and columns of the compliance of one flank under forces on another."""
+    def _block(self, gear: int, responding: _Flank, loaded: _Flank) -> tuple[int, int, int]:
+        """Address, size and columns of the compliance of one flank under forces on another."""
         body, blocks, teeth, sides = (
             self._gears[gear],
             self._blocks[gear],
@@ -70,7 +70,7 @@ class CompliancePairing:
         if key not in blocks:
             block = np.ascontiguousarray(body.between(*teeth, sides))
             # With the block itself, which holds the memory.
-            blocks[key] = (block.ctypes.data, block.shape[1]), block
+            blocks[key] = (block.ctypes.data, block.size, block.shape[1]), block
         return blocks[key][0]
 
     def compliances(self, passages: Sequence[Passage]) -> list[tuple[np.ndarray, np.ndarray | None]]:

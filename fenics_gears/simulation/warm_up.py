@@ -55,7 +55,7 @@ def _run_once(tangential: bool, rigid: bool) -> None:
     block, results = np.eye(10), np.zeros((2, 2 * kinds, 2 * kinds))
     positions = np.array([[results[0].ctypes.data, results[1].ctypes.data, 2, 2]])
     flanks = np.array([[0, interpolation.near.shape[1], 0, 2]])
-    products = np.array([[0, block.ctypes.data, 10, 0, 0, 0 if tangential else NO_FLANK, 0, 0, 0]])
+    products = np.array([[0, block.ctypes.data, block.size, 10, 0, 0, 0 if tangential else NO_FLANK, 0, 0, 0]])
     axes, responding = np.ones((1, kinds, 2)), np.ones((1, 2 * kinds - 1, 2))
     compliance_products((positions, flanks, products), near, interpolation.first, axes, responding)
     node, row, tolerance = np.zeros(1), np.eye(kinds, 1), Tolerance.of_load(1.0)
