@@ -44,6 +44,9 @@ class Frozen:
     def beside(self, kind):
         return kind()
 
+    def build(self, steps):
+        """There is one position, which is there."""
+
     def position(self, step):
         return self._position
 

@@ -54,7 +54,11 @@ def face_mesh(
         return tuple(_in_slice(made[alike(place)], place) for place in places if alike(place) in made)
 
     return Mesh(
-        pair, grid, nodes, pairing.response, traits=MeshTraits(divisible=True, repeats=True),
+        pair,
+        grid,
+        lambda phases: [nodes(phase) for phase in phases],
+        lambda passages: [pairing.response(passage) for passage in passages],
+        traits=MeshTraits(divisible=True, repeats=True),
         bodies=flanks.compliance, coast_flanks=coast, corner=corner, face=face,
     )  # fmt: skip
 

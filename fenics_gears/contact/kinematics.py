@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import cos, sin
 
 import numpy as np
 from numba import njit
@@ -99,13 +98,17 @@ def displacement_jacobian(
     return on_face(rows, lines, face, base_radii)
 
 
+# By how much (rad) the roll angles of pinion and wheel rise, of all nodes or of each (n,).
+Turned = tuple[float, float] | tuple[np.ndarray, np.ndarray]
+
+
 def turned(gears: GearPair, advance: float) -> tuple[float, float]:
     """By how much (rad) the roll angles of pinion and wheel rise while the pinion turns by `advance`; the wheel's
     fall."""
     return advance, -advance * gears.pinion.base_radius / gears.wheel.base_radius
 
 
-def slip_of_rigid_flanks(lines: Lines, turned: tuple[float, float]) -> np.ndarray:
+def slip_of_rigid_flanks(lines: Lines, turned: Turned) -> np.ndarray:
     """Slip (n,), mm, of the points touching now while rigid gears turned to here: the exact integral of the sliding
     speed [12].
 
@@ -113,16 +116,16 @@ def slip_of_rigid_flanks(lines: Lines, turned: tuple[float, float]) -> np.ndarra
     the pitch point.
     """
     lever_arms, offsets = lines.friction_arms, over_nodes(lines.pairs, "offsets")
-    straight = lines.turn * (lever_arms[0] * sin(turned[0]) + lever_arms[1] * sin(turned[1]))
+    straight = lines.turn * (lever_arms[0] * np.sin(turned[0]) + lever_arms[1] * np.sin(turned[1]))
     return (
         straight
-        - (lines.lever_arms[0] - offsets) * (1.0 - cos(turned[0]))
-        - (lines.lever_arms[1] + offsets) * (1.0 - cos(turned[1]))
+        - (lines.lever_arms[0] - offsets) * (1.0 - np.cos(turned[0]))
+        - (lines.lever_arms[1] + offsets) * (1.0 - np.cos(turned[1]))
     )
 
 
 def earlier_tangential_jacobian(
-    lines: Lines, radii: tuple[float, float], turned: tuple[float, float], face: Face = IN_THE_PLANE
+    lines: Lines, radii: tuple[float, float], turned: Turned, face: Face = IN_THE_PLANE
 ) -> np.ndarray:
     """Tangential rigid displacement (n, 7), over a `face` of many slices (n, 13), of the points touching now,
     per centre coordinate one step before."""
@@ -131,8 +134,9 @@ def earlier_tangential_jacobian(
     tangent, turn = lines.tangent, lines.turn
     rows = np.zeros((len(offsets), len(CENTRE_COORDINATES)))
     # A point (x, -h) of the pinion stood at (x cos a - h sin a, ...) before the pinion turned by a; likewise the wheel.
-    rows[:, 0:2], rows[:, 2] = tangent, turn * (arm_1 * cos(turned[0]) - turn * height_1 * sin(turned[0])) / radii[0]
-    rows[:, 3:5], rows[:, 5] = -tangent, turn * (arm_2 * cos(turned[1]) - turn * height_2 * sin(turned[1])) / radii[1]
+    (sine_1, sine_2), (cosine_1, cosine_2) = (tuple(map(function, turned)) for function in (np.sin, np.cos))
+    rows[:, 0:2], rows[:, 2] = tangent, turn * (arm_1 * cosine_1 - turn * height_1 * sine_1) / radii[0]
+    rows[:, 3:5], rows[:, 5] = -tangent, turn * (arm_2 * cosine_2 - turn * height_2 * sine_2) / radii[1]
     if face.slices == 1:
         return rows
     from .face_jacobian import earlier_tangents_on_face
@@ -140,16 +144,33 @@ def earlier_tangential_jacobian(
     return earlier_tangents_on_face(rows, lines, face, radii)
 
 
-def nodes_before(pairs: tuple[PairNodes, ...], previous: tuple[PairNodes, ...], spacing: float) -> np.ndarray:
-    """For each node the one of the same pair that it was a step before; -1 where there is none.
+# The tooth pairs at a position, and those a step before.
+Step = tuple[Sequence[PairNodes], Sequence[PairNodes]]
+
+
+def nodes_before(steps: Sequence[Step], spacing: float) -> list[np.ndarray]:
+    """Of each of some steps, for each node the one of the same pair that it was a step before; -1 where there is none.
 
     Beside an edge, with which nodes move, it is the one with as many nodes between it and the edge; else the one at the
     same offset.
     """
-    earlier = {_key(pair): place for place, pair in enumerate(previous)}
-    same = np.array([earlier.get(_key(pair), -1) for pair in pairs], dtype=np.int64)
-    now, before = ((over_nodes(each, "offsets"), node_ends(each)) for each in (pairs, previous))
-    return _nodes_before(*now, *before, same, spacing)
+    same: list[int] = []
+    every: tuple[list[PairNodes], list[PairNodes]] = [], []
+    begins = []
+    for step in steps:
+        pairs, previous = step
+        begins.append([len(each) for each in every])
+        known = {_key(pair): place for place, pair in enumerate(previous, len(every[1]))}
+        same += [known.get(_key(pair), -1) for pair in pairs]
+        for all_pairs, own in zip(every, step):
+            all_pairs += own
+    ends = [node_ends(each) for each in every]
+    (offsets, now), (offsets_before, before) = ((over_nodes(each, "offsets"), at) for each, at in zip(every, ends))
+    found = _nodes_before(offsets, now, offsets_before, before, np.array(same, dtype=np.int64), spacing)
+    # Counted from the first node of the step before.
+    first, first_before = (at[list(begin)] for at, begin in zip(ends, zip(*begins)))
+    found -= np.where(found >= 0, np.repeat(first_before, np.diff([*first, len(found)])), 0)
+    return np.split(found, first[1:])
 
 
 @njit(cache=True)

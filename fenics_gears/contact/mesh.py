@@ -1,26 +1,36 @@
-"""What the contact equations of a mesh are put together from: contact nodes, and how they yield."""
+"""What the contact equations of a mesh are put together from, contact nodes and how they yield; and the equations at
+many positions, all in one go."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from fenics_gears.geometry.pair import GearPair
 
-from .operator import Passage, Response
+from .face import Face
+from .kinematics import (
+    COORDINATES,
+    IN_THE_PLANE,
+    displacement_jacobian,
+    earlier_tangential_jacobian,
+    lines_of,
+    slip_of_rigid_flanks,
+    turned,
+)
+from .operator import ContactOperator, Passage, Position, Response
 from .pairing import CompliancePairing
 from .places import pair_places
 from .step_solver import StepProblem, StepSolution, solve_step
-from .tooth_pair import Flanks, Nodes, PairNodes, Place, ToothPair, tooth_pairs
+from .tooth_pair import DRIVE, Flanks, Nodes, PairNodes, Place, ToothPair, count_of, over_nodes, per_node, tooth_pairs
 from .window import ContactGrid
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from .corner import CornerContact
-    from .face import Face
-    from .operator import Position
 
 
 @dataclass(frozen=True)
@@ -55,7 +65,7 @@ def by_newton(position: Position, problem: StepProblem, status: np.ndarray, last
 class Mesh:
     """A gear pair in mesh, as the contact equations are built of it.
 
-    `nodes`: of the tooth pairs that can touch; `response(passage)`: how these yield; `solve`: a step at a position.
+    `nodes`: of the tooth pairs that can touch; `responses`: how these yield; `solve`: a step at a position.
     `bodies`: flank compliance of pinion and wheel; empty where they have none. `corner`: tip edges that touch off the
     line of action; `face`: its slices along the axes; one unless given. `of_cycle(number)`: the mesh in a mesh cycle;
     where None this one, as teeth are all alike.
@@ -64,7 +74,7 @@ class Mesh:
     pair: GearPair
     grid: ContactGrid
     nodes: Nodes
-    response: Callable[[Passage], Response]
+    responses: Callable[[Sequence[Passage]], list[Response]]
     solve: Callable[[Position, StepProblem, np.ndarray, StepSolution | None], StepSolution] = by_newton
     traits: MeshTraits = MeshTraits()
     bodies: tuple[Any, ...] = ()
@@ -97,11 +107,94 @@ def elastic_mesh(
     given."""
     coast = flanks.compliance[0].flanks == 2
 
-    def nodes(phase: float) -> tuple[PairNodes, ...]:
-        return tuple(flank_nodes(flanks, grid, corner, pair_places(flanks.pair, grid, phase, coast, corner)))
+    def nodes(phases: Sequence[float]) -> list[tuple[PairNodes, ...]]:
+        places = [pair_places(flanks.pair, grid, phase, coast, corner) for phase in phases]
+        if corner is not None:
+            return [tuple(flank_nodes(flanks, grid, corner, each)) for each in places]
+        # All in one go: of a pair by itself Python takes several times what its nodes do.
+        found = {pair.place: pair for pair in flank_nodes(flanks, grid, None, list(chain(*places)))}
+        return [nodes_at(each, found.get) for each in places]
 
-    response = (pairing or CompliancePairing(flanks)).response
     return Mesh(
-        flanks.pair, grid, nodes, response,
+        flanks.pair, grid, nodes, (pairing or CompliancePairing(flanks)).responses,
         traits=ELASTIC_FLANKS, bodies=flanks.compliance, coast_flanks=coast, corner=corner,
     )  # fmt: skip
+
+
+def contact_operators(
+    gears: GearPair,
+    passages: Sequence[Passage],
+    coordinates: list[int],
+    responses: Sequence[Response],
+    face: Face = IN_THE_PLANE,
+) -> list[ContactOperator]:
+    """The contact equations at the end of each of some passages, of nodes whose normal forces act along their pair's
+    line; those of friction too where the passages have previous nodes. All in one go: of a position by itself Python
+    takes several times what its numbers do.
+
+    `coordinates`: which of COORDINATES are unknowns; those beyond, at the end, are of shafts, and move no contact.
+    """
+    radii, frictional = (gears.pinion.base_radius, gears.wheel.base_radius), passages[0].previous is not None
+    counts = [count_of(passage.pairs) for passage in passages]
+    lines = lines_of([pair for passage in passages for pair in passage.pairs], radii)
+    arms, slip, before = lines.lever_arms, None, None
+    if responses[0].normal_lever_arms is not None:
+        arms = tuple(np.concatenate(each) for each in zip(*(response.normal_lever_arms for response in responses)))
+    rows = _of_unknowns(displacement_jacobian(lines.pairs, radii, arms, frictional, lines, face), coordinates)
+    if frictional:
+        angles = np.repeat([turned(gears, passage.advance) for passage in passages], counts, axis=0).T
+        slip = slip_of_rigid_flanks(lines, angles)
+        if responses[0].previous_jacobian is None:
+            before = earlier_tangential_jacobian(lines, radii, angles, face)
+        else:
+            before = np.concatenate([response.previous_jacobian for response in responses])
+        before = _of_unknowns(before, coordinates)
+    gap, starts, found = over_nodes(lines.pairs, "gap") * face.cosine, np.cumsum(counts) - counts, []
+    if frictional:
+        rows = _step_by_step(rows, starts, counts)
+    drive, pair_of_node = _pairs_of_nodes(passages)
+    for passage, response, start, count in zip(passages, responses, starts.tolist(), counts):
+        own, kinds = slice(start, start + count), len(rows) // len(gap) if len(gap) else 1
+        earlier = response.previous_compliance
+        found.append(ContactOperator(
+            pairs=passage.pairs,
+            base_radii=radii,
+            normal_lever_arms=(arms[0][own], arms[1][own]),
+            compliance=response.compliance,  # type: ignore[arg-type]
+            jacobian=rows[kinds * start : kinds * (start + count)],
+            gap=gap[own],
+            rigid_slip=None if slip is None else slip[own],
+            previous_compliance=np.asfortranarray(earlier) if isinstance(earlier, np.ndarray) else earlier,
+            previous_jacobian=None if before is None else before[own],
+            dependent_rows=response.dependent_rows,
+            face=face,
+            sliding=response.sliding,
+            coordinates=len(coordinates),
+        ))  # fmt: skip
+        # Known here; each would find its own when asked.
+        found[-1].__dict__.update(on_drive_flanks=drive[own], node_pair=pair_of_node[own])
+    return found
+
+
+def _pairs_of_nodes(passages: Sequence[Passage]) -> tuple[np.ndarray, np.ndarray]:
+    """Of the nodes (n,) of all passages whether each is on the drive flanks, and the position of its pair among those
+    of its passage, as of a ContactOperator."""
+    pairs = [pair for passage in passages for pair in passage.pairs]
+    drive = np.array([pair.place.flank == DRIVE for pair in pairs], dtype=bool)
+    position = np.array([position for passage in passages for position in range(len(passage.pairs))], dtype=int)
+    return per_node(pairs, drive), per_node(pairs, position)
+
+
+def _step_by_step(rows: np.ndarray, starts: np.ndarray, counts: Sequence[int]) -> np.ndarray:
+    """Rows (2 n, k) of the normals of all steps, then of all tangents, put in the order of steps: each one's normals,
+    then its tangents; the first nodes and how many each has."""
+    n = len(rows) // 2
+    normals = np.arange(n) + np.repeat(starts, counts)
+    found = np.empty_like(rows)
+    found[normals], found[normals + np.repeat(counts, counts)] = rows[:n], rows[n:]
+    return found
+
+
+def _of_unknowns(rows: np.ndarray, coordinates: list[int]) -> np.ndarray:
+    """The columns of those coordinates that contact moves."""
+    return rows.take([each for each in coordinates if each < len(COORDINATES)], axis=1)

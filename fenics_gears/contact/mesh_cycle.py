@@ -8,9 +8,11 @@ gaps alone have all operators in common, also those of places between steps that
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
+from itertools import groupby
 from math import ceil, inf
 from typing import Any, Generic, TypeVar
 
@@ -19,10 +21,10 @@ import numpy as np
 from .addresses import GAP, NODES
 from .face import one_slice
 from .kinematics import nodes_before
-from .mesh import Mesh
-from .operator import Passage, Position, StepRows, contact_operator
+from .mesh import Mesh, contact_operators
+from .operator import Passage, Position, StepRows
 from .step_solver import StepProblem, StepSolution
-from .tooth_pair import PairNodes, over_nodes
+from .tooth_pair import Nodes, PairNodes, over_nodes
 
 # Of the memory that contact operators may take: what is kept for good, and what a march holds of a block of steps, the
 # one before it beside.
@@ -103,7 +105,8 @@ class Cycle:
         self.face = mesh.face or one_slice(mesh.pair.face_width)
         self.gaps, self.kept = Gaps(), Kept()
         self._pairs: dict[tuple, tuple[PairNodes, ...]] = {}
-        self._built: dict[tuple[Mesh, int], Position] = {}
+        self._built: dict[tuple[Mesh, float], Position] = {}
+        self._held: dict[tuple[Mesh, float], Position] = {}
         # Those with openings; the same ones without.
         self._positions = self._built
         self._beside: dict[type, Any] = {}
@@ -141,6 +144,17 @@ class Cycle:
         """The contact equations at `step` (any integer)."""
         return self._deviating(step, self._found(step))
 
+    def build(self, steps: Sequence[int]) -> None:
+        """Build the positions at consecutive steps together, in half the time that each takes by itself; those that are
+        not kept are there until others are built so."""
+        if self.alike:
+            steps = steps[: self.steps]
+        missing = {(self._mesh_at(step), step % self.steps): step for step in steps}
+        missing = {key: step for key, step in missing.items() if key not in self._built}
+        if missing:
+            self._held = dict(zip(missing, self._build([(step, step - 1) for step in missing.values()])))
+            self._keep(self._held)
+
     def between(self, step: float, before: float) -> Position:
         """The contact equations at `step`, with the step before at `before`; both may lie between whole steps. Kept
         only at places in common after the last whole step.
@@ -150,7 +164,7 @@ class Cycle:
         """
         if before == ceil(step) - 1 and in_common(step):
             return self._deviating(step, self._found(step))
-        return self._deviating(step, self._opened(self._build(step, before)))
+        return self._deviating(step, self._opened(self._build([(step, before)])[0]))
 
     def pair_number(self, step: int, index: int | np.ndarray):
         """Number of a pair counted through the run: pair `c` reaches the start of contact at the beginning of cycle
@@ -166,51 +180,76 @@ class Cycle:
 
     def pairs_at(self, index: int) -> tuple[PairNodes, ...]:
         """The tooth pairs that can touch at position `index` (0 to steps - 1) of the first mesh cycle."""
-        return self._pairs_at(self._mesh_at(index), index)
+        (pairs,) = self._pairs_at([(self._mesh_at(index).nodes, index)]).values()
+        return pairs
 
     def _mesh_at(self, step: float) -> Mesh:
         of_cycle = self.mesh.of_cycle
         return self.mesh if of_cycle is None else of_cycle(int(step // self.steps))
 
-    def _pairs_at(self, mesh: Mesh, index: float) -> tuple[PairNodes, ...]:
-        """The tooth pairs at a position that may lie between two steps; only those of whole steps are kept."""
-        if index != int(index):
-            return mesh.nodes(index / self.steps)
-        key = mesh.nodes, index
-        if key not in self._pairs:
-            self._pairs[key] = mesh.nodes(index / self.steps)
-        return self._pairs[key]
+    def _pairs_at(self, asked: Iterable[tuple[Nodes, float]]) -> dict[tuple[Nodes, float], tuple[PairNodes, ...]]:
+        """The tooth pairs at positions that may lie between two steps; only those of whole steps are kept."""
+        found, missing = {}, defaultdict(list)
+        for key in dict.fromkeys(asked):
+            if key in self._pairs:
+                found[key] = self._pairs[key]
+            else:
+                missing[key[0]].append(key[1])
+        for nodes, indices in missing.items():
+            made = nodes([index / self.steps for index in indices])
+            found |= {(nodes, index): pairs for index, pairs in zip(indices, made)}
+        self._pairs |= {key: pairs for key, pairs in found.items() if key[1] == int(key[1])}
+        return found
 
-    def _build(self, step: float, before: float) -> Position:
-        mesh, (cycle, index), (earlier, index_before) = (
-            self._mesh_at(step),
-            divmod(step, self.steps),
-            divmod(before, self.steps),
-        )
-        pairs, previous = self._pairs_at(mesh, index), self._pairs_at(mesh, index_before)
-        if cycle != earlier:
-            # Passing the end of a cycle every pair's index rises by one.
-            passed = int(cycle - earlier)
-            previous = tuple(
-                replace(pair, place=replace(pair.place, index=pair.place.index + passed)) for pair in previous
+    def _build(self, steps: Sequence[tuple[float, float]]) -> list[Position]:
+        """The positions at some steps, each after the one before it."""
+        found: list[Position] = []
+        for mesh, own in groupby(steps, lambda step: self._mesh_at(step[0])):
+            found += self._built_of(mesh, list(own))
+        return found
+
+    def _built_of(self, mesh: Mesh, steps: list[tuple[float, float]]) -> list[Position]:
+        """The same, all of one mesh."""
+        indices = [(step % self.steps, before % self.steps) for step, before in steps]
+        pairs_at = self._pairs_at((mesh.nodes, index) for both in indices for index in both)
+        pairs, previous = [], []
+        for (step, before), (index, index_before) in zip(steps, indices):
+            pairs.append(pairs_at[mesh.nodes, index])
+            earlier, cycles = pairs_at[mesh.nodes, index_before], int(step // self.steps - before // self.steps)
+            if cycles:
+                # Passing the end of a cycle every pair's index rises by one.
+                earlier = tuple(
+                    replace(pair, place=replace(pair.place, index=pair.place.index + cycles)) for pair in earlier
+                )
+            previous.append(earlier)
+        same = nodes_before(list(zip(pairs, previous)), self.grid.spacing)
+        pitch = self.pair.pinion.angular_pitch
+        passages = [
+            Passage(
+                own, earlier if self.tangential else None, node_before, *index, pitch * (step - before) / self.steps
             )
-        node_before = nodes_before(pairs, previous, self.grid.spacing)
-        advance = self.pair.pinion.angular_pitch * (step - before) / self.steps
-        passage = Passage(pairs, previous if self.tangential else None, node_before, index, index_before, advance)
-        operator = contact_operator(self.pair, passage, self.coordinates, mesh.response(passage), self.face)
-        return Position(operator, node_before, index, mesh.nodes)
+            for own, earlier, node_before, index, (step, before) in zip(pairs, previous, same, indices, steps)
+        ]
+        operators = contact_operators(self.pair, passages, self.coordinates, mesh.responses(passages), self.face)
+        return [
+            Position(operator, passage.node_before, passage.index, mesh.nodes)
+            for operator, passage in zip(operators, passages)
+        ]
+
+    def _keep(self, built: dict[tuple[Mesh, float], Position]) -> None:
+        """Keep positions as far as there is room."""
+        # The first ones stay: marches go round and round, and would find none of the last ones again.
+        self._built |= {key: position for key, position in built.items() if self.kept.takes(position.bytes)}
 
     def _found(self, step: float) -> Position:
         """The position at a place in common, with the whole step before it as the one before: kept, or built."""
-        key = self._mesh_at(step), step % self.steps
+        key = (self.mesh if self.alike else self._mesh_at(step)), step % self.steps
         found = self._positions.get(key)
         if found is None:
-            built = self._built.get(key)
+            built = self._built.get(key) or self._held.get(key)
             if built is None:
-                built = self._build(step, ceil(step) - 1)
-                # The first ones stay: marches go round and round, and would find none of the last ones again.
-                if self.kept.takes(built.bytes):
-                    self._built[key] = built
+                (built,) = self._build([(step, ceil(step) - 1)])
+                self._keep({key: built})
             found = self._opened(built)
             if key in self._built:
                 self._positions[key] = found

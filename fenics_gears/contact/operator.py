@@ -14,20 +14,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from fenics_gears.geometry.pair import GearPair
-
 from .addresses import GAP, row_of
 from .face import Face
-from .kinematics import (
-    COORDINATES,
-    IN_THE_PLANE,
-    displacement_jacobian,
-    earlier_tangential_jacobian,
-    lines_of,
-    slip_of_rigid_flanks,
-    turned,
-)
-from .tooth_pair import DRIVE, Nodes, PairNodes, over_nodes, per_node
+from .kinematics import IN_THE_PLANE
+from .tooth_pair import DRIVE, Nodes, PairNodes, per_node
 
 if TYPE_CHECKING:
     from .formed_rows import FormedRows
@@ -165,47 +155,6 @@ class Response(NamedTuple):
     normal_lever_arms: tuple[np.ndarray, np.ndarray] | None = None
     previous_jacobian: np.ndarray | None = None
     sliding: np.ndarray | None = None
-
-
-def contact_operator(
-    gears: GearPair, passage: Passage, coordinates: list[int], response: Response, face: Face = IN_THE_PLANE
-) -> ContactOperator:
-    """The contact equations of nodes whose normal forces act along their pair's line; those of friction too where the
-    passage has previous nodes.
-
-    `coordinates`: which of COORDINATES are unknowns; those beyond, at the end, are of shafts, and move no contact.
-    """
-    pairs, frictional = passage.pairs, passage.previous is not None
-    radii = gears.pinion.base_radius, gears.wheel.base_radius
-    lines, angles = lines_of(pairs, radii), turned(gears, passage.advance)
-    arms, slip, before, earlier = response.normal_lever_arms or lines.lever_arms, None, None, response.previous_jacobian
-    if frictional:
-        slip, before = slip_of_rigid_flanks(lines, angles), response.previous_compliance
-        if isinstance(before, np.ndarray):
-            before = np.asfortranarray(before)
-        if earlier is None:
-            earlier = earlier_tangential_jacobian(lines, radii, angles, face)
-        earlier = _of_unknowns(earlier, coordinates)
-    return ContactOperator(
-        pairs=pairs,
-        base_radii=radii,
-        normal_lever_arms=arms,
-        compliance=response.compliance,  # type: ignore[arg-type]
-        jacobian=_of_unknowns(displacement_jacobian(pairs, radii, arms, frictional, lines, face), coordinates),
-        gap=over_nodes(pairs, "gap") * face.cosine,
-        rigid_slip=slip,
-        previous_compliance=before,  # type: ignore[arg-type]
-        previous_jacobian=earlier,
-        dependent_rows=response.dependent_rows,
-        face=face,
-        sliding=response.sliding,
-        coordinates=len(coordinates),
-    )
-
-
-def _of_unknowns(rows: np.ndarray, coordinates: list[int]) -> np.ndarray:
-    """The columns of those coordinates that contact moves."""
-    return rows.take([each for each in coordinates if each < len(COORDINATES)], axis=1)
 
 
 # Of an operator whose rows are formed when nodes are closed.

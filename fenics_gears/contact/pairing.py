@@ -8,10 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.linalg.lapack import dpstrf
 
-from .compliance_product import compliance_product, directions
+from .compliance_product import NO_FLANK, OWN, compliance_products, directions
 from .kinematics import turned
 from .operator import Passage, Response
-from .tooth_pair import Flanks, Place, ToothPair, count_of
+from .tooth_pair import Flanks, ToothPair, count_of
 
 # Nodes that coincide, or more nodes on an element than it has degrees of freedom, yield together: elasticity does not
 # determine how they share a force. Each node then gets a thin elastic layer of its own, and nodes that coincide share
@@ -39,11 +39,8 @@ def of_full_rank(compliance: np.ndarray) -> tuple[np.ndarray, int]:
     return compliance + LAYER * compliance.diagonal().max() * np.eye(len(compliance)), dependent
 
 
-# A flank of a gear, by its tooth's place and its side; contact nodes as `compliance_product` takes them, and none of
-# them.
+# A flank of a gear, by its tooth's place and its side.
 _Flank = tuple[int, int]
-_Nodes = tuple[int, np.ndarray, np.ndarray, np.ndarray]
-NO_NODES: _Nodes = (0, np.empty((0, 1)), np.empty(0, dtype=np.int64), np.eye(2))
 
 
 class CompliancePairing:
@@ -53,14 +50,16 @@ class CompliancePairing:
         """`blocks`: of either gear, by pairs of teeth, which pairings of the same bodies may share."""
         self.flanks, self._gears, self._blocks = flanks, flanks.compliance, blocks or ({}, {})
 
-    def response(self, passage: Passage) -> Response:
-        """How the contact nodes of a passage yield."""
-        angles = turned(self.flanks.pair, passage.advance)
-        compliance, before = self.compliance(passage.pairs, passage.previous, angles)
-        compliance, dependent = of_full_rank(compliance)
-        return Response(compliance, before, dependent)
+    def responses(self, passages: Sequence[Passage]) -> list[Response]:
+        """How the contact nodes of some passages yield, all with previous pairs or all without."""
+        found = []
+        for compliance, before in self.compliances(passages):
+            compliance, dependent = of_full_rank(compliance)
+            found.append(Response(compliance, before, dependent))
+        return found
 
-    def _block(self, gear: int, responding: _Flank, loaded: _Flank) -> np.ndarray:
+    def _block(self, gear: int, responding: _Flank, loaded: _Flank) -> tuple[int, int, int]:
+        """Address, size and columns of the compliance of one flank under forces on another."""
         body, blocks, teeth, sides = (
             self._gears[gear],
             self._blocks[gear],
@@ -69,66 +68,113 @@ class CompliancePairing:
         )
         key = body.key(*teeth), sides
         if key not in blocks:
-            blocks[key] = np.ascontiguousarray(body.between(*teeth, sides))
-        return blocks[key]
+            block = np.ascontiguousarray(body.between(*teeth, sides))
+            # With the block itself, which holds the memory.
+            blocks[key] = (block.ctypes.data, block.size, block.shape[1]), block
+        return blocks[key][0]
 
-    def compliance(
-        self,
-        pairs: Sequence[ToothPair],
-        previous: Sequence[ToothPair] | None = None,
-        turned: tuple[float, float] = (0.0, 0.0),
-    ) -> tuple[np.ndarray, np.ndarray | None]:
-        """Sum over both gears of `N A N^T`, mm/N: C (m, m) between the nodes of `pairs`, and E (n, m before) by forces
-        on those of `previous`.
+    def compliances(self, passages: Sequence[Passage]) -> list[tuple[np.ndarray, np.ndarray | None]]:
+        """Sum over both gears of `N A N^T`, mm/N, at the end of each passage: C (m, m) between the nodes of its pairs,
+        and E (n, m before) by forces on those of the previous ones.
 
-        With `previous`, the pairs a step before, there are tangential rows, and E is the displacement along the tangent
-        that the material points had while the gears stood `turned` (rad, of either one) before. E is None without.
+        With previous pairs there are tangential rows, and E is the displacement along the tangent that the material
+        points had a step before. E is None without.
         """
-        tangential = previous is not None
-        kinds, nodes, nodes_before = 2 if tangential else 1, count_of(pairs), count_of(previous or ())
-        compliance, earlier = np.zeros((kinds, nodes, kinds, nodes)), np.zeros((1, nodes, 2, nodes_before))
-        for gear in range(2):
-            now, before = (_nodes_of(each, gear, tangential) for each in (pairs, previous or ()))
-            loads = _matched(now, before)
-            for pair, (flank, own) in zip(pairs, now):
-                row, near, first, axes = own
-                if tangential:
-                    axes = np.concatenate([axes, _earlier_tangent(pair.place, gear, turned)])
-                own = row, near, first, axes / self.flanks.pair.face_width
-                for other, loaded, loaded_before in loads:
-                    # The other half follows by symmetry.
-                    loaded = loaded if loaded[0] <= row else NO_NODES
-                    if len(loaded[2]) or len(loaded_before[2]):
-                        compliance_product(
-                            self._block(gear, flank, other), own, loaded, compliance, loaded_before, earlier
-                        )
-        rows = kinds * nodes
-        return compliance.reshape(rows, rows), earlier.reshape(nodes, 2 * nodes_before) if tangential else None
+        tangential, found, positions = passages[0].previous is not None, [], []
+        flanks, products, back, kinds = _FlankTable(), [], [], 2 if tangential else 1
+        for number, passage in enumerate(passages):
+            nodes, nodes_before = count_of(passage.pairs), count_of(passage.previous or ())
+            compliance, before = np.zeros((kinds * nodes, kinds * nodes)), np.zeros((2 * nodes_before, nodes))
+            positions.append((compliance.ctypes.data, before.ctypes.data, nodes, nodes_before))
+            found.append((compliance, before.T if tangential else None))
+            for gear, turn in enumerate(turned(self.flanks.pair, passage.advance)):
+                new = self._products(gear, flanks.of(passage.pairs, gear), flanks.of(passage.previous or (), gear))
+                products += [(number, *each) for each in new]
+                back += [turn] * len(new)
+        if products:
+            tables = np.array(positions), flanks.table, np.array(products)
+            responding = flanks.responding(tables[2][:, OWN], np.array(back), tangential)
+            axes = flanks.axes(tangential)
+            compliance_products(
+                tables, np.concatenate(flanks.near), np.concatenate(flanks.first), axes,
+                responding / self.flanks.pair.face_width,
+            )  # fmt: skip
+        return found
+
+    def _products(self, gear: int, now: list[_Seen], before: list[_Seen]) -> list[tuple[int, ...]]:
+        """What is to be multiplied of a gear at a position, as `compliance_products` takes it: responding flanks by the
+        flanks that are loaded now or were a step before."""
+        loads, found = _matched(now, before), []
+        for flank, own, place in now:
+            for other, loaded, at, loaded_before, at_before in loads:
+                if at > place:
+                    # By symmetry.
+                    loaded = NO_FLANK
+                if loaded != NO_FLANK or loaded_before != NO_FLANK:
+                    block = self._block(gear, flank, other)
+                    found.append((*block, own, loaded, loaded_before, place, at, at_before))
+        return found
 
 
-def _nodes_of(pairs: Sequence[ToothPair], gear: int, tangential: bool) -> list[tuple[_Flank, _Nodes]]:
-    """The flank of each pair, its contact nodes, and the directions of forces on them: e_x, and e_y where friction asks
-    for it."""
-    found, start = [], 0
-    for pair in pairs:
-        view, place = pair.interpolation[gear], pair.place
-        axes = directions(place.contact_rolls[gear], tangential)
-        found.append(((place.ahead(gear), place.flank), (start, view.near, view.first, axes)))
-        start += len(view.near)
-    return found
+# A flank, its number in a _FlankTable, and the place of its first contact node among all at a position.
+_Seen = tuple[_Flank, int, int]
 
 
-def _matched(
-    now: list[tuple[_Flank, _Nodes]], before: list[tuple[_Flank, _Nodes]]
-) -> list[tuple[_Flank, _Nodes, _Nodes]]:
-    """Contact nodes now and a step before that are on the same flank, and those that have none beside them."""
+def _matched(now: list[_Seen], before: list[_Seen]) -> list[tuple[_Flank, int, int, int, int]]:
+    """Flanks that are loaded now, with those that were a step before beside the same ones, or NO_FLANK; and those that
+    have none beside them."""
     left, found = list(before), []
-    for flank, nodes in now:
-        same = next((place for place, (other, _) in enumerate(left) if other == flank), None)
-        found.append((flank, nodes, NO_NODES if same is None else left.pop(same)[1]))
-    return found + [(flank, NO_NODES, nodes) for flank, nodes in left]
+    for flank, *seen in now:
+        same = next((place for place, (other, *_) in enumerate(left) if other == flank), None)
+        found.append((flank, *seen, *((NO_FLANK, 0) if same is None else left.pop(same)[1:])))
+    return found + [(flank, NO_FLANK, 0, *seen) for flank, *seen in left]
 
 
-def _earlier_tangent(place: Place, gear: int, turned: tuple[float, float]) -> np.ndarray:
-    """e_y (1, 2) at the material point as it stood `turned` (rad, of either gear) before: that tooth's frame then."""
-    return directions(place.contact_rolls[gear] - place.turn * turned[gear], True)[1:]
+class _FlankTable:
+    """Flanks with contact nodes as `compliance_products` takes them, each once, at however many positions it is asked
+    for."""
+
+    def __init__(self):
+        self.near: list[np.ndarray] = []
+        self.first: list[np.ndarray] = []
+        self._numbers: dict[int, int] = {}
+        self._found: dict[tuple[int, int], list[_Seen]] = {}
+        self._sizes: list[tuple[int, int, float, float]] = []
+
+    def of(self, pairs: Sequence[ToothPair], gear: int) -> list[_Seen]:
+        """Those of a gear at a position, whose pairs are held as long as this table is."""
+        found = self._found.setdefault((id(pairs), gear), [])
+        if found:
+            return found
+        start = 0
+        for pair in pairs:
+            view, place = pair.interpolation[gear], pair.place
+            number = self._numbers.get(id(view))
+            if number is None:
+                number = self._numbers[id(view)] = len(self.near)
+                self.near.append(view.near.ravel())
+                self.first.append(view.first)
+                self._sizes.append((*view.near.shape, place.contact_rolls[gear], place.turn))
+            found.append(((place.ahead(gear), place.flank), number, start))
+            start += len(view.near)
+        return found
+
+    @property
+    def table(self) -> np.ndarray:
+        """Of each flank (flanks, 4) where its weights begin, how many a node has, where its first flank nodes begin and
+        how many contact nodes there are."""
+        counts, widths = np.array([size[:2] for size in self._sizes], dtype=np.int64).T
+        return np.stack([np.cumsum(counts * widths) - counts * widths, widths, np.cumsum(counts) - counts, counts], 1)
+
+    def axes(self, tangential: bool) -> np.ndarray:
+        """Directions (flanks, 1 or 2, 2) of forces on each flank, in the tooth's frame."""
+        return directions(np.array([size[2] for size in self._sizes]), tangential)
+
+    def responding(self, numbers: np.ndarray, back: np.ndarray, tangential: bool) -> np.ndarray:
+        """Directions of the displacement of flanks of these numbers (p,); the tangent also as it stood (p, 1 or 3, 2),
+        when their gears stood `back` (p,), rad."""
+        rolls, turns = (np.array([size[at] for size in self._sizes])[numbers] for at in (2, 3))
+        now = directions(rolls, tangential)
+        if not tangential:
+            return now
+        return np.concatenate([now, directions(rolls - turns * back, True)[:, 1:]], axis=1)

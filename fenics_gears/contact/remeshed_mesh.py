@@ -49,8 +49,8 @@ def remeshed_mesh(
     return Mesh(
         pair,
         ContactGrid(grid.length, order * (grid.nodes - 1) + 1),
-        lambda phase: pairs[round(phase * len(pairs))],
-        gears.response,
+        lambda phases: [pairs[round(phase * len(pairs))] for phase in phases],
+        lambda passages: [gears.response(passage) for passage in passages],
         PublishedSolver(coordinates, gears.stiffness),
         MeshTraits(own_solver=True),
     )

@@ -30,10 +30,11 @@ def rigid_mesh(
     return Mesh(
         pair,
         grid,
-        lambda phase: nodes_at(
-            pair_places(pair, grid, phase, coast_flanks), lambda place: _nodes(pair, removal, grid, place)
-        ),
-        lambda passage: _response(pair, passage),
+        lambda phases: [
+            nodes_at(pair_places(pair, grid, phase, coast_flanks), lambda place: _nodes(pair, removal, grid, place))
+            for phase in phases
+        ],
+        lambda passages: [_response(pair, passage) for passage in passages],
         solve_rigid,
         MeshTraits(has_pressure=False, rigid=True),
         coast_flanks=coast_flanks,
@@ -60,7 +61,8 @@ def _response(pair: GearPair, passage: Passage) -> Response:
         return Response(np.zeros((nodes, nodes)))
     lines = lines_of(passage.pairs, (pair.pinion.base_radius, pair.wheel.base_radius))
     sliding = np.sign(lines.turn * sliding_per_rotation(pair, lines.friction_arms[0]))
-    before = np.zeros((nodes, 2 * count_of(passage.previous)))
+    # By columns, as it is stored.
+    before = np.zeros((2 * count_of(passage.previous), nodes)).T
     return Response(np.zeros((2 * nodes, 2 * nodes)), before, sliding=sliding)
 
 

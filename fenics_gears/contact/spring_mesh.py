@@ -53,8 +53,8 @@ def spring_mesh(pair: GearPair, springs: Springs, levels: int, coast_flanks: boo
     return Mesh(
         pair,
         ContactGrid(APART * max(levels - 1, 1), max(levels, 2)),
-        lambda phase: tuple(_nodes(pair, each, phase) for each in springs(phase)),
-        _response,
+        lambda phases: [tuple(_nodes(pair, each, phase) for each in springs(phase)) for phase in phases],
+        lambda passages: [_response(passage) for passage in passages],
         traits=MeshTraits(divisible=True, nodes_on_flanks=False, has_pressure=False),
         coast_flanks=coast_flanks,
     )

@@ -110,8 +110,8 @@ class PairNodes:
     pinion_roll: np.ndarray
 
 
-# Contact nodes of the tooth pairs that can touch at a phase (0 <= phase < 1).
-Nodes = Callable[[float], tuple[PairNodes, ...]]
+# Contact nodes of the tooth pairs that can touch at each of some phases (0 <= phase < 1).
+Nodes = Callable[[Sequence[float]], list[tuple[PairNodes, ...]]]
 
 
 @dataclass(frozen=True)

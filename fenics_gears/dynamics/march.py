@@ -225,7 +225,8 @@ class Marcher(Stepper):
     ) -> Record:
         """As `_plain_block`, many steps in each call of compiled code; steps that Newton's method does not solve at
         once are plain ones."""
-        positions = [last.position, *(self.cycle.position(step) for step in numbers)]
+        self.cycle.build(numbers)
+        positions = [last.position, *map(self.cycle.position, numbers)]
         steps = Steps.to_solve([last.step, *numbers], positions, len(self.drivetrain.coordinates), NEWTON)
         steps.put(0, last)
         durations, known = np.zeros(len(steps)), self._all_known_before(steps)

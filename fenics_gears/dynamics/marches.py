@@ -54,6 +54,7 @@ class Marches:
         self._alone: dict[int, Stepper] = {}
         self.friction, self.solved, self.first = self._stepper.friction, np.ones(len(equations), dtype=bool), 0
         self._numbers = np.arange(steps + 1)
+        cycle.build(range(cycle.steps))
         positions = [cycle.position(step) for step in range(cycle.steps)]
         self._gaps, table = opened.of_steps(positions), table_of(positions)
         ends = np.cumsum(table[:, NODES])

@@ -52,6 +52,7 @@ def mean_equilibrium(
 
     Raises ContactNotConverged.
     """
+    cycle.build(range(cycle.steps))
     positions = [cycle.position(step) for step in range(cycle.steps)]
     held = _holder(cycle, friction, tolerance, slid)
     coordinates = first

@@ -113,8 +113,10 @@ class Stepper:
             middle = self._static_start(0)
             self.remember(0, middle.solution.status)
             return middle
-        neighbours = [self._static_start(-1)]
-        for step in (0, 1) if self.dynamic.inert else (0,):
+        steps = (-1, 0, 1) if self.dynamic.inert else (-1, 0)
+        self.cycle.build(steps)
+        neighbours = [self._static_start(steps[0])]
+        for step in steps[1:]:
             neighbours.append(self.step(self.static, neighbours[-1], step))
         middle = neighbours[1]
         if not self.dynamic.inert:

@@ -39,13 +39,14 @@ def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
     """Forces of the whole mesh at consecutive steps, on drive and coast flanks, and their reactions on both gears'
     centres."""
     steps, drive = nodes.steps, nodes.drive
-    reactions = _summed(nodes.of("rows_of_normals"), nodes.normal, nodes.layouts.starts)
+    layouts = nodes.layouts
+    reactions = _summed(layouts.known["rows_of_normals"], layouts.places, nodes.normal, layouts.starts)
 
     def of_gears(rows: np.ndarray) -> np.ndarray:
         return rows.reshape(2, 3, len(steps)).transpose(1, 2, 0)
 
     if nodes.tangential is not None:
-        reactions += _summed(nodes.of("rows_of_tangents"), nodes.tangential, nodes.layouts.starts)
+        reactions += _summed(layouts.known["rows_of_tangents"], layouts.places, nodes.tangential, layouts.starts)
     reaction_x, reaction_y, reaction_couple = of_gears(reactions[:6])
     values = normal_forces(scene, nodes) | {
         "reaction_x": reaction_x,
@@ -75,15 +76,15 @@ def normal_forces(scene: Scene, nodes: SideBySide) -> Values:
 
 
 @njit(cache=True)
-def _summed(rows, forces, starts):
-    """Sums (rows, s) of rows (rows, N) times forces (N,) over the nodes of each step."""
+def _summed(rows, places, forces, starts):
+    """Sums (rows, s) of rows (rows, n) at places (N,) times forces (N,) over the nodes of each step."""
     sums = np.zeros((len(rows), len(starts) - 1))
     for s in range(len(starts) - 1):
         for node in range(starts[s], starts[s + 1]):
             # Few nodes are loaded.
             if forces[node] != 0.0:
                 for row in range(len(rows)):
-                    sums[row, s] += rows[row, node] * forces[node]
+                    sums[row, s] += rows[row, places[node]] * forces[node]
     return sums
 
 

@@ -23,7 +23,7 @@ from fenics_gears.dynamics.steps import Steps, forces_at, in_block, nodes_at, op
 from fenics_gears.model.model import Model
 from fenics_gears.model.modification import kinks
 
-from .side_by_side import SideBySide
+from .side_by_side import Layouts, SideBySide
 
 
 @njit(cache=True)
@@ -77,12 +77,14 @@ def _highest(overlap, node_pair):
 def _tangent(contact, nodes):
     """Force (N) on some nodes when all of them approach by 1 mm; over a face by what the march factored, where they are
     all that are closed."""
-    compliance, n, approach, nothing = contact.compliance, len(contact.gap), np.ones(len(nodes)), np.empty(0)
-    still, unmoved = np.eye(1), np.zeros((n, 1))
-    equations = Equations(still, np.zeros(1), compliance, unmoved, contact.gap, nothing, 0.0, nothing, contact.rows)
-    iterate = Iterate(np.empty(0, dtype=np.int8), np.zeros(n), np.zeros(1), nothing)
-    if solve_factored(equations, iterate, nodes, nothing, -approach):
-        return iterate.forces.sum()
+    compliance, n, approach = contact.compliance, len(contact.gap), np.ones(len(nodes))
+    # In the plane nothing is factored.
+    if contact.rows != 0:
+        still, unmoved, nothing = np.eye(1), np.zeros((n, 1)), np.empty(0)
+        equations = Equations(still, np.zeros(1), compliance, unmoved, contact.gap, nothing, 0.0, nothing, contact.rows)
+        iterate = Iterate(np.empty(0, dtype=np.int8), np.zeros(n), np.zeros(1), nothing)
+        if solve_factored(equations, iterate, nodes, nothing, -approach):
+            return iterate.forces.sum()
     # `solve_sets` would be compiled, and loaded by each run, once more.
     matrix = system_of(len(nodes))
     for i in range(len(nodes)):
@@ -176,9 +178,16 @@ class EdgesAndKinks:
             rolls += [(gear.form_roll_angle, EDGE)] if gear.undercut else []
             self._places += [_Place(number, 0.5 * gear.base_radius * roll**2, kind) for roll, kind in rolls]
         self._places.sort(key=lambda place: place.kind)
+        # Most blocks of a march stand at the same positions.
+        self._last: tuple[Layouts | None, np.ndarray] = None, np.empty(0)
 
     def beside(self, nodes: SideBySide) -> np.ndarray:
         """What each contact node (N,) is beside: NOTHING, KINK or EDGE. Reliefs are of drive flanks alone."""
+        if self._last[0] is not nodes.layouts:
+            self._last = nodes.layouts, self._beside(nodes)
+        return self._last[1]
+
+    def _beside(self, nodes: SideBySide) -> np.ndarray:
         found, arcs = np.full(len(nodes.step), NOTHING), nodes.of("arcs")
         for place in self._places:
             near = np.abs(arcs[place.gear] - place.arc) <= REACH[place.kind] * self.half_width

@@ -8,19 +8,19 @@ from functools import cached_property
 
 import numpy as np
 
-from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.kinematics import CENTRE_COORDINATES, COORDINATES, displacement_jacobian
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import ContactOperator, Position
-from fenics_gears.contact.tooth_pair import DRIVE, Nodes, node_ends, node_slices, over_nodes, per_node
+from fenics_gears.contact.tooth_pair import DRIVE, Nodes, flank_points, node_ends, over_nodes, per_node
 from fenics_gears.contact.window import ends_of
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.geometry.pair import GearPair
 
 
-class Layout:
-    """What belongs to the contact nodes (n,) of a position of the gears, whatever the step.
+def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool) -> dict[str, np.ndarray]:
+    """What belongs to the contact nodes (n,) of some positions of the gears, one position's after the other's, whatever
+    the step. All in one go: of a position by itself Python takes several times what its numbers do.
 
     `index`: of the node's tooth pair at the position; `node`: its place in that pair; `drive`: whether it is on a drive
     flank; `slice`: of the face; `at_end`: whether it stands on an end of the window; `on_edge` (4, n): on the edge of
@@ -28,28 +28,32 @@ class Layout:
     n): where it touches the pinion's and the wheel's flank, mm along the involute from the base circle;
     `rows_of_normals` (6, n) and `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force
     (x, y), N, and torque, N mm; over a face (12, n), with the axial force, N, and the moments about x and y, N mm, of
-    both gears after these. `dependent_rows`: as of a ContactOperator.
+    both gears after these.
     """
-
-    def __init__(self, operator: ContactOperator, cycle: Cycle, tangential: bool):
-        pairs, self.dependent_rows = operator.pairs, operator.dependent_rows
-        counts = [len(pair.offsets) for pair in pairs]
-        self.index = per_node(pairs, np.array([pair.place.index for pair in pairs], dtype=int))
-        self.node = np.concatenate([np.arange(count) for count in counts] or [np.empty(0, dtype=int)])
-        self.drive = per_node(pairs, np.array([pair.place.flank == DRIVE for pair in pairs], dtype=bool))
-        self.slice = per_node(pairs, np.array([pair.place.slice for pair in pairs], dtype=int))
-        lengths, self.offsets, self.rolls = (over_nodes(pairs, name) for name in ("lengths", "offsets", "pinion_roll"))
-        self.area = lengths * operator.face.contact_widths[self.slice]
-        self.at_end = np.abs(self.offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
-        rolls = np.array([pair.place.contact_rolls for pair in pairs]).reshape(-1, 2).T
-        ends, of_flanks = node_ends(pairs), ends_of(cycle.pair, rolls)
-        if cycle.grid.inner_length is not None:
-            self.at_end |= _at_inner_end(cycle, self.offsets, ends, of_flanks)
-        self.on_edge = self.arcs = None
-        if cycle.traits.has_pressure:
-            self.on_edge, self.arcs = _on_edges(cycle, pairs, ends, of_flanks), _arcs(cycle.pair, pairs)
-        rows, nodes = _reaction_rows(operator, tangential), operator.nodes
-        self.rows_of_normals, self.rows_of_tangents = rows[:, :nodes], rows[:, nodes:]
+    pairs, face = [pair for operator in operators for pair in operator.pairs], operators[0].face
+    ends, offsets = node_ends(pairs), over_nodes(pairs, "offsets")
+    places = np.array([(pair.place.index, pair.place.flank, pair.place.slice) for pair in pairs], dtype=int)
+    index, flank, number = per_node(pairs, places.reshape(-1, 3)).T
+    rolls = np.array([pair.place.contact_rolls for pair in pairs]).reshape(-1, 2).T
+    of_flanks, at_end = ends_of(cycle.pair, rolls), np.abs(offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
+    if cycle.grid.inner_length is not None:
+        at_end |= _at_inner_end(cycle, offsets, ends, of_flanks)
+    found = {
+        "index": index,
+        "node": np.arange(len(offsets)) - np.repeat(ends[:-1], np.diff(ends)),
+        "drive": flank == DRIVE,
+        "slice": number,
+        "offsets": offsets,
+        "rolls": over_nodes(pairs, "pinion_roll"),
+        "area": over_nodes(pairs, "lengths") * face.contact_widths[number],
+        "at_end": at_end,
+    }
+    if cycle.traits.has_pressure:
+        found["on_edge"] = _on_edges(cycle, pairs, ends, of_flanks)
+        found["arcs"] = _arcs(cycle.pair, pairs, np.ascontiguousarray(rolls), offsets, ends)
+    rows = _reaction_rows(operators, pairs, tangential)
+    normals, tangents = (np.ascontiguousarray(part) for part in np.split(rows, [len(offsets)], axis=1))
+    return found | {"rows_of_normals": normals, "rows_of_tangents": tangents}
 
 
 def _at_inner_end(cycle: Cycle, offsets: np.ndarray, ends: np.ndarray, of_flanks: np.ndarray) -> np.ndarray:
@@ -84,26 +88,23 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
     return found
 
 
-def _arcs(gears: GearPair, pairs) -> np.ndarray:
+def _arcs(gears: GearPair, pairs, contact_rolls: np.ndarray, offsets: np.ndarray, ends: np.ndarray) -> np.ndarray:
     """Arcs (2, n) of contact nodes along both flanks; not a number off the line of action, where corners touch."""
-    found = np.full((2, sum(len(pair.offsets) for pair in pairs)), np.nan)
-    radii = gears.pinion.base_radius, gears.wheel.base_radius
-    for pair, nodes in zip(pairs, node_slices(pairs)):
-        if pair.place.line is None:
-            for row, radius, roll, side in zip(found, radii, pair.place.contact_rolls, (-1.0, 1.0)):
-                row[nodes] = 0.5 * radius * roll_angle_at_height(radius, roll, radius + side * pair.offsets) ** 2
-    return found
+    radii = np.array([[gears.pinion.base_radius], [gears.wheel.base_radius]])
+    rolls, _ = flank_points(gears, contact_rolls, radii.repeat(len(pairs), axis=1), offsets, ends)
+    by_line = per_node(pairs, np.array([pair.place.line is None for pair in pairs], dtype=bool))
+    return np.where(by_line, 0.5 * radii * np.array(rolls) ** 2, np.nan)
 
 
-def _reaction_rows(operator: ContactOperator, tangential: bool) -> np.ndarray:
+def _reaction_rows(operators: Sequence[ContactOperator], pairs, tangential: bool) -> np.ndarray:
     """-G^T of all coordinates of both centres, rotations as torques."""
-    rows = displacement_jacobian(
-        operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential, face=operator.face
-    ).T
-    units = np.concatenate([[1.0, 1.0, radius] for radius in operator.base_radii])
+    radii, face = operators[0].base_radii, operators[0].face
+    first, second = (np.concatenate([each.normal_lever_arms[gear] for each in operators]) for gear in (0, 1))
+    rows = displacement_jacobian(pairs, radii, (first, second), tangential, face=face).T
+    units = np.concatenate([[1.0, 1.0, radius] for radius in radii])
     if len(rows) > len(CENTRE_COORDINATES):
         rows = rows[[name != "shaft_twist" for name in COORDINATES]]
-        units = np.concatenate([units, *([1.0, radius, radius] for radius in operator.base_radii)])
+        units = np.concatenate([units, *([1.0, radius, radius] for radius in radii)])
     return -rows[: len(units)] * units[:, None]
 
 
@@ -111,21 +112,25 @@ MOST_TIMES_JOINED = 8
 
 
 class Layouts:
-    """The layouts of consecutive positions side by side (N,), joined once for each block of the mesh cycle."""
+    """The contact nodes of consecutive positions side by side (N,), joined once for each block of the mesh cycle.
 
-    def __init__(self, layouts: Sequence[Layout], kinds: int):
-        counts = [len(layout.node) for layout in layouts]
-        self.layouts, self.starts = layouts, np.cumsum([0, *counts])
-        self.step = np.repeat(np.arange(len(layouts)), counts)
-        self.dependent_rows = np.array([layout.dependent_rows for layout in layouts])
+    `known`: the layout of nodes that hold those of each position, which begin and end there at `parts` (s, 2);
+    `places` (N,): of all of these nodes there.
+    """
+
+    def __init__(self, known: dict[str, np.ndarray], parts: np.ndarray, dependent_rows: np.ndarray, kinds: int):
+        counts = parts[:, 1] - parts[:, 0]
+        self.starts, self.dependent_rows = np.concatenate(([0], np.cumsum(counts))), dependent_rows
+        self.step = np.repeat(np.arange(len(counts)), counts)
         # Where the normal forces stand among all forces, a step's normals before its tangents.
         self.normal = np.arange(len(self.step)) + (kinds - 1) * np.repeat(self.starts[:-1], counts)
         self.tangential = self.normal + np.repeat(counts, counts)
+        self.known, self.places = known, np.arange(len(self.step)) + np.repeat(parts[:, 0] - self.starts[:-1], counts)
         self._joined: dict[str, np.ndarray] = {}
 
     def of(self, name: str) -> np.ndarray:
         if name not in self._joined:
-            self._joined[name] = np.concatenate([getattr(layout, name) for layout in self.layouts], axis=-1)
+            self._joined[name] = self.known[name].take(self.places, axis=-1)
         return self._joined[name]
 
 
@@ -138,24 +143,32 @@ class KnownLayouts:
     (`Cycle.beside`)."""
 
     def __init__(self):
-        self._layouts: dict[_Key, Layout] = {}
+        self._layout: dict[str, np.ndarray] = {}
+        # Where the nodes of each position begin and end, and its dependent rows.
+        self._parts: dict[_Key, tuple[int, int, int]] = {}
         self._joined: dict[tuple[_Key, ...], Layouts] = {}
 
     def joined(self, cycle: Cycle, steps: Steps) -> Layouts:
         key = tuple([(position.nodes, position.index) for position in steps.positions])
         if key not in self._joined:
-            layouts = [self._layout(cycle, *each, steps.kinds) for each in zip(key, steps.positions)]
-            self._joined[key] = Layouts(layouts, steps.kinds)
+            new = {each: position for each, position in zip(key, steps.positions) if each not in self._parts}
+            if new:
+                self._add(cycle, new, steps.kinds)
+            parts = np.array([self._parts[each] for each in key])
+            self._joined[key] = Layouts(self._layout, parts[:, :2], parts[:, 2], steps.kinds)
         return self._joined[key]
 
-    def _layout(self, cycle: Cycle, key: _Key, position: Position, kinds: int) -> Layout:
-        if key not in self._layouts:
-            self._layouts[key] = Layout(position.operator, cycle, kinds == 2)
-        return self._layouts[key]
+    def _add(self, cycle: Cycle, new: dict[_Key, Position], kinds: int) -> None:
+        operators, known = [position.operator for position in new.values()], self._layout
+        more, end = layout(operators, cycle, kinds == 2), len(known["node"]) if known else 0
+        self._layout = {name: np.concatenate([known[name], more[name]], axis=-1) for name in more} if known else more
+        for key, operator in zip(new, operators):
+            self._parts[key] = end, end + operator.nodes, operator.dependent_rows
+            end += operator.nodes
 
     def forget_beyond(self, positions: int) -> None:
         """Forget all where more are known than so many, as where steps were divided at positions of their own."""
-        if len(self._layouts) > positions or sum(map(len, self._joined)) > MOST_TIMES_JOINED * positions:
+        if len(self._parts) > positions or sum(map(len, self._joined)) > MOST_TIMES_JOINED * positions:
             self.__init__()
 
 

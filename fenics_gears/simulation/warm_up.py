@@ -9,7 +9,7 @@ from functools import cache
 
 import numpy as np
 
-from fenics_gears.contact.compliance_product import compliance_product
+from fenics_gears.contact.compliance_product import NO_FLANK, compliance_products
 from fenics_gears.contact.flank_at_height import points_of_pairs, roll_angle_at_height
 from fenics_gears.contact.interpolation import (
     AVERAGED,
@@ -50,11 +50,14 @@ def _run_once(tangential: bool, rigid: bool) -> None:
     seen_gap(view, offsets, ends, view.places(offsets, ends))
     points_of_pairs(40.0, 1.0, np.array([0.5]), np.array([40.0]), offsets, ends)
     node_offsets(((-0.1, -0.2), (0.1, 0.2)), ContactGrid(1.0, 5))
-    kinds = 2 if tangential else 1
-    seen, earlier = (0, interpolation.near, interpolation.first), np.zeros((1, 2, kinds, 2))
+    kinds, near = 2 if tangential else 1, np.ravel(interpolation.near)
     # With friction also along the tangent as it stood before.
-    responding, loaded = (*seen, np.ones((2 * kinds - 1, 2))), (*seen, np.ones((kinds, 2)))
-    compliance_product(np.eye(10), responding, loaded, np.zeros((kinds, 2, kinds, 2)), loaded, earlier)
+    block, results = np.eye(10), np.zeros((2, 2 * kinds, 2 * kinds))
+    positions = np.array([[results[0].ctypes.data, results[1].ctypes.data, 2, 2]])
+    flanks = np.array([[0, interpolation.near.shape[1], 0, 2]])
+    products = np.array([[0, block.ctypes.data, block.size, 10, 0, 0, 0 if tangential else NO_FLANK, 0, 0, 0]])
+    axes, responding = np.ones((1, kinds, 2)), np.ones((1, 2 * kinds - 1, 2))
+    compliance_products((positions, flanks, products), near, interpolation.first, axes, responding)
     node, row, tolerance = np.zeros(1), np.eye(kinds, 1), Tolerance.of_load(1.0)
     slip = np.ones(1) if tangential else np.empty(0)
     problem = StepProblem(np.eye(1), np.ones(1), np.eye(kinds), row, node, slip, 0.1, np.empty(0), tolerance)
@@ -63,7 +66,7 @@ def _run_once(tangential: bool, rigid: bool) -> None:
     pair = PairNodes(place, node, node, node, node, node, node)
     earlier = (node, np.zeros((1, kinds)), np.zeros((1, 1))) if tangential else (None, None, None)
     operator = ContactOperator((pair,), (1.0, 1.0), (node, node), np.eye(kinds), row, node, *earlier)
-    position = Position(operator, nodes_before((pair,), (pair,), 0.1))
+    position = Position(operator, nodes_before([((pair,), (pair,))], 0.1)[0])
     steps = Steps.to_solve(range(2), [position] * 2, 1, NEWTON)
     drivetrain = Drivetrain(("rotation_2",), np.ones(1), np.eye(1), np.ones(1), np.eye(1), None)
     solve_steps(

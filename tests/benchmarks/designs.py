@@ -64,9 +64,9 @@ def spent(model: Model, store: GearStore) -> list[float]:
     """User and kernel seconds of a run, operators built, positions asked for between steps, iterations."""
     counted, build, solve = [0, 0], Cycle._build, BetweenSteps._solve_each
 
-    def counting_built(*given):
-        counted[0] += 1
-        return build(*given)
+    def counting_built(cycle, ends):
+        counted[0] += len(ends)
+        return build(cycle, ends)
 
     def counting_places(between, places):
         counted[1] += len(places)

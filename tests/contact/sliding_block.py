@@ -25,6 +25,9 @@ class SlidingBlock:
         self.problem, self.steps, self.solved = problem, 100, []
         self.pair = SimpleNamespace(wheel=SimpleNamespace(tip_roll_angle=0.0))
 
+    def build(self, steps):
+        """Positions are made one by one."""
+
     def position(self, step):
         return self.between(step, step - 1)
 

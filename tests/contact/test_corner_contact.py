@@ -7,9 +7,9 @@ import pytest
 from tests.contact.outlines import centres, distance, placed, rotation_to_touch
 
 from fenics_gears.contact.corner import corner_contact, corner_pairs, corner_place
-from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh import contact_operators, elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import Passage, contact_operator
+from fenics_gears.contact.operator import Passage
 from fenics_gears.contact.tooth_pair import coast_place, drive_place, tooth_pairs
 from fenics_gears.contact.window import ContactGrid
 
@@ -64,7 +64,8 @@ def test_rigid_motions_change_the_gap_as_the_outlines_say(tip, radius, stand_in_
     cycle = Cycle(elastic_mesh(stand_in_flanks, GRID, corner), STEPS, ALL, tangential=False)
     pairs = tuple(corner_pairs(stand_in_flanks, GRID, corner, [place]))
     passage = Passage(pairs)
-    row = contact_operator(paper_pair, passage, ALL, cycle.mesh.response(passage)).jacobian[0]
+    (operator,) = contact_operators(paper_pair, [passage], ALL, cycle.mesh.responses([passage]))
+    row = operator.jacobian[0]
     radii, step, expected = (paper_pair.pinion.base_radius, paper_pair.wheel.base_radius), 1e-3, np.empty(6)
     for column in range(6):
         gear, axis = divmod(column, 3)

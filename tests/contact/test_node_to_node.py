@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.kinematics import CENTRE_COORDINATES
+from fenics_gears.contact.mesh import contact_operators
 from fenics_gears.contact.node_to_node import NodeResponse, node_pairs, node_to_node_response, roll_interpolation
-from fenics_gears.contact.operator import Passage, contact_operator
+from fenics_gears.contact.operator import Passage
 from fenics_gears.contact.tooth_pair import drive_place
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.ring import rotation
@@ -79,7 +80,7 @@ def last_displacement(pair, spacing_cells, steps=40):
     advance, was = pair.pinion.angular_pitch / steps, NodeResponse(before, soft[1])
     response = node_to_node_response(pair, NodeResponse(now, soft[0]), was, advance)
     passage = Passage(now, before, advance=advance)
-    operator = contact_operator(pair, passage, list(range(len(CENTRE_COORDINATES))), response)
+    (operator,) = contact_operators(pair, [passage], list(range(len(CENTRE_COORDINATES))), [response])
     return operator, now, before
 
 

@@ -47,7 +47,8 @@ class Mesh:
 
     def reactions(self, record):
         """Force, N, and moment, N mm, (x, y, z) of pinion and wheel on their shafts about their mid-widths."""
-        rows = _reaction_rows(record.position.operator, self.friction) @ record.solution.forces
+        operator = record.position.operator
+        rows = _reaction_rows([operator], operator.pairs, self.friction) @ record.solution.forces
         return [
             (
                 np.array([*rows[place : place + 2], rows[6 + place]]),

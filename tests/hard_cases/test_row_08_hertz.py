@@ -10,7 +10,8 @@ from tests.coarse import teeth_alone
 from tests.contact.problems import pressed as under
 
 from fenics_gears import model_of
-from fenics_gears.contact.operator import Passage, contact_operator
+from fenics_gears.contact.mesh import contact_operators
+from fenics_gears.contact.operator import Passage
 from fenics_gears.contact.pairing import CompliancePairing
 from fenics_gears.contact.tooth_pair import Flanks, drive_place, tooth_pairs
 from fenics_gears.contact.window import ContactGrid
@@ -69,7 +70,7 @@ def pressed(flanks, xi, force, spacing, length):
     cells = 2 * int(np.ceil(0.5 * length / spacing))
     (nodes,) = tooth_pairs(flanks, ContactGrid(cells * spacing, cells + 1), [drive_place(flanks.pair, 0, xi)])
     passage = Passage((nodes,))
-    operator = contact_operator(flanks.pair, passage, [5], CompliancePairing(flanks).response(passage))
+    (operator,) = contact_operators(flanks.pair, [passage], [5], CompliancePairing(flanks).responses([passage]))
     solution = under(operator, force)
     return nodes.offsets, solution.forces / (nodes.lengths * flanks.pair.face_width)
 

@@ -9,7 +9,8 @@ from tests.coarse_sector import relative
 from tests.contact.problems import pressed
 
 from fenics_gears import model_of, simulate
-from fenics_gears.contact.operator import Passage, contact_operator
+from fenics_gears.contact.mesh import contact_operators
+from fenics_gears.contact.operator import Passage
 from fenics_gears.contact.pairing import CompliancePairing
 from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, tooth_pairs
@@ -43,7 +44,7 @@ def approach(flanks, pairing, grid, phase, force, flank=DRIVE):
     places = pair_places(flanks.pair, grid, phase % 1.0, coast_flanks=flank == COAST)
     pairs = tuple(tooth_pairs(flanks, grid, [place for place in places if place.flank == flank]))
     passage = Passage(pairs)
-    operator = contact_operator(flanks.pair, passage, [5], pairing.response(passage))
+    (operator,) = contact_operators(flanks.pair, [passage], [5], pairing.responses([passage]))
     solution = pressed(operator, force)
     return solution.coordinates[0], solution.forces
 

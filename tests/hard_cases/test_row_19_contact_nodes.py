@@ -8,7 +8,8 @@ from tests.coarse import coarse_scene, frictionless, teeth_alone
 from tests.contact.problems import pressed
 
 from fenics_gears import model_of, simulate
-from fenics_gears.contact.operator import Passage, contact_operator
+from fenics_gears.contact.mesh import contact_operators
+from fenics_gears.contact.operator import Passage
 from fenics_gears.contact.pairing import CompliancePairing
 from fenics_gears.contact.tooth_pair import drive_place, tooth_pairs
 from fenics_gears.simulation.routes import prepared
@@ -29,13 +30,14 @@ def model(scene):
 
 @pytest.fixture(scope="module")
 def flanks(model):
-    return prepared(model, SilentProgress(), None)[1].mesh.response.__self__.flanks
+    return prepared(model, SilentProgress(), None)[1].mesh.responses.__self__.flanks
 
 
 def operator_of(flanks, pairs):
     """The contact equations of some tooth pairs."""
     passage = Passage(pairs)
-    return contact_operator(flanks.pair, passage, ROTATION_2, CompliancePairing(flanks).response(passage))
+    responses = CompliancePairing(flanks).responses([passage])
+    return contact_operators(flanks.pair, [passage], ROTATION_2, responses)[0]
 
 
 def only(operator, node):

@@ -24,7 +24,7 @@ def test_operators_that_are_not_kept_change_no_number(paper_scene, monkeypatch, 
     def preparation(model, progress, cache):
         gears, cycle = prepared(model, progress, cache)
         build = cycle._build
-        monkeypatch.setattr(cycle, "_build", lambda *ends: made.append(ends) or build(*ends))
+        monkeypatch.setattr(cycle, "_build", lambda ends: made.extend(ends) or build(ends))
         return gears, cycle
 
     operators = expected_cost(model_of(scene)).operators

@@ -121,7 +121,7 @@ def test_places_between_steps_are_built_once(paper_scene, monkeypatch):
     """Identity: a repeated run builds no position again."""
     store, count = GearStore(), []
     build = Cycle._build
-    monkeypatch.setattr(Cycle, "_build", lambda *given: count.append(given[1]) or build(*given))
+    monkeypatch.setattr(Cycle, "_build", lambda cycle, ends: count.extend(end for end, _ in ends) or build(cycle, ends))
     scene = replace(coarse_scene(paper_scene, cycles=1), friction=None, inertia=None, damping=None)
     first = simulate(scene, preparation=store.prepared)
     assert any(place != int(place) and in_common(place) for place in count) and len(set(count)) == len(count)
