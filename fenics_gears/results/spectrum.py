@@ -29,6 +29,8 @@ WINDOWS = {
 SIDEBANDS = 6
 # Of the largest force; what varies less is round-off.
 LEAST_VARIATION = 1e-6
+# An amplitude that is so small a part of the largest is none.
+ROUND_OFF = 1e-9
 
 
 @dataclass(frozen=True)
@@ -120,7 +122,9 @@ def sidebands(lines: OrderLines, teeth: tuple[int, int], harmonic: int) -> Sideb
     squares = {order: lines.square(order) for order in every}
     sums = {gear: sum(squares[order] for order in np.round(orders, 9)) for gear, orders in found.items()}
     line = squares[float(harmonic * teeth[0])]
-    return Sidebands(line, sums["pinion"], sums["wheel"], sum(squares.values()) - line)
+    # Of the mesh in a quasi-static force that varies with the load alone, round-off is all there is.
+    there = line > (ROUND_OFF * lines.amplitudes.max()) ** 2
+    return Sidebands(line if there else 0.0, sums["pinion"], sums["wheel"], sum(squares.values()) - line)
 
 
 def _beside(teeth: int, harmonic: int, turn: float) -> np.ndarray:

@@ -66,6 +66,14 @@ def test_run_out_of_the_pinion_shows_as_sidebands(paper_scene):
     assert "mesh_force_level" not in found
 
 
+def test_sidebands_of_a_mesh_order_that_is_round_off_have_no_ratio(paper_scene):
+    """Definition: a force that varies once a turn of the wheel, as by the load of a quasi-static run."""
+    found = noise_figures(made_up(paper_scene, PERIOD, cosine(1.0, 4.0), cosine(1.0 / 24.0, 300.0)))
+    assert found["mesh_force_sideband_ratio"].isnull().all()
+    assert found["transmission_error_sideband_ratio"].sel(harmonic=1).notnull()
+    assert "sidebands" not in noise_charts(found)[1].caption
+
+
 def test_a_short_record_has_mesh_orders_but_no_sidebands(paper_scene):
     """Definition: two mesh cycles hold nothing that comes once a turn."""
     found = noise_figures(made_up(paper_scene, 2, cosine(1.0)))
