@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -44,9 +45,13 @@ def at_work(shaft: ElasticShaft, load: np.ndarray) -> tuple[Bearing, ...]:
 
     Raises SceneError where no place of the shaft is found that balances the load.
     """
-    if not np.any(load):
-        return shaft.bearings
-    motions = _balanced(shaft, load).reshape(-1, MOTIONS)
+    return _at_work(shaft, tuple(load.tolist())) if np.any(load) else shaft.bearings
+
+
+# Runs of a search begin with the same shafts under the same load.
+@lru_cache(maxsize=256)
+def _at_work(shaft: ElasticShaft, load: tuple[float, ...]) -> tuple[Bearing, ...]:
+    motions = _balanced(shaft, np.array(load)).reshape(-1, MOTIONS)
     return tuple(
         each if each.rolling is None else replace(each, worked=each.with_axial(secant_stiffness(each.rolling, motion)))
         for each, motion in zip(shaft.bearings, motions)

@@ -101,11 +101,6 @@ def check_shafts(scene: Any, pair: Any) -> None:
         raise SceneError("; ".join(wrong))
 
 
-# Bearings of the shafts that were balanced last: runs of a search begin with the same shafts under the same load.
-_MOST_AT_WORK = 256
-_AT_WORK: dict[tuple, tuple[Any, ...]] = {}
-
-
 def shaft_at_work(scene: Any, pair: Any, gear: str, load: np.ndarray | None = None) -> ElasticShaft:
     """As `elastic_shaft`, with rolling bearings as stiff as they are under a load (5,) of the gear: that of an even
     line load unless given."""
@@ -115,14 +110,7 @@ def shaft_at_work(scene: Any, pair: Any, gear: str, load: np.ndarray | None = No
     from fenics_gears.dynamics.shaft_at_work import at_work, even_load
 
     load = even_load(found, pair, scene.load.wheel_torque) if load is None else load
-    # All that the shaft follows from.
-    own = scene.shafts.sections[gear], scene.bearings.each_of(gear), scene.gears
-    key = gear, *own, load.tobytes()
-    if key not in _AT_WORK:
-        if len(_AT_WORK) >= _MOST_AT_WORK:
-            _AT_WORK.clear()
-        _AT_WORK[key] = at_work(found, load)
-    return replace(found, bearings=_AT_WORK[key])
+    return replace(found, bearings=at_work(found, load))
 
 
 def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
