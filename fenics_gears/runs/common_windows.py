@@ -1,7 +1,7 @@
 """One window of contact nodes for runs over a face that differ in what opens their flanks, so that they share contact
 operators."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import replace
 
 from fenics_gears.model.model import Model
@@ -18,26 +18,25 @@ class CommonWindows:
     def __init__(self) -> None:
         self._longest: dict[tuple, float] = {}
 
-    def take(self, models: Iterable[Model]) -> None:
-        """Runs that are to come."""
-        for model in models:
-            if model.resolution.contact_grid.inner_length is not None:
-                key, own = self._key(model)
+    def of(self, models: Sequence[Model]) -> list[Model]:
+        """The models with the longest window that these or others before them asked for and that share its
+        operators."""
+        keys = [self._key(model) for model in models]
+        for model, key in zip(models, keys):
+            own = model.resolution.contact_grid.inner_length
+            if key is not None and own is not None:
                 self._longest[key] = max(own, self._longest.get(key, own))
-
-    def of(self, model: Model) -> Model:
-        """The model with the longest window of those that were taken and share its operators."""
-        if model.resolution.contact_grid.inner_length is None:
-            return model
-        key, own = self._key(model)
-        longest = self._longest.get(key, own)
-        if longest <= own:
-            return model
-        grid = replace(model.resolution.contact_grid, inner_length=longest)
-        return replace(model, resolution=replace(model.resolution, contact_grid=grid))
+        return [model if key is None else _with_window(model, self._longest[key]) for model, key in zip(models, keys)]
 
     @staticmethod
-    def _key(model: Model) -> tuple[tuple, float]:
+    def _key(model: Model) -> tuple | None:
+        """What models share that differ in their windows; None of one without."""
         grid = model.resolution.contact_grid
-        assert grid.inner_length is not None
-        return operators_key(model, replace(grid, inner_length=None)), grid.inner_length
+        return None if grid.inner_length is None else operators_key(model, replace(grid, inner_length=None))
+
+
+def _with_window(model: Model, length: float) -> Model:
+    grid = model.resolution.contact_grid
+    if grid.inner_length == length:
+        return model
+    return replace(model, resolution=replace(model.resolution, contact_grid=replace(grid, inner_length=length)))

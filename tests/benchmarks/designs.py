@@ -87,9 +87,7 @@ def together(models: Iterator[Model], store: GearStore, runs: int) -> list[float
     """As of `spent`, medians over tasks of runs that are computed together, the second half of so many."""
     found, windows = [], CommonWindows()
     for _ in range(max(runs // MOST_TOGETHER, 4)):
-        task = [next(models) for _ in range(MOST_TOGETHER)]
-        windows.take(task)
-        task = [windows.of(model) for model in task]
+        task = windows.of([next(models) for _ in range(MOST_TOGETHER)])
         before = resource.getrusage(resource.RUSAGE_SELF)
         results = solved_together(task, store.prepared, ["peak_to_peak_transmission_error"])
         after = resource.getrusage(resource.RUSAGE_SELF)

@@ -8,7 +8,6 @@ more than later ones with other misalignment; and of a later run. Exponents are 
 
 import csv
 import json
-import os
 import resource
 import subprocess
 import sys
@@ -128,5 +127,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    os.environ.setdefault("OMP_NUM_THREADS", "1")
     main()

@@ -104,10 +104,9 @@ def over_the_face(more=""):
         {"misalignment": Misalignment(in_plane=-0.02, out_of_plane=0.005), "load": Load(150e3)},
     ]  # fmt: skip
     scene = helical_scene(CROWNED + more, accuracy=few, cycles=2)
-    models, windows = [model_of(replace(scene, **each)) for each in designs], CommonWindows()
+    models = [model_of(replace(scene, **each)) for each in designs]
     gears = on_stand_in_bodies(models[0])
-    windows.take(models)
-    return models, [windows.of(model) for model in models], lambda model: ((), cycle_of(model, gears))
+    return models, CommonWindows().of(models), lambda model: ((), cycle_of(model, gears))
 
 
 @pytest.mark.parametrize("more", ["", FRICTION + "\n[coast_flanks]\n"], ids=["frictionless", "friction, coast flanks"])

@@ -101,11 +101,9 @@ class Evaluator:
     def _cases(self, trees: Sequence[Sequence[Mapping[str, Any]]]) -> list[list[Run | Failure]]:
         """The runs of parsed scenes, or why they are no scenes."""
         found = [[self._model(tree) for tree in of_tree] for of_tree in trees]
-        self._windows.take(each for of_tree in found for each in of_tree if not isinstance(each, Failure))
-        return [
-            [each if isinstance(each, Failure) else run_of(self._windows.of(each)) for each in of_tree]
-            for of_tree in found
-        ]
+        models = [each for of_tree in found for each in of_tree if not isinstance(each, Failure)]
+        runs = map(run_of, self._windows.of(models))
+        return [[each if isinstance(each, Failure) else next(runs) for each in of_tree] for of_tree in found]
 
     def _model(self, tree: Mapping[str, Any]) -> Any:
         """The model of a parsed scene, or why it is no scene."""
