@@ -62,7 +62,7 @@ def _map(
     if highest > field.limit * (1 + 1e-9):
         # Of cycles that repeat, the last.
         step = np.flatnonzero(pressure.max(axis=(1, 2)) >= highest * (1.0 - SAME))[-1]
-        caption += f". Highest: {highest:.0f} MPa at mesh cycle {phase[step]:.2f}, above the scale of colours"
+        caption += f". Highest: {highest:.0f} MPa at mesh cycle {phase[step]:.2f}, off the scale"
     curves, second, window = [], None, (float(phase[0]), float(phase[-1]))
     if run.pair is not None:
         pair = run.pair
