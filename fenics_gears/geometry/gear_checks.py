@@ -1,6 +1,6 @@
 """Checks of a single gear: one that no rack can cut is refused, with the value, the limit and the field to change."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from math import floor, isfinite, pi, tan
 from typing import NoReturn
 
@@ -10,8 +10,10 @@ from fenics_gears.errors import GeometryError
 
 from .gear import Gear
 from .outline import fillet_point
-from .remedies import Impossible, Remedy
 
+# "raise" or "lower", and the field: of the pair ("centre_distance") or of a gear ("pinion.tip_diameter", without its
+# name in the checks of one gear).
+Remedy = tuple[str, str]
 # What is wrong, and what may mend it; nothing where the words say what to do.
 Found = Iterator[tuple[str, tuple[Remedy, ...]]]
 
@@ -25,6 +27,14 @@ LEAST_RIM = 0.2
 LEAST_NECK, NECK_SAMPLES = 0.1, 401
 # Parts of a module to which a tip radius is rounded down.
 STEPS_OF_TIP_RADIUS = 10_000
+
+
+class Impossible(GeometryError):
+    """Gears that cannot run, and what may mend them (not tried yet)."""
+
+    def __init__(self, message: str, remedies: Iterable[Remedy]) -> None:
+        super().__init__(message)
+        self.remedies = tuple(remedies)
 
 
 def check_gear(gear: Gear, name: str) -> None:

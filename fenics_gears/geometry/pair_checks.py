@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .gear import Gear
-from .gear_checks import ROUNDING, Found, in_degrees
+from .gear_checks import ROUNDING, Found, Impossible, Remedy, in_degrees
 from .involute import involute_function
 from .outline import fillet_point
-from .remedies import Impossible, Remedy
 
 if TYPE_CHECKING:
     from .pair import GearPair

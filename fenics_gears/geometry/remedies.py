@@ -7,10 +7,9 @@ from math import cos
 
 from fenics_gears.errors import GeometryError
 
+from .gear_checks import Remedy
 from .gear_data import GearPairData
 
-# "raise" or "lower", and the field: of the pair ("centre_distance") or of a gear ("pinion.tip_diameter").
-Remedy = tuple[str, str]
 # Changes that are tried, in modules; between the last that does not help and the first that does it is halved so often.
 STEPS = (0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.75, 0.9, 1.1, 1.3, 1.6, 2.0, 2.5, 3.0, 4.0)
 # Axes may be far apart by a slip, and only a narrow range helps.
@@ -21,14 +20,6 @@ TEETH_MORE = (1, 2, 3, 4, 6, 8, 10, 12)
 ROUNDED = 0.25
 # As many changes are told.
 MOST_TOLD = 2
-
-
-class Impossible(GeometryError):
-    """Gears that cannot run, and what may mend them (not tried yet)."""
-
-    def __init__(self, message: str, remedies: Sequence[Remedy]) -> None:
-        super().__init__(message)
-        self.remedies = tuple(remedies)
 
 
 def advice(data: GearPairData, remedies: Sequence[Remedy], build: Callable[[GearPairData], object]) -> str:

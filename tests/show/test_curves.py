@@ -234,6 +234,6 @@ def test_pressure_on_the_coast_flanks_has_a_panel_of_its_own():
     np.testing.assert_array_equal(
         mesh(figure).get_array().compressed(), mesh(contact_pressure(run)).get_array().compressed()
     )
-    assert figure.get_axes()[0].get_title(loc="left") == "Contact pressure of single nodes on the coast flanks"
+    assert figure.get_axes()[0].get_title(loc="left") == "Contact pressure at each contact node on the coast flanks"
     both = contact_pressure(run.assign(coast_contact_pressure=run["contact_pressure"]))
     assert [axes.get_title(loc="left").split()[-2] for axes in both.get_axes()[:2]] == ["drive", "coast"]
