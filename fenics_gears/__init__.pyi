@@ -15,6 +15,7 @@ from fenics_gears.geometry.flank_tolerance import helix_tolerance as helix_toler
 from fenics_gears.geometry.gear import Gear as Gear
 from fenics_gears.geometry.gear_data import RACKS as RACKS
 from fenics_gears.geometry.gear_data import Material as Material
+from fenics_gears.geometry.involute import inverse_involute as inverse_involute
 from fenics_gears.geometry.involute import involute_function as involute_function
 from fenics_gears.geometry.iso_6336 import mesh_factor as mesh_factor
 from fenics_gears.geometry.iso_6336 import single_stiffness as single_stiffness

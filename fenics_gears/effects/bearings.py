@@ -8,7 +8,7 @@ from fenics_gears.inputs.allowed import AllowedMatrix, Matrix
 from fenics_gears.inputs.fields import declared, quantities, quantity
 from fenics_gears.inputs.problem import LISTED, Broken
 from fenics_gears.inputs.section import AllowedTables, Section, names_in
-from fenics_gears.inputs.tree import GEARS, Tree, given_for, quantity_at, quantity_in, shafts_with_sections, table
+from fenics_gears.inputs.tree import GEARS, Tree, given_for, module_in, quantity_in, shafts_with_sections, table
 
 from .effect import OF_GEARS, Effect, ResultVariable, own_or_shared, variables
 from .rolling_bearings import RollingBearing
@@ -217,7 +217,7 @@ def _bearings_stand_apart(tree: Tree, both: Tree) -> Broken:
     places = table(both, "places")
     if places is None:
         return
-    module = quantity_at(tree, "gears", "module") or 0.0
+    module = module_in(tree) or 0.0
     for gear in GEARS:
         written = places.get(gear)
         found = [quantity_in(value) for value in written] if isinstance(written, list) else []

@@ -1,7 +1,7 @@
 """What is wrong between the fields of ``[flank_errors]``. Not an effect by itself."""
 
 from fenics_gears.inputs.problem import Broken
-from fenics_gears.inputs.tree import GEARS, Tree, quantity_at, quantity_in, table, teeth_in
+from fenics_gears.inputs.tree import GEARS, Tree, module_in, quantity_in, table, teeth_in
 
 from .flank_errors_sections import CURVES, LISTS
 
@@ -63,7 +63,7 @@ def not_closed(total: float) -> str:
 
 
 def _class_is_for_the_gears(tree: Tree) -> Broken:
-    module = quantity_at(tree, "gears", "module")
+    module = module_in(tree)
     if module is None:
         return
     diameters = [module * (teeth_in(tree, gear) or 100) for gear in GEARS]

@@ -1,6 +1,6 @@
 """Checks of a single gear: one that no rack can cut is refused, with the value, the limit and the field to change."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from math import floor, isfinite, pi, tan
 from typing import NoReturn
 
@@ -10,6 +10,12 @@ from fenics_gears.errors import GeometryError
 
 from .gear import Gear
 from .outline import fillet_point
+
+# "raise" or "lower", and the field: of the pair ("centre_distance") or of a gear ("pinion.tip_diameter", without its
+# name in the checks of one gear).
+Remedy = tuple[str, str]
+# What is wrong, and what may mend it; nothing where the words say what to do.
+Found = Iterator[tuple[str, tuple[Remedy, ...]]]
 
 # Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
 ROUNDING = 1e-6
@@ -23,11 +29,22 @@ LEAST_NECK, NECK_SAMPLES = 0.1, 401
 STEPS_OF_TIP_RADIUS = 10_000
 
 
+class Impossible(GeometryError):
+    """Gears that cannot run, and what may mend them (not tried yet)."""
+
+    def __init__(self, message: str, remedies: Iterable[Remedy]) -> None:
+        super().__init__(message)
+        self.remedies = tuple(remedies)
+
+
 def check_gear(gear: Gear, name: str) -> None:
-    """Refuse a gear (``name`` is its section of the scene) that no rack can cut; raises GeometryError."""
-    for check in (_numbers, _circles, _web, _rack, _undercut, _tip):
+    """Refuse a gear (``name`` is its section of the scene) that no rack can cut; raises Impossible."""
+    for check in (_numbers, _web):
         for problem in check(gear, f"gears.{name}"):
             refuse(name, problem)
+    for tried in (_circles, _rack, _undercut, _tip):
+        for words, remedies in tried(gear, f"gears.{name}"):
+            raise Impossible(f"{name}: {words}", [(how, f"{name}.{field}") for how, field in remedies])
 
 
 def refuse(name: str, message: str) -> NoReturn:
@@ -64,24 +81,25 @@ def _numbers(gear: Gear, section: str) -> Iterator[str]:
         yield f"{section}.rack_tip_radius must be zero or a positive number, not {tip_radius:.4g}"
 
 
-def _circles(gear: Gear, section: str) -> Iterator[str]:
+def _circles(gear: Gear, section: str) -> Found:
     radii = gear.tip_radius, gear.root_radius, gear.bore_radius, gear.base_radius
     tip, root, bore, base = (2.0 * radius for radius in radii)
     if tip <= root:
         yield (
-            f"no teeth: tip diameter {tip:.6g} mm must exceed root diameter {root:.6g} mm: change"
-            f" {section}.tip_diameter or {section}.root_diameter"
+            f"no teeth: tip diameter {tip:.6g} mm must exceed root diameter {root:.6g} mm",
+            (("raise", "tip_diameter"), ("lower", "root_diameter")),
         )
     if tip <= base:
         yield (
-            f"no flank: tip diameter {tip:.6g} mm, but the involute begins at the base circle of {base:.6g} mm: raise"
-            f" {section}.tip_diameter, or check gears.module and {section}.teeth"
+            f"no flank: tip diameter {tip:.6g} mm, but the involute begins at the base circle of {base:.6g} mm",
+            (("raise", "tip_diameter"),),
         )
     largest_bore = root - 2.0 * LEAST_RIM * gear.normal_module
     if bore > largest_bore:
         yield (
             f"no rim: bore diameter {bore:.6g} mm, root diameter {root:.6g} mm; with a rim of {LEAST_RIM} modules the"
-            f" bore may be {largest_bore:.6g} mm: lower {section}.bore_diameter"
+            f" bore may be {largest_bore:.6g} mm: lower {section}.bore_diameter",
+            (),
         )
 
 
@@ -105,30 +123,30 @@ def _web(gear: Gear, section: str) -> Iterator[str]:
         )
 
 
-def _rack(gear: Gear, section: str) -> Iterator[str]:
+def _rack(gear: Gear, section: str) -> Found:
     module, dedendum = gear.normal_module, gear.dedendum / gear.normal_module
     if gear.dedendum <= 0.0 or gear.rack_depth <= 0.0:
         limit = 2.0 * min(gear.root_radius + gear.dedendum, gear.reference_radius)
         yield (
             f"no dedendum: root diameter {2.0 * gear.root_radius:.6g} mm, but {gear.teeth} teeth with profile shift"
-            f" {gear.profile_shift * gear.rack_stretch:.4g} need a root below {limit:.6g} mm: lower"
-            f" {section}.root_diameter, or check {section}.teeth, {section}.profile_shift and gears.module"
+            f" {gear.profile_shift * gear.rack_stretch:.4g} ({section}.profile_shift) need a root below {limit:.6g} mm",
+            (("lower", "root_diameter"),),
         )
     if gear.largest_rack_tip_radius < 0.0:
         deepest = 0.25 * pi / tan(gear.normal_pressure_angle)
         yield (
-            f"dedendum too deep: {dedendum:.4g} modules, but the rack's tooth ends in a point at {deepest:.4g} modules:"
-            f" raise {section}.root_diameter or lower {section}.profile_shift"
+            f"dedendum too deep: {dedendum:.4g} modules, but the rack's tooth ends in a point at {deepest:.4g} modules",
+            (("raise", "root_diameter"),),
         )
     if gear.rack_tip_centre[0] < -ROUNDING:
         yield (
             f"fillets of neighbouring teeth overlap: rack tip radius {gear.rack_tip_radius / module:.4g} modules, but"
-            f" at this dedendum of {dedendum:.4g} modules there is room for {tip_radius_with_room(gear):.4g}: lower"
-            f" {section}.rack_tip_radius or raise {section}.root_diameter"
+            f" at this dedendum of {dedendum:.4g} modules there is room for {tip_radius_with_room(gear):.4g}",
+            (("lower", "rack_tip_radius"), ("raise", "root_diameter")),
         )
 
 
-def _undercut(gear: Gear, section: str) -> Iterator[str]:
+def _undercut(gear: Gear, section: str) -> Found:
     if not gear.undercut:
         return
     x, y = fillet_point(gear, np.linspace(0.0, gear.fillet_end, NECK_SAMPLES)).T
@@ -137,23 +155,25 @@ def _undercut(gear: Gear, section: str) -> Iterator[str]:
     if neck < LEAST_NECK * gear.normal_module:
         yield (
             f"undercut: cut down to root diameter {2.0 * gear.root_radius:.6g} mm, the fillets leave a tooth"
-            f" {max(neck, 0.0):.4g} mm thick at its neck; it must have {LEAST_NECK} modules: raise"
-            f" {section}.root_diameter together with {section}.profile_shift, or {section}.teeth"
+            f" {max(neck, 0.0):.4g} mm thick at its neck; it must have {LEAST_NECK} modules",
+            (("raise", "root_diameter"), ("raise", "profile_shift"), ("raise", "teeth")),
         )
 
 
-def _tip(gear: Gear, section: str) -> Iterator[str]:
+def _tip(gear: Gear, section: str) -> Found:
     above_form = gear.tip_radius - gear.form_radius
     if above_form <= 0.0:
         cuts, change = (" cuts off the involute", "raise") if gear.undercut else (" reaches", "lower")
         yield (
             f"no involute: tip diameter {2.0 * gear.tip_radius:.6g} mm, but the fillet{cuts} up to"
-            f" {2.0 * gear.form_radius:.6g} mm: raise {section}.tip_diameter or {change} {section}.root_diameter"
+            f" {2.0 * gear.form_radius:.6g} mm",
+            (("raise", "tip_diameter"), (change, "root_diameter")),
         )
     if not 0.0 <= gear.tip_chamfer < above_form:
         yield (
             f"{section}.tip_chamfer = {gear.tip_chamfer:.4g} mm; it must be at least 0 mm and, as involute must be left"
-            f" above the form circle, less than {above_form:.4g} mm"
+            f" above the form circle, less than {above_form:.4g} mm",
+            (),
         )
     if gear.tip_thickness > ROUNDING:
         return
@@ -162,11 +182,13 @@ def _tip(gear: Gear, section: str) -> Iterator[str]:
             f"pointed tip: the chamfers of {section}.tip_chamfer = {gear.tip_chamfer:.4g} mm take"
             f" {gear.chamfered_arc:.4g} mm off either side of the tip circle, where the tooth is"
             f" {gear.tip_thickness + 2.0 * gear.chamfered_arc:.4g} mm thick: lower {section}.tip_chamfer or"
-            f" {section}.tip_diameter"
+            f" {section}.tip_diameter",
+            (),
         )
     yield (
         f"pointed tip: the flanks of a tooth meet at diameter {2.0 * gear.pointed_radius:.6g} mm, below the tip"
-        f" diameter {2.0 * gear.tip_radius:.6g} mm: lower {section}.tip_diameter or {section}.profile_shift"
+        f" diameter {2.0 * gear.tip_radius:.6g} mm",
+        (("lower", "tip_diameter"), ("lower", "profile_shift")),
     )
 
 

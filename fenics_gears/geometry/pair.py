@@ -9,8 +9,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from math import acos, cos, exp, floor, pi, sin, sqrt, tan
 
+from fenics_gears.errors import GeometryError
+
 from .gear import Gear, transverse_gear
-from .gear_checks import check_gear
+from .gear_checks import Impossible, check_gear
 from .gear_data import GearPairData
 from .involute import inverse_involute, involute_function
 from .pair_checks import check_pair
@@ -260,6 +262,17 @@ def gear_pair(data: GearPairData) -> GearPair:
     >>> print(f"{pair.contact_ratio:.2f}, backlash {pair.backlash:.2f} mm")
     1.47, backlash 0.10 mm
     """
+    try:
+        return _built(data)
+    except Impossible as problem:
+        # Imported here: gears that run need no advice.
+        from .remedies import advice
+
+        raise GeometryError(f"{problem}{advice(data, problem.remedies, _built)}") from None
+
+
+def _built(data: GearPairData) -> GearPair:
+    """The pair, checked; raises Impossible, without advice."""
     pinion, wheel = (
         transverse_gear(gear, data.module, data.pressure_angle, data.helix_angle) for gear in (data.pinion, data.wheel)
     )

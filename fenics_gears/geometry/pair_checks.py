@@ -8,10 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.errors import GeometryError
-
 from .gear import Gear
-from .gear_checks import ROUNDING, in_degrees
+from .gear_checks import ROUNDING, Found, Impossible, Remedy, in_degrees
 from .involute import involute_function
 from .outline import fillet_point
 
@@ -30,10 +28,10 @@ SAMPLES = 1001
 
 
 def check_pair(pair: GearPair) -> None:
-    """Refuse a pair that cannot run; raises GeometryError."""
+    """Refuse a pair that cannot run; raises Impossible."""
     for check in (_centres, _backlash, _tip_clearance, _contact_ratio, _interference, _fillet_clearance):
-        for problem in check(pair):
-            raise GeometryError(problem)
+        for words, remedies in check(pair):
+            raise Impossible(words, remedies)
 
 
 def design_warnings(pair: GearPair) -> list[str]:
@@ -44,7 +42,7 @@ def design_warnings(pair: GearPair) -> list[str]:
         if gear.tip_thickness < THIN_TIP * gear.normal_module:
             found.append(
                 f"{name}: thin tip: {gear.tip_thickness:.4g} mm at the tip circle, less than {THIN_TIP} modules "
-                f"= {THIN_TIP * gear.normal_module:.4g} mm; lower gears.{name}.tip_diameter or profile_shift"
+                f"= {THIN_TIP * gear.normal_module:.4g} mm; lower gears.{name}.tip_diameter, or profile_shift with it"
             )
     whole = (pair.tip_positions[1] - pair.tip_positions[0]) / pair.base_pitch
     for name, other, lowest in _shortened(pair):
@@ -56,81 +54,88 @@ def design_warnings(pair: GearPair) -> list[str]:
     return found
 
 
-def _centres(pair: GearPair) -> Iterator[str]:
+def _centres(pair: GearPair) -> Found:
     bases = pair.pinion.base_radius + pair.wheel.base_radius
     if not (isfinite(pair.centre_distance) and pair.centre_distance > bases):
         yield (
-            f"pair: centre distance {pair.centre_distance:.6g} mm, but the base circles overlap below {bases:.6g} mm:"
-            " raise gears.centre_distance, or check gears.module and the teeth"
+            f"pair: centre distance {pair.centre_distance:.6g} mm, but the base circles overlap below {bases:.6g} mm",
+            (("raise", "centre_distance"),) if isfinite(pair.centre_distance) else (),
         )
     if pair.axial_offsets != (0.0, 0.0) and pair.face_width <= 0.0:
         (first, second), widths = pair.axial_offsets, pair.face_widths
         yield (
             f"pair: the gears do not overlap axially: pinion {widths[0]:.6g} mm wide at axial offset {first:.6g} mm,"
             f" wheel {widths[1]:.6g} mm wide at {second:.6g} mm; their middles may be less than"
-            f" {0.5 * sum(widths):.6g} mm apart: change gears.pinion.axial_offset or gears.wheel.axial_offset"
+            f" {0.5 * sum(widths):.6g} mm apart: change gears.pinion.axial_offset or gears.wheel.axial_offset",
+            (),
         )
     if not (isfinite(pair.face_width) and pair.face_width > 0.0):
-        yield f"pair: gears.face_width must be a positive length, not {pair.face_width}"
+        yield f"pair: gears.face_width must be a positive length, not {pair.face_width}", ()
 
 
-def _backlash(pair: GearPair) -> Iterator[str]:
+def _backlash(pair: GearPair) -> Found:
     if pair.backlash < -PRINTED_DIGITS * pair.pinion.module:
         yield (
             f"pair: no backlash: the teeth overlap by {-pair.backlash:.4g} mm along the line of action at centre"
-            f" distance {pair.centre_distance:.6g} mm; they fit from {pair.centre_distance_without_backlash:.6g} mm up:"
-            " raise gears.centre_distance or lower gears.pinion.profile_shift or gears.wheel.profile_shift"
+            f" distance {pair.centre_distance:.6g} mm; they fit from {pair.centre_distance_without_backlash:.6g} mm up"
+            " (gears.centre_distance), or with smaller profile shifts of both gears",
+            (),
         )
 
 
-def _tip_clearance(pair: GearPair) -> Iterator[str]:
+def _tip_clearance(pair: GearPair) -> Found:
     for (name, other), clearance in zip(NAMES, pair.tip_clearances):
         if clearance < -ROUNDING:
             yield (
-                f"{name}: no tip clearance: its tip circle reaches {-clearance:.4g} mm into the {other}'s root circle:"
-                f" lower gears.{name}.tip_diameter or gears.{other}.root_diameter, or raise gears.centre_distance"
+                f"{name}: no tip clearance: its tip circle reaches {-clearance:.4g} mm into the {other}'s root circle",
+                (("lower", f"{name}.tip_diameter"), ("lower", f"{other}.root_diameter"), ("raise", "centre_distance")),
             )
 
 
-def _contact_ratio(pair: GearPair) -> Iterator[str]:
+def _contact_ratio(pair: GearPair) -> Found:
     if pair.contact_ratio < 1.0:
         short = [name for name, *_ in _shortened(pair) if getattr(pair, name).undercut]
         cut = "".join(f", shortened by the undercut {name}" for name in short)
-        undercut = "".join(f", or {_less_undercut(pair, name)}" for name in short)
         kind, why = "", "otherwise a tooth pair leaves before the next one enters"
         if pair.helix:
             kind = "transverse "
             why = f"pairs that their overlap alone carries (here {pair.overlap_ratio:.4g}) are not simulated"
         yield (
-            f"pair: {kind}contact ratio {pair.contact_ratio:.4g}{cut}, must be at least 1, {why}: raise"
-            " gears.pinion.tip_diameter or gears.wheel.tip_diameter, or lower gears.centre_distance"
-            f" ({pair.centre_distance:.6g} mm){undercut}"
+            f"pair: {kind}contact ratio {pair.contact_ratio:.4g}{cut}, must be at least 1, {why}",
+            (
+                *(("raise", f"{name}.tip_diameter") for name, _ in NAMES),
+                ("lower", "centre_distance"),
+                *(("raise", f"{name}.{field}") for field in ("profile_shift", "teeth") for name, _ in NAMES),
+            ),
         )
 
 
-def _interference(pair: GearPair) -> Iterator[str]:
+def _interference(pair: GearPair) -> Found:
     for name, other, lowest in _shortened(pair):
-        gear, mate = getattr(pair, name), getattr(pair, other)
+        gear = getattr(pair, name)
         if not gear.undercut:
-            form = gear.form_roll_angle
-            mates_roll = (pair.line_of_action_length - form * gear.base_radius) / mate.base_radius
             yield (
                 f"{name}: interference: the {other}'s tip reaches its fillet: contact down to roll angle"
-                f" {in_degrees(lowest)}, but the involute begins at {in_degrees(form)}: lower"
-                f" gears.{other}.tip_diameter to {2.0 * mate.radius(mates_roll):.6g} mm or less, or lower"
-                f" gears.{name}.root_diameter or gears.{name}.rack_tip_radius"
+                f" {in_degrees(lowest)}, but the involute begins at {in_degrees(gear.form_roll_angle)}",
+                _off_the_fillet(name, other),
             )
 
 
-def _fillet_clearance(pair: GearPair) -> Iterator[str]:
+def _fillet_clearance(pair: GearPair) -> Found:
     for name, other in NAMES:
         clearance = fillet_clearance(getattr(pair, name), getattr(pair, other), pair.centre_distance)
         if clearance < -ROUNDING:
             yield (
                 f"{name}: interference: the {other}'s tip corner cuts {-clearance:.4g} mm into its fillet, off the line"
-                f" of action: lower gears.{other}.tip_diameter, gears.{name}.root_diameter or"
-                f" gears.{name}.rack_tip_radius"
+                " of action",
+                _off_the_fillet(name, other),
             )
+
+
+def _off_the_fillet(name: str, other: str) -> tuple[Remedy, ...]:
+    return tuple(
+        ("lower", field) for field in (f"{other}.tip_diameter", f"{name}.root_diameter", f"{name}.rack_tip_radius")
+    )
 
 
 def _shortened(pair: GearPair) -> Iterator[tuple[str, str, float]]:

@@ -52,12 +52,13 @@ class Allowed:
 class AllowedNumber(Allowed):
     """A quantity or a bare number.
 
-    ``words``: texts that stand for values; ``below``: a sentence added where a value is too small; ``above_lowest``,
-    ``below_highest``: the bound itself is not allowed.
+    ``words``: texts that stand for values; ``below``, ``negative``: a sentence added where a value is too small, or
+    negative; ``above_lowest``, ``below_highest``: the bound itself is not allowed.
     """
 
     words: Mapping[str, Any] = field(default_factory=dict)
     below: str = ""
+    negative: str = ""
     whole: bool = False
     above_lowest: bool = False
     below_highest: bool = False
@@ -68,7 +69,8 @@ class AllowedNumber(Allowed):
         number = _quantity(value, self.unit, self.words, self.kind)[0] if self.kind else _bare(value, self.whole)
         reason = out_of_range(number, self.lowest, self.highest, self.above_lowest, self.below_highest)
         if reason:
-            raise Refused(reason if reason in (TOO_LARGE, NOT_FINITE) else f"{reason} {self.below}".rstrip())
+            told = self.negative if self.negative and number < 0 else self.below
+            raise Refused(reason if reason in (TOO_LARGE, NOT_FINITE) else f"{reason} {told}".rstrip())
         return number
 
     def spelled(self, value: Any) -> Any:

@@ -119,9 +119,10 @@ def whole_number(
     otherwise: str = "",
     default: int | None = None,
     words: Mapping[str, Any] | None = None,
+    negative: str = "",
     **marks: bool,
 ) -> Any:
-    """A bare whole number, bounds included."""
+    """A bare whole number, bounds included; ``negative``: a sentence added where it is negative."""
     words = words or {}
     allowed = AllowedNumber(
         description=f"a whole number from {lowest} to {highest}, without unit, such as {example}{_or(words)}",
@@ -130,6 +131,7 @@ def whole_number(
         lowest=lowest,
         highest=highest,
         words=words,
+        negative=negative,
         whole=True,
         **marks,
     )

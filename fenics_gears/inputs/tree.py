@@ -1,7 +1,7 @@
 """Values of a parsed scene file, of which some may be wrong."""
 
 from collections.abc import Mapping, Sequence
-from math import pi
+from math import atan, cos, pi, tan
 from typing import Any
 
 from . import units
@@ -83,6 +83,37 @@ def teeth_in(tree: Tree, gear: str) -> int | None:
     """Teeth of the "pinion" or the "wheel"; None where the number is missing or none that a gear has."""
     teeth = value_at(tree, "gears", gear, "teeth")
     return teeth if type(teeth) is int and 0 < teeth <= MOST_TEETH else None
+
+
+# What the size of the teeth may be given by, and their pressure angle; the first is that of the normal section, which
+# the program has. Without a helix angle both sections are one.
+MODULES = ("module", "transverse_module", "diametral_pitch", "normal_diametral_pitch")
+PRESSURE_ANGLES = ("pressure_angle", "transverse_pressure_angle")
+
+
+def in_normal_section(name: str, number: float, helix_angle: float) -> float:
+    """Module (mm) or pressure angle (rad) of the normal section, of one of `MODULES` or `PRESSURE_ANGLES`: m_n = m_t
+    cos(beta), tan(alpha_n) = tan(alpha_t) cos(beta). A diametral pitch (1/mm) is one over its module."""
+    if name.endswith("diametral_pitch"):
+        number = 1.0 / number
+    if name in ("transverse_module", "diametral_pitch"):
+        return number * cos(helix_angle)
+    return atan(tan(number) * cos(helix_angle)) if name == "transverse_pressure_angle" else number
+
+
+def module_in(tree: Tree) -> float | None:
+    """The normal module (mm) of a parsed scene, however it is given; None where there is none that can be read."""
+    return _of_teeth(tree, MODULES)
+
+
+def pressure_angle_in(tree: Tree) -> float | None:
+    """The pressure angle (rad) of the normal section of a parsed scene, as of ``module_in``."""
+    return _of_teeth(tree, PRESSURE_ANGLES)
+
+
+def _of_teeth(tree: Tree, names: Sequence[str]) -> float | None:
+    given = [(name, number) for name in names if (number := quantity_at(tree, "gears", name))]
+    return in_normal_section(*given[0], quantity_at(tree, "gears", "helix_angle") or 0.0) if given else None
 
 
 # What a load may be given by: torque that resists the wheel, torque that drives the pinion, power that goes through,

@@ -19,8 +19,11 @@ _UNITS = {
     "mm": (1.0, "mm"),
     "um": (0.001, "mm"),
     "cm": (10.0, "mm"),
+    "dm": (100.0, "mm"),
     "m": (1000.0, "mm"),
     "in": (25.4, "mm"),
+    "ft": (304.8, "mm"),
+    "mil": (0.0254, "mm"),
     "N": (1.0, "N"),
     "mN": (0.001, "N"),
     "kN": (1000.0, "N"),
@@ -47,6 +50,9 @@ _UNITS = {
     "W": (1000.0, "N mm/s"),
     "kW": (1000.0, "W"),
     "MW": (1000.0, "kW"),
+    # The mechanical horsepower, 550 ft lbf/s, and the metric one, 75 kgf m/s.
+    "hp": (550.0, "ft lbf/s"),
+    "PS": (735.49875, "W"),
     "Pa": (1e-6, "N/mm^2"),
     "mPa": (1e-9, "N/mm^2"),
     "kPa": (1e-3, "N/mm^2"),
@@ -54,6 +60,8 @@ _UNITS = {
     "GPa": (1000.0, "N/mm^2"),
     "bar": (0.1, "N/mm^2"),
     "psi": (4.4482216152605 / 25.4**2, "N/mm^2"),
+    "ksi": (1000.0, "psi"),
+    "Mpsi": (1e6, "psi"),
     "g": (1e-6, "N s^2/mm"),
     "kg": (0.001, "N s^2/mm"),
     "t": (1.0, "N s^2/mm"),
@@ -80,6 +88,7 @@ _KINDS = {
     "N s^2/mm^4": "a density",
     "N mm s^2": "a moment of inertia",
     "1/s": A_FREQUENCY,
+    "1/mm": "a diametral pitch (1/length)",
     "rad/s": AN_ANGULAR_SPEED,
     "mm/s": "a speed",
     "N s/mm^2": "a dynamic viscosity",
@@ -95,6 +104,8 @@ _NEGATIVE_POWER = re.compile("⁻([¹²³⁴])")
 _DIGITS = str.maketrans("¹²³⁴", "1234")
 # What a drawing or a data sheet writes for revolutions a minute, without blanks: ISO 80000-3 counts a revolution as 1.
 _PER_MINUTE = {"1/min", "min^-1", "min**-1"}
+# Torques as they are written in inches and feet, "in-lb" or "ft lb": a pound of these is one of force.
+_POUNDS = re.compile(r"(in|ft)[ *-]*lbf?|lbf?[ *-]*(in|ft)")
 # Names with whole powers, joined by blanks, "*" and "/", one level of brackets.
 _FACTOR = r"[A-Za-z]+(?:\s*(?:\^|\*\*)\s*-?\d{1,2})?"
 _JOINT = r"(?:\s*[*/]\s*|\s+)"
@@ -147,7 +158,8 @@ def of_kind(text: str, *kinds: str) -> tuple[float, str]:
         return 2.0 * math.pi * number, AN_ANGULAR_SPEED
     number, kind = quantity(text)
     if kind not in kinds:
-        raise QuantityError(f"is {kind}, not {' or '.join(kinds)}.")
+        pound = ' A pound of force is "lbf".' if re.search(r"\blb\b", unit_of(text)) else ""
+        raise QuantityError(f"is {kind}, not {' or '.join(kinds)}.{pound}")
     return number, kind
 
 
@@ -165,7 +177,7 @@ def names_by_kind() -> dict[str, list[str]]:
     """The names of units that have one word, by the kind of quantity that they stand for.
 
     >>> names_by_kind()["a length"]
-    ['mm', 'um', 'cm', 'm', 'in']
+    ['mm', 'um', 'cm', 'dm', 'm', 'in', 'ft', 'mil']
     """
     found = {}
     for name in _UNITS:
@@ -207,8 +219,11 @@ def text_of(value: float, kind: str, usual: str) -> str:
 
 
 def _tidy(written: str) -> str:
-    """A unit in plain letters: "µm" as "um", "min⁻¹" as "min^-1"."""
-    return _NEGATIVE_POWER.sub(lambda found: f"^-{found[1].translate(_DIGITS)}", written).translate(_SPELLINGS).strip()
+    """A unit in plain letters: "µm" as "um", "min⁻¹" as "min^-1", "in-lb" as "lbf in"."""
+    powers = _NEGATIVE_POWER.sub(lambda found: f"^-{found[1].translate(_DIGITS)}", written)
+    plain = powers.translate(_SPELLINGS).strip()
+    pounds = _POUNDS.fullmatch(plain)
+    return f"lbf {pounds[1] or pounds[2]}" if pounds else plain
 
 
 @functools.cache

@@ -2,7 +2,7 @@
 
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import allowed_in, names_in
-from fenics_gears.inputs.tree import Tree, load_in, material_sections, quantity_at, quantity_in, table, value_at
+from fenics_gears.inputs.tree import Tree, load_in, material_sections, module_in, quantity_in, table, value_at
 from fenics_gears.inputs.written import as_written
 
 from .accuracy import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy
@@ -106,7 +106,7 @@ def _root_stress_has_its_teeth(tree: Tree) -> Broken:
 
 def _module(tree: Tree) -> float | None:
     """The module in mm; None where it is missing or wrong by itself."""
-    module = quantity_at(tree, "gears", "module")
+    module = module_in(tree)
     if module is None:
         return None
     allowed = allowed_in(Gears, "module")

@@ -10,7 +10,7 @@ k shortens the tips, so that their clearance stays the rack's when a is less tha
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import chain
-from math import cos, tan
+from math import cos, pi, tan
 from typing import Any
 
 from fenics_gears.effects.tooth_elasticity import material_of
@@ -18,7 +18,7 @@ from fenics_gears.geometry.gear import DECIMALS_IN_MODULES
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse, tip_radius_with_room
 from fenics_gears.geometry.gear_data import MATERIALS, RACKS, GearData, GearPairData, Web
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.inputs.tree import GEARS, LOADS, wheel_torque
+from fenics_gears.inputs.tree import GEARS, LOADS, MODULES, PRESSURE_ANGLES, in_normal_section, wheel_torque
 
 from .data import Derived, Load, Motion
 from .gear_schema import Gear as GearText
@@ -32,6 +32,7 @@ TOOTH_HEIGHT = sum(RACKS["ISO 53 A"][:2])  # Modules.
 
 def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
     """The pair, and what was derived. Raises GeometryError for a figure that cannot be."""
+    gears, of_section = _in_normal_section(gears)
     both = (gears.pinion, gears.wheel)
     distance, drawn, derived = completed(gears)
     widths = [own.face_width or gears.face_width for own in both]
@@ -62,7 +63,21 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
         pinion_hand=gears.pinion_hand or "right",
         axial_offsets=offsets,
     )
-    return data, derived + _named_materials(gears)
+    return data, of_section + derived + _named_materials(gears)
+
+
+def _in_normal_section(gears: Gears) -> tuple[Gears, list[Derived]]:
+    """The section with module and pressure angle, whatever they are given by, and what was derived."""
+    found, derived = {}, []
+    for names, unit, size in ((MODULES, "mm", 1.0), (PRESSURE_ANGLES, "deg", pi / 180.0)):
+        own, *others = names
+        name = next(each for each in names if getattr(gears, each) is not None)
+        if name != own:
+            number = in_normal_section(name, getattr(gears, name), gears.helix_angle or 0.0)
+            found |= {own: number, **dict.fromkeys(others)}
+            words = f"from {name}, in the normal section" if gears.helix_angle else f"from {name}"
+            derived.append(Derived(own.replace("_", " "), number / size, unit, words))
+    return replace(gears, **found), derived
 
 
 def _web(own: GearText, face_width: float) -> Web | None:

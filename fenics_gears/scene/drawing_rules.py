@@ -1,13 +1,54 @@
 """Rules of what a drawing may leave out: of alternatives one is given, and what belongs together is there."""
 
 from collections.abc import Mapping
+from math import degrees
 
+from fenics_gears.inputs import units
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import allowed_in
-from fenics_gears.inputs.tree import GEARS, LOADS, Tree, quantity_at, table
+from fenics_gears.inputs.tree import (
+    GEARS,
+    LOADS,
+    MODULES,
+    PRESSURE_ANGLES,
+    Tree,
+    in_normal_section,
+    pressure_angle_in,
+    quantity_at,
+    table,
+    with_gears,
+)
 
-from .gear_schema import MEASURES, Gear
+from .gear_schema import MEASURES, Gear, Gears
 from .schema import LoadText
+
+
+def _teeth_have_a_size(tree: Tree) -> Broken:
+    gears, helix_angle = table(tree, "gears"), quantity_at(tree, "gears", "helix_angle") or 0.0
+    for names in (MODULES, PRESSURE_ANGLES) if gears is not None else ():
+        allowed = allowed_in(Gears, names[0])
+        name = next((each for each in names if each in gears), None)
+        number = quantity_at(tree, "gears", name) if name is not None else None
+        if name is None:
+            others = ", ".join(names[1:-1]) + " or " * (len(names) > 2) + names[-1]
+            yield ("gears", names[0]), f"is missing. Allowed: {allowed.description}; or {others}."
+        elif name != names[0] and number:
+            found = in_normal_section(name, number, helix_angle)
+            if not allowed.lowest <= found <= allowed.highest:
+                words = f"{found / units.quantity(f'1 {allowed.unit}')[0]:.4g} {allowed.unit}"
+                message = f"makes {names[0]} = {words} in the normal section. Allowed of that: {allowed.description}."
+                yield ("gears", name), message
+
+
+# Names by which an internal gear is asked for.
+INTERNAL = ("internal", "internal_gear", "internal_teeth", "ring", "ring_gear")
+
+
+def _gears_are_external(tree: Tree) -> Broken:
+    for path, section in with_gears(tree, "gears").items():
+        for name in (each for each in INTERNAL if each in section):
+            message = "is not known: internal gears are not computed yet. Allowed: two external gears. Leave it out."
+            yield (*path, name), message
 
 
 def _thickness_is_given_once(tree: Tree) -> Broken:
@@ -63,7 +104,7 @@ def _no_figure_is_given_twice(tree: Tree) -> Broken:
 def _protuberance_is_more_than_the_stock(tree: Tree) -> Broken:
     """Finishing takes no more than the protuberance has cut free, or it leaves a step in the root."""
     gears = table(tree, "gears") or {}
-    found, pressure_angle = {}, quantity_at(tree, "gears", "pressure_angle")
+    found, pressure_angle = {}, pressure_angle_in(tree)
     for gear in GEARS:
         amount, stock, angle = (
             _of_rack(gears, gear, name) for name in ("protuberance", "finishing_stock", "protuberance_angle")
@@ -75,7 +116,7 @@ def _protuberance_is_more_than_the_stock(tree: Tree) -> Broken:
         if angle and not cut:
             found[angle[0]] = "has no meaning without a protuberance. Give protuberance, or leave both out."
         elif angle and pressure_angle and angle[1] >= pressure_angle:
-            found[angle[0]] = f"must be less than gears.pressure_angle = {gears['pressure_angle']}. Lower it."
+            found[angle[0]] = f"must be less than the pressure angle, {degrees(pressure_angle):.6g} deg. Lower it."
     yield from found.items()
 
 
@@ -106,6 +147,8 @@ def _load_is_given_once(tree: Tree) -> Broken:
 
 
 DRAWING_RULES = (
+    _teeth_have_a_size,
+    _gears_are_external,
     _thickness_is_given_once,
     _backlash_has_its_place,
     _no_figure_is_given_twice,

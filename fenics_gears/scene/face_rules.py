@@ -3,7 +3,17 @@
 from collections.abc import Sequence
 
 from fenics_gears.inputs.problem import Broken, Path
-from fenics_gears.inputs.tree import GEARS, Tree, dotted, material_sections, quantity_at, quantity_in, table, value_at
+from fenics_gears.inputs.tree import (
+    GEARS,
+    Tree,
+    dotted,
+    material_sections,
+    module_in,
+    quantity_at,
+    quantity_in,
+    table,
+    value_at,
+)
 
 from .accuracy_rules import EVERY_STEP
 
@@ -56,7 +66,7 @@ def _class_is_for_the_faces(tree: Tree) -> Broken:
 
 
 def _layers_are_no_needles(tree: Tree) -> Broken:
-    module, layers = quantity_at(tree, "gears", "module"), value_at(tree, "accuracy", "layers")
+    module, layers = module_in(tree), value_at(tree, "accuracy", "layers")
     homes = [("gears", "face_width"), *(("gears", gear, "face_width") for gear in GEARS)]
     widths = {
         path: width for path in homes if (width := quantity_in(value_at(tree, *path))) is not None and width > 0.0

@@ -8,6 +8,7 @@ from fenics_gears.geometry.gear import transverse_gear
 from fenics_gears.geometry.gear_data import RACKS, GearData
 from fenics_gears.inputs.fields import choice, number, quantity, whole_number
 from fenics_gears.inputs.section import Section
+from fenics_gears.inputs.tree import MODULES, PRESSURE_ANGLES
 
 # Measures of the tooth thickness, each with what has to be known with it.
 MEASURES = {"tooth_thickness": None, "base_tangent_length": "spanned_teeth", "dimension_over_balls": "ball_diameter"}
@@ -101,7 +102,13 @@ class Gear(Section):
 
     alternatives = (tuple(MEASURES),)
 
-    teeth: int = whole_number(5, 1000, 16, meaning="number of teeth")
+    teeth: int = whole_number(
+        5,
+        1000,
+        16,
+        meaning="number of teeth",
+        negative="A negative number of teeth is an internal gear (ISO 21771), and internal gears are not computed yet.",
+    )
     profile_shift: float | None = number(
         0.196,
         meaning="profile shift coefficient x, in modules",
@@ -177,17 +184,46 @@ class Gear(Section):
 
 @dataclass(frozen=True, kw_only=True)
 class Gears(Section):
-    """``[gears]``: what both gears share."""
+    """``[gears]``: what both gears share. Coefficients, such as profile shifts, count in modules of the normal section
+    whatever gives the size of the teeth."""
 
-    module: float = quantity(
+    alternatives = (MODULES, PRESSURE_ANGLES)
+
+    module: float | None = quantity(
         "0.01 mm to 1 m",
         "4.5 mm",
         meaning="module: with `helix_angle` the normal module, without it that of the plane of rotation",
+        otherwise="from the next three; one of the four is required",
     )
-    pressure_angle: float = quantity(
+    transverse_module: float | None = quantity(
+        "0.01 mm to 1 m",
+        "4.66 mm",
+        meaning="module of the plane of rotation, m_t = m_n/cos(beta)",
+        otherwise="from `module`",
+    )
+    diametral_pitch: float | None = quantity(
+        "0.02 1/in to 2540 1/in",
+        "10 1/in",
+        meaning="teeth per inch of reference diameter, in the plane of rotation: P = 25.4 mm/m_t",
+        otherwise="from `module`",
+    )
+    normal_diametral_pitch: float | None = quantity(
+        "0.02 1/in to 2540 1/in",
+        "10 1/in",
+        meaning="diametral pitch of the normal section, 25.4 mm/m_n",
+        otherwise="from `module`",
+    )
+    pressure_angle: float | None = quantity(
         "10 deg to 35 deg",
         "20 deg",
         meaning="pressure angle of the generating rack: with `helix_angle` in its normal section",
+        otherwise="from `transverse_pressure_angle`; one of the two is required",
+    )
+    transverse_pressure_angle: float | None = quantity(
+        "10 deg to 45 deg",
+        "20.65 deg",
+        meaning="pressure angle in the plane of rotation: tan(alpha_t) = tan(alpha_n)/cos(beta)",
+        otherwise="from `pressure_angle`",
     )
     helix_angle: float | None = quantity(
         "1e-3 deg to 45 deg",

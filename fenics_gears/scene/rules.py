@@ -15,11 +15,13 @@ from fenics_gears.inputs.section import allowed_in, given, names_in
 from fenics_gears.inputs.tree import (
     GEARS,
     LARGEST_ERROR,
+    MODULES,
     NOT_IN_THE_PLANE,
     Tree,
     given_for,
     load_in,
     material_sections,
+    module_in,
     over_the_face,
     quantity_at,
     quantity_in,
@@ -49,8 +51,8 @@ def broken_by_numbers(tree: Tree, sections: Iterable[str]) -> list[Problem]:
     """Of those rules the ones that other numbers in the sections of some effects can break, where each of these
     effects acts by itself."""
     named = [name for name in sections if name in tree]
-    module = {"module": value_at(tree, "gears", "module")}
-    small = _errors_are_small({"gears": module} | {name: tree[name] for name in named})
+    of_teeth = {name: value_at(tree, "gears", name) for name in (*MODULES, "helix_angle")}
+    small = _errors_are_small({"gears": of_teeth} | {name: tree[name] for name in named})
     rules = (rules for name in named if (rules := effects.effect_named(name).rules) is not None)
     return _problems(tree, chain(small, *(rule(tree) for rule in rules)))
 
@@ -153,7 +155,7 @@ def _cycles(tree: Tree, written) -> object:
 
 def _errors_are_small(tree: Tree) -> Broken:
     """Errors of manufacture and modifications are small against the tooth, whose place and shape stay what they are."""
-    module = quantity_at(tree, "gears", "module")
+    module = module_in(tree)
     largest = LARGEST_ERROR * (module or 0.0)
     for path, allowed, written in given(scene_text(tree), tree):
         values = (written if isinstance(written, list) else [written]) if allowed.small else []

@@ -16,7 +16,13 @@ from .panels import DARK, GREY, PALETTE, styled
 from .run import conditions
 
 COLOURS = {BARE: DARK, ALONE: PALETTE[2], LEFT_OUT: PALETTE[1], ALL: DARK}
-WORDS = {ALONE: "bare scene and one effect (change from bare)", LEFT_OUT: "all effects but one (change from all)"}
+# What colours of bars and styles of lines stand for, by the rows that have them.
+WORDS = {
+    ALONE: "green bars: bare scene and one effect (change from bare)",
+    LEFT_OUT: "orange bars: all effects but one (change from all)",
+    BARE: "dotted line: bare scene",
+    ALL: "dashed line: all effects",
+}
 LINE_HEIGHT = 0.36
 OF_FACE = {"face_load_factor": "K$_{Hβ}$", "peak_pressure": "Peak pressure (MPa)"}
 LABEL = {
@@ -68,7 +74,7 @@ def _unknowns(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
     centres = np.array([row.coordinates for row in rows])
     contact = np.array([row.contact_rows for row in rows])
     axes.barh(places, centres, color=PALETTE[0], label="centre coordinates", height=0.7)
-    axes.barh(places, contact, left=centres, color=PALETTE[4], label="contact rows", height=0.7)
+    axes.barh(places, contact, left=centres, color=PALETTE[4], label="contact forces", height=0.7)
     for place, total in zip(places, centres + contact):
         axes.annotate(f"{total:.0f}", (total, place), **LABEL)
     axes.set_xlim(0, 1.15 * (centres + contact).max())
@@ -116,7 +122,8 @@ def measured_heading(figure: Figure, what: str, scene: Scene) -> None:
 
 def _words(figure: Figure, report: EffectReport) -> None:
     measured_heading(figure, "What the effects cost and change", report.scene)
-    colours = f"green: {WORDS[ALONE]}; orange: {WORDS[LEFT_OUT]}; dotted line: bare, dashed: all"
+    kinds = {row.subset.kind for row in report.rows}
+    colours = "; ".join(words for kind, words in WORDS.items() if kind in kinds)
     entries = [
         "T$_{EPP}$: transmission error, peak to peak, at the wheel's base circle",
         "grey whiskers: fastest and slowest round",

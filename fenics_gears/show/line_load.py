@@ -13,6 +13,12 @@ from .pressure import COLOURS
 from .run import Run
 
 TITLE = "Line load (N/mm)"
+# The factors of a run, behind the curve that they are of.
+FACTORS = {
+    "face_load_factor": " (face load factor {:.3f})",
+    "largest_line_load_factor": " ({:.3f} of even load)",
+    "edge_line_load_factor": " ({:.3f} of even load at edges)",
+}
 
 
 def line_loads(run: Run) -> list[Chart]:
@@ -77,17 +83,25 @@ def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
     part, total = run.last_fields, loads.sum(axis=1)
     mean = mean_line_load(part, side)
     away = np.where(at_edges(part, run.pair, side), 0.0, loads).max(axis=(0, 1))
-    curves = [
-        ("mesh, mean over the mesh cycle", total.mean(axis=0) if mean is None else mean),
-        ("tooth pair, largest", loads.max(axis=(0, 1))),
-        ("tooth pair, largest away from edges", np.where(away > 0.0, away, np.nan)),
+    curves = {
+        "mesh, its tooth pairs summed: mean over the mesh cycle" + _factor(run, "face_load_factor"): total.mean(axis=0)
+        if mean is None
+        else mean,
+        "one tooth pair: largest at any time" + _factor(run, "edge_line_load_factor"): loads.max(axis=(0, 1)),
+        "one tooth pair: largest at any time, away from edges" + _factor(run, "largest_line_load_factor"): np.where(
+            away > 0.0, away, np.nan
+        ),
+    }
+    # The third lies on the second but at edges, and is drawn within it.
+    looks = zip(PALETTE, (1.6, 4.5, 1.6))
+    drawn = [
+        Curve(words, z, values, colour, width=width) for (words, values), (colour, width) in zip(curves.items(), looks)
     ]
-    drawn = [Curve(words, z, values, colour) for (words, values), colour in zip(curves, PALETTE)]
     if "proposed_line_load" in run.dataset:
         corrected = run.dataset["proposed_line_load"].values
-        curves.append(("", corrected))
+        curves["corrected"] = corrected
         drawn.append(Curve(_correction(run.dataset.attrs), z, corrected, PALETTE[0], "dash"))
-    highest = 1.08 * float(max(np.nanmax(values) for _, values in curves))
+    highest = 1.08 * float(max(np.nanmax(values) for values in curves.values()))
     upright = np.array([0.0, highest])
     low, high = (np.full(2, place) for place in inner_face(run.pair))
     ends = [
@@ -95,28 +109,22 @@ def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
         Curve("", high, upright, DARK, "dot", 1.0, listed=False),
     ]
     return Chart(
-        f"Line load along the face{_factors(run)}", drawn + ends, ACROSS, TITLE,
+        "Line load along the face", drawn + ends, ACROSS, TITLE,
         x_range=run.pair.common_face, y_range=(0.0, highest),
-        note="Of the mesh: tooth pairs summed. Of a tooth pair: the largest at each place at any time. "
-        "Edges: the ends of the face, and tips and form circles where a line of contact ends. "
-        "The factors away from edges are of means over half a module.",
+        note="Face load factor: largest over mean along the face. Even load: that of rigid gears when their lines of"
+        " contact are shortest. Edges: the ends of the face, and tips and form circles where a line of contact ends."
+        " The factors away from edges are of means over half a module.",
     )  # fmt: skip
 
 
 def _correction(found) -> str:
     slope, crowning = found["proposed_helix_slope"], found["proposed_crowning"]
-    amounts = f"helix slope {slope:.1f} µm and crowning {crowning:.1f} µm"
-    return f"mesh, mean, proposed for the pinion: {amounts} (factor {found['proposed_face_load_factor']:.3f})"
+    factor = FACTORS["face_load_factor"].format(found["proposed_face_load_factor"])
+    return f"mesh, as proposed: pinion's helix slope {slope:.1f} µm, crowning {crowning:.1f} µm{factor}"
 
 
-def _factors(run: Run) -> str:
-    names = {
-        "face_load_factor": "face load factor",
-        "largest_line_load_factor": "largest line load over even one",
-        "edge_line_load_factor": "at edges",
-    }
-    found = [f"{words} {run.dataset.attrs[name]:.3f}" for name, words in names.items() if name in run.dataset.attrs]
-    return f": {', '.join(found)}" if found else ""
+def _factor(run: Run, name: str) -> str:
+    return FACTORS[name].format(run.dataset.attrs[name]) if name in run.dataset.attrs else ""
 
 
 def _field(x: np.ndarray, slices: np.ndarray, loads: np.ndarray) -> Field:

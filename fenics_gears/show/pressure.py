@@ -57,12 +57,12 @@ def _map(
 ) -> Chart:
     field = pressure_field(pressure, place, phase, colour_limit(run, pressure[pressure > 0.0]))
     highest = float(np.nanmax(field.values, initial=0.0))
-    caption = "Contact pressure of single nodes" + (f" on the {SIDES[side]}" if named else "")
+    caption = "Contact pressure at each contact node" + (f" on the {SIDES[side]}" if named else "")
     caption += words_of_slice(run.dataset)
     if highest > field.limit * (1 + 1e-9):
         # Of cycles that repeat, the last.
         step = np.flatnonzero(pressure.max(axis=(1, 2)) >= highest * (1.0 - SAME))[-1]
-        caption += f", beyond the colours up to {highest:.0f} MPa at mesh cycle {phase[step]:.2f}"
+        caption += f". Highest: {highest:.0f} MPa at mesh cycle {phase[step]:.2f}, off the scale"
     curves, second, window = [], None, (float(phase[0]), float(phase[-1]))
     if run.pair is not None:
         pair = run.pair

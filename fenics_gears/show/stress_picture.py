@@ -1,6 +1,7 @@
 """The gears of a run in mesh at one time, deformed and coloured by von Mises stress, in the plane; over the face by
 `face_picture`."""
 
+import textwrap
 from collections.abc import Callable
 from pathlib import Path
 from typing import BinaryIO
@@ -37,6 +38,8 @@ LEAST_TRIANGLES = 20_000
 # The colours end at this multiple of the largest stress in the fillets: what touches would else leave no colour for the
 # roots.
 ROOTS_IN_COLOURS = 3.0
+# Letters that fit the picture's width, of its title and of the smaller lines below.
+LETTERS_OF_TITLE, LETTERS_OF_LINE = 110, 150
 # In millimetres of flank around the most loaded contact, in Hertz half-widths.
 CLOSE_UP_HALF_WIDTHS = 5.0
 # What a picture names of the pressure at its time.
@@ -237,13 +240,13 @@ def heading(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset) -> None:
     """Title of the run, its conditions, and the time of the picture."""
     run = Run(dataset)
     scene, look = run.scene, {"color": DARK if run.complete else WARNING, "parse_math": False}
-    figure.text(0.015, 0.955, f"Stress in the gears: {run.title}", fontsize=18, **look)
+    title = textwrap.shorten(f"Stress in the gears: {run.title}", LETTERS_OF_TITLE, placeholder=" …")
+    figure.text(0.015, 0.959, title, fontsize=18, **look)
     timed = f", time {_time(mesh.time)}" if scene is None or scene.motion.speed_given else ""
-    words = [] if scene is None else [conditions(scene)]
-    words.append(f"mesh phase {mesh.mesh_phase:.3f} (mesh cycles since the start){timed}")
-    if not run.complete:
-        words.append("INCOMPLETE RUN")
-    figure.text(0.015, 0.917, "  ·  ".join(words), fontsize=13, **look)
+    instant = f"mesh phase {mesh.mesh_phase:.3f} (mesh cycles since the start){timed}"
+    told = [] if scene is None else textwrap.wrap(conditions(scene), LETTERS_OF_LINE, max_lines=2, placeholder=" …")
+    lines = [*told, instant if run.complete else f"{instant}  ·  INCOMPLETE RUN"]
+    figure.text(0.015, 0.947, "\n".join(lines), fontsize=13 if len(lines) < 3 else 10, va="top", **look)
 
 
 def _time(seconds: float) -> str:

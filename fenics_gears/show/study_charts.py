@@ -65,7 +65,12 @@ def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note:
         for (words, places), (dash, colour) in zip(lines, looks)
     ]
     divided = "x" if logarithmic(axis) else ""
-    return Chart(f"{name} over {axis.called}", curves, axis.title, y_title, note, HEIGHT, logarithmic=divided)
+    return Chart(f"{name}{_against(name, axis)}", curves, axis.title, y_title, note, HEIGHT, logarithmic=divided)
+
+
+def _against(name: str, axis: SweptField) -> str:
+    """ "Mean over mesh frequency" would read as an average over it."""
+    return f"{',' if ',' in name else ''} against {axis.called}"
 
 
 def main_field(cases: Cases) -> SweptField:
@@ -119,7 +124,7 @@ def _map(axis: SweptField, other: SweptField, values: np.ndarray, title: str, na
     options = {f"{letter}_range": (float(each[0]), float(each[-1])) for letter, each in zip("xy", edges)}
     options |= {"logarithmic": divided, "field": drawn}
     words = f"{note} {'Blank where a case has no result.' if np.isnan(grid).any() else ''}".strip()
-    caption = f"{name} over {axis.called} and {other.called}"
+    caption = f"{name}{_against(name, axis)} and {other.called}"
     return Chart(caption, [], axis.title, other.title, words, 420, **options)
 
 

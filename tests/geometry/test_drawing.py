@@ -1,13 +1,14 @@
 """Gears as drawings give them."""
 
 import tomllib
-from math import pi
+from dataclasses import replace
+from math import atan, cos, degrees, pi, radians, tan
 from pathlib import Path
 
 import pytest
 from tests.drawn_pairs import PAIRS, figures, table
 
-from fenics_gears import RACKS, GeometryError, SceneError, build_scene, gear_pair, load_scene
+from fenics_gears import RACKS, GeometryError, SceneError, build_scene, gear_pair, load_scene, scene_from_text
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.gear_data import MATERIALS
 from fenics_gears.scene.data import Material
@@ -59,6 +60,48 @@ def test_the_page_s_scene_is_the_demo():
     of_page = build_scene(tomllib.loads(page))
     assert (of_page.gears, of_page.load, of_page.derived) == (demo.gears, demo.load, demo.derived)
     assert demo.load.wheel_torque == pytest.approx(2.0 * 95.493e3, rel=1e-5)
+
+
+IN_ROTATION = degrees(atan(tan(radians(20.0)) / cos(radians(30.0))))
+
+
+@pytest.mark.parametrize(
+    ("helix_angle", "own"),
+    [
+        (None, {"diametral_pitch": "8 1/in"}),
+        (None, {"transverse_module": "3.175 mm"}),
+        ("30 deg", {"transverse_module": f"{3.175 / cos(radians(30.0))!r} mm"}),
+        ("30 deg", {"diametral_pitch": f"{8.0 * cos(radians(30.0))!r} 1/in"}),
+        ("30 deg", {"normal_diametral_pitch": "8 1/in"}),
+        ("30 deg", {"transverse_pressure_angle": f"{IN_ROTATION!r} deg", "module": "3.175 mm"}),
+    ],
+)
+def test_inches_and_the_plane_of_rotation_give_the_same_teeth(helix_angle, own):
+    """Identity: P = 25.4 mm/m (ANSI/AGMA 1012), m_n = m_t cos(beta), tan(alpha_n) = tan(alpha_t) cos(beta) (ISO 21771);
+    what is derived is told."""
+    modules = {"module": None, "helix_angle": helix_angle}
+    angle = {"pressure_angle": None} if "transverse_pressure_angle" in own else {}
+    scene, usual = scene_of(modules | angle | own), scene_of({"module": "3.175 mm", "helix_angle": helix_angle})
+    assert (scene.gears.module, scene.gears.pressure_angle) == (
+        pytest.approx(3.175, rel=1e-14),
+        pytest.approx(pi / 9.0, rel=1e-14),
+    )
+    assert gear_pair(scene.gears).contact_ratio == pytest.approx(gear_pair(usual.gears).contact_ratio, rel=1e-12)
+    told = derived(scene)
+    assert told.get("module", 3.175) == pytest.approx(3.175) and told.get("pressure angle", 20.0) == pytest.approx(20.0)
+    assert {"module", "pressure angle"} & told.keys()
+
+
+def test_diametral_pitch_counts_teeth_per_inch():
+    """By definition: 17 teeth of pitch 10 are on a reference diameter of 1.7 in. Rules that compare with the module, as
+    those of errors, know it too; a changed scene is written with its module."""
+    gears = {"module": None, "diametral_pitch": "10 1/in"}
+    scene = scene_of(gears, {"teeth": 17})
+    assert 2.0 * gear_pair(scene.gears).pinion.reference_radius == pytest.approx(1.7 * 25.4, rel=1e-14)
+    with pytest.raises(SceneError, match="too large an error of manufacture for a module of 2.54 mm"):
+        scene_of(gears, {"teeth": 17}, eccentricity={"pinion": {"distance": "12 mil"}})
+    loaded = replace(scene, load=replace(scene.load, wheel_torque=60e3))
+    assert scene_from_text(loaded.text).gears == scene.gears
 
 
 @pytest.mark.parametrize("shifts", [(0.3, 0.1), (0.6, 0.5), (0.2, -0.5)])

@@ -1,7 +1,8 @@
 """Gears and pairs that cannot be."""
 
+import re
 from dataclasses import replace
-from math import nan
+from math import nan, radians
 
 import pytest
 
@@ -22,9 +23,9 @@ def few_teeth(teeth, profile_shift):
 
 IMPOSSIBLE = {
     "undercut to the middle of the tooth": (few_teeth(7, -0.8), ["pinion: undercut", "13.05 mm",
-        "0.2306 mm thick at its neck", "0.1 modules", "gears.pinion.root_diameter"]),
+        "0.2306 mm thick at its neck", "0.1 modules", "raise gears.pinion.profile_shift to 0.3"]),
     "no involute left by undercut": (few_teeth(8, -0.3) | {"pinion.tip_diameter": 34.6}, ["pinion: no involute",
-        "34.6 mm", "the fillet cuts off the involute up to 34.", "raise gears.pinion.root_diameter"]),
+        "34.6 mm", "the fillet cuts off the involute up to 34.", "tried: gears.pinion.tip_diameter"]),
     "contact ratio by undercut": (few_teeth(8, 0.0) | {"centre_distance": 72.9}, ["pair: contact ratio 0.9",
         "shortened by the undercut pinion", "at least 1", "profile_shift"]),
     "pointed tip": ({"wheel.tip_diameter": 127.0}, ["wheel: pointed tip", "127 mm", "gears.wheel.tip_diameter"]),
@@ -33,7 +34,7 @@ IMPOSSIBLE = {
         "at least 1", "gears.pinion.tip_diameter"]),
     "interference on the pinion": ({"pinion.root_diameter": 64.2, "pinion.rack_tip_radius": 0.45},
         ["pinion: interference: the wheel's tip reaches its fillet", *("7.115 deg", "8.139 deg",
-        "gears.wheel.tip_diameter to 118.018 mm")]),
+        "gears.wheel.tip_diameter to 117.")]),
     "tip corner in the fillet": ({"pinion.root_diameter": 63.6, "pinion.rack_tip_radius": 0.45},
         ["pinion: interference: the wheel's tip corner cuts 0.04214 mm into its fillet", "gears.wheel.tip_diameter"]),
     "tip in root": ({"wheel.tip_diameter": 120.8}, ["wheel: no tip clearance", "0.15 mm",
@@ -92,7 +93,7 @@ def test_interference_on_the_wheel_is_that_of_swapped_gears(paper_data):
     for part in (
         "wheel: interference: the pinion's tip reaches its fillet",
         "7.115 deg",
-        "gears.pinion.tip_diameter to 118.018 mm",
+        "gears.pinion.tip_diameter to 117.",
     ):
         assert part in str(refused.value)
 
@@ -109,6 +110,54 @@ def test_the_remedies_given_are_the_limits(paper_data):
     assert tip > 118.64
     with pytest.raises(GeometryError, match="pointed tip"):
         gear_pair(changed(paper_data, {"wheel.tip_diameter": tip + 1e-4}))
+
+
+ADVISED = re.compile(
+    r"(?:raise|lower) gears\.(?P<field>[\w.]+) to (?P<value>[\d.]+)"
+    r"(?: mm)?(?: with gears\.\w+\.tip_diameter = (?P<tip>[\d.]+) mm, root_diameter = (?P<root>[\d.]+) mm and"
+    r" gears\.centre_distance = (?P<distance>[\d.]+) mm)?"
+)
+# A pair of 20 and 8 teeth whose larger tip circles leave a contact ratio of 0.67 and whose axes cannot come nearer.
+SHORT_TEETH = {
+    "module": 3.0, "pressure_angle": radians(14.5), "centre_distance": 42.0,
+    **{f"pinion.{name}": value for name, value in {"teeth": 8, "profile_shift": 0.0, "tip_diameter": 30.0,
+       "root_diameter": 16.5, "bore_diameter": 6.0, "rack_tip_radius": 0.38}.items()},
+    **{f"wheel.{name}": value for name, value in {"teeth": 20, "profile_shift": 0.0, "tip_diameter": 66.0,
+       "root_diameter": 52.5, "bore_diameter": 10.0, "rack_tip_radius": 0.38}.items()},
+}  # fmt: skip
+TRIED = {name: changes for name, (changes, said) in IMPOSSIBLE.items() if "gears" in "".join(said)} | {
+    "short teeth": SHORT_TEETH,
+    "axes far apart": {"centre_distance": 108.0},
+    "both tips too short": {"pinion.tip_diameter": 76.0, "wheel.tip_diameter": 111.0},
+}
+
+
+@pytest.mark.parametrize("name", TRIED)
+def test_what_is_advised_helps(paper_data, name):
+    """Followed to the letter, each advice makes a pair that can run; one that does not is not given."""
+    data = changed(paper_data, TRIED[name])
+    with pytest.raises(GeometryError) as refused:
+        gear_pair(data)
+    for advice in ADVISED.finditer(str(refused.value)):
+        field = advice["field"]
+        changes = {field: int(advice["value"]) if field.endswith("teeth") else float(advice["value"])}
+        if advice["tip"]:
+            gear = field.partition(".")[0]
+            changes |= {f"{gear}.tip_diameter": float(advice["tip"]), f"{gear}.root_diameter": float(advice["root"])}
+            changes["centre_distance"] = float(advice["distance"])
+        assert gear_pair(changed(data, changes)).contact_ratio >= 1.0
+
+
+def test_what_does_not_help_is_not_advised(paper_data):
+    """Of the pair of 8 and 20 teeth only other profile shifts and more teeth; where nothing helps alone, that is
+    said."""
+    with pytest.raises(GeometryError) as refused:
+        gear_pair(changed(paper_data, SHORT_TEETH))
+    said = str(refused.value)
+    assert "contact ratio 0.66" in said and "raise gears.pinion.profile_shift" in said and "gears.pinion.teeth" in said
+    assert "raise gears.pinion.tip_diameter" not in said and "lower gears.centre_distance" not in said
+    with pytest.raises(GeometryError, match="No change of one figure alone mends it"):
+        gear_pair(changed(paper_data, {"centre_distance": 191.5}))
 
 
 def test_thin_tips_are_remarked_upon_not_refused(paper_data):

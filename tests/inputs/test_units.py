@@ -32,7 +32,18 @@ ROUND_OFF = 4e-16
         ("437 Nm", 437000.0, "a torque"),
         ("437 N*m", 437000.0, "a torque"),
         ("437 N·m", 437000.0, "a torque"),
+        ("1 ft", 304.8, "a length"),
+        ("5 mil", 0.127, "a length"),
+        ("2 dm", 200.0, "a length"),
         ("1 lbf in", 4.4482216152605 * 25.4, "a torque"),
+        *((f"1 {unit}", 4.4482216152605 * 25.4, "a torque") for unit in ("in-lb", "in lbf", "lb-in", "in·lb", "inlb")),
+        *((f"1 {unit}", 4.4482216152605 * 304.8, "a torque") for unit in ("ft-lb", "lbf ft", "lb ft", "ft-lbf")),
+        ("1 hp", 550.0 * 4.4482216152605 * 304.8, "a power"),
+        ("1 PS", 75.0 * 9.80665e3, "a power"),
+        ("30 ksi", 30e3 * 4.4482216152605 / 25.4**2, "a stress"),
+        ("30 Mpsi", 30e6 * 4.4482216152605 / 25.4**2, "a stress"),
+        ("1 lb in^2", 0.45359237e-3 * 25.4**2, "a moment of inertia"),
+        ("8 1/in", 8.0 / 25.4, "a diametral pitch (1/length)"),
         ("0.203e9 N mm/rad", 2.03e8, "a torsional stiffness"),
         ("1 N mm/deg", 180 / math.pi, "a torsional stiffness"),
         ("0.155e6 N/mm", 155000.0, "a stiffness"),
@@ -119,6 +130,12 @@ def test_what_is_no_quantity_is_named(text, fragment):
 
 
 UNIT_LIKE = st.text(alphabet="0123456789.eE+-*/^() mNkgsradHzP°µ²\n[]{}'\"", max_size=20)
+
+
+def test_a_pound_of_force_is_named_where_a_mass_is_given():
+    """In inches and pounds a force is often written "lb", which is the unit of a mass here."""
+    with pytest.raises(QuantityError, match='is a mass, not a force. A pound of force is "lbf".'):
+        of_kind("30 lb", "a force")
 
 
 @settings(max_examples=150, deadline=None)

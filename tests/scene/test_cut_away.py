@@ -78,7 +78,7 @@ def test_the_chamfer_is_the_gear_s():
             '[gears.rack]\nprotuberance_angle = "10 deg"',
             'protuberance_angle = "10 deg"\n    has no meaning without a protuberance',
         ),
-        (RACK + 'protuberance_angle = "25 deg"', "must be less than gears.pressure_angle = 20 deg"),
+        (RACK + 'protuberance_angle = "25 deg"', "must be less than the pressure angle, 20 deg"),
     ],
 )
 def test_a_protuberance_that_cannot_be_is_refused(rack, said):

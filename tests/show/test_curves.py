@@ -197,7 +197,8 @@ def test_a_peak_far_above_all_others_is_said_and_leaves_the_scale_alone():
     figure = contact_pressure(run)
     assert mesh(figure).norm.vmax < 1700.0
     assert mesh(contact_pressure(run.assign_attrs(peak_contact_pressure=1400.0))).norm.vmax == pytest.approx(1540.0)
-    assert figure.get_axes()[0].get_title(loc="left").endswith("beyond the colours up to 9000 MPa at mesh cycle 29.00")
+    said = "9000 MPa at mesh cycle 29.00, off the scale"
+    assert figure.get_axes()[0].get_title(loc="left").endswith(said)
 
 
 def test_pitch_point_and_the_wheels_axis(paper_scene):
@@ -233,6 +234,6 @@ def test_pressure_on_the_coast_flanks_has_a_panel_of_its_own():
     np.testing.assert_array_equal(
         mesh(figure).get_array().compressed(), mesh(contact_pressure(run)).get_array().compressed()
     )
-    assert figure.get_axes()[0].get_title(loc="left") == "Contact pressure of single nodes on the coast flanks"
+    assert figure.get_axes()[0].get_title(loc="left") == "Contact pressure at each contact node on the coast flanks"
     both = contact_pressure(run.assign(coast_contact_pressure=run["contact_pressure"]))
     assert [axes.get_title(loc="left").split()[-2] for axes in both.get_axes()[:2]] == ["drive", "coast"]

@@ -1,15 +1,18 @@
 """Pictures over the face, of a short coarse run."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from matplotlib.image import imread
 from tests.helical import wide_pair
 from tests.over_face import MORE, helical_run, root_stress_run
 from tests.show.synthetic import made_up_run
 
 from fenics_gears.results.mesh_curves import read_off
-from fenics_gears.show import FACE_PICTURE_FILES, face_picture
+from fenics_gears.show import FACE_PICTURE_FILES, face_picture, stress_picture
 from fenics_gears.show.contact_pattern import contact_patterns, pattern
 from fenics_gears.show.line_load import line_loads
 from fenics_gears.show.plots import draw_run
@@ -32,6 +35,28 @@ def test_pictures_of_the_face_are_written_beside_the_others(tmp_path):
         picture = imread(files[name])
         assert picture.shape[1] == 1500 and np.mean(picture[..., :3].min(axis=2) < 0.9) > 0.05
     assert not set(FACE_PICTURE_FILES) & {file.name for file in draw_run(made_up_run(), tmp_path / "plane")}
+
+
+@pytest.mark.parametrize("length", [90, 250, 600])
+def test_words_above_a_stress_picture_end_within_it(monkeypatch, length):
+    """However many conditions a scene has, no line leaves the picture or reaches into its panels."""
+    monkeypatch.setattr(stress_picture, "conditions", lambda scene: ("tip relief, " * length)[:length])
+    figure = Figure(figsize=(16.0, 9.0))
+    FigureCanvasAgg(figure)
+    dataset = helical_run()
+    stress_picture.heading(figure, SimpleNamespace(mesh_phase=0.25, time=1e-3), dataset)
+    boxes = [words.get_window_extent() for words in figure.texts]
+    assert max(box.x1 for box in boxes) < figure.bbox.width and min(box.y0 for box in boxes) > 0.89 * figure.bbox.height
+    assert "mesh phase 0.250" in figure.texts[1].get_text()
+
+
+def test_each_curve_of_the_line_load_has_its_factor_and_is_seen(run):
+    """The title's three factors are of different curves; where two curves are one, the lower is the wider."""
+    chart = line_loads(run)[2]
+    mean, largest, away = chart.curves[:3]
+    assert chart.caption == "Line load along the face" and "tooth pairs summed" in mean.name
+    assert f"face load factor {run.dataset.attrs['face_load_factor']:.3f}" in mean.name
+    assert largest.width > 2.0 * away.width and largest.name.startswith("one tooth pair: largest at any time")
 
 
 def test_pattern_shows_the_largest_pressure_where_it_is(run):

@@ -35,11 +35,11 @@ def _levels(found: xr.Dataset, name: str) -> Chart:
     if f"{name}_sideband_ratio" in found:
         ratios = found[f"{name}_sideband_ratio"].sel(harmonic=slice(1, ORDERS_SHOWN))
         beside = [
-            f"{int(ratio['harmonic'])}\u00a0×\u00a0{10.0 * np.log10(float(ratio)):+.1f}\u00a0dB"
+            f"{10.0 * np.log10(float(ratio)):+.1f}\u00a0dB at order {int(ratio['harmonic'])}"
             for ratio in ratios
             if ratio > LEAST_RATIO
         ]
-        caption += f"; energy of the sidebands over that of their mesh order: {', '.join(beside)}" if beside else ""
+        caption += f"; energy of the sidebands against that of their mesh order: {', '.join(beside)}" if beside else ""
     curves = [
         Curve("between mesh orders", *stems(*between, foot - 1.0), GREY, width=0.8),
         Curve("mesh orders", *stems(*whole, foot - 1.0), PALETTE[0], width=2.6),

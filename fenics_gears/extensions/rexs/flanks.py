@@ -5,7 +5,7 @@ from math import cos, isclose, sqrt
 
 from .attributes import NO_PLACE, NO_PLACE_OF_RELIEFS, Reading, given, missing, positive, required, stated
 from .gears import ROUNDED, Sections, transverse_angle
-from .lead import LEAD_TYPES, POWERS, SHAPE, shape_of
+from .lead import LEAD_TYPES, shape_of
 from .model import Component
 from .stage import Fields, GearParts, Stage
 from .values import SAME, Value, ValueProblem, computed, in_words, place, together, word_of
@@ -28,6 +28,17 @@ def relief_sections(reading: Reading, stage: Stage, gears: Sections) -> Sections
             if relief:
                 found[f"{kind}.{name}"] = relief
     return found
+
+
+def loaded_flanks(stage: Stage) -> list[str]:
+    """Which flanks are taken to be loaded by the signs of torques, where they are modified and the file does not say
+    it."""
+    return [
+        f"loaded flank of component {part.gear.id}: {part.by_torque}, by the sign of its torque and its"
+        " datum_face_orientation"
+        for part in stage.named.values()
+        if part.by_torque is not None and part.said_side is None and any(part.modifications.values())
+    ]
 
 
 def tolerance_class(reading: Reading, stage: Stage) -> Value | None:
@@ -108,7 +119,7 @@ def _relief_of(relief: Component, base: float, tip: float) -> Fields:
         return {}
     positive(depth, where)
     field, start, diameter = _start(relief, base, tip)
-    shape = _shape(relief)
+    shape = shape_of(relief)
     if relief.type == TIP:
         depth = _at_the_tip(relief, depth, diameter, int(shape.number), base, tip)
     return {"depth": depth, field: start, "shape": shape}
@@ -140,12 +151,6 @@ def _start(relief: Component, base: float, tip: float) -> tuple[str, Value, floa
                 f" {diameter:.6g} mm."
             )
     return ("length_on_path", length, diameter) if start is None else ("start", start, start.number)
-
-
-def _shape(relief: Component) -> Value:
-    """The shape, with its power of the roll angle as the number."""
-    shape, origin, assumed = shape_of(relief), f"{SHAPE} of component {relief.id}", SHAPE not in relief.attributes
-    return Value(POWERS[shape], f'"{shape}"', f"no {origin}" if assumed else origin, assumed)
 
 
 def _at_the_tip(relief: Component, depth: Value, start: float, power: int, base: float, tip: float) -> Value:

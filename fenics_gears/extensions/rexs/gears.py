@@ -1,13 +1,13 @@
 """The gears of a stage: teeth, circles and material, given by the file, computed from it, or those of the standard."""
 
 from functools import partial
-from math import acos, atan, cos, isclose, tan
+from math import acos, atan, cos, hypot, isclose, tan
 
-from fenics_gears import RACKS
+from fenics_gears import RACKS, inverse_involute, involute_function
 
-from .attributes import Reading, every, first, given, needed
+from .attributes import Reading, every, first, given, missing, needed, places
 from .stage import GearParts, Stage
-from .values import Value, ValueProblem, agreed, bare, computed, place, together
+from .values import NUMBER, SAME, Value, ValueProblem, agreed, bare, computed, place, together
 
 # By the section of a scene ("gears.pinion"), its fields; None for what was not found, which is among the reading's
 # problems.
@@ -28,10 +28,12 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
     helix = reading.attempt(_helix, stage) or {}
     beta = helix["helix_angle"].number if helix else 0.0
     module = reading.attempt(_module, stage)
-    angle, distance = reading.attempt(_pressure_angle, stage), reading.attempt(needed, stage, "centre_distance")
+    angle, distance = reading.attempt(_pressure_angle, stage), reading.attempt(first, stage, "centre_distance")
     parts = stage.named.values()
     teeth = [reading.attempt(needed, part, "teeth") for part in parts]
     shifts = _profile_shifts(reading, stage, module, angle, distance, teeth, beta)
+    if not given(stage, "centre_distance"):
+        distance = reading.attempt(_distance_of_shifts, beta, module, angle, *teeth, *shifts)
     gears = [_gear_section(reading, part, beta, module, *own) for part, *own in zip(parts, teeth, shifts)]
     for part, count in zip(parts, teeth):
         reading.attempt(_check_reference_diameter, part, beta, module, count)
@@ -86,11 +88,17 @@ def _pressure_angle(stage: Stage) -> Value:
 
 
 def _face_widths(stage: Stage) -> list[Value]:
-    common = first(stage, "common_face_width")
-    if common is not None:
+    """One for both gears, or that of each: where the common width is less than both, the file does not say at which
+    ends they stand out, and it holds for both."""
+    common, own = first(stage, "common_face_width"), [first(part, "face_width") for part in stage.named.values()]
+    widths = [width for width in own if width is not None]
+    if common is not None and len(widths) < 2:
         return [common]
-    widths = [needed(part, "face_width") for part in stage.named.values()]
-    return [agreed(widths, "")] if isclose(widths[0].number, widths[1].number) else widths
+    if len(widths) < 2:
+        widths = [needed(part, "face_width") for part in stage.named.values()]
+    if common is not None and not isclose(common.number, min(width.number for width in widths), rel_tol=SAME):
+        return [common]
+    return [agreed(widths, "")] if isclose(widths[0].number, widths[1].number, rel_tol=SAME) else widths
 
 
 def _profile_shifts(
@@ -103,10 +111,23 @@ def _profile_shifts(
     if len(unsaid) == 2:
         pinion, name = place(stage.pinion.gear, "addendum_modification_coefficient"), stage.wheel.gear.id
         reading.problems.append(f"{pinion} is missing, for its flanks too, and so is that of component {name}.")
+    elif unsaid and not given(stage, "centre_distance"):
+        shift = (list(parts)[unsaid[0]].gear, "addendum_modification_coefficient", NUMBER)
+        reading.problems.append(str(missing(*places(stage, "centre_distance"), shift)))
     elif unsaid:
         known = shifts[1 - unsaid[0]]
         shifts[unsaid[0]] = reading.attempt(_remaining_shift, stage, beta, known, module, angle, distance, *teeth)
     return shifts
+
+
+def _distance_of_shifts(beta: float, module: Value, angle: Value, *teeth_and_shifts: Value) -> Value:
+    """The centre distance at which both profile shifts leave no backlash (ISO 21771)."""
+    teeth, shifts = (sum(each.number for each in both) for both in (teeth_and_shifts[:2], teeth_and_shifts[2:]))
+    transverse = transverse_angle(angle.number, beta)
+    operating = inverse_involute(involute_function(tan(transverse)) + 2.0 * shifts * tan(angle.number) / teeth)
+    bases = 0.5 * module.number * teeth * cos(transverse) / cos(beta)
+    why = "no center_distance; from teeth, module and both profile shifts, without backlash"
+    return computed(bases * hypot(1.0, operating), 1.0, "mm", why, assumed=True)
 
 
 def _stated_shift(part: GearParts, module: Value | None) -> Value | None:

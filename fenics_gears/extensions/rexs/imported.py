@@ -7,7 +7,7 @@ from pathlib import Path
 from fenics_gears import SceneError, units
 
 from .attributes import Reading, first
-from .flanks import note_what_is_left_out, relief_sections, tolerance_class
+from .flanks import loaded_flanks, note_what_is_left_out, relief_sections, tolerance_class
 from .gears import Sections, gear_sections
 from .lead import lead_sections
 from .loads import loaded_model, pinion_speed, wheel_torque
@@ -65,7 +65,7 @@ def imported_scene(
         for section, found in sections.items()
         for name, value in found.items()
         if value.assumed
-    ]
+    ] + loaded_flanks(chosen)
     notes = {
         "Assumed, since the file does not say it:": assumed,
         "Left out, since a scene has no place for it:": reading.left_out,
@@ -93,7 +93,7 @@ def _load_sections(
     teeth = gears["gears.pinion"]["teeth"], gears["gears.wheel"]["teeth"]
     ratio = None if None in teeth else teeth[1].number / teeth[0].number
     torque = by_call[0] or reading.attempt(wheel_torque, model, stage, ratio)
-    speed = by_call[1] or reading.attempt(pinion_speed, None if model is None else stage, ratio)
+    speed = by_call[1] or reading.attempt(pinion_speed, model, stage, ratio)
     return {"load": {"wheel_torque": torque}, "motion": {"pinion_speed": speed}}
 
 

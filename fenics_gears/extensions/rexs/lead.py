@@ -46,8 +46,9 @@ def _lead(part: GearParts, width: Value) -> Fields:
     own = needed(part, "face_width")
     if not isclose(own.number, width.number, rel_tol=SAME):
         raise ValueProblem(
-            f"{part.gear}: lead modifications over its face of {own.words}, but common_face_width is {width.words}."
-            " Allowed beside lead modifications: no common_face_width, or that of the gear."
+            f"{part.gear}: lead modifications over its face of {own.words}, but common_face_width is {width.words} and"
+            " the file does not say which ends stand out. Allowed beside lead modifications: no common_face_width, or"
+            " the width of the narrower gear."
         )
     return part.of_loaded_sides(
         lambda side: _fields(part, side, width.number),
@@ -118,7 +119,7 @@ def _slope(component: Component, width: float, sign: float) -> Value:
     return computed(sign * amount.number * width / length, 1e-3, "um", why, assumed=amount.number != 0.0)
 
 
-def _end_relief(component: Component, width: float) -> tuple[Value, Value, str]:
+def _end_relief(component: Component, width: float) -> tuple[Value, Value, Value]:
     face = component.type.removeprefix("end_relief_")
     depth = required(component, f"end_relief_depth_{face}", "um")
     if depth.number < 0.0:
@@ -135,28 +136,37 @@ def _end_relief(component: Component, width: float) -> tuple[Value, Value, str]:
     return depth, length, shape
 
 
-def shape_of(relief: Component) -> str:
-    """One of POWERS, "linear" where the file does not say it. Raises ValueProblem for another."""
-    shape = word_of(relief, SHAPE) if SHAPE in relief.attributes else "linear"
+def shape_of(relief: Component) -> Value:
+    """The shape, with its power of the roll angle, or of the length, as the number: one of POWERS; "linear" where the
+    file does not say it. Raises ValueProblem for one that a scene has no like of."""
+    origin = f"{SHAPE} of component {relief.id}"
+    if SHAPE not in relief.attributes:
+        return Value(POWERS["linear"], '"linear"', f"no {origin}", assumed=True)
+    shape = word_of(relief, SHAPE)
+    if shape == "circular":
+        why = f"{origin} is circular; the parabola through the arc's ends differs by less than (depth/length)^2 of it"
+        return Value(POWERS["parabolic"], '"parabolic"', why, assumed=True)
     if shape not in POWERS:
-        raise ValueProblem(f"{place(relief, SHAPE)} = {shape}. Allowed: {' or '.join(POWERS)}, which a scene has.")
-    return shape
+        raise ValueProblem(
+            f"{place(relief, SHAPE)} = {shape}. Allowed: {', '.join(POWERS)} or circular, for a scene has no other."
+        )
+    return Value(POWERS[shape], f'"{shape}"', origin)
 
 
-def _both_ends(reliefs: dict[str, tuple[Value, Value, str]]) -> Value:
+def _both_ends(reliefs: dict[str, tuple[Value, Value, Value]]) -> Value:
     """One end's relief, or that of both ends where they are alike, as a scene's inline table. Its number is the
     depth."""
     (side, (depth, length, shape)), *others = reliefs.items()
     for _, (other, length_there, shape_there) in others:
         pairs = (other.number, depth.number), (length_there.number, length.number)
-        if shape_there != shape or not all(isclose(*each, rel_tol=SAME) for each in pairs):
+        if shape_there.written != shape.written or not all(isclose(*each, rel_tol=SAME) for each in pairs):
             raise ValueProblem(
                 f"{depth.origin} is {depth.words}, {other.origin} is {other.words}, or lengths or shapes differ."
                 " Allowed: ends alike, or one end relieved."
             )
     sides = "both" if others else side
-    written = f'{{ depth = {depth.written}, length = {length.written}, sides = "{sides}", shape = "{shape}" }}'
-    return Value(depth.number, written, f"{depth.origin} and {length.origin}")
+    written = f'{{ depth = {depth.written}, length = {length.written}, sides = "{sides}", shape = {shape.written} }}'
+    return Value(depth.number, written, f"{depth.origin} and {length.origin}; {shape.origin}", assumed=shape.assumed)
 
 
 def _coordinate(component: Component, name: str, otherwise: float) -> float:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
+
+# As programs write them: "1.4", "1.40", "2.0.0", "v1.4", "1,4".
+KNOWN_VERSION = re.compile(r"[vV]?\s*[12]([.,-]\d+)*")
 
 
 class ModelError(ValueError):
@@ -161,7 +165,7 @@ def checked_model(tree: Any) -> Model:
         model = Model.model_validate(tree)
     except ValidationError as error:
         raise ModelError(_words(tree, error.errors()[0])) from None
-    if model.version.partition(".")[0] not in ("1", "2"):
+    if not KNOWN_VERSION.fullmatch(model.version):
         raise ModelError(f'has the REXS version "{model.version}"; 1.0 to 2.0 are read')
     for relation in model.relations:
         for role, number in relation.roles.items():

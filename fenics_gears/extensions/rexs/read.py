@@ -16,7 +16,7 @@ from .model import Model, ModelError, checked_model
 
 # Bytes: models of whole gearboxes have some hundred kilobytes, with results some megabytes.
 LARGEST = 200 * user_file.MEGABYTE
-ENDINGS = (".rexs", ".rexsj")
+ENDINGS = (".rexs", ".rexsj", ".rexs.xml", ".rexs.json")
 PACKED = ".rexsz"
 
 

@@ -1,9 +1,10 @@
 """The pair that is meant in a REXS model, and the components that describe it."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .model import Component, Model, Relation
+from .train import Train
 from .values import COUNT, Value, ValueProblem, value_of, word_of
 
 CYLINDRICAL, EXTERNAL, INTERNAL = "cylindrical_stage", "cylindrical_gear", "ring_gear"
@@ -15,7 +16,8 @@ Fields = dict[str, Value]
 @dataclass(frozen=True)
 class GearParts:
     """The components of one gear of a stage: itself, its flanks by their side and what modifies them, its tools and how
-    they were set, bodies, materials and shafts, and its data in this stage."""
+    they were set, bodies, materials and shafts, and its data in this stage. ``by_torque``: the side that the torque
+    loads, where that follows from the train."""
 
     gear: Component
     flanks: dict[str, Component]
@@ -26,6 +28,7 @@ class GearParts:
     materials: list[Component]
     shafts: list[Component]
     stage_data: list[Component]
+    by_torque: str | None = None
 
     @property
     def tool(self) -> list[Component]:
@@ -40,10 +43,16 @@ class GearParts:
     @property
     def loaded_sides(self) -> list[str]:
         """The side of the teeth that is loaded, both where the file does not say which."""
-        said = [
+        said = self.said_side or self.by_torque
+        return [side for side in self.flanks if said is None or side == said]
+
+    @property
+    def said_side(self) -> str | None:
+        """The loaded side by the stage data."""
+        said = (
             word_of(data, "loaded_tooth_flank") for data in self.stage_data if "loaded_tooth_flank" in data.attributes
-        ]
-        return [side for side in self.flanks if not said or side == said[0]]
+        )
+        return next(said, None)
 
     def modification(self, side: str, kind: str) -> Component | None:
         """What modifies a flank in this way. Raises ValueProblem where there are two."""
@@ -125,13 +134,16 @@ def _with_teeth(gear: Component) -> str:
 
 
 def _stage(model: Model, relation: Relation) -> Stage:
-    stage = model.components[relation.roles["stage"]]
+    stage, train = model.components[relation.roles["stage"]], Train(model)
     parts = [_parts(model, stage, model.components[relation.roles[role]]) for role in ("gear_1", "gear_2")]
     for part in parts:
         _check_external(part.gear)
-    pinion, wheel = parts if _first_drives(*parts) else parts[::-1]
     holders = model.partners("assembly", "assembly", part=stage)
-    return Stage(stage, pinion, wheel, any(each.type == "planetary_stage" for each in holders))
+    in_planetary = any(each.type == "planetary_stage" for each in holders)
+    if not in_planetary:
+        parts = [replace(part, by_torque=_side_by_torque(train, stage, part.gear)) for part in parts]
+    pinion, wheel = parts if _first_drives(train, stage, *parts) else parts[::-1]
+    return Stage(stage, pinion, wheel, in_planetary)
 
 
 def _parts(model: Model, stage: Component, gear: Component) -> GearParts:
@@ -169,14 +181,38 @@ def _teeth(gear: Component) -> float | None:
     return value_of(gear, "number_of_teeth", COUNT).number if "number_of_teeth" in gear.attributes else None
 
 
-def _first_drives(first: GearParts, second: GearParts) -> bool:
-    """Whether the first gear is the scene's pinion, which drives: as the file says, or the one with fewer teeth."""
+def _first_drives(train: Train, stage: Component, first: GearParts, second: GearParts) -> bool:
+    """Whether the first gear is the scene's pinion, which drives: as the file says, by the way of the power, or the one
+    with fewer teeth."""
     says = [_drives(part) for part in (first, second)]
     if says[0] != says[1]:
         return says[0] is True or says[1] is False
     # Programs also write that neither drives, or both.
+    try:
+        coming = [train.power(part.gear, stage) for part in (first, second)]
+    except ValueProblem:
+        # It is told where the torque is looked up.
+        coming = [None, None]
+    if coming[0] or coming[1]:
+        return coming[0] > 0.0 if coming[0] else coming[1] < 0.0
     teeth = [_teeth(part.gear) for part in (first, second)]
     return None in teeth or teeth[0] <= teeth[1]
+
+
+def _side_by_torque(train: Train, stage: Component, gear: Component) -> str | None:
+    """The side of a gear's teeth that its torque loads, as seen from its datum face with the tooth upwards; None where
+    that does not follow."""
+    if "datum_face_orientation" not in gear.attributes:
+        return None
+    try:
+        torque = train.torque(gear, stage)
+    except ValueProblem:
+        return None
+    if not torque:
+        return None
+    # The mate's force turns the gear against its loads. From the end in -u, a positive turn is clockwise.
+    from_below = word_of(gear, "datum_face_orientation") == "negative"
+    return "left" if (torque < 0.0) == from_below else "right"
 
 
 def _drives(part: GearParts) -> bool | None:

@@ -15,8 +15,9 @@ from .model import Attribute, Component
 
 # REXS's own spellings, as scenes write them. A frequency of REXS counts turns: where a speed is asked for, and only
 # there, "1 / min" is one.
-SPELLINGS = {"none": "", "°": "deg", "mum": "um", "mus": "us", "kg / dm^3": "g / cm^3"}
-TURNS = {"1 / min": "rpm", "1 / s": "rev / s", "Hz": "rev / s"}
+SPELLINGS = {"none": "", "1": "", "-": "", "°": "deg", "mum": "um", "mus": "us"}
+# By their letters without blanks.
+TURNS = {"1/min": "rpm", "min^-1": "rpm", "1/s": "rev / s", "s^-1": "rev / s", "Hz": "rev / s"}
 # Kinds of values that are no quantity: a number, a whole number, and a length that a scene has in modules.
 NUMBER, COUNT, MODULES, SPEED = "", "whole number", "in modules", "rpm"
 # Arrays in binary form: little-endian, in base64, from REXS 1.3 on.
@@ -57,7 +58,7 @@ def value_of(component: Component, name: str, unit: str, module: Value | None = 
         length = value_of(component, name, "mm")
         return bare(length.number / module.number, f"{length.origin}, over the module")
     text, written = word_of(component, name), component.attributes[name].unit
-    spelt = TURNS.get(written, written) if unit == SPEED else written
+    spelt = TURNS.get(written.replace(" ", ""), written) if unit == SPEED else written
     spelt, said = SPELLINGS.get(spelt, spelt), f"{place(component, name)} = {text} {written}".rstrip()
     origin = f"{name} of component {component.id}"
     if unit == COUNT:
@@ -94,6 +95,14 @@ def word_of(component: Component, name: str) -> str:
     if len(entries) != 1:
         raise ValueProblem(f"{place(component, name)} is an array of {len(entries)} values. Allowed: one value.")
     return entries[0]
+
+
+def numbers_of(component: Component, name: str) -> list[float]:
+    """The numbers of an array. Raises ValueProblem."""
+    try:
+        return [float(each) for each in _entries(component, name)]
+    except ValueError as error:
+        raise ValueProblem(f"{place(component, name)} is no array of numbers: {error}.") from None
 
 
 def in_words(component: Component, name: str) -> str:

@@ -43,12 +43,12 @@ def _section(name: str, heading: str, run: Run, charts) -> Section:
 def _cycles_shown(run: Run) -> list[Block]:
     first, last = run.window
     part = (
-        f"Charts over time show the mesh cycles {first:g} to {last:g} of {run.phase[0]:g} to {last:g}; on screen, a"
-        " double click shows all of them, but not of single tooth pairs."
+        f"Charts over time show mesh cycles {first:g} to {last:g}. On screen, a double click shows all cycles, from"
+        f" {run.phase[0]:g} to {last:g}; charts of single tooth pairs have none before {first:g}."
     )
     fewer = (
-        f"Of the {run.steps:,} steps beyond, the smallest and the largest of each of {MOST_POINTS // 2:,} slices are"
-        " drawn: every peak is there."
+        f"The run has {run.steps:,} steps, more than a chart draws: they are cut into {MOST_POINTS // 2:,} parts, and"
+        " of each the smallest and the largest value are drawn, so that every peak is there."
     )
     return [] if run.shows_all else [Words(part + (f" {fewer}" if run.steps > MOST_POINTS else ""))]
 

@@ -11,8 +11,9 @@ FACTORS = {
         " carries so many times the mean. This stands beside ISO's K_Hβ."
     ),
     "largest_line_load_factor": (
-        "Largest line load {:.3f}: at the worst moment, away from edges, a tooth carries so many times what the mesh"
-        " force makes if it spreads evenly along the lines of contact of rigid gears when these are shortest."
+        "Largest line load {:.3f}: at the worst moment, away from edges, a tooth carries so many times the even load."
+        " The even load is the mesh force over the length of the lines of contact of rigid gears, when these are"
+        " shortest."
     ),
     "edge_line_load_factor": (
         "At edges {:.3f}: the same at the ends of the face, and where a line of contact ends at a tip or form circle."

@@ -63,6 +63,8 @@ def test_run_out_of_the_pinion_shows_as_sidebands(paper_scene):
         0.5 * depth**2 * 16.0, rel=1e-6
     )
     assert float(found["transmission_error_sideband_energy"].sel(harmonic=1, gear="wheel")) < 1e-12
+    decibels = 10.0 * np.log10(0.5 * depth**2)
+    assert any(f"{decibels:+.1f}\u00a0dB at order 1" in chart.caption for chart in noise_charts(found))
     assert "mesh_force_level" not in found
 
 

@@ -112,6 +112,21 @@ def lead_of(tmp_path, model):
     return scene.lead_modifications.pinion
 
 
+def test_a_wider_gear_has_its_lead_modifications_over_its_own_face(tmp_path):
+    """As a scene takes them; the file's common width is that of the narrower mate. A circular end relief is parabolic
+    as a tip relief is."""
+    model = rexs.with_values(
+        with_modification("helix_crowning", *crowning(at=(-9.0, 9.0))),
+        (rexs.PINION, "face_width", 18.0, "mm"),
+        (rexs.STAGE, "common_face_width", 15.0, "mm"),
+    )
+    scene, _ = scene_of(tmp_path, model)
+    assert scene.gears.face_widths == (18.0, 15.0)
+    assert scene.lead_modifications.pinion == LeadModification(crowning=pytest.approx(0.006))
+    model = loaded(with_modification("end_relief_datum_face", *end_relief("datum_face", shape="circular")), "left")
+    assert lead_of(tmp_path, model).end_relief.shape == "parabolic"
+
+
 def test_crowning(tmp_path):
     """Height at the ends of the face (15 mm): given at 5 mm from mid-width it is (7.5/5)^2 as high."""
     assert lead_of(tmp_path, with_modification("helix_crowning", *crowning())) == LeadModification(crowning=0.006)
@@ -165,8 +180,8 @@ REFUSED = [
     ),
     (with_modification("helix_crowning"), ["helix_crowning_amount_datum_face is missing"]),
     (
-        loaded(with_modification("end_relief_datum_face", *end_relief("datum_face", shape="circular")), "left"),
-        ["shape_of_relief = circular", "linear or parabolic"],
+        loaded(with_modification("end_relief_datum_face", *end_relief("datum_face", shape="logarithmic")), "left"),
+        ["shape_of_relief = logarithmic", "linear, parabolic or circular"],
     ),
     (
         loaded(with_modification("end_relief_datum_face", *end_relief("datum_face", depth=-1.0)), "left"),

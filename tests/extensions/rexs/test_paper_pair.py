@@ -26,6 +26,7 @@ def imported(tmp_path, content, name="file.rexs", **choice):
         "JSON",
         "XML in ZIP",
         "JSON in ZIP",
+        "XML of the other ending in ZIP",
         "XML with namespace",
         "XML with byte-order mark",
         "JSON with byte-order mark",
@@ -41,6 +42,7 @@ def test_every_form_gives_the_paper_s_pair(paper_scene, tmp_path, form):
         # What macOS adds to an archive, and what a model may refer to.
         "XML in ZIP": rexs.as_zip(("model.rexs", xml), ("__MACOSX/._model.rexs", b"\0"), ("gear.gde", b"")),
         "JSON in ZIP": rexs.as_zip(("model.rexsj", json)),
+        "XML of the other ending in ZIP": rexs.as_zip(("model.rexs.xml", xml)),
         "XML with namespace": rexs.as_xml(model, namespace="https://www.rexs.info/schema/rexs-file"),
         "XML with byte-order mark": b"\xef\xbb\xbf" + xml,
         "JSON with byte-order mark": b"\xef\xbb\xbf" + json,
@@ -53,12 +55,12 @@ def test_every_form_gives_the_paper_s_pair(paper_scene, tmp_path, form):
 
 
 # Units a REXS file may have, and how many N, mm, s, rad (kg/dm^3 for the density) each is: from their definitions.
-LENGTHS = {"mm": 1.0, "m": 1000.0, "cm": 10.0, "mum": 1e-3, "µm": 1e-3, "in": 25.4}
+LENGTHS = {"mm": 1.0, "m": 1000.0, "cm": 10.0, "dm": 100.0, "mum": 1e-3, "µm": 1e-3, "in": 25.4}
 ANGLES = {"deg": 1.0, "°": 1.0, "rad": 57.29577951308232, "mrad": 0.05729577951308232}
-SPEEDS = {"1 / min": 1.0, "rpm": 1.0, "1 / s": 60.0, "rad / s": 9.549296585513721, "Hz": 60.0}
+SPEEDS = {"1 / min": 1.0, "1/min": 1.0, "rpm": 1.0, "1 / s": 60.0, "rad / s": 9.549296585513721, "Hz": 60.0}
 TORQUES = {"N m": 1.0, "Nm": 1.0, "N mm": 1e-3, "kN m": 1e3}
 STRESSES = {"N / mm^2": 1.0, "MPa": 1.0, "GPa": 1e3, "Pa": 1e-6}
-RATIOS = {"none": 1.0, "": 1.0, "%": 0.01}
+RATIOS = {"none": 1.0, "": 1.0, "1": 1.0, "-": 1.0, "%": 0.01}
 SIZES = ("normal_module", "tip_diameter", "root_diameter", "inner_diameter", "face_width")
 SHIFT = "addendum_modification_coefficient"
 QUANTITIES = [
@@ -88,6 +90,14 @@ def test_units_do_not_matter(paper_scene, tmp_path_factory, data):
     assert_same_gears(scene.gears, paper_scene.gears)
     assert scene.load.wheel_torque == pytest.approx(437e3, rel=1e-13)
     assert scene.motion.mesh_frequency == pytest.approx(200.0, rel=1e-13)
+
+
+@pytest.mark.parametrize("version", ["1.40", "2.0.0", "v1.4", "1,4"])
+def test_versions_are_read_as_programs_write_them(paper_scene, tmp_path, version):
+    """REXS says main version, point, sub-version, and its own newest is 2.0.0."""
+    model = rexs.paper_model()
+    model["model"]["version"] = version
+    assert imported(tmp_path, rexs.as_xml(model))[0].gears == paper_scene.gears
 
 
 def assert_same_gears(found, expected):

@@ -94,7 +94,10 @@ def test_all_mistakes_are_told_at_once(tmp_path):
             "component 40 (tip_relief): tip_relief_datum_diameter = 79.0 deg is an angle, not a length",
         ),
         ({"depth": (-5.0, "mum")}, "tip_relief_depth = -5.0 um is not positive"),
-        ({"shape_of_relief": ("circular",)}, "shape_of_relief = circular. Allowed: linear or parabolic"),
+        (
+            {"shape_of_relief": ("exponential",)},
+            "shape_of_relief = exponential. Allowed: linear, parabolic or circular",
+        ),
         (
             {"datum_length": (25.0, "mm")},
             "tip_relief_datum_length = 25.0 mm is no length of roll of this flank. Allowed: above 0 and below 23.7",

@@ -48,7 +48,7 @@ def test_cases_and_curves_are_those_of_the_file(study):
     radius = xr.open_dataset(study / dataset["case_file"].values.ravel()[0], engine="h5netcdf").attrs[
         "base_radius_wheel"
     ]
-    drawn = figures(page)["Transmission error, peak to peak over mesh frequency"]
+    drawn = figures(page)["Transmission error, peak to peak, against mesh frequency"]
     for trace, friction, words in zip(drawn["data"], ("absent", "present"), ("without friction", "with friction")):
         assert trace["name"] == words and trace["x"] == [100, 200, 300]
         expected = dataset["peak_to_peak_transmission_error"].sel(friction=friction).values * radius * 1e3
@@ -109,7 +109,7 @@ def test_failed_and_missing_cases_are_named(study, tmp_path):
     )
     assert "of 6 cases 1 failed, 1 not computed yet" in (tmp_path / "report.html").read_text()
     assert "missing" in page.sections["cases"] and page.faults == []
-    curves = figures(page)["Transmission error, peak to peak over mesh frequency"]["data"]
+    curves = figures(page)["Transmission error, peak to peak, against mesh frequency"]["data"]
     assert curves[0]["y"][0] is None and curves[1]["y"][2] is None
 
 

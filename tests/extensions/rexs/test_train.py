@@ -1,0 +1,194 @@
+"""Torque, speed and direction along a gear train: M2 = M1 z2/z1 and n2 = n1 z1/z2 without losses, equilibrium of what
+turns as one, and the power that comes in where torque and speed have one sign."""
+
+import pytest
+from tests.extensions.rexs import paper_model as rexs
+from tests.extensions.rexs.test_lookups import refused, scene_of
+
+from fenics_gears.extensions.rexs.loads import pinion_speed, wheel_torque
+from fenics_gears.extensions.rexs.model import checked_model
+from fenics_gears.extensions.rexs.stage import chosen_stage
+from fenics_gears.extensions.rexs.values import ValueProblem
+
+TEETH = "number_of_teeth"
+FIRST, SECOND = 100, 200
+
+
+class Gearbox:
+    """A model of shafts 1, 2, ..., stages between them and loads on them, by REXS's components and relations."""
+
+    def __init__(self):
+        self.components, self.relations = [], []
+
+    def _component(self, number, kind, **attributes):
+        listed = [{"id": name, "unit": unit, "value": str(value)} for name, (value, unit) in attributes.items()]
+        self.components.append({"id": number, "type": kind, "attributes": listed})
+
+    def relate(self, kind, **roles):
+        refs = [{"role": role, "id": number} for role, number in roles.items()]
+        self.relations.append({"type": kind, "refs": refs})
+
+    def shaft(self, number, speed=None):
+        self._component(number, "shaft", **({"rotational_speed": (speed, "1 / min")} if speed else {}))
+        return self
+
+    def stage(self, number, shafts, teeth, kind="cylindrical", second="cylindrical_gear", **own):
+        """A stage, with its two gears ``number`` + 1 and + 2 on two shafts; ``own``: words of both gears."""
+        self._component(number, f"{kind}_stage")
+        for which, (shaft, count) in enumerate(zip(shafts, teeth), start=1):
+            words = {name: (values[which - 1], "none") for name, values in own.items()}
+            gear = second if which == 2 else f"{kind}_gear"
+            self._component(number + which, gear, number_of_teeth=(count, "none"), **words)
+            self.relate("assembly", assembly=shaft, part=number + which)
+        self.relate("stage", stage=number, gear_1=number + 1, gear_2=number + 2)
+        return self
+
+    def load(self, number, shaft, torque=None):
+        known = {} if torque is None else {"torque_around_u_axis": (torque, "N m")}
+        self._component(number, "external_load", transmits_torque=("true", "none"), **known)
+        self.relate("assembly", assembly=shaft, part=number)
+        return self
+
+    def joint(self, number, kind, one, other, relation="side", **words):
+        self._component(number, kind, **{name: (word, "none") for name, word in words.items()})
+        self.relate(relation, assembly=number, inner_part=one, outer_part=other)
+        return self
+
+    def of_stage(self, number):
+        """Torque on the driven gear in N m, speed of the driving one in rpm, the number of the driving gear's
+        component and the side of the driven gear's teeth that is loaded."""
+        tree = {"version": "1.4", "components": self.components, "relations": self.relations}
+        model = checked_model(tree)
+        stage = chosen_stage(model, number)
+        counts = [float(part.gear.attributes[TEETH].value) for part in (stage.pinion, stage.wheel)]
+        ratio = counts[1] / counts[0]
+        torque = wheel_torque(model, stage, ratio).number / 1e3
+        speed = pinion_speed(model, stage, ratio).number / 0.10471975511965977
+        return torque, pytest.approx(speed), stage.pinion.gear.id, stage.wheel.by_torque
+
+
+def two_stages():
+    """20/40 teeth from shaft 1 to shaft 2, again from shaft 2 to shaft 3; 100 N m and 1000 rpm on shaft 1."""
+    box = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100)
+    return box.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (2, 3), (20, 40))
+
+
+def test_torque_and_speed_go_through_the_stages_before():
+    """Twice the torque at half the speed in each stage of 20/40 teeth: 200 and 400 N m, 1000 and 500 rpm."""
+    assert two_stages().of_stage(FIRST)[:3] == (pytest.approx(200.0), 1000.0, FIRST + 1)
+    assert two_stages().of_stage(SECOND)[:3] == (pytest.approx(400.0), 500.0, SECOND + 1)
+    from_the_end = Gearbox().shaft(1).shaft(2).shaft(3, 250).load(10, 3, -400)
+    from_the_end.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (2, 3), (20, 40))
+    assert from_the_end.of_stage(FIRST)[:2] == (pytest.approx(200.0), 1000.0)
+
+
+@pytest.mark.parametrize(
+    ("kind", "relation", "words", "joined"),
+    [
+        ("coupling", "side", {}, True),
+        ("fixed_coupling", "coupling", {}, True),
+        ("feather_key_connection", "side", {}, True),
+        ("cylindrical_interference_fit", "side", {}, True),
+        ("switchable_coupling", "side", {"is_engaged": "true"}, True),
+        ("switchable_coupling", "side", {"is_engaged": "false"}, False),
+        ("switchable_coupling", "side", {}, False),
+        ("rolling_bearing_with_catalog_geometry", "side", {}, False),
+    ],
+)
+def test_couplings_and_seats_pass_torque_on_and_bearings_do_not(kind, relation, words, joined):
+    """REXS: couplings join by the relation "side", up to version 1.0 by "coupling"; an open one carries nothing."""
+    box = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100).stage(FIRST, (2, 3), (20, 40))
+    box.joint(11, kind, 1, 2, relation, **words)
+    if joined:
+        assert box.of_stage(FIRST)[:3] == (pytest.approx(200.0), 1000.0, FIRST + 1)
+    else:
+        with pytest.raises(ValueProblem, match="no torque"):
+            box.of_stage(FIRST)
+
+
+def test_a_shaft_held_by_the_casing_takes_what_is_not_said():
+    """A coupling to the casing is a brake: what comes beyond it does not follow."""
+    box = two_stages()
+    box._component(12, "gear_casing")
+    with pytest.raises(ValueProblem, match="no torque"):
+        box.joint(11, "coupling", 2, 12).of_stage(SECOND)
+
+
+def test_what_a_branch_takes_is_not_in_the_mesh():
+    """Equilibrium of shaft 1: of 100 N m, 30 N m on shaft 3 with 40 teeth are 15 N m on 20 teeth; 85 N m are left."""
+    box = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100).load(11, 3, 30)
+    box.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (1, 3), (20, 40))
+    assert box.of_stage(FIRST)[0] == pytest.approx(170.0)
+    unknown = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100).load(11, 3)
+    unknown.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (1, 3), (20, 40))
+    with pytest.raises(ValueProblem, match="no torque"):
+        unknown.of_stage(FIRST)
+
+
+def test_an_internal_gear_turns_the_sign():
+    """The gears of an internal pair turn in one sense: what resists on shaft 3 is negative, and is taken off too."""
+    box = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100).load(11, 3, -60)
+    box.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (1, 3), (20, 80), second="ring_gear")
+    assert box.of_stage(FIRST)[0] == pytest.approx(170.0)
+
+
+def test_paths_that_part_and_meet_again_are_not_shared_out():
+    """Which of two parallel stages carries how much, no ratio of teeth says."""
+    box = Gearbox().shaft(1, 1000).shaft(2).load(10, 1, 100)
+    box.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (1, 2), (20, 40))
+    with pytest.raises(ValueProblem, match="reach it by one path"):
+        box.of_stage(FIRST)
+
+
+@pytest.mark.parametrize(("torque", "driving"), [(100, FIRST + 1), (-100, FIRST + 2)])
+def test_power_says_which_gear_drives(torque, driving):
+    """Torque and speed of one sign drive, of two signs brake, however many teeth there are: here 40 to 20."""
+    box = Gearbox().shaft(1, 500).shaft(2).load(10, 1, torque).stage(FIRST, (1, 2), (40, 20))
+    assert box.of_stage(FIRST)[2] == driving
+
+
+@pytest.mark.parametrize(
+    ("torque", "orientation", "side"),
+    [(100, "negative", "right"), (-100, "negative", "left"), (100, "positive", "left")],
+)
+def test_torque_says_which_flank_is_loaded(torque, orientation, side):
+    """The driving gear turns by its leading flank; turning about +u, it turns clockwise as seen from its end in -u, and
+    the leading flank of the tooth at the top is the right one. Seen from the same end, the mate has the same side."""
+    box = Gearbox().shaft(1, 10 * torque).shaft(2).shaft(3).load(10, 1, torque)
+    box.stage(FIRST, (1, 2), (20, 40), datum_face_orientation=[orientation] * 2)
+    box.stage(SECOND, (2, 3), (20, 40), datum_face_orientation=[orientation] * 2)
+    other = {"left": "right", "right": "left"}[side]
+    assert [box.of_stage(number)[3] for number in (FIRST, SECOND)] == [side, other]
+
+
+@pytest.mark.parametrize(("tips", "side"), [(("positive",) * 2, "left"), (("positive", "negative"), "right")])
+def test_torque_goes_through_a_bevel_stage(tips, side):
+    """Bevel gears whose axes both point to where they cross turn as external gears: the shaft behind turns the other
+    way; with one axis turned round it does not."""
+    box = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100)
+    box.stage(FIRST, (1, 2), (20, 40), kind="bevel", second="bevel_gear", bevel_cone_orientation=tips)
+    box.stage(SECOND, (2, 3), (20, 40), datum_face_orientation=["negative"] * 2)
+    assert box.of_stage(SECOND) == (pytest.approx(400.0), 500.0, SECOND + 1, side)
+
+
+def test_the_scene_says_where_the_torque_is_from(tmp_path):
+    """Every value names its origin; a loaded flank that was not said is told as assumed where flanks are modified."""
+    model = rexs.with_component(
+        rexs.with_value(rexs.paper_model(), rexs.LOAD, "torque_around_u_axis", None),
+        35,
+        "external_load",
+        ("torque_around_u_axis", 200.0, "N m"),
+        assembly={"assembly": rexs.SHAFT, "part": 35},
+    )
+    model = rexs.with_values(
+        rexs.with_value(model, rexs.LOAD, "transmits_torque", False),
+        *((gear, "datum_face_orientation", "negative") for gear in (rexs.PINION, rexs.WHEEL)),
+    )
+    relief = ("tip_relief_depth", 31.0, "mum"), ("tip_relief_datum_diameter", 79.0, "mm")
+    model = rexs.on_flanks(rexs.with_component(model, 40, "tip_relief", *relief), 40, rexs.PINION_FLANKS[1:])
+    scene, found = scene_of(tmp_path, model)
+    assert scene.tip_relief.pinion.depth == pytest.approx(0.031)
+    assert "loaded flank of component 5: right, by the sign of its torque" in found.text
+    assert "torque_around_u_axis of component 35 by the ratio of teeth" in found.text
+    braked = rexs.with_value(model, 35, "torque_around_u_axis", None)
+    assert "does not say which one is loaded" in refused(tmp_path, braked, wheel_torque="437 N m")
