@@ -112,7 +112,7 @@ def _correction(found) -> str:
 def _factors(run: Run) -> str:
     names = {
         "face_load_factor": "face load factor",
-        "largest_line_load_factor": "largest line load over even one",
+        "largest_line_load_factor": "largest line load / even line load",
         "edge_line_load_factor": "at edges",
     }
     found = [f"{words} {run.dataset.attrs[name]:.3f}" for name, words in names.items() if name in run.dataset.attrs]

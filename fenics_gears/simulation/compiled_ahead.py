@@ -44,7 +44,7 @@ def compile_ahead(progress: Progress) -> None:
     beside, kept = next(iter(places.items()))
     if _is_of_these_sources(kept / name):
         return
-    with one_at_a_time(kept / "compiling"):
+    with one_at_a_time(kept / "compiling", lambda: progress.say("another process compiles; waiting for it")):
         if _is_of_these_sources(kept / name):
             return
         if not any(map(_is_of_these_sources, kept.glob("compiled-*"))):
