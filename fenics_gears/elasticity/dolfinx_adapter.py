@@ -136,8 +136,8 @@ def with_compiled(build):
 
 
 def in_turn(compiler):
-    """DOLFINx's compiler of forms, elements and coordinate maps, quiet and in one process at a time: while one compiles,
-    others that need the same would wait 10 s and then fail, which many first runs on few cores do."""
+    """DOLFINx's compiler of forms, elements and coordinate maps, quiet and in one process at a time: while one
+    compiles, others that need the same would wait 10 s and then fail, as of many first runs on few cores."""
 
     @functools.wraps(compiler)
     def compiled(*arguments, **options):

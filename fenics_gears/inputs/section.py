@@ -89,7 +89,7 @@ def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tu
             values[name], found = read(inner, written, place)
             problems += found
         else:
-            message = f"is not a section. Write a line [{'.'.join(place)}], and below it {_fields_of(inner)}."
+            message = f"is not a section. Write a line [{'.'.join(place)}], and below it {fields_of(inner)}."
             problems.append(Problem(place, as_written(written), message))
     problems += _beside_another(section, tree, path)
     problems += (

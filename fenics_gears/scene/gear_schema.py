@@ -212,9 +212,9 @@ class Gears(Section):
         "0 mm to 1 m",
         "0.1 mm",
         meaning=(
-            "circumferential backlash j_wt at the pitch circles. Where both `profile_shift` are given too, the teeth of"
-            " both gears are thinned, by half of it each; where both tooth thicknesses are measured, the centre distance"
-            " follows from it"
+            "circumferential backlash j_wt at the pitch circles. Where both `profile_shift` are given too, each gear's"
+            " teeth are thinned by half of it; where both tooth thicknesses are measured, the centre distance follows"
+            " from it"
         ),
         otherwise="what centre distance and tooth thicknesses leave",
     )

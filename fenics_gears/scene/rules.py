@@ -93,7 +93,10 @@ def _a_speed_where_time_matters(tree: Tree) -> Broken:
     if needing is None or not isinstance(tree.get("motion", {}), Mapping):
         return
     if "motion" not in tree:
-        yield ("motion",), f"is missing. Add the section [motion] with {fields_of(MotionText)}; [{needing}] needs a speed."
+        yield (
+            ("motion",),
+            f"is missing. Add the section [motion] with {fields_of(MotionText)}; [{needing}] needs a speed.",
+        )
         return
     names = ("mesh_frequency", "pinion_speed")
     if not any(nearest(name, names) or meant(("motion",), name, names) for name in motion):

@@ -210,7 +210,7 @@ class Interruption(Progress):
         self._progress.stage(name)
 
     def update(self, done: int, total: int, note: str = "") -> None:
-        """Pass the count on; raises KeyboardInterrupt where Ctrl-C was pressed since the last one and parts are left."""
+        """Pass the count on; raises KeyboardInterrupt where Ctrl-C was pressed and parts are left."""
         self._counting = True
         self._progress.update(done, total, note)
         # What is done is whole; `heed` hears of it.

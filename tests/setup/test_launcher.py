@@ -108,7 +108,9 @@ def test_sources_are_compiled_after_each_change(checkout, this_python, tmp_path)
     os.utime(checkout / ".setup/compiled", (later - 20.0, later - 20.0))
     os.utime(package / "contact/march.py", (later - 15.0, later - 15.0))
     environment = this_python | {"PYTHONDONTWRITEBYTECODE": "1"}
-    calls = [subprocess.Popen([checkout / "gears", "run"], env=environment, stdout=subprocess.DEVNULL) for _ in range(3)]
+    calls = [
+        subprocess.Popen([checkout / "gears", "run"], env=environment, stdout=subprocess.DEVNULL) for _ in range(3)
+    ]
     assert [each.wait(60) for each in calls] == [0, 0, 0]
     assert done.read_text() == "once once "
     # The module itself is compiled, also where Python keeps nothing by itself.

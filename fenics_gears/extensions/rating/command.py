@@ -112,7 +112,9 @@ def _show(rows) -> None:
         print(f"{name:50}{_written(row.standard, 4):>10}{_written(row.computed, 4) or '-':>10}")
     print("K_v of this run: largest force of a tooth pair over that without inertia. Safeties: by the same limits.")
     if any(isnan(row.computed) for row in rows):
-        print("-: not in this run. Root stress needs [output] root_stress = true, the dynamic factor [inertia], face and")
+        print(
+            "-: not in this run. Root stress needs [output] root_stress = true, the dynamic factor [inertia], face and"
+        )
         print("   transverse factors a run over the face, such as with [misalignment].")
 
 
