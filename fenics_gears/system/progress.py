@@ -157,7 +157,9 @@ class BarProgress(Progress):
         if not self._counted:
             self._bars.update(self._task, total=1, completed=1)
         self._bars.stop_task(self._task)
-        task, self._task = self._bars.tasks[self._task], None
+        # Their places in the list are not their numbers, once some are removed.
+        task = next(each for each in self._bars.tasks if each.id == self._task)
+        self._task = None
         self.finished.append((self._name, task.finished_time or task.elapsed))
 
 
