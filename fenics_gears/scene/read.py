@@ -11,7 +11,6 @@ from typing import Any
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean, line_numbers, listed
-from fenics_gears.inputs.toml_mistakes import why_no_toml
 from fenics_gears.inputs.tree import written_out
 from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
 from fenics_gears.system import user_file
@@ -61,6 +60,8 @@ def parsed(text: str, source: str) -> dict[str, Any]:
     try:
         tree = written_out(tomllib.loads(text, parse_float=WrittenFloat))
     except (ValueError, RecursionError) as error:
+        from fenics_gears.inputs.toml_mistakes import why_no_toml
+
         raise SceneError(f"{source}: is not valid TOML: {why_no_toml(error, text)}\n{NOTHING_DONE}") from None
     if problems := list(_unprintable((), tree)):
         raise SceneError(listed(problems, line_numbers(text), source))
