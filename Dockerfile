@@ -1,10 +1,22 @@
-# The same set-up as on a Debian machine:  docker build -t gears . && docker run --rm -v "$PWD:/scenes" gears run lundvall2004.toml
+# The same set-up as on a Debian machine:
+#   docker build -t gears .
+#   cd demos && docker run --rm --user "$(id -u):$(id -g)" -v "$PWD:/scenes" -v gears-cache:/cache gears run lundvall2004.toml
+# The results are in demos/results and belong to you; the volume gears-cache keeps condensed gears for the next run.
 FROM debian:trixie-slim
-COPY . /opt/fenics_gears
+# What is installed depends on these files alone, so a change of the sources installs nothing again.
+COPY gears /opt/fenics_gears/gears
+COPY setup /opt/fenics_gears/setup
 RUN /opt/fenics_gears/gears --set-up-only \
     && apt-get clean && rm -rf /var/lib/apt/lists/*
-# mpirun as root, for studies: docker run --entrypoint mpirun gears -n 4 gears study STUDY
+COPY . /opt/fenics_gears
+RUN /opt/fenics_gears/gears --set-up-only
+RUN ln -sf /opt/fenics_gears/gears /usr/local/bin/gears \
+    && useradd --create-home gears && install -d -m 1777 /cache /scenes
+# Condensed gears and compiled code; anybody may write there, whoever the container runs as.
+ENV XDG_CACHE_HOME=/cache HOME=/cache
+# mpirun as root, for studies: docker run --user root --entrypoint mpirun gears -n 4 gears study STUDY
 ENV OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-RUN ln -sf /opt/fenics_gears/gears /usr/local/bin/gears
+VOLUME /cache
+USER gears
 WORKDIR /scenes
 ENTRYPOINT ["gears"]

@@ -31,7 +31,7 @@ assert "linewidth" in str(lines.Line2D.set.__signature__)
 
 EFFECTS = {"tooth_elasticity", "shafts", "bearings", "inertia", "damping", "friction"}
 # Those of condensing apart, which a run with gears from the cache does not load.
-MOST_MODULES = 130
+MOST_MODULES = 132
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ COLUMNS = (
     "flanks and axes",
     "T_EPP (µm)",
     "K_Hβ",
-    "largest line load over even one",
+    "largest line load / even line load",
     "largest pressure off the edges (MPa)",
     "axial force (N)",
     "tilt of the wheel (µrad)",

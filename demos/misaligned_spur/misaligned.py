@@ -10,7 +10,7 @@ from demos.arguments import output_directory
 
 HERE = Path(__file__).parent
 MISALIGNMENTS = (0.0, 0.010, 0.020, 0.030)
-COLUMNS = ("misalignment (µm)", "flanks", "K_Hβ", "largest line load over even one", "T_EPP (µm)")
+COLUMNS = ("misalignment (µm)", "flanks", "K_Hβ", "largest line load / even line load", "T_EPP (µm)")
 
 
 def flanks() -> dict:

@@ -63,6 +63,8 @@ def _settings_of_a_command() -> Iterator[None]:
 def _carried_out(arguments: Sequence[str]) -> int:
     if set(arguments) in ({"--version", "-v"}, {"--version", "--verbose"}):
         return _print_versions()
+    if arguments[:1] == ["help"]:
+        arguments = [*arguments[1:2], "--help"]
     called = next((word for word in arguments if not word.startswith("-")), "")
     if called in found.UNPARSED:
         after = arguments.index(called) + 1

@@ -27,8 +27,10 @@ def middles_of_slices(pair: GearPair, slices: int = SLICES) -> np.ndarray:
 
 
 def face_compliance_of_shafts(shafts: Iterable[ElasticShaft], pair: GearPair, z: np.ndarray) -> np.ndarray:
-    """Gap (s, s), mm in the transverse section, that opens at places z (s,) of the common face per transverse force (N)
-    along the line of action at others, at the pitch point and without friction; turns of whole gears left out.
+    """How far bending shafts move the flanks apart along the face: entry (i, j) is the gap, in mm of the transverse
+    section, that opens at z[i] by a transverse force of 1 N at z[j]. z (s,): heights on the common face, mm.
+
+    The force acts along the line of action at the pitch point, without friction. Rotations of whole gears are left out.
 
     >>> from fenics_gears import gear_pair, load_scene
     >>> pair = gear_pair(load_scene("demos/lundvall2004.toml").gears)

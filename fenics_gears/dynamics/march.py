@@ -177,6 +177,7 @@ class Marcher(Stepper):
             blocks = self._plain_block if self.plain or self.cycle.traits.own_solver else self._compiled_block
             for first, end in self._blocks(steps):
                 last = blocks(last, range(first, end), take, lambda step: report(step, steps))
+            report(steps, steps)
         except KeyboardInterrupt:
             march.interrupted = True
         except ContactNotConverged as failure:

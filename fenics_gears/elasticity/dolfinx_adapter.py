@@ -1,5 +1,6 @@
 """The only module that imports DOLFINx: what the program uses of it, alike on 0.5, 0.9 and 0.11."""
 
+import functools
 import inspect
 import logging
 import re
@@ -8,6 +9,9 @@ from importlib import metadata
 from pathlib import Path
 
 import numpy as np
+
+from fenics_gears.system.environment import cache_folder
+from fenics_gears.system.turns import one_at_a_time
 
 
 def _load_vtk_before_old_dolfinx() -> None:
@@ -129,6 +133,22 @@ def with_compiled(build):
             raise
         Path(named[1]).unlink(missing_ok=True)
         return with_compiled(build)
+
+
+def in_turn(compiler):
+    """DOLFINx's compiler of forms, elements and coordinate maps, quiet and in one process at a time: while one
+    compiles, others that need the same would wait 10 s and then fail, as of many first runs on few cores."""
+
+    @functools.wraps(compiler)
+    def compiled(*arguments, **options):
+        with one_at_a_time(cache_folder() / "fenics_gears" / "compiling"), quiet_compiler():
+            return with_compiled(lambda: compiler(*arguments, **options))
+
+    return compiled
+
+
+# All that DOLFINx compiles goes through it.
+dolfinx.jit.ffcx_jit = in_turn(dolfinx.jit.ffcx_jit)
 
 
 def compile_form(expression):

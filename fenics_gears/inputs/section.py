@@ -89,7 +89,7 @@ def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tu
             values[name], found = read(inner, written, place)
             problems += found
         else:
-            message = f"is not a section. Write a line [{'.'.join(place)}], and below it {_fields_of(inner)}."
+            message = f"is not a section. Write a line [{'.'.join(place)}], and below it {fields_of(inner)}."
             problems.append(Problem(place, as_written(written), message))
     problems += _beside_another(section, tree, path)
     problems += (
@@ -124,11 +124,14 @@ def _missing(section: type[Section], name: str, place: Path) -> Iterator[Problem
     if allowed is not None:
         yield Problem(place, None, f"is missing. Allowed: {allowed.description}.")
     elif inner is not None:
-        yield Problem(place, None, f"is missing. Add the section [{'.'.join(place)}] with {_fields_of(inner)}.")
+        yield Problem(place, None, f"is missing. Add the section [{'.'.join(place)}] with {fields_of(inner)}.")
 
 
-def _fields_of(section: type[Section]) -> str:
-    return f"its fields: {', '.join(names_in(section))}"
+def fields_of(section: type[Section]) -> str:
+    """The fields that a section may have, in words; of alternatives each group stands by itself."""
+    groups = [f"one of {', '.join(group)}" for group in section.alternatives]
+    single = [name for name in names_in(section) if not any(name in group for group in section.alternatives)]
+    return "; ".join([*groups, *([f"its fields: {', '.join(single)}"] if single else [])])
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -147,6 +147,9 @@ def _curve_rows(model: Model) -> Rows:
     return rows
 
 
+OVER_THE_FACE = '[misalignment] with in_plane = "0 um" computes the pair over the face, without this error'
+
+
 def _plane_rows(model: Model) -> Rows:
     """Of elastic gears in the plane: the widths that count where a gear is wider than the common face, and what plane
     strain leaves out of a narrow face."""
@@ -160,8 +163,7 @@ def _plane_rows(model: Model) -> Rows:
     modules = pair.face_width / pair.pinion.module
     softer = too_stiff(modules, scene.gears.materials)
     if softer >= NOTABLE_STIFFNESS:
-        way_out = 'over the face it is not, with the section [lead_modifications.pinion] and crowning = "0 um"'
-        words = f"too stiff (mean transmission error) for a face of {modules:.3g} modules; {way_out}"
+        words = f"too stiff (mean transmission error): the face is {modules:.3g} modules wide; {OVER_THE_FACE}"
         found.append(("plane strain", f"about {softer:.1f}%", words))
     return found
 

@@ -77,10 +77,11 @@ def _harmonics(found) -> Said:
 def _stiffness(found) -> Said:
     """The tangent, which small vibrations have; the secant counts gaps of relief and misalignment as deflection."""
     if "mean_mesh_stiffness_tangent" in found:
+        yield "mesh stiffness, mean tangent", f"{found['mean_mesh_stiffness_tangent']:.4g} N/(mm um)"
+        secant = f"{found['mean_mesh_stiffness']:.4g} N/(mm um), force over deflection"
         single = found.get("single_pair_stiffness")
-        one = "" if single is None else f", at most {single:.4g} with one pair"
-        tangent = f"{found['mean_mesh_stiffness_tangent']:.4g} N/(mm um) on average"
-        yield "mesh stiffness, tangent", f"{tangent}; force over deflection {found['mean_mesh_stiffness']:.4g}{one}"
+        one = "" if single is None else f"; {single:.4g} at most while one tooth pair carries"
+        yield "mesh stiffness, mean secant", f"{secant}{one}"
 
 
 def _pair_force(found) -> Said:
@@ -106,7 +107,8 @@ def _face(found) -> Said:
         yield "face load factor K_Hbeta", f"{found['face_load_factor']:.3f}, {of}"
     if "largest_line_load_factor" in found:
         edges = f", {found['edge_line_load_factor']:.3f} at edges" if "edge_line_load_factor" in found else ""
-        yield "largest line load over even one", f"{found['largest_line_load_factor']:.3f} away from edges{edges}"
+        largest = f"{found['largest_line_load_factor']:.3f} away from edges{edges}"
+        yield "largest line load / even line load", largest
     if "transverse_load_factor" in found:
         yield "transverse load factor K_Halpha", f"{found['transverse_load_factor']:.3f}"
 

@@ -14,6 +14,7 @@ from fenics_gears.results.dataset import RunResult
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.routes import Preparation
 from fenics_gears.simulation.simulate import solved
+from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.system.progress import Progress, SilentProgress
 
 from .condensing import condense, gear_tasks
@@ -72,6 +73,9 @@ class Runs:
     def condense(self, runs: Iterable[Run], progress: Progress) -> None:
         """Condense every gear of the runs once, a process a gear; one that fails fails again, with its reason, in the
         runs."""
+        runs = list(runs)
+        if runs:
+            compile_kernels(tangential=True, progress=progress)
         tasks, done = gear_tasks(runs), 0
         if not tasks:
             return

@@ -210,8 +210,8 @@ def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequen
     words = "half of the backlash by each gear"
     if overlap > NOTABLE_OVERLAP * pair.module:
         words = (
-            f"half by each gear of the backlash and of {overlap:.4g} mm by which teeth with the given profile shifts"
-            " would overlap"
+            f"half of the backlash by each gear, and half of the {overlap:.4g} mm by which teeth with the given profile"
+            " shifts would overlap"
         )
     from . import unusual
 

@@ -248,8 +248,9 @@ class Gears(Section):
         "0 mm to 1 m",
         "0.1 mm",
         meaning=(
-            "circumferential backlash j_wt at the pitch circles. Beside both `profile_shift` thinner teeth make it,"
-            " half by each gear; beside both measured thicknesses it gives the centre distance"
+            "circumferential backlash j_wt at the pitch circles. Where both `profile_shift` are given too, each gear's"
+            " teeth are thinned by half of it; where both tooth thicknesses are measured, the centre distance follows"
+            " from it"
         ),
         otherwise="what centre distance and tooth thicknesses leave",
     )
@@ -263,8 +264,8 @@ class Gears(Section):
     )
     face_width: float | None = _length(
         "15 mm",
-        "face width of both gears; unequal ones mesh over the smaller, centred unless they have an `axial_offset`; in"
-        " the plane one to three modules of what stands out help to carry (`gears check` says how much)",
+        "face width of both gears; unequal ones mesh over the smaller, centred unless they have an `axial_offset`. In"
+        " plane runs one to three modules of the wider gear's overhang count as carrying (`gears check` says how much)",
         "each gear has its own `face_width`",
     )
     pinion: Gear

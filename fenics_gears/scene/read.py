@@ -60,7 +60,9 @@ def parsed(text: str, source: str) -> dict[str, Any]:
     try:
         tree = written_out(tomllib.loads(text, parse_float=WrittenFloat))
     except (ValueError, RecursionError) as error:
-        raise SceneError(f"{source}: is not valid TOML: {_why_no_toml(error)}\n{NOTHING_DONE}") from None
+        from fenics_gears.inputs.toml_mistakes import why_no_toml
+
+        raise SceneError(f"{source}: is not valid TOML: {why_no_toml(error, text)}\n{NOTHING_DONE}") from None
     if problems := list(_unprintable((), tree)):
         raise SceneError(listed(problems, line_numbers(text), source))
     return tree
@@ -128,12 +130,6 @@ def scene_from_text(
     if scene is None:
         raise SceneError(listed(problems, line_numbers(text) if with_lines else {}, source))
     return scene
-
-
-def _why_no_toml(error: Exception) -> str:
-    if isinstance(error, tomllib.TOMLDecodeError):
-        return str(error)
-    return "it is nested too deeply" if isinstance(error, RecursionError) else "a number in it has thousands of digits"
 
 
 def _nearest_file(path: Path) -> str:

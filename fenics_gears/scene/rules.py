@@ -11,7 +11,7 @@ from math import lcm
 
 from fenics_gears import effects
 from fenics_gears.inputs.problem import Broken, Problem, meant, nearest
-from fenics_gears.inputs.section import allowed_in, given, names_in
+from fenics_gears.inputs.section import allowed_in, fields_of, given, names_in
 from fenics_gears.inputs.tree import (
     GEARS,
     LARGEST_ERROR,
@@ -95,8 +95,10 @@ def _a_speed_where_time_matters(tree: Tree) -> Broken:
     if needing is None or not isinstance(tree.get("motion", {}), Mapping):
         return
     if "motion" not in tree:
-        listed = ", ".join(names_in(MotionText))
-        yield ("motion",), f"is missing. Add the section [motion] with its fields: {listed}; [{needing}] needs a speed."
+        yield (
+            ("motion",),
+            f"is missing. Add the section [motion] with {fields_of(MotionText)}; [{needing}] needs a speed.",
+        )
         return
     names = ("mesh_frequency", "pinion_speed")
     if not any(nearest(name, names) or meant(("motion",), name, names) for name in motion):

@@ -135,10 +135,12 @@ def _set_ends(axes: Axes, chart: Chart) -> None:
         getattr(axes, f"set_{name}scale")("log")
     if chart.equal:
         axes.set_aspect("equal", adjustable="datalim")
+    # Equal scales need one of the two ranges wider: newer matplotlib warns where both are fixed.
+    fixed = None if chart.equal else False
     if chart.x_range is not None:
-        axes.set_xlim(*chart.x_range)
+        axes.set_xlim(*chart.x_range, auto=fixed)
     if chart.limits is not None:
-        axes.set_ylim(*chart.limits)
+        axes.set_ylim(*chart.limits, auto=fixed)
 
 
 def _draw_level(axes: Axes, panel: Panel, width: float) -> None:

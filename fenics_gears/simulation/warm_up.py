@@ -1,9 +1,11 @@
 """Compile the hot kernels, or load them from disk, before the clock of the march starts.
 
-`python -m fenics_gears.simulation.warm_up` compiles all of them into numba's files on disk: the launcher calls it after
-the set-up and after each change of their sources.
+`python -m fenics_gears.simulation.warm_up` compiles all of them into numba's files on disk, where they are not compiled
+yet (`compiled_ahead`): the launcher calls it after the set-up and after each change of the sources. With the name of a
+part it compiles that part in this process.
 """
 
+import sys
 import time
 from functools import cache
 
@@ -30,12 +32,16 @@ from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.steps import Steps, drive_flanks_touch, smallest_openings
 from fenics_gears.results.contact_variables import energy_of_teeth
 from fenics_gears.results.mesh_curves import stiffness_curves
+from fenics_gears.system.progress import LineProgress, Progress, SilentProgress
+
+from .compiled_ahead import compile_ahead, end_at_once_by_ctrl_c
 
 
-def compile_kernels(tangential: bool, rigid: bool = False) -> float:
+def compile_kernels(tangential: bool, rigid: bool = False, progress: Progress | None = None) -> float:
     """Run every compiled kernel on a problem of one contact node, with `rigid` those of rigid flanks too; returns the
     seconds it took."""
     begun = time.perf_counter()
+    compile_ahead(progress or SilentProgress())
     _run_once(tangential, rigid)
     return time.perf_counter() - begun
 
@@ -84,8 +90,12 @@ def _run_once(tangential: bool, rigid: bool) -> None:
         solve_rigid(position, problem, np.array([SLIP_FORWARD], dtype=np.int8), None)
 
 
-if __name__ == "__main__":
-    # Of the face: a plane run does without.
+def _compile_part(name: str) -> None:
+    if name == "plane":
+        for with_friction in (True, False):
+            _run_once(with_friction, rigid=True)
+        return
+    # A plane run does without.
     from fenics_gears.contact.factored_compliance import factored_solver
     from fenics_gears.contact.formed_rows import fine_section, row_former, uncertain_slices
     from fenics_gears.results.crests import Searches, largest_of_cubics
@@ -97,5 +107,13 @@ if __name__ == "__main__":
     # Of the results: each is loaded where a run looks for its extremes.
     largest_of_cubics(np.arange(4.0), np.zeros(4))
     Searches(np.arange(4.0), np.zeros((1, 4)), np.ones(1), 0.125)
-    for with_friction in (True, False):
-        compile_kernels(with_friction, rigid=True)
+
+
+if __name__ == "__main__":
+    end_at_once_by_ctrl_c()
+    if sys.argv[1:]:
+        _compile_part(*sys.argv[1:])
+    else:
+        lines = LineProgress()
+        compile_ahead(lines)
+        lines.close()

@@ -5,15 +5,12 @@ numba and DOLFINx keep compiled code there, matplotlib its list of fonts, and MP
 have no room.
 """
 
-import contextlib
-import hashlib
 import os
 import re
-import shutil
 import stat
 import sys
 import tempfile
-from collections.abc import Callable, MutableMapping
+from collections.abc import Callable, Mapping, MutableMapping
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
@@ -116,12 +113,17 @@ def _has_room(folder: str) -> bool:
     return _can_be_written(Path(folder)) and found.f_bavail * found.f_frsize >= ROOM
 
 
+def cache_folder(environment: Mapping[str, str] = os.environ) -> Path:
+    """The user's folder for caches, by the XDG specification."""
+    home = environment.get("HOME") or os.path.expanduser("~")
+    return Path(environment.get("XDG_CACHE_HOME") or Path(home, ".cache"))
+
+
 def _keeps_caches(environment: Environment) -> bool:
     """Whether the user's folder for caches is there, or can be made, and all that lies in it can be written."""
-    home = environment.get("HOME") or os.path.expanduser("~")
-    if not os.path.isabs(home):
+    if not os.path.isabs(environment.get("HOME") or os.path.expanduser("~")):
         return False
-    folder = Path(environment.get("XDG_CACHE_HOME") or Path(home, ".cache"))
+    folder = cache_folder(environment)
     return all(_can_be_written(each) for each in (folder, *(folder / name for name in CACHES)))
 
 
@@ -137,20 +139,8 @@ def _cache_elsewhere(environment: Environment, say: Callable[[str], None]) -> No
         # A user whom the system does not know; DOLFINx asks for the folder even where it does not need it.
         environment["HOME"] = folder
     if is_new:
-        with contextlib.suppress(OSError):
-            _copy_compiled(Path(folder, "numba"))
         remedy = "let XDG_CACHE_HOME name a folder that you can write."
         say(f"your folder for caches cannot be written, so compiled code is kept in {folder}; {remedy}")
-
-
-def _copy_compiled(folder: Path) -> None:
-    """Give numba what lies compiled beside the sources: it does not look where it cannot write."""
-    for sources in {file.parent.parent for file in Path(__file__).parents[1].rglob("__pycache__/*.nbi")}:
-        # As numba names its folders. Where another version does not, it compiles.
-        place = folder / f"{sources.name}_{hashlib.sha1(str(sources).encode()).hexdigest()}"
-        place.mkdir(parents=True)
-        for file in (sources / "__pycache__").glob("*.nb[ci]"):
-            shutil.copy(file, place)
 
 
 def _own_temporary_folder() -> tuple[str, bool]:

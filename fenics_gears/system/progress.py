@@ -7,7 +7,8 @@ import signal
 import sys
 import threading
 import time
-from typing import TextIO
+from collections.abc import Callable, Iterator, Sequence
+from typing import TextIO, TypeVar
 
 SECONDS_BETWEEN_LINES = 5.0
 # A stage begins with what takes longest, such as compiling. The time left is said once a tenth is done, or once a
@@ -15,6 +16,7 @@ SECONDS_BETWEEN_LINES = 5.0
 ENOUGH_DONE, ENOUGH_SECONDS = 0.1, 60.0
 
 
+Part = TypeVar("Part")
 Finished = list[tuple[str, float]]
 """Names and seconds of stages that are over."""
 
@@ -30,6 +32,16 @@ class Progress:
     def update(self, done: int, total: int, note: str = "") -> None:
         """Say that ``done`` of ``total`` parts of the present stage are done; ``note``: what else there is to say, such
         as "2 failed"."""
+
+    def say(self, sentence: str) -> None:
+        """Tell what no stage says, such as why the present one takes its time."""
+
+    def counted(self, parts: Sequence[Part], name: Callable[[Part], str] = lambda part: "") -> Iterator[Part]:
+        """The parts of the present stage one after the other, counted; `name`: the note beside the count."""
+        for done, part in enumerate(parts):
+            self.update(done, len(parts), name(part))
+            yield part
+        self.update(len(parts), len(parts))
 
     def close(self) -> None:
         """End the last stage."""
@@ -86,6 +98,9 @@ class LineProgress(Progress):
             self._print(f"{self._name}: {seconds_in_words(self.finished[-1][1])}")
         self._name = None
 
+    def say(self, sentence: str) -> None:
+        self._print(sentence)
+
     def _print(self, line: str) -> None:
         print(line, file=self._stream, flush=True)
 
@@ -125,9 +140,15 @@ class BarProgress(Progress):
         said = {"description": f"{self._name}, {note}"} if note else {}
         self._bars.update(self._task, completed=done, total=total, **said)
 
+    def say(self, sentence: str) -> None:
+        self._bars.console.print(sentence)
+
     def close(self) -> None:
         self._finish_stage()
         self._bars.stop()
+        # A stage that begins later draws itself alone.
+        for each in self._bars.task_ids:
+            self._bars.remove_task(each)
 
     def _finish_stage(self) -> None:
         # A counted stage keeps its count: after an interruption the bar must not claim to be full.
@@ -136,7 +157,9 @@ class BarProgress(Progress):
         if not self._counted:
             self._bars.update(self._task, total=1, completed=1)
         self._bars.stop_task(self._task)
-        task, self._task = self._bars.tasks[self._task], None
+        # Their places in the list are not their numbers, once some are removed.
+        task = next(each for each in self._bars.tasks if each.id == self._task)
+        self._task = None
         self.finished.append((self._name, task.finished_time or task.elapsed))
 
 
@@ -189,11 +212,15 @@ class Interruption(Progress):
         self._progress.stage(name)
 
     def update(self, done: int, total: int, note: str = "") -> None:
-        """Pass the count on; raises KeyboardInterrupt where Ctrl-C was pressed since the last one."""
+        """Pass the count on; raises KeyboardInterrupt where Ctrl-C was pressed and parts are left."""
         self._counting = True
         self._progress.update(done, total, note)
-        if self._asked:
+        # What is done is whole; `heed` hears of it.
+        if self._asked and done < total:
             raise KeyboardInterrupt
+
+    def say(self, sentence: str) -> None:
+        self._progress.say(sentence)
 
     def close(self) -> None:
         self._progress.close()

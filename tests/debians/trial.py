@@ -39,23 +39,29 @@ class Dockerfile:
     environment: dict[str, str]
     folder: str
     entry_point: list[str]
+    user: str
 
 
 def read_dockerfile(path: Path = CHECKOUT / "Dockerfile") -> Dockerfile:
     """Raises ValueError for a step that only Docker could carry out."""
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
     steps = [line.split(None, 1) for line in "\n".join(lines).replace("\\\n", " ").splitlines()]
-    one, environment = {name: rest.strip() for name, rest in steps if name not in ("RUN", "ENV")}, {}
+    several = ("RUN", "ENV", "COPY")
+    one, environment = {name: rest.strip() for name, rest in steps if name not in several}, {}
     suite = re.fullmatch(r"debian:(\w+)-slim", one.pop("FROM"))
-    source, target = one.pop("COPY").split()
+    # All of the checkout is there before the first command, which then has more than Docker gives it.
+    copies = dict(rest.split() for name, rest in steps if name == "COPY")
+    target = copies.pop(".", "")
     folder, entry_point = one.pop("WORKDIR"), json.loads(one.pop("ENTRYPOINT"))
-    if one or not suite or source != ".":
-        raise ValueError(f"{path}: only Docker can carry out {one or 'its FROM and COPY'}")
+    user, _ = one.pop("USER"), one.pop("VOLUME")
+    elsewhere = [each for source, each in copies.items() if each != f"{target}/{source}"]
+    if one or not suite or not target or elsewhere:
+        raise ValueError(f"{path}: only Docker can carry out {one or elsewhere or 'its FROM and COPY'}")
     for name, rest in steps:
         if name == "ENV":
             environment.update(pair.split("=", 1) for pair in shlex.split(rest))
     commands = tuple(rest for name, rest in steps if name == "RUN")
-    return Dockerfile(suite[1], target, commands, environment, folder, entry_point)
+    return Dockerfile(suite[1], target, commands, environment, folder, entry_point, user)
 
 
 class Trial:
@@ -108,8 +114,9 @@ class Trial:
         if docker.suite == self.root.suite:
             if not self.call("Dockerfile", "sh", "-ec", "\n".join(docker.commands), folder="/"):
                 return False
-            demo = f'mkdir -p {docker.folder} && cd {docker.folder} && cp {docker.copied_to}/{DEMO} scene.toml && "$@"'
-            run = ["sh", "-ec", f"{demo} run scene.toml", "sh", *docker.entry_point]
+            demo = f"mkdir -p {docker.folder} && cd {docker.folder} && cp {docker.copied_to}/{DEMO} scene.toml"
+            as_user = f'exec setpriv --reuid={docker.user} --regid={docker.user} --clear-groups "$@" run scene.toml'
+            run = ["sh", "-ec", f"{demo} && {as_user}", "sh", *docker.entry_point]
             self.call("container", *run, folder="/", environment=docker.environment)
         return self.call("first command", "./gears", "run", DEMO)
 

@@ -8,6 +8,7 @@ from tests.docs.markdown import capital, prose, table
 
 from fenics_gears.commands import cli
 from fenics_gears.elasticity.cache import DEFAULT_SIZE
+from fenics_gears.system.memory import MEMORY_VARIABLE
 
 
 def parser(called: str = "") -> argparse.ArgumentParser:
@@ -82,6 +83,7 @@ def _environment() -> list[str]:
         ("`FENICS_GEARS_PYTHON`", "Python for `./gears`; if not set, `./gears` finds or makes one"),
         ("`FENICS_GEARS_CACHE`", "folder of the cache of condensed gears; if not set, the user's cache folder"),
         ("`FENICS_GEARS_CACHE_SIZE`", f"largest size of this cache, such as `500 MB`; if not set, {DEFAULT_SIZE}"),
+        (f"`{MEMORY_VARIABLE}`", "memory that a run may take, as by `--memory`; if not set, a share of what is free"),
         (
             "`XDG_CACHE_HOME`",
             (

@@ -12,6 +12,7 @@ from tests.docs.kept_numbers import SCENES, rows
 
 from fenics_gears import build_scene, gear_pair, simulate
 from fenics_gears.commands import cli
+from fenics_gears.model.description import OVER_THE_FACE
 from fenics_gears.model.modification import too_stiff
 
 
@@ -125,3 +126,24 @@ def test_the_rating_is_as_shown(tmp_path, monkeypatch):
     shown = [float(number) for number in re.findall(r"\| (\d+(?:\.\d+)?) (?=\|)", page.replace("|\n", "| \n"))]
     assert len(shown) > 15
     assert not [number for number in shown if min(abs(each / number - 1.0) for each in found if each) > 6e-3]
+
+
+def test_number_of_hard_cases():
+    """The headings of their page, which is made from their tests."""
+    (said,) = told("README.md", "has the N cases that are tested for numerical stability")
+    assert said == len(re.findall(r"^## \d+\. ", (ROOT / "docs/hard_cases.md").read_text(encoding="utf-8"), re.M))
+
+
+def test_variables_of_the_environment_are_on_the_page_of_the_commands():
+    """All that the program and its launcher read."""
+    sources = [ROOT / "gears", ROOT / "setup/install", *(ROOT / "fenics_gears").rglob("*.py")]
+    *read, told = (set(re.findall(r"\bFENICS_GEARS_[A-Z_]+\b", file.read_text(encoding="utf-8")))
+                   for file in [*sources, ROOT / "docs/commands.md"])  # fmt: skip
+    assert any(read) and set().union(*read) <= told
+
+
+def test_page_and_check_name_the_same_way_out_of_plane_strain():
+    """Two ways would make a reader look for the difference."""
+    (section, field) = re.match(r"(\[\w+\]) with (\w+ = \"[^\"]+\")", OVER_THE_FACE).groups()
+    page = (ROOT / "docs/third_dimension.md").read_text(encoding="utf-8")
+    assert f"To compute it over the face, add `{section}` with `{field}`" in page

@@ -10,8 +10,6 @@ from fenics_gears.system import environment as folders
 @pytest.fixture
 def temporary(tmp_path, monkeypatch):
     monkeypatch.setattr(folders.tempfile, "gettempdir", lambda: str(tmp_path))
-    # Copying what is compiled takes longer than these tests.
-    monkeypatch.setattr(folders, "_copy_compiled", lambda folder: None)
     return tmp_path
 
 

@@ -1,6 +1,7 @@
 """How progress is reported."""
 
 import io
+import signal
 
 import pytest
 
@@ -57,6 +58,31 @@ def test_a_bar_stops_where_the_work_stopped():
     bar.close()
     last = console.file.getvalue().rpartition("march")[2]
     assert "30/100" in last and "100/100" not in last
+
+
+def test_a_bar_is_full_where_the_work_ended_and_a_later_stage_is_drawn_alone():
+    """What is told to be done is done; a bar that was drawn for good is not drawn again."""
+    console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)
+    bar = progress.BarProgress(console)
+    bar.stage("sections")
+    assert list(bar.counted(range(30))) == list(range(30))
+    bar.close()
+    assert "30/30" in console.file.getvalue().rpartition("sections")[2]
+    before = console.file.tell()
+    bar.stage("draw pictures")
+    bar.close()
+    assert "sections" not in console.file.getvalue()[before:]
+
+
+def test_ctrl_c_does_not_interrupt_what_is_done():
+    """All steps are there: the run is complete, and what comes after it hears of Ctrl-C."""
+    with progress.Interruption(progress.SilentProgress()) as interruption:
+        interruption.stage("march")
+        interruption.update(1, 2)
+        signal.raise_signal(signal.SIGINT)
+        interruption.update(2, 2)
+        with pytest.raises(KeyboardInterrupt):
+            interruption.heed()
 
 
 @pytest.mark.parametrize(("done", "said"), [(5, False), (50, True)])

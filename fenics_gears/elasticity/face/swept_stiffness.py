@@ -40,8 +40,7 @@ class SectionForms:
         space = adapter.vector_space(adapter.create_mesh(mesh.points, mesh.cells), ELEMENT.order, components=3)
         self._order = dofs_of(nodes_at(space, self.nodes.points), 3)
         self._numbers = adapter.constant(space.mesh, (poissons_ratio, 1.0, 0.0, 0.0, 0.0))
-        with adapter.quiet_compiler():
-            self._forms = adapter.with_compiled(lambda: _forms(space, *(self._numbers[i] for i in range(5))))
+        self._forms = _forms(space, *(self._numbers[i] for i in range(5)))
 
         self.beside_web: tuple[SectionForms, np.ndarray] | None = None
         if web is not None:

@@ -112,8 +112,10 @@ def _show(rows) -> None:
         print(f"{name:50}{_written(row.standard, 4):>10}{_written(row.computed, 4) or '-':>10}")
     print("K_v of this run: largest force of a tooth pair over that without inertia. Safeties: by the same limits.")
     if any(isnan(row.computed) for row in rows):
-        needs = "root stress [output] root_stress, the dynamic factor [inertia], face and transverse factors a face"
-        print(f"-: not in this run, which needs for {needs} (three dimensions).")
+        print(
+            "-: not in this run. Root stress needs [output] root_stress = true, the dynamic factor [inertia], face and"
+        )
+        print("   transverse factors a run over the face, such as with [misalignment].")
 
 
 def _written(value: float, digits: int) -> str:

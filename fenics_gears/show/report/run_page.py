@@ -32,15 +32,13 @@ def run_page(run: Run, progress: Progress | None = None) -> Page:
     progress = progress or SilentProgress()
     progress.stage("sections")
     sections: list[Section] = []
-    for done, make in enumerate(SECTIONS):
-        progress.update(done, len(SECTIONS), make.__name__.replace("_", " "))
+    for make in progress.counted(SECTIONS, lambda make: make.__name__.replace("_", " ")):
         if (section := make(run)) is not None:
             sections.append(section)
     attributes = run.dataset.attrs
     remarks = [] if run.scene is None else changed_files(run.dataset, run.scene)
     scene = scene_section(str(attributes.get("scene", "")), remarks=remarks)
     sections += [version_section(attributes, run.file), scene]
-    progress.update(len(SECTIONS), len(SECTIONS))
     subtitle = conditions(run.scene) if run.scene is not None else ""
     return Page("Gear pair: report on a run", run.title or run.file.stem, subtitle, sections, made_by(), _alarm(run))
 

@@ -137,7 +137,7 @@ class AccuracyStudy:
     def refine(self) -> tuple[RefinementResult, ...]:
         """Run every level with the other settings fine."""
         self.progress.stage("compile")
-        compile_kernels(self.scene.friction is not None)
+        compile_kernels(self.scene.friction is not None, progress=self.progress)
         self.progress.stage("single settings")
         if not self._run(self.base, "all settings fine"):
             raise ComputationError(
@@ -145,8 +145,7 @@ class AccuracyStudy:
             )
         levels = [(f"{each.name} {level.label}", level.setting) for each in self.refinements for level in each.levels]
         levels += [(f"the base of {each.name}", each.base) for each in self.refinements]
-        for done, (name, setting) in enumerate(levels):
-            self.progress.update(done, len(levels), name)
+        for name, setting in self.progress.counted(levels, lambda level: level[0]):
             self._run(setting, name)
         results = [self._result(each) for each in self.refinements if each.base in self.runs]
         return tuple(result for result in results if result.levels)
@@ -222,20 +221,20 @@ class AccuracyStudy:
     def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:
         """Run every scene once a round, with gears of its own, so that other load of the machine affects all alike."""
         self.progress.stage("whole settings")
-        answers, times, left = {}, {}, dict(scenes)
-        for turn in range(self.rounds):
-            for place, (name, scene) in enumerate(list(left.items())):
-                self.progress.update(turn * len(scenes) + place, self.rounds * len(scenes), name)
-                try:
-                    model = model_of(scene)
-                    run, cycle = run_sharing(model, shared_gears())
-                    if name not in answers:
-                        answers[name] = self._answer(run, model, cycle)
-                except GearsError as error:
-                    self.failures.append((name, str(error).splitlines()[0]))
-                    del left[name]
-                    continue
-                times[name] = times.get(name, Times()).and_also(run)
+        answers, times, left = {}, {}, set(scenes)
+        for name in self.progress.counted(list(scenes) * self.rounds, str):
+            if name not in left:
+                continue
+            try:
+                model = model_of(scenes[name])
+                run, cycle = run_sharing(model, shared_gears())
+                if name not in answers:
+                    answers[name] = self._answer(run, model, cycle)
+            except GearsError as error:
+                self.failures.append((name, str(error).splitlines()[0]))
+                left.remove(name)
+                continue
+            times[name] = times.get(name, Times()).and_also(run)
         return answers, times
 
     def _result(self, refinement: Refinement) -> RefinementResult:

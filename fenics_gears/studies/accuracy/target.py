@@ -69,7 +69,9 @@ def choose(scene: Scene, target: float, progress: Progress) -> Chosen:
     fails."""
     progress.stage(f"choose settings for {100.0 * target:g} %")
     try:
-        return _chosen(_reporting_runs(scene, progress), scene.gears.module, target)
+        chosen = _chosen(_reporting_runs(scene, progress), scene.gears.module, target)
+        progress.update(chosen.runs, chosen.runs)
+        return chosen
     except TargetNotReached as reason:
         raise TargetNotReached(
             f"accuracy.target = {100.0 * target:g} % is not reached: {reason}. Take a larger target, or give settings"

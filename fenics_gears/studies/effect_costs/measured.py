@@ -106,11 +106,10 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
     subsets, skipped = subsets_of(scene)
     progress.stage("compile")
     for tangential in (False, True):
-        compile_kernels(tangential)
+        compile_kernels(tangential, progress=progress)
     progress.stage("condense, and answers")
     store, benches, kept = shared_gears(), [], 0.0
-    for done, subset in enumerate(subsets):
-        progress.update(done, len(subsets), subset.name)
+    for subset in progress.counted(subsets, lambda subset: subset.name):
         try:
             bench = Bench(subset, store)
         except GearsError as error:
@@ -125,10 +124,8 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
             "no subset of the effects could be run: " + "; ".join(f"{each.name}: {each.reason}" for each in skipped)
         )
     progress.stage("times")
-    for turn in range(rounds):
-        for done, bench in enumerate(benches):
-            progress.update(turn * len(benches) + done, rounds * len(benches), bench.subset.name)
-            bench.time_steps()
+    for bench in progress.counted(benches * rounds, lambda bench: bench.subset.name):
+        bench.time_steps()
     return EffectReport(scene, tuple(bench.row() for bench in benches), tuple(skipped), machine())
 
 
