@@ -11,7 +11,7 @@ from typing import Any
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean, line_numbers, listed
-from fenics_gears.inputs.tree import written_out
+from fenics_gears.inputs.tree import MOST_NESTED, nested_too_deeply, written_out
 from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
 from fenics_gears.system import user_file
 from fenics_gears.system.console import control_character, printable
@@ -21,6 +21,7 @@ from .drawing import gear_pair_data, load_data
 from .rules import broken_rules
 from .schema import checked_sections, without_echoes
 
+ALLOWED_DEPTH = f"Allowed: {MOST_NESTED} tables and lists within one another."
 # The text of a scene that no file gives (`scene.write`).
 NO_FILE = "# No scene file gives this scene, which was made or changed in Python"
 
@@ -58,9 +59,12 @@ def parsed(text: str, source: str) -> dict[str, Any]:
     """What a TOML text holds, its numbers as they were written, and what is written short as its section. Raises
     SceneError, which calls the text `source`."""
     try:
-        tree = written_out(tomllib.loads(text, parse_float=WrittenFloat))
+        tree = tomllib.loads(text, parse_float=WrittenFloat)
     except (ValueError, RecursionError) as error:
         raise SceneError(f"{source}: is not valid TOML: {_why_no_toml(error)}\n{NOTHING_DONE}") from None
+    if too_deep := nested_too_deeply(tree):
+        raise SceneError(f"{source}: [{too_deep}] is nested too deeply. {ALLOWED_DEPTH} {NOTHING_DONE}")
+    tree = written_out(tree)
     if problems := list(_unprintable((), tree)):
         raise SceneError(listed(problems, line_numbers(text), source))
     return tree
