@@ -3,14 +3,8 @@
 from pathlib import Path
 
 import pytest
-from tests.commands.test_places_to_write import check_refusal
+from tests.commands.test_places_to_write import DESIGN, check_refusal
 
-DESIGN = """
-scene = "pair.toml"
-set.tip_relief.start = "HPSTC"
-variables.tip_relief.depth = ["5 um", "60 um"]
-goals.peak_to_peak_transmission_error = 1
-"""
 CALLS = {"map.nc": ["map", "pair.toml", "--loads", "100 N m"], "best.toml": ["optimize", "design.toml"]}
 
 
