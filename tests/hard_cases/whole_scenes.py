@@ -1,5 +1,5 @@
-"""Texts of whole scenes with all sections combined at random, from watch gears to those of mills: what a user may write.
-Most are right; what is refused is told in words. Coarse, so that most runs take seconds."""
+"""Texts of whole scenes with all sections combined at random, from watches to mills: what a user may write. Most are
+right; what is refused is told in words. Coarse, so that most runs take seconds."""
 
 from math import pi
 
@@ -30,7 +30,9 @@ def whole_scenes(draw) -> str:
     except SceneError:
         assume(False)
     width, coast = pair.face_width, draw(st.booleans())
-    torque = 0.0 if draw(st.integers(0, 15)) == 15 else draw(decades(*STRESSES)) * module * width * pair.wheel.base_radius
+    torque = draw(decades(*STRESSES)) * module * width * pair.wheel.base_radius
+    if draw(st.integers(0, 15)) == 15:
+        torque = 0.0
     if coast:
         torque *= draw(st.sampled_from((1, -1)))
     frequency, cycles = draw(decades(1e-2, 2e4)), draw(st.integers(1, 3))
@@ -188,8 +190,9 @@ def _elastic_shafts(draw, pair) -> dict:
         parts = draw(st.integers(1, 3))
         sections = [{"length": f"{length / parts!r} mm", "diameter": f"{bore!r} mm"} | hollow for _ in range(parts)]
         found["shafts"][SHAFTS[gear]] = {
-            "sections": sections, "gear_at": f"{0.5 * length!r} mm", "torque_at": f"{length * draw(st.floats(0, 1))!r} mm",
-            "seat": seat, "material": {"density": f"{1e9 * DENSITY!r} g/cm^3"},
+            "sections": sections, "gear_at": f"{0.5 * length!r} mm", "seat": seat,
+            "torque_at": f"{length * draw(st.floats(0.0, 1.0))!r} mm",
+            "material": {"density": f"{1e9 * DENSITY!r} g/cm^3"},
         }  # fmt: skip
         places = (0.2 * ends, length - 0.2 * ends)
         found["bearings"][gear] = [_bearing(draw, pair, bore, at, first) for at, first in zip(places, (True, False))]
