@@ -23,6 +23,7 @@ from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.output import check_working_folder
 
 from . import found
+from .parser import COMMAND, Parser
 from .shared import INTERRUPTED, NOBODY_READS
 
 
@@ -149,7 +150,7 @@ def _parser(called: str = "") -> argparse.ArgumentParser:
     loudness.add_argument(
         "-q", "--quiet", action="store_true", default=argparse.SUPPRESS, help="no progress and no summary, only errors"
     )
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="gears",
         description="Spur and helical gear pairs as flexible multi-body systems with frictional contact.",
         epilog=(
@@ -165,6 +166,6 @@ def _parser(called: str = "") -> argparse.ArgumentParser:
         version=f"gears {__version__}",
         help="print the version; with -v also those of libraries, and the kernels of BLAS",
     )
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    commands = parser.add_subparsers(title="commands", metavar=COMMAND, required=True)
     found.add(commands, shared, called)
     return parser

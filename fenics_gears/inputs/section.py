@@ -128,7 +128,12 @@ def _missing(section: type[Section], name: str, place: Path) -> Iterator[Problem
 
 
 def _fields_of(section: type[Section]) -> str:
-    return f"its fields: {', '.join(names_in(section))}"
+    """What a section may have, those of which at most one is given together."""
+    others = {name: group[0] for group in section.alternatives for name in group[1:]}
+    groups = {name: [name] for name in names_in(section) if name not in others}
+    for name, first in others.items():
+        groups[first].append(name)
+    return f"its fields: {', '.join(map(' or '.join, groups.values()))}"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -60,8 +60,14 @@ def parsed(text: str, source: str) -> dict[str, Any]:
     SceneError, which calls the text `source`."""
     try:
         tree = tomllib.loads(text, parse_float=WrittenFloat)
+    except tomllib.TOMLDecodeError as error:
+        # A right file does not load it.
+        from fenics_gears.inputs.toml_mistakes import in_words
+
+        raise SceneError(f"{in_words(error, text, source)}\n{NOTHING_DONE}") from None
     except (ValueError, RecursionError) as error:
-        raise SceneError(f"{source}: is not valid TOML: {_why_no_toml(error)}\n{NOTHING_DONE}") from None
+        why = "is nested too deeply" if isinstance(error, RecursionError) else "a number has thousands of digits"
+        raise SceneError(f"{source}: is not valid TOML: {why}. {NOTHING_DONE}") from None
     if too_deep := nested_too_deeply(tree):
         raise SceneError(f"{source}: [{too_deep}] is nested too deeply. {ALLOWED_DEPTH} {NOTHING_DONE}")
     tree = written_out(tree)
@@ -132,12 +138,6 @@ def scene_from_text(
     if scene is None:
         raise SceneError(listed(problems, line_numbers(text) if with_lines else {}, source))
     return scene
-
-
-def _why_no_toml(error: Exception) -> str:
-    if isinstance(error, tomllib.TOMLDecodeError):
-        return str(error)
-    return "it is nested too deeply" if isinstance(error, RecursionError) else "a number in it has thousands of digits"
 
 
 def _nearest_file(path: Path) -> str:
