@@ -10,7 +10,7 @@ from typing import Any
 
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean, line_numbers, listed
+from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean, line_numbers, listed, placed
 from fenics_gears.inputs.tree import MOST_NESTED, nested_too_deeply, written_out
 from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
 from fenics_gears.system import user_file
@@ -134,7 +134,7 @@ def scene_from_text(
     try:
         scene, problems = scene_of(tree, text, name, directory)
     except GeometryError as error:
-        raise GeometryError(f"{source}: {error}\n{NOTHING_DONE}") from error
+        raise GeometryError(placed(str(error), text if with_lines else "", source)) from error
     if scene is None:
         raise SceneError(listed(problems, line_numbers(text) if with_lines else {}, source))
     return scene

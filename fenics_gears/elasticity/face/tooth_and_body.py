@@ -45,7 +45,9 @@ def condensed_halves(
         whole = _Part(mesh, half, poissons_ratio, sweep, fold, (flank, cut))
         whole.condense()
         return [flank_free(*whole.folded(sign)) for sign in signs]
-    neck = nodes.points[np.intersect1d(nodes.cells[of_tooth], nodes.cells[half & ~of_tooth])]
+    shared = nodes.points[np.intersect1d(nodes.cells[of_tooth], nodes.cells[half & ~of_tooth])]
+    # Under a thin rim the neck reaches the hub, which holds what it has of it.
+    neck = shared[cKDTree(fold.hub).query(shared)[0] > ON_CENTRELINE * np.abs(fold.nodes).max()]
     tooth = _Part(mesh, of_tooth, poissons_ratio, sweep, fold, (flank, neck))
     body = _Part(mesh, half & ~of_tooth, poissons_ratio, sweep, fold, (neck, cut))
     if pair is None:
