@@ -1,5 +1,6 @@
 """From a scene file to the frozen dataclasses of ``scene.data``."""
 
+import datetime
 import math
 import os
 import tomllib
@@ -71,19 +72,23 @@ def parsed(text: str, source: str) -> dict[str, Any]:
     if too_deep := nested_too_deeply(tree):
         raise SceneError(f"{source}: [{too_deep}] is nested too deeply. {ALLOWED_DEPTH} {NOTHING_DONE}")
     tree = written_out(tree)
-    if problems := list(_unprintable((), tree)):
+    if problems := list(_of_no_field((), tree)):
         raise SceneError(listed(problems, line_numbers(text), source))
     return tree
 
 
-def _unprintable(path: tuple[str, ...], value: Any) -> Iterator[Problem]:
-    """Texts with control characters, which a terminal would obey and a file of results could not hold."""
+def _of_no_field(path: tuple[str, ...], value: Any) -> Iterator[Problem]:
+    """Texts with control characters, which a terminal would obey and a file of results could not hold; dates and
+    times."""
     if isinstance(value, Mapping):
         for name, inner in value.items():
-            yield from _unprintable((*path, name), inner)
+            yield from _of_no_field((*path, name), inner)
     elif isinstance(value, list):
         for inner in value:
-            yield from _unprintable(path, inner)
+            yield from _of_no_field(path, inner)
+    elif isinstance(value, datetime.date | datetime.time):
+        allowed = "Allowed: texts between quotes, numbers, true and false."
+        yield Problem(path, as_written(value), f"is a date or a time, which no field takes. {allowed}")
     elif isinstance(value, str) and (character := control_character(value)):
         allowed = "Allowed: characters that can be printed, tabs and new lines."
         yield Problem(path, as_written(value), f"has the control character {character}. {allowed}")
