@@ -84,7 +84,6 @@ def _ended_by_itself(file: Path) -> tuple[str, str]:
     if wrong := wrong_with("check", accepted, said):
         return wrong, said
     if accepted:
-        print(said.splitlines()[:6], file=sys.stderr)
         return "refused", said
     cost = expected_cost(model_of(load_scene(file)))
     if cost.memory > DEAREST[0] or (cost.condensing or 0.0) + cost.marching > DEAREST[1]:
