@@ -7,9 +7,9 @@ from collections import Counter
 
 import pytest
 from hypothesis import given
+from tests.docs.blocks import ROOT
 from tests.hard_cases.random_runs import called, wrong_with
 from tests.hard_cases.whole_scenes import whole_scenes
-from tests.docs.blocks import ROOT
 
 SECONDS, PROCESSES = 600, 2
 

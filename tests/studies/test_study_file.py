@@ -278,11 +278,12 @@ def test_a_table_that_is_not_in_the_list_is_told():
         fields.changed(LISTED, ("bearings", "pinion", "3", "at"), "1 mm")
 
 
+DIGITS = "9" * 400
 ANY_VALUE = (
-    "0", "-1", "1e-320", "nan", "-inf", '""', '"mm"', '"1 mm"', "true", "[]", "{}", "12:30:00", "2026-11-29", "9" * 400,
-    '"1e308 m"', "[[]]", "[1, [2]]", '["1 mm", 2]', f"[{'9' * 400}, 1]", '[["1 N m"], "2 N m"]', "[{}, {}]", "[12:30:00]",
+    "0", "-1", "1e-320", "nan", "-inf", '""', '"mm"', '"1 mm"', "true", "[]", "{}", "12:30:00", "2026-11-29", DIGITS,
+    '"1e308 m"', "[[]]", "[1, [2]]", '["1 mm", 2]', f"[{DIGITS}, 1]", '[["1 N m"], "2 N m"]', "[{}, {}]", "[12:30:00]",
     "{ start = 1, stop = 2, count = 3 }", '{ start = "1 um", stop = [1], count = 3 }', "{ at_most = [] }",
-    f"{{ start = 1, stop = {'9' * 400}, step = 1 }}", '"absent"', '"present"', "['absent', 'absent']",
+    f"{{ start = 1, stop = {DIGITS}, step = 1 }}", '"absent"', '"present"', "['absent', 'absent']",
 )  # fmt: skip
 STUDY = {
     "title": '"any"',
