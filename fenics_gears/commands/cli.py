@@ -14,6 +14,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
+from typing import NoReturn
 
 from fenics_gears import __version__
 from fenics_gears.errors import GearsError
@@ -23,7 +24,6 @@ from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.output import check_working_folder
 
 from . import found
-from .parser import COMMAND, Parser
 from .shared import INTERRUPTED, NOBODY_READS
 
 
@@ -140,6 +140,16 @@ def _configure_logging(verbose: bool) -> None:
     logging.getLogger("py.warnings").setLevel(logging.WARNING if verbose else logging.ERROR)
 
 
+class Parser(argparse.ArgumentParser):
+    """Of the command line, and of each command: argparse makes those of the same class."""
+
+    def error(self, message: str) -> NoReturn:
+        # A right call does not load it.
+        from .misspelt import in_words
+
+        super().error(in_words(message, self))
+
+
 def _parser(called: str = "") -> argparse.ArgumentParser:
     """The parser of all commands; only the one that is called has arguments."""
     shared = argparse.ArgumentParser(add_help=False)
@@ -166,6 +176,6 @@ def _parser(called: str = "") -> argparse.ArgumentParser:
         version=f"gears {__version__}",
         help="print the version; with -v also those of libraries, and the kernels of BLAS",
     )
-    commands = parser.add_subparsers(title="commands", metavar=COMMAND, required=True)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     found.add(commands, shared, called)
     return parser
