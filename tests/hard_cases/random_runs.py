@@ -94,10 +94,16 @@ def _ended_by_itself(file: Path) -> tuple[str, str]:
     wrong = wrong_with("run", code, said) or (code == 2 and "wrong: refused after it was accepted")
     if wrong:
         return wrong, said
+    why = f" ({_reason(said)})" if code == 3 else ""
     if not Path("here/run.nc").exists():
-        return f"exit code {code}", said
+        return f"exit code {code}{why}", said
     not_finite = _not_finite(Path("here/run.nc"))
-    return (f"wrong: not finite: {', '.join(not_finite)}" if not_finite else f"exit code {code}, result"), said
+    return (f"wrong: not finite: {', '.join(not_finite)}" if not_finite else f"exit code {code}, result{why}"), said
+
+
+def _reason(said: str) -> str:
+    """The first line that tells no progress."""
+    return next((line for line in said.splitlines() if not re.search(r": [\d.]+ s$| after [\d.]+ s", line)), "")
 
 
 def called(*words: str) -> tuple[int, str]:
