@@ -2,8 +2,8 @@
 SECONDS FOLDER`.
 
 An end is right if it is a result without a number that is not finite, or a typed error with its exit code and words;
-`gears run` refuses nothing that `gears check` has accepted. Other ends are kept in FOLDER: the scene, and what came. A
-line a scene on the standard output says how it ended."""
+`gears run` refuses nothing that `gears check` has accepted. Other ends are kept in FOLDER: the scene, and what came.
+What takes too long is stopped. A line a scene on the standard output says how it ended."""
 
 import contextlib
 import io
@@ -20,14 +20,16 @@ from pathlib import Path
 from hypothesis import HealthCheck, Phase, given, seed, settings
 
 EXIT_CODES = {"check": (0, 2, 3), "run": (0, 2, 3, 4)}
+INTERRUPTED = 130
 # Bytes and seconds that a scene may be expected to take, else it is left out; and bytes and seconds of the processor
 # that end it.
 DEAREST, MOST = (1.0e9, 10.0), (6e9, 90.0)
 AT_A_TIME = 40
+STOPPED = f"stopped after {MOST[1]:g} s"
 
 
-class TookTooLong(Exception):
-    """A scene took more than its time."""
+class TookTooLong(KeyboardInterrupt):
+    """A scene took more than its time; the run ends as by Ctrl-C."""
 
 
 def main(number: str, seconds: str, folder: str) -> int:
@@ -63,6 +65,8 @@ def ended(text: str, name: str) -> str:
     signal.setitimer(signal.ITIMER_PROF, MOST[1])
     try:
         how, said = _ended_by_itself(file)
+    except TookTooLong:
+        how, said = STOPPED, ""
     except BaseException as error:
         last = traceback.extract_tb(error.__traceback__)[-1]
         how = f"wrong: {type(error).__name__} in {Path(last.filename).name}:{last.lineno}"
@@ -91,6 +95,8 @@ def _ended_by_itself(file: Path) -> tuple[str, str]:
     with contextlib.suppress(GearsError):
         Path("here/run.nc").unlink(missing_ok=True)
     code, said = called("run", str(file), "--output", "here", "--no-pictures")
+    if code == INTERRUPTED:
+        return STOPPED, said
     wrong = wrong_with("run", code, said) or (code == 2 and "wrong: refused after it was accepted")
     if wrong:
         return wrong, said

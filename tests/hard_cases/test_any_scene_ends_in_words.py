@@ -25,7 +25,8 @@ def test_any_scene_is_described_or_refused(tmp_path_factory, text):
 @pytest.mark.nightly
 def test_any_scene_ends_with_a_result_or_in_words(tmp_path, measured):
     """A user's expectation: a result of finite numbers, or a typed error with its exit code; nothing is refused that
-    `gears check` accepts. Each process says its seed, with which it draws the same scenes again."""
+    `gears check` accepts; one in ten may be stopped, because a fallback takes long. Each process says its seed, with
+    which it draws the same scenes again."""
     runs = []
     for _ in range(PROCESSES):
         seed = str(secrets.randbelow(10**6))
@@ -46,4 +47,5 @@ def test_any_scene_ends_with_a_result_or_in_words(tmp_path, measured):
             )
     words = ", ".join(f"{count} {how}" for how, count in ended.most_common())
     measured("whole scenes of all sections at random", words, "a result or a typed error", row=26)
-    assert sum(ended.values()) > 20 and not wrong, "\n\n".join([words, *wrong])
+    stopped = sum(count for how, count in ended.items() if how.startswith("stopped"))
+    assert sum(ended.values()) > max(20, 10 * stopped) and not wrong, "\n\n".join([words, *wrong])
