@@ -3,7 +3,7 @@
 from itertools import product
 
 import pytest
-from tests.studies.test_study_file import ANY_VALUE, any_value_taken_or_refused
+from tests.studies.test_any_value import ANY_VALUE, any_value_taken_or_refused
 
 from fenics_gears.extensions.optimization.design_file import load_design
 
