@@ -14,6 +14,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
+from typing import NoReturn
 
 from fenics_gears import __version__
 from fenics_gears.errors import GearsError
@@ -141,6 +142,16 @@ def _configure_logging(verbose: bool) -> None:
     logging.getLogger("py.warnings").setLevel(logging.WARNING if verbose else logging.ERROR)
 
 
+class Parser(argparse.ArgumentParser):
+    """Of the command line, and of each command: argparse makes those of the same class."""
+
+    def error(self, message: str) -> NoReturn:
+        # A right call does not load it.
+        from .misspelt import in_words
+
+        super().error(in_words(message, self))
+
+
 def _parser(called: str = "") -> argparse.ArgumentParser:
     """The parser of all commands; only the one that is called has arguments."""
     shared = argparse.ArgumentParser(add_help=False)
@@ -151,7 +162,7 @@ def _parser(called: str = "") -> argparse.ArgumentParser:
     loudness.add_argument(
         "-q", "--quiet", action="store_true", default=argparse.SUPPRESS, help="no progress and no summary, only errors"
     )
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="gears",
         description="Spur and helical gear pairs as flexible multi-body systems with frictional contact.",
         epilog=(

@@ -20,6 +20,7 @@ from .shared import (
 )
 
 REPORT_FILE = "report.html"
+EFFECTS_FILES = "effects.csv", "effects.png"
 ENDINGS = (".html", ".htm")
 
 
@@ -48,7 +49,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 def report(options: argparse.Namespace) -> int:
     file, is_study = found_file(options.run)
     output = output_file(options.output, file, is_study)
-    _check(options, output, is_study)
+    _check(options, file, output, is_study)
     with closing(shown_progress(options.quiet)) as progress:
         written = (_study if is_study else _run)(options, file, output, progress)
     print_files(written, options.quiet)
@@ -85,10 +86,12 @@ def output_file(asked: Path | None, file: Path, is_study: bool) -> Path:
     return asked
 
 
-def _check(options: argparse.Namespace, output: Path, is_study: bool) -> None:
+def _check(options: argparse.Namespace, file: Path, output: Path, is_study: bool) -> None:
     from fenics_gears.system.output import check_writable
 
     check_writable(output.parent, output.name)
+    if options.effects and not is_study:
+        check_writable(file.parent, *EFFECTS_FILES)
     if is_study and (options.effects or options.at is not None):
         raise SceneError("--effects and --at are for a run; this is a study. Leave them out, or name one of its cases.")
 

@@ -69,7 +69,7 @@ def _run(options: argparse.Namespace, job: Job | None) -> int:
                 draws = f"`gears plot {directory}` draws them"
                 last_words = f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; {draws}."
     if not options.quiet:
-        _print_summary(model.scene.title, dataset, files, interruption.finished)
+        _print_summary(model, dataset, files, interruption.finished)
     if last_words:
         print(last_words, file=sys.stderr)
         return INTERRUPTED
@@ -97,13 +97,17 @@ def _save(dataset, directory: Path, interruption: Interruption) -> Path:
 
 
 def _kept(dataset, file: Path) -> str:
-    steps = dataset.sizes["time"]
+    steps = max(dataset.sizes["time"] - 1, 0)
     return f"What was done until then is kept, marked incomplete: {file}, {steps or 'none'} of the run's steps"
 
 
-def _print_summary(title: str, dataset, files: Sequence[Path], stages: Sequence[tuple[str, float]]) -> None:
-    from fenics_gears.results.summary import summary_rows
+def _print_summary(model, dataset, files: Sequence[Path], stages: Sequence[tuple[str, float]]) -> None:
+    from fenics_gears.results.summary import summary_rows, what_is_there
     from fenics_gears.system.console import print_rows
 
-    print_rows(title, summary_rows(dataset, stages))
+    first = []
+    if not dataset.attrs.get("complete", 1) and dataset.sizes["time"]:
+        there = what_is_there(dataset, model.steps, model.scene.motion.mesh_cycles)
+        first = [("INTERRUPTED", f"the run was stopped before its end: {there}", "")]
+    print_rows(model.scene.title, [*first, *summary_rows(dataset, stages)])
     print_rows("Files", [("", str(file), "") for file in files])

@@ -13,7 +13,7 @@ from os.path import exists, isdir
 from pathlib import Path
 from types import ModuleType
 
-from fenics_gears.errors import ComputationError, GeometryError, SceneError
+from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.system.console import on_terminal, printable
 from fenics_gears.system.memory import size_in_bytes
 from fenics_gears.system.progress import BarProgress, LineProgress, Progress, SilentProgress
@@ -127,12 +127,13 @@ def checked_model(path: Path):
     from fenics_gears.scene.read import load_scene
 
     scene = load_scene(path)
+    from fenics_gears.inputs.problem import placed
     from fenics_gears.model.model import model_of
 
     try:
         return model_of(scene)
-    except GeometryError as error:
-        raise GeometryError(f"{path}: {error}\nNothing was computed or written.") from error
+    except SceneError as error:
+        raise type(error)(placed(str(error), scene.written, str(path))) from error
 
 
 def checked_model_and_directory(options, *names: str):

@@ -16,6 +16,7 @@ import numpy as np
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.inputs.tree import GEARS
 
 from .face import Face
 from .flank_at_height import roll_angle_at_height
@@ -183,15 +184,18 @@ def deviations_of(errors: FlankErrors, pair: GearPair, face: Face) -> tuple[Flan
 
 
 def flank_gaps(errors: FlankErrors, pair: GearPair, steps: int, face: Face = IN_THE_PLANE) -> FlankGaps:
-    """The gaps that flank errors add, in a run of so many steps a mesh cycle; `face`: with its slices. Raises
-    SceneError for waves that the steps do not sample."""
-    deviations = deviations_of(errors, pair, face)
-    for own, gear, name in zip(deviations, (pair.pinion, pair.wheel), ("pinion", "wheel")):
-        waves = 0 if own.waviness is None else own.waviness.waves
-        if waves * FEWEST_STEPS_A_WAVE > steps * gear.teeth:
+    """The gaps that flank errors add, in a run of so many steps a mesh cycle; `face`: with its slices."""
+    return FlankGaps(pair, deviations_of(errors, pair, face), steps, face.slope)
+
+
+def check_waves(errors: FlankErrors, pair: GearPair, steps: int) -> None:
+    """Raise SceneError for waves that so many steps a mesh cycle do not sample."""
+    for name in GEARS:
+        waviness, teeth = getattr(errors, name).waviness, getattr(pair, name).teeth
+        waves = 0 if waviness is None else waviness.waves
+        if waves * FEWEST_STEPS_A_WAVE > steps * teeth:
             raise SceneError(
-                f"flank_errors.{name}.waviness.waves = {waves}: a turn of the {name} has {steps * gear.teeth} steps,"
+                f"flank_errors.{name}.waviness.waves = {waves}: a turn of the {name} has {steps * teeth} steps,"
                 f" fewer than {FEWEST_STEPS_A_WAVE} a wave; raise accuracy.steps_per_mesh_cycle to"
-                f" {-(-FEWEST_STEPS_A_WAVE * waves // gear.teeth)} or more"
+                f" {-(-FEWEST_STEPS_A_WAVE * waves // teeth)} or more"
             )
-    return FlankGaps(pair, deviations, steps, face.slope)

@@ -67,6 +67,7 @@ class Effect:
     ``located(data, directory)``: the data with their files found from the scene file's directory on.
     ``files(data)``: the names of these files, each with a hash of what was read.
     ``check(data, scene, pair)``: raises SceneError where those files, or this load and speed, are wrong.
+    ``fits(data, model)``: raises SceneError where the run's settings, given or chosen, are too coarse for it.
     ``warnings(data, model)``: sentences to read before the run.
     ``watched(data, cycle, steps)``: what the findings need of ``dynamics.steps.Steps``, name to values (steps,).
     ``findings(data, watched)``: sentences on where a run violates what the effect assumes.
@@ -96,6 +97,7 @@ class Effect:
     located: Callable | None = None
     files: Callable | None = None
     check: Callable | None = None
+    fits: Callable | None = None
     warnings: Callable | None = None
     watched: Callable | None = None
     findings: Callable | None = None

@@ -98,7 +98,7 @@ def check_shafts(scene: Any, pair: Any) -> None:
             wrong += [*_bearings_hold(found), *_bearings_brace(found)] if not wrong else []
             wrong += wrong_with_seat(scene, pair, found, shaft)
     if wrong:
-        raise SceneError("; ".join(wrong))
+        raise SceneError("\n".join(wrong))
 
 
 def shaft_at_work(scene: Any, pair: Any, gear: str, load: np.ndarray | None = None) -> ElasticShaft:

@@ -35,6 +35,12 @@ def gaps(errors: FlankErrors, model):
     return flank_gaps(errors, model.pair, model.resolution.steps_per_mesh_cycle, model.face)
 
 
+def fits(errors: FlankErrors, model) -> None:
+    from fenics_gears.contact.flank_gaps import check_waves
+
+    check_waves(errors, model.pair, model.resolution.steps_per_mesh_cycle)
+
+
 def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
     """The deviations of every tooth, given and drawn; slope and form of measured curves are evaluated by ISO 1328-1."""
     from fenics_gears.contact.flank_gaps import deviations_of
@@ -91,6 +97,7 @@ EFFECT = Effect(
     files=files,
     check=check,
     rules=errors_fit_the_gears,
+    fits=fits,
     gaps=gaps,
     period=period,
     results=results,

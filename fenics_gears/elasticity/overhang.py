@@ -52,8 +52,10 @@ def near_field(gear: Gear, material: Material, roll_angle: np.ndarray) -> np.nda
     low, high = edges[:-1], edges[1:]
 
     def twice_integrated(distance: np.ndarray) -> np.ndarray:
-        distance = np.maximum(np.abs(distance), np.finfo(float).tiny)
-        within = 0.5 * distance**2 * (np.log(depth / distance) + 1.5)
+        distance = np.abs(distance)
+        # Nothing is within no distance, for any module.
+        parts = np.divide(depth, distance, out=np.ones_like(distance), where=distance > 0.0)
+        within = 0.5 * distance**2 * (np.log(parts) + 1.5)
         return np.where(distance < depth, within, depth * (distance - 0.25 * depth))
 
     total = sum(

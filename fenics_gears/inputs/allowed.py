@@ -14,6 +14,8 @@ LONGEST_FILE_NAME = 4096
 Matrix = tuple[tuple[float, ...], ...]
 # Parts of the largest entry that a matrix may depart by from a symmetric, positive one.
 ROUND_OFF = 1e-9
+# N, mm and rad of a matrix: as of a tilting stiffness.
+LARGEST_ENTRY = 1e24
 
 
 class Refused(ValueError):
@@ -262,8 +264,10 @@ class AllowedMatrix(Allowed):
 
         rows = value if isinstance(value, list) and all(isinstance(row, list) for row in value) else []
         numbers = [each for row in rows for each in row if isinstance(each, (int, float)) and type(each) is not bool]
-        if {len(rows), *map(len, rows)} != {self.size} or len(list(filter(isfinite, numbers))) != self.size**2:
-            raise Refused(f"is not {self.size} rows of {self.size} numbers.")
+        # So large ones have squares, and whole ones as many digits as floats hold.
+        held = [each for each in numbers if abs(each) <= LARGEST_ENTRY]
+        if {len(rows), *map(len, rows)} != {self.size} or len(held) != self.size**2:
+            raise Refused(f"is not {self.size} rows of {self.size} numbers of up to {LARGEST_ENTRY:g}.")
         matrix = np.array(numbers, dtype=float).reshape(self.size, self.size)
         apart, round_off = np.abs(matrix - matrix.T), self.round_off * np.abs(matrix).max()
         if apart.max() > round_off:

@@ -55,6 +55,20 @@ def counted(entries: Sequence[str], count: int, source: str) -> str:
     return "\n".join([*entries[:MOST_TOLD], *more, total])
 
 
+def placed(said: str, text: str, source: str) -> str:
+    """Objections against a scene as a whole, one below another: each with the line of the field that it begins with, of
+    a gear's name that of the gear's section."""
+    lines = line_numbers(text)
+    told = []
+    for each in said.removesuffix(NOTHING_DONE).strip().splitlines():
+        begins = re.match(r"[a-z_]+(?:\.[a-z0-9_]+)*(?= =|:)", each)
+        path = tuple(begins[0].split(".")) if begins else ()
+        problem = Problem(("gears", *path) if ("gears", *path) in lines else path, None, "")
+        line = problem.line(lines)
+        told.append(f"{source}:{line}: {each}" if line else each if each[:1] == " " else f"{source}: {each}")
+    return "\n".join([*told, NOTHING_DONE])
+
+
 _NAME = r"(?:[A-Za-z0-9_-]+|\"[^\"]*\"|'[^']*')"
 _DOTTED = rf"{_NAME}(?:\s*\.\s*{_NAME})*"
 _HEADER = re.compile(rf"\s*\[\[?\s*({_DOTTED})\s*\]")

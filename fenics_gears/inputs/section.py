@@ -128,10 +128,12 @@ def _missing(section: type[Section], name: str, place: Path) -> Iterator[Problem
 
 
 def fields_of(section: type[Section]) -> str:
-    """The fields that a section may have, in words; of alternatives each group stands by itself."""
-    groups = [f"one of {', '.join(group)}" for group in section.alternatives]
-    single = [name for name in names_in(section) if not any(name in group for group in section.alternatives)]
-    return "; ".join([*groups, *([f"its fields: {', '.join(single)}"] if single else [])])
+    """What a section may have, those of which at most one is given together."""
+    others = {name: group[0] for group in section.alternatives for name in group[1:]}
+    groups = {name: [name] for name in names_in(section) if name not in others}
+    for name, first in others.items():
+        groups[first].append(name)
+    return f"its fields: {', '.join(map(' or '.join, groups.values()))}"
 
 
 @dataclass(frozen=True, kw_only=True)

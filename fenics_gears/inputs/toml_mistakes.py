@@ -1,55 +1,82 @@
-"""What is wrong with a text that is no TOML, in the words of who wrote it."""
+"""What is wrong with a text that is no TOML, in the words of who wrote it: the line, and what to write instead."""
 
 import re
 import tomllib
+from collections.abc import Iterator
 
-NAME, PLACE = r"\s*([\w.-]+)\s*=\s*", re.compile(r" \(at (?:line (\d+), column \d+|end of document)\)$")
+from .problem import line_numbers
 
-
-def why_no_toml(error: Exception, text: str) -> str:
-    """What tomllib refused, where, and what to write in its place."""
-    if not isinstance(error, tomllib.TOMLDecodeError):
-        return (
-            "it is nested too deeply" if isinstance(error, RecursionError) else "a number in it has thousands of digits"
-        )
-    lines, place = text.splitlines(), PLACE.search(str(error))
-    number = len(lines) if place is None or place[1] is None else int(place[1])
-    line = lines[number - 1] if number <= len(lines) else ""
-    where = f"line {number}, {line.strip()[:60]}" if line.strip() else f"line {number}"
-    return f"{where}: {_in_words(PLACE.sub('', str(error)), line, lines[: number - 1])}"
+_PLACE = re.compile(r" \(at (?:line (\d+), column \d+|end of document)\)$")
+_FIELD = re.compile(r"\s*([A-Za-z0-9_.\"'-]+)\s*=\s*(.*?)\s*$")
+# What an editor or a page makes of straight quotes.
+_CURLED = "“”„‘’‚«»′″"
+_LONGEST = 60
+_NUMBER = re.compile(r"[+-]?[\d.,_]+(?:[eE][+-]?\d*)?")
 
 
-def _in_words(said: str, line: str, before: list[str]) -> str:
-    if "twice" in said or "Cannot overwrite" in said or "Cannot mutate" in said:
-        return _stands_twice(line, before)
-    if re.match(r"\s*\[[^\]]*$", line):
-        return "the bracket of the section is not closed"
-    if re.match(r"\s*[\w.-]+\s*(#.*)?$", line):
-        return "a value is missing; write name = value"
-    value = re.match(NAME + r"(?![\"'\[{#\s])([^#]*)", line)
-    if value is None:
-        quotes = line.count('"') % 2 or line.count("'") % 2
-        return "the closing quotes are missing" if quotes else said[0].lower() + said[1:]
-    name, written = value[1], value[2].strip()
-    if re.fullmatch(r"[-+]?\d+,\d+", written):
-        return f"a number has a decimal point; write {name} = {written.replace(',', '.')}"
-    if written in ("True", "False"):
-        return f"write {name} = {written.lower()}"
-    return f'quotes are missing; write {name} = "{written}"'
+def in_words(error: tomllib.TOMLDecodeError, text: str, source: str) -> str:
+    """Two lines for people, as of any other mistake: file, line and what stands there; what to write."""
+    lines, place = text.splitlines(), _PLACE.search(str(error))
+    own = _PLACE.sub("", str(error))
+    number = int(place[1]) if place is not None and place[1] else _open_quote(lines)
+    written = lines[number - 1].strip() if 0 < number <= len(lines) else ""
+    shown = written if len(written) <= _LONGEST else written[: _LONGEST - 3] + "..."
+    said = next(_said(own, written, text, number), f"is not valid TOML: {own}.")
+    return f"{source}:{number}: {shown}\n    {said}"
 
 
-def _stands_twice(line: str, before: list[str]) -> str:
-    """With the line that has the same section, or the same name in its section."""
-    header = re.match(r"\s*\[([^\[\]]+)\]", line)
-    if header:
-        pattern, what, remedy = (
-            rf"\s*\[\s*{re.escape(header[1])}\s*\]",
-            f"the section [{header[1]}]",
-            "Put its fields in one",
-        )
-    else:
-        name = re.match(NAME, line)
-        what, remedy = (f'"{name[1]}"' if name else "the name"), "Leave one out"
-        pattern = rf"\s*{re.escape(name[1])}\s*=" if name else "$."
-    first = next((number for number in range(len(before), 0, -1) if re.match(pattern, before[number - 1])), None)
-    return f"{what} stands twice{f', first in line {first}' if first else ''}. {remedy}"
+def _said(own: str, written: str, text: str, number: int) -> Iterator[str]:
+    """What TOML's `own` words mean in the line that is `written`; nothing where they say it as well."""
+    if found := _HEADER_TWICE.match(own):
+        name = ".".join(re.findall(r"'([^']*)'", found[1]))
+        yield f"[{name}] stands twice{_first(text, name, number)}. Put all of its fields below one of them."
+    if own.startswith(("Cannot overwrite a value", "Cannot mutate", "Cannot redefine")):
+        if field := _FIELD.match(written):
+            yield f"{field[1]} is given twice{_first(text, field[1], number)}. Leave one out."
+    if any(each in written for each in _CURLED):
+        yield 'has typographic quotes. Write straight ones: ".'
+    if own.startswith("Unclosed") or own == "Expected ']' at the end of an array":
+        yield "a list or a table has no end: its ] or } is missing."
+    if written.startswith("["):
+        yield "is no name of a section. Write it between brackets, such as [gears.pinion]."
+    yield from _value(own, written)
+
+
+_HEADER_TWICE = re.compile(r"Cannot declare (\(.*\)) twice")
+
+
+def _value(own: str, written: str) -> Iterator[str]:
+    field = _FIELD.match(written)
+    if field is None:
+        if own.startswith("Expected '='"):
+            yield 'has no = between a field and its value. Write it as in module = "4.5 mm".'
+        return
+    name, value = field[1], re.sub(r"\s+#.*$", "", field[2])
+    if not value or value.startswith("#"):
+        yield f"{name} has no value."
+    elif value[0] in "\"'":
+        closed = value.count(value[0]) > 1
+        after = value.rpartition(value[0])[2].strip()
+        yield f"has {after} behind the value. Leave it out." if closed and after else "has quotes that do not end."
+    elif _NUMBER.fullmatch(value):
+        yield "is no number. A number has a point, a digit before and behind it, and no zero in front: 0.5, 16."
+    elif value.lower() in ("true", "false"):
+        yield f"is written {value.lower()}."
+    elif value[0] not in "[{":
+        yield f'lacks quotes: a word, or a number with its unit, stands between them. Write {name} = "{value}".'
+
+
+def _open_quote(lines: list[str]) -> int:
+    """The first line, from 1, of a value whose quotes do not end in it; the last one without any."""
+    for number, line in enumerate(lines, 1):
+        field = _FIELD.match(line)
+        if field and field[2][:1] in ("'", '"') and field[2].count(field[2][0]) % 2:
+            return number
+    return len(lines)
+
+
+def _first(text: str, name: str, number: int) -> str:
+    """Where a name of a section, or of a field of the section at a line, stands first."""
+    before = "\n".join(text.splitlines()[: number - 1])
+    found = [line for path, line in line_numbers(before).items() if ".".join(path) == name or path[-1:] == (name,)]
+    return f", first in line {found[-1]}" if found else ""

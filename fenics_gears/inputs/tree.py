@@ -11,6 +11,8 @@ Tree = Mapping[str, Any]
 GEARS = ("pinion", "wheel")
 SHAFTS = ("input", "output")  # of pinion and wheel
 MOST_TEETH = 1000
+# Tables and lists within one another: ``set.bearings.pinion.1.rolling.clearance`` of a study has six.
+MOST_NESTED = 12
 # In modules. The model moves flanks by errors of manufacture but not their points of contact.
 LARGEST_ERROR = 0.1
 
@@ -62,6 +64,20 @@ def written_out(tree: dict[str, Any]) -> dict[str, Any]:
         if isinstance(bearings.get(gear), list):
             bearings[gear] = {LISTED: bearings[gear]}
     return tree
+
+
+def nested_too_deeply(tree: Tree) -> str:
+    """The beginning of a path, in words, on which tables and lists lie deeper in one another than any file of ours
+    has them; empty without one. What walks through them is recursive."""
+    level: list[tuple[str, Any]] = [("", tree)]
+    for _ in range(MOST_NESTED):
+        level = [
+            (f"{place}.{name}".strip("."), inner)
+            for place, value in level
+            for name, inner in (value.items() if isinstance(value, Mapping) else enumerate(value, 1))
+            if isinstance(inner, Mapping | list)
+        ]
+    return level[0][0] if level else ""
 
 
 def quantity_at(tree: Tree, *path: str) -> float | None:

@@ -230,6 +230,7 @@ def model_of(scene: Scene) -> Model:
     corner(scene, pair)  # refused here, before the run asks for it
     shafts = drivetrain(scene, pair)
     model = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
+    from_effects(scene, "fits", model)
     if scene.three_dimensional:
         from .face_resolution import check_layers
 

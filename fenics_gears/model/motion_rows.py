@@ -41,7 +41,7 @@ def inertia_rows(model: Model) -> Rows:
     from .drivetrain import lumped_gears
 
     rows: Rows = []
-    along, inertia, shafts = [], model.scene.inertia, model.scene.shafts
+    along, inertia = [], model.scene.inertia
     for name, lumped in lumped_gears(model.scene, model.pair).items():
         given = inertia.of(name)
         for field, unit in (("mass", "kg"), ("moment_of_inertia", "kg mm^2")):
@@ -55,8 +55,9 @@ def inertia_rows(model: Model) -> Rows:
     for shaft in model.drivetrain.elastic:
         words = f"kg, in addition, with its {len(shaft.modes)} lowest modes, up to {shaft.up_to:.4g} Hz"
         rows.append((f"mass of the {shaft.gear}'s shaft", 1e3 * shaft.mass_of_all, words))
-    if shafts is not None or inertia.load is not None:
-        place = "far end of the output shaft" if shafts is not None else "with the wheel"
+    twists = "shaft_twist" in model.drivetrain.coordinates
+    if twists or inertia.load is not None:
+        place = "far end of the output shaft" if twists else "with the wheel"
         rows.append(("load moment of inertia", 1e3 * inertia.shaft_end, f"kg mm^2, {place}"))
     reduced = 1e3 * along[0] * along[1] / sum(along)
     label = "reduced mass J1 J2/(J1 rb2^2 + J2 rb1^2)"

@@ -48,6 +48,15 @@ def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[Row]
     ]
 
 
+def what_is_there(dataset, steps: int, cycles: int) -> str:
+    """How much of a run of so many steps and mesh cycles a result has that ended before it."""
+    last = dataset.isel(time=-1)
+    return (
+        f"{dataset.sizes['time'] - 1} of its {steps} steps are there, up to {float(last['time']):.4g} s (mesh cycle"
+        f" {float(last['mesh_phase']):.2f} of {cycles}), and all numbers are of these"
+    )
+
+
 def result_rows(dataset) -> list[Row]:
     """The results, the most important first; rows without a number in this run are left out."""
     of_numbers = (

@@ -1,5 +1,6 @@
 """From a scene file to the frozen dataclasses of ``scene.data``."""
 
+import datetime
 import math
 import os
 import tomllib
@@ -10,8 +11,8 @@ from typing import Any
 
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean, line_numbers, listed
-from fenics_gears.inputs.tree import written_out
+from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean, line_numbers, listed, placed
+from fenics_gears.inputs.tree import MOST_NESTED, nested_too_deeply, written_out
 from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
 from fenics_gears.system import user_file
 from fenics_gears.system.console import control_character, printable
@@ -21,6 +22,7 @@ from .drawing import gear_pair_data, load_data
 from .rules import broken_rules
 from .schema import checked_sections, without_echoes
 
+ALLOWED_DEPTH = f"Allowed: {MOST_NESTED} tables and lists within one another."
 # The text of a scene that no file gives (`scene.write`).
 NO_FILE = "# No scene file gives this scene, which was made or changed in Python"
 
@@ -58,24 +60,35 @@ def parsed(text: str, source: str) -> dict[str, Any]:
     """What a TOML text holds, its numbers as they were written, and what is written short as its section. Raises
     SceneError, which calls the text `source`."""
     try:
-        tree = written_out(tomllib.loads(text, parse_float=WrittenFloat))
-    except (ValueError, RecursionError) as error:
-        from fenics_gears.inputs.toml_mistakes import why_no_toml
+        tree = tomllib.loads(text, parse_float=WrittenFloat)
+    except tomllib.TOMLDecodeError as error:
+        # A right file does not load it.
+        from fenics_gears.inputs.toml_mistakes import in_words
 
-        raise SceneError(f"{source}: is not valid TOML: {why_no_toml(error, text)}\n{NOTHING_DONE}") from None
-    if problems := list(_unprintable((), tree)):
+        raise SceneError(f"{in_words(error, text, source)}\n{NOTHING_DONE}") from None
+    except (ValueError, RecursionError) as error:
+        why = "is nested too deeply" if isinstance(error, RecursionError) else "a number has thousands of digits"
+        raise SceneError(f"{source}: is not valid TOML: {why}. {NOTHING_DONE}") from None
+    if too_deep := nested_too_deeply(tree):
+        raise SceneError(f"{source}: [{too_deep}] is nested too deeply. {ALLOWED_DEPTH} {NOTHING_DONE}")
+    tree = written_out(tree)
+    if problems := list(_of_no_field((), tree)):
         raise SceneError(listed(problems, line_numbers(text), source))
     return tree
 
 
-def _unprintable(path: tuple[str, ...], value: Any) -> Iterator[Problem]:
-    """Texts with control characters, which a terminal would obey and a file of results could not hold."""
+def _of_no_field(path: tuple[str, ...], value: Any) -> Iterator[Problem]:
+    """Texts with control characters, which a terminal would obey and a file of results could not hold; dates and
+    times."""
     if isinstance(value, Mapping):
         for name, inner in value.items():
-            yield from _unprintable((*path, name), inner)
+            yield from _of_no_field((*path, name), inner)
     elif isinstance(value, list):
         for inner in value:
-            yield from _unprintable(path, inner)
+            yield from _of_no_field(path, inner)
+    elif isinstance(value, datetime.date | datetime.time):
+        allowed = "Allowed: texts between quotes, numbers, true and false."
+        yield Problem(path, as_written(value), f"is a date or a time, which no field takes. {allowed}")
     elif isinstance(value, str) and (character := control_character(value)):
         allowed = "Allowed: characters that can be printed, tabs and new lines."
         yield Problem(path, as_written(value), f"has the control character {character}. {allowed}")
@@ -126,7 +139,7 @@ def scene_from_text(
     try:
         scene, problems = scene_of(tree, text, name, directory)
     except GeometryError as error:
-        raise GeometryError(f"{source}: {error}\n{NOTHING_DONE}") from error
+        raise GeometryError(placed(str(error), text if with_lines else "", source)) from error
     if scene is None:
         raise SceneError(listed(problems, line_numbers(text) if with_lines else {}, source))
     return scene

@@ -9,6 +9,7 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import model_of
 from fenics_gears.results.journal import read
 from fenics_gears.results.recorder import Recorder
+from fenics_gears.results.summary import what_is_there
 from fenics_gears.system.progress import SilentProgress
 
 from .routes import prepared
@@ -30,16 +31,6 @@ def unfinished(directory: Path) -> xr.Dataset:
     equations = model.equations_of_motion
     march = March(equations.friction, equations.drivetrain.stiffness, **recorded.march)
     result = result_of(recorder, march, gears, 0.0, NOT_ENDED).dataset
-    return result.assign_attrs(
-        warnings="\n".join([_missing(result, recorded.steps), *result.attrs["warnings"].splitlines()])
-    )
-
-
-def _missing(result: xr.Dataset, steps: int) -> str:
-    there, last = result.attrs["steps"], result.isel(time=-1)
-    of = result.attrs["steps_per_mesh_cycle"]
-    return (
-        f"the run has not come to its end (its process was killed, or still runs): {there} of its {steps} steps are"
-        f" there, up to {float(last['time']):.4g} s (mesh cycle {float(last['mesh_phase']):.2f} of {steps / of:g}), and"
-        " all numbers are of these"
-    )
+    why = "the run has not come to its end (its process was killed, or still runs)"
+    missing = f"{why}: {what_is_there(result, recorded.steps, model.scene.motion.mesh_cycles)}"
+    return result.assign_attrs(warnings="\n".join([missing, *result.attrs["warnings"].splitlines()]))

@@ -120,11 +120,12 @@ def number_in(value: Any, unit: str) -> float | None:
     """A value as a number of units, NaN for an absent one; None for what is no number."""
     if value == ABSENT:
         return math.nan
-    if isinstance(value, (bool, Mapping)):
-        return None
     try:
-        return float(value) if isinstance(value, (int, float)) else units.quantity(value)[0] / factor_of(unit)
-    except units.QuantityError:
+        if isinstance(value, str):
+            return units.quantity(value)[0] / factor_of(unit)
+        # A whole number may have more digits than a float can hold.
+        return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else None
+    except (units.QuantityError, OverflowError):
         return None
 
 
@@ -163,7 +164,8 @@ def _range(table: Mapping[str, Any]) -> tuple[Any, ...]:
 def _ends(given: Mapping[str, Any]) -> tuple[list[float], str]:
     """Start, stop and step, if any, as numbers in the unit of the start, and that unit."""
     if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in given.values()):
-        numbers, unit = [float(value) for value in given.values()], ""
+        unit, bare = "", [number_in(value, "") for value in given.values()]
+        numbers = [math.inf if number is None else number for number in bare]
     else:
         for name, value in given.items():
             if not isinstance(value, str):

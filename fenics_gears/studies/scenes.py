@@ -9,7 +9,7 @@ from typing import Any
 
 from fenics_gears.effects import effect_named
 from fenics_gears.errors import SceneError
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import NOTHING_DONE, Problem
 from fenics_gears.inputs.section import read
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.model import RELIEFS, Model, model_of, with_reliefs
@@ -128,4 +128,5 @@ def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Model:
     except NoScene:
         raise
     except SceneError as error:
-        raise NoScene([Problem((), None, str(error))]) from error
+        said = str(error).removesuffix(NOTHING_DONE).strip()
+        raise NoScene([Problem((), None, each) for each in said.splitlines()]) from error

@@ -26,6 +26,8 @@ from .user_file import check_file
 UNFINISHED = ".unfinished-"
 # What another machine has not changed for longer (s) was left by a process that was killed.
 LONGEST_WRITING = 24 * 3600.0
+# Bytes that have to find room before anything is computed: those of a small result.
+TRIED = 200_000
 ANOTHER = "choose another directory with --output DIR."
 
 
@@ -38,22 +40,32 @@ def check_working_folder() -> None:
 
 
 def check_writable(directory: Path, *names: str) -> None:
-    """Raise SceneError where no result of these names could be written into a directory; creates nothing."""
+    """Raise SceneError where no result of these names could be written into a directory; leaves nothing there."""
     try:
-        _check_directory(directory)
+        existing = _existing(directory)
         for name in names:
-            if (directory / name).exists() and not (directory / name).is_file():
+            if _is_there(directory / name) and not (directory / name).is_file():
                 raise SceneError(f"{directory / name} is no file; the result needs this name. Remove it, or {ANOTHER}")
+        _try_to_write(existing)
     except OSError as error:
-        raise SceneError(f"{directory} cannot be written to: {error.strerror or error}. To go on, {ANOTHER}") from None
+        # A folder that is there, as /proc, says so of the files that are to be made in it.
+        why = "no file can be made there" if isinstance(error, FileNotFoundError) else error.strerror or error
+        raise SceneError(f"{directory} cannot be written to: {why}. To go on, {ANOTHER}") from None
 
 
-def _check_directory(directory: Path) -> None:
+def _existing(directory: Path) -> Path:
+    """The directory, or the one that is there on the way to it."""
     existing = next(parent for parent in (directory.absolute(), *directory.absolute().parents) if _is_there(parent))
     if not existing.is_dir():
         raise SceneError(f"{existing} is a file; the result needs a directory. To go on, {ANOTHER}")
-    if not os.access(existing, os.W_OK | os.X_OK):
-        raise SceneError(f"{existing} cannot be written to. To go on, {ANOTHER}")
+    return existing
+
+
+def _try_to_write(directory: Path) -> None:
+    """Write a little and remove it: root may write where permissions say no, nobody into what the kernel makes up, and
+    of a full disk only writing tells."""
+    with tempfile.TemporaryDirectory(prefix=_unfinished(), dir=directory) as aside:
+        Path(aside, "tried").write_bytes(bytes(TRIED))
 
 
 def _is_there(path: Path) -> bool:

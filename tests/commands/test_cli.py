@@ -221,3 +221,18 @@ def test_a_reader_that_goes_away_is_no_error():
     done = subprocess.run(CHECK, stdout=writing, stderr=subprocess.PIPE, text=True)
     os.close(writing)
     assert (done.returncode, done.stderr) == (141, "")
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        ("chek pair.toml", 'there is no command "chek". Did you mean "check"? Commands: check, run, '),
+        ("run pair.toml --outptu here", 'arguments: --outptu here. Did you mean "--output"?'),
+        ("run pair.toml --no-pictres=1", 'arguments: --no-pictres=1. Did you mean "--no-pictures"?'),
+    ],
+)
+def test_misspelt_words_of_a_call_are_answered_with_the_nearest(capsys, call, said):
+    """Standard of the house: an unknown name gets the nearest known one."""
+    with pytest.raises(SystemExit, match="2"):
+        main(call.split())
+    assert said in capsys.readouterr().err

@@ -65,6 +65,21 @@ def test_ctrl_c_that_mpirun_gets_too(tmp_path, monkeypatch, capsys, before):
         signal.signal(signal.SIGINT, found)
 
 
+def test_the_summary_of_an_interrupted_run_says_so_first(simulation, capsys):
+    """What a user expects before numbers of a part of the run: that they are, and of how much. The stand-in has two
+    steps, one mesh cycle, of the demonstration's 3000."""
+    simulation.outcome = small_result(complete=0)
+    assert main(["run", str(DEMO), "--output", "here"]) == 130
+    output = capsys.readouterr()
+    first = output.out.splitlines()[1]
+    assert first.split()[0] == "INTERRUPTED" and "stopped before its end: 2 of its 3000 steps are there" in first
+    assert "(mesh cycle 1.00 of 30), and all numbers are of these" in first
+    assert "marked incomplete: here/run.nc, 2 of the run's steps" in output.err
+    simulation.outcome = small_result()
+    assert main(["run", str(DEMO), "--output", "here"]) == 0
+    assert "INTERRUPTED" not in capsys.readouterr().out
+
+
 def test_ctrl_c_before_the_recorded_cycles_says_so(simulation, capsys, tmp_path):
     """docs/promises.md: kept, marked incomplete, not summed up."""
     simulation.outcome = small_result(complete=0).isel(time=slice(0, 0))

@@ -1,6 +1,7 @@
 """A place that cannot take the result is refused before anything is computed (hard case 26)."""
 
 import os
+import shlex
 import sys
 from pathlib import Path
 
@@ -26,6 +27,32 @@ def test_a_folder_under_the_results_name(tmp_path, monkeypatch, capsys, call):
     monkeypatch.chdir(tmp_path)
     Path("study.toml").write_text(STUDY)
     check_refusal(call.split(), CALLS[call], capsys)
+
+
+# A run is looked at after the place. By the name of what is asked for, where that is a file.
+NOWHERE = {
+    "run pair.toml": "", "study study.toml": "", "effects pair.toml": "", "accuracy pair.toml": "", "plot run.nc": "",
+    "picture run.nc": ".png", "report run.nc": ".html", "export run.nc": ".csv",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("call", NOWHERE)
+def test_a_place_that_permissions_say_nothing_of(tmp_path, monkeypatch, capsys, call):
+    """The kernel makes no files in /proc, not for root either, whom permissions do not stop."""
+    monkeypatch.chdir(tmp_path)
+    Path("study.toml").write_text(STUDY)
+    check_nowhere(call, NOWHERE[call], capsys)
+
+
+def check_nowhere(call, ending, capsys):
+    Path("pair.toml").write_text(SCENE)
+    Path("run.nc").touch()
+    before = sorted(Path().iterdir())
+    command, *words = shlex.split(call)
+    assert main([command, "--output", f"/proc/new{ending}", *words]) == 2
+    said = capsys.readouterr().err
+    assert "/proc" in said and "cannot be written to: no file can be made there" in said
+    assert sorted(Path().iterdir()) == before
 
 
 def check_refusal(words, name, capsys):

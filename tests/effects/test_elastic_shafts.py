@@ -224,6 +224,16 @@ def test_a_shaft_that_vibrates_keeps_the_balance_of_energy():
     assert float(lines[-1].split()[0]) <= model.drivetrain.right_up_to
 
 
+@pytest.mark.parametrize("load", ["", '[inertia.load]\nmoment_of_inertia = "0.5 kg m^2"\n'])
+def test_what_is_said_where_the_input_shaft_alone_has_sections(load):
+    """The rows of what there is: the load turns with the wheel, where there is one."""
+    text = VIBRATING[: VIBRATING.index("[shafts.output]")] + INERTIA + load
+    scene = helical_scene(text, accuracy=FEW, frequency=800.0)
+    said = {label: (value, words) for _, rows in describe(scene) for label, value, words in rows}
+    assert said.get("load moment of inertia") == ((pytest.approx(5e5), "kg mm^2, with the wheel") if load else None)
+    assert "mass of the pinion's shaft" in said and "mass of the wheel's shaft" not in said
+
+
 def test_what_is_said_of_shafts_that_vibrate():
     """Closed forms: density times volume, the reduced mass along the line of action, the condensed shaft's
     compliance."""

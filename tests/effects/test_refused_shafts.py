@@ -6,6 +6,7 @@ from tests.elastic_shaft_scenes import CUT, ELASTIC, INERTIA, INPUT, PINION, PRE
 from tests.helical import helical_scene
 
 from fenics_gears import SceneError, model_of, scene_from_text
+from fenics_gears.commands.cli import main
 
 ONE = PINION[: PINION.index("[[bearings.pinion]]", 5)]
 WEB = '[gears.wheel.web]\nrim_inner_diameter = "88 mm"\nhub_diameter = "60 mm"\nwidth = "6 mm"\n'
@@ -149,3 +150,17 @@ def test_a_shaft_that_is_not_as_thick_as_the_bore_is_told():
     assert "is 3 mm thick under the pinion's face, whose bore is 22.3" in said(thin)[0]
     fits = INPUT.replace('"35 mm"', f'"{float(0.4 * 54.0 / np.cos(np.radians(15.0)))!r} mm"') + PINION
     assert not said(fits) and not said(CUT)
+
+
+def test_objections_to_a_whole_scene_stand_one_below_another_each_with_its_line(tmp_path, monkeypatch, capsys):
+    """As of single fields: a person goes to the line and corrects a file once."""
+    monkeypatch.chdir(tmp_path)
+    text = helical_scene(INPUT + PINION, accuracy="").text.replace('torque_at = "0 mm"', 'torque_at = "131 mm"')
+    lines = text.replace('at = "85 mm"', 'at = "110 mm"').splitlines()
+    (tmp_path / "pair.toml").write_text("\n".join(lines))
+    assert main(["check", "pair.toml"]) == 2
+    torque, bearings = (1 + lines.index(each) for each in ('torque_at = "131 mm"', "[[bearings.pinion]]"))
+    first, second, last = capsys.readouterr().err.splitlines()
+    assert first.startswith(f"pair.toml:{torque}: shafts.input.torque_at = 131 mm: is beyond the shaft")
+    assert second.startswith(f"pair.toml:{bearings}: bearings.pinion: the bearing at 110 mm, place 2, overlaps")
+    assert last == "Nothing was computed or written."

@@ -1,5 +1,6 @@
 """What a flank gives way less where a gear stands out beyond its mate."""
 
+from dataclasses import replace
 from math import log, pi
 
 import numpy as np
@@ -42,6 +43,17 @@ def test_near_field_is_positive_definite(paper_pair, body):
     """Polya's criterion; so the energy of any load stays positive."""
     near = near_field(paper_pair.pinion, STEEL, body.roll_angle)
     assert np.array_equal(near, near.T) and np.linalg.eigvalsh(near)[0] > 0.0
+
+
+@pytest.mark.parametrize("module", [0.2, 8.0, 60.0])
+def test_near_field_of_any_size(paper_pair, body, module):
+    """Similarity: in a half-plane of twice the size a line load moves a point at twice the distance as far."""
+    near = near_field(paper_pair.pinion, STEEL, body.roll_angle)
+    gear, factor = paper_pair.pinion, module / paper_pair.pinion.module
+    lengths = ("module", "tip_radius", "root_radius", "bore_radius", "rack_tip_radius")
+    sized = replace(gear, **{name: factor * getattr(gear, name) for name in lengths})
+    larger = near_field(sized, STEEL, body.roll_angle)
+    assert larger == pytest.approx(near, rel=1e-9, abs=1e-12 * near.max())
 
 
 def test_every_kind_of_body_alike(paper_pair, body):

@@ -168,7 +168,10 @@ WRONG = {
         ),
         ["makes 1000000 cases"],
     ),
-    "section and its field": ('[sweep]\nfriction = ["absent", "present"]\nfriction.coefficient = [0.1]', None),
+    "section and its field": (
+        '[sweep]\nfriction = ["absent", "present"]\nfriction.coefficient = [0.1]',
+        ["friction.coefficient is given twice"],
+    ),
     "set and swept": ('[set]\nmotion.mesh_frequency = "1 Hz"\n[sweep]\n' + FREQUENCIES, ["is swept too"]),
     "same case twice": (
         '[sweep]\nmotion.mesh_frequency = ["200 Hz", "0.2 kHz"]',
@@ -189,7 +192,7 @@ def test_wrong_studies_are_refused_before_anything_is_written(folder, capsys, na
     assert main(["study", str(study)]) == 2
     error = capsys.readouterr().err
     assert str(study) in error
-    for fragment in fragments or ["not valid TOML"]:
+    for fragment in fragments:
         assert fragment in error
     assert sorted(folder.rglob("*")) == before
 

@@ -1,6 +1,7 @@
 """Where results are written and files of users are read (hard cases 26 and 27)."""
 
 import os
+import resource
 import subprocess
 import sys
 
@@ -125,3 +126,16 @@ def test_a_file_that_grows_while_it_is_read_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(user_file, "check_file", lambda path, largest: None)
     with pytest.raises(user_file.Unreadable, match="has more than 0 MB"):
         user_file.content_of(tmp_path / "grows", 10)
+
+
+def test_a_disk_without_room_is_found_by_writing(tmp_path):
+    """The kernel's own refusal, here by its limit on files; nothing is left behind."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (output.TRIED // 2, before[1]))
+    try:
+        with pytest.raises(SceneError, match=r"cannot be written to: File too large\. To go on, .*--output"):
+            output.check_writable(tmp_path / "new" / "out", "run.nc")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    output.check_writable(tmp_path / "new" / "out", "run.nc")
+    assert list(tmp_path.iterdir()) == []

@@ -68,6 +68,9 @@ def condensed_onto_lines(
 def eliminated(free: np.ndarray, coupling: np.ndarray, kept: np.ndarray) -> np.ndarray:
     """Schur complement (k, k), its upper triangle, in the place of that of `kept`: of stiffness (m, m) of `free` dofs
     and their `coupling` (m, k), all in Fortran's order and overwritten. Raises as `ring.definite_factor`."""
+    if not len(free):
+        # Every node of a coarse section may be on the lines; LAPACK takes no empty matrix.
+        return kept
     half = dtrsm(1.0, definite_factor(free, "a layer", overwrite=True), coupling, trans_a=1, overwrite_b=1)
     return dsyrk(-1.0, half, 1.0, kept, trans=1, overwrite_c=1)
 

@@ -45,7 +45,9 @@ def condensed_halves(
         whole = _Part(mesh, half, poissons_ratio, sweep, fold, (flank, cut))
         whole.condense()
         return [flank_free(*whole.folded(sign)) for sign in signs]
-    neck = nodes.points[np.intersect1d(nodes.cells[of_tooth], nodes.cells[half & ~of_tooth])]
+    shared = nodes.points[np.intersect1d(nodes.cells[of_tooth], nodes.cells[half & ~of_tooth])]
+    # Under a thin rim the neck reaches the hub, which holds what it has of it.
+    neck = shared[cKDTree(fold.hub).query(shared)[0] > ON_CENTRELINE * np.abs(fold.nodes).max()]
     tooth = _Part(mesh, of_tooth, poissons_ratio, sweep, fold, (flank, neck))
     body = _Part(mesh, half & ~of_tooth, poissons_ratio, sweep, fold, (neck, cut))
     if pair is None:
@@ -141,13 +143,13 @@ class _Part:
         kept = len(dofs[0]) - free
         parts = np.empty((free, free)), np.empty((kept, free)), np.empty((kept, kept))
         # Few rows at a time: whole matrices would be made anew for each step.
-        for start, end in ((0, free), (free, free + kept)):
+        for of_kept, (start, end) in enumerate(((0, free), (free, free + kept))):
             for row in range(start, end, ROWS_AT_ONCE):
                 rows = [each[row : min(row + ROWS_AT_ONCE, end)] for each in dofs]
                 moved = _folded_rows(_folded_rows(self._stiffness, *rows).T, *dofs).T
                 here = slice(row - start, row - start + len(moved))
-                parts[1 if start else 0][here] = moved[:, :free]
-                if start:
+                parts[of_kept][here] = moved[:, :free]
+                if of_kept:
                     parts[2][here] = moved[:, free:]
         # Transposed, they are in LAPACK's order.
         return symmetric(eliminated(*(part.T for part in parts))).T, len(first[0])

@@ -26,7 +26,7 @@ from .evaluations import Evaluation, Evaluator
 from .expected import TORQUES, VALUES, Work, at_ends, expected_work
 from .search import front, optimiser, search
 
-RESULT, TABLE, BEST = "optimization.nc", "designs.csv", "best.toml"
+RESULT, TABLE, BEST, PAGE = "optimization.nc", "designs.csv", "best.toml", "report.html"
 NOT_IN_A_HARRIS_MAP = ("inertia", "damping", "motion", "speed_ramp", "torque_ripple")
 
 
@@ -75,7 +75,7 @@ def optimize(
             return None
         design = load_design(path)
         directory = output or Path("results") / design.name
-        check_writable(directory, RESULT, TABLE, BEST)
+        check_writable(directory, RESULT, TABLE, BEST, PAGE)
         optimiser()
         with sole_writer(directory, "runs"), Interruption(progress) as interruption:
             return _run(design, directory, team, interruption, quiet, any_time)

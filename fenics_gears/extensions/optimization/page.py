@@ -9,10 +9,9 @@ from fenics_gears.show.report.page import Block, Cell, Facts, Page, Section, Tab
 from fenics_gears.show.report.rendering import rendered
 
 from . import charts
-from .optimize import Outcome
+from .optimize import PAGE, Outcome
 from .result import BEST, TABLE, best_scene
 
-PAGE = "report.html"
 MOST_ROWS = 50
 
 

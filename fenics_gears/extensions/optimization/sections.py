@@ -229,7 +229,8 @@ def _not_variable(path: fields.Path, written: Any) -> str:
 
 def is_number(value: Any) -> bool:
     """Whether a value is a finite number without unit."""
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    number = None if isinstance(value, str) else number_in(value, "")
+    return number is not None and math.isfinite(number)
 
 
 def _in_unit(value: Any, unit: str) -> float | None:

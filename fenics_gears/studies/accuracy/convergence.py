@@ -33,6 +33,10 @@ ROUND_OFF = 1e-10
 LEAST_COSINE, TURNED_BACK = 0.5, -0.5
 
 
+class NotComparable(ValueError):
+    """A measure, by its name, that two runs do not both have."""
+
+
 @dataclass(frozen=True)
 class Limit:
     """The limit of a sequence: `value`, shaped as its terms; observed `order`, None without one; `uncertainty`, L2 norm
@@ -76,8 +80,12 @@ def part_left(sizes: Sequence[float], order: float) -> float:
 
 
 def errors_of_two(finer: Answer, coarser: Answer, ratio: float) -> np.ndarray:
-    """Relative error of the finer of two runs in each measure, by the expected order; `ratio` of their sizes."""
-    changes = np.array([distance(coarser, finer, measure) for measure in sorted(finer)])
+    """Relative error of the finer of two runs in each measure, by the expected order; `ratio` of their sizes. Raises
+    NotComparable for a measure that one of them lacks, or of which nothing is left in the finer one."""
+    measures = sorted({*finer, *coarser})
+    changes = np.array([distance(coarser, finer, measure) for measure in measures])
+    if not np.isfinite(changes).all():
+        raise NotComparable(measures[int(np.argmin(np.isfinite(changes)))])
     return SAFETY_OF_TWO * part_left((ratio, 1.0), EXPECTED_ORDER) * changes
 
 

@@ -19,7 +19,7 @@ from fenics_gears.scene.accuracy import MOST_CONTACT_NODES
 from fenics_gears.scene.accuracy_rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.data import Output, Scene
 
-from .convergence import errors_of_two
+from .convergence import NotComparable, errors_of_two
 from .measures import Answer, judged_answer
 from .setting import Setting, own_setting, without_settings
 from .setting_runs import SettingRuns
@@ -156,7 +156,14 @@ class TrialRuns:
             raise TargetNotReached(f"{setting.words}: {error}") from None
 
     def _error(self, sizes: Sizes, coarser: Sizes) -> np.ndarray:
-        errors = errors_of_two(self._answer(sizes), self._answer(coarser), COARSER)
+        try:
+            errors = errors_of_two(self._answer(sizes), self._answer(coarser), COARSER)
+        except NotComparable as measure:
+            one, other = (self.setting(each).words for each in (sizes, coarser))
+            raise TargetNotReached(
+                f"the runs with {one} and with {other} do not both have the {measure}: so little of the flanks carries"
+                " that coarse settings miss it. Raise the load, or lower what lifts the flanks off each other"
+            ) from None
         return errors if self.slices else errors.max(keepdims=True)
 
     def _answer(self, sizes: Sizes) -> Answer:

@@ -6,7 +6,7 @@ from math import radians, tan
 import numpy as np
 import pytest
 from tests.coarse_sector import PINION, STEEL
-from tests.elasticity.face.swept import GEAR, TWISTED, mesh
+from tests.elasticity.face.swept import GEAR, SIZES, TWISTED, mesh
 from tests.elasticity.test_coast_flank import difference
 
 from fenics_gears import ComputationError, SceneError
@@ -22,6 +22,7 @@ from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_wh
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT
 from fenics_gears.elasticity.mirrored_ring import unfolded_link
 from fenics_gears.elasticity.ring import turned_nodes
+from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.outline import centreline_angle
 
 BOTH = Reach(1, (-1, 1))
@@ -41,8 +42,8 @@ def sector() -> SweptSector:
     return swept_sector(mesh(both_flanks=True))
 
 
-def swept_sector(section_mesh) -> SweptSector:
-    return condensed_swept_sector(section_mesh, TWISTED, 0.3, centreline_angle(GEAR), GEAR.teeth, both=True)
+def swept_sector(section_mesh, gear=GEAR) -> SweptSector:
+    return condensed_swept_sector(section_mesh, TWISTED, 0.3, centreline_angle(gear), gear.teeth, both=True)
 
 
 def flank_nodes(section_mesh, side):
@@ -74,6 +75,15 @@ def test_a_sector_without_a_neck_is_condensed_whole(sector, monkeypatch):
     apart = ring_blocks(sector, GEAR.teeth, 1)
     monkeypatch.setattr(tooth_and_body, "_tooth", lambda nodes, half, fold, sweep: np.zeros_like(half))
     assert 0.0 < difference(ring_blocks(swept_sector(mesh(both_flanks=True)), GEAR.teeth, 1), apart) < 1e-10
+
+
+def test_a_body_without_a_node_of_its_own_on_the_centreline(monkeypatch):
+    """Two ways to one elimination, of a rim so thin that its only nodes there are those of the neck and of the bore."""
+    thin = replace(GEAR, bore_radius=GEAR.root_radius - 0.5)
+    section_mesh = sector_mesh(thin, replace(SIZES, both_flanks=True))
+    apart = ring_blocks(swept_sector(section_mesh, thin), thin.teeth, 1)
+    monkeypatch.setattr(tooth_and_body, "_tooth", lambda nodes, half, fold, sweep: np.zeros_like(half))
+    assert 0.0 < difference(ring_blocks(swept_sector(section_mesh, thin), thin.teeth, 1), apart) < 1e-10
 
 
 def test_hands_mirror_each_other():

@@ -16,7 +16,7 @@ from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.runs.timed import run_sharing
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.studies.accuracy import setting_runs, trial_runs
-from fenics_gears.studies.accuracy.measures import JUDGED, distance, judged_answer
+from fenics_gears.studies.accuracy.measures import FACE_LOAD, JUDGED, SPAN, distance, judged_answer
 from fenics_gears.studies.accuracy.target import choose, settings_of
 from fenics_gears.studies.accuracy.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
 from fenics_gears.system.progress import SilentProgress
@@ -114,6 +114,20 @@ def test_a_window_that_cuts_contact_off_is_lengthened(scene):
     runs.errors(sizes)
     assert runs.setting(sizes).length > 0.13 * whole
     assert WINDOW_REACHED not in simulate(runs.setting(sizes).of(scene)).attrs["warnings"]
+
+
+@pytest.mark.parametrize(("finer", "coarser"), [({}, {FACE_LOAD: 2.0}), ({FACE_LOAD: 0.0}, {FACE_LOAD: 2.0})])
+def test_what_two_runs_do_not_both_have_is_not_judged(scene, monkeypatch, finer, coarser):
+    """Nothing is known of the error of a number that one run lacks, or of which nothing is left: no settings are
+    chosen by it."""
+    answers = {1.0: finer, 2.0: coarser}
+    runs, same = TrialRuns(scene, lambda words: None), {SPAN: np.ones(1)}
+    with_span = {
+        mesh: same | {name: np.array([each]) for name, each in found.items()} for mesh, found in answers.items()
+    }
+    monkeypatch.setattr(runs, "_answer", lambda sizes: with_span[sizes.mesh])
+    with pytest.raises(TargetNotReached, match="do not both have the face load factor: .* Raise the load"):
+        runs._error(Sizes(1.0, 40), Sizes(2.0, 40))
 
 
 def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
