@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import dataclass, field
 from functools import cache, cached_property
@@ -19,6 +19,7 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import SHARE_OF_A_BLOCK, Cycle
 from fenics_gears.contact.step_solver import METHODS, NEWTON
 from fenics_gears.contact.tooth_pair import DRIVE
+from fenics_gears.errors import MemoryEnded
 
 from .average_acceleration import AverageAcceleration
 from .compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, NO_SETS, STATIC, Course, Motion, solve_steps
@@ -92,6 +93,11 @@ class March:
                 return steps.record(place)
         return None
 
+    @property
+    def latest(self) -> Steps | None:
+        """The steps taken last."""
+        return self._last[-1] if self._last else None
+
     @cached_property
     def records(self) -> list[Record]:
         """The last steps, as many as are kept."""
@@ -137,7 +143,8 @@ class Marcher(Stepper):
         `judged`: of so many last steps it is judged whether friction leaves more than one solution. `period`: steps
         after which they repeat, of which the solutions are kept.
 
-        Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
+        Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged and MemoryEnded, whose `partial` is
+        the March so far.
         """
         inert = march_with_inertia() if self.dynamic.inert and self.friction else nullcontext()
         with inert, thread_pools().limit(limits=1):
@@ -170,24 +177,46 @@ class Marcher(Stepper):
                 )
             observe(solved, march)
 
+        ended = False
         try:
-            last = self.start()
-            if not steps:
-                take(Steps.of([last]))
-            blocks = self._plain_block if self.plain or self.cycle.traits.own_solver else self._compiled_block
-            for first, end in self._blocks(steps):
-                last = blocks(last, range(first, end), take, lambda step: report(step, steps))
+            self._go_through(steps, march, take, lambda step: report(step, steps))
         except KeyboardInterrupt:
             march.interrupted = True
         except ContactNotConverged as failure:
             failure.partial = march
             raise
+        except MemoryError:
+            # Raised below, where nothing holds what the failed call held.
+            ended = True
         finally:
             march.seconds = time.perf_counter() - begun
+        if ended:
+            raise MemoryEnded(f"at step {march.steps + 1} of {steps}", march)
         return march
 
-    def _blocks(self, steps: int) -> Iterator[tuple[int, int]]:
-        """Numbers of the first step of each block and of the one after its last: whole mesh cycles, or equal parts of
+    def _go_through(
+        self, steps: int, march: March, take: Callable[[Steps], None], report: Callable[[int], None]
+    ) -> None:
+        """Solve all steps, block by block; where memory ends before a block has begun, with fewer operators kept."""
+        last, first = self.start(), 1
+        if not steps:
+            take(Steps.of([last]))
+        blocks = self._plain_block if self.plain or self.cycle.traits.own_solver else self._compiled_block
+        while first <= steps:
+            end, latest, short = self._end_of_block(first, steps), march.latest, False
+            try:
+                last = blocks(last, range(first, end), take, report)
+            except MemoryError:
+                if march.latest is not latest:
+                    raise
+                short = True
+            if not short:
+                first = end
+            elif not self.cycle.give_up():
+                raise MemoryError
+
+    def _end_of_block(self, first: int, steps: int) -> int:
+        """Number of the step after the last of the block that begins with `first`: whole mesh cycles, or equal parts of
         one, but at the end."""
         cycle = self.cycle.steps
         # Positions of a block are held together, also those that are not kept.
@@ -197,12 +226,8 @@ class Marcher(Stepper):
             most = min(most, cycle)
         longest = int(min(most, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self.cycle.position(0).bytes, 1.0)))
         length = cycle * (longest // cycle) or ceil(cycle / ceil(cycle / longest))
-        first = 1
-        while first <= steps:
-            left_of_cycle = cycle - (first - 1) % cycle
-            end = min(first + (length if length >= cycle else min(length, left_of_cycle)), steps + 1)
-            yield first, end
-            first = end
+        left_of_cycle = cycle - (first - 1) % cycle
+        return min(first + (length if length >= cycle else min(length, left_of_cycle)), steps + 1)
 
     def _plain_block(
         self, last: Record, numbers: range, take: Callable[[Steps], None], report: Callable[[int], None]
