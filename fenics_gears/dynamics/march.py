@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from functools import cache, cached_property
 from itertools import compress
 from math import ceil
+from typing import TypeVar
 
 import numpy as np
 from threadpoolctl import ThreadpoolController
@@ -27,6 +28,7 @@ from .stepping import EquationsOfMotion, Stepper
 from .steps import Record, Steps, drive_flanks_touch, smallest_openings
 
 SECONDS_BETWEEN_REPORTS = 0.1
+Solved = TypeVar("Solved")
 # Steps are handed on in blocks of at most so many; those of a cycle's own solver can take a tenth of a second each.
 LONGEST_BLOCK, LONGEST_BLOCK_OF_OWN_SOLVER = 512, 32
 
@@ -197,22 +199,31 @@ class Marcher(Stepper):
     def _go_through(
         self, steps: int, march: March, take: Callable[[Steps], None], report: Callable[[int], None]
     ) -> None:
-        """Solve all steps, block by block; where memory ends before a block has begun, with fewer operators kept."""
-        last, first = self.start(), 1
+        """Solve all steps, block by block."""
+        last, first = self._with_room(self.start, march), 1
         if not steps:
             take(Steps.of([last]))
         blocks = self._plain_block if self.plain or self.cycle.traits.own_solver else self._compiled_block
+
+        def block() -> tuple[Record, int]:
+            end = self._end_of_block(first, steps)
+            return blocks(last, range(first, end), take, report), end
+
         while first <= steps:
-            end, latest, short = self._end_of_block(first, steps), march.latest, False
+            last, first = self._with_room(block, march)
+
+    def _with_room(self, solve: Callable[[], Solved], march: March) -> Solved:
+        """What `solve` returns; where memory ends before a step of it is taken, with fewer operators kept. Raises
+        MemoryError where there are none."""
+        while True:
+            latest = march.latest
             try:
-                last = blocks(last, range(first, end), take, report)
+                return solve()
             except MemoryError:
                 if march.latest is not latest:
                     raise
-                short = True
-            if not short:
-                first = end
-            elif not self.cycle.give_up():
+            # Not within the handler, which would hold what the failed call held.
+            if not self.cycle.give_up():
                 raise MemoryError
 
     def _end_of_block(self, first: int, steps: int) -> int:

@@ -16,7 +16,7 @@ from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.errors import ComputationError, MemoryEnded
-from fenics_gears.model.cost import expected_cost, too_large
+from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.extrema import repeating_steps
@@ -165,8 +165,11 @@ def memory_for_operators(model: Model) -> float:
     """Bytes that contact operators may take beside all else; raises ComputationError where a run does not fit without
     any."""
     allowed, cost = allowed_memory(), expected_cost(model)
-    if said := too_large(model, cost, allowed):
-        raise ComputationError(said)
+    if cost.held > allowed:
+        # Imported here: nearly all runs fit.
+        from fenics_gears.model.fitting import too_large
+
+        raise ComputationError(too_large(model, cost, allowed))
     return allowed - cost.held
 
 

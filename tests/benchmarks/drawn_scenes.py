@@ -46,7 +46,9 @@ def _gears(draw, kind: str, module: float, helix: float, width: float) -> str:
     teeth = draw.integers(18, 45), draw.integers(20, 110)
     lean = f'helix_angle = "{helix} deg"\n' if helix else ""
     material = "" if kind == "rigid" else 'material = "steel"\n'
-    text = f'[gears]\nmodule = "{module} mm"\npressure_angle = "20 deg"\n{lean}face_width = "{width:.6g} mm"\n{material}'
+    text = (
+        f'[gears]\nmodule = "{module} mm"\npressure_angle = "20 deg"\n{lean}face_width = "{width:.6g} mm"\n{material}'
+    )
     for name, count in zip(("pinion", "wheel"), teeth):
         pitch = count * module / cos(radians(helix))
         bore = float(draw.uniform(0.3, 0.7)) * (pitch - 2.5 * module)
