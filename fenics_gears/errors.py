@@ -30,6 +30,6 @@ class MemoryEnded(ComputationError):
     def __init__(self, when: str, partial: Any = None):
         self.partial = partial
         super().__init__(
-            f"Memory ended {when}. `gears check` says what a run takes: larger elements, and over the face fewer slices,"
-            " take less. `--memory` or FENICS_GEARS_MEMORY say how much there is."
+            f"Memory ended {when}. `gears check` says what a run takes; larger elements take less, and over the face"
+            " fewer slices. `--memory` or FENICS_GEARS_MEMORY say how much there is."
         )

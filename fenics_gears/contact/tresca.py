@@ -85,9 +85,9 @@ def _tell(nodes: int) -> None:
     seconds = NODES_CUBE * nodes**3
     if MOST_PROGRAMMES * seconds > NOTABLE_SECONDS:
         LOGGER.warning(
-            "Newton's method does not solve a step of %d contact nodes. Its friction is now iterated as Tresca's: at most"
-            " %d quadratic programmes of about %.2g s each. The usual cause: contact nodes stand closer than the nodes of"
-            " flank elements. Fewer accuracy.contact_nodes help, or a smaller accuracy.flank_element_size.",
+            "Newton's method does not solve a step of %d contact nodes. Its friction is now iterated as Tresca's: at"
+            " most %d quadratic programmes of about %.2g s each. The usual cause: contact nodes stand closer than the"
+            " nodes of flank elements. Fewer accuracy.contact_nodes help, or a smaller accuracy.flank_element_size.",
             nodes,
             MOST_PROGRAMMES,
             seconds,

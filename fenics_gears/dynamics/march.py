@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections import Counter
 from collections.abc import Callable
 from contextlib import nullcontext
-from dataclasses import dataclass, field
-from functools import cache, cached_property
-from itertools import compress
+from functools import cache
 from math import ceil
 from typing import TypeVar
 
@@ -18,92 +15,19 @@ from threadpoolctl import ThreadpoolController
 from fenics_gears.contact.addresses import march_with_inertia
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import SHARE_OF_A_BLOCK, Cycle
-from fenics_gears.contact.step_solver import METHODS, NEWTON
-from fenics_gears.contact.tooth_pair import DRIVE
+from fenics_gears.contact.step_solver import NEWTON
 from fenics_gears.errors import MemoryEnded
 
 from .average_acceleration import AverageAcceleration
 from .compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, NO_SETS, STATIC, Course, Motion, solve_steps
+from .march_so_far import March
 from .stepping import EquationsOfMotion, Stepper
-from .steps import Record, Steps, drive_flanks_touch, smallest_openings
+from .steps import Record, Steps
 
 SECONDS_BETWEEN_REPORTS = 0.1
 Solved = TypeVar("Solved")
 # Steps are handed on in blocks of at most so many; those of a cycle's own solver can take a tenth of a second each.
 LONGEST_BLOCK, LONGEST_BLOCK_OF_OWN_SOLVER = 512, 32
-
-
-@dataclass
-class March:
-    """A march so far.
-
-    `kept`: the last steps; `period`: of the last two times as many steps the solutions are held (`held`);
-    `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of
-    `METHODS` solved;
-    `separations`: step and smallest opening (mm) of every step without contact of drive flanks; `locked`: steps at
-    which friction locks a closed node (`contact.existence`); `uncertified`: how many of the `judged` last steps may
-    have more than one solution (`contact.uniqueness`); `interrupted`: stopped by the user. `friction` and `stiffness`,
-    the effective one (k, k), N/mm: of every step.
-    """
-
-    friction: float
-    stiffness: np.ndarray
-
-    kept: int = 0
-    period: int = 0
-    newton_iterations: int = 0
-    steps: int = 0
-    steps_by_method: dict[str, int] = field(default_factory=lambda: dict.fromkeys(METHODS, 0))
-    separations: list[tuple[int, float]] = field(default_factory=list)
-    locked: list[int] = field(default_factory=list)
-    judged: int = 0
-    uncertified: int = 0
-    interrupted: bool = False
-    seconds: float = 0.0
-    _held: list[Steps] = field(default_factory=list)
-    _last: list[Steps] = field(default_factory=list)
-
-    def take(self, solved: Steps) -> None:
-        """Count the next steps, and keep them if they are among the last `kept`."""
-        self._last.append(solved)
-        while sum(map(len, self._last[1:])) >= self.kept:
-            del self._last[0]
-        moved = solved.numbers > 0
-        self.steps, self.newton_iterations = (
-            int(solved.numbers[-1]),
-            self.newton_iterations + int(solved.iterations[moved].sum()),
-        )
-        for method, count in Counter(compress(solved.methods, moved)).items():
-            self.steps_by_method[method] += count
-        if self.period:
-            self._hold(solved)
-        apart = np.flatnonzero(~drive_flanks_touch(solved) & moved)
-        if len(apart):
-            openings = smallest_openings(solved)[apart, DRIVE]
-            self.separations += list(zip(solved.numbers[apart].astype(int).tolist(), openings.tolist()))
-
-    def _hold(self, solved: Steps) -> None:
-        self._held = [steps for steps in self._held if steps.numbers[-1] > self.steps - 2 * self.period]
-        # Contact operators take a hundred times the memory.
-        self._held.append(solved.without_operators())
-
-    def held(self, step: int) -> Record | None:
-        """A step without its position, where its solution is held."""
-        for steps in self._held:
-            place = int(np.searchsorted(steps.numbers, step))
-            if place < len(steps) and steps.numbers[place] == step:
-                return steps.record(place)
-        return None
-
-    @property
-    def latest(self) -> Steps | None:
-        """The steps taken last."""
-        return self._last[-1] if self._last else None
-
-    @cached_property
-    def records(self) -> list[Record]:
-        """The last steps, as many as are kept."""
-        return [record for steps in self._last for record in steps.records][-self.kept :]
 
 
 @cache

@@ -117,7 +117,7 @@ def _counted(pair, grid, along, coast, corner) -> tuple[float, float, float]:
 
 
 def operator_bytes(model: Model, contact: Contact) -> float:
-    """Of the contact operators: between normal forces, or with friction between forces of both kinds and by those of the
+    """Of the contact operators: between normal forces, or with friction between forces of both kinds and those of the
     step before."""
     kinds = 6.0 if model.scene.friction is not None else 1.0
     return BYTES_OF_A_NUMBER * contact.positions * contact.squares * kinds
@@ -215,7 +215,8 @@ def _rows(model: Model, contact: Contact) -> float:
 
 
 def _building(model: Model, contact: Contact) -> float:
-    return contact.positions * (PAIR * contact.pairs + NODES_SQUARE * contact.squares)
+    elastic = model.scene.tooth_elasticity is not None
+    return contact.positions * (PAIR * contact.pairs + (NODES_SQUARE * contact.squares if elastic else 0.0))
 
 
 def _sections(model: Model, gears: list[_Gear]) -> ExpectedCost:

@@ -25,8 +25,8 @@ def too_large(model: Model, cost: ExpectedCost, allowed: float) -> str:
     less = f"{fits} in [accuracy] fit" if fits else "Larger elements, fewer mesh cycles or time steps take less"
     return (
         f"The run would take {cost.held / 1e9:.3g} GB of memory, contact operators apart, and {allowed / 1e9:.3g} GB"
-        f' are allowed. Nothing was computed. {less}. In place of settings, target = "5 %" has the run look for some that'
-        " fit and keep the error; `--memory` or FENICS_GEARS_MEMORY allow more."
+        f' are allowed. Nothing was computed. {less}. In place of settings, target = "5 %" has the run look for some'
+        " that fit and keep the error; `--memory` or FENICS_GEARS_MEMORY allow more."
     )
 
 
@@ -48,7 +48,7 @@ def _coarser(model: Model, factor: float) -> tuple[Accuracy, str]:
     asked = model.scene.accuracy
     if not model.scene.three_dimensional:
         size = _rounded(factor * model.resolution.flank_element_size)
-        return replace(asked, flank_element_size=size, contact_nodes=None), f'flank_element_size = "{size:g} mm"'
+        return replace(asked, flank_element_size=size), f'flank_element_size = "{size:g} mm"'
     now = layers_of_common_face(model.scene, model.pair, model.face.evenly)
     size = _rounded(factor * (asked.body_element_size or SECTION_SIZE * model.scene.gears.module))
     layers = max(ceil(now / factor), FEWEST_LAYERS)

@@ -18,6 +18,7 @@ from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.newton import CONVERGED
 from fenics_gears.contact.step_solver import HALVED, NEWTON_AND_FALLBACKS, _methods, cold_start, solve_step
+from fenics_gears.contact import tresca as last_method
 from fenics_gears.contact.tresca import frozen_friction
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
@@ -237,3 +238,16 @@ def test_no_equilibrium_is_a_typed_error_with_its_history():
     assert "tension 1e+02 N" in str(failure.value)
     assert [attempt[0] for attempt in failure.value.attempts] == list(NEWTON_AND_FALLBACKS)
     assert failure.value.attempts[0][2].shape[1] == 5
+
+
+def test_a_last_method_that_takes_long_is_told_of(monkeypatch, caplog):
+    """The user's expectation: what is tried, how long it may take, and what to change, before it begins; not where it
+    is over at once."""
+    (case,) = [case for method, case in NEEDED if method == NEWTON_AND_FALLBACKS[-1]][:1]
+    problem, status = problem_of(case)
+    solve_step(problem, status)
+    assert not caplog.records
+    monkeypatch.setattr(last_method, "NOTABLE_SECONDS", 0.0)
+    solve_step(problem, status)
+    (told,) = caplog.messages
+    assert "at most 100 quadratic programmes" in told and "Fewer accuracy.contact_nodes" in told
