@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable
 from contextlib import nullcontext
-from functools import cache
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from itertools import compress
 from math import ceil
-from typing import TypeVar
 
 import numpy as np
 from threadpoolctl import ThreadpoolController
@@ -15,19 +17,91 @@ from threadpoolctl import ThreadpoolController
 from fenics_gears.contact.addresses import march_with_inertia
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import SHARE_OF_A_BLOCK, Cycle
-from fenics_gears.contact.step_solver import NEWTON
+from fenics_gears.contact.step_solver import METHODS, NEWTON
+from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.errors import MemoryEnded
 
 from .average_acceleration import AverageAcceleration
-from .compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, NO_SETS, STATIC, Course, Motion, solve_steps
-from .march_so_far import March
+from .compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, STATIC, Course, Motion, solve_steps
 from .stepping import EquationsOfMotion, Stepper
-from .steps import Record, Steps
+from .steps import Record, Steps, drive_flanks_touch, smallest_openings
 
 SECONDS_BETWEEN_REPORTS = 0.1
-Solved = TypeVar("Solved")
 # Steps are handed on in blocks of at most so many; those of a cycle's own solver can take a tenth of a second each.
 LONGEST_BLOCK, LONGEST_BLOCK_OF_OWN_SOLVER = 512, 32
+
+
+@dataclass
+class March:
+    """A march so far.
+
+    `kept`: the last steps; `period`: of the last two times as many steps the solutions are held (`held`);
+    `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of
+    `METHODS` solved;
+    `separations`: step and smallest opening (mm) of every step without contact of drive flanks; `locked`: steps at
+    which friction locks a closed node (`contact.existence`); `uncertified`: how many of the `judged` last steps may
+    have more than one solution (`contact.uniqueness`); `interrupted`: stopped by the user. `friction` and `stiffness`,
+    the effective one (k, k), N/mm: of every step.
+    """
+
+    friction: float
+    stiffness: np.ndarray
+
+    kept: int = 0
+    period: int = 0
+    newton_iterations: int = 0
+    steps: int = 0
+    steps_by_method: dict[str, int] = field(default_factory=lambda: dict.fromkeys(METHODS, 0))
+    separations: list[tuple[int, float]] = field(default_factory=list)
+    locked: list[int] = field(default_factory=list)
+    judged: int = 0
+    uncertified: int = 0
+    interrupted: bool = False
+    seconds: float = 0.0
+    _held: list[Steps] = field(default_factory=list)
+    _last: list[Steps] = field(default_factory=list)
+
+    def take(self, solved: Steps) -> None:
+        """Count the next steps, and keep them if they are among the last `kept`."""
+        self._last.append(solved)
+        while sum(map(len, self._last[1:])) >= self.kept:
+            del self._last[0]
+        moved = solved.numbers > 0
+        self.steps, self.newton_iterations = (
+            int(solved.numbers[-1]),
+            self.newton_iterations + int(solved.iterations[moved].sum()),
+        )
+        for method, count in Counter(compress(solved.methods, moved)).items():
+            self.steps_by_method[method] += count
+        if self.period:
+            self._hold(solved)
+        apart = np.flatnonzero(~drive_flanks_touch(solved) & moved)
+        if len(apart):
+            openings = smallest_openings(solved)[apart, DRIVE]
+            self.separations += list(zip(solved.numbers[apart].astype(int).tolist(), openings.tolist()))
+
+    def _hold(self, solved: Steps) -> None:
+        self._held = [steps for steps in self._held if steps.numbers[-1] > self.steps - 2 * self.period]
+        # Contact operators take a hundred times the memory.
+        self._held.append(solved.without_operators())
+
+    def held(self, step: int) -> Record | None:
+        """A step without its position, where its solution is held."""
+        for steps in self._held:
+            place = int(np.searchsorted(steps.numbers, step))
+            if place < len(steps) and steps.numbers[place] == step:
+                return steps.record(place)
+        return None
+
+    @property
+    def latest(self) -> Steps | None:
+        """The steps taken last."""
+        return self._last[-1] if self._last else None
+
+    @cached_property
+    def records(self) -> list[Record]:
+        """The last steps, as many as are kept."""
+        return [record for steps in self._last for record in steps.records][-self.kept :]
 
 
 @cache
@@ -124,7 +198,7 @@ class Marcher(Stepper):
         self, steps: int, march: March, take: Callable[[Steps], None], report: Callable[[int], None]
     ) -> None:
         """Solve all steps, block by block."""
-        last, first = self._with_room(self.start, march), 1
+        last, first = self.with_room(self.start, lambda: march.latest), 1
         if not steps:
             take(Steps.of([last]))
         blocks = self._plain_block if self.plain or self.cycle.traits.own_solver else self._compiled_block
@@ -134,21 +208,7 @@ class Marcher(Stepper):
             return blocks(last, range(first, end), take, report), end
 
         while first <= steps:
-            last, first = self._with_room(block, march)
-
-    def _with_room(self, solve: Callable[[], Solved], march: March) -> Solved:
-        """What `solve` returns; where memory ends before a step of it is taken, with fewer operators kept. Raises
-        MemoryError where there are none."""
-        while True:
-            latest = march.latest
-            try:
-                return solve()
-            except MemoryError:
-                if march.latest is not latest:
-                    raise
-            # Not within the handler, which would hold what the failed call held.
-            if not self.cycle.give_up():
-                raise MemoryError
+            last, first = self.with_room(block, lambda: march.latest)
 
     def _end_of_block(self, first: int, steps: int) -> int:
         """Number of the step after the last of the block that begins with `first`: whole mesh cycles, or equal parts of
@@ -189,7 +249,7 @@ class Marcher(Stepper):
         positions = [last.position, *map(self.cycle.position, numbers)]
         steps = Steps.to_solve([last.step, *numbers], positions, len(self.drivetrain.coordinates), NEWTON)
         steps.put(0, last)
-        durations, known = np.zeros(len(steps)), self._all_known_before(steps)
+        durations, known = np.zeros(len(steps)), self.all_known_before(steps.numbers.tolist(), np.diff(steps.starts))
         if self._motion.method != STATIC:
             durations[1:] = self.clock.durations(np.arange(numbers[0] - 1, numbers[-1] + 1))
         loads = (
@@ -220,17 +280,6 @@ class Marcher(Stepper):
                 take(steps.between(taken, done))
         return steps.record(done - 1)
 
-    def _all_known_before(self, steps: Steps) -> np.ndarray:
-        """The sets (N,) that are known of the positions of some steps, -1 where they are not; none where all are
-        unknown."""
-        known = [self.known_before(step) for step in steps.numbers.tolist()] if self.remembers else []
-        if not any(map(len, known)):
-            return NO_SETS
-        counts = np.diff(steps.starts)
-        return np.concatenate(
-            [sets if len(sets) else np.full(nodes, -1, dtype=np.int8) for sets, nodes in zip(known, counts)]
-        )
-
     def _report(self, report: Callable[[int], None], step: int) -> None:
         now = time.perf_counter()
         if now - self._reported > SECONDS_BETWEEN_REPORTS:
@@ -239,12 +288,10 @@ class Marcher(Stepper):
 
     def _locks(self, record: Record) -> bool:
         """Whether friction at a closed node cancels more of the load than its normal force holds."""
-        motion = np.zeros(len(self.drivetrain.coordinates))
-        wheel = self.drivetrain.coordinates.index("rotation_2")
-        motion[wheel] = np.sign(self.load(record.step)[wheel])
-        from fenics_gears.contact.existence import locked_nodes, working
+        from fenics_gears.contact.existence import locks
 
-        return bool(locked_nodes(working(record.position.operator.jacobian, motion, record.solution.forces)).any())
+        wheel = self.drivetrain.coordinates.index("rotation_2")
+        return locks(record.position.operator, record.solution.forces, wheel, self.load(record.step)[wheel])
 
     def _judge(self, march: March, steps: Steps) -> None:
         from fenics_gears.contact.uniqueness import uncertified

@@ -13,12 +13,12 @@ from tests.contact.laws_of_contact import law_residual
 from tests.contact.problems import all_open, only_one_moves, random_problem
 from tests.contact.sliding_block import block_at_rest
 
+from fenics_gears.contact import tresca as last_method
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium, SelfLocking
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.newton import CONVERGED
 from fenics_gears.contact.step_solver import HALVED, NEWTON_AND_FALLBACKS, _methods, cold_start, solve_step
-from fenics_gears.contact import tresca as last_method
 from fenics_gears.contact.tresca import frozen_friction
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
@@ -243,11 +243,10 @@ def test_no_equilibrium_is_a_typed_error_with_its_history():
 def test_a_last_method_that_takes_long_is_told_of(monkeypatch, caplog):
     """The user's expectation: what is tried, how long it may take, and what to change, before it begins; not where it
     is over at once."""
-    (case,) = [case for method, case in NEEDED if method == NEWTON_AND_FALLBACKS[-1]][:1]
-    problem, status = problem_of(case)
-    solve_step(problem, status)
+    problem = problem_of(*dict(NEEDED)[NEWTON_AND_FALLBACKS[-1]])
+    solve_step(problem, all_open(problem))
     assert not caplog.records
     monkeypatch.setattr(last_method, "NOTABLE_SECONDS", 0.0)
-    solve_step(problem, status)
+    solve_step(problem, all_open(problem))
     (told,) = caplog.messages
     assert "at most 100 quadratic programmes" in told and "Fewer accuracy.contact_nodes" in told
