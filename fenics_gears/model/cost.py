@@ -176,7 +176,7 @@ def _condensed(model: Model, name: str) -> _Gear:
     dofs, meshed = flank_unknowns(model, name), _meshed(model, name)
     if meshed is not None:
         # Of all teeth, where each has a compliance of its own.
-        return _Gear(f"the whole {name}", meshed, dofs, 2.0 * gear.teeth, 1.0, gear.teeth)
+        return _Gear(f"the whole {name}", meshed, dofs, 1.0 * gear.teeth, 1.0, gear.teeth)
     if reach.across is None:
         return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1, reach.same)
     # Half a symmetric sector, for motions of either symmetry.
