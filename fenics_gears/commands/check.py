@@ -18,7 +18,8 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 def check(options: argparse.Namespace) -> int:
     """Print the description of a scene and its effects. Raises ComputationError, as a run would, where memory does not
     hold it."""
-    from fenics_gears.model.cost import expected_cost, too_large
+    from fenics_gears.model.cost import expected_cost
+    from fenics_gears.model.fitting import too_large
     from fenics_gears.system.console import print_rows
 
     model = checked_model(options.scene)

@@ -17,7 +17,7 @@ from importlib import import_module
 from typing import NoReturn
 
 from fenics_gears import __version__
-from fenics_gears.errors import GearsError
+from fenics_gears.errors import GearsError, MemoryEnded
 from fenics_gears.system import environment
 from fenics_gears.system.console import prepare_streams, printable
 from fenics_gears.system.memory import MEMORY_VARIABLE
@@ -100,6 +100,10 @@ def _in_words(command: Callable[[], int]) -> int:
     except GearsError as error:
         print(printable(str(error)), file=sys.stderr)
         return error.exit_code
+    except MemoryError:
+        ended = MemoryEnded("before the command was done")
+        print(ended, file=sys.stderr)
+        return ended.exit_code
     except (KeyboardInterrupt, SystemError) as error:
         # Compiled code that Ctrl-C hits in the middle turns it into a SystemError.
         if not isinstance(error, KeyboardInterrupt) and not isinstance(error.__cause__, KeyboardInterrupt):

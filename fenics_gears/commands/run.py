@@ -42,7 +42,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _run(options: argparse.Namespace, job: Job | None) -> int:
     model, directory = checked_model_and_directory(options, RUN_FILE, *PICTURE_FILES, *FACE_PICTURE_FILES)
-    from fenics_gears.results.journal import Place
+    from fenics_gears.results.journal import Place, is_journal
     from fenics_gears.simulation.simulate import simulate
 
     # What imports have made stays: the search for garbage need not look at it.
@@ -54,6 +54,9 @@ def _run(options: argparse.Namespace, job: Job | None) -> int:
         except ComputationError as error:
             if getattr(error, "partial", None) is None or not error.partial.sizes["time"]:
                 # Nothing was done that an earlier result in the directory should give way to.
+                if is_journal(journal.directory):
+                    said = f"What was done until then is in {journal.directory}; `gears plot {directory}` draws it."
+                    raise ComputationError(f"{error}\n{said}") from error
                 raise
             file = _save(error.partial, directory, interruption)
             raise ComputationError(f"{error}\n{_kept(error.partial, file)}") from error

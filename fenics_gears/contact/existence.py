@@ -13,6 +13,7 @@ import numpy as np
 from .errors import ContactNotConverged, MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
 from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD
 from .newton import CYCLED, OUTCOMES
+from .operator import ContactOperator
 
 # A cycle of sets is rarely longer.
 LAST_SETS = 6
@@ -54,6 +55,14 @@ def working(jacobian: np.ndarray, motion: np.ndarray, forces: np.ndarray) -> Bal
 def locked_nodes(weights: Balance) -> np.ndarray:
     """Nodes (n,) whose normal force holds the load while their friction cancels it or more."""
     return (weights.normal > 0.0) & (weights.sliding <= 0.0)
+
+
+def locks(operator: ContactOperator, forces: np.ndarray, wheel: int, load: float) -> bool:
+    """Whether friction at a closed node cancels more of the `load` on the wheel, the coordinate of that number, than
+    its normal force holds."""
+    motion = np.zeros(operator.jacobian.shape[1])
+    motion[wheel] = np.sign(load)
+    return bool(locked_nodes(working(operator.jacobian, motion, forces)).any())
 
 
 def explained(problem, attempts) -> ContactNotConverged:

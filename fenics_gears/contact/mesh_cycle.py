@@ -18,6 +18,8 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
+from fenics_gears.system.memory import give_back
+
 from .addresses import GAP, NODES
 from .face import one_slice
 from .kinematics import nodes_before
@@ -165,6 +167,17 @@ class Cycle:
         if before == ceil(step) - 1 and in_common(step):
             return self._deviating(step, self._found(step))
         return self._deviating(step, self._opened(self._build([(step, before)])[0]))
+
+    def give_up(self) -> bool:
+        """Give up what is kept, and keep half as much from now on; whether there was anything."""
+        if not self._built:
+            return False
+        self.kept.most, self.kept.taken = 0.5 * self.kept.taken, 0.0
+        # What goes with them takes memory too, and has addresses of what is given up.
+        for known in (self._built, self._positions, self._held, self._pairs, self._beside):
+            known.clear()
+        give_back()
+        return True
 
     def pair_number(self, step: int, index: int | np.ndarray):
         """Number of a pair counted through the run: pair `c` reaches the start of contact at the beginning of cycle

@@ -33,15 +33,6 @@ def pair_places(
     return tuple(face_places(pair, grid, one_slice(pair.face_width), phase, coast_flanks, corner))
 
 
-# Runs that share their pair ask for the same number again.
-@lru_cache(maxsize=4)
-def pairs_in_windows(
-    pair: GearPair, grid: ContactGrid, coast_flanks: bool = False, corner: CornerContact | None = None
-) -> float:
-    """Pairs of flanks as of `pair_places`, on the average over the mesh cycle."""
-    return sum(len(pair_places(pair, grid, phase / 16, coast_flanks, corner)) for phase in range(16)) / 16
-
-
 def face_places(
     pair: GearPair,
     grid: ContactGrid,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import dataclass, field
 from functools import cache, cached_property
@@ -19,9 +19,10 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import SHARE_OF_A_BLOCK, Cycle
 from fenics_gears.contact.step_solver import METHODS, NEWTON
 from fenics_gears.contact.tooth_pair import DRIVE
+from fenics_gears.errors import MemoryEnded
 
 from .average_acceleration import AverageAcceleration
-from .compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, NO_SETS, STATIC, Course, Motion, solve_steps
+from .compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, STATIC, Course, Motion, solve_steps
 from .stepping import EquationsOfMotion, Stepper
 from .steps import Record, Steps, drive_flanks_touch, smallest_openings
 
@@ -35,8 +36,7 @@ class March:
     """A march so far.
 
     `kept`: the last steps; `period`: of the last two times as many steps the solutions are held (`held`);
-    `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of
-    `METHODS` solved;
+    `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of `METHODS` solved;
     `separations`: step and smallest opening (mm) of every step without contact of drive flanks; `locked`: steps at
     which friction locks a closed node (`contact.existence`); `uncertified`: how many of the `judged` last steps may
     have more than one solution (`contact.uniqueness`); `interrupted`: stopped by the user. `friction` and `stiffness`,
@@ -92,6 +92,11 @@ class March:
                 return steps.record(place)
         return None
 
+    @property
+    def latest(self) -> Steps | None:
+        """The steps taken last."""
+        return self._last[-1] if self._last else None
+
     @cached_property
     def records(self) -> list[Record]:
         """The last steps, as many as are kept."""
@@ -137,7 +142,8 @@ class Marcher(Stepper):
         `judged`: of so many last steps it is judged whether friction leaves more than one solution. `period`: steps
         after which they repeat, of which the solutions are kept.
 
-        Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
+        Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged and MemoryEnded, whose `partial` is
+        the March so far.
         """
         inert = march_with_inertia() if self.dynamic.inert and self.friction else nullcontext()
         with inert, thread_pools().limit(limits=1):
@@ -170,25 +176,42 @@ class Marcher(Stepper):
                 )
             observe(solved, march)
 
+        ended = False
         try:
-            last = self.start()
-            if not steps:
-                take(Steps.of([last]))
-            blocks = self._plain_block if self.plain or self.cycle.traits.own_solver else self._compiled_block
-            for first, end in self._blocks(steps):
-                last = blocks(last, range(first, end), take, lambda step: report(step, steps))
-            report(steps, steps)
+            self._go_through(steps, march, take, lambda step: report(step, steps))
         except KeyboardInterrupt:
             march.interrupted = True
         except ContactNotConverged as failure:
             failure.partial = march
             raise
+        except MemoryError:
+            # Raised below, where nothing holds what the failed call held.
+            ended = True
         finally:
             march.seconds = time.perf_counter() - begun
+        if ended:
+            raise MemoryEnded(f"at step {march.steps + 1} of {steps}", march)
         return march
 
-    def _blocks(self, steps: int) -> Iterator[tuple[int, int]]:
-        """Numbers of the first step of each block and of the one after its last: whole mesh cycles, or equal parts of
+    def _go_through(
+        self, steps: int, march: March, take: Callable[[Steps], None], report: Callable[[int], None]
+    ) -> None:
+        """Solve all steps, block by block."""
+        last, first = self.with_room(self.start, lambda: march.latest), 1
+        if not steps:
+            take(Steps.of([last]))
+        blocks = self._plain_block if self.plain or self.cycle.traits.own_solver else self._compiled_block
+
+        def block() -> tuple[Record, int]:
+            end = self._end_of_block(first, steps)
+            return blocks(last, range(first, end), take, report), end
+
+        while first <= steps:
+            last, first = self.with_room(block, lambda: march.latest)
+        report(steps)
+
+    def _end_of_block(self, first: int, steps: int) -> int:
+        """Number of the step after the last of the block that begins with `first`: whole mesh cycles, or equal parts of
         one, but at the end."""
         cycle = self.cycle.steps
         # Positions of a block are held together, also those that are not kept.
@@ -198,12 +221,8 @@ class Marcher(Stepper):
             most = min(most, cycle)
         longest = int(min(most, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self.cycle.position(0).bytes, 1.0)))
         length = cycle * (longest // cycle) or ceil(cycle / ceil(cycle / longest))
-        first = 1
-        while first <= steps:
-            left_of_cycle = cycle - (first - 1) % cycle
-            end = min(first + (length if length >= cycle else min(length, left_of_cycle)), steps + 1)
-            yield first, end
-            first = end
+        left_of_cycle = cycle - (first - 1) % cycle
+        return min(first + (length if length >= cycle else min(length, left_of_cycle)), steps + 1)
 
     def _plain_block(
         self, last: Record, numbers: range, take: Callable[[Steps], None], report: Callable[[int], None]
@@ -230,7 +249,7 @@ class Marcher(Stepper):
         positions = [last.position, *map(self.cycle.position, numbers)]
         steps = Steps.to_solve([last.step, *numbers], positions, len(self.drivetrain.coordinates), NEWTON)
         steps.put(0, last)
-        durations, known = np.zeros(len(steps)), self._all_known_before(steps)
+        durations, known = np.zeros(len(steps)), self.all_known_before(steps.numbers.tolist(), np.diff(steps.starts))
         if self._motion.method != STATIC:
             durations[1:] = self.clock.durations(np.arange(numbers[0] - 1, numbers[-1] + 1))
         loads = (
@@ -261,17 +280,6 @@ class Marcher(Stepper):
                 take(steps.between(taken, done))
         return steps.record(done - 1)
 
-    def _all_known_before(self, steps: Steps) -> np.ndarray:
-        """The sets (N,) that are known of the positions of some steps, -1 where they are not; none where all are
-        unknown."""
-        known = [self.known_before(step) for step in steps.numbers.tolist()] if self.remembers else []
-        if not any(map(len, known)):
-            return NO_SETS
-        counts = np.diff(steps.starts)
-        return np.concatenate(
-            [sets if len(sets) else np.full(nodes, -1, dtype=np.int8) for sets, nodes in zip(known, counts)]
-        )
-
     def _report(self, report: Callable[[int], None], step: int) -> None:
         now = time.perf_counter()
         if now - self._reported > SECONDS_BETWEEN_REPORTS:
@@ -280,12 +288,10 @@ class Marcher(Stepper):
 
     def _locks(self, record: Record) -> bool:
         """Whether friction at a closed node cancels more of the load than its normal force holds."""
-        motion = np.zeros(len(self.drivetrain.coordinates))
-        wheel = self.drivetrain.coordinates.index("rotation_2")
-        motion[wheel] = np.sign(self.load(record.step)[wheel])
-        from fenics_gears.contact.existence import locked_nodes, working
+        from fenics_gears.contact.existence import locks
 
-        return bool(locked_nodes(working(record.position.operator.jacobian, motion, record.solution.forces)).any())
+        wheel = self.drivetrain.coordinates.index("rotation_2")
+        return locks(record.position.operator, record.solution.forces, wheel, self.load(record.step)[wheel])
 
     def _judge(self, march: March, steps: Steps) -> None:
         from fenics_gears.contact.uniqueness import uncertified

@@ -3,10 +3,10 @@ written to be read."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import ceil
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -25,6 +25,7 @@ from .steps import Record
 if TYPE_CHECKING:
     from .backward_euler import BackwardEuler
 
+Solved = TypeVar("Solved")
 NO_SLIP = np.empty(0)
 # The start assumes long sliding before it, by this many steps.
 STEPS_SLID_BEFORE_START = 1e6
@@ -87,6 +88,30 @@ class Stepper:
         self.remembers = cycle.traits.repeats or not friction
         # Over a face a position at rest is nearer to itself in another run than to the step before.
         self.at_rest = cycle.traits.repeats and not friction and not self.dynamic.inert
+
+    def with_room(self, solve: Callable[[], Solved], taken: Callable[[], object]) -> Solved:
+        """What `solve` returns; where memory ends before a step of it is `taken`, with fewer operators kept. Raises
+        MemoryError where there are none."""
+        while True:
+            before = taken()
+            try:
+                return solve()
+            except MemoryError:
+                if taken() is not before:
+                    raise
+            # Not within the handler, which would hold what the failed call held.
+            if not self.cycle.give_up():
+                raise MemoryError
+
+    def all_known_before(self, steps: Sequence[float], nodes: np.ndarray) -> np.ndarray:
+        """The sets (N,) that are known of the positions of some steps with so many `nodes`, -1 where they are not; none
+        where all are unknown."""
+        known = [self.known_before(step) for step in steps] if self.remembers else []
+        if not any(map(len, known)):
+            return NO_SETS
+        return np.concatenate(
+            [sets if len(sets) else np.full(count, -1, dtype=np.int8) for sets, count in zip(known, nodes)]
+        )
 
     def scheme(self, step: int) -> AverageAcceleration | BackwardEuler:
         """The method over the step that ends at `step`; made anew where that step is not as long as the one before."""

@@ -6,19 +6,21 @@ measured.
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import lcm
 
 import numpy as np
 
-from fenics_gears.contact.places import pairs_in_windows
+from fenics_gears.contact.face import Face
+from fenics_gears.contact.places import face_places
+from fenics_gears.contact.window import ends_of, offsets_of
 from fenics_gears.effects import effects_on
-from fenics_gears.geometry.gear import Gear
+from fenics_gears.elasticity.sector_boundary import flank_roll_angles
+from fenics_gears.inputs.tree import GEARS
 
 from .model import Model
 from .resolution import EVERY_STEP
 from .storage import fillet_points
-
-Number = float | np.ndarray
 
 # Unknowns of a sector mesh: a body part and one part per flank node; fitted to meshes from 0.16 to 0.01 mm of the
 # paper's pair.
@@ -26,14 +28,12 @@ SECTOR_UNKNOWNS = {"P1": (5200, 35.0), "P2": (2300, 30.0), "Q1": (6500, 31.0), "
 SECTOR_UNKNOWNS["Q1 incompatible"] = SECTOR_UNKNOWNS["Q1"]
 # Seconds of meshing and condensing: a gear, an unknown, the cube of a flank's dofs (a dense inverse), their square for
 # each block of compliance.
-GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.04, 1.2e-5, 1.4e-10, 4.5e-8
+GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.04, 1.2e-5, 7e-11, 2.8e-8
 # Two inverses of symmetric matrices by Cholesky, in those of a general one.
 BOTH_FLANKS_INVERSES = 0.75
 # Seconds of marching: at a position each pair of flanks and the square of contact nodes, a step and each of its contact
 # rows.
 PAIR, NODES_SQUARE, STEP, ROW = 3e-4, 1e-7, 8e-6, 2.5e-7
-# A step of rigid flanks, which have a solver of their own.
-RIGID_STEP = 1.4e-4
 # Seconds that an effect adds to a step: gaps that differ, a torque that varies, openings of both flanks, time steps of
 # unequal length.
 STEP_OF_EFFECT = {
@@ -51,10 +51,11 @@ REMESHED_UNKNOWN, REMESHED_STEP, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 4e-4
 SOLVED_UNKNOWN, STEP_STRESS, ON_FLANKS = 1.4e-7, 5e-9, 200.0
 # Bytes: the program with its libraries; the same with those that mesh and condense; one number.
 PROGRAM, CONDENSING_PROGRAM, BYTES_OF_A_NUMBER = 200e6, 300e6, 8.0
-# What a result needs to know of a contact node at a position, numbers, and their copies side by side.
-NUMBERS_OF_A_NODE = 2 * 25
-# Matrices of a flank's size that are held while its teeth are joined, and the tangential rows' own products (measured).
-MATRICES_OF_A_FLANK, OPERATORS_WITH_FRICTION = 10.0, 1.5
+# What a result needs to know of a contact node at a position, numbers, and their copies side by side; with what its
+# place on the flanks takes (measured).
+NUMBERS_OF_A_NODE = 80
+# Matrices of a flank's size that are held while its teeth are joined (measured).
+MATRICES_OF_A_FLANK = 6.0
 
 
 @dataclass(frozen=True)
@@ -80,47 +81,54 @@ class ExpectedCost:
         return self.memory - self.operators
 
 
-def too_large(model: Model, cost: ExpectedCost, allowed: float) -> str:
-    """Why a run that may take `allowed` bytes does not fit, and what to change; empty where it does."""
-    if cost.held <= allowed:
-        return ""
-    less = "Larger flank elements and fewer mesh cycles"
-    if cost.ways:
-        less = (
-            f"Fewer slices (accuracy.slices, here {model.face.evenly}) and larger elements of the bodies"
-            " (accuracy.body_element_size, accuracy.layers)"
-        )
-    return (
-        f"The run would take {cost.held / 1e9:.3g} GB of memory, contact operators apart, and {allowed / 1e9:.3g} GB"
-        f" are allowed. Nothing was computed. {less} take less; `--memory` or FENICS_GEARS_MEMORY allow more."
-    )
+@dataclass(frozen=True)
+class Contact:
+    """Contact of a run: `positions` with operators of their own; at one of them, on the average over the mesh cycle,
+    `pairs` of flanks (in each slice of a face), their contact `nodes`, and the square of these."""
+
+    positions: int
+    pairs: float
+    nodes: float
+    squares: float
 
 
-def loaded_pairs(model: Model) -> float:
-    """Pairs of flanks in contact windows, on the average over the mesh cycle."""
-    coast_flanks = model.scene.coast_flanks is not None
-    return pairs_in_windows(model.pair, model.resolution.contact_grid, coast_flanks, model.corner)
+def contact_of(model: Model) -> Contact:
+    """Counted at a few phases, as flanks end within their windows."""
+    face, coast = model.face, model.scene.coast_flanks is not None
+    along = tuple(face.positions.tolist()), tuple(face.widths.tolist()), face.slope
+    return Contact(_positions(model), *_counted(model.pair, model.resolution.contact_grid, along, coast, model.corner))
 
 
-def contact_rows(model: Model) -> float:
-    """Rows of the contact operator, normal and tangential, on the average over the mesh cycle."""
-    return (2 if model.scene.friction is not None else 1) * model.resolution.contact_grid.nodes * loaded_pairs(model)
+# At how many phases of the mesh cycle contact nodes are counted.
+PHASES = 4
 
 
-def operator_bytes(positions: Number, rows: Number, friction: bool) -> Number:
-    """Of the contact operators at a number of positions; `rows` count normal and tangential ones."""
-    return BYTES_OF_A_NUMBER * positions * rows**2 * (OPERATORS_WITH_FRICTION if friction else 1.0)
+# The designs of a search have the same; to count them takes as long as three steps.
+@lru_cache(maxsize=64)
+def _counted(pair, grid, along, coast, corner) -> tuple[float, float, float]:
+    positions, widths, slope = along
+    face, counts = Face(np.array(positions), np.array(widths), slope), []
+    for phase in range(PHASES):
+        places = face_places(pair, grid, face, (phase + 0.5) / PHASES, coast, corner)
+        rolls = np.array([place.contact_rolls for place in places]).reshape(-1, 2).T
+        counts.append((len(places), len(offsets_of(ends_of(pair, rolls), grid)[0])))
+    pairs, nodes = np.mean(counts, axis=0)
+    return float(pairs), float(nodes), float(np.mean([own**2 for _, own in counts]))
 
 
-def flank_unknowns(gear: Gear, order: int, size: Number) -> Number:
-    """Displacements of a flank's nodes; `order` of the element, its `size` in mm."""
-    arc = 0.5 * gear.base_radius * (gear.tip_roll_angle**2 - gear.form_roll_angle**2)
-    return 2.0 * (order * arc / size + 1.0)
+def operator_bytes(model: Model, contact: Contact) -> float:
+    """Of the contact operators: between normal forces, or with friction between forces of both kinds and those of the
+    step before."""
+    kinds = 6.0 if model.scene.friction is not None else 1.0
+    return BYTES_OF_A_NUMBER * contact.positions * contact.squares * kinds
 
 
-def flank_bytes(unknowns: Number) -> Number:
-    """Of a gear that is condensed onto so many displacements of a flank."""
-    return BYTES_OF_A_NUMBER * MATRICES_OF_A_FLANK * unknowns**2
+def flank_unknowns(model: Model, name: str) -> int:
+    """Displacements of the nodes of a gear's flank."""
+    resolution, gear = model.resolution, getattr(model.pair, name)
+    tip = resolution.mate_tips[GEARS.index(name)]
+    elements = len(flank_roll_angles(gear, resolution.flank_element_size, tip)) - 1
+    return 2 * (resolution.order * elements + 1)
 
 
 def expected_cost(model: Model) -> ExpectedCost:
@@ -132,8 +140,10 @@ def expected_cost(model: Model) -> ExpectedCost:
     """
     resolution, scene = model.resolution, model.scene
     if scene.tooth_elasticity is None or resolution.element not in SECTOR_UNKNOWNS:
-        return ExpectedCost(None, _marching(model, 0.0), PROGRAM + model.stored_bytes)
-    gears = [_condensed(model, name) for name in ("pinion", "wheel")]
+        contact = contact_of(model)
+        held = PROGRAM + model.stored_bytes + BYTES_OF_A_NUMBER * NUMBERS_OF_A_NODE * contact.positions * contact.nodes
+        return ExpectedCost(None, _marching(model, contact), held)
+    gears = [_condensed(model, name) for name in GEARS]
     if resolution.condensation == EVERY_STEP:
         return _remeshed_cost(model, gears)
     sections = _sections(model, gears)
@@ -141,7 +151,10 @@ def expected_cost(model: Model) -> ExpectedCost:
         return _with_root_stress(model, gears, sections)
     from .face_cost import face_cost
 
-    return face_cost(model, sections)
+    # Of teeth ahead and behind, between all flanks.
+    reach, flanks = 2 * model.touching.reach.farthest + 1, 2 if scene.coast_flanks is not None else 1
+    read = sum(reach * (flanks * gear.flank_dofs) ** 2 for gear in gears)
+    return face_cost(model, sections, (_numbers(gears), read))
 
 
 @dataclass(frozen=True)
@@ -160,10 +173,10 @@ class _Gear:
 def _condensed(model: Model, name: str) -> _Gear:
     resolution, reach, gear = model.resolution, model.touching.reach, getattr(model.pair, name)
     body, per_node = SECTOR_UNKNOWNS[resolution.element]
-    dofs, meshed = flank_unknowns(gear, resolution.order, resolution.flank_element_size), _meshed(model, name)
+    dofs, meshed = flank_unknowns(model, name), _meshed(model, name)
     if meshed is not None:
         # Of all teeth, where each has a compliance of its own.
-        return _Gear(f"the whole {name}", meshed, dofs, 3.0 * gear.teeth, 1.0, gear.teeth)
+        return _Gear(f"the whole {name}", meshed, dofs, 1.0 * gear.teeth, 1.0, gear.teeth)
     if reach.across is None:
         return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1, reach.same)
     # Half a symmetric sector, for motions of either symmetry.
@@ -184,25 +197,31 @@ def _meshed(model: Model, name: str) -> int | None:
 
 def _positions(model: Model) -> int:
     """Positions of the run that have contact operators of their own."""
-    teeth = [getattr(model.pair, name).teeth for name in ("pinion", "wheel") if _meshed(model, name) is not None]
+    teeth = [getattr(model.pair, name).teeth for name in GEARS if _meshed(model, name) is not None]
     unlike = min(lcm(*teeth), UNLIKE_CYCLES ** len(teeth))
     return min(unlike * model.resolution.steps_per_mesh_cycle, model.steps + 2)
 
 
-def _marching(model: Model, rows: float) -> float:
-    step = STEP if model.scene.tooth_elasticity is not None else RIGID_STEP
+def _marching(model: Model, contact: Contact) -> float:
+    # Of rigid flanks a step knows the first node that touches: it has no rows.
+    step = STEP + (ROW * _rows(model, contact) if model.scene.tooth_elasticity is not None else 0.0)
     step += sum(STEP_OF_EFFECT.get(effect.section, 0.0) for effect in effects_on(model.scene))
-    return _building(model, rows) + model.steps * (step + ROW * rows)
+    return _building(model, contact) + model.steps * step
 
 
-def _building(model: Model, rows: float) -> float:
-    nodes = rows / (2 if model.scene.friction is not None else 1)
-    return _positions(model) * (PAIR * loaded_pairs(model) + NODES_SQUARE * nodes**2)
+def _rows(model: Model, contact: Contact) -> float:
+    """Of the contact operator, normal and tangential ones."""
+    return (2 if model.scene.friction is not None else 1) * contact.nodes
+
+
+def _building(model: Model, contact: Contact) -> float:
+    elastic = model.scene.tooth_elasticity is not None
+    return contact.positions * (PAIR * contact.pairs + (NODES_SQUARE * contact.squares if elastic else 0.0))
 
 
 def _sections(model: Model, gears: list[_Gear]) -> ExpectedCost:
     """Of gears condensed once in the plane, and of marching on them."""
-    rows, positions, friction = contact_rows(model), _positions(model), model.scene.friction is not None
+    contact = contact_of(model)
     condensing = sum(
         GEAR
         + UNKNOWN * gear.unknowns
@@ -210,26 +229,30 @@ def _sections(model: Model, gears: list[_Gear]) -> ExpectedCost:
         + gear.blocks * FLANK_SQUARE * gear.flank_dofs**2
         for gear in gears
     )
-    nodes = positions * rows / (2 if friction else 1)
-    held = BYTES_OF_A_NUMBER * NUMBERS_OF_A_NODE * nodes + sum(
-        flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * (gear.blocks + gear.copied) * gear.flank_dofs**2
-        for gear in gears
-    )
-    marching, operators = _marching(model, rows), operator_bytes(positions, rows, friction)
+    joining = max(MATRICES_OF_A_FLANK * gear.flank_dofs**2 for gear in gears)
+    nodes = NUMBERS_OF_A_NODE * contact.positions * contact.nodes
+    held = BYTES_OF_A_NUMBER * (_numbers(gears) + max(joining, nodes))
+    operators = operator_bytes(model, contact)
     return ExpectedCost(
         condensing,
-        marching,
+        _marching(model, contact),
         CONDENSING_PROGRAM + model.stored_bytes + held + operators,
         operators,
         tuple((gear.words, gear.unknowns) for gear in gears),
-        building=_building(model, rows),
+        building=_building(model, contact),
     )
+
+
+def _numbers(gears: list[_Gear]) -> float:
+    """In the compliance of flanks."""
+    return sum((gear.blocks + gear.copied) * gear.flank_dofs**2 for gear in gears)
 
 
 def _with_root_stress(model: Model, gears: list[_Gear], sections: ExpectedCost) -> ExpectedCost:
     if not model.scene.output.root_stress:
         return sections
-    held, seconds, step = ON_FLANKS * _positions(model) * contact_rows(model), 0.0, 0.0
+    contact = contact_of(model)
+    held, seconds, step = ON_FLANKS * contact.positions * _rows(model, contact), 0.0, 0.0
     for gear in gears:
         own = root_stress_cost(model, gear.unknowns, (UNKNOWN, SOLVED_UNKNOWN), gear.flank_dofs)
         seconds, held, step = seconds + own[0], held + own[1], step + own[2]
@@ -255,7 +278,7 @@ def root_stress_cost(
 
 def _remeshed_cost(model: Model, gears: list[_Gear]) -> ExpectedCost:
     """Of a run where every loaded sector is meshed anew at every position."""
-    resolution, pairs = model.resolution, loaded_pairs(model)
+    resolution, pairs = model.resolution, contact_of(model).pairs
     positions = resolution.steps_per_mesh_cycle
     rows = 2.0 * pairs * (resolution.order * (resolution.contact_grid.nodes - 1) + 1)
     return ExpectedCost(

@@ -194,7 +194,7 @@ def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
     return int(np.clip(wanted, fewest, MOST_STEPS_PER_MESH_CYCLE))
 
 
-def resolution_warnings(resolution: Resolution) -> list[str]:
+def resolution_warnings(resolution: Resolution, friction: bool) -> list[str]:
     """Sentences on settings too coarse for the contact or the mesh cycle, or contact nodes too close for the
     elements."""
     found, spacing = [], resolution.contact_grid.spacing
@@ -215,9 +215,13 @@ def resolution_warnings(resolution: Resolution) -> list[str]:
             )
     node_distance = resolution.flank_element_size / resolution.order
     if spacing < CLOSEST_NODES * node_distance:
+        most = max(int(resolution.contact_grid.length / (CLOSEST_NODES * node_distance)) + 1, 2)
+        finer = 0.99 * spacing * resolution.order / CLOSEST_NODES
+        slow = ", and with friction a step may take minutes" if friction else ""
         found.append(
             f"contact nodes stand {spacing:.3g} mm apart, the flank's own nodes {node_distance:.3g} mm: the pressure"
-            " oscillates; lower accuracy.contact_nodes or accuracy.flank_element_size"
+            f" oscillates{slow}; lower accuracy.contact_nodes to {most}, or accuracy.flank_element_size to"
+            f' "{finer:.3g} mm"'
         )
     return found
 

@@ -40,13 +40,13 @@ def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
     centres."""
     steps, drive = nodes.steps, nodes.drive
     layouts = nodes.layouts
-    reactions = _summed(layouts.known["rows_of_normals"], layouts.places, nodes.normal, layouts.starts)
+    reactions = _summed(layouts.known("rows_of_normals"), layouts.places, nodes.normal, layouts.starts)
 
     def of_gears(rows: np.ndarray) -> np.ndarray:
         return rows.reshape(2, 3, len(steps)).transpose(1, 2, 0)
 
     if nodes.tangential is not None:
-        reactions += _summed(layouts.known["rows_of_tangents"], layouts.places, nodes.tangential, layouts.starts)
+        reactions += _summed(layouts.known("rows_of_tangents"), layouts.places, nodes.tangential, layouts.starts)
     reaction_x, reaction_y, reaction_couple = of_gears(reactions[:6])
     values = normal_forces(scene, nodes) | {
         "reaction_x": reaction_x,

@@ -15,7 +15,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from io import FileIO
 from math import prod
-from mmap import ACCESS_COPY, mmap
+from mmap import ACCESS_COPY
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +26,7 @@ from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.model.storage import Arrays, InMemory, Kind, Values
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.system.memory import mapped
 from fenics_gears.system.output import seal, unsealed
 
 logger = logging.getLogger(__name__)
@@ -271,8 +272,12 @@ def _read(file: FileIO, kind: Kind, steps: int) -> np.ndarray:
     if not steps:
         return np.empty((0, *kind.shape), kind.type)
     length = min(steps, kind.last + SPARE) if kind.last else steps
-    # Whoever changes the values changes them in memory only.
-    content = mmap(file.fileno(), length * kind.type.itemsize * prod(kind.shape), access=ACCESS_COPY)
-    return np.frombuffer(content, kind.type).reshape(length, *kind.shape)[
-        kind.places(kind.kept_from(steps), steps, SPARE)
-    ]
+    count = length * prod(kind.shape)
+    try:
+        # Whoever changes the values changes them in memory only.
+        content = np.frombuffer(mapped(file.fileno(), count * kind.type.itemsize, access=ACCESS_COPY), kind.type)
+    except MemoryError:
+        # What was freed may hold them, where addresses have come to an end.
+        content = np.empty(count, kind.type)
+        os.preadv(file.fileno(), [content], 0)
+    return content.reshape(length, *kind.shape)[kind.places(kind.kept_from(steps), steps, SPARE)]

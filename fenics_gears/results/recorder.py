@@ -101,9 +101,8 @@ class Recorder:
         self._last: Steps | None = None
         self._worked: dict[str, float] = {}
         self.along_face = _along_face(model, cycle)
-        self._layouts = cycle.beside(KnownLayouts)
         self._singular = EdgesAndKinks(model)
-        self._layouts.forget_beyond(cycle.steps)
+        cycle.beside(KnownLayouts).forget_beyond(cycle.steps)
 
     def _room_for(self, journal: Place | None) -> InMemory:
         room = self.stored, self.model.steps + 1, self.model.contact_steps
@@ -140,7 +139,7 @@ class Recorder:
 
     def _evaluate_block(self, block: Steps, march: March | None) -> None:
         scene, cycle = self.model.scene, self.cycle
-        nodes = SideBySide(self._layouts, cycle, block, self.slots, self.first_number)
+        nodes = SideBySide(cycle.beside(KnownLayouts), cycle, block, self.slots, self.first_number)
         numbers, times = block.numbers, self.model.clock.times(block.numbers)
         values = {"time": times, "mesh_phase": numbers / cycle.steps, "pair_number": nodes.pair_number}
         values |= self._centres(block) | mesh_variables(scene, nodes) | pair_variables(scene, nodes)

@@ -114,23 +114,34 @@ MOST_TIMES_JOINED = 8
 class Layouts:
     """The contact nodes of consecutive positions side by side (N,), joined once for each block of the mesh cycle.
 
-    `known`: the layout of nodes that hold those of each position, which begin and end there at `parts` (s, 2);
-    `places` (N,): of all of these nodes there.
+    `known`: layouts that hold the nodes of each position, which begin and end at `parts` (s, 2) of all of them one
+    after the other; `places` (N,): of these nodes there.
     """
 
-    def __init__(self, known: dict[str, np.ndarray], parts: np.ndarray, dependent_rows: np.ndarray, kinds: int):
+    def __init__(
+        self, known: Sequence[dict[str, np.ndarray]], parts: np.ndarray, dependent_rows: np.ndarray, kinds: int
+    ):
         counts = parts[:, 1] - parts[:, 0]
         self.starts, self.dependent_rows = np.concatenate(([0], np.cumsum(counts))), dependent_rows
         self.step = np.repeat(np.arange(len(counts)), counts)
         # Where the normal forces stand among all forces, a step's normals before its tangents.
         self.normal = np.arange(len(self.step)) + (kinds - 1) * np.repeat(self.starts[:-1], counts)
         self.tangential = self.normal + np.repeat(counts, counts)
-        self.known, self.places = known, np.arange(len(self.step)) + np.repeat(parts[:, 0] - self.starts[:-1], counts)
+        self.places = np.arange(len(self.step)) + np.repeat(parts[:, 0] - self.starts[:-1], counts)
+        self._known = known
         self._joined: dict[str, np.ndarray] = {}
+
+    def known(self, name: str) -> np.ndarray:
+        """Of all nodes of the known layouts, of which those at `places` are these."""
+        if len(self._known) == 1:
+            return self._known[0][name]
+        return np.concatenate([layout[name] for layout in self._known], axis=-1)
 
     def of(self, name: str) -> np.ndarray:
         if name not in self._joined:
-            self._joined[name] = self.known[name].take(self.places, axis=-1)
+            known = self.known(name)
+            as_known = np.array_equal(self.places, np.arange(known.shape[-1]))
+            self._joined[name] = known if as_known else known.take(self.places, axis=-1)
         return self._joined[name]
 
 
@@ -143,9 +154,10 @@ class KnownLayouts:
     (`Cycle.beside`)."""
 
     def __init__(self):
-        self._layout: dict[str, np.ndarray] = {}
-        # Where the nodes of each position begin and end, and its dependent rows.
-        self._parts: dict[_Key, tuple[int, int, int]] = {}
+        # A layout for each time that positions were met: one of all would be copied with every block of a long cycle.
+        self._layouts: list[dict[str, np.ndarray]] = []
+        # In which of them the nodes of each position are, where they begin and end there, and its dependent rows.
+        self._parts: dict[_Key, tuple[int, int, int, int]] = {}
         self._joined: dict[tuple[_Key, ...], Layouts] = {}
 
     def joined(self, cycle: Cycle, steps: Steps) -> Layouts:
@@ -155,16 +167,18 @@ class KnownLayouts:
             if new:
                 self._add(cycle, new, steps.kinds)
             parts = np.array([self._parts[each] for each in key])
-            self._joined[key] = Layouts(self._layout, parts[:, :2], parts[:, 2], steps.kinds)
+            numbers, which = np.unique(parts[:, 0], return_inverse=True)
+            known = [self._layouts[number] for number in numbers]
+            before = np.cumsum([0, *(len(layout["node"]) for layout in known)])[which]
+            self._joined[key] = Layouts(known, parts[:, 1:3] + before[:, None], parts[:, 3], steps.kinds)
         return self._joined[key]
 
     def _add(self, cycle: Cycle, new: dict[_Key, Position], kinds: int) -> None:
-        operators, known = [position.operator for position in new.values()], self._layout
-        more, end = layout(operators, cycle, kinds == 2), len(known["node"]) if known else 0
-        self._layout = {name: np.concatenate([known[name], more[name]], axis=-1) for name in more} if known else more
+        operators, end = [position.operator for position in new.values()], 0
         for key, operator in zip(new, operators):
-            self._parts[key] = end, end + operator.nodes, operator.dependent_rows
+            self._parts[key] = len(self._layouts), end, end + operator.nodes, operator.dependent_rows
             end += operator.nodes
+        self._layouts.append(layout(operators, cycle, kinds == 2))
 
     def forget_beyond(self, positions: int) -> None:
         """Forget all where more are known than so many, as where steps were divided at positions of their own."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import time
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -14,8 +15,8 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
-from fenics_gears.errors import ComputationError
-from fenics_gears.model.cost import expected_cost, too_large
+from fenics_gears.errors import ComputationError, MemoryEnded
+from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.extrema import repeating_steps
@@ -107,6 +108,8 @@ def solved(
         prepare = preparation or functools.partial(prepared, job=job)
         with writing_meanwhile(cache) as kept:
             result = _simulated(model, progress, kept, prepare, journal)
+    except MemoryError:
+        raise MemoryEnded("before the run was over") from None
     finally:
         # Here, where the run's own arrays are free.
         give_back()
@@ -163,8 +166,11 @@ def memory_for_operators(model: Model) -> float:
     """Bytes that contact operators may take beside all else; raises ComputationError where a run does not fit without
     any."""
     allowed, cost = allowed_memory(), expected_cost(model)
-    if said := too_large(model, cost, allowed):
-        raise ComputationError(said)
+    if cost.held > allowed:
+        # Imported here: nearly all runs fit.
+        from fenics_gears.model.fitting import too_large
+
+        raise ComputationError(too_large(model, cost, allowed))
     return allowed - cost.held
 
 
@@ -189,6 +195,11 @@ def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> 
     except ContactNotConverged as failure:
         failure.partial = result_of(recorder, failure.partial, gears, compiled, "failed").dataset
         failure.reason += _varying_load(model, failure.step)
+        raise
+    except MemoryEnded as failure:
+        # The result takes some too.
+        cycle.give_up()
+        failure.partial = result_of(recorder, failure.partial, gears, compiled, "failed").dataset
         raise
 
 
@@ -240,8 +251,14 @@ def _with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
 
 def result_of(recorder: Recorder, march: March, gears, compiled: float, stopped: str) -> RunResult:
     """The result of a recorded march; `stopped`: why it did not come to its end, empty where it did."""
-    result, model, cycle = RunResult(recorder, march), recorder.model, recorder.cycle
+    model, cycle, result = recorder.model, recorder.cycle, None
     resolution = model.resolution
+    with suppress(MemoryError):
+        result = RunResult(recorder, march)
+    if result is None:
+        # Not within a handler, which would hold what was made until memory ended.
+        cycle.give_up()
+        result = RunResult(recorder, march)
     result.attrs.update(
         {"stopped": stopped} if stopped else {},
         complete=int(not stopped),

@@ -13,6 +13,7 @@ from tests.contact.laws_of_contact import law_residual
 from tests.contact.problems import all_open, only_one_moves, random_problem
 from tests.contact.sliding_block import block_at_rest
 
+from fenics_gears.contact import tresca as last_method
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium, SelfLocking
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -237,3 +238,15 @@ def test_no_equilibrium_is_a_typed_error_with_its_history():
     assert "tension 1e+02 N" in str(failure.value)
     assert [attempt[0] for attempt in failure.value.attempts] == list(NEWTON_AND_FALLBACKS)
     assert failure.value.attempts[0][2].shape[1] == 5
+
+
+def test_a_last_method_that_takes_long_is_told_of(monkeypatch, caplog):
+    """The user's expectation: what is tried, how long it may take, and what to change, before it begins; not where it
+    is over at once."""
+    problem = problem_of(*dict(NEEDED)[NEWTON_AND_FALLBACKS[-1]])
+    solve_step(problem, all_open(problem))
+    assert not caplog.records
+    monkeypatch.setattr(last_method, "NOTABLE_SECONDS", 0.0)
+    solve_step(problem, all_open(problem))
+    (told,) = caplog.messages
+    assert "at most 100 quadratic programmes" in told and "Fewer accuracy.contact_nodes" in told

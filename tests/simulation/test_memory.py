@@ -4,12 +4,16 @@ import re
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene
+from tests.coarse import coarse_scene, frictionless
+from tests.paper_text import COARSE, coarse_text
 from tests.programs import DEMO
 
 from fenics_gears import ComputationError, SceneError, expected_cost, model_of, simulate
 from fenics_gears.commands.cli import main
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.results import load
+from fenics_gears.results.side_by_side import KnownLayouts
 from fenics_gears.simulation import simulate as simulation
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.memory import MEMORY_VARIABLE, allowed_memory, size_in_bytes
@@ -63,11 +67,108 @@ def test_check_says_that_a_scene_cannot_fit(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv(MEMORY_VARIABLE, "8 GB")
     assert main(["check", str(wide)]) == 3
     told = capsys.readouterr()
-    assert "Effects" in told.out and re.search(
-        r"CANNOT FIT: The run would take [\d.]+ GB .* 8 GB are allowed.*slices.*here 300.*--memory", told.err
+    assert "Effects" in told.out
+    found = re.search(
+        r"CANNOT FIT: The run would take [\d.]+ GB .* 8 GB are allowed.* computed. (body_element_size = .*, layers = .*"
+        r", slices = \d+) in \[accuracy\] fit.*target = .*--memory",
+        told.err,
     )
     assert main(["check", str(wide), "--memory", "1 TB"]) == 0
     assert "CANNOT" not in capsys.readouterr().err
+    # With what is named, in place of what the scene has, it fits.
+    kept = re.sub(r"^(body_element_size|layers|slices) = .*\n", "", wide.read_text(encoding="utf-8"), flags=re.M)
+    named = found[1].replace(", ", "\n")
+    wide.write_text(kept.replace("[accuracy]\n", f"[accuracy]\n{named}\n"), encoding="utf-8")
+    assert main(["check", str(wide)]) == 0
+
+
+def test_operators_are_given_up_where_memory_ends(paper_scene):
+    """Identity with the run that has enough: none of it is computed twice into the result."""
+    scene, ends = coarse_scene(paper_scene, cycles=3), iter((0, 0, 1, 0, 0, 1))
+    whole = simulate(scene)
+
+    def preparation(model, progress, cache):
+        gears, cycle = prepared(model, progress, cache)
+        build = cycle.build
+
+        def building(steps):
+            build(steps)
+            if next(ends, 0):
+                raise MemoryError
+
+        cycle.build = building
+        return gears, cycle
+
+    again = simulate(scene, preparation=preparation, cache=user_cache())
+    assert next(ends, None) is None and again.attrs["complete"]
+    for name in ("transmission_error", "pair_normal_force", "newton_iterations"):
+        np.testing.assert_allclose(again[name].values, whole[name].values, rtol=1e-12)
+
+
+def test_what_is_done_is_kept_where_memory_ends(tmp_path, monkeypatch, capsys):
+    """Exit code 3; the result has the steps before, and says why there are no more."""
+    scene, build = tmp_path / "scene.toml", Cycle.build
+    scene.write_text(coarse_text(cycles=3, accuracy=COARSE), encoding="utf-8")
+
+    def building(cycle, steps):
+        if max(steps) > 60:
+            raise MemoryError
+        build(cycle, steps)
+
+    monkeypatch.setattr(Cycle, "build", building)
+    assert main(["run", str(scene), "-o", str(tmp_path / "out"), "--no-pictures", "-q"]) == 3
+    assert re.search(r"Memory ended at step \d+ of 120.*\n.*is kept, marked incomplete", capsys.readouterr().err)
+    result = load(tmp_path / "out" / "run.nc")
+    assert 0 < result.sizes["time"] <= 61 and not result.attrs["complete"] and result.attrs["stopped"] == "failed"
+
+
+def test_memory_that_ends_before_the_march_has_words(paper_scene, monkeypatch, capsys):
+    """Exit code 3, in a run and in any command."""
+
+    def ended(*arguments):
+        raise MemoryError
+
+    with pytest.raises(ComputationError, match="Memory ended before the run was over"):
+        simulate(coarse_scene(paper_scene), preparation=ended)
+    monkeypatch.setattr("fenics_gears.commands.cli._carried_out", ended)
+    assert main(["check", str(DEMO)]) == 3
+    assert "Memory ended before the command was done" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("friction", [False, True])
+def test_contact_operators_take_what_is_expected(paper_scene, friction):
+    """The arrays themselves, on the average over the mesh cycle: flanks end within their windows."""
+    scene, found = coarse_scene(paper_scene, cycles=1), []
+    if not friction:
+        scene = frictionless(scene)
+
+    def preparation(model, progress, cache):
+        gears, cycle = prepared(model, progress, cache)
+        found.append(cycle)
+        return gears, cycle
+
+    simulate(scene, preparation=preparation, cache=user_cache())
+    operators = [found[0].position(step).operator for step in range(scene.accuracy.steps_per_mesh_cycle)]
+    matrices = [each for own in operators for each in (own.compliance, own.previous_compliance) if each is not None]
+    assert expected_cost(model_of(scene)).operators == pytest.approx(sum(each.nbytes for each in matrices), rel=0.1)
+
+
+def test_layouts_of_a_long_mesh_cycle_are_held_once(paper_scene, monkeypatch):
+    """Count: each position's nodes once, in however many blocks the march goes through the cycle."""
+    scene, found = coarse_scene(paper_scene, cycles=1), []
+    monkeypatch.setattr("fenics_gears.dynamics.march.LONGEST_BLOCK", 5)
+
+    def preparation(model, progress, cache):
+        gears, cycle = prepared(model, progress, cache)
+        found.append(cycle)
+        return gears, cycle
+
+    simulate(scene, preparation=preparation, cache=user_cache())
+    layouts = found[0].beside(KnownLayouts)
+    assert len(layouts._joined) >= scene.accuracy.steps_per_mesh_cycle / 5
+    held = {id(known): known for joined in layouts._joined.values() for known in joined._known}
+    nodes = sum(end - first for _, first, end, _ in layouts._parts.values())
+    assert sum(len(known["node"]) for known in held.values()) == nodes
 
 
 def test_sizes_of_memory(monkeypatch):

@@ -20,9 +20,7 @@ real harmonics. Of another web the whole sector is condensed (`whole_sector`), a
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -31,11 +29,7 @@ from fenics_gears.geometry.outline import centreline_angle
 
 from ..element_sizes import ElementSizes
 from ..mesh_data import BodyMesh, oriented
-from ..sector_boundary import sector_boundary
 from .layers import SweptWeb
-
-if TYPE_CHECKING:
-    from .discretisation import FaceDiscretisation
 
 # Of elements of web and hub along the radius: by how much they grow away from the circles where the width changes, and
 # the largest over a pitch's arc there.
@@ -48,7 +42,7 @@ def webbed_section(gear: Gear, sizes: ElementSizes) -> BodyMesh:
     # Imported here: to tell the size of a section needs no gmsh.
     from ..sector_mesh import sector_mesh
 
-    rim = sector_mesh(_rim(gear), sizes)
+    rim = sector_mesh(rim_of(gear), sizes)
     turned = rim.points @ np.array([1.0, -1.0j]) * np.exp(-1j * centreline_angle(gear)).conj()
     arc = rim.edge_points("hub")
     arc = arc[np.argsort(-np.angle(turned[arc]))]
@@ -64,7 +58,8 @@ def webbed_section(gear: Gear, sizes: ElementSizes) -> BodyMesh:
     return BodyMesh(points, oriented(points, np.vstack([rim.cells, _cells(grid)])), edges)
 
 
-def _rim(gear: Gear) -> Gear:
+def rim_of(gear: Gear) -> Gear:
+    """The gear with the rim's bore, and without its web."""
     return replace(gear, bore_radius=gear.web.rim_radius, web=None)
 
 
@@ -101,15 +96,6 @@ def beside_web(mesh: BodyMesh, web: SweptWeb) -> BodyMesh:
     return BodyMesh(mesh.points[used], np.searchsorted(used, cells), {})
 
 
-def webbed_size(gear: Gear, face: FaceDiscretisation, rim_nodes: Callable[[int], float]) -> tuple[float, int, int]:
-    """Unknowns of a sector with a web, dofs of a flank and of a cut; lengths in modules. rim_nodes: nodes of a section
-    by the points of its outline."""
-    boundary = sector_boundary(_rim(gear), face.sizes)[0]
-    flank, cut, hub = (len(boundary.part(name)) - 1 for name in ("flank", "lower cut", "hub"))
-    web, of_hub = (2 * (len(radii) - 1) for radii in _radii(gear, hub))
-    heights = face.sweep.heights
-    # Within the web, and all: nodes along the radius between rim and bore, which is held.
-    thin = 3 * int(((heights >= face.web.low) & (heights <= face.web.high)).sum()) * (web - 1)
-    whole = 3 * len(heights)
-    unknowns = whole * (rim_nodes(len(boundary.points)) + of_hub * (2 * hub + 1)) + thin * (2 * hub + 1)
-    return unknowns, whole * (2 * flank + 1), whole * (2 * cut + 1 + of_hub) + thin
+def rows_of_web(gear: Gear, arcs: int) -> tuple[int, int]:
+    """Rows of nodes, second order, of web and hub below the rim's bore, which has so many elements along it."""
+    return tuple(2 * (len(radii) - 1) for radii in _radii(gear, arcs))

@@ -18,6 +18,7 @@ from fenics_gears.runs.runs import Ticking
 from fenics_gears.scene.accuracy import MOST_CONTACT_NODES
 from fenics_gears.scene.accuracy_rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.data import Output, Scene
+from fenics_gears.system.memory import allowed_memory
 
 from .convergence import NotComparable, errors_of_two
 from .measures import Answer, judged_answer
@@ -36,8 +37,6 @@ MORE_OF_VIBRATIONS = 1.25
 KEPT_GEARS = 4
 # Factor by which the contact window is lengthened where contact reaches its end, and how often.
 LONGER, MOST_LENGTHENED = 1.25, 4
-# Most memory (bytes) of a run.
-MOST_BYTES = 4e9
 
 
 class TargetNotReached(ComputationError):
@@ -67,6 +66,7 @@ class TrialRuns:
         self._default = own_setting(self._whole)
         # Without friction and inertia the value at a step does not depend on the steps before.
         self.steps_matter = scene.friction is not None or scene.inertia is not None
+        self._allowed = allowed_memory()
         self.runs = 0
 
     def setting(self, sizes: Sizes) -> Setting:
@@ -130,11 +130,10 @@ class TrialRuns:
         """Expected seconds of the whole scene's run, which are counted. Raises TargetNotReached where it is beyond the
         limits."""
         expected = expected_cost(self._model(sizes))
-        # Operators over a face are the most of it, and need not be kept.
-        held = expected.memory - (expected.operators if self.slices else 0.0)
-        if held > MOST_BYTES:
+        if expected.held > self._allowed:
             raise TargetNotReached(
-                f"{self.setting(sizes).words} would take more than {MOST_BYTES / 1e9:g} GB of memory"
+                f"{self.setting(sizes).words} would take {expected.held / 1e9:.3g} GB of memory, and"
+                f" {self._allowed / 1e9:.3g} GB are allowed (`--memory`, FENICS_GEARS_MEMORY)"
             )
         return (expected.condensing or 0.0) + expected.marching
 

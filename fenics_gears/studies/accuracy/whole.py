@@ -4,10 +4,8 @@ fine, or its own distance from the reference where that is larger."""
 
 from collections.abc import Mapping, Sequence
 from functools import reduce
-from math import ceil
 
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.model.cost import expected_cost, operator_bytes
+from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
 
@@ -92,7 +90,4 @@ def _thinned(found: list[Setting]) -> list[Setting]:
 
 def fits(scene: Scene, setting: Setting) -> bool:
     """Whether the contact operators of a mesh cycle can be held."""
-    if setting.slices is not None:
-        return expected_cost(model_of(setting.of(scene))).operators <= MOST_BYTES
-    rows = ceil(gear_pair(scene.gears).contact_ratio) * setting.grid.nodes * (1 if scene.friction is None else 2)
-    return operator_bytes(setting.steps, rows, scene.friction is not None) <= MOST_BYTES
+    return expected_cost(model_of(setting.of(scene))).operators <= MOST_BYTES

@@ -66,13 +66,23 @@ def test_webs_towards_either_end_mirror_each_other():
 
 @pytest.mark.parametrize("web", [WEB, Web(15.0, 25.0, 0.3, offset=0.3)])
 def test_expected_size_of_a_body_with_a_web(web):
-    """The mesh itself: condensed unknowns exactly, all within 15 %."""
+    """The mesh itself: condensed unknowns exactly, all within 18 %."""
     found = body(web, reach=Reach(0)).timings
     sides = [WIDTH * (web.offset + side * web.share) for side in (-0.5, 0.5)]
     swept = SweptWeb(web.hub_radius, web.rim_radius, *sides)
-    unknowns, condensed = expected_size(replace(PINION, web=web), FaceDiscretisation(2.0, 4, WIDTH, web=swept))
-    assert condensed == found["condensed_unknowns"]
-    assert unknowns == pytest.approx(found["unknowns"], rel=0.15)
+    size = expected_size(replace(PINION, web=web), FaceDiscretisation(2.0, 4, WIDTH, web=swept))
+    assert size.condensed == found["condensed_unknowns"]
+    assert size.unknowns == pytest.approx(found["unknowns"], rel=0.18)
+
+
+def test_expected_size_of_a_thin_rim_on_coarse_elements():
+    """The mesh itself: a rim of a third of a module, whose elements are far smaller than those asked for."""
+    web = Web(20.0, PINION.root_radius - 0.33 * PINION.module, 0.6)
+    found = body(web, reach=Reach(0)).timings
+    swept = SweptWeb(web.hub_radius, web.rim_radius, -0.3 * WIDTH, 0.3 * WIDTH)
+    size = expected_size(replace(PINION, web=web), FaceDiscretisation(2.0, 4, WIDTH, web=swept))
+    assert size.condensed == found["condensed_unknowns"]
+    assert size.unknowns == pytest.approx(found["unknowns"], rel=0.18)
 
 
 def test_layers_end_at_the_sides_of_a_web():

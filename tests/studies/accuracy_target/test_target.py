@@ -15,10 +15,11 @@ from fenics_gears.effects.friction import Friction
 from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.runs.timed import run_sharing
 from fenics_gears.scene.data import Accuracy, Motion
-from fenics_gears.studies.accuracy import setting_runs, trial_runs
+from fenics_gears.studies.accuracy import setting_runs
 from fenics_gears.studies.accuracy.measures import FACE_LOAD, JUDGED, SPAN, distance, judged_answer
 from fenics_gears.studies.accuracy.target import choose, settings_of
 from fenics_gears.studies.accuracy.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
+from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.progress import SilentProgress
 
 TARGET = 0.1
@@ -132,10 +133,10 @@ def test_what_two_runs_do_not_both_have_is_not_judged(scene, monkeypatch, finer,
 
 def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
     """With little memory; the target named instead is reached by the same runs."""
-    monkeypatch.setattr(trial_runs, "MOST_BYTES", 3.4e8)
+    monkeypatch.setenv(MEMORY_VARIABLE, "330 MB")
     with pytest.raises(
         TargetNotReached,
-        match=r"accuracy.target = 0.1 %.*P2 .* would take more than 0.34 GB of memory; [\d.]+ % can be",
+        match=r"accuracy.target = 0.1 %.*P2 .* would take [\d.]+ GB of memory, and 0.33 GB are .*; [\d.]+ % can be",
     ) as failure:
         choose(scene, 0.001, SilentProgress())
     assert failure.value.exit_code == 3
@@ -215,7 +216,7 @@ def test_settings_of_targets(scene, monkeypatch):
     failures = []
     found = settings_of(scene, (TARGET,), SilentProgress(), failures)
     assert found == {"target 10 %": (choose(scene, TARGET, SilentProgress()).setting, TARGET)} and not failures
-    monkeypatch.setattr(trial_runs, "MOST_BYTES", 1.0)
+    monkeypatch.setenv(MEMORY_VARIABLE, "1 MB")
     assert not settings_of(scene, (TARGET,), SilentProgress(), failures)
     ((name, reason),) = failures
     assert name == "target 10 %" and "is not reached" in reason
