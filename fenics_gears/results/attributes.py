@@ -54,6 +54,13 @@ _ROWS = (
     ("numbers_version", "", "version of its numbers: two results of the same scene may differ where these do"),
     ("complete", "", "1 when the run reached its end, 0 when it failed or was interrupted before"),
     (
+        "failed_afterwards",
+        "",
+        "a line for each thing that failed after the march: `dynamic factor`, `proposal of lead modifications`,"
+        " `numbers of the run`, `judgement of the run`; a warning says why",
+        "one did",
+    ),
+    (
         "stopped",
         "",
         "why it is not complete: `interrupted`, `failed`, or `not ended` (killed or still running)",
