@@ -107,6 +107,7 @@ class _Kept:
     def __init__(self, directory: Path, interruption: Interruption):
         self.dataset: Any = None
         self.file = directory / RUN_FILE
+        self._written: set[str] = set()
         self._interruption = interruption
 
     @property
@@ -121,8 +122,7 @@ class _Kept:
 
     def keep_all(self, dataset) -> None:
         """Write the result again where something was added to it."""
-        before, self.dataset = self.dataset, dataset
-        if set(dataset.variables) != set(before.variables) or dataset.attrs.keys() != before.attrs.keys():
+        if _names(dataset) != self._written:
             self._save(dataset)
 
     def _save(self, dataset) -> None:
@@ -131,12 +131,17 @@ class _Kept:
         from fenics_gears.system.output import write_whole
 
         self._interruption.ignore()
-        self.dataset, directory = dataset, self.file.parent
+        self.dataset, self._written = dataset, _names(dataset)
+        directory = self.file.parent
         write_whole(self.file, lambda path: results.save(dataset, path))
         remove(directory / JOURNAL)
         for picture in (*PICTURE_FILES, *FACE_PICTURE_FILES):
             # Those of an earlier run would be taken for pictures of this one.
             (directory / picture).unlink(missing_ok=True)
+
+
+def _names(dataset) -> set[str]:
+    return {*dataset.variables, *dataset.attrs}
 
 
 def _incomplete(kept: _Kept) -> str:

@@ -36,8 +36,8 @@ WITH_SECTIONS = "a shaft has `sections`"
 WITH_ROLLING = "a bearing is `rolling`"
 WITH_VIBRATIONS = "a shaft has `sections`, beside `[inertia]`"
 PROPOSED = (
-    "a torque, and `[misalignment]` in the plane of action, bearings along the shafts or a web off mid-width; not in"
-    " studies"
+    "a torque, and `[misalignment]` in the plane of action, bearings along the shafts or a web off mid-width, where a"
+    " mesh cycle run with the proposal confirms a lower factor; not in studies"
 )
 WITH_FILES = "the scene names files (`[body_meshes]`, tables of `[flank_errors]`)"
 WITH_TARGET = "`[accuracy] target`"
@@ -141,8 +141,9 @@ _ROWS = (
     (
         "face_load_factor",
         "1",
-        "K_Hbeta: of the line load averaged over the mesh cycle, the largest away from the face's ends over the mean",
-        f"{OVER_FACE_WITH_FIELDS} of at least a mesh cycle",
+        "K_Hbeta: of the line load averaged over the mesh cycle, the largest away from the face's ends over the mean"
+        " there",
+        f"{OVER_FACE_WITH_FIELDS} of at least a mesh cycle; not where the face's ends alone carry",
     ),
     (
         "largest_line_load_factor",
@@ -179,8 +180,8 @@ _ROWS = (
             (
                 "face_load_factor",
                 "1",
-                "the least that these two can give, without friction; the variable `proposed_line_load`, N/mm, is the"
-                " line load of the mesh with them, mean over the mesh cycle",
+                "what a mesh cycle that was run with these two has, without inertia; the variable `proposed_line_load`,"
+                " N/mm, is the line load of the mesh with them, mean over the mesh cycle",
             ),
         )
     ),

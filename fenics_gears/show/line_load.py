@@ -80,8 +80,9 @@ def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
     curves = [
         ("mesh, mean over the mesh cycle", total.mean(axis=0) if mean is None else mean),
         ("tooth pair, largest", loads.max(axis=(0, 1))),
-        ("tooth pair, largest away from edges", np.where(away > 0.0, away, np.nan)),
     ]
+    if away.any():
+        curves.append(("tooth pair, largest away from edges", np.where(away > 0.0, away, np.nan)))
     drawn = [Curve(words, z, values, colour) for (words, values), colour in zip(curves, PALETTE)]
     if "proposed_line_load" in run.dataset:
         corrected = run.dataset["proposed_line_load"].values
