@@ -159,9 +159,13 @@ def _simulated(
         return recorder, _marched(recorder, gears, compiled, progress)
 
     if model.drivetrain.on_rolling_bearings:
-        from .bearings_at_work import with_bearings_at_work
+        from .bearings_at_work import NoBalance, with_bearings_at_work
 
-        recorder, march = with_bearings_at_work(model, marched)
+        try:
+            recorder, march = with_bearings_at_work(model, marched)
+        except NoBalance as failure:
+            failure.partial = result_of(*failure.marched, gears, compiled, "failed").dataset
+            raise
     else:
         recorder, march = marched(model)
     return result_of(recorder, march, gears, compiled, "interrupted" if march.interrupted else "")
