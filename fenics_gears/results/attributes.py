@@ -109,6 +109,13 @@ _ROWS = (
         "c': largest `mesh_stiffness` while one tooth pair is loaded",
         WITH_TEETH + " and in some steps one pair is loaded",
     ),
+    (
+        "bore_twist_stiffness",
+        PER_WIDTH,
+        "about: stiffness along the line of action of both bodies that twist on the bores where they are held, without"
+        " teeth; it is in all mesh stiffnesses",
+        WITH_TEETH + ", on bores that are held",
+    ),
     ("largest_pair_force", "N", "largest normal force of a tooth pair", PAIR_LOADED),
     ("largest_pair_force_mesh_phase", "1", "mesh phase of the largest normal force of a tooth pair", PAIR_LOADED),
     ("largest_pair_force_from", "", "how that was found, as `peak_to_peak_transmission_error_from`", PAIR_LOADED),

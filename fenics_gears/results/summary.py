@@ -15,6 +15,8 @@ MICROMETRES = 1e3
 KILO = 1e3
 # So many natural frequencies are printed.
 LOWEST = 6
+# Share of the mesh's deflection from which the twist of the bodies on their bores is told.
+NOTABLE_TWIST = 0.25
 # Lengths (um) that are round-off of positions.
 ROUND_OFF = 1e-6
 Row = tuple[str, str, str]
@@ -81,6 +83,16 @@ def _stiffness(found) -> Said:
         one = "" if single is None else f", at most {single:.4g} with one pair"
         tangent = f"{found['mean_mesh_stiffness_tangent']:.4g} N/(mm um) on average"
         yield "mesh stiffness, tangent", f"{tangent}; force over deflection {found['mean_mesh_stiffness']:.4g}{one}"
+        yield from _bore_twist(found)
+
+
+def _bore_twist(found) -> Said:
+    """Where much of the deflection is no tooth's: ISO 6336-1 and most measurements are without it."""
+    twist = found.get("bore_twist_stiffness", math.inf)
+    share = found["mean_mesh_stiffness_tangent"] / twist
+    if share >= NOTABLE_TWIST:
+        without = f"about {share:.0%} of the deflection, {twist:.3g} N/(mm um)"
+        yield "twist of the bodies on their bores", f"{without}; c_gamma of ISO 6336-1 is without it"
 
 
 def _pair_force(found) -> Said:

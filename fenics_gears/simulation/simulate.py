@@ -6,6 +6,7 @@ import functools
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from math import isinf
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.errors import ComputationError
+from fenics_gears.model.bore_twist import bore_twist_stiffness
 from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.afterwards import attempted
@@ -42,6 +44,7 @@ OTHER_SETTINGS = (
 )
 # The stage that marches through time.
 MARCH = "march"
+MICROMETRE = 1e-3
 Keep = Callable[[xr.Dataset], None]
 
 
@@ -254,9 +257,10 @@ def _with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
 def result_of(recorder: Recorder, march: March, gears, compiled: float, stopped: str) -> RunResult:
     """The result of a recorded march; `stopped`: why it did not come to its end, empty where it did."""
     result, model, cycle = RunResult(recorder, march), recorder.model, recorder.cycle
-    resolution = model.resolution
+    resolution, twist = model.resolution, bore_twist_stiffness(model.scene, model.pair)
     result.attrs.update(
         {"stopped": stopped} if stopped else {},
+        **({} if isinf(twist) else {"bore_twist_stiffness": twist * MICROMETRE / model.pair.face_width}),
         complete=int(not stopped),
         warnings="\n".join(worst_first([*model.warnings, *result.attrs["warnings"].splitlines()])),
         base_radius_wheel=model.pair.wheel.base_radius,
