@@ -266,7 +266,7 @@ def test_measures_are_over_the_ball_and_the_teeth_of_the_drawing():
 
 
 def test_backlash_that_is_round_off_is_none_whatever_it_is_along():
-    """A centre distance rounded to 0.001 um: along the line of action, circles and normal 0 mm, never a negative one."""
+    """A centre distance rounded to 0.001 um: along the line of action, circles and normal 0 mm, never below."""
     gears = {"module": "3 mm", "helix_angle": "30 deg", "centre_distance": "125 mm"}
     scene = scene_of(
         gears, {"teeth": 12, "profile_shift": 0.09809, "bore_diameter": "15 mm"}, {"teeth": 60, "profile_shift": 0}
