@@ -142,20 +142,16 @@ def flank_points(
 def apart(pair: GearPair, places: Sequence[Place]) -> np.ndarray:
     """How far (P,), mm along the lines of the places, flanks stand apart before the points that meet there do: coast
     flanks by the backlash, which a rotation of the wheel closes."""
-    if all(place.flank == DRIVE for place in places):
-        return np.zeros(len(places))
-    closing = pair.backlash / pair.wheel.base_radius
-    return np.array([0.0 if place.flank == DRIVE else closing * place.line_in(pair).lever_arms[1] for place in places])
+    turned = pair.backlash / pair.wheel.base_radius
+    return np.array([turned * place.line_in(pair).lever_arms[1] * (place.flank == COAST) for place in places])
 
 
 def facing_points(
     pair: GearPair, places: Sequence[Place], offsets: np.ndarray, ends: np.ndarray
 ) -> tuple[Both, Both, np.ndarray]:
-    """Points of involutes that face each other along the line of action at many places; offsets and ends as of
-    `flank_points`.
+    """Points of involutes that face each other along the line of action at places; nodes as of `flank_points`.
 
-    Their roll angles (rad) and distances from T1, T2 (mm), each of pinion and wheel, and the gap (mm) beyond what the
-    flanks stand `apart`.
+    Their roll angles (rad) and distances from T1, T2 (mm), each of pinion and wheel, and the gap (mm) beyond `apart`.
     """
     contact_rolls = np.ascontiguousarray(np.array([place.contact_rolls for place in places]).reshape(-1, 2).T)
     radii = np.array([[gear.base_radius] * (len(ends) - 1) for gear in (pair.pinion, pair.wheel)])
@@ -236,9 +232,8 @@ def nodes_on_flanks(
     rolls, length = rolls_of(flanks.pair, places, nodes), flanks.pair.line_of_action_length
     lengths = np.repeat([length if place.line is None else place.line.length for place in places], np.diff(ends))
     # Flanks that deform to touch meet midway between where they stand undeformed. Friction acts there on both, so that
-    # action and reaction leave no torque.
+    # action and reaction leave no torque. Averaged gaps are those of closed flanks.
     meeting = 0.5 * (view.seen(offsets, ends, difference) + lengths)
-    # Averages are those of the closed flanks.
     gap = seen_gap(view, offsets, ends, gap) + np.repeat(apart(flanks.pair, places), np.diff(ends))
     arrays = offsets, hats_of(offsets, ends), gap, meeting, lengths - meeting, rolls[0]
     parts = [tuple(array[start:end] for array in arrays) for start, end in zip(ends[:-1].tolist(), ends[1:].tolist())]
