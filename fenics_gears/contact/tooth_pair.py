@@ -140,8 +140,7 @@ def flank_points(
 
 
 def apart(pair: GearPair, places: Sequence[Place]) -> np.ndarray:
-    """How far (P,), mm along the lines of the places, flanks stand apart before the points that meet there do: coast
-    flanks by the backlash, which a rotation of the wheel closes."""
+    """How far (P,), mm along their lines, points that meet stand apart: on coast flanks until the wheel has turned."""
     turned = pair.backlash / pair.wheel.base_radius
     return np.array([turned * place.line_in(pair).lever_arms[1] * (place.flank == COAST) for place in places])
 
@@ -287,7 +286,7 @@ def node_ends(pairs: Sequence[PairNodes]) -> np.ndarray:
 
 
 def count_of(pairs: Sequence[PairNodes]) -> int:
-    """Number of the pairs' contact nodes."""
+    """Number of contact nodes."""
     return sum(len(pair.offsets) for pair in pairs)
 
 

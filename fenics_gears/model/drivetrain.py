@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from fenics_gears.dynamics.drivetrain import Drivetrain, Supports, assembled
 from fenics_gears.geometry.gear_data import rough_pair_stiffness
-from fenics_gears.geometry.iso_6336 import theoretical_stiffness
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
@@ -79,6 +78,8 @@ def pair_stiffness(scene: Scene, pair: GearPair) -> float:
     without its adjustment to measurements, in series with the twist of both bodies on their bores."""
     if scene.tooth_elasticity is None:
         return inf
+    from fenics_gears.geometry.iso_6336 import theoretical_stiffness
+
     from .bore_twist import bore_twist_stiffness
 
     theory = theoretical_stiffness(scene.gears)
