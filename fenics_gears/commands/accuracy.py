@@ -4,7 +4,7 @@ picture of error against time."""
 import argparse
 
 from .measuring import measured, print_origin, scene_to_measure, write_report
-from .shared import add_memory_argument, add_output_argument, add_scene_argument
+from .shared import WITHOUT_SOMETHING, add_memory_argument, add_output_argument, add_scene_argument
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -26,7 +26,7 @@ def accuracy(options: argparse.Namespace) -> int:
     files = write_report(report, directory, "accuracy", write_csv, work_precision)
     if not options.quiet:
         _print(report, files)
-    return 0
+    return 0 if len(files) > 1 else WITHOUT_SOMETHING
 
 
 def _print(report, files) -> None:

@@ -2,8 +2,9 @@
 
 Exit codes: 0 done, 2 the scene or the call is wrong (nothing written), 3 the computation failed (the steps computed are
 kept, marked incomplete) or cannot fit into memory, 4 the run ended with a result that has no meaning (it is kept, with
-the reason), 130 interrupted by Ctrl-C (the steps computed are kept), 141 the standard output could not be written, as
-when the program that reads it closed the pipe.
+the reason), 5 the result is whole and kept, but something that follows it failed (proposals, factors, pictures, the
+summary: a warning says what), 130 interrupted by Ctrl-C (the steps computed are kept), 141 the standard output could
+not be written, as when the program that reads it closed the pipe.
 """
 
 import argparse
@@ -171,7 +172,7 @@ def _parser(called: str = "") -> argparse.ArgumentParser:
         description="Spur and helical gear pairs as flexible multi-body systems with frictional contact.",
         epilog=(
             "Exit codes: 0 done, 2 wrong scene or call, 3 computation failed or cannot fit, 4 result without meaning,"
-            " 130 interrupted, 141 output closed."
+            " 5 result without what follows it (pictures, say), 130 interrupted, 141 output closed."
         ),
         parents=[shared],
     )

@@ -7,7 +7,7 @@ from pathlib import Path
 from fenics_gears.errors import SceneError
 from fenics_gears.system.job import communicator
 
-from .shared import checked_model_and_directory, shown_progress
+from .shared import after_result, checked_model_and_directory, shown_progress
 
 NO_TIMES = "measures times, which mean nothing while processes share the machine. Start gears without mpirun."
 
@@ -29,15 +29,15 @@ def measured(measure: Callable, quiet: bool):
 
 
 def write_report(report, directory: Path, name: str, write_csv: Callable, draw: Callable) -> list[Path]:
-    """Write `name`.csv by `write_csv(report, file)` and `name`.png, the figure `draw(report)`; return the files."""
-    from fenics_gears.show.plots import save_figure
+    """Write `name`.csv by `write_csv(report, file)`, then `name`.png, the figure `draw(report)`; return the files."""
+    from fenics_gears.show.plots import save_figures
     from fenics_gears.system.output import written_aside
 
     written: list[Path] = []
     with written_aside(directory, written) as aside:
         write_csv(report, aside / f"{name}.csv")
-        save_figure(draw(report), aside / f"{name}.png")
-    return written
+    drawn = after_result(written[0], "picture", lambda: save_figures({f"{name}.png": draw(report)}, directory))
+    return [*written, *(drawn or [])]
 
 
 def print_origin(report, files: list[Path]) -> None:

@@ -1,12 +1,17 @@
 """``gears run SCENE``: run a scene; write run.nc and pictures."""
 
+from __future__ import annotations
+
 import argparse
 import gc
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from fenics_gears.errors import ComputationError
+from fenics_gears.results.afterwards import FAILED
+from fenics_gears.results.summary import Row
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
 from fenics_gears.system.job import Job, led
 from fenics_gears.system.progress import Interruption
@@ -16,9 +21,11 @@ from .shared import (
     JOURNAL,
     NO_MEANING,
     RUN_FILE,
+    WITHOUT_SOMETHING,
     add_memory_argument,
     add_output_argument,
     add_scene_argument,
+    after_result,
     checked_model_and_directory,
     plots,
     shown_progress,
@@ -49,8 +56,10 @@ def _run(options: argparse.Namespace, job: Job | None) -> int:
     gc.freeze()
     journal = Place(directory / JOURNAL, options.scene.parent)
     with Interruption(shown_progress(options.quiet)) as interruption:
+        kept = _Kept(directory, interruption)
         try:
-            dataset = simulate(model, progress=interruption, job=job, journal=journal)
+            kept.keep_all(simulate(model, progress=interruption, job=job, journal=journal, keep=kept.keep))
+            last_words = "" if kept.complete else f"Interrupted. {_incomplete(kept)}"
         except ComputationError as error:
             if getattr(error, "partial", None) is None or not error.partial.sizes["time"]:
                 # Nothing was done that an earlier result in the directory should give way to.
@@ -58,59 +67,103 @@ def _run(options: argparse.Namespace, job: Job | None) -> int:
                     said = f"What was done until then is in {journal.directory}; `gears plot {directory}` draws it."
                     raise ComputationError(f"{error}\n{said}") from error
                 raise
-            file = _save(error.partial, directory, interruption)
-            raise ComputationError(f"{error}\n{_kept(error.partial, file)}") from error
-        files = [_save(dataset, directory, interruption)]
-        complete = bool(dataset.attrs.get("complete", 1))
-        last_words = "" if complete else f"Interrupted. {_kept(dataset, files[0])}"
-        if complete and not options.no_pictures:
+            kept.keep(error.partial)
+            raise ComputationError(f"{error}\n{_incomplete(kept)}") from error
+        except KeyboardInterrupt:
+            if kept.dataset is None:
+                raise
+            missing = "without what would have followed the march"
+            last_words = f"Interrupted after the march. The result is whole, {missing}: {kept.file}."
+        pictures: list[Path] | None = []
+        if not last_words and not options.no_pictures:
             try:
                 interruption.heed()
                 interruption.stage("draw pictures")
-                files += plots().draw_run(dataset, directory)
+                pictures = after_result(kept.file, "pictures", lambda: plots().draw_run(kept.dataset, directory))
             except KeyboardInterrupt:
                 draws = f"`gears plot {directory}` draws them"
-                last_words = f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; {draws}."
+                last_words = f"Interrupted while the pictures were drawn. The result is whole: {kept.file}; {draws}."
+    rows = after_result(kept.file, "summary", lambda: _summary(model, kept.dataset, interruption.finished))
     if not options.quiet:
-        _print_summary(model, dataset, files, interruption.finished)
+        _print(model.scene.title, rows or [], [kept.file, *(pictures or [])])
     if last_words:
         print(last_words, file=sys.stderr)
         return INTERRUPTED
+    failed = FAILED in kept.dataset.attrs or pictures is None or rows is None
+    return _worth(kept) or (WITHOUT_SOMETHING if failed else 0)
+
+
+def _worth(kept: _Kept) -> int:
+    """NO_MEANING, with the reason in words, for a result that has none."""
     from fenics_gears.results import validity
 
-    worthless = [said for said in dataset.attrs.get("warnings", "").splitlines() if validity.NO_MEANING in said]
+    said = kept.dataset.attrs.get("warnings", "").splitlines()
+    worthless = [warning for warning in said if validity.NO_MEANING in warning]
     if worthless:
-        print(f"{files[0]}: {worthless[0]}", file=sys.stderr)
+        print(f"{kept.file}: {worthless[0]}", file=sys.stderr)
     return NO_MEANING if worthless else 0
 
 
-def _save(dataset, directory: Path, interruption: Interruption) -> Path:
-    """Write the result where no Ctrl-C can lose it, and return its file."""
-    from fenics_gears import results
-    from fenics_gears.results.journal import remove
-    from fenics_gears.system.output import write_whole
+class _Kept:
+    """The result of a run and its file, written where no Ctrl-C can lose it."""
 
-    interruption.ignore()
-    file = write_whole(directory / RUN_FILE, lambda path: results.save(dataset, path))
-    remove(directory / JOURNAL)
-    for picture in (*PICTURE_FILES, *FACE_PICTURE_FILES):
-        # Those of an earlier run would be taken for pictures of this one.
-        (directory / picture).unlink(missing_ok=True)
-    return file
+    def __init__(self, directory: Path, interruption: Interruption):
+        self.dataset: Any = None
+        self.file = directory / RUN_FILE
+        self._written: set[str] = set()
+        self._interruption = interruption
+
+    @property
+    def complete(self) -> bool:
+        return bool(self.dataset.attrs.get("complete", 1))
+
+    def keep(self, dataset) -> None:
+        """Write what the march made, before anything follows it; after an interrupted march nothing does."""
+        self._save(dataset)
+        if self.complete:
+            self._interruption.heed()
+
+    def keep_all(self, dataset) -> None:
+        """Write the result again where something was added to it."""
+        if _names(dataset) != self._written:
+            self._save(dataset)
+
+    def _save(self, dataset) -> None:
+        from fenics_gears import results
+        from fenics_gears.results.journal import remove
+        from fenics_gears.system.output import write_whole
+
+        self._interruption.ignore()
+        self.dataset, self._written = dataset, _names(dataset)
+        directory = self.file.parent
+        write_whole(self.file, lambda path: results.save(dataset, path))
+        remove(directory / JOURNAL)
+        for picture in (*PICTURE_FILES, *FACE_PICTURE_FILES):
+            # Those of an earlier run would be taken for pictures of this one.
+            (directory / picture).unlink(missing_ok=True)
 
 
-def _kept(dataset, file: Path) -> str:
-    steps = max(dataset.sizes["time"] - 1, 0)
-    return f"What was done until then is kept, marked incomplete: {file}, {steps or 'none'} of the run's steps"
+def _names(dataset) -> set[str]:
+    return {*dataset.variables, *dataset.attrs}
 
 
-def _print_summary(model, dataset, files: Sequence[Path], stages: Sequence[tuple[str, float]]) -> None:
+def _incomplete(kept: _Kept) -> str:
+    steps = max(kept.dataset.sizes["time"] - 1, 0)
+    return f"What was done until then is kept, marked incomplete: {kept.file}, {steps or 'none'} of the run's steps"
+
+
+def _summary(model, dataset, stages: Sequence[tuple[str, float]]) -> list[Row]:
     from fenics_gears.results.summary import summary_rows, what_is_there
-    from fenics_gears.system.console import print_rows
 
     first = []
     if not dataset.attrs.get("complete", 1) and dataset.sizes["time"]:
         there = what_is_there(dataset, model.steps, model.scene.motion.mesh_cycles)
         first = [("INTERRUPTED", f"the run was stopped before its end: {there}", "")]
-    print_rows(model.scene.title, [*first, *summary_rows(dataset, stages)])
+    return [*first, *summary_rows(dataset, stages)]
+
+
+def _print(title: str, rows: Sequence[Row], files: Sequence[Path]) -> None:
+    from fenics_gears.system.console import print_rows
+
+    print_rows(title, rows)
     print_rows("Files", [("", str(file), "") for file in files])

@@ -12,6 +12,7 @@ from math import inf
 from os.path import exists, isdir
 from pathlib import Path
 from types import ModuleType
+from typing import TypeVar
 
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.system.console import on_terminal, printable
@@ -20,10 +21,13 @@ from fenics_gears.system.progress import BarProgress, LineProgress, Progress, Si
 
 # Exit codes that no error carries itself. The run came to its end, but jammed or came apart.
 NO_MEANING = 4
+# The result is whole and kept; something that follows it failed.
+WITHOUT_SOMETHING = 5
 INTERRUPTED = 130
 # 128 + SIGPIPE, as a shell has it.
 NOBODY_READS = 141
 
+Found = TypeVar("Found")
 RUN_FILE, STUDY_FILE, CASES = "run.nc", "study.nc", "cases"
 # What a long run has recorded so far, removed when it has written RUN_FILE.
 JOURNAL = f"{RUN_FILE}.part"
@@ -226,6 +230,18 @@ def file_to_write(options: argparse.Namespace, default: Path, what: str) -> Path
         raise SceneError(f"{output}: {what} is a {default.suffix} file; give --output such a name.")
     check_writable(output.parent, output.name)
     return output
+
+
+def after_result(kept: Path, what: str, carry_out: Callable[[], Found]) -> Found | None:
+    """What `carry_out` makes of a result that is kept in a file already; None where it fails, which the error output
+    says."""
+    from fenics_gears.results.afterwards import attempted
+
+    said: dict[str, str] = {}
+    found = attempted(said, what, carry_out)
+    if said:
+        print(printable(f"{said['warnings']}. The result is kept: {kept}"), file=sys.stderr)
+    return found
 
 
 def print_files(files: Iterable[Path], quiet: bool) -> None:

@@ -11,9 +11,11 @@ from fenics_gears.errors import ComputationError
 
 from .shared import (
     INTERRUPTED,
+    WITHOUT_SOMETHING,
     add_memory_argument,
     add_output_argument,
     add_processes_argument,
+    after_result,
     plots,
     shown_progress,
     under_mpirun,
@@ -58,15 +60,19 @@ def _told(outcome: Outcome, options: argparse.Namespace) -> int:
     """Draw the study's dataset, say what came out of it, and return the exit code."""
     from fenics_gears.studies.summary import last_words, summary_rows
 
-    pictures = [] if outcome.interrupted else plots().draw_study(outcome.file)
+    pictures: list[Path] | None = []
+    if not outcome.interrupted:
+        pictures = after_result(outcome.file, "pictures", lambda: plots().draw_study(outcome.file))
     if not options.quiet:
         from fenics_gears.system.console import print_rows
 
         print_rows(outcome.study.title, summary_rows(outcome))
-        print_rows("Files", [("", str(file), "") for file in (outcome.file, *pictures)])
+        print_rows("Files", [("", str(file), "") for file in (outcome.file, *(pictures or []))])
         print(f"`gears report {outcome.file.parent}` makes one page of it all.")
     if last_words(outcome):
         print(last_words(outcome), file=sys.stderr)
     if outcome.interrupted:
         return INTERRUPTED
-    return ComputationError.exit_code if outcome.failures else 0
+    if outcome.failures:
+        return ComputationError.exit_code
+    return WITHOUT_SOMETHING if pictures is None else 0

@@ -50,7 +50,7 @@ def node_pairs(
         middle, cells = 0.5 * (vertices[1:] + vertices[:-1]), np.diff(vertices)
         # The force of an even pressure on a second-order element: 1/6, 4/6, 1/6 (Simpson).
         offsets, lengths = _alternating(vertices, middle), _alternating(lengths / 3.0, cells * 2.0 / 3.0)
-    rolls, arms, gap = facing_points_at(pair, removal, place.contact_rolls, offsets)
+    rolls, arms, gap = facing_points_at(pair, removal, place, offsets)
     if order == 2:
         # Elements are straight-sided: their middle nodes stand on the chord.
         arms = tuple(_alternating(arm[::2], 0.5 * (arm[2::2] + arm[:-2:2])) for arm in arms)

@@ -14,7 +14,7 @@ from fenics_gears.geometry.relief import side_by_side
 from .interpolation import INTERPOLATIONS, Averages, Points
 from .mesh_cycle import Cycle, Gaps, Opening, PerPosition
 from .operator import Position
-from .tooth_pair import DRIVE, Removal, facing_points, node_ends, over_nodes, seen_gap
+from .tooth_pair import DRIVE, Removal, apart, facing_points, node_ends, over_nodes, seen_gap
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Facing:
     the `gap` (p,), mm, of true involutes there, pair after pair, `drive` (p,) where these are modified.
 
     `ends` (pairs + 1,): where the points of each pair begin and end; `offsets` (n,), mm, and `node_ends` (pairs + 1,):
-    those of its nodes.
+    those of its nodes, whose flanks stand so far `apart` (n,), mm, beyond the gap.
     """
 
     rolls: tuple[np.ndarray, np.ndarray]
@@ -32,6 +32,7 @@ class Facing:
     ends: np.ndarray
     offsets: np.ndarray
     node_ends: np.ndarray
+    apart: np.ndarray
 
 
 @dataclass
@@ -127,7 +128,7 @@ def _gaps(cycle: Cycle, at: Facing, removal: tuple[Removal | None, Removal | Non
     for removed, rolls in zip(removal, at.rolls):
         if removed is not None:
             gap = gap + (removed(rolls) if everywhere else np.where(at.drive, removed(rolls), 0.0))
-    return seen_gap(INTERPOLATIONS[cycle.grid.interpolation], at.offsets, at.node_ends, gap)
+    return seen_gap(INTERPOLATIONS[cycle.grid.interpolation], at.offsets, at.node_ends, gap) + at.apart
 
 
 def _joined(parts: list[Facing]) -> Facing:
@@ -146,6 +147,7 @@ def _joined(parts: list[Facing]) -> Facing:
         ends(part.ends for part in parts),
         whole(part.offsets for part in parts),
         ends(part.node_ends for part in parts),
+        whole(part.apart for part in parts),
     )
 
 
@@ -153,8 +155,8 @@ def _facing(cycle: Cycle, position: Position) -> Facing:
     view: Averages | Points = INTERPOLATIONS[cycle.grid.interpolation]
     pairs = position.operator.pairs
     offsets, ends = over_nodes(pairs, "offsets"), node_ends(pairs)
-    points, contact_rolls = view.points(ends), np.array([pair.place.contact_rolls for pair in pairs])
-    contact_rolls = np.ascontiguousarray(contact_rolls.reshape(-1, 2).T)
-    rolls, _, gap = facing_points(cycle.pair, contact_rolls, view.places(offsets, ends), points)
+    points = view.points(ends)
+    places = [pair.place for pair in pairs]
+    rolls, _, gap = facing_points(cycle.pair, places, view.places(offsets, ends), points)
     drive = np.repeat(np.array([pair.place.flank == DRIVE for pair in pairs], dtype=bool), np.diff(points))
-    return Facing(rolls, gap, drive, points, offsets, ends)
+    return Facing(rolls, gap, drive, points, offsets, ends, np.repeat(apart(cycle.pair, places), np.diff(ends)))

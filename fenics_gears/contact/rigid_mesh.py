@@ -49,7 +49,7 @@ def _nodes(pair: GearPair, removal, grid: ContactGrid, place: Place) -> PairNode
         # True involutes touch on the line of action itself.
         offsets = np.unique(np.append(offsets, 0.0))
     (pinion_roll, _), (x_1, x_2), gap = facing_points_at(
-        pair, removal if place.flank == DRIVE else (None, None), place.contact_rolls, offsets
+        pair, removal if place.flank == DRIVE else (None, None), place, offsets
     )
     return PairNodes(place, offsets, hat_integrals(offsets), gap, x_1, x_2, pinion_roll)
 

@@ -139,27 +139,31 @@ def flank_points(
     return (rolls_1, rolls_2), (x_1, x_2)
 
 
-def facing_points(
-    pair: GearPair, contact_rolls: np.ndarray, offsets: np.ndarray, ends: np.ndarray
-) -> tuple[Both, Both, np.ndarray]:
-    """Points of involutes that face each other along the line of action; arguments as of `flank_points`.
+def apart(pair: GearPair, places: Sequence[Place]) -> np.ndarray:
+    """How far (P,), mm along their lines, points that meet stand apart: on coast flanks until the wheel has turned."""
+    turned = pair.backlash / pair.wheel.base_radius
+    return np.array([turned * place.line_in(pair).lever_arms[1] * (place.flank == COAST) for place in places])
 
-    Their roll angles (rad) and distances from T1, T2 (mm), each of pinion and wheel, and the gap (mm).
+
+def facing_points(
+    pair: GearPair, places: Sequence[Place], offsets: np.ndarray, ends: np.ndarray
+) -> tuple[Both, Both, np.ndarray]:
+    """Points of involutes that face each other along the line of action at places; nodes as of `flank_points`.
+
+    Their roll angles (rad) and distances from T1, T2 (mm), each of pinion and wheel, and the gap (mm) beyond `apart`.
     """
+    contact_rolls = np.ascontiguousarray(np.array([place.contact_rolls for place in places]).reshape(-1, 2).T)
     radii = np.array([[gear.base_radius] * (len(ends) - 1) for gear in (pair.pinion, pair.wheel)])
     rolls, distances = flank_points(pair, contact_rolls, radii, offsets, ends)
     return rolls, distances, pair.line_of_action_length - distances[1] - distances[0]
 
 
 def facing_points_at(
-    pair: GearPair,
-    removal: tuple[Removal | None, Removal | None],
-    contact_rolls: tuple[float, float],
-    offsets: np.ndarray,
+    pair: GearPair, removal: tuple[Removal | None, Removal | None], place: Place, offsets: np.ndarray
 ) -> tuple[Both, Both, np.ndarray]:
-    """The same of one pair whose contact roll angles (rad) are given, with material removed from either flank."""
-    alone = np.array([0, len(offsets)])
-    rolls, distances, gap = facing_points(pair, np.array(contact_rolls)[:, None], offsets, alone)
+    """The same at one place, with the whole gap and with material removed from either flank."""
+    rolls, distances, gap = facing_points(pair, [place], offsets, np.array([0, len(offsets)]))
+    gap = gap + apart(pair, [place])
     for removed, roll in zip(removal, rolls):
         if removed is not None:
             gap = gap + removed(roll)
@@ -175,7 +179,7 @@ def tooth_pairs(flanks: Flanks, grid: ContactGrid, places: Sequence[Place]) -> l
         return []
     places, ends, view = [places[at] for at in there], _ends(counts[there]), INTERPOLATIONS[grid.interpolation]
     at, points = view.places(offsets, ends), view.points(ends)
-    rolls, distances, gap = facing_points(flanks.pair, np.ascontiguousarray(every[:, there]), at, points)
+    rolls, distances, gap = facing_points(flanks.pair, places, at, points)
     if flanks.removal != (None, None):
         drive = np.repeat([place.flank == DRIVE for place in places], np.diff(points))
         for removed, roll in zip(flanks.removal, rolls):
@@ -227,9 +231,10 @@ def nodes_on_flanks(
     rolls, length = rolls_of(flanks.pair, places, nodes), flanks.pair.line_of_action_length
     lengths = np.repeat([length if place.line is None else place.line.length for place in places], np.diff(ends))
     # Flanks that deform to touch meet midway between where they stand undeformed. Friction acts there on both, so that
-    # action and reaction leave no torque.
+    # action and reaction leave no torque. Averaged gaps are those of closed flanks.
     meeting = 0.5 * (view.seen(offsets, ends, difference) + lengths)
-    arrays = offsets, hats_of(offsets, ends), seen_gap(view, offsets, ends, gap), meeting, lengths - meeting, rolls[0]
+    gap = seen_gap(view, offsets, ends, gap) + np.repeat(apart(flanks.pair, places), np.diff(ends))
+    arrays = offsets, hats_of(offsets, ends), gap, meeting, lengths - meeting, rolls[0]
     parts = [tuple(array[start:end] for array in arrays) for start, end in zip(ends[:-1].tolist(), ends[1:].tolist())]
     seen = interpolations(flanks, grid, places, nodes, rolls)
     return [ToothPair(place, *part, views) for place, part, views in zip(places, parts, seen)]
@@ -281,7 +286,7 @@ def node_ends(pairs: Sequence[PairNodes]) -> np.ndarray:
 
 
 def count_of(pairs: Sequence[PairNodes]) -> int:
-    """Number of the pairs' contact nodes."""
+    """Number of contact nodes."""
     return sum(len(pair.offsets) for pair in pairs)
 
 

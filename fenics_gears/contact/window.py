@@ -77,17 +77,15 @@ def contact_roll_angles(pair: GearPair, xi: float) -> tuple[float, float]:
 
 def coast_roll_angles(pair: GearPair, xi: float) -> tuple[float, float]:
     """The same for the coast flank of the pinion's tooth that touches at `xi`, and the wheel's coast flank that faces
-    it.
+    it: that of its tooth one base pitch behind.
 
     Mirrored at the line of centres coast flanks are drive flanks: a tooth whose drive flank stands at roll angle v has
-    its coast flank at 2 alpha_w + 2 psi_b - v there, psi_b being half its angle at the base circle. The flank that
-    faces it is that of the wheel's tooth one base pitch behind. The two do not touch: rb1 v1 + rb2 v2 = L - backlash.
+    its coast flank at 2 alpha_w + 2 psi_b - v there, psi_b being half its angle at the base circle. The wheel's point
+    is the one that touches once a rotation of the wheel has closed the backlash, so that rb1 v1 + rb2 v2 = L; before,
+    the two stand apart by it (`tooth_pair.apart`).
     """
-    drive = contact_roll_angles(pair, xi)[0], contact_roll_angles(pair, xi - pair.base_pitch)[1]
-    return tuple(
-        2.0 * (pair.operating_pressure_angle + gear.tooth_half_angle_at_base) - roll
-        for gear, roll in zip((pair.pinion, pair.wheel), drive)
-    )
+    turned = 2.0 * (pair.operating_pressure_angle + pair.pinion.tooth_half_angle_at_base)
+    return contact_roll_angles(pair, pair.pinion.base_radius * turned - xi)
 
 
 def flank_ends(pair: GearPair, contact_rolls: tuple[float, float]) -> Ends:

@@ -1,6 +1,7 @@
 """What ``[tip_relief]`` and ``[root_relief]`` share: fields, data, rules and findings. Not an effect by itself."""
 
 from dataclasses import KW_ONLY, dataclass
+from math import degrees
 from typing import Any
 
 from fenics_gears.inputs import units
@@ -36,7 +37,8 @@ def start_field(word: str, word_meaning: str) -> Any:
         ("0.1 mm to 100 m", "80.1 mm"),
         words=(word,),
         meaning=(
-            f"start of the relief: a roll angle, the {word_meaning}, or a diameter, which is accepted for one gear only"
+            f"start of the relief: a roll angle, the {word_meaning} (with a contact ratio above 2, of double tooth"
+            " contact, and so on), or a diameter, which is accepted for one gear only"
         ),
         otherwise="follows from a length; start or length is required where there is a depth",
     )
@@ -88,6 +90,11 @@ class Relief(Section):
     )
 
     @property
+    def length(self) -> float | None:
+        """Length (mm) of the relief on the path of contact or along the flank, where the scene has one."""
+        return self.length_on_flank if self.length_on_path is None else self.length_on_path
+
+    @property
     def start_roll_angle(self) -> float | None:
         """Roll angle (rad) of the start, where the scene has one."""
         return self.start if isinstance(self.start, (int, float)) else None
@@ -116,6 +123,25 @@ class Reliefs:
 
     pinion: Relief | None
     wheel: Relief | None
+
+
+def starts_without_single_contact(section: str, word: str, reliefs: Reliefs, model) -> list[str]:
+    """A sentence where a relief starts at a point of single tooth contact and the pair has none."""
+    pair = model.pair
+    if pair.fewest_pairs < 2:
+        return []
+    contact, letters = pair.contact_by_fewest
+    rolls = pair.hpstc_roll_angles if word == "HPSTC" else pair.lpstc_roll_angles
+    own = [(roll, relief) for roll, relief in zip(rolls, (reliefs.pinion, reliefs.wheel)) if relief is not None]
+    angles = [roll for roll, relief in own if relief.start is None and relief.length is None]
+    if not angles:
+        return []
+    which = "highest" if word == "HPSTC" else "lowest"
+    return [
+        f'{section}.start = "{word}": with a contact ratio of {pair.contact_ratio:.4g} no tooth pair is ever alone;'
+        f" relief starts at the {which} point of {contact} ({word[:2]}{letters}), roll angle"
+        f" {' and '.join(f'{degrees(angle):.4g} deg' for angle in angles)}"
+    ]
 
 
 def read(kind: type[Reliefs], section: Any) -> Reliefs:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from .effect import Effect
-from .relief import AT_KINK, Reliefs, RootReliefOfGear, read, rules, write
+from .relief import AT_KINK, Reliefs, RootReliefOfGear, read, rules, starts_without_single_contact, write
 
 
 @dataclass(frozen=True)
@@ -36,5 +36,6 @@ EFFECT = Effect(
     write=partial(write, "LPSTC"),
     rules=partial(rules, "root_relief", "LPSTC"),
     removal=removal,
+    warnings=partial(starts_without_single_contact, "root_relief", "LPSTC"),
     variables=(AT_KINK,),
 )

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from .effect import Effect
-from .relief import AT_KINK, Relief, Reliefs, read, rules, write
+from .relief import AT_KINK, Relief, Reliefs, read, rules, starts_without_single_contact, write
 
 
 @dataclass(frozen=True)
@@ -41,5 +41,6 @@ EFFECT = Effect(
     rules=partial(rules, "tip_relief", "HPSTC"),
     removal=removal,
     gentle=gentle,
+    warnings=partial(starts_without_single_contact, "tip_relief", "HPSTC"),
     variables=(AT_KINK,),
 )

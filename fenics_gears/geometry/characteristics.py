@@ -1,16 +1,21 @@
 """The characteristic data of a pair, as ``gears check`` prints them."""
 
-from math import atan, degrees
+from math import atan, cos, degrees
 
 from .gear_checks import ROUNDING
+from .gear_data import NOT_GIVEN, MeasuredOver
 from .pair import GearPair
 from .sliding import specific_sliding
 from .tooth_thickness import ball_diameter, base_tangent_length, dimension_over_balls, normal_thickness, spanned_teeth
 
 
-def characteristics(pair: GearPair) -> list[tuple[str, float, str]]:
-    """Rows (label, value, unit) on the pair, then on each gear; lengths in mm, angles in deg."""
-    return [*_pair_rows(pair), *_gear_rows(pair, "pinion"), *_gear_rows(pair, "wheel")]
+def characteristics(
+    pair: GearPair, measured_over: MeasuredOver = (NOT_GIVEN, NOT_GIVEN)
+) -> list[tuple[str, float, str]]:
+    """Rows (label, value, unit) on the pair, then on each gear; lengths in mm, angles in deg. `measured_over`: teeth
+    that are spanned and diameter of the ball of either gear, None for what suits the gear."""
+    of_gears = [row for name, own in zip(("pinion", "wheel"), measured_over) for row in _gear_rows(pair, name, own)]
+    return [*_pair_rows(pair), *of_gears]
 
 
 def _rounded(length: float) -> float:
@@ -18,6 +23,8 @@ def _rounded(length: float) -> float:
 
 
 def _pair_rows(pair: GearPair) -> list[tuple[str, float, str]]:
+    # Before what follows from it: one that is round-off is none, whatever it is measured along.
+    backlash = _rounded(pair.backlash)
     return [
         ("operating pressure angle", degrees(pair.operating_pressure_angle), "deg"),
         ("base pitch", pair.base_pitch, "mm"),
@@ -28,9 +35,9 @@ def _pair_rows(pair: GearPair) -> list[tuple[str, float, str]]:
         ("pitch point, from T1", pair.pitch_point, "mm"),
         ("end of contact, from T1", pair.path_end, "mm"),
         ("pitch point, from T2 (e)", pair.pitch_point_to_wheel_tangent, "mm"),
-        ("backlash along the line of action", _rounded(pair.backlash), "mm"),
-        ("circumferential backlash at the pitch circles (j_wt)", _rounded(pair.circumferential_backlash), "mm"),
-        *([("normal backlash (j_bn)", _rounded(pair.backlash * pair.cosine), "mm")] if pair.helix is not None else []),
+        ("backlash along the line of action", backlash, "mm"),
+        ("circumferential backlash at the pitch circles (j_wt)", backlash / cos(pair.operating_pressure_angle), "mm"),
+        *([("normal backlash (j_bn)", backlash * pair.cosine, "mm")] if pair.helix is not None else []),
         ("centre distance without backlash", pair.centre_distance_without_backlash, "mm"),
     ]
 
@@ -46,11 +53,17 @@ def _helix_rows(pair: GearPair) -> list[tuple[str, float, str]]:
     ]
 
 
-def _gear_rows(pair: GearPair, name: str) -> list[tuple[str, float, str]]:
+def _gear_rows(
+    pair: GearPair, name: str, measured_over: tuple[int | None, float | None]
+) -> list[tuple[str, float, str]]:
     gear, number = getattr(pair, name), ("pinion", "wheel").index(name)
     # Where its active profile starts and where its tip meets the mate.
     lowest, tip = (pair.path_start, pair.path_end) if name == "pinion" else (pair.path_end, pair.path_start)
-    teeth, ball = spanned_teeth(gear), ball_diameter(gear)
+    teeth, ball = (given or of_gear(gear) for given, of_gear in zip(measured_over, (spanned_teeth, ball_diameter)))
+    contact, letters = pair.contact_by_fewest
+    lowest_words, highest_words = (
+        "" if letters == "STC" else f", {which} point of {contact}" for which in ("lowest", "highest")
+    )
     rows = [
         ("reference diameter", 2.0 * gear.reference_radius, "mm"),
         ("base diameter", 2.0 * gear.base_radius, "mm"),
@@ -68,8 +81,8 @@ def _gear_rows(pair: GearPair, name: str) -> list[tuple[str, float, str]]:
         ("tip clearance", pair.tip_clearances[number], "mm"),
         ("roll angle, form circle", degrees(gear.form_roll_angle), "deg"),
         ("roll angle, start of active profile", degrees(pair.sap_roll_angles[number]), "deg"),
-        ("roll angle, LPSTC", degrees(pair.lpstc_roll_angles[number]), "deg"),
-        ("roll angle, HPSTC", degrees(pair.hpstc_roll_angles[number]), "deg"),
+        (f"roll angle, LP{letters}", degrees(pair.lpstc_roll_angles[number]), f"deg{lowest_words}"),
+        (f"roll angle, HP{letters}", degrees(pair.hpstc_roll_angles[number]), f"deg{highest_words}"),
         ("roll angle, tip", degrees(gear.tip_roll_angle), "deg"),
         ("specific sliding, start of active profile", float(specific_sliding(pair, lowest)[number]), ""),
         ("specific sliding, tip", float(specific_sliding(pair, tip)[number]), ""),

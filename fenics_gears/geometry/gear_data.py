@@ -37,6 +37,11 @@ class Web:
     offset: float = 0.0
 
 
+# Teeth that are spanned and ball diameter, by which a drawing measures pinion and wheel; None where it says none.
+MeasuredOver = tuple[tuple[int | None, float | None], tuple[int | None, float | None]]
+NOT_GIVEN: tuple[int | None, float | None] = (None, None)
+
+
 @dataclass(frozen=True)
 class GearData:
     """One gear: diameters in mm, profile shift (that of the tooth thickness) and rack tip radius in modules;

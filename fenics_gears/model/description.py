@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import log
+from math import isinf, log
 
 import numpy as np
 
@@ -15,7 +15,9 @@ from fenics_gears.geometry.gear_data import Material
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import ISO_6336, Scene
 
+from .bore_twist import bore_twist_stiffness
 from .cost import SECTOR_UNKNOWNS, expected_cost
+from .drivetrain import pair_stiffness
 from .model import Model, model_of
 from .motion_rows import Rows, frequency_rows, inertia_rows, period_rows, speed_rows, unknown_rows
 
@@ -54,7 +56,7 @@ def describe(scene: Scene) -> list[tuple[str, Rows]]:
     derived = [(each.name, each.value, f"{each.unit}, {each.formula}".lstrip(", ")) for each in scene.derived]
     sections: list[tuple[str, Rows]] = [("Derived, since the scene leaves it out", derived)] if derived else []
     sections += [
-        ("Gear pair", characteristics(model.pair)),
+        ("Gear pair", characteristics(model.pair, scene.measured_over)),
         ("Model", _model_rows(model)),
         ("Accuracy", _accuracy_rows(model)),
     ]
@@ -74,7 +76,7 @@ def _model_rows(model: Model) -> Rows:
     touching, friction = "the first to touch carries all", model.scene.friction
     if model.scene.tooth_elasticity is not None:
         touching = f"each with a {each} where flanks touch"
-    rows: Rows = [*_face_rows(model), *_curve_rows(model), *unknown_rows(model)]
+    rows: Rows = [*_face_rows(model), *_curve_rows(model), *_stiffness_rows(model), *unknown_rows(model)]
     if model.face.slices == 1:
         rows.append(("contact nodes of a tooth pair", f"{grid.nodes},", touching))
     else:
@@ -132,6 +134,18 @@ def _face_rows(model: Model) -> Rows:
         (f"misalignment {words}", 1e3 * amount, about)
         for words, amount in _amounts(scene.misalignment, ("in_plane", "out_of_plane"))
     ]
+
+
+def _stiffness_rows(model: Model) -> Rows:
+    """About what stiffness a tooth pair has in the run, and how much of it is twist of the bodies."""
+    scene, pair = model.scene, model.pair
+    one, twist = pair_stiffness(scene, pair), bore_twist_stiffness(scene, pair)
+    if isinf(one) or isinf(twist):
+        return []
+    each = 1e-3 / pair.face_width
+    share = f"{one / twist:.0%} of its deflection is twist of the bodies on their bores"
+    words = f"N/(mm um), about; {share}, {twist * each:.3g} N/(mm um)"
+    return [("stiffness of one tooth pair", f"{one * each:.3g}", words)]
 
 
 def _curve_rows(model: Model) -> Rows:

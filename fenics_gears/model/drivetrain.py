@@ -73,6 +73,20 @@ def mesh_stiffness(scene: Scene) -> float:
     return rough_pair_stiffness(scene.tooth_elasticity, scene.gears.face_width)
 
 
+def pair_stiffness(scene: Scene, pair: GearPair) -> float:
+    """Stiffness (N/mm), about, that one tooth pair of a scene has in a run: by the theory of ISO 6336-1, method B,
+    without its adjustment to measurements, in series with the twist of both bodies on their bores."""
+    if scene.tooth_elasticity is None:
+        return inf
+    from fenics_gears.geometry.iso_6336 import theoretical_stiffness
+
+    from .bore_twist import bore_twist_stiffness
+
+    theory = theoretical_stiffness(scene.gears)
+    teeth = theory if theory > 0.0 else mesh_stiffness(scene)
+    return 1.0 / (1.0 / teeth + 1.0 / bore_twist_stiffness(scene, pair))
+
+
 def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:
     """What "pinion" and "wheel" of a scene with inertia are in the equations of motion.
 

@@ -23,8 +23,10 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.accuracy import (
     COARSEST_ELEMENT,
     FINEST_ELEMENT,
+    FINEST_RESOLVED,
     MOST_STEPS_PER_MESH_CYCLE,
     NODE_SPACING,
+    RESOLVED,
     STEPS_PER_PERIOD,
 )
 from fenics_gears.scene.data import ISO_6336, Material, Scene
@@ -49,6 +51,8 @@ LOCKING_ELEMENTS, LOCKING_POISSONS_RATIO = ("P1", "Q1"), 0.45
 ONCE, EVERY_STEP = "once", "every step"
 # For rigid flanks: contact window in modules, and the number of nodes in it among which the first contact is searched.
 RIGID, RIGID_WINDOW, RIGID_NODES = "rigid", 0.5, 81
+# Sizes that are given are rounded.
+ROUNDED = 1.01
 # Curves of fewer see little of the change from one tooth pair to two.
 FEWEST_STEPS = 20
 
@@ -111,13 +115,11 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     if scene.accuracy.model == ISO_6336:
         steps = scene.accuracy.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, drivetrain)
         return replace(_rigid_resolution(scene, drivetrain), element=ISO_6336, steps_per_mesh_cycle=steps)
-    asked, module = scene.accuracy, scene.gears.module
+    asked = scene.accuracy
     line_load = abs(scene.load.wheel_torque) / pair.wheel.base_radius / pair.face_width
     smallest = min(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end))
     half_width = hertz_half_width(line_load, smallest, plane_contact_modulus(scene))
-    size = asked.flank_element_size or float(
-        np.clip(half_width / scene.fineness.elements_per_half_width, FINEST_ELEMENT * module, COARSEST_ELEMENT * module)
-    )
+    size = asked.flank_element_size or _flank_element_size(scene, half_width)
     length = asked.contact_length or _contact_length(scene, pair, line_load, half_width, size)
     spacing = NODE_SPACING * size if (asked.element or DEFAULT_ELEMENT).endswith("2") else size
     nodes = asked.contact_nodes or max(ceil(length / spacing), 2) + 1
@@ -142,6 +144,14 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
         elastic_teeth=asked.elastic_teeth,
         mate_tips=mate_tips(pair) if condensation == ONCE else (None, None),
     )
+
+
+def _flank_element_size(scene: Scene, half_width: float) -> float:
+    module, wanted = scene.gears.module, half_width / scene.fineness.elements_per_half_width
+    usual = float(np.clip(wanted, FINEST_ELEMENT * module, COARSEST_ELEMENT * module))
+    if scene.three_dimensional or not half_width:
+        return usual
+    return min(usual, max(half_width / RESOLVED, FINEST_RESOLVED * module))
 
 
 def mate_tips(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -197,22 +207,14 @@ def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
 def resolution_warnings(resolution: Resolution, friction: bool) -> list[str]:
     """Sentences on settings too coarse for the contact or the mesh cycle, or contact nodes too close for the
     elements."""
-    found, spacing = [], resolution.contact_grid.spacing
+    found: list[str] = []
+    spacing = resolution.contact_grid.spacing
     if resolution.steps_per_mesh_cycle < FEWEST_STEPS:
         found.append(
             f"accuracy.steps_per_mesh_cycle is {resolution.steps_per_mesh_cycle}: the peak-to-peak transmission error"
             f" may miss an extreme; from {FEWEST_STEPS} on it is right within about 1%, without vibrations"
         )
-    for name, size in (
-        ("accuracy.flank_element_size", resolution.flank_element_size),
-        ("the spacing of accuracy.contact_nodes", spacing),
-    ):
-        if size > resolution.half_width > 0.0:
-            found.append(
-                f"{name} is {size:.3g} mm, more than the Hertz half-width of {resolution.half_width:.3g} mm at full"
-                " load: contact is not resolved; pressures are not right, and the transmission error may be off by per"
-                " cents"
-            )
+    found += _unresolved(resolution)
     node_distance = resolution.flank_element_size / resolution.order
     if spacing < CLOSEST_NODES * node_distance:
         most = max(int(resolution.contact_grid.length / (CLOSEST_NODES * node_distance)) + 1, 2)
@@ -222,6 +224,32 @@ def resolution_warnings(resolution: Resolution, friction: bool) -> list[str]:
             f"contact nodes stand {spacing:.3g} mm apart, the flank's own nodes {node_distance:.3g} mm: the pressure"
             f" oscillates{slow}; lower accuracy.contact_nodes to {most}, or accuracy.flank_element_size to"
             f' "{finer:.3g} mm"'
+        )
+    return found
+
+
+def _unresolved(resolution: Resolution) -> list[str]:
+    """Elements and contact nodes that are too large for the pressure in the half-width, or for the contact itself."""
+    if not resolution.half_width:
+        return []
+    half_width, grid, found = resolution.half_width, resolution.contact_grid, []
+    enough = half_width / RESOLVED
+    for name, size, remedy in (
+        ("accuracy.flank_element_size", resolution.flank_element_size, f'flank_element_size = "{enough:.2g} mm"'),
+        ("the spacing of accuracy.contact_nodes", grid.spacing, f"contact_nodes = {ceil(grid.length / enough) + 1}"),
+    ):
+        if size <= ROUNDED * enough:
+            continue
+        of = "half "
+        harm = "the peak contact pressure may be off by up to a fifth"
+        if size > half_width:
+            of = ""
+            harm = (
+                "contact is not resolved; pressures are not right, and the transmission error may be off by per cents"
+            )
+        found.append(
+            f"{name} is {size:.3g} mm, more than {of}the Hertz half-width of {half_width:.3g} mm at full load: {harm};"
+            f" take accuracy.{remedy}"
         )
     return found
 

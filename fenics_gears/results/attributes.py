@@ -36,8 +36,8 @@ WITH_SECTIONS = "a shaft has `sections`"
 WITH_ROLLING = "a bearing is `rolling`"
 WITH_VIBRATIONS = "a shaft has `sections`, beside `[inertia]`"
 PROPOSED = (
-    "a torque, and `[misalignment]` in the plane of action, bearings along the shafts or a web off mid-width; not in"
-    " studies"
+    "a torque, and `[misalignment]` in the plane of action, bearings along the shafts or a web off mid-width, where a"
+    " mesh cycle run with the proposal confirms a lower factor; not in studies"
 )
 WITH_FILES = "the scene names files (`[body_meshes]`, tables of `[flank_errors]`)"
 WITH_TARGET = "`[accuracy] target`"
@@ -53,6 +53,13 @@ _ROWS = (
     ("fenics_gears_version", "", "version of this program"),
     ("numbers_version", "", "version of its numbers: two results of the same scene may differ where these do"),
     ("complete", "", "1 when the run reached its end, 0 when it failed or was interrupted before"),
+    (
+        "failed_afterwards",
+        "",
+        "a line for each thing that failed after the march: `dynamic factor`, `proposal of lead modifications`,"
+        " `numbers of the run`, `judgement of the run`; a warning says why",
+        "one did",
+    ),
     (
         "stopped",
         "",
@@ -102,6 +109,13 @@ _ROWS = (
         "c': largest `mesh_stiffness` while one tooth pair is loaded",
         WITH_TEETH + " and in some steps one pair is loaded",
     ),
+    (
+        "bore_twist_stiffness",
+        PER_WIDTH,
+        "about: stiffness along the line of action of both bodies that twist on the bores where they are held, without"
+        " teeth; it is in all mesh stiffnesses",
+        WITH_TEETH + ", on bores that are held",
+    ),
     ("largest_pair_force", "N", "largest normal force of a tooth pair", PAIR_LOADED),
     ("largest_pair_force_mesh_phase", "1", "mesh phase of the largest normal force of a tooth pair", PAIR_LOADED),
     ("largest_pair_force_from", "", "how that was found, as `peak_to_peak_transmission_error_from`", PAIR_LOADED),
@@ -134,8 +148,9 @@ _ROWS = (
     (
         "face_load_factor",
         "1",
-        "K_Hbeta: of the line load averaged over the mesh cycle, the largest away from the face's ends over the mean",
-        f"{OVER_FACE_WITH_FIELDS} of at least a mesh cycle",
+        "K_Hbeta: of the line load averaged over the mesh cycle, the largest away from the face's ends over the mean"
+        " there",
+        f"{OVER_FACE_WITH_FIELDS} of at least a mesh cycle; not where the face's ends alone carry",
     ),
     (
         "largest_line_load_factor",
@@ -172,8 +187,8 @@ _ROWS = (
             (
                 "face_load_factor",
                 "1",
-                "the least that these two can give, without friction; the variable `proposed_line_load`, N/mm, is the"
-                " line load of the mesh with them, mean over the mesh cycle",
+                "what a mesh cycle that was run with these two has, without inertia; the variable `proposed_line_load`,"
+                " N/mm, is the line load of the mesh with them, mean over the mesh cycle",
             ),
         )
     ),

@@ -20,6 +20,7 @@ from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.storage import CONTACT_COORDINATES
 from fenics_gears.numbers_version import NUMBERS_VERSION
 
+from .afterwards import attempted
 from .carried_scene import scene_attributes
 from .contact_variables import largest_normal_force, transmitted
 from .extrema import Extrema, extremes
@@ -43,15 +44,24 @@ class RunResult:
         counted = settled(model, max(recorder.steps - 1, 0))
         self._first = counted.first
         self.attrs = _attributes(recorder, march, self, counted.first)
-        self.attrs.update(_numbers(recorder, march, self, counted.first))
+        said: dict[str, str] = {}
+        numbers = attempted(said, "numbers of the run", lambda: _numbers(recorder, march, self, counted.first))
+        self.attrs.update(numbers or {})
         found = [counted.warning] if counted.warning else []
-        found += warnings_of(recorder, march, self)
-        found += warnings_of_energy(model.scene, self, recorder.cycle.steps, shown_steps(self))
-        found += _undetermined_shares(self)
-        for sentences in from_effects(model.scene, "findings", recorder.watched):
-            found += sentences
-        self.attrs["warnings"] = "\n".join(found)
+        found += attempted(said, "judgement of the run", lambda: self._judged(march)) or []
+        self.attrs.update(said, warnings="\n".join([*found, *said.get("warnings", "").splitlines()]))
         self.seconds = time.perf_counter() - begun
+
+    def _judged(self, march: March) -> list[str]:
+        """A sentence for each assumption of the model that the march breaks."""
+        recorder = self.recorder
+        scene = recorder.model.scene
+        found = warnings_of(recorder, march, self)
+        found += warnings_of_energy(scene, self, recorder.cycle.steps, shown_steps(self))
+        found += _undetermined_shares(self)
+        for sentences in from_effects(scene, "findings", recorder.watched):
+            found += sentences
+        return found
 
     def __getitem__(self, name: str) -> np.ndarray:
         return self._curves[name]

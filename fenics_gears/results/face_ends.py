@@ -36,10 +36,23 @@ def slice_ends(result: xr.Dataset) -> np.ndarray:
     return np.append(z - 0.5 * widths, z[-1] + 0.5 * widths[-1])
 
 
+def window_depth(pair: GearPair) -> float:
+    """Depth (mm) of the windows of the inner face over which means are compared: about that of an end zone, and a whole
+    number of them makes the inner face, so that no largest mean is below the mean of the inner face."""
+    low, high = inner_face(pair)
+    return (high - low) / round((high - low) / end_depth(pair))
+
+
 def windows(result: xr.Dataset, pair: GearPair) -> np.ndarray:
-    """Shares (k, S) of the slices in windows of the face as long as an end zone is deep, outside the end zones: all
-    windows over which the mean of values of slices can be largest. Values are not resolved within a layer of the
-    bodies; means over such a window are."""
-    ends, (low, high), length = slice_ends(result), inner_face(pair), end_depth(pair)
-    starts = np.unique(np.clip(np.concatenate([ends, ends - length, [low, high]]), low, high - length))
-    return np.diff(np.clip(ends, starts[:, None], starts[:, None] + length), axis=1) / length
+    """Shares (k, S) of the slices in windows of the inner face: all windows over which the mean of values of slices can
+    be largest. Values are not resolved within a layer of the bodies; means over such a window are."""
+    ends, (low, high), depth = slice_ends(result), inner_face(pair), window_depth(pair)
+    # Side by side they fill the inner face.
+    beside = low + depth * np.arange(round((high - low) / depth))
+    starts = np.unique(np.clip(np.concatenate([ends, ends - depth, beside]), low, high - depth))
+    return np.diff(np.clip(ends, starts[:, None], starts[:, None] + depth), axis=1) / depth
+
+
+def inner_widths(result: xr.Dataset, pair: GearPair) -> np.ndarray:
+    """Width (S,), mm, of each slice on the inner face."""
+    return np.diff(np.clip(slice_ends(result), *inner_face(pair)))

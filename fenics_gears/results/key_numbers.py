@@ -194,5 +194,8 @@ def path_point_values(
 
 
 def path_point_coordinate() -> tuple:
-    words = "start of contact, LPSTC of the pinion, pitch point, HPSTC of the pinion, end of contact"
+    words = (
+        "start of contact, LPSTC of the pinion, pitch point, HPSTC of the pinion, end of contact; with a contact ratio"
+        " above 2 the lowest and highest point of contact by the fewest pairs in place of LPSTC and HPSTC"
+    )
     return ("path_point", list(CONTACT_POINTS), {"long_name": f"point of the path of contact: {words}"})

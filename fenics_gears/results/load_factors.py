@@ -11,11 +11,13 @@ from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.window import coast_roll_angles
 from fenics_gears.geometry.pair import GearPair
 
-from .face_ends import end_depth, in_end_zone, windows
+from .face_ends import end_depth, in_end_zone, inner_widths, windows
 from .pairs import carrying_side
 
 # Mesh cycles beside a phase at which the lines of contact change.
 BESIDE = 1e-9
+# Share of a force that is round-off.
+NO_SHARE = 1e-9
 
 
 def load_factors(counted: xr.Dataset, pair: GearPair) -> dict[str, float]:
@@ -39,12 +41,21 @@ def line_loads(result: xr.Dataset, side: str) -> np.ndarray:
 
 
 def _of_cycle(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float]:
-    """Of the line load averaged over whole mesh cycles: its largest mean over a window, over that of the whole face."""
-    load, widths = mean_line_load(settled, side), settled["face_slice_width"].values
-    if load is None or not load.any():
-        return {}
-    mean = float(load @ widths / widths.sum())
-    return {"face_load_factor": float((windows(settled, pair) @ load).max()) / mean}
+    """Of the line load averaged over whole mesh cycles: its largest mean over a window of the inner face, over that of
+    the inner face; nothing where the end zones alone carry."""
+    load = mean_line_load(settled, side)
+    found = None if load is None else face_load_factor(load, settled, pair)
+    return {} if found is None else {"face_load_factor": found}
+
+
+def face_load_factor(load: np.ndarray, face: xr.Dataset, pair: GearPair) -> float | None:
+    """Largest mean of a line load (S,) over a window of the inner face, over that of the inner face, hence at least 1;
+    None where the end zones alone carry."""
+    widths = inner_widths(face, pair)
+    inner = float(load @ widths)
+    if inner <= NO_SHARE * float(load @ face["face_slice_width"].values):
+        return None
+    return float((windows(face, pair) @ load).max() * widths.sum() / inner)
 
 
 def mean_line_load(result: xr.Dataset, side: str) -> np.ndarray | None:
@@ -63,7 +74,8 @@ def mean_line_load(result: xr.Dataset, side: str) -> np.ndarray | None:
 def _of_instants(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float]:
     """Of the largest line load of one tooth pair at any stored step, the mean over a window away from edges, and of a
     slice at edges: over the line load that the force of that step makes if it spreads evenly along the lines of contact
-    of rigid gears when they are shortest."""
+    of rigid gears when they are shortest. It is no mean of the same places: where edges carry more than that, the rest
+    carries less, and the factor away from edges may be below 1."""
     loads, z = line_loads(settled, side), settled["face_position"].values
     force = (loads @ settled["face_slice_width"].values).sum(axis=1)
     ended, shares = _line_ends(settled, pair, side, z), windows(settled, pair)

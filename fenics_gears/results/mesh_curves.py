@@ -62,15 +62,19 @@ def mesh_stiffness(contact, status, forces, coordinates):
 
 @njit(cache=True)
 def _highest(overlap, node_pair):
-    """Largest overlap (mm) of flanks with overlaps (n,) at evenly spaced nodes: vertex of the parabola through the
-    largest and its neighbours. At nodes alone it would be too small by up to spacing^2/(8 rho)."""
-    top = np.argmax(overlap)
-    at = overlap[top]
-    if top == 0 or top == len(overlap) - 1 or not node_pair[top - 1] == node_pair[top] == node_pair[top + 1]:
-        return at
-    before, after = overlap[top - 1], overlap[top + 1]
-    bend = 2.0 * at - before - after
-    return at + (after - before) ** 2 / (8.0 * bend) if bend > 0.0 else at
+    """Largest overlap (mm) of flanks with overlaps (n,) at evenly spaced nodes: the highest vertex of the parabolas
+    through a node and its neighbours, of all nodes that are no lower than these. At nodes alone it would be too small
+    by up to spacing^2/(8 rho). Of slices whose highest nodes are alike no one is taken before the others."""
+    highest, last = -np.inf, len(overlap) - 1
+    for node in range(last + 1):
+        at = overlap[node]
+        highest = max(highest, at)
+        if 0 < node < last and node_pair[node - 1] == node_pair[node] == node_pair[node + 1]:
+            before, after = overlap[node - 1], overlap[node + 1]
+            bend = 2.0 * at - before - after
+            if at >= before and at >= after and bend > 0.0:
+                highest = max(highest, at + (after - before) ** 2 / (8.0 * bend))
+    return highest
 
 
 @njit(cache=True)

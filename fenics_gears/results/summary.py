@@ -15,6 +15,8 @@ MICROMETRES = 1e3
 KILO = 1e3
 # So many natural frequencies are printed.
 LOWEST = 6
+# Share of the mesh's deflection from which the twist of the bodies on their bores is told.
+NOTABLE_TWIST = 0.25
 # Lengths (um) that are round-off of positions.
 ROUND_OFF = 1e-6
 Row = tuple[str, str, str]
@@ -91,6 +93,16 @@ def _stiffness(found) -> Said:
         single = found.get("single_pair_stiffness")
         one = "" if single is None else f"; {single:.4g} at most while one tooth pair carries"
         yield "mesh stiffness, mean secant", f"{secant}{one}"
+        yield from _bore_twist(found)
+
+
+def _bore_twist(found) -> Said:
+    """Where much of the deflection is no tooth's: ISO 6336-1 and most measurements are without it."""
+    twist = found.get("bore_twist_stiffness", math.inf)
+    share = found["mean_mesh_stiffness_tangent"] / twist
+    if share >= NOTABLE_TWIST:
+        without = f"about {share:.0%} of the deflection, {twist:.3g} N/(mm um)"
+        yield "twist of the bodies on their bores", f"{without}; c_gamma of ISO 6336-1 is without it"
 
 
 def _pair_force(found) -> Said:

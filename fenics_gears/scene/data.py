@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from fenics_gears.geometry.gear_data import NOT_GIVEN, GearPairData, Material, MeasuredOver
 from fenics_gears.geometry.gear_data import GearData as GearData
-from fenics_gears.geometry.gear_data import GearPairData, Material
 from fenics_gears.inputs.tree import wheel_torque
 
 from .accuracy import ELASTIC as ELASTIC
@@ -100,8 +100,9 @@ class Scene:
     changed.
 
     One field for each effect of `effects.AT_THE_TOP`, in the same order, None where the scene does not name it;
-    `derived`: what the scene leaves out of gears and load; `written`: the text that it was read from; `folder`: from
-    which its files are looked for. (Elastic teeth are an effect too: they are there where `gears` have a material.)
+    `derived`: what the scene leaves out of gears and load; `measured_over`: spanned teeth and ball diameter of
+    pinion and wheel, where it names them; `written`: the text that it was read from; `folder`: from which its files are
+    looked for. (Elastic teeth are an effect too: they are there where `gears` have a material.)
     """
 
     title: str
@@ -129,6 +130,7 @@ class Scene:
     torque_ripple: TorqueRipple | None = None
     speed_ramp: SpeedRamp | None = None
     profile_modifications: ProfileModifications | None = None
+    measured_over: MeasuredOver = field(default=(NOT_GIVEN, NOT_GIVEN), compare=False, repr=False)
     written: str = field(default="", compare=False, repr=False)
     folder: str = field(default="", compare=False, repr=False)
 

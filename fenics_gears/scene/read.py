@@ -171,6 +171,7 @@ def scene_of(tree: Mapping[str, Any], text: str, name: str, directory: Path) -> 
         output=replace(checked.output, contact_fields=checked.output.contact_fields is not False),
         name=name,
         derived=(*derived, *of_load),
+        measured_over=(_measured_over(checked.gears.pinion), _measured_over(checked.gears.wheel)),
         written=text,
         folder=str(directory.absolute()),
         **{each.section: each.data_of(getattr(checked, each.section), directory) for each in effects_on(checked)},
@@ -178,6 +179,11 @@ def scene_of(tree: Mapping[str, Any], text: str, name: str, directory: Path) -> 
     # Known already; a scene that is made of this one has to find its own.
     scene.__dict__["text"] = text
     return scene, []
+
+
+def _measured_over(drawn) -> tuple[int | None, float | None]:
+    ball = drawn.ball_diameter
+    return drawn.spanned_teeth, None if ball is None else float(ball)
 
 
 def _motion(checked) -> data.Motion:

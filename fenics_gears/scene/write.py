@@ -19,7 +19,7 @@ from .read import NO_FILE, parsed, scene_from_text
 from .schema import scene_text
 
 # What a scene is called, and where it was read; it has these data whatever they are.
-WORDS = ("title", "name", "derived", "written", "folder")
+WORDS = ("title", "name", "derived", "measured_over", "written", "folder")
 
 
 def text_of(scene: data.Scene) -> str:

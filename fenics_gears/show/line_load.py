@@ -88,10 +88,10 @@ def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
         if mean is None
         else mean,
         "one tooth pair: largest at any time" + _factor(run, "edge_line_load_factor"): loads.max(axis=(0, 1)),
-        "one tooth pair: largest at any time, away from edges" + _factor(run, "largest_line_load_factor"): np.where(
-            away > 0.0, away, np.nan
-        ),
     }
+    if away.any():
+        words = "one tooth pair: largest at any time, away from edges" + _factor(run, "largest_line_load_factor")
+        curves[words] = np.where(away > 0.0, away, np.nan)
     # The third lies on the second but at edges, and is drawn within it.
     looks = zip(PALETTE, (1.6, 4.5, 1.6))
     drawn = [

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+import xarray as xr
 
 from fenics_gears.dynamics.march import March
 from fenics_gears.dynamics.shaft_at_work import even_load
@@ -26,9 +27,16 @@ AGAIN = "march, bearings as loaded"
 Marched = tuple[Recorder, March]
 
 
+class NoBalance(ComputationError):
+    """Loads go on changing from run to run; `marched`: the last of them, `partial`: its result."""
+
+    marched: Marched
+    partial: xr.Dataset
+
+
 def with_bearings_at_work(model: Model, marched: Callable[..., Marched]) -> Marched:
     """The run of a model whose bearings have the stiffness that they have under its own mean load. Raises
-    ComputationError where loads go on changing."""
+    NoBalance where loads go on changing."""
     shafts, size = model.drivetrain.elastic, np.array([1.0, 1.0, 1.0, *[1.0 / model.pair.face_width] * 2])
     loads = np.array([even_load(each, model.pair, model.scene.load.wheel_torque) for each in shafts])
     last = np.zeros_like(loads)
@@ -47,10 +55,12 @@ def with_bearings_at_work(model: Model, marched: Callable[..., Marched]) -> Marc
         loads, last = found + factor / (1.0 - factor) * step / size, step
         own = dict(zip((each.gear for each in shafts), loads))
         model = replace(model, drivetrain=drivetrain(model.scene, model.pair, own))
-    raise ComputationError(
+    failure = NoBalance(
         f"rolling bearings: after {MOST_RUNS} runs the mean load of a gear on its shaft still changes by"
         f" {change:.2g} of itself from run to run. Take a smaller clearance, a preload or a larger torque"
     )
+    failure.marched = recorder, march
+    raise failure
 
 
 def mean_loads(model: Model, recorder: Recorder) -> np.ndarray:

@@ -3,29 +3,40 @@ pinion for the least face load factor of the run's own mesh.
 
 Static positions of a mesh cycle are solved by the run's contact operators with other gaps, without friction; everything
 else that opens the flanks along the face counts as in the run. While the closed nodes stay closed, line load w (S,) is
-linear in amounts a = (slope, crowning); the largest mean over a window of the face, W w (`results.face_ends`), is then
-least by a linear program:
+linear in amounts a = (slope, crowning). The face load factor is the largest of W w over m w, means over windows of the
+inner face and over all of it (`results.face_ends`). It falls below its last value k where a linear program finds t < 0:
 
-    minimise t  with  W (w + dw/da d) <= t,  crowning + d_2 >= 0
+    minimise t  with  (W - k m) (w + dw/da d) <= t,  crowning + d_2 >= 0
 
-whose step d is halved until that largest mean falls, and which is repeated until it falls no more. Where a part of the
-face does not touch, a helix slope first takes off what is left open there and what the rest approaches by.
+whose step d is halved until the factor falls, and which is repeated until it falls no more. Where a part of the face
+does not touch, a helix slope first takes off what is left open there and what the rest approaches by. No step may press
+the load out of the inner face, nor take off more than the flanks approach unevenly without it.
+
+A march of one mesh cycle with the amounts, and with the friction of the scene, then has the factor that is told.
+Without one that is lower than the run's nothing is proposed.
 """
 
-from collections.abc import Callable
+from __future__ import annotations
+
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
+from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.tooth_pair import per_node
+from fenics_gears.contact.tooth_pair import DRIVE, per_node
 from fenics_gears.dynamics.between_steps import BetweenSteps
-from fenics_gears.dynamics.march import thread_pools
+from fenics_gears.dynamics.march import Marcher, thread_pools
+from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
 from fenics_gears.model.model import Model
-from fenics_gears.results.face_ends import windows
+from fenics_gears.results.dataset import RunResult
+from fenics_gears.results.face_ends import inner_widths, windows
+from fenics_gears.results.load_factors import face_load_factor, mean_line_load
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Scene
 
@@ -34,8 +45,11 @@ from .elastic_route import gaps_apart, gaps_of
 
 # Positions of the mesh cycle, about.
 POSITIONS = 16
-# Steps of the search, halvings of one, and the part of the face load factor below which a gain is none.
+# Steps of the search, halvings of one, and the change of the face load factor below which a gain is none.
 MOST_STEPS, MOST_HALVINGS, GAIN = 8, 5, 1e-3
+# The part of an even load's share that the inner face keeps, and the largest part of what the flanks approach unevenly,
+# which is estimated by the stiffness below, that is taken off.
+EVEN, MOST_TAKEN = 0.95, 1.5
 # Difference for derivatives, over the mean approach of the flanks, estimated by a mesh stiffness, N/mm per mm of face.
 DIFFERENCE, STIFFNESS = 0.05, 14e3
 MICROMETRE = 1e-3
@@ -43,7 +57,7 @@ MICROMETRE = 1e-3
 
 class Proposal(NamedTuple):
     """Lead modifications of the pinion, mm over its own face, in place of its own; the face load factor and the line
-    load (S,), N/mm, of all tooth pairs together, mean over the mesh cycle, with them."""
+    load (S,), N/mm, of all tooth pairs together, mean over a mesh cycle that was run with them."""
 
     helix_slope: float
     crowning: float
@@ -77,73 +91,87 @@ def add_proposal(dataset: xr.Dataset, recorder: Recorder) -> None:
 
 
 def proposed(recorder: Recorder) -> Proposal | None:
-    """The proposal for a run; None where a position has no solution without friction and inertia."""
-    loads = _LineLoads(recorder.model, recorder.cycle)
-    amounts, face = loads.own, xr.Dataset(coords=recorder.along_face[0].coordinates())
-    over, widths, last = windows(face, recorder.model.pair), face["face_slice_width"].values, np.inf
-    found = loads.of(amounts)
-    if found is None:
+    """The proposal for a run; None where a position has no solution without friction and inertia, or where no amounts
+    are confirmed."""
+    loads = _LineLoads(recorder.model, recorder.cycle, recorder.along_face[0].coordinates())
+    amounts = loads.own
+    found = first = loads.of(amounts)
+    if first is None or found is None:
         return None
-    mean = float(found.load @ widths / widths.sum())
+    last = np.inf
     for _ in range(MOST_STEPS):
-        largest = (over @ found.load).max()
-        if last - largest < GAIN * mean:
+        if last - found.factor < GAIN:
             break
-        last, slopes = largest, loads.slopes(amounts, found, mean)
-        steps = [] if slopes is None else [_towards_even(over @ found.load, over @ slopes, amounts[1])]
-        if not found.load.all():
-            steps.append(loads.closing(found))
-        tried = [_better(loads.of, amounts, step, lambda each: (over @ each.load).max(), last) for step in steps]
+        last = found.factor
+        steps = [step for step in (loads.towards_even(amounts, found), loads.closing(found)) if step is not None]
+        tried = [_better(loads, amounts, step, last, first) for step in steps]
         better = [each for each in tried if each is not None]
         if not better:
             break
-        amounts, found = min(better, key=lambda each: (over @ each[1].load).max())
-    return Proposal(float(amounts[0]), float(amounts[1]), float((over @ found.load).max()) / mean, found.load)
+        amounts, found = min(better, key=lambda each: each[1].factor)
+    if first.factor - found.factor < GAIN:
+        return None
+    return loads.confirmed(amounts, first.factor)
 
 
 class _Along(NamedTuple):
     """Mean over the mesh cycle: line load (S,), N/mm, of all tooth pairs, and what is left open (S,), mm, where the
-    flanks are nearest."""
+    flanks are nearest; the face load factor, infinite where the ends of the face alone carry, and the share of the load
+    between them."""
 
     load: np.ndarray
     opening: np.ndarray
+    factor: float
+    inner: float
+
+    @property
+    def uneven(self) -> float:
+        """By how much the flanks approach more in one slice than in another, about, mm: all that can be taken off."""
+        return float(np.ptp(self.load / STIFFNESS - self.opening))
 
 
 def _better(
-    of: Callable[[np.ndarray], _Along | None],
-    amounts: np.ndarray,
-    step: np.ndarray,
-    value: Callable[[_Along], float],
-    last: float,
+    loads: _LineLoads, amounts: np.ndarray, step: np.ndarray, last: float, first: _Along
 ) -> tuple[np.ndarray, _Along] | None:
-    """Amounts on the way of a step whose value is below the last one, and what they make along the face; None if there
-    are none."""
+    """Amounts on the way of a step whose factor is below the last one, and what they make along the face; None if there
+    are none. They take off no more than the flanks approach unevenly at `first`, with the scene's own, and press no
+    load out of the inner face."""
+    inner = min(first.inner, EVEN * loads.inner_share)
     for _ in range(MOST_HALVINGS):
-        found = of(amounts + step)
-        if found is not None and value(found) < last:
-            return amounts + step, found
+        if loads.taken_off(amounts + step) <= MOST_TAKEN * first.uneven:
+            found = loads.of(amounts + step)
+            if found is not None and found.factor < last and found.inner >= inner:
+                return amounts + step, found
         step = 0.5 * step
     return None
 
 
-def _towards_even(values: np.ndarray, slopes: np.ndarray, crowning: float) -> np.ndarray:
-    """The step (2,) of the amounts after which the largest of values (k,) that change by slopes (k, 2) is least."""
+def _towards_even(values: np.ndarray, slopes: np.ndarray, crowning: float) -> np.ndarray | None:
+    """The step (2,) of the amounts after which the largest of values (k,) that change by slopes (k, 2) is least; None
+    where they do not change, or where there is no least one."""
     # Imported here: few runs look for corrections.
     from scipy.optimize import linprog
 
-    scale = np.abs(slopes).max() / np.abs(values).max()
-    table = np.column_stack([slopes / np.abs(slopes).max(), -np.ones(len(values))])
+    steepest, largest = np.abs(slopes).max(initial=0.0), np.abs(values).max(initial=0.0)
+    if not (0.0 < steepest < np.inf and 0.0 < largest < np.inf):
+        return None
+    scale = steepest / largest
+    table = np.column_stack([slopes / steepest, -np.ones(len(values))])
     bounds = [(None, None), (-crowning * scale, None), (None, None)]
-    found = linprog([0.0, 0.0, 1.0], A_ub=table, b_ub=-values / np.abs(values).max(), bounds=bounds)
-    return found.x[:2] / scale
+    found = linprog([0.0, 0.0, 1.0], A_ub=table, b_ub=-values / largest, bounds=bounds)
+    return found.x[:2] / scale if found.success else None
 
 
 class _LineLoads:
     """Line loads of a model without friction and inertia, whatever lead modifications its pinion has; `own`: those of
     the scene."""
 
-    def __init__(self, model: Model, cycle: Cycle):
-        scene = model.scene
+    def __init__(self, model: Model, cycle: Cycle, along: Mapping[str, Any]):
+        scene, self._face, self._run = model.scene, xr.Dataset(coords=along), (model, cycle)
+        self._windows, widths = windows(self._face, model.pair), inner_widths(self._face, model.pair)
+        self._inner = widths / widths.sum()
+        # Of an even load.
+        self.inner_share = float(widths.sum() / cycle.face.widths.sum())
         self._model = at_rest(model, replace(quasi_static(scene), friction=None), cycle.steps)
         # Operators without friction are apart.
         indices = self._model.drivetrain.indices
@@ -155,38 +183,91 @@ class _LineLoads:
         self._places = np.unique(np.round(np.arange(1, count + 1) * cycle.steps / count)).astype(float).tolist()
 
     def of(self, amounts: np.ndarray) -> _Along | None:
-        """What a helix slope and a crowning, mm, make along the face; None where a position has no solution."""
-        slope, crowning = amounts.tolist()
-        pinion = replace(self._pinion, helix_slope=slope, crowning=crowning)
-        scene: Scene = replace(self._model.scene, lead_modifications=replace(self._leads, pinion=pinion))
-        model = replace(self._model, scene=scene)
+        """What a helix slope and a crowning, mm, make along the face; None where a position has no solution, or coast
+        flanks press."""
+        model = replace(self._model, scene=self._with(self._model.scene, amounts))
         # What differs from one mesh cycle to the next leaves no trace in their mean.
         cycle = self._cycle.with_gaps(replace(gaps_of(model, self._cycle), deviations=()))
         with thread_pools().limit(limits=1):
             solved = BetweenSteps(cycle, model.equations_of_motion, lambda record: True).at(self._places)
         load, opening = np.zeros((2, cycle.face.slices))
         for record in solved.values():
-            if record is None:
+            found = None if record is None else _of_position(record, len(load))
+            if found is None:
                 return None
-            operator, solution = record.position.operator, record.solution
-            slices = per_node(operator.pairs, np.array([pair.place.slice for pair in operator.pairs], dtype=int))
-            load += np.bincount(slices, solution.forces, minlength=len(load))
-            left = np.full(len(load), np.inf)
-            np.minimum.at(left, slices, operator.gap - solution.displacement)
-            opening += left
-        return _Along(load / cycle.face.widths / len(solved), opening / len(solved))
+            load += found[0]
+            opening += found[1]
+        load /= cycle.face.widths * len(solved)
+        force = float(load @ cycle.face.widths)
+        inner = float(load @ self._inner) * self.inner_share * cycle.face.widths.sum()
+        factor = face_load_factor(load, self._face, self._model.pair)
+        factor = np.inf if factor is None else factor
+        return _Along(load, opening / len(solved), factor, inner / force if force > 0.0 else 0.0)
 
-    def slopes(self, amounts: np.ndarray, found: _Along, mean: float) -> np.ndarray | None:
-        """Change of the line load (S, 2), N/mm, per mm of each amount, about those whose line load is `found`."""
-        step = DIFFERENCE * mean / STIFFNESS
+    def _with(self, scene: Scene, amounts: np.ndarray) -> Scene:
+        slope, crowning = amounts.tolist()
+        pinion = replace(self._pinion, helix_slope=slope, crowning=crowning)
+        return replace(scene, lead_modifications=replace(self._leads, pinion=pinion))
+
+    def confirmed(self, amounts: np.ndarray, least: float) -> Proposal | None:
+        """The amounts with what a march of one mesh cycle makes of them, without inertia, with the friction of the
+        scene; None where it has no solution or its face load factor is not below `least`."""
+        model, cycle = self._run
+        scene = self._with(quasi_static(model.scene), amounts)
+        motion = replace(scene.motion, mesh_cycles=1, recorded_cycles=1)
+        fields = replace(scene.output, contact_fields=True, root_stress=False)
+        still = at_rest(model, replace(scene, motion=motion, output=fields), cycle.steps)
+        own = cycle.with_gaps(replace(gaps_of(still, cycle), deviations=()))
+        recorder = Recorder(still, own)
+        try:
+            march = Marcher(own, still.equations_of_motion).run(still.steps, 1, observe=recorder.take)
+        except ContactNotConverged:
+            return None
+        if march.interrupted:
+            return None
+        recorder.finish()
+        load = mean_line_load(RunResult(recorder, march).dataset, "")
+        factor = None if load is None else face_load_factor(load, self._face, model.pair)
+        if load is None or factor is None or factor >= least:
+            return None
+        return Proposal(float(amounts[0]), float(amounts[1]), factor, load)
+
+    def taken_off(self, amounts: np.ndarray) -> float:
+        """By how much more two amounts take off the pinion at one place of the common face than at another, mm, beyond
+        the scene's own."""
+        slope, crowning = amounts - self.own
+        places = np.linspace(*self._model.pair.common_face, 21) / self._model.pair.face_widths[0]
+        return float(np.ptp(slope * places + 4.0 * crowning * places**2))
+
+    def towards_even(self, amounts: np.ndarray, found: _Along) -> np.ndarray | None:
+        """The step of the amounts that makes the load even if it stays linear in them; None where there is none."""
+        if not np.isfinite(found.factor):
+            return None
+        step = DIFFERENCE * float(found.load.mean()) / STIFFNESS
         beside = [self.of(amounts + step * each) for each in np.eye(2)]
         if beside[0] is None or beside[1] is None:
             return None
-        slopes = np.stack([each.load - found.load for each in beside], axis=1) / step
-        return slopes if slopes.any() else None
+        slopes = np.stack([each.load - found.load for each in beside if each is not None], axis=1) / step
+        over = self._windows - found.factor * self._inner
+        return _towards_even(over @ found.load, over @ slopes, amounts[1])
 
-    def closing(self, found: _Along) -> np.ndarray:
-        """The helix slope, mm, beside no crowning, that closes what is left open."""
+    def closing(self, found: _Along) -> np.ndarray | None:
+        """The helix slope, mm, beside no crowning, that closes what is left open; None where all the face touches."""
+        if found.load.all():
+            return None
         places = self._cycle.face.positions / self._model.pair.face_widths[0]
         slope = np.polyfit(places, found.opening - found.load / STIFFNESS, 1)[0]
         return np.array([-slope, 0.0])
+
+
+def _of_position(record: Record, slices: int) -> tuple[np.ndarray, np.ndarray] | None:
+    """Force (S,), N, and what is left open (S,), mm, at a position; None where coast flanks press."""
+    operator, solution = record.position.operator, record.solution
+    places = np.array([(pair.place.slice, pair.place.flank) for pair in operator.pairs], dtype=int)
+    number, flank = per_node(operator.pairs, places.reshape(-1, 2)).T
+    drive = flank == DRIVE
+    if (solution.forces[~drive] > NO_FORCE).any():
+        return None
+    left = np.full(slices, np.inf)
+    np.minimum.at(left, number[drive], (operator.gap - solution.displacement)[drive])
+    return np.bincount(number[drive], solution.forces[drive], minlength=slices), left

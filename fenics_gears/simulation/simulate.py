@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import functools
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
+from math import isinf
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,8 +18,10 @@ from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.errors import ComputationError, MemoryEnded
+from fenics_gears.model.bore_twist import bore_twist_stiffness
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model, model_of
+from fenics_gears.results.afterwards import attempted
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.extrema import repeating_steps
 from fenics_gears.results.numbers import ESTIMATED
@@ -41,6 +45,8 @@ OTHER_SETTINGS = (
 )
 # The stage that marches through time.
 MARCH = "march"
+MICROMETRE = 1e-3
+Keep = Callable[[xr.Dataset], None]
 
 
 def simulate(
@@ -51,6 +57,7 @@ def simulate(
     preparation: Preparation | None = None,
     job: Job | None = None,
     journal: Place | None = None,
+    keep: Keep | None = None,
 ) -> xr.Dataset:
     """Run a scene and return its result, an `xarray.Dataset` (docs/result.md).
 
@@ -71,6 +78,8 @@ def simulate(
     job: of rank 0, whose ranks share the bodies over the face and the remeshing of `condensation = "every step"`.
     journal: where a march that lasts longer than a few seconds is written down as it goes (`results.journal`); the
         caller removes it.
+    keep: is given the result as soon as the march ends. What follows, dynamic factors and proposed lead modifications,
+        may fail: a warning then says so, and the attribute `failed_afterwards` names it.
 
     Raises GeometryError before any computation where the gears are impossible; ComputationError where the run does not
     fit into the memory that it may take, or a stage fails: steps that were computed before are then in its attribute
@@ -85,7 +94,7 @@ def simulate(
     >>> print(f"{mm:.2f} mm along the line of action at most")
     0.16 mm along the line of action at most
     """
-    result = solved(scene, progress=progress, cache=cache, preparation=preparation, job=job, journal=journal)
+    result = solved(scene, progress=progress, cache=cache, preparation=preparation, job=job, journal=journal, keep=keep)
     return _with_lead_correction(result, progress or SilentProgress())
 
 
@@ -97,8 +106,9 @@ def solved(
     preparation: Preparation | None = None,
     job: Job | None = None,
     journal: Place | None = None,
+    keep: Keep | None = None,
 ) -> RunResult:
-    """As `simulate`; its dataset is put together when it is asked for."""
+    """As `simulate`, without proposed lead modifications; its dataset is put together when it is asked for."""
     progress, cache = progress or SilentProgress(), cache or user_cache()
     try:
         compile_ahead(progress)
@@ -108,14 +118,17 @@ def solved(
         prepare = preparation or functools.partial(prepared, job=job)
         with writing_meanwhile(cache) as kept:
             result = _simulated(model, progress, kept, prepare, journal)
+        if chosen and "accuracy." in result.attrs["warnings"]:
+            chosen["target_remarks"] = OTHER_SETTINGS
+        result.attrs.update(chosen)
+        if keep is not None:
+            keep(result.dataset)
+        _add_dynamic_factors(result, progress)
     except MemoryError:
         raise MemoryEnded("before the run was over") from None
     finally:
         # Here, where the run's own arrays are free.
         give_back()
-    if chosen and "accuracy." in result.attrs["warnings"]:
-        chosen["target_remarks"] = OTHER_SETTINGS
-    result.attrs.update(chosen)
     return result
 
 
@@ -153,13 +166,16 @@ def _simulated(
         return recorder, _marched(recorder, gears, compiled, progress)
 
     if model.drivetrain.on_rolling_bearings:
-        from .bearings_at_work import with_bearings_at_work
+        from .bearings_at_work import NoBalance, with_bearings_at_work
 
-        recorder, march = with_bearings_at_work(model, marched)
+        try:
+            recorder, march = with_bearings_at_work(model, marched)
+        except NoBalance as failure:
+            failure.partial = result_of(*failure.marched, gears, compiled, "failed").dataset
+            raise
     else:
         recorder, march = marched(model)
-    result = result_of(recorder, march, gears, compiled, "interrupted" if march.interrupted else "")
-    return _with_dynamic_factors(recorder, result, progress)
+    return result_of(recorder, march, gears, compiled, "interrupted" if march.interrupted else "")
 
 
 def memory_for_operators(model: Model) -> float:
@@ -222,18 +238,18 @@ def _varying_load(model: Model, step: float | None) -> str:
     )
 
 
-def _with_dynamic_factors(recorder: Recorder, result: RunResult, progress: Progress) -> RunResult:
-    """The result with its dynamic factors, which need a second, quasi-static run; only for complete runs with
-    inertia."""
+def _add_dynamic_factors(result: RunResult, progress: Progress) -> None:
+    """Give the result its dynamic factors, which need a second, quasi-static run; only complete runs with inertia have
+    them."""
+    recorder = result.recorder
     if recorder.model.scene.inertia is None or not result.attrs["complete"]:
-        return result
+        return
     from . import dynamic_factor
 
-    if not dynamic_factor.wanted(recorder.model.scene):
-        return result
-    progress.stage("quasi-static run")
-    result.attrs.update(dynamic_factor.dynamic_factors(recorder, result))
-    return result
+    if dynamic_factor.wanted(recorder.model.scene):
+        progress.stage("quasi-static run")
+        found = attempted(result.attrs, "dynamic factor", lambda: dynamic_factor.dynamic_factors(recorder, result))
+        result.attrs.update(found or {})
 
 
 def _with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
@@ -245,7 +261,8 @@ def _with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
 
     if lead_correction.wanted(model):
         progress.stage("propose lead modifications")
-        lead_correction.add_proposal(dataset, result.recorder)
+        add = functools.partial(lead_correction.add_proposal, dataset, result.recorder)
+        attempted(dataset.attrs, "proposal of lead modifications", add)
     return dataset
 
 
@@ -259,8 +276,10 @@ def result_of(recorder: Recorder, march: March, gears, compiled: float, stopped:
         # Not within a handler, which would hold what was made until memory ended.
         cycle.give_up()
         result = RunResult(recorder, march)
+    twist = bore_twist_stiffness(model.scene, model.pair)
     result.attrs.update(
         {"stopped": stopped} if stopped else {},
+        **({} if isinf(twist) else {"bore_twist_stiffness": twist * MICROMETRE / model.pair.face_width}),
         complete=int(not stopped),
         warnings="\n".join(worst_first([*model.warnings, *result.attrs["warnings"].splitlines()])),
         base_radius_wheel=model.pair.wheel.base_radius,

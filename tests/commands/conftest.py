@@ -29,18 +29,20 @@ def small_result(complete=1):
 
 @pytest.fixture
 def simulation(monkeypatch, tmp_path):
-    """Its ``outcome`` is returned or raised; the test runs in an empty directory."""
+    """Its ``outcome`` is kept and goes through ``afterwards``, or is raised; the test runs in an empty directory."""
     monkeypatch.chdir(tmp_path)
     stand_in = types.ModuleType("fenics_gears.simulation.simulate")
     stand_in.outcome, stand_in.calls = small_result(), []
+    stand_in.afterwards = lambda result: result
 
-    def simulate(scene, *, progress=None, job=None, journal=None):
+    def simulate(scene, *, progress=None, job=None, journal=None, keep=None):
         stand_in.calls.append(scene)
         progress.stage("march")
         progress.update(1, 3)
         if isinstance(stand_in.outcome, BaseException):
             raise stand_in.outcome
-        return stand_in.outcome
+        keep(stand_in.outcome)
+        return stand_in.afterwards(stand_in.outcome)
 
     stand_in.simulate = simulate
     plots = types.ModuleType("fenics_gears.show.plots")

@@ -2,12 +2,13 @@
 
 import os
 import signal
+import sys
 
 import pytest
 from tests.commands.conftest import files, small_result
 from tests.programs import DEMO
 
-from fenics_gears import ComputationError
+from fenics_gears import ComputationError, results
 from fenics_gears.commands.cli import main
 
 
@@ -16,7 +17,7 @@ def test_ctrl_c_waits_for_the_end_of_a_step(simulation, tmp_path):
     before = signal.getsignal(signal.SIGINT)
     steps = []
 
-    def march(scene, *, progress, job, journal):
+    def march(scene, *, progress, job, journal, keep):
         progress.stage("march")
         try:
             for step in range(10):
@@ -25,8 +26,9 @@ def test_ctrl_c_waits_for_the_end_of_a_step(simulation, tmp_path):
                     os.kill(os.getpid(), signal.SIGINT)
                 steps.append(step)
         except KeyboardInterrupt:
+            keep(small_result(complete=0))
             return small_result(complete=0)
-        return small_result()
+        raise AssertionError("Ctrl-C was not heeded")
 
     simulation.simulate = march
     assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 130
@@ -38,7 +40,7 @@ def test_ctrl_c_waits_for_the_end_of_a_step(simulation, tmp_path):
 def test_a_second_ctrl_c_does_not_wait(simulation, tmp_path):
     """A step that never ends can be left."""
 
-    def hang(scene, *, progress, job, journal):
+    def hang(scene, *, progress, job, journal, keep):
         progress.stage("march")
         progress.update(1, 10)
         os.kill(os.getpid(), signal.SIGINT)
@@ -99,3 +101,49 @@ def test_a_failed_computation_keeps_what_was_done(simulation, capsys, tmp_path, 
     assert "no convergence in step 17" in error
     assert files(tmp_path) == (["here/run.nc"] if partial else [])
     assert ("marked incomplete: here/run.nc" in error) == partial
+
+
+def test_what_comes_after_the_march_is_added_to_a_file_that_is_there(simulation, tmp_path):
+    """A run is kept as soon as its march ends: its file is there when what follows begins, and has it at the end."""
+
+    def afterwards(result):
+        with results.load("here/run.nc") as kept:
+            assert kept.attrs["complete"] == 1 and "dynamic_factor_by_force" not in kept.attrs
+        return result.assign_attrs(dynamic_factor_by_force=1.25)
+
+    simulation.afterwards = afterwards
+    assert main(["run", str(DEMO), "--output", "here", "--quiet", "--no-pictures"]) == 0
+    with results.load("here/run.nc") as kept:
+        assert kept.attrs["dynamic_factor_by_force"] == 1.25
+
+
+def test_ctrl_c_after_the_march_leaves_a_whole_result(simulation, capsys, tmp_path):
+    """A real signal while factors or proposals are computed: exit code 130, the file as the march made it."""
+
+    def afterwards(result):
+        os.kill(os.getpid(), signal.SIGINT)
+        raise AssertionError("the signal was not heeded")
+
+    simulation.afterwards = afterwards
+    assert main(["run", str(DEMO), "--output", "here"]) == 130
+    assert "The result is whole, without what would have followed the march: here/run.nc" in capsys.readouterr().err
+    assert files(tmp_path) == ["here/run.nc"]
+
+
+@pytest.mark.parametrize("what", ["dynamic factor", "pictures", "summary"])
+def test_what_fails_after_the_march_costs_exit_code_5(simulation, capsys, monkeypatch, tmp_path, what):
+    """The result stands, a warning says what is missing and why; no traceback."""
+
+    def fails(*_):
+        raise ZeroDivisionError("float\ndivision")
+
+    if what == "dynamic factor":
+        simulation.outcome.attrs |= {"failed_afterwards": what, "warnings": f"{what}: failed: float division"}
+    elif what == "pictures":
+        sys.modules["fenics_gears.show.plots"].draw_run = fails
+    else:
+        monkeypatch.setattr("fenics_gears.results.summary.summary_rows", fails)
+    assert main(["run", str(DEMO), "--output", "here"]) == 5
+    said = capsys.readouterr()
+    assert f"{what}: failed" in said.out + said.err and "float division" in said.out + said.err
+    assert "here/run.nc" in files(tmp_path) and "here/run.nc" in said.out

@@ -20,7 +20,8 @@ from fenics_gears.scene.write import section_trees, text_of
 from fenics_gears.show.bent_shafts import bent_shafts
 from fenics_gears.show.plots import run_figures
 from fenics_gears.show.run import Run
-from fenics_gears.simulation.bearings_at_work import mean_loads, with_bearings_at_work
+from fenics_gears.simulation.bearings_at_work import NoBalance, mean_loads, with_bearings_at_work
+from fenics_gears.simulation.simulate import simulate
 
 
 def shear(outer, bore):
@@ -194,6 +195,16 @@ def test_rolling_bearings_carry_by_their_law_in_the_run(of_input):
         for axis, load in zip("xyz", law):
             found = result[f"bearing_force_{axis}"].values[1:, number].mean()
             assert abs(found - load) <= 2e-4 * np.abs(law[:3]).max()
+
+
+def test_bearings_that_find_no_balance_leave_the_last_run(monkeypatch):
+    """What was computed is kept: the error carries the last march, marked as failed."""
+    monkeypatch.setattr("fenics_gears.simulation.bearings_at_work.MOST_RUNS", 1)
+    model = model_of(helical_scene(ROLLING + OUTPUT + WHEEL, offset=2.0, accuracy=FEW))
+    with pytest.raises(NoBalance, match="still changes by") as failure:
+        simulate(model, preparation=lambda *_: ((), cycle_of(model, on_stand_in_bodies(model))))
+    partial = failure.value.partial
+    assert partial.sizes["time"] == model.steps + 1 and partial.attrs["stopped"] == "failed"
 
 
 @pytest.mark.parametrize("torque", [3e5, -3e5], ids=["drive", "coast"])

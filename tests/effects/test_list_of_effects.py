@@ -18,6 +18,7 @@ def test_schema_data_and_list_know_the_same_sections():
         "derived",
         "written",
         "folder",
+        "measured_over",
     } == set(AT_THE_TOP)
 
 

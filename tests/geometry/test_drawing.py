@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from tests.drawn_pairs import PAIRS, figures, table
 
-from fenics_gears import RACKS, GeometryError, SceneError, build_scene, gear_pair, load_scene, scene_from_text
+from fenics_gears import RACKS, GeometryError, SceneError, build_scene, gear_pair, load_scene, model_of, scene_from_text
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.gear_data import MATERIALS
 from fenics_gears.scene.data import Material
@@ -288,3 +288,62 @@ def test_a_centre_distance_that_leaves_no_teeth_is_named():
     """ISO 21771: 3 (19 + 31)/(2 cos 44 deg) = 104.262 mm; no tip diameter would help."""
     with pytest.raises(GeometryError, match=r"pair: centre distance 76 mm, .* have 104.262 mm: .* gears.centre_dist"):
         scene_of({"helix_angle": "44 deg", "pinion_hand": "right", "centre_distance": "76 mm"})
+
+
+def rows_of(scene):
+    return {name: value for name, value, _ in characteristics(gear_pair(scene.gears), scene.measured_over)}
+
+
+def test_measures_are_over_the_ball_and_the_teeth_of_the_drawing():
+    """KHK's worked example, helical 20/15 deg, x = 0.4 over balls of 2 mm: 24.5696; one measure of a gear, not two."""
+    gears = {"module": "1 mm", "helix_angle": "15 deg", "face_width": "10 mm"}
+    given = {"profile_shift": 0.4, "ball_diameter": "2 mm", "spanned_teeth": 3, "bore_diameter": "5 mm"}
+    scene = scene_of(gears, {"teeth": 20, **given}, {"teeth": 21, **given})
+    rows = rows_of(scene)
+    assert rows["pinion dimension over balls of 2 mm (M_d)"] == pytest.approx(24.5696, abs=5e-5)
+    for name, value in derived(scene).items():
+        if "over balls" in name or "tangent length" in name:
+            ending = "(M_d)" if "balls" in name else "(W_k)"
+            assert rows[f"{name} {ending}"] == pytest.approx(value, rel=1e-12)
+    assert sum("over balls" in name for name in rows) == 2
+
+
+def test_backlash_that_is_round_off_is_none_whatever_it_is_along():
+    """A centre distance rounded to 0.001 um: along the line of action, circles and normal 0 mm, never below."""
+    gears = {"module": "3 mm", "helix_angle": "30 deg", "centre_distance": "125 mm"}
+    scene = scene_of(
+        gears, {"teeth": 12, "profile_shift": 0.09809, "bore_diameter": "15 mm"}, {"teeth": 60, "profile_shift": 0}
+    )
+    rows = rows_of(scene)
+    assert gear_pair(scene.gears).circumferential_backlash < -1e-6
+    for name in ("backlash along the line of action", "normal backlash (j_bn)"):
+        assert rows[name] == 0.0
+    assert rows["circumferential backlash at the pitch circles (j_wt)"] == 0.0
+
+
+LONG_TEETH = {"rack": {"addendum": 1.53, "dedendum": 1.7, "tip_radius": 0.2}}
+ALIKE = {"teeth": 28, "profile_shift": 0}
+
+
+@pytest.mark.parametrize("gears, letters", [({}, "STC"), (LONG_TEETH, "DTC")])
+def test_points_of_contact_by_the_fewest_pairs_have_its_name(gears, letters):
+    """Counting pairs of rigid gears on the path of contact: as few as the name says between the points, one more just
+    outside; where no pair is ever alone a relief from HPSTC is remarked on."""
+    relief = {"tip_relief": {"depth": "10 um", "start": "HPSTC"}}
+    scene = scene_of(gears, ALIKE, ALIKE, **relief)
+    pair, rows = gear_pair(scene.gears), rows_of(scene)
+    fewest = {"STC": 1, "DTC": 2}[letters]
+
+    def pairs_at(roll):
+        """In contact while one of them is there."""
+        position = roll * pair.pinion.base_radius
+        places = [position + k * pair.base_pitch for k in range(-4, 5)]
+        return sum(pair.path_start <= place <= pair.path_end for place in places)
+
+    low, high = (rows[f"pinion roll angle, {end}{letters}"] * pi / 180.0 for end in ("LP", "HP"))
+    assert pairs_at(low + 1e-6) == pairs_at(high - 1e-6) == fewest
+    assert pairs_at(low - 1e-6) == pairs_at(high + 1e-6) == fewest + 1
+    said = [each for each in model_of(scene).warnings if "no tooth pair is ever alone" in each]
+    assert len(said) == (letters == "DTC") and all(
+        "highest point of double tooth contact (HPDTC)" in one for one in said
+    )

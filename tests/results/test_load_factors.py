@@ -9,8 +9,8 @@ from tests.helical import wide_pair
 
 from fenics_gears import gear_pair
 from fenics_gears.contact.window import coast_roll_angles
-from fenics_gears.results.face_ends import end_depth, inner_face, slice_ends, windows
-from fenics_gears.results.load_factors import end_of_line, load_factors
+from fenics_gears.results.face_ends import end_depth, inner_face, slice_ends, window_depth, windows
+from fenics_gears.results.load_factors import end_of_line, face_load_factor, load_factors
 
 SLICES, STEPS, FIRST, SLOTS = 10, 200, 2, 5
 
@@ -79,13 +79,13 @@ def of_one_force(result: xr.Dataset) -> xr.Dataset:
 
 @pytest.mark.parametrize("slices", [10, 40, [0.0, 0.02, 0.05, 0.2, 0.5, 0.78, 0.82, 0.9, 1.0]])
 def test_line_load_that_grows_along_a_spur_gear(spur, slices):
-    """Closed form for 1 + a z over a width b: 1 + a (b/2 - 1.5 depths) beside the end zone, however the face is
-    divided; the outermost slice has the edge's."""
+    """Closed form for 1 + a z over a width b: 1 + a (b/2 - end zone - half a window) beside the end zone, however the
+    face is divided; the outermost slice has the edge's."""
     result = of_one_force(run_of(spur, lambda xi, z: 100.0 * (1.0 + 0.05 * z) + 0.0 * xi, slices))
     factors = load_factors(result, spur)
-    expected = 1.0 + 0.05 * (0.5 * spur.face_width - 1.5 * end_depth(spur))
+    expected = 1.0 + 0.05 * (inner_face(spur)[1] - 0.5 * window_depth(spur))
     assert factors["face_load_factor"] == pytest.approx(expected, rel=5e-3)
-    assert factors["largest_line_load_factor"] == pytest.approx(factors["face_load_factor"], rel=1e-12)
+    assert factors["largest_line_load_factor"] == pytest.approx(expected, rel=5e-3)
     assert factors["edge_line_load_factor"] == pytest.approx(
         1.0 + 0.05 * result["face_position"].values.max(), rel=1e-12
     )
@@ -100,18 +100,39 @@ def test_windows_find_the_largest_running_mean(spur):
     result = run_of(spur, lambda xi, z: 1.0 + 0.0 * xi * z, list(ends))
     values = random.uniform(size=31)
     low, high = inner_face(spur)
-    starts = np.linspace(low, high - end_depth(spur), 100_000)
+    depth = window_depth(spur)
+    starts = np.linspace(low, high - depth, 100_000)
     integral = np.append(0.0, np.cumsum(values * np.diff(slice_ends(result))))
     brute = (
-        np.interp(starts + end_depth(spur), slice_ends(result), integral)
-        - np.interp(starts, slice_ends(result), integral)
-    ) / end_depth(spur)
+        np.interp(starts + depth, slice_ends(result), integral) - np.interp(starts, slice_ends(result), integral)
+    ) / depth
     found = windows(result, spur)
     assert found.sum(axis=1) == pytest.approx(1.0, abs=1e-12)
     assert (found @ values).max() == pytest.approx(brute.max(), rel=1e-4) and (
         found @ values
     ).max() >= brute.max() - 1e-12
     assert end_depth(spur) == min(0.5 * spur.pinion.normal_module, 0.1 * spur.face_width)
+    assert depth == pytest.approx(end_depth(spur), rel=0.1) and (high - low) / depth % 1.0 == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize("name", ["spur", "helical"])
+def test_no_face_load_factor_is_below_one(name, request):
+    """A largest mean over parts that make up a width is at least the mean over that width: loads at random, alone on
+    the end zones, beside nothing, and like a comb whose teeth no window holds two of."""
+    pair, random = request.getfixturevalue(name), np.random.default_rng(5)
+    width, zone = pair.face_width, end_depth(pair)
+    for trial in range(200):
+        ends = np.sort(random.uniform(0.02, 0.98, size=trial % 30 + 1))
+        face = run_of(pair, lambda xi, z: 1.0 + 0.0 * xi * z, [0.0, *ends, 1.0])
+        factor = face_load_factor(random.uniform(size=len(ends) + 1) ** 4, face, pair)
+        assert factor >= 1.0 - 1e-12
+    ends = [0.0, *np.sort(np.clip([zone / width, *np.arange(1, 20) / 20.5, 1.0 - zone / width], 0.0, 1.0)), 1.0]
+    face = run_of(pair, lambda xi, z: 1.0 + 0.0 * xi * z, ends)
+    comb = np.arange(len(ends) - 1) % 2 * 1.0
+    assert face_load_factor(comb, face, pair) >= 1.0
+    alone = np.zeros(len(comb))
+    alone[[0, -1]] = 1.0
+    assert face_load_factor(alone, face, pair) is None and face_load_factor(0.0 * comb, face, pair) is None
 
 
 @pytest.mark.parametrize("hand", ["right", "left"])
@@ -126,7 +147,7 @@ def test_average_over_the_mesh_cycle_of_a_helical_gear(helical, hand, side):
     )
     found = load_factors(on_coast_flanks(result) if side else result, pair)["face_load_factor"]
     # To the steps at which a slice begins and ends its path.
-    assert found == pytest.approx(1.0 + 0.02 * (inner_face(pair)[1] - 0.5 * end_depth(pair)), rel=5e-3)
+    assert found == pytest.approx(1.0 + 0.02 * (inner_face(pair)[1] - 0.5 * window_depth(pair)), rel=5e-3)
 
 
 @pytest.mark.parametrize("end", ["start", "end"])

@@ -25,7 +25,8 @@ def coarse(paper_scene):
 def test_an_ordinary_run_has_nothing_to_say_but_of_its_sharp_tips(coarse):
     """The paper's damped pair; unrelieved, its tips carry on their edges."""
     result = simulate(coarse)
-    (said,) = result.attrs["warnings"].splitlines()
+    # Coarse elements are said to be coarse.
+    (said,) = [line for line in result.attrs["warnings"].splitlines() if "half the Hertz" not in line]
     assert said.startswith("contact reaches the sharp edge of the pinion's and the wheel's tip")
     assert result.attrs["contact_loss_count"] == 0 and "contact_loss_first" not in result.attrs
 

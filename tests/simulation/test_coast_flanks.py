@@ -8,7 +8,7 @@ import pytest
 from tests.coarse import COARSE, quasi_static
 
 from fenics_gears import simulate
-from fenics_gears.contact.tooth_pair import coast_place, drive_place
+from fenics_gears.contact.tooth_pair import apart, coast_place, drive_place
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.effects.friction import Friction
@@ -26,7 +26,9 @@ def both_flanks(paper_scene):
 
 @pytest.mark.parametrize("part", [0.1, 0.5, 0.9])
 def test_coast_flanks_stand_where_the_tooth_outlines_have_them(paper_pair, part):
-    """Exact: the outlines' coast points lie on the mirrored line of action, a backlash apart."""
+    """Exact: the outlines' coast points meet on the mirrored line of action once the wheel has turned by the
+    backlash."""
+    closed = paper_pair.backlash / paper_pair.wheel.base_radius
     xi = paper_pair.path_start + part * (paper_pair.path_end - paper_pair.path_start)
     place, drive = coast_place(paper_pair, 0, xi), drive_place(paper_pair, 0, xi)
     behind = drive_place(paper_pair, -1, xi - paper_pair.base_pitch)
@@ -34,7 +36,7 @@ def test_coast_flanks_stand_where_the_tooth_outlines_have_them(paper_pair, part)
     tangent_points, points = [], []
     for gear, roll, turned in (
         (paper_pair.pinion, place.contact_rolls[0], drive.contact_rolls[0]),
-        (paper_pair.wheel, place.contact_rolls[1], behind.contact_rolls[1] + np.pi),
+        (paper_pair.wheel, place.contact_rolls[1], behind.contact_rolls[1] + np.pi - closed),
     ):
         flank = tooth_outline(gear).coast(canonical_point(gear.base_radius, roll)[None])[0]
         points.append(rotation(turned) @ flank)
@@ -49,7 +51,8 @@ def test_coast_flanks_stand_where_the_tooth_outlines_have_them(paper_pair, part)
     assert wheel == pytest.approx(
         tangent_points[1] - normal * paper_pair.wheel.base_radius * place.contact_rolls[1], abs=1e-9
     )
-    assert wheel - pinion == pytest.approx(paper_pair.backlash * normal, abs=1e-9)
+    assert wheel == pytest.approx(pinion, abs=1e-9)
+    assert apart(paper_pair, [place, drive]) == pytest.approx([paper_pair.backlash, 0.0], abs=1e-12)
 
 
 def test_a_pair_that_stays_in_contact_does_not_feel_its_coast_flanks(both_flanks):

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, VIBRATING
 from tests.helical import FRICTION, helical_scene, on_stand_in_bodies
@@ -12,7 +13,7 @@ from fenics_gears.effects.lead_modifications import LeadModification, LeadModifi
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.write import text_of
 from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle
-from fenics_gears.simulation.lead_correction import wanted
+from fenics_gears.simulation.lead_correction import _towards_even, wanted
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate, solved
 
@@ -112,6 +113,56 @@ def test_only_what_tilts_asks_for_a_correction():
     assert "proposed_helix_slope" not in simulate(straight, preparation=Runs(None, bodies).prepare).attrs
     tilted = model_of(helical_scene(MISALIGNED, helix=0.0, accuracy=ACCURACY))
     assert "proposed_helix_slope" not in solved(tilted, preparation=Runs(None, bodies).prepare).attrs
+
+
+@pytest.mark.parametrize(
+    "part, name",
+    [
+        ("lead_correction.proposed", "proposal of lead modifications"),
+        ("dynamic_factor.dynamic_factors", "dynamic factor"),
+    ],
+)
+def test_a_result_survives_what_fails_after_its_march(monkeypatch, part, name):
+    """The same numbers as without the failure, which a warning tells; anything may fail there."""
+
+    def fails(*_):
+        raise TypeError("'NoneType' object is not subscriptable")
+
+    model = model_of(helical_scene(VIBRATING, offset=2.0, accuracy=FEW, frequency=200.0))
+    runs = Runs(model.scene, on_stand_in_bodies(model))
+    whole = simulate(model, preparation=runs.prepare)
+    monkeypatch.setattr(f"fenics_gears.simulation.{part}", fails)
+    left = simulate(model, preparation=runs.prepare)
+    assert left.attrs["complete"] == 1 and "failed_afterwards" not in whole.attrs
+    assert left.attrs["failed_afterwards"] == name
+    assert "TypeError: 'NoneType' object is not subscriptable" in left.attrs["warnings"]
+    np.testing.assert_array_equal(left["transmission_error"].values, whole["transmission_error"].values)
+
+
+@pytest.mark.parametrize("torque", [1e1, 3e2, 3e3, 1e5])
+@pytest.mark.parametrize("in_plane", [-40.0, 4.0])
+def test_light_loads_have_a_proposal_that_helps_or_none(torque, in_plane):
+    """Laws: a face load factor is at least 1; a proposal has a lower one than the run, which a run with it has too; it
+    takes off no more than what tilts the flanks, here misalignment, half as much again where the deflection is
+    counted in. Loads that the face's ends alone carry, or a single slice."""
+    scene = helical_scene(f'[misalignment]\nin_plane = "{in_plane} um"\n', helix=0.0, accuracy=ACCURACY, torque=torque)
+    model = model_of(scene)
+    runs = Runs(scene, on_stand_in_bodies(model))
+    found = simulate(model, preparation=runs.prepare).attrs
+    assert "failed_afterwards" not in found and found.get("face_load_factor", 1.0) >= 1.0
+    if "proposed_face_load_factor" not in found:
+        assert found["face_load_factor"] < 1.1
+        return
+    slope, crowning, factor = (found[f"proposed_{name}"] for name in ("helix_slope", "crowning", "face_load_factor"))
+    assert 1.0 <= factor < found.get("face_load_factor", np.inf)
+    assert factor == pytest.approx(runs.factor(slope, crowning), rel=1e-9)
+    assert abs(slope) <= 1.5 * (abs(in_plane) + 2.0)
+
+
+@pytest.mark.parametrize("slopes", [np.zeros((3, 2)), np.full((3, 2), np.nan), np.array([[1.0, 0.0]] * 3)])
+def test_no_step_where_the_linear_program_has_none(slopes):
+    """Values that no amount changes; that are no numbers; that fall for ever."""
+    assert _towards_even(np.ones(3), slopes, 0.0) is None
 
 
 WEB = '[gears.wheel.web]\nrim_inner_diameter = "82 mm"\nhub_diameter = "60 mm"\nwidth = "6 mm"\naxial_offset = "5 mm"\n'

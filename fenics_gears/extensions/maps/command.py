@@ -8,10 +8,12 @@ from pathlib import Path
 from fenics_gears import ComputationError
 from fenics_gears.command_line import (
     INTERRUPTED,
+    WITHOUT_SOMETHING,
     add_memory_argument,
     add_output_argument,
     add_processes_argument,
     add_scene_argument,
+    after_result,
     check_writable,
     checked_model,
     positive_count,
@@ -84,16 +86,21 @@ def _run(options: argparse.Namespace, team) -> int:
     from .map_results import map_dataset
 
     found = map_dataset(wanted, outcomes[QUASI_STATIC], outcomes.get(OVER_SPEED))
-    print_files(_written(found, directory, scene), options.quiet)
-    return ComputationError.exit_code if any(outcome.failures for outcome in outcomes.values()) else 0
-
-
-def _written(found, directory: Path, scene) -> list[Path]:
     from fenics_gears import save_tables
+
+    tables = save_tables(found, directory, "map")
+    pictures = after_result(tables[0], "pictures", lambda: _drawn(found, directory, scene))
+    print_files([*tables, *(pictures or [])], options.quiet)
+    if any(outcome.failures for outcome in outcomes.values()):
+        return ComputationError.exit_code
+    return WITHOUT_SOMETHING if pictures is None else 0
+
+
+def _drawn(found, directory: Path, scene) -> list[Path]:
     from fenics_gears.charts import design, draw_charts
 
     from .charts import map_pictures
 
     supports = [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
     more = f"{design(scene)}{', elastic ' + ' and '.join(supports) if supports else ''}"
-    return [*save_tables(found, directory, "map"), *draw_charts(map_pictures(found), directory, scene.title, more)]
+    return draw_charts(map_pictures(found), directory, scene.title, more)

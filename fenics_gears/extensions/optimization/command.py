@@ -7,9 +7,11 @@ from pathlib import Path
 
 from fenics_gears.command_line import (
     INTERRUPTED,
+    WITHOUT_SOMETHING,
     add_memory_argument,
     add_output_argument,
     add_processes_argument,
+    after_result,
     shown_progress,
     under_mpirun,
 )
@@ -43,10 +45,12 @@ def optimize(options: argparse.Namespace) -> int:
     from .charts import summary_rows, write_pictures
     from .page import write_page
 
-    files += [*write_pictures(outcome), write_page(outcome)]
+    drawn = after_result(files[0], "pictures", lambda: write_pictures(outcome))
+    page = after_result(files[0], "page", lambda: [write_page(outcome)])
+    files += [*(drawn or []), *(page or [])]
     if not options.quiet:
         from fenics_gears.command_line import print_rows
 
         print_rows(outcome.design.title, summary_rows(outcome))
         print_rows("Files", [("", str(file), "") for file in files])
-    return 0
+    return WITHOUT_SOMETHING if drawn is None or page is None else 0

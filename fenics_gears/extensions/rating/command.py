@@ -5,7 +5,7 @@ from dataclasses import fields
 from math import isnan
 from pathlib import Path
 
-from fenics_gears import SceneError
+from fenics_gears import SceneError, gear_pair
 from fenics_gears.command_line import (
     add_output_argument,
     add_run_argument,
@@ -69,6 +69,8 @@ def rate(options: argparse.Namespace) -> int:
         if end := result.attrs.get("peak_contact_pressure_beside"):
             why = "where lines of contact end and their line load rises (buttressing); ISO 6336-2 has no such rise"
             print(f"sigma_H of this run is beside the {end} of the pinion's active profile, {why}.")
+        if place := rating.of_place(result.attrs, gear_pair(scene.gears)):
+            print(place)
         print(rating.of_misalignment(scene, finish))
         print(output)
     return 0

@@ -1,6 +1,7 @@
 """A run's load capacity, row by row: by the standard's formulas from the nominal load, and by what the run has
 computed."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isnan, nan
 
@@ -21,6 +22,8 @@ KILOGRAM = 1e3
 INCLINED = "mean_axis_inclination_in_plane"
 # Points along the path of contact at which the standard's flash temperature is taken.
 POINTS = 201
+# How near to a place, in base pitches, is there.
+BESIDE = 0.03
 
 
 @dataclass(frozen=True)
@@ -131,6 +134,26 @@ def of_misalignment(scene: Scene, finish: Finish) -> str:
         return f"K_Hbeta of ISO 6336 is of {which}; shafts do not bend in it."
     which = f"helix slopes of tolerance class {finish.tolerance_class} (method C)"
     return f"K_Hbeta of ISO 6336 is of {which}, which this run has not: the scene has no misalignment."
+
+
+def of_place(found: Mapping, pair: GearPair) -> str:
+    """A sentence on where the run has its largest pressure, unless the standard looks there too: from the pitch point
+    to the inner points of single tooth contact. Nothing of a run that says that it is at an end of a line of
+    contact."""
+    if "peak_contact_pressure_diameter" not in found or "peak_contact_pressure_beside" in found:
+        return ""
+    diameter = found["peak_contact_pressure_diameter"]
+    position = pair.pinion.base_radius * float(pair.pinion.roll_angle(max(0.5 * diameter, pair.pinion.base_radius)))
+    looked_at = sorted((pair.pitch_point, pair.lpstc, pair.hpstc))
+    if looked_at[0] - BESIDE * pair.base_pitch <= position <= looked_at[-1] + BESIDE * pair.base_pitch:
+        return ""
+    pitch = 2.0 * float(pair.pinion.radius(pair.pinion_roll_angle(pair.pitch_point)))
+    up, down = position - pair.path_start, pair.path_end - position
+    nearer = f"{max(up, 0.0):.2f} mm after the start" if up < down else f"{max(down, 0.0):.2f} mm before the end"
+    return (
+        f"sigma_H of this run is at the pinion's diameter {diameter:.5g} mm, {nearer} of the path of contact. ISO"
+        f" 6336-2 has it at the pitch point, diameter {pitch:.5g} mm, and at the inner points of single tooth contact."
+    )
 
 
 def _tip_relief(scene: Scene) -> float:

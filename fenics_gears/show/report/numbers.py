@@ -42,7 +42,9 @@ def _contact_points(run: Run) -> Table:
     speed = ("Sliding speed (m/s)",) if timed else ()
     sliding = "Specific sliding, pinion", "Specific sliding, wheel"
     headings = ("Point", "Pinion (mm)", "Wheel (mm)", *speed, *sliding, "Share in the mesh force")
-    words = dict(zip("ABCDE", ("start of contact", "LPSTC", "pitch point", "HPSTC", "end of contact")))
+    contact, letters = ("single tooth contact", "STC") if run.pair is None else run.pair.contact_by_fewest
+    lowest, highest = f"LP{letters}", f"HP{letters}"
+    words = dict(zip("ABCDE", ("start of contact", lowest, "pitch point", highest, "end of contact")))
     rows = []
     for point in dataset["path_point"].values.tolist():
         at = dataset.sel(path_point=point)
@@ -53,4 +55,5 @@ def _contact_points(run: Run) -> Table:
             "" if math.isnan(share := float(at["load_share"])) else f"{share:.3f}",
         ]
         rows.append((f"{point}, {words[point]}", *values))
-    return Table(headings, rows, "Points of the path of contact (LPSTC and HPSTC of the pinion)")
+    which = f"{lowest} and {highest}: lowest and highest point of {contact}, of the pinion"
+    return Table(headings, rows, f"Points of the path of contact ({which})")

@@ -106,22 +106,20 @@ def _on_line(pair: GearPair, positions: list[float], coast: bool = False) -> np.
 
 
 def _points(pair: GearPair, coast: bool) -> dict[str, float]:
-    """Positions (mm from T1) of the points on the path of contact; with a contact ratio above 2 no pair is ever
-    alone."""
-    alone = pair.fewest_pairs == 1
+    """Positions (mm from T1) of the points on the path of contact."""
+    letters = pair.contact_by_fewest[1]
     ends = ("end of contact", "start of contact") if coast else ("start of contact", "end of contact")
-    names = (ends[0], "LPSTC" if alone else "", "pitch point", "HPSTC" if alone else "", ends[1])
+    names = (ends[0], f"LP{letters}", "pitch point", f"HP{letters}", ends[1])
     places = (pair.path_start, pair.lpstc, pair.pitch_point, pair.hpstc, pair.path_end)
-    return {name: place for name, place in zip(names, places) if name}
+    return dict(zip(names, places))
 
 
 def _points_in_words(pair: GearPair, coast: bool) -> str:
     points = _points(pair, coast).items()
     words = [f"{name} {place:.2f} mm ({degrees(pair.pinion_roll_angle(place)):.2f}°)" for name, place in points]
     said = f"From T1 on the line of action, with the pinion's roll angle: {'; '.join(words)}."
-    if pair.fewest_pairs > 1:
-        return said
-    return f"{said} LPSTC and HPSTC: lowest and highest point of single tooth contact, of the pinion."
+    contact, letters = pair.contact_by_fewest
+    return f"{said} LP{letters} and HP{letters}: lowest and highest point of {contact}, of the pinion."
 
 
 def _whole(pair: GearPair) -> tuple[np.ndarray, float]:

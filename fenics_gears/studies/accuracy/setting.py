@@ -9,7 +9,7 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import CLOSEST_NODES, EVERY_STEP, ONCE
-from fenics_gears.scene.accuracy import SECTION_SIZE
+from fenics_gears.scene.accuracy import RESOLVED, SECTION_SIZE
 from fenics_gears.scene.data import Accuracy, Scene
 
 
@@ -82,7 +82,8 @@ def body_size(order: int, over_face: bool) -> float:
 
 def half_width(scene: Scene) -> float:
     """The contact half-width (mm) in which sizes are given: Hertz's, within bounds, for it vanishes with the load."""
-    return default_setting(scene).flank * scene.fineness.elements_per_half_width
+    size, hertz = default_setting(scene).flank, model_of(without_settings(scene)).resolution.half_width
+    return min(max(hertz, RESOLVED * size), scene.fineness.elements_per_half_width * size)
 
 
 @lru_cache(maxsize=4)

@@ -7,6 +7,7 @@ errors fall with the square of the size, so that a run with twice the size diffe
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 
@@ -81,6 +82,11 @@ class TrialRuns:
             slices=sizes.slices or default.slices,
             layers=sizes.layers or default.layers,
         )
+
+    def resolving_mesh(self, elements: float) -> float:
+        """Size of the mesh that has so many flank elements in the Hertz half-width."""
+        half_width = model_of(self._whole).resolution.half_width
+        return half_width / (elements * self._default.flank) if half_width else inf
 
     @property
     def slices(self) -> int:

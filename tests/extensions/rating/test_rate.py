@@ -14,7 +14,7 @@ from fenics_gears import model_of, results, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.extensions.rating.finish import Finish
 from fenics_gears.extensions.rating.load_factors import iterated_face_factor
-from fenics_gears.extensions.rating.rating import _operation
+from fenics_gears.extensions.rating.rating import _operation, of_place
 
 
 @pytest.fixture(scope="module")
@@ -123,3 +123,14 @@ def test_a_scene_is_no_run(tmp_path, capsys):
     scene.write_text(helical_scene().text)
     assert main(["rate", str(scene)]) == 2
     assert f"is a scene, this command takes a run: `gears run {scene}`" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("place", ["pitch_point", "hpstc", "path_start", "path_end"])
+def test_a_pressure_where_the_standard_does_not_look_has_a_remark(paper_pair, place):
+    """ISO 6336-2 has sigma_H at the pitch point and, by Z_B and Z_D, at the inner points of single tooth contact."""
+    roll = paper_pair.pinion_roll_angle(getattr(paper_pair, place))
+    said = of_place({"peak_contact_pressure_diameter": 2.0 * float(paper_pair.pinion.radius(roll))}, paper_pair)
+    assert bool(said) == place.startswith("path")
+    if said:
+        words = "0.00 mm after the start" if place == "path_start" else "0.00 mm before the end"
+        assert words in said and "ISO 6336-2 has it at the pitch point" in said
