@@ -13,8 +13,8 @@ from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Motion
 
 
-def test_both_scenes_are_one_pair_each_way_and_warn_of_nothing():
-    """The demonstration's own words."""
+def test_both_scenes_are_one_pair_each_way_and_warn_of_pressures_alone():
+    """The demonstration's own words; its elements are those of vibration, not of pressures under its light load."""
     up, down = (load_scene(sweeps.HERE / f"{name}.toml") for name in ("up", "down"))
     assert (
         (up.motion.mesh_frequency, up.speed_ramp.end_frequency)
@@ -23,7 +23,8 @@ def test_both_scenes_are_one_pair_each_way_and_warn_of_nothing():
     )
     same = {"title": "", "name": "", "motion": down.motion, "speed_ramp": down.speed_ramp}
     assert replace(up, **same) == replace(down, **same)
-    assert model_of(up).warnings == model_of(down).warnings == []
+    warnings = [*model_of(up).warnings, *model_of(down).warnings]
+    assert all("the peak contact pressure may be off" in words for words in warnings), warnings
 
 
 def coarsened(path):

@@ -60,11 +60,11 @@ def test_a_formula_outside_its_range_is_refused_by_name(tmp_path):
     gears."""
     (tmp_path / "light.toml").write_text(FAST_AND_LIGHT)
     with pytest.raises(
-        SceneError, match=r'^friction.formula = "Benedict and Kelley": .* more than 1. Here that is 0\.'
+        SceneError, match=r'light.toml:20: friction.formula = "Benedict and Kelley": .* than 1. Here that is 0\.'
     ):
         checked_model(tmp_path / "light.toml")
     (tmp_path / "slow.toml").write_text(FAST_AND_LIGHT.replace("Benedict and Kelley", "Schlenk").replace("4000", "100"))
-    with pytest.raises(SceneError, match=r'^friction.formula = "Schlenk": .* from 1 to 50 m/s .* this pair has 0.3'):
+    with pytest.raises(SceneError, match=r'slow.toml:20: .* = "Schlenk": .* from 1 to 50 m/s .* this pair has 0.3'):
         checked_model(tmp_path / "slow.toml")
 
 

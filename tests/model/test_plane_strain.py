@@ -43,6 +43,6 @@ def test_check_says_which_width_counts_and_what_plane_strain_leaves_out(paper_sc
     value, words = model_rows(wide)["face width that counts"]
     assert value.startswith("pinion 15 mm, wheel 2") and "common width" in words
     value, words = model_rows(paper_scene)["plane strain"]
-    assert value == "about 4.2%" and '[lead_modifications.pinion] and crowning = "0 um"' in words
+    assert value == "about 4.2%" and '[misalignment] with in_plane = "0 um"' in words
     assert "face width that counts" not in model_rows(paper_scene)
     assert "plane strain" not in model_rows(replace(paper_scene, gears=replace(paper_scene.gears, face_width=80.0)))
