@@ -19,6 +19,8 @@ Found = Iterator[tuple[str, tuple[Remedy, ...]]]
 
 # Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
 ROUNDING = 1e-6
+# In normal modules: of a shorter chamfer round-off leaves no direction.
+LEAST_CHAMFER = 1e-6
 # Of a share of the face width.
 SHARE_ROUNDING = 1e-12
 # Thinnest rim between bore and root circle, in modules, that leaves room for a mesh.
@@ -169,10 +171,11 @@ def _tip(gear: Gear, section: str) -> Found:
             f" {2.0 * gear.form_radius:.6g} mm",
             (("raise", "tip_diameter"), (change, "root_diameter")),
         )
-    if not 0.0 <= gear.tip_chamfer < above_form:
+    least = LEAST_CHAMFER * gear.normal_module
+    if gear.tip_chamfer != 0.0 and not least <= gear.tip_chamfer < above_form:
         yield (
-            f"{section}.tip_chamfer = {gear.tip_chamfer:.4g} mm; it must be at least 0 mm and, as involute must be left"
-            f" above the form circle, less than {above_form:.4g} mm",
+            f"{section}.tip_chamfer = {gear.tip_chamfer:.4g} mm; it must be 0 mm, or at least {least:.4g} mm and, as"
+            f" involute must be left above the form circle, less than {above_form:.4g} mm",
             (),
         )
     if gear.tip_thickness > ROUNDING:

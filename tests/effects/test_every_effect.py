@@ -166,7 +166,7 @@ def test_a_bare_scene_loads_no_second_solver_no_other_model_and_no_finite_elemen
     assert not [
         name
         for name in loaded[TEETH]
-        if name.startswith("fenics_gears.") and re.search("spring|stiffness_table|iso_6336", name)
+        if name.startswith("fenics_gears.") and re.search("spring|stiffness_table", name)
     ]
     assert not METHODS["corner_contact"] & loaded[TEETH]
     assert not {"dolfinx", "gmsh", "petsc4py", "fenics_gears.elasticity.ring"} & loaded["nothing"]

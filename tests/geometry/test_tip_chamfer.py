@@ -62,6 +62,7 @@ def test_the_edge_of_corner_contact_is_between_flank_and_chamfer(radius, chamfer
     ("changes", "said"),
     [
         ({"wheel.tip_chamfer": 9.0}, ["wheel: gears.wheel.tip_chamfer = 9 mm", "involute must be left"]),
+        ({"wheel.tip_chamfer": 2e-306}, ["wheel: gears.wheel.tip_chamfer = 2e-306 mm", "0 mm, or at least 4.5e-06 mm"]),
         ({"pinion.tip_chamfer": 1.5}, ["pinion: pointed tip", "gears.pinion.tip_chamfer = 1.5 mm", "off either side"]),
     ],
 )

@@ -186,9 +186,10 @@ def within(size):
     return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
 
+# The place has room when it is tried, and none later.
 IN_ONE_PROCESS = (
-    "import json, sys; from fenics_gears.commands.cli import main; print(json.dumps([main(call) for call in"
-    " json.loads(sys.argv[1])]))"
+    "import json, sys; from fenics_gears.commands.cli import main; from fenics_gears.system import output;"
+    " output.TRIED = 0; print(json.dumps([main(call) for call in json.loads(sys.argv[1])]))"
 )
 
 
