@@ -164,9 +164,7 @@ def test_what_computes_it_is_loaded_by_a_scene_that_names_it_and_by_no_bare_one(
 def test_a_bare_scene_loads_no_second_solver_no_other_model_and_no_finite_elements_for_rigid_flanks(loaded):
     """House rule 9, for what several effects share, and for the cheaper models of the mesh."""
     assert not [
-        name
-        for name in loaded[TEETH]
-        if name.startswith("fenics_gears.") and re.search("spring|stiffness_table", name)
+        name for name in loaded[TEETH] if name.startswith("fenics_gears.") and re.search("spring|stiffness_table", name)
     ]
     assert not METHODS["corner_contact"] & loaded[TEETH]
     assert not {"dolfinx", "gmsh", "petsc4py", "fenics_gears.elasticity.ring"} & loaded["nothing"]

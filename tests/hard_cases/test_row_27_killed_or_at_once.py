@@ -239,7 +239,9 @@ def test_a_full_disk_leaves_no_half_result(folder, undrawn, measured, size):
     assert names == unfinished == halves == unfinished_of_study == [] and same
     assert main(run_into("here")) == main(in_study) == 0
     assert results.load("here/run.nc").attrs["complete"] == 1
-    assert load("study").drop_vars("wall_time").equals(load("usual").drop_vars("wall_time"))
+    # How many iterations a step takes depends on what its process knows already.
+    study, usual = (load(name).drop_vars(["wall_time", "newton_iterations"]) for name in ("study", "usual"))
+    assert study.equals(usual)
 
 
 @pytest.mark.parametrize("code", [errno.ENOSPC, errno.EDQUOT, errno.EACCES])
