@@ -9,7 +9,7 @@ from tests.elasticity.face import test_web_on_shaft as web_on_shaft
 from tests.evidence.claim import RESOLVED, Claim, Numbers, Part, within
 from tests.face_reference.reference import OPENINGS
 
-MODEL = "wedges of second order, tests/face_reference"
+MODEL = "finite elements in 3D, wedges of second order, tests/face_reference"
 KEYS = [(helix, 0.35, opening) for helix in (0.0, 20.0) for opening in OPENINGS]
 AT_EDGES = [(helix, 0.85, "plain") for helix in (0.0, 20.0)]
 
@@ -39,8 +39,8 @@ def _claims() -> dict[str, Claim]:
     made_of = "slices in plane strain at free ends; sections of 0.3 modules"
     found = {
         words(key): Claim(
-            f"approach of narrow flanks, {words(key)}", MODEL, "µm", within(0.005 if key in KEYS else 0.01),
-            made_of if key in KEYS else f"{made_of}; contact on the edge",
+            "approach of narrow teeth, " + words(key).replace("plain", "unmodified"), MODEL, "µm",
+            within(0.005 if key in KEYS else 0.01), made_of if key in KEYS else f"{made_of}; contact on the edge",
         )
         for key in KEYS + AT_EDGES
     }  # fmt: skip
