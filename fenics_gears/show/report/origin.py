@@ -36,7 +36,7 @@ def scene_section(text: str, heading: str = "Scene", name: str = "scene", remark
 
 
 def made_by() -> str:
-    """The page's last line."""
+    """By what and when the page was made: below its title."""
     now = datetime.datetime.now().astimezone()
     made = f"Made by fenics_gears {fenics_gears.__version__} (gears report) on {now:%Y-%m-%d %H:%M}."
     return f"{made} One file, complete in itself; it loads nothing from a network."

@@ -15,7 +15,7 @@ HEADING = "Root stress"
 def root_stress(run: Run) -> Section:
     """Curves and numbers of the fillets' stress; a line on how to have it where it is not there."""
     if "root_stress_maximum" not in run.dataset:
-        said = "It was not recorded; `[output] root_stress = true` in the scene records it."
+        said = "Over time it was not recorded; `[output] root_stress = true` in the scene records it."
         return sentence("root-stress", HEADING, said)
     if not run.has_curves:
         return sentence("root-stress", HEADING, TOO_FEW, True)

@@ -20,9 +20,9 @@ from .root_stress import root_stress
 from .solver import solver
 from .stress import stress
 
-# Pictures before tables: who reads the page looks first.
+# What was computed comes first, as in any report; of the results pictures come before tables.
 SECTIONS: tuple[Callable[[Run], Section | None], ...] = (
-    summary, warnings, motion, forces, pressure, face, stress, root_stress, spectra, geometry, numbers, effects, energy,
+    summary, warnings, geometry, motion, forces, pressure, face, stress, root_stress, spectra, numbers, effects, energy,
     solver,
 )  # fmt: skip
 

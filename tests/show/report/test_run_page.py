@@ -22,7 +22,7 @@ from fenics_gears.studies.effect_costs.table import CSV_COLUMNS
 CHECKOUT = Path(__file__).parents[3]
 pytestmark = pytest.mark.usefixtures("without_stills")
 SECTIONS = [
-    "summary", "warnings", "motion", "forces", "pressure", "stress", "root-stress", "spectra", "geometry", "numbers",
+    "summary", "warnings", "geometry", "motion", "forces", "pressure", "stress", "root-stress", "spectra", "numbers",
     "effects", "energy", "solver",
     "versions", "scene",
 ]  # fmt: skip
