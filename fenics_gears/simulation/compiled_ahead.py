@@ -33,10 +33,11 @@ LOGGER = logging.getLogger(__name__)
 PACKAGE = Path(__file__).parents[1]
 STAGE = "compile, once for these sources"
 # By processes at the same time, each half of the work; `warm_up` says what.
-PARTS = ("plane", "face")
+MARCH = "march"
+PARTS = (MARCH, "results and face")
 
 
-def compile_ahead(progress: Progress) -> None:
+def compile_loops(progress: Progress) -> None:
     """Compile all loops that are not compiled yet, in a minute or less, and say so; where that fails, a run compiles
     what it needs."""
     _save_in_turn()

@@ -33,7 +33,7 @@ from fenics_gears.system.memory import allowed_memory, give_back
 from fenics_gears.system.progress import Progress, SilentProgress
 
 from .routes import Preparation, prepared, route_of
-from .warm_up import compile_ahead, compile_kernels
+from .warm_up import compile_kernels, compile_loops
 
 if TYPE_CHECKING:
     from fenics_gears.results.journal import Place
@@ -111,7 +111,8 @@ def solved(
     """As `simulate`, without proposed lead modifications; its dataset is put together when it is asked for."""
     progress, cache = progress or SilentProgress(), cache or user_cache()
     try:
-        compile_ahead(progress)
+        # Here for what the model and its bodies call; `compile_kernels` of the march finds it done.
+        compile_loops(progress)
         said = scene.scene if isinstance(scene, Model) else scene
         decided, chosen = _with_chosen_settings(said, progress)
         model = scene if isinstance(scene, Model) and decided is said else model_of(decided)

@@ -5,6 +5,7 @@ yet (`compiled_ahead`): the launcher calls it after the set-up and after each ch
 part it compiles that part in this process.
 """
 
+import gc
 import sys
 import time
 from functools import cache
@@ -34,20 +35,37 @@ from fenics_gears.results.contact_variables import energy_of_teeth
 from fenics_gears.results.mesh_curves import stiffness_curves
 from fenics_gears.system.progress import LineProgress, Progress, SilentProgress
 
-from .compiled_ahead import compile_ahead, end_at_once_by_ctrl_c
+from .compiled_ahead import MARCH, compile_loops, end_at_once_by_ctrl_c
 
 
 def compile_kernels(tangential: bool, rigid: bool = False, progress: Progress | None = None) -> float:
     """Run every compiled kernel on a problem of one contact node, with `rigid` those of rigid flanks too; returns the
     seconds it took."""
     begun = time.perf_counter()
-    compile_ahead(progress or SilentProgress())
+    compile_loops(progress or SilentProgress())
     _run_once(tangential, rigid)
     return time.perf_counter() - begun
 
 
 @cache
-def _run_once(tangential: bool, rigid: bool) -> None:
+def _run_once(tangential: bool, rigid: bool, evaluated: bool = True) -> None:
+    _place_nodes(tangential)
+    steps, problem = _steps(tangential)
+    status = np.array([SLIP_FORWARD], dtype=np.int8)
+    solve_step(problem, status)
+    drivetrain = Drivetrain(("rotation_2",), np.ones(1), np.eye(1), np.ones(1), np.eye(1), None)
+    motion = Motion.of(drivetrain, AVERAGE_ACCELERATION, 0.1, problem.tolerance)
+    solve_steps(steps, 1, 2, motion, Course(np.ones(2), np.ones((2, 1))))
+    if rigid:
+        from fenics_gears.contact.rigid_mesh import solve_rigid
+
+        solve_rigid(steps.positions[0], problem, status, None)
+    if evaluated:
+        _evaluate(steps, tangential)
+
+
+def _place_nodes(tangential: bool) -> None:
+    """Contact nodes on flanks and how these yield."""
     offsets = np.array([-0.1, 0.1])
     rolls = roll_angle_at_height(40.0, 0.5, 40.0 + offsets)
     interpolation = flank_interpolation(offsets, rolls, 40.0, 0.5, 1.0, np.linspace(0.4, 0.6, 5), 1)
@@ -64,49 +82,58 @@ def _run_once(tangential: bool, rigid: bool) -> None:
     products = np.array([[0, block.ctypes.data, block.size, 10, 0, 0, 0 if tangential else NO_FLANK, 0, 0, 0]])
     axes, responding = np.ones((1, kinds, 2)), np.ones((1, 2 * kinds - 1, 2))
     compliance_products((positions, flanks, products), near, interpolation.first, axes, responding)
+
+
+def _steps(tangential: bool) -> tuple[Steps, StepProblem]:
+    """Room for two steps of one contact node, and the problem of such a step."""
+    kinds = 2 if tangential else 1
     node, row, tolerance = np.zeros(1), np.eye(kinds, 1), Tolerance.of_load(1.0)
     slip = np.ones(1) if tangential else np.empty(0)
     problem = StepProblem(np.eye(1), np.ones(1), np.eye(kinds), row, node, slip, 0.1, np.empty(0), tolerance)
-    solve_step(problem, np.array([SLIP_FORWARD], dtype=np.int8))
     place = Place(0, DRIVE, (0.5, 0.5))
     pair = PairNodes(place, node, node, node, node, node, node)
     earlier = (node, np.zeros((1, kinds)), np.zeros((1, 1))) if tangential else (None, None, None)
     operator = ContactOperator((pair,), (1.0, 1.0), (node, node), np.eye(kinds), row, node, *earlier)
     position = Position(operator, nodes_before([((pair,), (pair,))], 0.1)[0])
-    steps = Steps.to_solve(range(2), [position] * 2, 1, NEWTON)
-    drivetrain = Drivetrain(("rotation_2",), np.ones(1), np.eye(1), np.ones(1), np.eye(1), None)
-    solve_steps(
-        steps, 1, 2, Motion.of(drivetrain, AVERAGE_ACCELERATION, 0.1, tolerance), Course(np.ones(2), np.ones((2, 1)))
-    )
+    return Steps.to_solve(range(2), [position] * 2, 1, NEWTON), problem
+
+
+def _evaluate(steps: Steps, tangential: bool) -> None:
+    """What results are made of."""
     for evaluated in (contact_work, stiffness_curves, energy_of_teeth, smallest_openings, drive_flanks_touch):
         evaluated(steps)
     if tangential:
         from fenics_gears.contact.uniqueness import between_closed
 
         between_closed(np.zeros((1, 1)), np.eye(2), np.array([0]), np.ones(1))
-    if rigid:
-        from fenics_gears.contact.rigid_mesh import solve_rigid
 
-        solve_rigid(position, problem, np.array([SLIP_FORWARD], dtype=np.int8), None)
+
+def _look_for_extremes() -> None:
+    """Not with every run: each is loaded where a run looks for its extremes."""
+    from fenics_gears.results.crests import Searches, largest_of_cubics
+
+    largest_of_cubics(np.arange(4.0), np.zeros(4))
+    Searches(np.arange(4.0), np.zeros((1, 4)), np.ones(1), 0.125)
 
 
 def _compile_part(name: str) -> None:
-    if name == "plane":
+    # Few of the many objects that numba makes are garbage before it ends.
+    gc.set_threshold(100_000)
+    if name == MARCH:
         for with_friction in (True, False):
-            _run_once(with_friction, rigid=True)
+            _run_once(with_friction, rigid=True, evaluated=False)
+        _look_for_extremes()
         return
+    for with_friction in (True, False):
+        _evaluate(_steps(with_friction)[0], with_friction)
     # A plane run does without.
     from fenics_gears.contact.factored_compliance import factored_solver
     from fenics_gears.contact.formed_rows import fine_section, row_former, uncertain_slices
-    from fenics_gears.results.crests import Searches, largest_of_cubics
 
     row_former()
     factored_solver()
     uncertain_slices.compile("(int64, float64[::1], float64)")
     fine_section.compile("(int64, int64)")
-    # Of the results: each is loaded where a run looks for its extremes.
-    largest_of_cubics(np.arange(4.0), np.zeros(4))
-    Searches(np.arange(4.0), np.zeros((1, 4)), np.ones(1), 0.125)
 
 
 if __name__ == "__main__":
@@ -115,5 +142,5 @@ if __name__ == "__main__":
         _compile_part(*sys.argv[1:])
     else:
         lines = LineProgress()
-        compile_ahead(lines)
+        compile_loops(lines)
         lines.close()

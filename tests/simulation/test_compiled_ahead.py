@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from fenics_gears.simulation import compiled_ahead
-from fenics_gears.simulation.warm_up import compile_ahead
+from fenics_gears.simulation.warm_up import compile_loops
 from fenics_gears.system.progress import LineProgress
 
 ROOT = Path(__file__).parents[2]
@@ -46,7 +46,7 @@ def test_compiled_once_for_the_same_sources_and_said(places):
     said = io.StringIO()
     for _ in range(2):
         lines = LineProgress(said)
-        compile_ahead(lines)
+        compile_loops(lines)
     assert started == ["compiling"] and said.getvalue().startswith("compiling, once for these sources")
 
 
@@ -54,24 +54,24 @@ def test_what_was_compiled_of_other_sources_goes(places):
     """Numba compares the source of a loop with its file, not those of the loops that it calls; sources without loops
     do not matter."""
     package, started, _ = places
-    compile_ahead(LineProgress(io.StringIO()))
+    compile_loops(LineProgress(io.StringIO()))
     stale = package / "results" / "__pycache__" / "crests.nbc"
     stale.touch()
     (package / "results" / "files.py").write_text("changed")
-    compile_ahead(LineProgress(io.StringIO()))
+    compile_loops(LineProgress(io.StringIO()))
     assert stale.exists() and len(started) == 1
     (package / "contact" / "laws.py").write_text("from numba import njit  # changed\n")
-    compile_ahead(LineProgress(io.StringIO()))
+    compile_loops(LineProgress(io.StringIO()))
     assert not stale.exists() and len(started) == 2
 
 
 def test_who_cannot_write_beside_the_sources_takes_what_lies_there(places, tmp_path):
     """As in a container whose image was compiled by root."""
     package, started, kept_in = places
-    compile_ahead(LineProgress(io.StringIO()))
+    compile_loops(LineProgress(io.StringIO()))
     (package / "contact" / "__pycache__" / "laws.1.nbc").write_text("code")
     kept_in(tmp_path / "cache")
-    compile_ahead(LineProgress(io.StringIO()))
+    compile_loops(LineProgress(io.StringIO()))
     assert len(started) == 1 and (tmp_path / "cache" / "contact" / "laws.1.nbc").read_text() == "code"
 
 
