@@ -25,8 +25,8 @@ from .model import Model
 UNKNOWN, MULTIPLICATION = 4e-5, 5e-11
 # Of the root stress, an unknown, factorised and solved for one load.
 FACTORISED_UNKNOWN, SOLVED_UNKNOWN = 6e-5, 4e-7
-# Seconds of a run; at a position of each tooth pair in a slice and of the square of contact nodes, whose rows are formed
-# when they close; of a step, of their square and their cube (elimination). Of 60 scenes within 1.5 times but for one.
+# Seconds of a run; at a position of each tooth pair in a slice and of the square of contact nodes, whose rows are
+# formed when they close; of a step, of their square and their cube (elimination).
 RUN, PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE, STEP_NODES_CUBE = 0.08, 2.5e-4, 9e-9, 3e-10, 2e-13
 # With friction, in those without.
 WITH_FRICTION = 3.0

@@ -141,7 +141,8 @@ def measure(name: str) -> dict[str, float]:
         attributes = simulate(scene, progress=progress, cache=Cache(Path(directory))).attrs
     stress = sum(seconds for name, seconds in progress.finished if name.startswith("root stress"))
     return {
-        "condensing": attributes["time_mesh"] + attributes["time_condense"] + stress, "marching": attributes["time_march"],
+        "condensing": attributes["time_mesh"] + attributes["time_condense"] + stress,
+        "marching": attributes["time_march"],
         "memory": 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
         **{f"expected {stage}": getattr(expected, stage) or 0.0 for stage in STAGES},
     }  # fmt: skip
