@@ -31,9 +31,8 @@ SECTOR_UNKNOWNS["Q1 incompatible"] = SECTOR_UNKNOWNS["Q1"]
 GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.04, 1.2e-5, 7e-11, 2.8e-8
 # Two inverses of symmetric matrices by Cholesky, in those of a general one.
 BOTH_FLANKS_INVERSES = 0.75
-# Seconds of marching: at a position each pair of flanks and the square of contact nodes, a step and each of its contact
-# rows.
-PAIR, NODES_SQUARE, STEP, ROW = 3e-4, 1e-7, 8e-6, 2.5e-7
+# Seconds of marching: at a position each pair of flanks and the square of contact rows, a step and each of its rows.
+PAIR, ROWS_SQUARE, STEP, ROW = 2.5e-4, 8e-8, 8e-6, 1e-6
 # Seconds that an effect adds to a step: gaps that differ, a torque that varies, openings of both flanks, time steps of
 # unequal length.
 STEP_OF_EFFECT = {
@@ -50,7 +49,7 @@ REMESHED_UNKNOWN, REMESHED_STEP, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 4e-4
 # its force to forces on the flank nodes of both gears (measured).
 SOLVED_UNKNOWN, STEP_STRESS, ON_FLANKS = 1.4e-7, 5e-9, 200.0
 # Bytes: the program with its libraries; the same with those that mesh and condense; one number.
-PROGRAM, CONDENSING_PROGRAM, BYTES_OF_A_NUMBER = 200e6, 300e6, 8.0
+PROGRAM, CONDENSING_PROGRAM, BYTES_OF_A_NUMBER = 230e6, 335e6, 8.0
 # What a result needs to know of a contact node at a position, numbers, and their copies side by side; with what its
 # place on the flanks takes (measured).
 NUMBERS_OF_A_NODE = 80
@@ -216,7 +215,8 @@ def _rows(model: Model, contact: Contact) -> float:
 
 def _building(model: Model, contact: Contact) -> float:
     elastic = model.scene.tooth_elasticity is not None
-    return contact.positions * (PAIR * contact.pairs + (NODES_SQUARE * contact.squares if elastic else 0.0))
+    squares = contact.squares * (4.0 if model.scene.friction is not None else 1.0)
+    return contact.positions * (PAIR * contact.pairs + (ROWS_SQUARE * squares if elastic else 0.0))
 
 
 def _sections(model: Model, gears: list[_Gear]) -> ExpectedCost:

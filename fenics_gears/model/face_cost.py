@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from fenics_gears.contact.operator import SHARE_FORMED
-from fenics_gears.elasticity.face.cost import expected_condensing, expected_size
+from fenics_gears.elasticity.face.cost import WHOLE_ENTRY, WHOLE_UNKNOWN, expected_condensing, expected_size
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.system.memory import allowed_memory
 
@@ -25,11 +25,11 @@ from .model import Model
 UNKNOWN, MULTIPLICATION = 4e-5, 5e-11
 # Of the root stress, an unknown, factorised and solved for one load.
 FACTORISED_UNKNOWN, SOLVED_UNKNOWN = 6e-5, 4e-7
-# Seconds at a position of each tooth pair in a slice and of the square of contact nodes; of a step, of their square and
-# their cube (elimination; measured on 160 to 2,400 contact nodes, most of which are open: within 2 times).
-PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE, STEP_NODES_CUBE = 2e-4, 5e-10, 3e-10, 2e-13
-# With friction: of a position, of a step.
-POSITION_WITH_FRICTION, STEP_WITH_FRICTION = 3.0, 2.5
+# Seconds of a run; at a position of each tooth pair in a slice and of the square of contact nodes, whose rows are
+# formed when they close; of a step, of their square and their cube (elimination).
+RUN, PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE, STEP_NODES_CUBE = 0.08, 2.5e-4, 9e-9, 3e-10, 2e-13
+# With friction, in those without.
+WITH_FRICTION = 3.0
 
 
 def _size(model: Model, number: int):
@@ -58,6 +58,7 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
     """Of the whole run, beside what its plane `sections` take; `fine`: numbers in the compliance of these, and as
     contact reads it."""
     bodies, ways, condensing, largest = [], [], sections.condensing, 0.0
+    recovering = 0.0
     contact, friction = contact_of(model), model.scene.friction is not None
     condensed, stress_step = CONDENSING_PROGRAM + model.stored_bytes + BYTES_OF_A_NUMBER * fine[0], 0.0
     held = condensed + BYTES_OF_A_NUMBER * (fine[1] + NUMBERS_OF_A_NODE * contact.positions * contact.nodes)
@@ -76,7 +77,9 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
                 model, size.unknowns, (FACTORISED_UNKNOWN, SOLVED_UNKNOWN), on_slices
             )
             condensing, held, stress_step = condensing + seconds, held + kept, stress_step + step
-    held = max(held, condensed + largest)
+            # A sector that is not folded, factorised once more, and matrices of its cuts, beside what is held by then.
+            recovering = max(recovering, WHOLE_UNKNOWN * size.unknowns + WHOLE_ENTRY * (2 * size.cut) ** 2)
+    held = max(held, condensed + largest) + recovering
     if model.scene.output.root_stress:
         held += ON_FLANKS * contact.positions * contact.nodes * (2.0 if friction else 1.0)
     building = _building(model, contact)
@@ -84,7 +87,7 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
     return replace(
         sections,
         condensing=condensing,
-        marching=building + model.steps * (_step(contact, friction) + stress_step),
+        marching=RUN + building + model.steps * (_step(contact, friction) + stress_step),
         memory=held + operators,
         operators=operators,
         unknowns=(*sections.unknowns, *bodies),
@@ -95,9 +98,9 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
 
 def _building(model: Model, contact: Contact) -> float:
     position = PAIR_IN_SLICE * contact.pairs + NODES_SQUARE * contact.nodes**2
-    return contact.positions * position * (POSITION_WITH_FRICTION if model.scene.friction is not None else 1.0)
+    return contact.positions * position * (WITH_FRICTION if model.scene.friction is not None else 1.0)
 
 
 def _step(contact: Contact, friction: bool) -> float:
     step = STEP_NODES_SQUARE * contact.nodes**2 + STEP_NODES_CUBE * contact.nodes**3
-    return step * (STEP_WITH_FRICTION if friction else 1.0)
+    return step * (WITH_FRICTION if friction else 1.0)
