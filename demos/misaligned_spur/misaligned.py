@@ -15,7 +15,7 @@ COLUMNS = ("misalignment (µm)", "flanks", "K_Hβ", "largest line load / even li
 
 def flanks() -> dict:
     """Lead modifications of the pinion, by their names."""
-    from fenics_gears.effects.lead_modifications import EndRelief, LeadModification, LeadModifications
+    from fenics_gears.geometry.lead_modification import EndRelief, LeadModification, LeadModifications
 
     return {
         "true": None,
@@ -46,7 +46,7 @@ def main(arguments: list[str] | None = None) -> None:
     directory = output_directory("misaligned_spur", __doc__.splitlines()[0], arguments)
     from demos.misaligned_spur.picture import picture
     from fenics_gears import load_scene, simulate
-    from fenics_gears.effects.misalignment import Misalignment
+    from fenics_gears.geometry.misalignment import Misalignment
     from fenics_gears.show.plots import save_figure
 
     directory.mkdir(parents=True, exist_ok=True)

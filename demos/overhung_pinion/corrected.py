@@ -74,7 +74,7 @@ def compared(scene_file: Path, design_file: Path, directory: Path) -> tuple[dict
 def _results(scene, torques: list[float], slope: float, crowning: float) -> dict:
     """Results of a scene by torque, N m, with a helix slope and a crowning (um)."""
     from fenics_gears import simulate
-    from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
+    from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
 
     leads = LeadModifications(pinion=LeadModification(crowning=1e-3 * crowning, helix_slope=1e-3 * slope))
     corrected = replace(scene, lead_modifications=leads)

@@ -125,7 +125,7 @@ print(study.to_pandas().round(1))
 # `None` starts it at the highest point of single tooth contact.
 
 # %%
-from fenics_gears.effects.relief import Relief
+from fenics_gears.geometry.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
 
 relieved = simulate(replace(paper, tip_relief=TipRelief(pinion=Relief(0.028, None), wheel=Relief(0.028, None))))

@@ -10,7 +10,7 @@ import xarray as xr
 
 from fenics_gears import load_scene, simulate
 from fenics_gears.effects.corner_contact import CornerContact
-from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
+from fenics_gears.geometry.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.model import model_of

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
+from fenics_gears.geometry.flank_errors import FlankErrors
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS
 
@@ -25,9 +25,6 @@ from .kinematics import IN_THE_PLANE
 from .mesh_cycle import PerPosition
 from .operator import Position
 from .tooth_pair import DRIVE, PairNodes, ToothPair, node_slices
-
-if TYPE_CHECKING:
-    from fenics_gears.effects.flank_errors_sections import FlankErrors
 
 # A later tooth stands behind on the pinion, whose flank drives: the gap opens. On the wheel it stands nearer to the
 # pinion's.

@@ -9,18 +9,15 @@ and left out.
 from __future__ import annotations
 
 from math import cos, pi, sin
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.geometry.pair import GearPair
 
+from .eccentricity import Eccentricity, Offset
 from .kinematics import normals
 from .mesh_cycle import PerPosition
 from .operator import Position
-
-if TYPE_CHECKING:
-    from fenics_gears.effects.eccentricity import Eccentricity, Offset
 
 
 class RunOut:
@@ -53,13 +50,3 @@ def displacement(offset: Offset, sense: float, turned: float) -> tuple[float, fl
     `turned` (rad)."""
     angle = sense * (turned + offset.phase)
     return offset.distance * cos(angle), offset.distance * sin(angle)
-
-
-def run_out(pair: GearPair, eccentricity: Eccentricity, steps: int) -> RunOut:
-    """The gaps of gears that run out, with those of teeth that wobble where a gear's do; `steps` of a mesh cycle."""
-    if not any(own is not None and own.wobble for own in (eccentricity.pinion, eccentricity.wheel)):
-        return RunOut(pair, eccentricity, steps)
-    # Imported here: it is of faces, and itself a run-out.
-    from .wobble import WobblingRunOut
-
-    return WobblingRunOut(pair, eccentricity, steps)

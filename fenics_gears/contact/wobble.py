@@ -8,19 +8,16 @@ operator's own rows of tilts close it.
 from __future__ import annotations
 
 from math import cos, pi, sin
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.geometry.pair import GearPair
 
+from .eccentricity import Eccentricity
 from .kinematics import COORDINATES, displacement_jacobian
 from .mesh_cycle import PerPosition
 from .operator import Position
 from .run_out import RunOut
-
-if TYPE_CHECKING:
-    from fenics_gears.effects.eccentricity import Eccentricity
 
 TILTS = [[COORDINATES.index(f"tilt_{direction}{gear}") for direction in "xy"] for gear in (1, 2)]
 

@@ -18,10 +18,11 @@ from fenics_gears.contact.kinematics import COORDINATES, FACE_COORDINATES
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
 
+from .damping import Damping
+from .inertia import Inertia
+
 if TYPE_CHECKING:
     from fenics_gears.effects.bearings import Bearings
-    from fenics_gears.effects.damping import Damping
-    from fenics_gears.effects.inertia import Inertia
     from fenics_gears.effects.shafts import Shafts
 
     from .elastic_shaft import ElasticShaft

@@ -7,14 +7,44 @@ harmonic.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
 import numpy as np
 
+from fenics_gears.inputs.fields import declared, number, quantity
+from fenics_gears.inputs.section import AllowedTables, Section
+
 from .drivetrain import Drivetrain, forces_of_torque
 
-if TYPE_CHECKING:
-    from fenics_gears.effects.torque_ripple import TorqueRipple
+HIGHEST_ORDER = 1e6
+MOST_HARMONICS = 1000
+
+
+@dataclass(frozen=True)
+class Harmonic(Section):
+    """amplitude cos(order theta + phase), with theta the angle that the wheel's shaft has turned since the start."""
+
+    order: float = number(1.0, meaning="order", above=0, highest=HIGHEST_ORDER)
+    amplitude: float = quantity("1e-12 N m to 1e12 N m", "20 N m", meaning="amplitude")
+    phase: float = quantity("-360 deg to 360 deg", "30 deg", meaning="phase", default="0 deg")
+
+
+_HARMONICS = AllowedTables(
+    description=f"a list of harmonics, each with an order above 0 up to {HIGHEST_ORDER:g}, an amplitude and, if any, "
+    'a phase, such as [{ order = 1, amplitude = "20 N m", phase = "30 deg" }]',
+    section=Harmonic,
+    singular="harmonic",
+    empty="For a steady torque, leave the section [torque_ripple] out.",
+    most=MOST_HARMONICS,
+    meaning="harmonics added to `load.wheel_torque`: amplitude * cos(order * rotation of the wheel's shaft + phase)",
+)
+
+
+@dataclass(frozen=True)
+class TorqueRipple(Section):
+    """``[torque_ripple]``."""
+
+    harmonics: tuple[Harmonic, ...] = declared(_HARMONICS)
 
 
 def torque(ripple: TorqueRipple, angles: Sequence[float]) -> np.ndarray:

@@ -11,6 +11,7 @@ from typing import Any
 
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section, tree_of
+from fenics_gears.inputs.section import own_or_shared as own_or_shared
 
 # Over the tooth pairs that can touch at once, and over the contact nodes of each at the steps whose contact fields are
 # stored.
@@ -119,9 +120,3 @@ class Effect:
 
     def as_section(self, data: Any) -> dict[str, Any]:
         return tree_of(data) if self.write is None else self.write(data)
-
-
-def own_or_shared(own: Section | None, shared: Section, name: str) -> Any:
-    """A field of one gear: its own section's, else that of the section of both gears; None where neither has it."""
-    value = None if own is None else getattr(own, name)
-    return getattr(shared, name) if value is None else value

@@ -12,12 +12,12 @@ from collections.abc import Sequence
 from math import lcm
 from typing import Any
 
+from fenics_gears.geometry.flank_errors import HELIX, FlankErrors, GearErrors, lists_of
 from fenics_gears.inputs.section import tree_of
 from fenics_gears.inputs.tree import GEARS
 
 from .effect import Effect, ResultVariable
 from .flank_errors_rules import errors_fit_the_gears
-from .flank_errors_sections import HELIX, FlankErrors, GearErrors, lists_of
 from .flank_errors_tables import check, files, located
 
 

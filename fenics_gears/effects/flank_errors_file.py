@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 
+from fenics_gears.geometry.flank_errors import MeasuredCurve, MeasuredCurves
 from fenics_gears.inputs import units
 from fenics_gears.inputs.problem import did_you_mean, meant
 from fenics_gears.inputs.written import as_written
 from fenics_gears.system import user_file
-
-from .flank_errors_sections import MeasuredCurve, MeasuredCurves
 
 TOOTH, DEVIATION = "tooth", "deviation"
 LENGTH, ANGLE = "a length", "an angle"

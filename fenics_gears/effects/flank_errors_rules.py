@@ -1,9 +1,8 @@
 """What is wrong between the fields of ``[flank_errors]``. Not an effect by itself."""
 
+from fenics_gears.geometry.flank_errors import CURVES, LISTS
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.tree import GEARS, Tree, module_in, quantity_in, table, teeth_in
-
-from .flank_errors_sections import CURVES, LISTS
 
 # Pitches of a measuring sheet are rounded to 0.1 um: their sum is off by at most half of that for each tooth.
 PITCH_ROUNDING = 0.05e-3

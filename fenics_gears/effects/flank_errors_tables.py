@@ -6,11 +6,11 @@ from hashlib import sha256
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.flank_errors import CURVES, LISTS, REPLACED, TABLES, FlankErrors, GearErrors, lists_of
 from fenics_gears.inputs.tree import GEARS, LARGEST_ERROR, NOT_IN_THE_PLANE
 from fenics_gears.inputs.written import as_written
 
 from .flank_errors_rules import PITCH_ROUNDING, not_closed
-from .flank_errors_sections import CURVES, LISTS, REPLACED, TABLES, FlankErrors, GearErrors, lists_of
 
 # Share of the active profile, or of the face, that a curve must cover.
 LEAST_MEASURED = 0.8

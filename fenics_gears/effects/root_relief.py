@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 from functools import partial
 
+from fenics_gears.geometry.relief import Reliefs, RootReliefOfGear, root_reliefs
+
 from .effect import Effect
-from .relief import AT_KINK, Reliefs, RootReliefOfGear, read, rules, starts_without_single_contact, write
+from .relief import AT_KINK, read, rules, starts_without_single_contact, write
 
 
 @dataclass(frozen=True)
@@ -21,8 +23,6 @@ class RootRelief(Reliefs):
 
 
 def removal(reliefs: RootRelief, pair):
-    from fenics_gears.geometry.relief import root_reliefs
-
     return root_reliefs(pair, reliefs)
 
 

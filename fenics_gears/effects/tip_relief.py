@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 from functools import partial
 
+from fenics_gears.geometry.relief import Relief, Reliefs, tip_reliefs
+
 from .effect import Effect
-from .relief import AT_KINK, Relief, Reliefs, read, rules, starts_without_single_contact, write
+from .relief import AT_KINK, read, rules, starts_without_single_contact, write
 
 
 @dataclass(frozen=True)
@@ -21,8 +23,6 @@ class TipRelief(Reliefs):
 
 
 def removal(reliefs: TipRelief, pair):
-    from fenics_gears.geometry.relief import tip_reliefs
-
     return tip_reliefs(pair, reliefs)
 
 

@@ -1,48 +1,17 @@
 """``[torque_ripple]``: load torque that varies with the rotation of the wheel's shaft (``dynamics.torque_ripple``)."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite, lcm, pi
 
-from fenics_gears.inputs.fields import declared, number, quantity
+from fenics_gears.dynamics.torque_ripple import TorqueRipple, torque, varying_load
 from fenics_gears.inputs.problem import Broken
-from fenics_gears.inputs.section import AllowedTables, Section
 from fenics_gears.inputs.tree import Tree, dotted, load_in, quantity_in, table
 
 from .effect import Effect, ResultVariable
 
-HIGHEST_ORDER = 1e6
-MOST_HARMONICS = 1000
 # Orders are taken as whole parts of this; finer ones repeat in no run.
 FINEST_PART_OF_ORDER = 1000
-
-
-@dataclass(frozen=True)
-class Harmonic(Section):
-    """amplitude cos(order theta + phase), with theta the angle that the wheel's shaft has turned since the start."""
-
-    order: float = number(1.0, meaning="order", above=0, highest=HIGHEST_ORDER)
-    amplitude: float = quantity("1e-12 N m to 1e12 N m", "20 N m", meaning="amplitude")
-    phase: float = quantity("-360 deg to 360 deg", "30 deg", meaning="phase", default="0 deg")
-
-
-_HARMONICS = AllowedTables(
-    description=f"a list of harmonics, each with an order above 0 up to {HIGHEST_ORDER:g}, an amplitude and, if any, "
-    'a phase, such as [{ order = 1, amplitude = "20 N m", phase = "30 deg" }]',
-    section=Harmonic,
-    singular="harmonic",
-    empty="For a steady torque, leave the section [torque_ripple] out.",
-    most=MOST_HARMONICS,
-    meaning="harmonics added to `load.wheel_torque`: amplitude * cos(order * rotation of the wheel's shaft + phase)",
-)
-
-
-@dataclass(frozen=True)
-class TorqueRipple(Section):
-    """``[torque_ripple]``."""
-
-    harmonics: tuple[Harmonic, ...] = declared(_HARMONICS)
 
 
 def torque_keeps_its_sign(tree: Tree) -> Broken:
@@ -63,15 +32,11 @@ def torque_keeps_its_sign(tree: Tree) -> Broken:
 
 
 def load(ripple: TorqueRipple, model):
-    from fenics_gears.dynamics.torque_ripple import varying_load
-
     return varying_load(ripple, model.drivetrain, shaft_step(model.scene, model.resolution.steps_per_mesh_cycle))
 
 
 def results(ripple: TorqueRipple, scene, cycle, steps) -> dict:
     """The torque on the wheel's shaft (time,), N mm."""
-    from fenics_gears.dynamics.torque_ripple import torque
-
     angle = shaft_step(scene, cycle.steps)
     return {"wheel_couple": (("time",), scene.load.wheel_torque + torque(ripple, angle * steps))}
 

@@ -8,15 +8,12 @@ face; `left` is -z, `right` is +z.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .lead_modification import LeadModification, LeadModifications
+from .misalignment import Misalignment
 from .pair import GearPair
-
-if TYPE_CHECKING:
-    from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
-    from fenics_gears.effects.misalignment import Misalignment
 
 
 def face_opening(

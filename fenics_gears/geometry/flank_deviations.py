@@ -9,19 +9,16 @@ of the helix, unless in its mean: the pitch deviation says where the flank stand
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.written import as_written
 
+from .flank_errors import FlankErrors, GearErrors, MeasuredCurve, MeasuredCurves, Waviness
 from .flank_tolerance import FlankTolerance, HelixTolerance, flank_tolerance, helix_tolerance
 from .gear import Gear
 from .pair import GearPair
-
-if TYPE_CHECKING:
-    from fenics_gears.effects import flank_errors_sections as sections
 
 # Each has random numbers of its own, so that giving one leaves the others as they are.
 PITCH, SLOPE, FORM, HELIX_SLOPE, HELIX_FORM = range(5)
@@ -57,7 +54,7 @@ class FlankDeviations:
     index: np.ndarray
     slope: np.ndarray
     form: np.ndarray
-    waviness: sections.Waviness | None
+    waviness: Waviness | None
     active_profile: tuple[float, float]
     helix: HelixDeviations | None = None
     curves: np.ndarray | None = None
@@ -69,7 +66,7 @@ class FlankDeviations:
 
 
 def flank_deviations(
-    errors: sections.FlankErrors, pair: GearPair, middles: tuple[float, float] | None = None
+    errors: FlankErrors, pair: GearPair, middles: tuple[float, float] | None = None
 ) -> tuple[FlankDeviations, FlankDeviations]:
     """Deviations of pinion and wheel; `middles` (mm): heights of their mid-widths, None in the plane."""
     gears = zip((pair.pinion, pair.wheel), (errors.pinion, errors.wheel), pair.sap_roll_angles)
@@ -80,12 +77,7 @@ def flank_deviations(
 
 
 def _of_gear(
-    gear: Gear,
-    own: sections.GearErrors,
-    errors: sections.FlankErrors,
-    number: int,
-    start: float,
-    face: tuple[float, float] | None,
+    gear: Gear, own: GearErrors, errors: FlankErrors, number: int, start: float, face: tuple[float, float] | None
 ) -> FlankDeviations:
     if own.problem:
         name, problem = own.problem
@@ -140,7 +132,7 @@ def v_roll_angle(gear: Gear) -> float:
     return float(np.sqrt(max((radius / gear.base_radius) ** 2 - 1.0, 0.0)))
 
 
-def _curves(measured: sections.MeasuredCurves, gear: Gear, ends: tuple[float, float], zero: float | None) -> np.ndarray:
+def _curves(measured: MeasuredCurves, gear: Gear, ends: tuple[float, float], zero: float | None) -> np.ndarray:
     """Deviations (z, CURVE_POINTS), mm, at even steps between the ends (rad or mm), the mean curve for a tooth that was
     not measured. `zero`: where each curve is zero, None for its mean."""
     at = np.linspace(*ends, CURVE_POINTS)
@@ -155,7 +147,7 @@ def _curves(measured: sections.MeasuredCurves, gear: Gear, ends: tuple[float, fl
     return curves - sums[:, None] / (CURVE_POINTS - 1)
 
 
-def _places(curve: sections.MeasuredCurve, along: str, gear: Gear) -> np.ndarray:
+def _places(curve: MeasuredCurve, along: str, gear: Gear) -> np.ndarray:
     """Roll angles (rad) of a profile's points, 0 below the base circle; positions on the face (mm) of a helix's."""
     places = np.array(curve.places)
     if along == "roll_length":
@@ -165,7 +157,7 @@ def _places(curve: sections.MeasuredCurve, along: str, gear: Gear) -> np.ndarray
     return places
 
 
-def measured_share(curve: sections.MeasuredCurve, along: str, pair: GearPair, name: str) -> float:
+def measured_share(curve: MeasuredCurve, along: str, pair: GearPair, name: str) -> float:
     """Share of the active profile, or of the face, of the gear `name` that a curve covers, from 0 to 1."""
     number = ("pinion", "wheel").index(name)
     gear, width = (pair.pinion, pair.wheel)[number], pair.face_widths[number]

@@ -5,14 +5,56 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
+from fenics_gears.inputs.fields import quantity
+from fenics_gears.inputs.section import Section
+
 from .pair import GearPair
 
-if TYPE_CHECKING:
-    from fenics_gears.effects.profile_modifications import ProfileModification, ProfileModifications
+
+@dataclass(frozen=True)
+class ProfileModification(Section):
+    """``[profile_modifications.pinion]`` and ``[profile_modifications.wheel]``: over the flank's used part, from the
+    start of active profile to the tip;
+    each field alone is enough."""
+
+    empty = "names no modification. Add crowning or slope, or leave the section out."
+
+    crowning: float = quantity(
+        "-100 mm to 100 mm",
+        "4 um",
+        meaning="height of the crowning, a parabola over the roll angle: removed at both ends, nothing in the"
+        " middle; where it is negative, in the middle and nothing at the ends",
+        default="0 um",
+        otherwise="no crowning",
+        small=True,
+    )
+    slope: float = quantity(
+        "-100 mm to 100 mm",
+        "5 um",
+        meaning="slope, removed in proportion to the roll angle: so much at the tip; where it is negative, so much"
+        " at the start of active profile and nothing at the tip",
+        default="0 um",
+        otherwise="no slope",
+        small=True,
+    )
+
+
+@dataclass(frozen=True)
+class ProfileModifications(Section):
+    """``[profile_modifications]``: amounts normal to the flank in the transverse section, which is along the line of
+    action there, the same on all teeth of a gear."""
+
+    empty = (
+        "modifies neither gear. Add [profile_modifications.pinion] or [profile_modifications.wheel], or leave the"
+        " section out."
+    )
+
+    pinion: ProfileModification | None = None
+    wheel: ProfileModification | None = None
 
 
 @dataclass(frozen=True)

@@ -3,21 +3,124 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from math import degrees, isfinite, sqrt
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
 from fenics_gears.errors import GeometryError
+from fenics_gears.inputs.allowed import Measured
+from fenics_gears.inputs.fields import choice, either, number, quantity
+from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS
 
 from .gear import Gear
 from .involute import arc_length
 from .pair import GearPair
 
-if TYPE_CHECKING:
-    from fenics_gears.effects.relief import Relief, Reliefs
+LINEAR, PARABOLIC = "linear", "parabolic"
+POWERS = {LINEAR: 1, PARABOLIC: 2}
+
+# Each alone says where a relief starts.
+STARTS = ("start", "length_on_path", "length_on_flank")
+# And how it grows.
+GROWTH = ("shape", "exponent")
+
+
+def start_field(word: str, word_meaning: str) -> Any:
+    """The field that says where a relief starts: ``word``, a roll angle or a diameter."""
+    return either(
+        ("1e-3 deg to 360 deg", "29.61 deg"),
+        ("0.1 mm to 100 m", "80.1 mm"),
+        words=(word,),
+        meaning=(
+            f"start of the relief: a roll angle, the {word_meaning} (with a contact ratio above 2, of double tooth"
+            " contact, and so on), or a diameter, which is accepted for one gear only"
+        ),
+        otherwise="follows from a length; start or length is required where there is a depth",
+    )
+
+
+def length_field(measured: str) -> Any:
+    return quantity(
+        "1e-3 um to 100 m",
+        "3 mm",
+        meaning=f"length of the relief {measured}, from its start to its end",
+        otherwise="follows from `start`",
+    )
+
+
+@dataclass(frozen=True)
+class Relief(Section):
+    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are those of ``[tip_relief]``, and
+    the defaults hold if that section leaves them out too."""
+
+    alternatives = (STARTS, GROWTH)
+
+    depth: float | None = quantity(
+        "1e-6 um to 100 mm",
+        "31 um",
+        meaning=(
+            "depth at the end of the relief, normal to the flank in the transverse section, which is along the line of"
+            " action there"
+        ),
+        otherwise="no relief",
+        below="For a gear without relief, leave its depth out.",
+    )
+    start: float | Measured | str | None = start_field("HPSTC", "highest point of single tooth contact")
+    _: KW_ONLY
+    length_on_path: float | None = length_field("on the path of contact (length of roll: base radius times roll angle)")
+    length_on_flank: float | None = length_field("along the flank (arc of the involute)")
+    shape: str | None = choice(
+        LINEAR,
+        PARABOLIC,
+        meaning="growth of the relief with the roll angle: `linear` starts with a kink, at which the pressure does not"
+        " converge as the mesh is refined; `parabolic` starts without a kink",
+        otherwise="`linear`",
+    )
+    exponent: float | None = number(
+        1.5,
+        lowest=1.0,
+        highest=10.0,
+        meaning="growth with this power of the roll angle, in place of `shape`: 1 is linear, 2 parabolic",
+        otherwise="that of `shape`",
+    )
+
+    @property
+    def length(self) -> float | None:
+        """Length (mm) of the relief on the path of contact or along the flank, where the scene has one."""
+        return self.length_on_flank if self.length_on_path is None else self.length_on_path
+
+    @property
+    def start_roll_angle(self) -> float | None:
+        """Roll angle (rad) of the start, where the scene has one."""
+        return self.start if isinstance(self.start, (int, float)) else None
+
+    @property
+    def start_diameter(self) -> float | None:
+        """Diameter (mm) of the start, where the scene has one."""
+        return self.start.number if isinstance(self.start, Measured) else None
+
+    @property
+    def power(self) -> float:
+        return POWERS[self.shape or LINEAR] if self.exponent is None else self.exponent
+
+
+@dataclass(frozen=True)
+class RootReliefOfGear(Relief):
+    """``[root_relief.pinion]`` and ``[root_relief.wheel]``; fields that are left out are those of ``[root_relief]``,
+    and the defaults hold if that section leaves them out too."""
+
+    start: float | Measured | str | None = start_field("LPSTC", "lowest point of single tooth contact")
+
+
+@dataclass(frozen=True)
+class Reliefs:
+    """Relief of pinion and wheel; None for a gear without. One without start or length begins at HPSTC or LPSTC."""
+
+    pinion: Relief | None
+    wheel: Relief | None
 
 
 @dataclass(frozen=True)

@@ -200,5 +200,11 @@ def field_of(section: type[Section], name: str, value: Any) -> Any:
     return _allowed(section)[name].spelled(value)
 
 
+def own_or_shared(own: Section | None, shared: Section, name: str) -> Any:
+    """A field of one gear: its own section's, else that of the section of both gears; None where neither has it."""
+    value = None if own is None else getattr(own, name)
+    return getattr(shared, name) if value is None else value
+
+
 def _default(each: Field) -> Any:
     return each.default if each.default_factory is MISSING else each.default_factory()

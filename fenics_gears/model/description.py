@@ -8,9 +8,9 @@ import numpy as np
 
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia
 from fenics_gears.effects import Effect, every_effect, result_variables
-from fenics_gears.effects.flank_errors_sections import MEAN
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.flank_deviations import v_roll_angle
+from fenics_gears.geometry.flank_errors import MEAN
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import ISO_6336, Scene

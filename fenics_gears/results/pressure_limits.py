@@ -11,7 +11,7 @@ from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
-    from fenics_gears.effects.relief import Reliefs
+    from fenics_gears.geometry.relief import Reliefs
 
 # Peak pressure of a line contact over yield strength at which the material below yields by Tresca's criterion,
 # whose largest shear stress is 0.300 of the pressure (Johnson, Contact Mechanics, 1985, eq. 6.4).

@@ -22,23 +22,23 @@ from .accuracy import Accuracy as Accuracy
 from .accuracy import Output as Output
 
 if TYPE_CHECKING:
+    from fenics_gears.contact.eccentricity import Eccentricity
+    from fenics_gears.dynamics.damping import Damping
+    from fenics_gears.dynamics.inertia import Inertia
+    from fenics_gears.dynamics.torque_ripple import TorqueRipple
     from fenics_gears.effects.bearings import Bearings
     from fenics_gears.effects.body_meshes import BodyMeshes
     from fenics_gears.effects.coast_flanks import CoastFlanks
     from fenics_gears.effects.corner_contact import CornerContact
-    from fenics_gears.effects.damping import Damping
-    from fenics_gears.effects.eccentricity import Eccentricity
-    from fenics_gears.effects.flank_errors_sections import FlankErrors
     from fenics_gears.effects.friction import Friction
-    from fenics_gears.effects.inertia import Inertia
-    from fenics_gears.effects.lead_modifications import LeadModifications
-    from fenics_gears.effects.misalignment import Misalignment
-    from fenics_gears.effects.profile_modifications import ProfileModifications
     from fenics_gears.effects.root_relief import RootRelief
     from fenics_gears.effects.shafts import Shafts
     from fenics_gears.effects.speed_ramp import SpeedRamp
     from fenics_gears.effects.tip_relief import TipRelief
-    from fenics_gears.effects.torque_ripple import TorqueRipple
+    from fenics_gears.geometry.flank_errors import FlankErrors
+    from fenics_gears.geometry.lead_modification import LeadModifications
+    from fenics_gears.geometry.misalignment import Misalignment
+    from fenics_gears.geometry.profile_modification import ProfileModifications
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ from fenics_gears.contact.tooth_pair import DRIVE, per_node
 from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.dynamics.march import Marcher, thread_pools
 from fenics_gears.dynamics.steps import Record
-from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
+from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
 from fenics_gears.model.model import Model
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.face_ends import inner_widths, windows

@@ -8,10 +8,10 @@ import numpy as np
 from scipy.optimize import brentq
 
 from fenics_gears.effects.friction import Friction
-from fenics_gears.effects.relief import LINEAR, Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.geometry.relief import LINEAR, Relief
 from fenics_gears.inputs.allowed import Measured
 from fenics_gears.scene.data import Accuracy, GearData, GearPairData, Motion, Scene
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from tests.stand_in import stand_in_body
 
+from fenics_gears.contact.eccentricity import Eccentricity, Offset
 from fenics_gears.contact.face import Face, even_slices
 from fenics_gears.contact.face_mesh import face_mesh
 from fenics_gears.contact.flank_gaps import flank_gaps
@@ -15,8 +16,7 @@ from fenics_gears.contact.run_out import RunOut
 from fenics_gears.contact.tooth_pair import node_slices
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.contact.wobble import WobblingRunOut
-from fenics_gears.effects.eccentricity import Eccentricity, Offset
-from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors, Waviness
+from fenics_gears.geometry.flank_errors import FlankErrors, GearErrors, Waviness
 from fenics_gears.geometry.pair import Helix
 
 SLICES, STEPS = 4, 10

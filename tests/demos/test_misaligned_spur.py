@@ -7,7 +7,7 @@ from demos.misaligned_spur import misaligned
 from demos.misaligned_spur.picture import picture
 
 from fenics_gears import load_scene, simulate
-from fenics_gears.effects.misalignment import Misalignment
+from fenics_gears.geometry.misalignment import Misalignment
 from fenics_gears.scene.data import Accuracy
 
 SCENE = load_scene(misaligned.HERE / "misaligned.toml")

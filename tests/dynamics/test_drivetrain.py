@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
+from fenics_gears.dynamics.damping import Damping, Rayleigh
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
-from fenics_gears.effects.damping import Damping, Rayleigh
-from fenics_gears.effects.inertia import GearInertia, Inertia, LoadInertia
+from fenics_gears.dynamics.inertia import GearInertia, Inertia, LoadInertia
 from fenics_gears.effects.shafts import Shaft, Shafts
 from fenics_gears.geometry.section import gear_section
 from fenics_gears.model.description import describe

@@ -8,11 +8,11 @@ import pytest
 from tests.coarse import rigid_pair
 
 from fenics_gears import simulate
+from fenics_gears.contact.eccentricity import Eccentricity, Offset
 from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.run_out import RunOut
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.scene.data import Accuracy, Motion
 
 DISTANCE, PHASE = 0.01, 0.7

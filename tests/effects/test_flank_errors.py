@@ -18,8 +18,8 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import COAST, Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.effects import result_variables
-from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors, Waviness
-from fenics_gears.effects.misalignment import Misalignment
+from fenics_gears.geometry.flank_errors import FlankErrors, GearErrors, Waviness
+from fenics_gears.geometry.misalignment import Misalignment
 from fenics_gears.scene.data import Accuracy, Motion
 
 STEPS, PERIOD = 20, 48

@@ -9,8 +9,8 @@ from tests.paper_text import PAPER
 
 from fenics_gears import SceneError, gear_pair, load_scene, scene_from_text
 from fenics_gears.commands.shared import checked_model
-from fenics_gears.effects.flank_errors_sections import GearErrors
 from fenics_gears.geometry.flank_deviations import flank_deviations
+from fenics_gears.geometry.flank_errors import GearErrors
 
 DEMOS = Path(__file__).parents[2] / "demos"
 PITCHES = [3.0, -3.0, *(0.0,) * 14]

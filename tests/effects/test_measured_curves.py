@@ -12,9 +12,9 @@ from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.effects.flank_errors_sections import MEAN, REFERENCE_POINT, FlankErrors, GearErrors
 from fenics_gears.effects.flank_errors_tables import located
 from fenics_gears.geometry.flank_deviations import flank_deviations, slope_and_form
+from fenics_gears.geometry.flank_errors import MEAN, REFERENCE_POINT, FlankErrors, GearErrors
 
 STEPS = 20
 

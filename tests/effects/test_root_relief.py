@@ -14,13 +14,11 @@ from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.effects.profile_modifications import ProfileModification, ProfileModifications
-from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.root_relief import RootRelief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.geometry.involute import flank_point
-from fenics_gears.geometry.profile_modification import profile_curves
-from fenics_gears.geometry.relief import root_reliefs, tip_reliefs
+from fenics_gears.geometry.profile_modification import ProfileModification, ProfileModifications, profile_curves
+from fenics_gears.geometry.relief import LINEAR, PARABOLIC, Relief, root_reliefs, tip_reliefs
 from fenics_gears.inputs.allowed import Measured
 from fenics_gears.model.modification import removals
 

@@ -8,8 +8,8 @@ from tests.coarse import rigid_pair
 
 from fenics_gears import SceneError, scene_from_text, simulate
 from fenics_gears.contact.rigid_step import SAME_GAP
-from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
+from fenics_gears.geometry.relief import Relief
 from fenics_gears.model.modification import removals
 from fenics_gears.scene.data import Accuracy, Motion
 

@@ -8,7 +8,7 @@ from tests.coarse import COARSE, frictionless, quasi_static
 from tests.paper_text import PAPER as DEMO
 
 from fenics_gears import SceneError, scene_from_text, simulate
-from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
+from fenics_gears.dynamics.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.scene.data import Motion
 
 ORDER = 24.0  # of the wheel's turn: once a mesh cycle

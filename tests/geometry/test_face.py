@@ -8,8 +8,8 @@ from scipy.optimize import fsolve
 from scipy.spatial.transform import Rotation
 
 from fenics_gears import face_opening, gear_pair
-from fenics_gears.effects.lead_modifications import EndRelief, LeadModification, LeadModifications
-from fenics_gears.effects.misalignment import Misalignment
+from fenics_gears.geometry.lead_modification import EndRelief, LeadModification, LeadModifications
+from fenics_gears.geometry.misalignment import Misalignment
 from fenics_gears.scene.data import GearData, GearPairData
 
 

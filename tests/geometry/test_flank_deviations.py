@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fenics_gears import flank_tolerance, helix_tolerance
-from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors
 from fenics_gears.geometry.flank_deviations import flank_deviations
+from fenics_gears.geometry.flank_errors import FlankErrors, GearErrors
 
 EVERY_CLASS = range(1, 12)
 

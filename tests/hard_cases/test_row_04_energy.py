@@ -12,9 +12,9 @@ from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.steps import Record, Steps
+from fenics_gears.dynamics.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.speed_ramp import SpeedRamp
-from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.results.contact_variables import energy_variables
 from fenics_gears.scene.data import Motion
 

@@ -8,9 +8,8 @@ from tests.coarse import COARSE, coarse_scene, frictionless, teeth_alone
 
 from fenics_gears import model_of, simulate
 from fenics_gears.contact.laws import NO_FORCE
-from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.geometry.relief import tip_reliefs
+from fenics_gears.geometry.relief import LINEAR, PARABOLIC, Relief, tip_reliefs
 from fenics_gears.results.mesh_curves import read_off
 
 ACCURACY = replace(COARSE, contact_length=2.0, contact_nodes=41, steps_per_mesh_cycle=20)

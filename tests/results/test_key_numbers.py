@@ -7,8 +7,8 @@ import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static, teeth_alone
 
 from fenics_gears import mesh_factor, model_of, simulate, single_stiffness
-from fenics_gears.effects.profile_modifications import ProfileModification, ProfileModifications
-from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
+from fenics_gears.dynamics.torque_ripple import Harmonic, TorqueRipple
+from fenics_gears.geometry.profile_modification import ProfileModification, ProfileModifications
 from fenics_gears.model.resolution import plane_contact_modulus
 from fenics_gears.results.numbers import harmonics, shares_at
 from fenics_gears.results.summary import summary_rows

@@ -7,10 +7,10 @@ import pytest
 from tests.coarse import COARSE
 
 from fenics_gears import simulate
+from fenics_gears.dynamics.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.effects.corner_contact import CornerContact
-from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
+from fenics_gears.geometry.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.results.pressure_limits import yielding
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Material, Motion

@@ -4,7 +4,7 @@ import pytest
 from tests.paper_text import PAPER as DEMO
 
 from fenics_gears import SceneError, scene_from_text
-from fenics_gears.effects.flank_errors_sections import GearErrors
+from fenics_gears.geometry.flank_errors import GearErrors
 
 PERIOD = '"hunting tooth period"'
 

@@ -7,8 +7,8 @@ import pytest
 
 import fenics_gears
 from fenics_gears import SceneError, load_scene, model_of, scene_from_text
-from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
+from fenics_gears.geometry.relief import Relief
 from fenics_gears.scene import data
 
 DEMO_FILE = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"

@@ -7,8 +7,8 @@ import pytest
 
 from fenics_gears import GeometryError, SceneError, gear_pair, scene_from_text
 from fenics_gears.commands.cli import main
-from fenics_gears.effects.lead_modifications import EndRelief, LeadModification, LeadModifications
-from fenics_gears.effects.misalignment import Misalignment
+from fenics_gears.geometry.lead_modification import EndRelief, LeadModification, LeadModifications
+from fenics_gears.geometry.misalignment import Misalignment
 from fenics_gears.model.description import effect_states
 from fenics_gears.show.run import conditions
 

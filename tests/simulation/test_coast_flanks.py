@@ -8,9 +8,9 @@ import pytest
 from tests.coarse import COARSE, quasi_static
 
 from fenics_gears import simulate
+from fenics_gears.contact.eccentricity import Eccentricity, Offset
 from fenics_gears.contact.tooth_pair import apart, coast_place, drive_place
 from fenics_gears.effects.coast_flanks import CoastFlanks
-from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.effects.friction import Friction
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.involute import canonical_point

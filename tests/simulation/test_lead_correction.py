@@ -9,7 +9,7 @@ from tests.helical import FRICTION, helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of, scene_from_text
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
+from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.write import text_of
 from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle

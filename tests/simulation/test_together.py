@@ -14,12 +14,12 @@ from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.marches import Marches
 from fenics_gears.effects.coast_flanks import CoastFlanks
-from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
-from fenics_gears.effects.misalignment import Misalignment
-from fenics_gears.effects.profile_modifications import ProfileModification, ProfileModifications
-from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
+from fenics_gears.geometry.misalignment import Misalignment
+from fenics_gears.geometry.profile_modification import ProfileModification, ProfileModifications
+from fenics_gears.geometry.relief import Relief
 from fenics_gears.results.together import ERROR, OFFERED, OVER_FACE
 from fenics_gears.runs.common_windows import CommonWindows
 from fenics_gears.runs.gear_store import operators_key

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 from fenics_gears.effects import SECTIONS, effect_named, effects_on, every_effect, without
-from fenics_gears.effects.lead_modifications import LeadModification
+from fenics_gears.geometry.lead_modification import LeadModification
 from fenics_gears.inputs.tree import GEARS, over_the_face, written_out
 from fenics_gears.inputs.written import WrittenFloat
 from fenics_gears.scene.data import Scene

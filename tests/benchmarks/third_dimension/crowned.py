@@ -12,8 +12,8 @@ from tests.hertz_point_contact import PointContact
 
 from fenics_gears import gear_pair, model_of
 from fenics_gears.contact.kinematics import CENTRE_COORDINATES
-from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
 from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
 from fenics_gears.model.resolution import plane_contact_modulus, relative_radius
 from fenics_gears.results.mesh_curves import without_oscillation
 from fenics_gears.scene.data import Accuracy

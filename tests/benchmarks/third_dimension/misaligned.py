@@ -11,7 +11,7 @@ from tests.benchmarks.third_dimension.pairs import LINE_LOAD, MODULE, scene_of, 
 from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
 
 from fenics_gears import gear_pair, mesh_factor, simulate, single_stiffness
-from fenics_gears.effects.misalignment import Misalignment
+from fenics_gears.geometry.misalignment import Misalignment
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 

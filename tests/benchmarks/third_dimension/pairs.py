@@ -3,8 +3,8 @@
 from dataclasses import replace
 from math import atan, cos, pi, radians, sin, tan
 
-from fenics_gears.effects.misalignment import Misalignment
 from fenics_gears.geometry.gear_data import GearData, GearPairData, Material
+from fenics_gears.geometry.misalignment import Misalignment
 from fenics_gears.scene.data import Accuracy, Load, Motion, Scene
 
 MODULE, PRESSURE_ANGLE, TEETH = 3.0, radians(20.0), (20, 30)

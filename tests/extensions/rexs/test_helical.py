@@ -8,7 +8,7 @@ from tests.extensions.rexs import paper_model as rexs
 from tests.extensions.rexs.test_lookups import assumed_fields, refused, scene_of
 
 from fenics_gears import gear_pair
-from fenics_gears.effects.lead_modifications import EndRelief, LeadModification
+from fenics_gears.geometry.lead_modification import EndRelief, LeadModification
 
 STRETCH = 1.0 / cos(radians(20.0))
 

@@ -1,4 +1,4 @@
-"""The sections of ``[flank_errors]`` as a scene file has them. Not an effect by itself."""
+"""Deviations of the teeth of both gears, as a scene gives them: ``[flank_errors]``."""
 
 from dataclasses import dataclass
 

@@ -1,0 +1,67 @@
+"""How strongly a drivetrain is damped: by Rayleigh's factors of each shaft or by ratios of the modes."""
+
+from dataclasses import dataclass
+
+from fenics_gears.inputs.fields import number, numbers, quantity
+from fenics_gears.inputs.section import Section, own_or_shared
+
+RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ratios")
+
+
+OF_GEARS = "each gear has its own, or the damping is given by ratios"
+
+
+def _stiffness_proportional(otherwise: str):
+    meaning = "factor alpha of the stiffness matrix K in the damping matrix alpha K + beta M"
+    return quantity("0 s to 1e3 s", "0.4e-3 s", meaning=meaning, otherwise=otherwise)
+
+
+def _mass_proportional(otherwise: str):
+    meaning = "factor beta of the mass matrix M in the damping matrix alpha K + beta M"
+    return quantity("0 1/s to 1e9 1/s", "0.5e-3 1/s", meaning=meaning, otherwise=otherwise)
+
+
+@dataclass(frozen=True)
+class Rayleigh(Section):
+    """``[damping.pinion]`` and ``[damping.wheel]``: Rayleigh damping of a gear with its bearings and its shaft."""
+
+    stiffness_proportional: float | None = _stiffness_proportional("that of `[damping]`")
+    mass_proportional: float | None = _mass_proportional("that of `[damping]`")
+
+
+@dataclass(frozen=True)
+class Damping(Rayleigh):
+    """``[damping]``: either Rayleigh damping, for both gears or for each, or damping ratios of the modes."""
+
+    alternatives = (MODAL,)
+
+    stiffness_proportional: float | None = _stiffness_proportional(OF_GEARS)
+    mass_proportional: float | None = _mass_proportional(OF_GEARS)
+    ratio: float | None = number(
+        0.05,
+        meaning=(
+            "damping ratio (part of the critical damping) of all modes of the drivetrain with one tooth pair in mesh"
+        ),
+        above=0,
+        below=1,
+        otherwise="damping is given by `ratios` or is Rayleigh damping",
+    )
+    ratios: tuple[float, ...] | None = numbers(
+        0.0, 0.999, 0.05,
+        meaning="damping ratios of the modes in the order of their frequencies; the last one holds for all further "
+            "modes",
+        otherwise="damping is given by `ratio` or is Rayleigh damping",
+    )  # fmt: skip
+    pinion: Rayleigh | None = None
+    wheel: Rayleigh | None = None
+
+    @property
+    def modal(self) -> tuple[float, ...]:
+        """Damping ratios by mode from the lowest frequency on, the last for all that follow; empty for Rayleigh
+        damping."""
+        return (self.ratio,) if self.ratio is not None else self.ratios or ()
+
+    def rayleigh(self, gear: str) -> tuple[float, float]:
+        """alpha (s) and beta (1/s) of the shaft of the "pinion" or of the "wheel"."""
+        alpha, beta = (own_or_shared(getattr(self, gear), self, name) for name in RAYLEIGH)
+        return alpha, beta
