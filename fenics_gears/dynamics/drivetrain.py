@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from fenics_gears.effects.damping import Damping
     from fenics_gears.effects.inertia import Inertia
     from fenics_gears.effects.shafts import Shafts
+    from fenics_gears.geometry.gear_data import LumpedGear
 
     from .elastic_shaft import ElasticShaft
-    from .lumped_gear import LumpedGear
     from .rolling_springs import RollingSprings
     from .tilting import MeshOverFace
 

@@ -89,6 +89,13 @@ class RollingSprings:
         """Energies (s,), N mm, by which springs depart from linear ones at states (s, k)."""
         return np.array([self.departure(each).energy for each in states])
 
+    def loads(self, states: np.ndarray, linear: np.ndarray) -> np.ndarray:
+        """Loads (s, b, 5) on all bearings of elastic shafts at states (s, k), of which `linear` springs have so much."""
+        found = linear.copy()
+        for spring in self.springs:
+            found[:, spring.bearing] += [spring.departure(each).forces for each in states]
+        return found
+
     def largest_force(self, coordinates: np.ndarray) -> float:
         """Largest force, N, of a rolling element."""
         return max(reaction(each.rolling, coordinates[each.rows]).largest for each in self.springs)
@@ -153,13 +160,6 @@ class RollingSprings:
 
 def _change(step: np.ndarray, coordinates: np.ndarray) -> float:
     return float(np.abs(step).max() / max(np.abs(coordinates).max(), np.finfo(float).tiny))
-
-
-def forces_in_bearings(springs: RollingSprings | None, states: np.ndarray, loads: np.ndarray) -> np.ndarray:
-    """Loads (s, b, 5) on bearings by their linear stiffness with what rolling ones depart by at states (s, k)."""
-    for spring in springs.springs if springs is not None else ():
-        loads[:, spring.bearing] += [spring.departure(each).forces for each in states]
-    return loads
 
 
 def springs_of(drivetrain: Drivetrain, loads: Sequence[np.ndarray]) -> RollingSprings | None:

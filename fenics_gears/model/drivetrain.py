@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from fenics_gears.dynamics.elastic_shaft import ElasticShaft
-    from fenics_gears.dynamics.lumped_gear import LumpedGear
+    from fenics_gears.geometry.gear_data import LumpedGear
     from fenics_gears.geometry.section import CrossSection
 
 # Harmonics of the mesh that shafts follow with all of their modes.
@@ -102,7 +102,7 @@ def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:
     >>> lumped_gears(scene, gear_pair(scene.gears))["wheel"].moment_of_inertia  # N mm s^2
     24.5
     """
-    from fenics_gears.dynamics.lumped_gear import LumpedGear
+    from fenics_gears.geometry.gear_data import LumpedGear
 
     found = {}
     for name, width in zip(GEARS, pair.face_widths):

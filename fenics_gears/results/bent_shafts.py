@@ -9,7 +9,6 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.beam import SIX
 from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_seat import BentBySeat, bent_by_seat, carried_with_twist
-from fenics_gears.dynamics.rolling_springs import forces_in_bearings
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import SHAFT_POINTS
@@ -54,7 +53,9 @@ class BentShafts(AlongTheFace):
                 seat, teeth = self._seats[each.gear], self._loads(nodes, each.gear)
                 motions[:, GEARS.index(each.gear)] += np.tensordot(teeth, seat.teeth, ((1, 2), (1, 2)))
                 loads[place] += np.tensordot(teeth, seat.bearings, ((1, 2), (1, 2))).reshape(loads[place].shape)
-        carried = forces_in_bearings(self.drivetrain.rolling, states, np.concatenate(loads, axis=1))
+        carried = np.concatenate(loads, axis=1)
+        if self.drivetrain.rolling is not None:
+            carried = self.drivetrain.rolling.loads(states, carried)
         x, y, _, tilt_x, tilt_y = np.moveaxis(motions, -1, 0)
         heights = np.array(self.pair.gear_middles)
         leaning = {"in_plane": tilt_y, "out_of_plane": -tilt_x}
