@@ -90,7 +90,7 @@ class RollingSprings:
         return np.array([self.departure(each).energy for each in states])
 
     def loads(self, states: np.ndarray, linear: np.ndarray) -> np.ndarray:
-        """Loads (s, b, 5) on all bearings of elastic shafts at states (s, k), of which `linear` springs have so much."""
+        """Loads (s, b, 5) on all bearings of elastic shafts at states (s, k); `linear`: those of linear springs."""
         found = linear.copy()
         for spring in self.springs:
             found[:, spring.bearing] += [spring.departure(each).forces for each in states]
