@@ -79,7 +79,8 @@ class BetweenSteps(Stepper):
         steps, course = self._block(asked)
         for number, (place, position, last) in enumerate(asked):
             at = 2 * number + 1
-            if not self.cycle.traits.own_solver and solve_steps(steps, at, at + 1, self._motion, course) > at:
+            compiled = not self.cycle.traits.own_solver and self.drivetrain.rolling is None
+            if compiled and solve_steps(steps, at, at + 1, self._motion, course) > at:
                 record = steps.record(at)
             else:
                 try:

@@ -130,6 +130,14 @@ def put_modes(coordinates, load, modes):
         coordinates[c:] = modes.flexibility @ load[c:] - modes.follow @ coordinates[:c]
 
 
+def with_modes(coordinates, load, modes):
+    """All coordinates (k,), of the others (c,) under the load (k,) on all."""
+    found = np.zeros_like(load)
+    found[: len(coordinates)] = coordinates
+    put_modes(found, load, modes)
+    return found
+
+
 _eliminated, _left_load, _put_modes = (njit(cache=True)(each) for each in (eliminated, left_load, put_modes))
 
 

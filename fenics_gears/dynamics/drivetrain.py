@@ -24,8 +24,10 @@ from .inertia import Inertia
 if TYPE_CHECKING:
     from fenics_gears.effects.bearings import Bearings
     from fenics_gears.effects.shafts import Shafts
+    from fenics_gears.geometry.gear_data import LumpedGear
 
     from .elastic_shaft import ElasticShaft
+    from .rolling_springs import RollingSprings
     from .tilting import MeshOverFace
 
 # The load's moment of inertia over the wheel's, at most: their sum keeps six digits of the wheel's.
@@ -44,6 +46,7 @@ MOVED = {
     "rotation": "moment_of_inertia",
     "shaft": "moment_of_inertia",
     "tilt": "tilting_inertia",
+    "bearing": "mass",
     "bending": "mass",
     "torsion": "mass",
 }
@@ -57,7 +60,8 @@ class Drivetrain:
     `load` (k,), N; `mass` (k, k), N s^2/mm, and `damping` (k, k), N s/mm, or None where the scene has none. `mesh`: how
     the coordinates move flanks that have a width; None in the plane. `elastic`: the shafts that also bend, and
     `bearing_stiffness` (k, k), N/mm, the part of the stiffness that is in the bearings. `of_the_coupling` (k,),
-    N s^2/mm: mass of an elastic input shaft that turns with its coupling, whose rotation is prescribed.
+    N s^2/mm: mass of an elastic input shaft that turns with its coupling, whose rotation is prescribed. `rolling`: by
+    how much bearings depart from the stiffness that the matrix has for them, None where none does.
     """
 
     coordinates: tuple[str, ...]
@@ -70,6 +74,7 @@ class Drivetrain:
     elastic: tuple[ElasticShaft, ...] = ()
     bearing_stiffness: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
     of_the_coupling: np.ndarray | float = 0.0
+    rolling: RollingSprings | None = None
 
     @property
     def indices(self) -> list[int]:
@@ -84,13 +89,21 @@ class Drivetrain:
 
     @property
     def modes(self) -> int:
-        """How many of the coordinates, the last ones, are modes of shafts, which contact does not move."""
+        """How many of the coordinates, the last ones, are motions in rolling bearings and modes of shafts, which no
+        contact moves."""
         return sum(len(shaft.modes) for shaft in self.elastic)
 
-    @property
-    def on_rolling_bearings(self) -> bool:
-        """Whether a bearing's stiffness depends on its load."""
-        return any(bearing.rolling is not None for shaft in self.elastic for bearing in shaft.bearings)
+    @cached_property
+    def stiffness_at_work(self) -> np.ndarray:
+        """Stiffness (k, k), N/mm, against small motions about the place under an even load."""
+        if self.rolling is None:
+            return self.stiffness
+        return self.stiffness + self.rolling.departure(self.rolling.reference).stiffness
+
+    def elastic_forces(self, coordinates: np.ndarray) -> np.ndarray:
+        """Forces (k,), N, of all springs at coordinates (k,)."""
+        found = self.stiffness @ coordinates
+        return found if self.rolling is None else found + self.rolling.departure(coordinates).forces
 
     @property
     def right_up_to(self) -> float:
@@ -139,7 +152,7 @@ class Drivetrain:
 @dataclass(frozen=True)
 class Supports:
     """Shafts, bearings, masses and damping of a drivetrain, None where a scene has none; `gears`: "pinion" and "wheel"
-    as lumped masses; `elastic`: the shafts that also bend."""
+    as lumped masses; `elastic`: the shafts that also bend, `even_loads` (5,): of their gears, where bearings roll."""
 
     shafts: Shafts | None = None
     bearings: Bearings | None = None
@@ -147,6 +160,7 @@ class Supports:
     gears: Mapping[str, LumpedGear] = field(default_factory=dict)
     damping: Damping | None = None
     elastic: tuple[ElasticShaft, ...] = ()
+    even_loads: tuple[np.ndarray, ...] = ()
 
 
 def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stiffness: float) -> Drivetrain:
@@ -190,6 +204,10 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
     load = forces_of_torque(names, radii, wheel_torque)
     in_bearings, coupling = in_bearings * scale, coupling / radii
     undamped = Drivetrain(names, radii, stiffness, load, mass, None, mesh, supports.elastic, in_bearings, coupling)
+    if supports.even_loads:
+        from .rolling_springs import springs_of
+
+        undamped = replace(undamped, rolling=springs_of(undamped, supports.even_loads))
     if supports.damping is None or mass is None:
         return undamped
     return replace(undamped, damping=_damping(supports.damping, undamped, mesh_stiffness))
@@ -273,26 +291,4 @@ def _damping(damping: Damping, undamped: Drivetrain, mesh_stiffness: float) -> n
         return modal_damping(undamped, mesh_stiffness, damping.modal)
     # No spring and no mass connects both sides of the mesh: a row and its column have the same factors.
     alpha, beta = np.array([damping.rayleigh(gear_of(name)) for name in undamped.coordinates]).T[:, :, None]
-    return alpha * undamped.stiffness + beta * undamped.mass
-
-
-@dataclass(frozen=True)
-class LumpedGear:
-    """`mass`, N s^2/mm, and `moment_of_inertia`, N mm s^2, at a gear's centre; `width`, mm, of its face;
-    `given_tilting`: about a diameter, where given."""
-
-    mass: float
-    moment_of_inertia: float
-    width: float
-    given_tilting: float | None = None
-
-    @property
-    def tilting_inertia(self) -> float:
-        """Moment of inertia, N mm s^2, about a diameter at mid-width: as given, or J/2 + m b^2/12.
-
-        That is a disc's; exact for any body whose sections along the width are alike, on the average over a turn, and
-        with three teeth or more at any time.
-        """
-        if self.given_tilting is not None:
-            return self.given_tilting
-        return 0.5 * self.moment_of_inertia + self.mass * self.width**2 / 12.0
+    return alpha * undamped.stiffness_at_work + beta * undamped.mass

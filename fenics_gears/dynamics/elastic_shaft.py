@@ -13,12 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
-from itertools import pairwise
+from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+
+from .beam import MASS_POINTS, beam_flexibility, properties
 
 if TYPE_CHECKING:
     from fenics_gears.effects.bearings import Bearing
@@ -31,67 +32,12 @@ if TYPE_CHECKING:
 # Names of the coordinates of a gear's middle, without its number; and the gears' numbers.
 MOTIONS = ("centre_x", "centre_y", "axial_", "tilt_x", "tilt_y")
 NUMBERS = {"pinion": "1", "wheel": "2"}
-# Gauss points between two places of a shaft: exact for the polynomials of a cylinder, and for a cone, whose section is
-# in the denominator: its flexibility is right to 1e-9 while its wall is nowhere more than ten times the thinnest.
-OF_CYLINDER, OF_CONE, STEEPEST_CONE = 2, 30, 10.0
-# The same of a shaft's mass within an element, exact for both.
-MASS_POINTS = 5
-SIX = 6  # MOTIONS and the twist
+# The same of a place of the shaft.
+AXES = ("x", "y", "z", "tilt_x", "tilt_y")
+# mm/N that a place moves at least whose motions are coordinates: beside the seat it does as little as does not count.
+LEAST_YIELDING = 1e-12
 # Part of the largest stiffness, tilts taken over the shaft's length, below which a motion is free.
 LEAST_HELD = 1e-12
-
-gauss_rule = cache(np.polynomial.legendre.leggauss)
-
-
-class Properties(NamedTuple):
-    """Flexibility per length at points (q,) of a shaft, whose `places` (mm) have the `weights` (mm): to shear (1/N), to
-    axial force (1/N), to bending (1/(N mm^2)) and to torsion (1/(N mm^2))."""
-
-    places: np.ndarray
-    weights: np.ndarray
-    shear: np.ndarray
-    axial: np.ndarray
-    bending: np.ndarray
-    torsion: np.ndarray
-
-
-def shear_coefficient(poissons_ratio: float, hollowness: np.ndarray) -> np.ndarray:
-    """Timoshenko's shear coefficient of a circular section whose bore is so large a part of its diameter.
-
-    G. R. Cowper, The shear coefficient in Timoshenko's beam theory, Journal of Applied Mechanics 33 (1966), table 1.
-    """
-    squared = hollowness**2
-    both = (1.0 + squared) ** 2
-    solid = (7.0 + 6.0 * poissons_ratio) * both
-    return 6.0 * (1.0 + poissons_ratio) * both / (solid + (20.0 + 12.0 * poissons_ratio) * squared)
-
-
-def properties(
-    sections: Sequence[ShaftSection], material: tuple[float, float], stops: Iterable[float], points_of_each: int = 0
-) -> Properties:
-    """The flexibility along a shaft of `material` (Young's modulus, N/mm^2, and Poisson's ratio) at the points of a
-    Gauss rule between all `stops` (mm, from its left end) and the ends of its sections; of so many points, if given."""
-    parts, begin, stops = [], 0.0, sorted(stops)
-    for section in sections:
-        end = begin + section.length
-        points, weights = gauss_rule(points_of_each or (OF_CONE if section.tapered else OF_CYLINDER))
-        for left, right in pairwise([begin, *(each for each in stops if begin < each < end), end]):
-            half = 0.5 * (right - left)
-            places = left + half * (1.0 + points)
-            diameters = section.diameter + (section.right_diameter - section.diameter) * (places - begin) / (
-                end - begin
-            )
-            parts.append((places, half * weights, diameters, np.full(len(places), section.bore)))
-        begin = end
-    places, weights, outer, bore = (np.concatenate(each) for each in zip(*parts))
-    modulus, ratio = material
-    area, second = np.pi / 4.0 * (outer**2 - bore**2), np.pi / 64.0 * (outer**4 - bore**4)
-    shear_modulus = modulus / (2.0 * (1.0 + ratio))
-    shear_area = shear_coefficient(ratio, bore / outer) * area
-    return Properties(
-        places, weights, 1.0 / (shear_modulus * shear_area), 1.0 / (modulus * area), 1.0 / (modulus * second),
-        1.0 / (shear_modulus * 2.0 * second),
-    )  # fmt: skip
 
 
 def carried(distance: float) -> np.ndarray:
@@ -137,8 +83,21 @@ class ElasticShaft:
         """Length of the shaft, mm."""
         return sum(each.length for each in self.sections)
 
-    # Coordinates of a shaft that vibrates; see `elastic_shaft_modes`.
-    modes = ()
+    @property
+    def rolling(self) -> tuple[int, ...]:
+        """Numbers of the rolling bearings, in which the shaft's motions are coordinates: their law is one of motions
+        there."""
+        return tuple(number for number, each in enumerate(self.bearings) if each.rolling is not None)
+
+    @property
+    def in_rolling(self) -> tuple[str, ...]:
+        """Names of these coordinates."""
+        return tuple(f"bearing_{axis}_{number + 1}_{self.gear}" for number in self.rolling for axis in AXES)
+
+    @property
+    def modes(self) -> tuple[str, ...]:
+        """Names of the coordinates that contact does not move."""
+        return self.in_rolling
 
     @property
     def mass_of_all(self) -> float:
@@ -149,7 +108,7 @@ class ElasticShaft:
     @property
     def coordinates(self) -> tuple[str, ...]:
         """Names of the coordinates that the shaft's bending and its bearings act on."""
-        return tuple(f"{name}{NUMBERS[self.gear]}" for name in MOTIONS)
+        return (*(f"{name}{NUMBERS[self.gear]}" for name in MOTIONS), *self.modes)
 
     @property
     def seat_ends(self) -> tuple[float, float]:
@@ -171,7 +130,7 @@ class ElasticShaft:
     @property
     def at_bearings(self) -> np.ndarray:
         """Motions (5 b, k) of the shaft in its bearings per coordinate."""
-        return self.bearings_at_rest
+        return self._held.motions
 
     @cached_property
     def bearings_at_rest(self) -> np.ndarray:
@@ -214,10 +173,11 @@ class ElasticShaft:
         return self.at_bearings.T @ self.bearing_loads
 
     def deflection(self, places: Sequence[float]) -> np.ndarray:
-        """Motions (p, 5, 5) of places on the axis (mm from the left end) per motion of the gear."""
+        """Motions (p, 5, k) of places on the axis (mm from the left end) per coordinate."""
         flexible = self.flexibility(places, [each.at for each in self.bearings])
-        yielding = flexible.reshape(len(MOTIONS) * len(places), -1) @ self._loads_at_rest
-        return (self._rigid(places) - yielding).reshape(len(places), len(MOTIONS), len(MOTIONS))
+        moved = -flexible.reshape(len(MOTIONS) * len(places), -1) @ self._held.loads
+        moved[:, : len(MOTIONS)] += self._rigid(places)
+        return moved.reshape(len(places), len(MOTIONS), -1)
 
     def motions(self, drivetrain: Drivetrain, states: np.ndarray) -> np.ndarray:
         """The shaft's coordinates (..., c) at states (..., k) of the drivetrain."""
@@ -232,7 +192,45 @@ class ElasticShaft:
     @property
     def own_stiffness(self) -> np.ndarray:
         """Of shaft and bearings over the coordinates (k, k)."""
-        return self.stiffness
+        if not self.rolling:
+            return self.stiffness
+        rows = self._rows_of_rolling
+        loads = self.rigid_motions.T @ self._held.loads
+        found = np.concatenate([loads, -self._held.loads[rows]])
+        found = 0.5 * (found + found.T)
+        found[len(MOTIONS) :, len(MOTIONS) :] += self.springs[np.ix_(rows, rows)]
+        return found
+
+    @cached_property
+    def _held(self) -> Held:
+        """The shaft at rest over MOTIONS of the gear and the motions in rolling bearings."""
+        if not self.rolling:
+            return Held(self.bearings_at_rest, self._loads_at_rest)
+        rows, springs, flexible = self._rows_of_rolling, self.fixed_springs, self.held_flexibility
+        yielding = np.linalg.solve(
+            np.eye(len(flexible)) + flexible @ springs, np.concatenate([self.rigid_motions, flexible], axis=1)
+        )
+        followed = yielding[:, : len(MOTIONS)]
+        pushed = yielding[:, len(MOTIONS) :][:, rows]
+        own = pushed[rows]
+        own = own + np.diag(np.maximum(LEAST_YIELDING - np.diag(own), 0.0))
+        forces = np.linalg.solve(own, np.concatenate([-followed[rows], np.eye(len(rows))], axis=1))
+        motions = np.pad(followed, ((0, 0), (0, len(rows)))) + pushed @ forces
+        motions[rows] = np.eye(len(rows), motions.shape[1], len(MOTIONS))
+        loads = springs @ motions
+        loads[rows] -= forces
+        return Held(motions, loads)
+
+    @property
+    def _rows_of_rolling(self) -> np.ndarray:
+        return (len(MOTIONS) * np.array(self.rolling, dtype=int)[:, None] + np.arange(len(MOTIONS))).ravel()
+
+    @cached_property
+    def fixed_springs(self) -> np.ndarray:
+        """Stiffness (5 b, 5 b) of the bearings that have one whatever their load."""
+        found = self.springs.copy()
+        found[self._rows_of_rolling] = found[:, self._rows_of_rolling] = 0.0
+        return found
 
     @cached_property
     def _loads_at_rest(self) -> np.ndarray:
@@ -253,6 +251,13 @@ class ElasticShaft:
         return np.concatenate([np.empty((0, len(MOTIONS))), *(carried(at - self.gear_at) for at in places)])
 
 
+class Held(NamedTuple):
+    """Motions (5 b, k) of a shaft at rest in its bearings per coordinate, and its loads (5 b, k) on them."""
+
+    motions: np.ndarray
+    loads: np.ndarray
+
+
 def in_series(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """Stiffness (n, n) of two springs one behind the other, A (A + B)^-1 B; what neither holds is free.
 
@@ -263,29 +268,6 @@ def in_series(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     size = np.outer(*2 * [np.where(size > 0.0, size, 1.0)])
     found = first @ (np.linalg.pinv((first + second) / size, hermitian=True) / size) @ second
     return 0.5 * (found + found.T)
-
-
-def beam_flexibility(
-    along: Properties, places: Sequence[float], loaded: Sequence[float], held: tuple[float, float]
-) -> np.ndarray:
-    """Motions (p, 6, l, 6) of places per load at others of a shaft that is `held` from one place to another: over
-    MOTIONS and the twist. What is beyond the nearer of two places, or on the other side of the hold, does nothing."""
-    to_place, to_load = (np.asarray(each, dtype=float)[:, None] - along.places for each in (places, loaded))
-    beside = np.where(along.places > held[1], 1.0, np.where(along.places < held[0], -1.0, 0.0))
-    first, second = (np.where(arms * beside > 0.0, 1.0, 0.0) for arms in (to_place, to_load))
-    first_arm, second_arm = first * to_place, second * to_load
-
-    def summed(of: np.ndarray, left: np.ndarray = first, right: np.ndarray = second) -> np.ndarray:
-        return (left * along.weights * of) @ right.T
-
-    found = np.zeros((len(to_place), SIX, len(to_load), SIX))
-    found[:, 0, :, 0] = found[:, 1, :, 1] = summed(along.shear) + summed(along.bending, first_arm, second_arm)
-    found[:, 0, :, 4] = summed(along.bending, first_arm)
-    found[:, 4, :, 0] = summed(along.bending, right=second_arm)
-    found[:, 1, :, 3], found[:, 3, :, 1] = -found[:, 0, :, 4], -found[:, 4, :, 0]
-    found[:, 2, :, 2], found[:, 5, :, 5] = summed(along.axial), summed(along.torsion)
-    found[:, 3, :, 3] = found[:, 4, :, 4] = summed(along.bending)
-    return found
 
 
 def free_motions(shaft: ElasticShaft) -> list[str]:

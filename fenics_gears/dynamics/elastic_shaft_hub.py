@@ -21,7 +21,7 @@ import numpy as np
 
 from fenics_gears.elasticity.body_of_revolution import BodyOfRevolution, Ring, flexibility, flexibility_outside
 
-from .elastic_shaft import OF_CYLINDER, SIX, Properties, beam_flexibility, gauss_rule
+from .beam import OF_CYLINDER, SIX, Properties, beam_flexibility, gauss_rule
 from .elastic_shaft_seat import carried_with_twist
 
 # Of the bore's radius: how far beside the face, and the size of elements.

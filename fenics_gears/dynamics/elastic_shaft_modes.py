@@ -19,7 +19,8 @@ from math import ceil
 import numpy as np
 from scipy.linalg import block_diag, eigh
 
-from .elastic_shaft import MASS_POINTS, MOTIONS, NUMBERS, SIX, ElasticShaft, beam_flexibility, properties
+from .beam import MASS_POINTS, SIX, beam_flexibility, properties
+from .elastic_shaft import MOTIONS, NUMBERS, ElasticShaft
 
 # Elements are no longer than this part of the shaft.
 LONGEST_ELEMENT = 1.0 / 60.0
@@ -33,27 +34,23 @@ KINDS = {"bending": [0, 1, 3, 4], "axial": [2], "torsion": [TWIST]}
 class VibratingShaft(ElasticShaft):
     """An elastic shaft with its own mass and modes.
 
-    Its coordinates are MOTIONS of the gear's middle, then its modes, in mm: each has the mass of the shaft.
+    Its coordinates are those of the shaft at rest, then its modes, in mm: each has the mass of the shaft.
     """
-
-    @property
-    def coordinates(self) -> tuple[str, ...]:
-        """Names of the coordinates that bending, bearings and the shaft's own modes act on."""
-        return super().coordinates + self.modes
 
     @cached_property
     def modes(self) -> tuple[str, ...]:  # type: ignore[override]
-        """Names of the coordinates of the shaft's own modes, by frequency."""
+        """Names of the coordinates that contact does not move, the shaft's own modes last, by frequency."""
         motion = self._shapes.reshape(len(self._places), SIX, -1)
         energies = motion * (self._mass @ self._shapes).reshape(motion.shape)
         shares = np.array([energies[:, rows].sum(axis=(0, 1)) for rows in KINDS.values()])
         kinds = np.array(list(KINDS))[np.argmax(shares, axis=0)]
-        return tuple(f"{kind}_mode_{number}_{self.gear}" for number, kind in enumerate(kinds.tolist(), 1))
+        own = (f"{kind}_mode_{number}_{self.gear}" for number, kind in enumerate(kinds.tolist(), 1))
+        return (*self.in_rolling, *own)
 
     @cached_property
     def mass(self) -> np.ndarray:
-        """Over MOTIONS, the gear's rotation, the coupling's and the modes (7 + m, 7 + m), N, mm, s and rad; zero for a
-        coupling within the seat, which turns with the gear."""
+        """Over MOTIONS, the gear's rotation, the coupling's, and other coordinates (7 + m, 7 + m), N, mm, s and rad;
+        zero for a coupling within the seat, which turns with the gear."""
         found = np.concatenate([self._at_rest, self._shapes], axis=1)
         return found.T @ self._mass @ found
 
@@ -88,18 +85,18 @@ class VibratingShaft(ElasticShaft):
 
     @property
     def own_stiffness(self) -> np.ndarray:
-        """Of the coordinates (5 + m, 5 + m): at rest, and of each mode."""
-        return block_diag(self.stiffness, np.diag(self._vibrations[0]))
+        """Of the coordinates (k, k): at rest, and of each mode."""
+        return block_diag(super().own_stiffness, np.diag(self._vibrations[0]))
 
     @cached_property
     def at_bearings(self) -> np.ndarray:
-        """Motions (5 b, 5 + m) of the shaft in its bearings per coordinate."""
+        """Motions (5 b, k) of the shaft in its bearings per coordinate."""
         nodes = self._nodes([each.at for each in self.bearings])
         own = self._shapes.reshape(len(self._places), SIX, -1)[nodes, : len(MOTIONS)]
-        return np.concatenate([self.bearings_at_rest, own.reshape(len(self.bearings_at_rest), -1)], axis=1)
+        return np.concatenate([super().at_bearings, own.reshape(len(MOTIONS) * len(nodes), -1)], axis=1)
 
     def deflection(self, places) -> np.ndarray:
-        """Motions (p, 5, 5 + m) of places on the axis (mm from the left end) per coordinate."""
+        """Motions (p, 5, k) of places on the axis (mm from the left end) per coordinate."""
         own = [np.interp(places, self._places, shape) for shape in self._shapes.reshape(len(self._places), -1).T]
         own = np.reshape(own, (SIX, -1, len(places)))[: len(MOTIONS)]
         return np.concatenate([super().deflection(places), np.moveaxis(own, 2, 0)], axis=2)
@@ -141,16 +138,18 @@ class VibratingShaft(ElasticShaft):
 
     @cached_property
     def _at_rest(self) -> np.ndarray:
-        """Motions (6 n, 7) of all places per motion of the gear, its rotation and the coupling's, at rest."""
-        found = np.zeros((len(self._places), SIX, SIX + 1))
-        found[:, : len(MOTIONS), : len(MOTIONS)] = super().deflection(self._places)
+        """Motions (6 n, 7 + r) of all places per motion of the gear, its rotation, the coupling's, and those in rolling
+        bearings, at rest."""
+        bent = super().deflection(self._places)
+        found = np.zeros((len(self._places), SIX, bent.shape[2] + 2))
+        found[:, : len(MOTIONS), [*range(len(MOTIONS)), *range(SIX + 1, found.shape[2])]] = bent
         found[:, TWIST, TWIST] = 1.0
         if not self.coupled_within:
             twist = self._flexibility[:, TWIST, :, TWIST]
             number = self._nodes([self.torque_at])[0]
             found[:, TWIST, COUPLING] = twist[:, number] / twist[number, number]
             found[:, TWIST, TWIST] -= found[:, TWIST, COUPLING]
-        return found.reshape(-1, SIX + 1)
+        return found.reshape(SIX * len(self._places), -1)
 
     @property
     def coupled_within(self) -> bool:
@@ -170,14 +169,20 @@ class VibratingShaft(ElasticShaft):
 
     @cached_property
     def _vibrations(self) -> tuple[np.ndarray, np.ndarray]:
-        """Stiffness (m,), N/mm, and shapes (6 n, m) of the modes with gear and coupling held, whose mass is the
-        shaft's."""
+        """Stiffness (m,), N/mm, and shapes (6 n, m) of the modes with gear, coupling and places in rolling
+        bearings held, whose mass is the shaft's."""
         size = SIX * len(self._places)
         nodes = self._nodes([each.at for each in self.bearings])
         held = (SIX * nodes[:, None] + np.arange(len(MOTIONS))).ravel()
         flexible = self._flexibility.reshape(size, size)
-        springs = np.linalg.solve(np.eye(len(held)) + self.springs @ flexible[np.ix_(held, held)], self.springs)
+        fixed = self.fixed_springs
+        springs = np.linalg.solve(np.eye(len(held)) + fixed @ flexible[np.ix_(held, held)], fixed)
         flexible = flexible - flexible[:, held] @ springs @ flexible[held]
+        if self.rolling:
+            held = held[self._rows_of_rolling]
+            held = held[np.diag(flexible)[held] > 0.0]
+            flexible = flexible - flexible[:, held] @ np.linalg.solve(flexible[np.ix_(held, held)], flexible[held])
+            flexible[held] = flexible[:, held] = 0.0
         if not self.coupled_within:
             coupling = SIX * int(self._nodes([self.torque_at])[0]) + TWIST
             flexible = flexible - np.outer(flexible[coupling], flexible[coupling]) / flexible[coupling, coupling]

@@ -13,7 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .elastic_shaft import MOTIONS, SIX, ElasticShaft, beam_flexibility, carried, properties
+from .beam import SIX, beam_flexibility, properties
+from .elastic_shaft import MOTIONS, ElasticShaft, carried
 
 NOWHERE = np.empty(0)
 

@@ -85,7 +85,7 @@ def modes(drivetrain: Drivetrain, mesh_stiffness: float) -> tuple[np.ndarray, np
     normals = _along(drivetrain)
     if np.isinf(mesh_stiffness):
         return _tied_modes(drivetrain, normals)
-    stiffness = drivetrain.stiffness + mesh_stiffness / len(normals) * (normals.T @ normals)
+    stiffness = drivetrain.stiffness_at_work + mesh_stiffness / len(normals) * (normals.T @ normals)
     squares, shapes = eigh(stiffness, drivetrain.mass)
     return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * pi), shapes
 
@@ -134,7 +134,7 @@ def _motions(drivetrain: Drivetrain, frequencies: np.ndarray, shapes: np.ndarray
             ]
     if not bent:
         return said
-    in_shafts = np.einsum("ci,cd,di->i", shapes, drivetrain.stiffness, shapes)
+    in_shafts = np.einsum("ci,cd,di->i", shapes, drivetrain.stiffness_at_work, shapes)
     springs = in_shafts < 0.5 * (2.0 * pi * frequencies) ** 2
     return [" and ".join(filter(None, (words, "the mesh springs" * bool(of)))) for words, of in zip(said, springs)]
 
@@ -144,5 +144,5 @@ def _tied_modes(drivetrain: Drivetrain, normals: np.ndarray) -> tuple[np.ndarray
     free = null_space(normals)
     if not free.shape[1]:
         return np.empty(0), free
-    squares, shapes = eigh(free.T @ drivetrain.stiffness @ free, free.T @ drivetrain.mass @ free)
+    squares, shapes = eigh(free.T @ drivetrain.stiffness_at_work @ free, free.T @ drivetrain.mass @ free)
     return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * pi), free @ shapes

@@ -115,7 +115,7 @@ class Marcher(Stepper):
 
     def __init__(self, cycle: Cycle, equations: EquationsOfMotion, plain: bool = False):
         super().__init__(cycle, equations)
-        self.plain = plain
+        self.plain = plain or self.drivetrain.rolling is not None
         # Friction's lever arm is longest at the wheel's tip; with a smaller coefficient it never outweighs the normal
         # force there.
         self._may_lock = self.friction > 0.0 and self.friction * cycle.pair.wheel.tip_roll_angle >= 1.0

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,7 +23,12 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import Position
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start
 
+from .average_acceleration import State
 from .drivetrain import Drivetrain
+from .steps import Record
+
+if TYPE_CHECKING:
+    from .stepping import Stepper
 
 ITERATIONS = 20
 # Of the largest load. An unbalanced rest only adds a vibration of its size to the start of a run.
@@ -65,8 +71,23 @@ def mean_equilibrium(
         if np.abs(missing).max() <= BALANCE * largest:
             break
         stiffness = np.mean([_contact_stiffness(*each) for each in zip(positions, solutions)], axis=0)
-        coordinates = coordinates + np.linalg.lstsq(drivetrain.stiffness + stiffness, missing, rcond=None)[0]
+        coordinates = coordinates + np.linalg.lstsq(drivetrain.stiffness_at_work + stiffness, missing, rcond=None)[0]
     return MeanEquilibrium(coordinates, _velocity(drivetrain, left, time_step), held(positions[0], coordinates))
+
+
+def mean_start(stepper: Stepper, static: Record, slid: float) -> Record:
+    """The start at the mean equilibrium of the motion of a `stepper`, sought from the `static` one; `slid`: as of
+    `mean_equilibrium`."""
+    drivetrain, jacobian = stepper.drivetrain, static.position.operator.jacobian
+    mean = mean_equilibrium(
+        stepper.cycle, drivetrain, stepper.clock.duration(0, 1), stepper.friction, stepper.tolerance,
+        static.state.position, slid, stepper.load,
+    )  # fmt: skip
+    left = stepper.load(0) - drivetrain.elastic_forces(mean.position) - jacobian.T @ mean.solution.forces
+    if drivetrain.damping is not None:
+        left = left - drivetrain.damping @ mean.velocity
+    state = State(mean.position, mean.velocity, np.linalg.solve(drivetrain.mass, left))
+    return Record(0, state, static.position, mean.solution)
 
 
 def _holder(cycle: Cycle, friction: float, tolerance: Tolerance, slid: float) -> Held:
@@ -107,7 +128,7 @@ def _balance(
     drivetrain: Drivetrain, load: np.ndarray, position: Position, solution: StepSolution, coordinates: np.ndarray
 ) -> np.ndarray:
     """Unbalanced force (k,), N, of load, springs and contact."""
-    return load - drivetrain.stiffness @ coordinates - position.operator.jacobian.T @ solution.forces
+    return load - drivetrain.elastic_forces(coordinates) - position.operator.jacobian.T @ solution.forces
 
 
 def _contact_stiffness(position: Position, solution: StepSolution) -> np.ndarray:

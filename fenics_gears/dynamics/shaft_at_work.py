@@ -30,7 +30,7 @@ ARM, YIELDING, NEAR, LEFT, POLISHED = 30.0, 1e-9, 1e-6, 1e-11, 30
 def even_load(shaft: ElasticShaft, pair: GearPair, torque: float) -> np.ndarray:
     """Load (5,) of the gear on its shaft under a torque (N mm) on the wheel, spread evenly over the common face, at the
     pitch point and without friction, on coast flanks if that is negative."""
-    names = (*shaft.coordinates, "rotation_2")
+    names = (*shaft.coordinates[:MOTIONS], "rotation_2")
     # Both lines of action pass through the pitch point.
     normal = coast_normal(pair) if torque < 0.0 else contact_normal(pair)
     row = moved(pair, names, (pair.pitch_point, 0.0), normal)
@@ -56,17 +56,6 @@ def _at_work(shaft: ElasticShaft, load: tuple[float, ...]) -> tuple[Bearing, ...
         each if each.rolling is None else replace(each, worked=each.with_axial(secant_stiffness(each.rolling, motion)))
         for each, motion in zip(shaft.bearings, motions)
     )
-
-
-def largest_force(shaft: ElasticShaft, gear: np.ndarray) -> float:
-    """Largest force, N, of a rolling element in the bearings of a shaft whose gear moves so (5,); 0 without any."""
-    motions = (shaft.at_bearings @ gear).reshape(-1, MOTIONS)
-    forces = [
-        reaction(each.rolling, motion).largest
-        for each, motion in zip(shaft.bearings, motions)
-        if each.rolling is not None
-    ]
-    return max(forces, default=0.0)
 
 
 def _balanced(shaft: ElasticShaft, load: np.ndarray) -> np.ndarray:
@@ -96,7 +85,7 @@ def _balanced(shaft: ElasticShaft, load: np.ndarray) -> np.ndarray:
         found[:count, :count] += _of_all(bearings, scale[:count] * scaled[:count])[2]
         return scale[:, None] * found * scale
 
-    begun = np.concatenate([shaft.at_bearings @ start, start]) / scale
+    begun = np.concatenate([shaft.bearings_at_rest @ start, start]) / scale
     size = float(np.abs(load).max())
     found = minimize(energy, begun, jac=True, hess=curvature, method="trust-exact", options={"gtol": NEAR * size})
     motion, near = scale * found.x, False

@@ -18,7 +18,7 @@ from fenics_gears.contact.step_solver import HALVED, StepProblem, StepSolution, 
 
 from .average_acceleration import AverageAcceleration, State
 from .clock import FOLLOWING, Clock, SteadyClock, TimeScales
-from .compiled_march import NO_SETS, begin, eliminated, left_load, put_modes, slip_at_start
+from .compiled_march import NO_SETS, Eliminated, begin, eliminated, left_load, slip_at_start, with_modes
 from .drivetrain import Drivetrain
 from .steps import Record
 
@@ -147,7 +147,9 @@ class Stepper:
         if not self.dynamic.inert:
             return middle
         if self._time_scales.outruns_vibration:
-            return self._mean_start(middle)
+            from .mean_equilibrium import mean_start
+
+            return mean_start(self, middle, STEPS_SLID_BEFORE_START)
         velocity = np.zeros(len(self.drivetrain.coordinates))
         if self._time_scales.follows_statics:
             velocity = (neighbours[2].state.position - neighbours[0].state.position) / self.clock.duration(-1, 1)
@@ -157,21 +159,6 @@ class Stepper:
         if damping is not None:
             acceleration = -np.linalg.solve(self.drivetrain.mass, damping @ velocity)
         return Record(0, State(middle.state.position, velocity, acceleration), middle.position, middle.solution)
-
-    def _mean_start(self, static: Record) -> Record:
-        from .mean_equilibrium import mean_equilibrium
-
-        mean = mean_equilibrium(
-            self.cycle, self.drivetrain, self.clock.duration(0, 1), self.friction, self.tolerance,
-            static.state.position,
-            STEPS_SLID_BEFORE_START, self.load,
-        )  # fmt: skip
-        drivetrain, jacobian = self.drivetrain, static.position.operator.jacobian
-        left = self.load(0) - drivetrain.stiffness @ mean.position - jacobian.T @ mean.solution.forces
-        if drivetrain.damping is not None:
-            left = left - drivetrain.damping @ mean.velocity
-        state = State(mean.position, mean.velocity, np.linalg.solve(drivetrain.mass, left))
-        return Record(0, state, static.position, mean.solution)
 
     def step(self, scheme: AverageAcceleration | BackwardEuler, last: Record, step: int) -> Record:
         """One step of `scheme` from `last`, divided where the whole step has no solution."""
@@ -275,22 +262,30 @@ class Stepper:
     ) -> StepSolution:
         """The step of `scheme` from `state`, solved from the sets `status` (n,); `last`: the solution before, if there
         is one."""
-        operator, load = position.operator, scheme.load(state, self.load(step))
-        (compliance, rows), (jacobian, _) = operator.stored, operator.stored_jacobians
-        modes = eliminated(scheme.stiffness, self.drivetrain.modes)
-        coordinates, moved = np.zeros_like(load), len(modes.stiffness)
-        problem = StepProblem(
-            modes.stiffness, left_load(load, modes), compliance, jacobian, operator.gap, slip_before,
-            self.friction, self._moved_freely(scheme, load)[:moved], self.tolerance, self._free_words, rows,
-        )  # fmt: skip
+        load, rolling = scheme.load(state, self.load(step)), self.drivetrain.rolling
+
+        def linear(stiffness: np.ndarray, load: np.ndarray) -> StepSolution:
+            modes = eliminated(stiffness, self.drivetrain.modes)
+            problem = self._problem(scheme, position.operator, modes, load, slip_before)
+            solution = self.cycle.solve(position, problem, status.copy(), last)
+            return replace(solution, coordinates=with_modes(solution.coordinates, load, modes))
+
         try:
-            solution = self.cycle.solve(position, problem, status, last)
+            if rolling is None:
+                return linear(scheme.stiffness, load)
+            return rolling.solved(scheme.stiffness, load, rolling.reference if last is None else state.position, linear)
         except ContactNotConverged as failure:
             failure.time, failure.step = self.clock.time(step), step
             raise
-        coordinates[:moved] = solution.coordinates
-        put_modes(coordinates, load, modes)
-        return replace(solution, coordinates=coordinates)
+
+    def _problem(self, scheme, operator, modes: Eliminated, load: np.ndarray, slip_before) -> StepProblem:
+        """The contact problem under a load (k,) of coordinates of which modes are eliminated."""
+        (compliance, rows), (jacobian, _) = operator.stored, operator.stored_jacobians
+        free = self._moved_freely(scheme, load)[: len(modes.stiffness)]
+        return StepProblem(
+            modes.stiffness, left_load(load, modes), compliance, jacobian, operator.gap, slip_before,
+            self.friction, free, self.tolerance, self._free_words, rows,
+        )  # fmt: skip
 
     def _moved_freely(self, scheme, load: np.ndarray) -> np.ndarray:
         """How a load (k,) moves the drivetrain where only contact holds it; a varying load may change its sign."""

@@ -6,9 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
-from fenics_gears.dynamics.elastic_shaft import STEEPEST_CONE, ElasticShaft, free_motions
+from fenics_gears.dynamics.beam import STEEPEST_CONE
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import LISTED, Broken
 from fenics_gears.inputs.section import names_in
@@ -94,23 +93,21 @@ def check_shafts(scene: Any, pair: Any) -> None:
             check_housing(scene.shafts.sections[gear], shaft, len(scene.bearings.each_of(gear)))
             found = elastic_shaft(scene, pair, gear)
             wrong += [*_sections_are_solid(found, shaft), *_places_are_on_the_shaft(found, shaft)]
-            wrong += _rolling_stands_for_itself(scene, found)
+            wrong += _rolling_stands_for_itself(found)
             wrong += [*_bearings_hold(found), *_bearings_brace(found)] if not wrong else []
             wrong += wrong_with_seat(scene, pair, found, shaft)
     if wrong:
         raise SceneError("\n".join(wrong))
 
 
-def shaft_at_work(scene: Any, pair: Any, gear: str, load: np.ndarray | None = None) -> ElasticShaft:
-    """As `elastic_shaft`, with rolling bearings as stiff as they are under a load (5,) of the gear: that of an even
-    line load unless given."""
+def shaft_at_work(scene: Any, pair: Any, gear: str) -> ElasticShaft:
+    """As `elastic_shaft`, with rolling bearings as stiff as they are under an even line load."""
     found = elastic_shaft(scene, pair, gear)
     if all(each.rolling is None for each in found.bearings):
         return found
     from fenics_gears.dynamics.shaft_at_work import at_work, even_load
 
-    load = even_load(found, pair, scene.load.wheel_torque) if load is None else load
-    return replace(found, bearings=at_work(found, load))
+    return replace(found, bearings=at_work(found, even_load(found, pair, scene.load.wheel_torque)))
 
 
 def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
@@ -198,16 +195,13 @@ def _stiffness_is_given_once(bearing: Bearing, name: str) -> Iterator[str]:
         yield from (f"{name} {said}" for said in wrong_with(bearing.rolling))
 
 
-def _rolling_stands_for_itself(scene: Any, found: ElasticShaft) -> Iterator[str]:
-    """Bearings that roll are in quasi-static scenes and on a ground that does not yield."""
-    if all(each.rolling is None for each in found.bearings):
-        return
-    name = f"bearings.{found.gear}: rolling"
-    remedy = "give its stiffness under load as stiffness_matrix"
-    if scene.inertia is not None:
-        yield f"{name} beside [inertia]: how stiff it is against vibrations is not computed; {remedy}"
-    if found.housing is not None:
-        yield f"{name} beside a housing, through which its load is not computed; {remedy}"
+def _rolling_stands_for_itself(found: ElasticShaft) -> Iterator[str]:
+    """Bearings that roll are on a ground that does not yield."""
+    if found.rolling and found.housing is not None:
+        yield (
+            f"bearings.{found.gear}: rolling beside a housing, through which its load is not computed; give its"
+            " stiffness under load as stiffness_matrix"
+        )
 
 
 def _bearings_brace(found: ElasticShaft) -> Iterator[str]:

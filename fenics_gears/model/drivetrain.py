@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import inf, isfinite, pi, sqrt
 from typing import TYPE_CHECKING
 
@@ -15,34 +15,41 @@ from fenics_gears.scene.data import Scene
 if TYPE_CHECKING:
     import numpy as np
 
-    from fenics_gears.dynamics.drivetrain import LumpedGear
     from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+    from fenics_gears.geometry.gear_data import LumpedGear
     from fenics_gears.geometry.section import CrossSection
 
 # Harmonics of the mesh that shafts follow with all of their modes.
 HARMONICS = 10
 
 
-def drivetrain(scene: Scene, pair: GearPair, gear_loads: Mapping[str, np.ndarray] | None = None) -> Drivetrain:
-    """The drivetrain that the scene's sections call for; what no section frees does not appear. `gear_loads` (5,):
-    those of "pinion" and "wheel" on their shafts, for which rolling bearings have their stiffness.
+def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
+    """The drivetrain that the scene's sections call for; what no section frees does not appear.
 
     Raises SceneError for a load so heavy that the wheel is nothing beside it.
     """
     gears = {} if scene.inertia is None else lumped_gears(scene, pair)
-    elastic = _elastic(scene, pair, gears, gear_loads or {})
-    supports = Supports(scene.shafts, scene.bearings, scene.inertia, gears, scene.damping, elastic)
+    elastic = _elastic(scene, pair, gears)
+    loads = even_loads(scene, pair, elastic)
+    supports = Supports(scene.shafts, scene.bearings, scene.inertia, gears, scene.damping, elastic, loads)
     return assembled(pair, scene.load.wheel_torque, supports, mesh_stiffness(scene))
 
 
-def _elastic(
-    scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear], gear_loads: Mapping[str, np.ndarray]
-) -> tuple[ElasticShaft, ...]:
+def even_loads(scene: Scene, pair: GearPair, shafts: Sequence[ElasticShaft]) -> tuple[np.ndarray, ...]:
+    """Loads (5,) of gears on elastic shafts by an even line load; none where no bearing rolls."""
+    if not any(shaft.rolling for shaft in shafts):
+        return ()
+    from fenics_gears.dynamics.shaft_at_work import even_load
+
+    return tuple(even_load(shaft, pair, scene.load.wheel_torque) for shaft in shafts)
+
+
+def _elastic(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]) -> tuple[ElasticShaft, ...]:
     if scene.shafts is None or scene.shafts.sections is None:
         return ()
     from fenics_gears.effects.elastic_shaft_rules import shaft_at_work
 
-    shafts = tuple(shaft_at_work(scene, pair, gear, gear_loads.get(gear)) for gear in scene.shafts.sections)
+    shafts = tuple(shaft_at_work(scene, pair, gear) for gear in scene.shafts.sections)
     if scene.inertia is None:
         return shafts
     from fenics_gears.dynamics.elastic_shaft_modes import vibrating
@@ -95,7 +102,7 @@ def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:
     >>> lumped_gears(scene, gear_pair(scene.gears))["wheel"].moment_of_inertia  # N mm s^2
     24.5
     """
-    from fenics_gears.dynamics.drivetrain import LumpedGear
+    from fenics_gears.geometry.gear_data import LumpedGear
 
     found = {}
     for name, width in zip(GEARS, pair.face_widths):

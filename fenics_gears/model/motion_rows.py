@@ -53,7 +53,8 @@ def inertia_rows(model: Model) -> Rows:
             rows.append((f"{name} tilting moment of inertia", 1e3 * lumped.tilting_inertia, about))
         along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
     for shaft in model.drivetrain.elastic:
-        words = f"kg, in addition, with its {len(shaft.modes)} lowest modes, up to {shaft.up_to:.4g} Hz"
+        modes = len(shaft.modes) - len(shaft.in_rolling)
+        words = f"kg, in addition, with its {modes} lowest modes, up to {shaft.up_to:.4g} Hz"
         rows.append((f"mass of the {shaft.gear}'s shaft", 1e3 * shaft.mass_of_all, words))
     twists = "shaft_twist" in model.drivetrain.coordinates
     if twists or inertia.load is not None:
@@ -82,7 +83,7 @@ def unknown_rows(model: Model) -> Rows:
         elif shaft.hub is not None:
             words = "mm, the bore, where hub and shaft hold each other without slip and give way together"
             rows.append((f"press fit of the {shaft.gear}", 2.0 * shaft.hub.shaft.outer, words))
-    names = [name for name in model.drivetrain.coordinates if "_mode_" not in name]
+    names = [name for name in model.drivetrain.coordinates if "_mode_" not in name and not name.startswith("bearing_")]
     motions = ", ".join(map(motion_in_words, names))
     return [*rows, ("motions of the gears that are unknown", f"{len(names)}:", motions)]
 

@@ -6,7 +6,8 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, SIX, ElasticShaft
+from fenics_gears.dynamics.beam import SIX
+from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_seat import BentBySeat, bent_by_seat, carried_with_twist
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
@@ -52,6 +53,9 @@ class BentShafts(AlongTheFace):
                 seat, teeth = self._seats[each.gear], self._loads(nodes, each.gear)
                 motions[:, GEARS.index(each.gear)] += np.tensordot(teeth, seat.teeth, ((1, 2), (1, 2)))
                 loads[place] += np.tensordot(teeth, seat.bearings, ((1, 2), (1, 2))).reshape(loads[place].shape)
+        carried = np.concatenate(loads, axis=1)
+        if self.drivetrain.rolling is not None:
+            carried = self.drivetrain.rolling.loads(states, carried)
         x, y, _, tilt_x, tilt_y = np.moveaxis(motions, -1, 0)
         heights = np.array(self.pair.gear_middles)
         leaning = {"in_plane": tilt_y, "out_of_plane": -tilt_x}
@@ -59,11 +63,7 @@ class BentShafts(AlongTheFace):
         width = MICROMETRES * self.pair.face_width
         departures = {f"axis_inclination_{name}": width * np.diff(of)[:, 0] for name, of in leaning.items()}
         departures |= {f"axis_offset_{name}": MICROMETRES * np.diff(of)[:, 0] for name, of in offset.items()}
-        return (
-            super().curves(curves, nodes)
-            | departures
-            | dict(zip(LOADS, np.moveaxis(np.concatenate(loads, axis=1), -1, 0)))
-        )
+        return super().curves(curves, nodes) | departures | dict(zip(LOADS, np.moveaxis(carried, -1, 0)))
 
     def fields(self, nodes: SideBySide) -> dict[str, np.ndarray]:
         """Deflection of both shafts (steps, gears, points), mm; not a number where a shaft has no sections."""
@@ -145,16 +145,18 @@ class BentShafts(AlongTheFace):
         return {"natural_frequencies": "\n".join(lines)}
 
     def _rolling_elements(self, counted: xr.Dataset) -> dict[str, float]:
-        if not self.drivetrain.on_rolling_bearings:
+        """Under the mean motions of the gears, which shafts and bearings follow at rest."""
+        rolling, drivetrain = self.drivetrain.rolling, self.drivetrain
+        if rolling is None:
             return {}
-        from fenics_gears.dynamics.shaft_at_work import largest_force
-
-        means = {name: counted[of].mean("time") for name, of in zip(MOTIONS, OF_GEARS)}
-        found = (
-            largest_force(each, np.array([float(means[name].sel(gear=each.gear)) for name in MOTIONS]))
-            for each in self.drivetrain.elastic
-        )
-        return {"largest_rolling_element_force": max(found)}
+        coordinates = rolling.reference.copy()
+        for gear, number in NUMBERS.items():
+            for name, of in zip(MOTIONS, OF_GEARS):
+                if f"{name}{number}" in drivetrain.coordinates:
+                    place = drivetrain.coordinates.index(f"{name}{number}")
+                    coordinates[place] = counted[of].sel(gear=gear).mean() * drivetrain.radii[place]
+        settled = rolling.settled(drivetrain.stiffness, np.zeros(len(coordinates)), coordinates)
+        return {"largest_rolling_element_force": rolling.largest_force(settled)}
 
     def _motions(self, states: np.ndarray) -> np.ndarray:
         """Motions (steps, gears, 5) of the middles of pinion and wheel."""

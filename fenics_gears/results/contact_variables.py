@@ -172,6 +172,8 @@ def energy_variables(scene: Scene, drivetrain: Drivetrain, steps: Steps) -> dict
     positions, velocities = steps.states[:, 0], steps.states[:, 1]
     if scene.bearings is not None:
         parts["energy_bearings"] = 0.5 * quadratic(positions, drivetrain.bearing_stiffness)
+        if drivetrain.rolling is not None:
+            parts["energy_bearings"] += drivetrain.rolling.energies(positions)
     if scene.shafts is not None:
         parts["energy_shafts"] = 0.5 * quadratic(positions, drivetrain.stiffness - drivetrain.bearing_stiffness)
     if scene.inertia is not None:

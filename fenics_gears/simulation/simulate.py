@@ -160,22 +160,9 @@ def _simulated(
     compiled = compile_kernels(model.scene.friction is not None, cycle.traits.rigid)
 
     stress = root_stress_of(model, cycle, progress, cache)
-
-    def marched(model: Model, stage: str = MARCH) -> tuple[Recorder, March]:
-        recorder = Recorder(model, cycle, stress=stress, journal=journal)
-        progress.stage(stage)
-        return recorder, _marched(recorder, gears, compiled, progress)
-
-    if model.drivetrain.on_rolling_bearings:
-        from .bearings_at_work import NoBalance, with_bearings_at_work
-
-        try:
-            recorder, march = with_bearings_at_work(model, marched)
-        except NoBalance as failure:
-            failure.partial = result_of(*failure.marched, gears, compiled, "failed").dataset
-            raise
-    else:
-        recorder, march = marched(model)
+    recorder = Recorder(model, cycle, stress=stress, journal=journal)
+    progress.stage(MARCH)
+    march = _marched(recorder, gears, compiled, progress)
     return result_of(recorder, march, gears, compiled, "interrupted" if march.interrupted else "")
 
 

@@ -22,7 +22,7 @@ def can_be_solved_together(model: Model, asked: Collection[str]) -> bool:
     constant load."""
     scene, drivetrain = model.scene, model.drivetrain
     teeth_alike = reliefs_apart(model) and common_period(scene) == 1
-    steady = drivetrain.mass is None and not drivetrain.on_rolling_bearings and not model.loads
+    steady = drivetrain.mass is None and drivetrain.rolling is None and not model.loads
     own = scene.output.root_stress or scene.accuracy.target is not None or scene.speed_ramp is not None
     gaps = any(effect.gaps for effect in effects_on(scene))
     # Friction that can lock the teeth is looked at step by step.

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from tests.beam_elements import condensed
 
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions, in_series, shear_coefficient
+from fenics_gears.dynamics.beam import shear_coefficient
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions, in_series
 from fenics_gears.effects.bearings import Bearing, BearingPlaces, Bearings, Support
 from fenics_gears.effects.shafts import Shaft, ShaftMaterial, Shafts, ShaftSection
 from fenics_gears.model.drivetrain import drivetrain

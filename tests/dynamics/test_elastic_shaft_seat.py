@@ -11,7 +11,8 @@ from tests.hard_cases.invariants import run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft, carried, shear_coefficient
+from fenics_gears.dynamics.beam import shear_coefficient
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, carried
 from fenics_gears.dynamics.elastic_shaft_face import face_compliance_of_shafts, middles_of_slices
 from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
 from fenics_gears.effects.bearings import Bearing

@@ -107,9 +107,9 @@ def test_a_shaft_on_rolling_bearings_rests_where_they_carry_its_load(force):
     load = force * np.array([-1.0, 0.06, 0.18, 4.0, 8.0])
     working = ElasticShaft("pinion", shaft.sections, STEEL, 114.0, 24.0, 0.0, at_work(shaft, load))
     gear = np.linalg.solve(working.stiffness, load)
-    motions = (working.at_bearings @ gear).reshape(2, 5)
+    motions = (working.bearings_at_rest @ gear).reshape(2, 5)
     loads = [reaction(each.rolling, motion).loads for each, motion in zip(bearings, motions)]
-    linear = (working.bearing_loads @ gear).reshape(2, 5)
+    linear = (working.springs @ working.bearings_at_rest @ gear).reshape(2, 5)
     # The gear's motion has the round-off of the solution above, of a shaft that is hardly loaded 500 times that of a
     # loaded one: its condition number is 1e8.
     round_off = np.linalg.cond(working.stiffness) * np.finfo(float).eps

@@ -3,25 +3,22 @@
 import numpy as np
 import pytest
 from tests.beam_elements import assembled, condensed
-from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, INERTIA, INPUT, OUTPUT, PINION, ROLLING, VIBRATING, WHEEL
+from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, INERTIA, INPUT, PINION, VIBRATING
 from tests.hard_cases.invariants import cycle_of, run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of, scene_from_text
-from fenics_gears.dynamics.elastic_shaft import shear_coefficient
+from fenics_gears.dynamics.beam import shear_coefficient
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.dynamics.rolling_bearing import reaction
 from fenics_gears.dynamics.shaft_at_work import even_load
 from fenics_gears.model.description import describe
-from fenics_gears.results.dataset import RunResult
+from fenics_gears.results.bent_shafts import OF_GEARS
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.write import section_trees, text_of
 from fenics_gears.show.bent_shafts import bent_shafts
 from fenics_gears.show.plots import run_figures
 from fenics_gears.show.run import Run
-from fenics_gears.simulation.bearings_at_work import NoBalance, mean_loads, with_bearings_at_work
-from fenics_gears.simulation.simulate import simulate
 
 
 def shear(outer, bore):
@@ -174,39 +171,6 @@ def test_a_side_that_names_nothing_is_rigid():
     assert set(both.coordinates) - set(alone.coordinates) == {"centre_x2", "centre_y2", "shaft_twist"}
 
 
-@pytest.mark.parametrize("of_input", [ROLLING, ROLLING.replace("torque_at", 'seat = "integral"\ntorque_at')])
-def test_rolling_bearings_carry_by_their_law_in_the_run(of_input):
-    """The bearings' own law at the shaft's motions, on the average; teeth cut into an overhung shaft change nothing."""
-    model = model_of(helical_scene(of_input + OUTPUT + WHEEL, offset=2.0, accuracy=FEW))
-    bodies = on_stand_in_bodies(model)
-    shaft = model.drivetrain.elastic[0]
-
-    def marched(model, stage=""):
-        recorder = Recorder(model, cycle_of(model, bodies))
-        return recorder, Marcher(recorder.cycle, model.equations_of_motion).run(model.steps, 1, observe=recorder.take)
-
-    recorder, march = with_bearings_at_work(model, marched)
-    model, result = recorder.model, RunResult(recorder, march).dataset
-    assert result.attrs["largest_rolling_element_force"] > 0.0
-    working = model.drivetrain.elastic[0]
-    gear = np.linalg.solve(working.stiffness, mean_loads(model, recorder)[0])
-    for number, motion in enumerate((working.at_bearings @ gear).reshape(2, 5)):
-        law = reaction(shaft.bearings[number].rolling, motion).loads
-        for axis, load in zip("xyz", law):
-            found = result[f"bearing_force_{axis}"].values[1:, number].mean()
-            assert abs(found - load) <= 2e-4 * np.abs(law[:3]).max()
-
-
-def test_bearings_that_find_no_balance_leave_the_last_run(monkeypatch):
-    """What was computed is kept: the error carries the last march, marked as failed."""
-    monkeypatch.setattr("fenics_gears.simulation.bearings_at_work.MOST_RUNS", 1)
-    model = model_of(helical_scene(ROLLING + OUTPUT + WHEEL, offset=2.0, accuracy=FEW))
-    with pytest.raises(NoBalance, match="still changes by") as failure:
-        simulate(model, preparation=lambda *_: ((), cycle_of(model, on_stand_in_bodies(model))))
-    partial = failure.value.partial
-    assert partial.sizes["time"] == model.steps + 1 and partial.attrs["stopped"] == "failed"
-
-
 @pytest.mark.parametrize("torque", [3e5, -3e5], ids=["drive", "coast"])
 def test_the_even_load_is_the_force_of_a_run_on_the_flanks_that_carry(torque):
     """Statics: without friction forces have the direction of the flanks' normal."""
@@ -214,7 +178,9 @@ def test_the_even_load_is_the_force_of_a_run_on_the_flanks_that_carry(torque):
     recorder = Recorder(model, cycle_of(model, on_stand_in_bodies(model)))
     Marcher(recorder.cycle, model.equations_of_motion).run(model.steps, 1, observe=recorder.take)
     recorder.finish()
-    for shaft, load in zip(model.drivetrain.elastic, mean_loads(model, recorder)):
+    motions = np.stack([recorder.arrays[name][1:].mean(axis=0) for name in OF_GEARS])
+    for number, shaft in enumerate(model.drivetrain.elastic):
+        load = shaft.stiffness @ motions[:, number]
         even = even_load(shaft, model.pair, torque)
         # Each gear's tilts about the pitch point are what the line load makes of them.
         assert np.abs(even - load)[:3].max() <= 1e-4 * np.linalg.norm(load[:3])

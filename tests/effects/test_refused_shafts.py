@@ -87,10 +87,6 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
             "preloads push the shaft with 10 N along its axis",
         ),
         (
-            ROLLING.replace("gear_at", 'material = { density = "7.85 g/cm^3" }\ngear_at') + INERTIA,
-            "bearings.pinion: rolling beside .inertia.: how stiff",
-        ),
-        (
             ROLLING.replace("114 mm", "60 mm").replace("torque_at", 'seat = "integral"\ntorque_at'),
             "has a stiffness_matrix or rolling; allowed on both sides",
         ),

@@ -86,7 +86,7 @@ def expected_work(design: Design, kept: int, processes: int = 1) -> Work:
     if cases[0].scene.three_dimensional:
         own, march = TOGETHER_OVER_FACE if together else ALONE_OVER_FACE
         again = (own + march * first) * (WITH_FRICTION if cases[0].scene.friction else 1.0)
-        again *= ON_ROLLING_BEARINGS if cases[0].model.drivetrain.on_rolling_bearings else 1.0
+        again *= ON_ROLLING_BEARINGS if cases[0].model.drivetrain.rolling is not None else 1.0
         made = designs * points if bodies > 1 else operators * processes
         seconds = runs * again + min(made, runs) * (building + EXTREMES * position + first)
     elif together:

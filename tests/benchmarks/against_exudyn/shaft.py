@@ -8,7 +8,8 @@ import numpy as np
 from tests.benchmarks.against_exudyn.pair import asked
 from tests.benchmarks.against_ross.shafts import BEARINGS, DENSITY, DISC, SHAFTS, UP_TO, elastic, free_frequencies
 
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft, properties
+from fenics_gears.dynamics.beam import properties
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_modes import vibrating
 
 # Longest element of Exudyn, mm: elements of twice the length differ by 2e-4.

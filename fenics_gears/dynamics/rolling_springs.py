@@ -1,0 +1,181 @@
+"""Rolling bearings as nonlinear springs of a drivetrain: what their loads are beyond the secant stiffness that its
+matrix has for them, and the step with them.
+
+A step is linear but for contact and these springs. Motions in the bearings are eliminated by the minimum of energy for
+given motions of the gears, and the step is solved with the springs' tangents there, until motions stay: Newton's method
+around that of contact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from fenics_gears.contact.errors import ContactNotConverged
+
+from .rolling_bearing import MOTIONS, reaction
+
+if TYPE_CHECKING:
+    from fenics_gears.contact.step_solver import StepSolution
+    from fenics_gears.effects.rolling_bearings import RollingBearing
+
+    from .drivetrain import Drivetrain
+
+# Change of motions, in parts of the largest, that ends an iteration, whose error is the square of it; and how often.
+SAME, MOST_ITERATIONS, MOST_HALVINGS = 1e-9, 60, 30
+# Part of the decrease of energy by its slope that a step must bring.
+DECREASE = 1e-4
+
+
+class Departure(NamedTuple):
+    """Energy, N mm, by which springs depart from linear ones, forces (k,), N, and stiffness (k, k), N/mm."""
+
+    energy: float
+    forces: np.ndarray
+    stiffness: np.ndarray
+
+
+class RollingSpring(NamedTuple):
+    """A bearing: the `rows` (5,) of its motions among the coordinates, its row of rolling elements, the stiffness
+    (5, 5) that the drivetrain's matrix has for these, and its number among all bearings of elastic shafts."""
+
+    rows: np.ndarray
+    rolling: RollingBearing
+    secant: np.ndarray
+    bearing: int
+
+    def departure(self, coordinates: np.ndarray) -> Departure:
+        """Of the loads (5,) at coordinates (k,) of the drivetrain."""
+        motion = coordinates[self.rows]
+        found, linear = reaction(self.rolling, motion), self.secant @ motion
+        return Departure(found.energy - 0.5 * motion @ linear, found.loads - linear, found.stiffness - self.secant)
+
+
+class NoBalance(ContactNotConverged):
+    """Motions go on changing, in parts of the largest by `change`."""
+
+    def __init__(self, change: float):
+        reason = (
+            f"rolling bearings: motions in them still change by {change:.2g} of the largest motion after"
+            f" {MOST_ITERATIONS} iterations. Take a smaller clearance, a preload or a larger torque"
+        )
+        super().__init__([("rolling bearings", "no balance", np.empty((0, 5)), np.empty((0, 0)))], reason)
+
+
+@dataclass(frozen=True)
+class RollingSprings:
+    """All of them. `reference` (k,): coordinates under an even load of the teeth; no contact moves the last `modes`
+    coordinates, those in bearings among them."""
+
+    springs: tuple[RollingSpring, ...]
+    reference: np.ndarray
+    modes: int
+
+    def departure(self, coordinates: np.ndarray) -> Departure:
+        """What all springs depart by at coordinates (k,)."""
+        size = len(coordinates)
+        energy, forces, stiffness = 0.0, np.zeros(size), np.zeros((size, size))
+        for spring in self.springs:
+            found = spring.departure(coordinates)
+            energy += found.energy
+            forces[spring.rows] += found.forces
+            stiffness[np.ix_(spring.rows, spring.rows)] += found.stiffness
+        return Departure(energy, forces, stiffness)
+
+    def energies(self, states: np.ndarray) -> np.ndarray:
+        """Energies (s,), N mm, by which springs depart from linear ones at states (s, k)."""
+        return np.array([self.departure(each).energy for each in states])
+
+    def loads(self, states: np.ndarray, linear: np.ndarray) -> np.ndarray:
+        """Loads (s, b, 5) on all bearings of elastic shafts at states (s, k); `linear`: those of linear springs."""
+        found = linear.copy()
+        for spring in self.springs:
+            found[:, spring.bearing] += [spring.departure(each).forces for each in states]
+        return found
+
+    def largest_force(self, coordinates: np.ndarray) -> float:
+        """Largest force, N, of a rolling element."""
+        return max(reaction(each.rolling, coordinates[each.rows]).largest for each in self.springs)
+
+    def settled(self, stiffness: np.ndarray, load: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
+        """Coordinates (k,) of which those that no contact moves are in balance, with a linear stiffness (k, k), under a
+        load (k,): where energy is least. Raises NoBalance."""
+        own = slice(len(load) - self.modes, len(load))
+        found, change = coordinates.copy(), np.inf
+        for _ in range(MOST_ITERATIONS):
+            beyond = self.departure(found)
+            slope = (stiffness @ found - load + beyond.forces)[own]
+            step = -np.linalg.solve(stiffness[own, own] + beyond.stiffness[own, own], slope)
+            change = _change(step, found)
+            if change <= SAME:
+                found[own] += step
+                return found
+            found = self._lower(stiffness, load, found, step, float(slope @ step))
+        raise NoBalance(change)
+
+    def _lower(
+        self, stiffness: np.ndarray, load: np.ndarray, begun: np.ndarray, step: np.ndarray, slope: float
+    ) -> np.ndarray:
+        """Coordinates part of a step on, where energy is lower."""
+
+        def energy(coordinates: np.ndarray) -> float:
+            return 0.5 * coordinates @ stiffness @ coordinates - load @ coordinates + self.departure(coordinates).energy
+
+        before, part = energy(begun), 1.0
+        # What energy is too coarse for, near its minimum, is taken whole.
+        coarse = 1e-12 * abs(before)
+        for _ in range(MOST_HALVINGS):
+            found = begun.copy()
+            found[-self.modes :] += part * step
+            if energy(found) <= before + DECREASE * part * slope + coarse:
+                return found
+            part *= 0.5
+        return found
+
+    def solved(
+        self,
+        stiffness: np.ndarray,
+        load: np.ndarray,
+        begin: np.ndarray,
+        solve: Callable[[np.ndarray, np.ndarray], StepSolution],
+    ) -> StepSolution:
+        """A step whose matrix is `stiffness` (k, k) and whose right-hand side is `load` (k,), but for what springs
+        depart by: `solve` does a linear one. Raises NoBalance."""
+        place, last, change, part = begin, np.inf, np.inf, 1.0
+        for _ in range(MOST_ITERATIONS):
+            place = self.settled(stiffness, load, place)
+            beyond = self.departure(place)
+            solution = solve(stiffness + beyond.stiffness, load - beyond.forces + beyond.stiffness @ place)
+            found = solution.coordinates
+            change = _change(found - place, found)
+            if change <= SAME:
+                return solution
+            part = min(1.0, 2.0 * part) if change < last else 0.5 * part
+            place, last = place + part * (found - place), change
+        raise NoBalance(change)
+
+
+def _change(step: np.ndarray, coordinates: np.ndarray) -> float:
+    return float(np.abs(step).max() / max(np.abs(coordinates).max(), np.finfo(float).tiny))
+
+
+def springs_of(drivetrain: Drivetrain, loads: Sequence[np.ndarray]) -> RollingSprings | None:
+    """The rolling bearings of a drivetrain whose gears have loads (5,) on their elastic shafts; None where it has
+    none."""
+    found, first, reference = [], 0, np.zeros(len(drivetrain.coordinates))
+    for shaft, load in zip(drivetrain.elastic, loads):
+        gear = np.linalg.solve(shaft.stiffness, load)
+        moved = np.concatenate(
+            [gear, (shaft.bearings_at_rest @ gear).reshape(-1, MOTIONS)[list(shaft.rolling)].ravel()]
+        )
+        rows = np.array([drivetrain.coordinates.index(name) for name in shaft.coordinates])[: len(moved)]
+        reference[rows] = moved * drivetrain.radii[rows]
+        for place, number in enumerate(shaft.rolling):
+            bearing, own = shaft.bearings[number], rows[MOTIONS * (place + 1) :][:MOTIONS]
+            secant = np.array(bearing.matrix) - np.diag([0.0, 0.0, bearing.axial_stiffness, 0.0, 0.0])
+            found.append(RollingSpring(own, bearing.rolling, secant, first + number))
+        first += len(shaft.bearings)
+    return RollingSprings(tuple(found), reference, drivetrain.modes) if found else None

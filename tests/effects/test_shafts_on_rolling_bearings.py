@@ -1,0 +1,108 @@
+"""Shafts on rolling bearings, nonlinear springs of every step, at rest and with inertia."""
+
+import numpy as np
+import pytest
+from tests.elastic_shaft_scenes import FEW, INERTIA, OUTPUT, ROLLING, VIBRATING, WHEEL
+from tests.hard_cases.invariants import cycle_of, run_of
+from tests.helical import helical_scene, on_stand_in_bodies
+
+from fenics_gears import model_of
+from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.rolling_bearing import reaction
+from fenics_gears.simulation.simulate import simulate
+
+INTEGRAL_ROLLING = ROLLING.replace("torque_at", 'seat = "integral"\ntorque_at')
+VIBRATING_ROLLING = (
+    ROLLING.replace('torque_at = "0 mm"', 'torque_at = "0 mm"\nmaterial = { density = "7.85 g/cm^3" }')
+    + VIBRATING[VIBRATING.index("[shafts.output]") :]
+)
+
+
+@pytest.mark.parametrize("of_input", [ROLLING, INTEGRAL_ROLLING], ids=["rigid seat", "teeth cut in"])
+def test_rolling_bearings_carry_by_their_law_at_every_step(of_input):
+    """Statics and the bearings' own law: the gear's load by its contact forces is what bearings have in sum, and what
+    they have is the law at the shaft's motions in them, which are those of the loaded beam; teeth cut into an overhung
+    shaft change nothing."""
+    model = model_of(helical_scene(of_input + OUTPUT + WHEEL, offset=2.0, accuracy=FEW))
+    train, cycle = model.drivetrain, cycle_of(model, on_stand_in_bodies(model))
+    shaft, names = train.elastic[0], train.coordinates
+    march = Marcher(cycle, model.equations_of_motion).run(model.steps, model.steps + 1)
+    gear = [names.index(name) for name in ("centre_x1", "centre_y1", "axial_1", "tilt_x1", "tilt_y1")]
+    assert len(march.records) == model.steps + 1
+    for record in march.records:
+        position, forces = record.state.position, record.solution.forces
+        motions = position[[names.index(name) for name in shaft.in_rolling]]
+        laws = [reaction(each.rolling, of).loads for each, of in zip(shaft.bearings, motions.reshape(2, 5))]
+        carried = np.concatenate(laws)
+        loads = -(record.position.operator.jacobian.T @ forces)[gear] * train.radii[gear]
+        size = np.abs(loads).max()
+        assert np.abs(shaft.rigid_motions.T @ carried - loads).max() <= 1e-9 * size
+        bent = shaft.rigid_motions @ (position[gear] / train.radii[gear]) - shaft.held_flexibility @ carried
+        assert motions == pytest.approx(bent, rel=1e-9, abs=1e-9 * np.abs(motions).max())
+
+
+def test_results_of_rolling_bearings_are_by_their_law():
+    """Identity: loads of the result are in balance, and energy is what bearings hold."""
+    model = model_of(helical_scene(ROLLING + OUTPUT + WHEEL, offset=2.0, accuracy=FEW))
+    found = run_of(model, on_stand_in_bodies(model))
+    assert found.failure is None
+    result = found.result
+    normal = result["normal_force"].values[1:]
+    across = np.hypot(*(result[f"bearing_force_{axis}"].values[1:, :2].sum(axis=1) for axis in "xy"))
+    assert across == pytest.approx(normal * model.pair.cosine, rel=1e-9)
+    assert 0.0 < result.attrs["largest_rolling_element_force"] < normal.max()
+    assert np.all(result["energy_bearings"].values > 0.0)
+
+
+def test_a_slow_run_on_rolling_bearings_is_the_quasi_static_one():
+    """Limit: a hundredth of a mesh cycle a second. Without masses and modes equations are others."""
+    runs = []
+    for more in (VIBRATING_ROLLING, VIBRATING_ROLLING.replace(INERTIA, "")):
+        model = model_of(helical_scene(more, offset=2.0, accuracy=FEW, frequency=0.01))
+        runs.append(run_of(model, on_stand_in_bodies(model)).result)
+    moving, still = runs
+    for name in ("transmission_error", "bearing_force_x", "bearing_moment_y", "tilt_y", "shaft_deflection_x"):
+        different = np.nanmax(np.abs(moving[name].values - still[name].values))
+        assert different <= 1e-8 * np.nanmax(np.abs(still[name].values))
+
+
+def test_a_shaft_vibrates_on_rolling_bearings_as_on_their_tangents():
+    """Another route: small motions about the place under load have the natural frequencies of the shaft on matrices
+    with the derivatives of the law there."""
+    model = model_of(helical_scene(VIBRATING_ROLLING, offset=2.0, accuracy=FEW, frequency=800.0))
+    rolling = model.drivetrain.rolling
+    text = VIBRATING_ROLLING[VIBRATING_ROLLING.index("[shafts.output]") :]
+    matrices = [
+        f'[[bearings.pinion]]\nat = "{bearing.at!r} mm"\nstiffness_matrix = {tangent.tolist()}\n'
+        for bearing, tangent in zip(
+            model.drivetrain.elastic[0].bearings,
+            (reaction(each.rolling, rolling.reference[each.rows]).stiffness for each in rolling.springs),
+        )
+    ]
+    head = VIBRATING_ROLLING[: VIBRATING_ROLLING.index("[[bearings.pinion]]")]
+    linear = model_of(helical_scene(head + "".join(matrices) + text, offset=2.0, accuracy=FEW, frequency=800.0))
+    one, other = ([each.frequency for each in of.vibrations[:8]] for of in (model, linear))
+    assert one == pytest.approx(other, rel=1e-4)
+
+
+def test_a_shaft_that_vibrates_on_rolling_bearings_obeys_its_equations():
+    """The equations of motion with the law of the bearings in place of springs."""
+    scene = helical_scene(VIBRATING_ROLLING, offset=2.0, accuracy=FEW.replace("= 8", "= 32"), frequency=800.0)
+    model = model_of(scene)
+    train, cycle = model.drivetrain, cycle_of(model, on_stand_in_bodies(model))
+    march = Marcher(cycle, model.equations_of_motion).run(model.steps, model.steps + 1)
+    size = np.abs(train.stiffness) + np.abs(train.mass) * (2.0 / model.equations_of_motion.time_step) ** 2
+    largest = np.max([np.abs(each.state.position) for each in march.records], axis=0)
+    for each in march.records[1:]:
+        springs = train.elastic_forces(each.state.position) + train.mass @ each.state.acceleration
+        left = springs + each.position.operator.jacobian.T @ each.solution.forces - train.load
+        assert np.all(np.abs(left) <= 1e-10 * size @ largest)
+
+
+def test_bearings_that_find_no_balance_leave_the_steps_before(monkeypatch):
+    """What was computed is kept: the error carries the march so far, marked as failed."""
+    monkeypatch.setattr("fenics_gears.dynamics.rolling_springs.MOST_ITERATIONS", 1)
+    model = model_of(helical_scene(ROLLING + OUTPUT + WHEEL, offset=2.0, accuracy=FEW))
+    with pytest.raises(ContactNotConverged, match="rolling bearings: .* still change by .* preload"):
+        simulate(model, preparation=lambda *_: ((), cycle_of(model, on_stand_in_bodies(model))))
