@@ -13,10 +13,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import sparse
 
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
-from fenics_gears.elasticity.slice_averages import on_slices, slice_averages
+from fenics_gears.elasticity.slice_averages import (
+    add_along_normals,
+    oblique_averages,
+    oblique_sections,
+    on_slices,
+    slice_averages,
+)
 from fenics_gears.errors import ComputationError
 
 from .addresses import form_rows
@@ -46,29 +53,52 @@ class FacePairing:
 
     def __init__(self, flanks: Flanks, bodies: tuple[FaceCompliance, FaceCompliance], face: Face):
         self.face, self._nodes = face, tuple(len(body.roll_angle) for body in bodies)
+        self._flanks = bodies[0].flanks
         self.sections = Flanks(flanks.pair, (bodies[0].plane, bodies[1].plane), flanks.removal)
         first, second = flanks.compliance
         self._fine, self._shares = (stacked(first), stacked(second)), face.cosine / face.widths
         self._softest = np.array([_softest(section) for section in flanks.compliance])
         self._largest = sum(section.between(0, 0).diagonal().max() for section in flanks.compliance)
-        self._bodies = tuple(
-            (
-                self._on_slices(gear, body),
-                np.stack([body.plane.block(offset) for offset in range(-body.plane.offsets, body.plane.offsets + 1)]),
-            )
-            for gear, body in enumerate(bodies)
-        )
+        # Slices of one width see a section alike.
+        self._widths, self._kinds = np.unique(face.widths, return_inverse=True)
+        self._bodies = tuple((self._on_slices(gear, body), self._plane(gear, body)) for gear, body in enumerate(bodies))
+
+    def _rises(self, gear: int, body: FaceCompliance) -> list[float]:
+        """By how much (rad/mm) the lines of contact of the body's flanks rise along the face; a coast flank's goes the
+        other way along the profile."""
+        own = (self.sections.pair.pinion, self.sections.pair.wheel)[gear]
+        rise = (1.0, -1.0)[gear] * self.face.slope / own.base_radius
+        return [rise, -rise][: body.flanks]
+
+    def _plane(self, gear: int, body: FaceCompliance) -> np.ndarray:
+        """What slices see of the body's section in plane strain (k, d, d), those of one width after the other."""
+        offsets = range(-body.plane.offsets, body.plane.offsets + 1)
+        blocks = np.stack([body.plane.block(offset) for offset in offsets])
+        size = blocks.shape[1]
+        found = np.zeros((len(blocks), *2 * (size * len(self._widths),)))
+        for kind, width in enumerate(self._widths):
+            own = slice(size * kind, size * (kind + 1))
+            found[:, own, own] = oblique_sections(blocks, body.roll_angle, self._rises(gear, body), width)
+        return found
 
     def _on_slices(self, gear: int, body: FaceCompliance) -> np.ndarray:
-        face, pair = self.face, self.sections.pair
-        weights = slice_averages(body.heights, body.element_order, face.positions - face.middles[gear], face.widths)
-        found = on_slices(body.blocks, weights, body.flanks)
+        face, rises = self.face, self._rises(gear, body)
+        positions = face.positions - face.middles[gear]
+
+        def along(heights: np.ndarray) -> list[sparse.csr_matrix]:
+            return [oblique_averages(heights, positions, face.widths, body.roll_angle, rise) for rise in rises]
+
+        found = on_slices(body.blocks, along(body.heights), face.slices)
+        if body.near is not None:
+            parts = zip(along(body.near.heights), body.near.compliance, body.near.normals)
+            for flank, (seen, compliance, normals) in enumerate(parts):
+                add_along_normals(found, seen @ compliance @ seen.T, normals, flank)
         if body.seat is not None:
             # Imported here: few gears are cut into a shaft.
             from .face_seat import add_seat
 
-            own = (pair.pinion, pair.wheel)[gear]
-            add_seat(found, weights, body, own, (1.0, -1.0)[gear] * face.slope / own.base_radius)
+            weights = slice_averages(body.heights, body.element_order, positions, face.widths)
+            add_seat(found, weights, body, own, twist)
         return found
 
     def response(self, passage: Passage) -> Response:
@@ -112,7 +142,9 @@ class FacePairing:
             beside = np.cumsum(under) - under
             first[gear] += np.repeat(beside - lowest, counts)
             teeth = np.array([place.ahead(gear) for place in places], dtype=np.int64)
-            section, plane_dof = flanks * self.face.slices + slices, 2 * (count * flanks + lowest)
+            section = flanks * self.face.slices + slices
+            kinds = self._flanks * self._kinds[slices]
+            plane_dof = 2 * (count * (flanks + kinds) + lowest)
             on_gears[gear] = teeth, under, beside, section, 3 * lowest, plane_dof
         axes, group = np.stack([self._axes(gear, pairs, tangential) for gear in GEARS]), np.arange(len(pairs))
         fine = _together([pair.interpolation for pair in pairs], padded=False)

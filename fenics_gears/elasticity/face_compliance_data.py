@@ -1,10 +1,17 @@
 """The flank compliance of a gear over its face."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .compliance import FlankCompliance
+
+if TYPE_CHECKING:
+    from .face.near_field import NearField
 
 
 @dataclass(frozen=True)
@@ -17,7 +24,7 @@ class FaceCompliance:
     (counter-clockwise) of the loaded one. Dofs by height, then flank node, then component (x, y, z) in the tooth's own
     frame at that height. plane: the plane-strain compliance of the section's mesh. seat: (h, 6, h, 6), mm, rad, N, how
     the axis of a gear that is cut into its shaft gives way: x, y, z, tilts about x and y, turn; None where the hub is
-    rigid.
+    rigid. near: what the layers leave out near a load; None where nothing is.
     """
 
     roll_angle: np.ndarray
@@ -28,6 +35,7 @@ class FaceCompliance:
     timings: dict = field(default_factory=dict, compare=False)
     flanks: int = 1
     seat: np.ndarray | None = field(default=None, compare=False)
+    near: NearField | None = field(default=None, compare=False)
 
     @property
     def offsets(self) -> int:

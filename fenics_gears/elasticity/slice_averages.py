@@ -1,10 +1,18 @@
 """Averages over slices of a face of what is known at the nodes of its layers."""
 
+from __future__ import annotations
+
+from collections.abc import Sequence
+
 import numpy as np
+from scipy import sparse
 
 from .face.layers import shapes
 
 GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
+# Of a slice, in which a line of contact stays at one height of the profile: with half as many the mean transmission
+# error is 0.03 % less (slices of half a module, 28 degrees).
+PIECES = 8
 
 
 def slice_averages(heights: np.ndarray, order: int, positions: np.ndarray, widths: np.ndarray) -> np.ndarray:
@@ -36,26 +44,86 @@ def slice_averages(heights: np.ndarray, order: int, positions: np.ndarray, width
     return weights
 
 
-def on_slices(blocks: np.ndarray, weights: np.ndarray, flanks: int = 1) -> np.ndarray:
+def oblique_averages(
+    heights: np.ndarray, positions: np.ndarray, widths: np.ndarray, rolls: np.ndarray, rise: float
+) -> sparse.csr_matrix:
+    """Weights (S n, h n) of the flank nodes of layers, second order, in averages over slices along oblique lines.
+
+    The line through the flank node at `rolls` (n,), rad, in the middle of a slice rises along the profile by `rise` rad
+    per mm along the face. Beyond the flank's ends it stays there.
+    """
+    found, places = 0.0, _pieces(rise)
+    for place in places:
+        along = slice_averages(heights, 2, positions + place * widths, widths / len(places))
+        for width in np.unique(widths):
+            own = np.where(widths == width, 1.0 / len(places), 0.0)[:, None] * along
+            found = found + sparse.kron(sparse.csr_matrix(own), _at_rolls(rolls, rise * place * width), format="csr")
+    return found
+
+
+def oblique_sections(blocks: np.ndarray, rolls: np.ndarray, rises: Sequence[float], width: float) -> np.ndarray:
+    """Compliance blocks (k, d, d) of a section in plane strain, x and y of the nodes of one flank after the other, as
+    the averages of `oblique_averages` over a slice of a `width` (mm) see a load that goes on along its line; `rises`:
+    of each flank."""
+    places = _pieces(any(rises))
+    found = np.zeros_like(blocks)
+    for place in places:
+        shifted = sparse.block_diag([_at_rolls(rolls, rise * place * width) for rise in rises])
+        at = sparse.kron(shifted, sparse.eye(2)).toarray()
+        found += at @ blocks @ at.T / len(places)
+    return found
+
+
+def _pieces(rise: float) -> np.ndarray:
+    """Middles of the pieces of a slice, in parts of its width from its own."""
+    count = PIECES if rise else 1
+    return (np.arange(count) + 0.5) / count - 0.5
+
+
+def _at_rolls(rolls: np.ndarray, shift: float) -> sparse.csr_matrix:
+    """Values (n, n) of second-order functions along a flank at its nodes' roll angles and a `shift` (rad) more."""
+    arcs = 0.5 * rolls**2
+    wanted = 0.5 * np.clip(rolls + shift, rolls[0], rolls[-1]) ** 2
+    vertices = arcs[::2]
+    element = np.clip(np.searchsorted(vertices, wanted, "right") - 1, 0, len(vertices) - 2)
+    local = (wanted - vertices[element]) / np.diff(vertices)[element]
+    values = shapes(2.0 * local - 1.0)[0].T
+    columns = 2 * element[:, None] + np.arange(3)
+    rows = np.repeat(np.arange(len(rolls)), 3)
+    return sparse.csr_matrix((values.ravel(), (rows, columns.ravel())), shape=2 * (len(rolls),))
+
+
+def on_slices(blocks: np.ndarray, averages: Sequence[sparse.csr_matrix], slices: int) -> np.ndarray:
     """Compliance (k, D, D) of teeth on the nodes of layers as that on slices, of every tooth from k - 1 behind to k - 1
     ahead: (2 k - 1, F S, F S, d, d), between the d dofs of a flank's section in one slice and in another.
 
-    `weights` (S, h) of `slice_averages`; dofs of layers by flank, then height, then the section's own.
+    `averages`: of each flank (S n, h n), of `oblique_averages`; dofs of layers by flank, then height, node, x, y, z.
     """
-    slices, heights = weights.shape
-    own, ahead = blocks.shape[1] // (heights * flanks), len(blocks) - 1
+    flanks, (seen, nodes) = len(averages), averages[0].shape
+    own, ahead = 3 * seen // slices, len(blocks) - 1
     found = np.empty((2 * ahead + 1, flanks * slices, flanks * slices, own, own))
     for number, block in enumerate(blocks):
-        of_layers = block.reshape(flanks, heights, own, flanks, heights, own)
-        # Slice by slice, which stays in the processor's cache; a slice reaches over few layers.
-        for flank, place in np.ndindex(flanks, slices):
-            over, at = np.flatnonzero(weights[place]), flank * slices + place
-            averaged = np.tensordot(weights[place, over], of_layers[flank, over], 1)
-            for other in range(flanks):
-                others = slice(other * slices, (other + 1) * slices)
-                seen = np.matmul(weights, averaged[:, other]).transpose(1, 0, 2)
-                # What is read together at a position, two sections, lies together.
-                found[ahead + number, at, others] = seen
-                if number:
-                    found[ahead - number, others, at] = seen.transpose(0, 2, 1)
+        of_layers = block.reshape(flanks, nodes, 3, flanks, 3 * nodes)
+        for flank, other in np.ndindex(flanks, flanks):
+            displaced = averages[flank] @ of_layers[flank, :, :, other].reshape(nodes, -1)
+            columns = displaced.reshape(3 * seen, nodes, 3).transpose(1, 2, 0).reshape(nodes, -1)
+            loaded = (averages[other] @ columns).reshape(slices, own, slices, own)
+            first = slice(flank * slices, (flank + 1) * slices)
+            second = slice(other * slices, (other + 1) * slices)
+            # What is read together at a position, two sections, lies together.
+            found[ahead + number, first, second] = loaded.transpose(2, 0, 3, 1)
+            if number:
+                found[ahead - number, second, first] = loaded.transpose(0, 2, 1, 3)
     return found
+
+
+def add_along_normals(found: np.ndarray, compliance: sparse.csr_matrix, normals: np.ndarray, flank: int) -> None:
+    """Add to a tooth's own part of `on_slices` a compliance (S n, S n) of one of its flanks along `normals` (n, 3)."""
+    nodes = len(normals)
+    slices = compliance.shape[0] // nodes
+    own = slice(flank * slices, (flank + 1) * slices)
+    entries = compliance.tobsr((nodes, nodes))
+    rows = np.repeat(np.arange(slices), np.diff(entries.indptr))
+    part = found[len(found) // 2, own, own]
+    for row, column, values in zip(rows, entries.indices, entries.data):
+        part[row, column] += np.einsum("ai,ab,bj->aibj", normals, values, normals).reshape(part.shape[2:])

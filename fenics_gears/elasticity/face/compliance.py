@@ -18,6 +18,7 @@ from ..compliance import FlankCompliance, Reach
 from ..face_compliance_data import FaceCompliance
 from ..gear_compliance import check_inputs, similar_inputs
 from .discretisation import FaceDiscretisation
+from .near_field import NearField, near_field
 
 if TYPE_CHECKING:
     from ..element_sizes import ElementSizes
@@ -66,6 +67,7 @@ def face_compliance(
         plane=FlankCompliance(rolls, ORDER, arrays["plane"], flanks=flanks),
         timings=timings,
         flanks=flanks,
+        near=NearField.of_arrays(arrays).scaled(gear.module, material.youngs_modulus),
     )
 
 
@@ -107,8 +109,10 @@ def _computed(
     section = condensed_sector(mesh, ELEMENT, poissons_ratio, flank)
     plane = _in_mirrored_frame(ring_compliance(section, gear.teeth, farthest), gear, both, components=2)
     rolls = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), ELEMENT.order)
+    near = near_field(gear, mesh, face.sweep, poissons_ratio, rolls, both)
     timings = {**found, "time_mesh": meshed - clock, "time_condense": perf_counter() - meshed - found["time_compile"]}
-    return {"roll_angle": rolls, "heights": face.sweep.heights, "blocks": blocks, "plane": plane}, timings
+    arrays = {"roll_angle": rolls, "heights": face.sweep.heights, "blocks": blocks, "plane": plane}
+    return arrays | near.arrays, timings
 
 
 def swept_section(gear: Gear, sizes: ElementSizes) -> BodyMesh:

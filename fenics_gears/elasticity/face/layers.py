@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
+from scipy import sparse
 
 from ..element_nodes import numbers_at
 
@@ -108,6 +109,16 @@ def shapes(place: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     derivatives."""
     values = np.array([0.5 * place * (place - 1.0), 1.0 - place**2, 0.5 * place * (place + 1.0)])
     return values, np.array([place - 0.5, -2.0 * place, place + 0.5])
+
+
+def interpolation_along(boundaries: np.ndarray, places: np.ndarray) -> sparse.csr_matrix:
+    """Values (p, 2 layers + 1) at places (p,), mm, of second-order functions of layers between boundaries, mm."""
+    layer = np.clip(np.searchsorted(boundaries, places, "right") - 1, 0, len(boundaries) - 2)
+    local = (places - boundaries[layer]) / np.diff(boundaries)[layer]
+    values = shapes(2.0 * local - 1.0)[0].T
+    columns = 2 * layer[:, None] + np.arange(3)
+    rows = np.repeat(np.arange(len(places)), 3)
+    return sparse.csr_matrix((values.ravel(), (rows, columns.ravel())), shape=(len(places), 2 * len(boundaries) - 1))
 
 
 def swept_nodes(nodes: np.ndarray, line: np.ndarray, heights: int) -> np.ndarray:
