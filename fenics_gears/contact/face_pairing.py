@@ -98,7 +98,8 @@ class FacePairing:
             from .face_seat import add_seat
 
             weights = slice_averages(body.heights, body.element_order, positions, face.widths)
-            add_seat(found, weights, body, own, twist)
+            own = (self.sections.pair.pinion, self.sections.pair.wheel)[gear]
+            add_seat(found, weights, body, own, rises[0])
         return found
 
     def response(self, passage: Passage) -> Response:

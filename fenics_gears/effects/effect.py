@@ -74,7 +74,6 @@ class Effect:
     ``findings(data, watched)``: sentences on where a run violates what the effect assumes.
     ``results(data, scene, cycle, steps)``: its own variables at steps (time,), name to (dimensions, values).
     ``period(data, scene)``: mesh cycles after which what it does repeats, infinite where never; 1 unless given.
-    ``gentle(data)``: whether teeth come into contact so gently that fewer layers over a face resolve it.
     """
 
     section: str
@@ -104,7 +103,6 @@ class Effect:
     findings: Callable | None = None
     results: Callable | None = None
     period: Callable | None = None
-    gentle: Callable | None = None
 
     @property
     def written(self) -> str:

@@ -26,10 +26,6 @@ def removal(reliefs: TipRelief, pair):
     return tip_reliefs(pair, reliefs)
 
 
-def gentle(reliefs: TipRelief) -> bool:
-    return None not in (reliefs.pinion, reliefs.wheel)
-
-
 EFFECT = Effect(
     section="tip_relief",
     description="tip relief, linear or parabolic in the roll angle",
@@ -40,7 +36,6 @@ EFFECT = Effect(
     write=partial(write, "HPSTC"),
     rules=partial(rules, "tip_relief", "HPSTC"),
     removal=removal,
-    gentle=gentle,
     warnings=partial(starts_without_single_contact, "tip_relief", "HPSTC"),
     variables=(AT_KINK,),
 )

@@ -126,7 +126,7 @@ def _face_rows(model: Model) -> Rows:
                 (f"{name} end relief", 1e3 * relief.depth, f"um, {relief.shape} over {relief.length:g} mm at {ends}")
             )
     if scene.tooth_elasticity is not None:
-        common = layers_of_common_face(scene, pair, model.face.evenly)
+        common = layers_of_common_face(scene, pair)
         layers = [f"{name} {face_discretisation(model, gear).layers}" for gear, name in enumerate(GEARS)]
         found.append(("layers of the bodies", f"{', '.join(layers)},", f"{common} of them on the common face"))
     about = "um over the common face, about the pitch point in its middle"

@@ -9,31 +9,26 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.contact.face import Face, even_slices, finer_ends
-from fenics_gears.effects import from_effects
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.layers import SweptWeb
 from fenics_gears.geometry.gear_data import mean_youngs_modulus
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.accuracy import (
     FEWEST_LAYERS,
+    FEWEST_SLICES,
+    LARGEST_LAYER_TURN,
     LAYER_THICKNESS,
-    LAYER_TURN,
-    LAYER_TURN_RELIEVED,
     SECTION_SIZE,
-    SLICES_OF_A_LAYER,
+    SLICE_RISE,
+    SLICE_WIDTH,
 )
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
     from .model import Model
 
-# A layer tells two slices apart. With 16 in it, line loads that vary over it err by up to half; the mean over the face
-# does not.
-MOST_SLICES_OF_A_LAYER = 4
 # Where part of the face carries.
 FEWEST_LOADED_SLICES = 6
-# Layers may be so much thicker or thinner than asked for, that slices end where they do.
-THICKER, THINNER = 1.3, 0.67
 # From so many slices on the outermost of helical pairs are cut in two.
 FEWEST_WITH_FINER_ENDS = 8
 # An overhang of less than this part of a layer belongs to the layer beside it.
@@ -41,40 +36,30 @@ LEAST_OVERHANG = 0.1
 
 
 def face_of(scene: Scene, pair: GearPair) -> Face:
-    """The slices of the common face, all of one width; of helical pairs the outermost are cut in two, as layers are.
+    """The slices of the common face, all of one width; of helical pairs the outermost are cut in two.
 
     There a line of contact begins and ends, and the transmission error has a cusp: near a whole overlap its
     peak-to-peak value was up to 6 % too large without the cut (30 degrees, sharp tips), 1 % with it.
     """
-    least = SLICES_OF_A_LAYER * _fewest_layers(scene, pair)
-    slices = scene.accuracy.slices or _multiple(scene.accuracy.layers, least) or least
+    slices = scene.accuracy.slices or _fewest_slices(scene, pair)
     even = even_slices(pair.face_width, slices)
     cut = pair.slope and slices >= FEWEST_WITH_FINER_ENDS
     return Face(*(finer_ends(*even) if cut else even), pair.slope, pair.gear_middles)
 
 
-def layers_of_common_face(scene: Scene, pair: GearPair, slices: int) -> int:
-    """How many layers of either body are on the common face: as many as the scene asks for, or so many that slices end
-    where layers do."""
+def _fewest_slices(scene: Scene, pair: GearPair) -> int:
+    """Slices by their width and, of a helical pair, by how far its line of contact moves within one."""
+    moves = SLICE_RISE * pair.base_pitch / abs(pair.slope) if pair.slope else np.inf
+    return max(ceil(pair.face_width / min(SLICE_WIDTH * scene.gears.module, moves) - 1e-9), FEWEST_SLICES)
+
+
+def layers_of_common_face(scene: Scene, pair: GearPair) -> int:
+    """How many layers of either body are on the common face."""
     if scene.accuracy.layers:
         return scene.accuracy.layers
-    wanted = max(_fewest_layers(scene, pair), ceil(slices / SLICES_OF_A_LAYER))
-    allowed = range(ceil(wanted / THICKER), floor(wanted / THINNER) + 1)
-    fitting = [layers for layers in allowed if slices % layers == 0 or layers % slices == 0]
-    return min(fitting, key=lambda layers: abs(layers - wanted), default=wanted)
-
-
-def _fewest_layers(scene: Scene, pair: GearPair) -> int:
-    """Layers of the common face by their thickness and, of a helical pair, by how far its line of contact moves within
-    one."""
-    turn = LAYER_TURN_RELIEVED if any(from_effects(scene, "gentle")) else LAYER_TURN
-    moves = turn * pair.base_pitch / abs(pair.slope) if pair.slope else np.inf
-    return max(ceil(pair.face_width / min(LAYER_THICKNESS * scene.gears.module, moves) - 1e-9), FEWEST_LAYERS)
-
-
-def _multiple(layers: int | None, slices: int) -> int | None:
-    """The multiple of a number of layers nearest to a number of slices; a layer has one slice at least."""
-    return layers and layers * max(round(slices / layers), 1)
+    turn = abs(pair.slope) / min(pair.pinion.base_radius, pair.wheel.base_radius)
+    turns = LARGEST_LAYER_TURN / turn if turn else np.inf
+    return max(ceil(pair.face_width / min(LAYER_THICKNESS * scene.gears.module, turns) - 1e-9), FEWEST_LAYERS)
 
 
 # Windows differ by this factor, so that loads and designs that are near to each other have the same contact nodes.
@@ -110,7 +95,7 @@ def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: 
 
 def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
     """How the body of the pinion (0) or the wheel (1) is divided over its face."""
-    pair, common = model.pair, layers_of_common_face(model.scene, model.pair, model.face.evenly)
+    pair, common = model.pair, layers_of_common_face(model.scene, model.pair)
     width, thickness = pair.face_widths[gear], pair.face_width / common
     overhang, beyond = 0.5 * (width - pair.face_width), 0
     # Layers are alike towards both ends of a gear, which halves the work: they begin with the common face where the
@@ -133,21 +118,14 @@ def check_layers(model: Model) -> None:
 
 
 def face_warnings(model: Model) -> list[str]:
-    """Sentences where layers of the bodies do not tell slices of the face apart, or too few slices carry the load."""
+    """Sentences where too few slices carry the load."""
     slices, found = model.face.evenly, []
-    layers = layers_of_common_face(model.scene, model.pair, slices)
-    if slices > MOST_SLICES_OF_A_LAYER * layers:
-        found.append(
-            f"accuracy.layers = {layers}: the gears' bodies have {slices / layers:.3g} slices of the face to a layer,"
-            f" which they cannot tell apart. Take accuracy.layers = {ceil(slices / SLICES_OF_A_LAYER)}, or fewer"
-            " accuracy.slices"
-        )
     part = loaded_part(model)
     if part < 1.0 and part * slices < FEWEST_LOADED_SLICES:
         found.append(
             f"accuracy.slices = {slices}: about {part:.2g} of the face carries under this load, {part * slices:.2g}"
             " slices of it; pairs that carry on less than a slice are missed. Take accuracy.slices ="
-            f" {SLICES_OF_A_LAYER * ceil(FEWEST_LOADED_SLICES / part / SLICES_OF_A_LAYER)}"
+            f" {ceil(FEWEST_LOADED_SLICES / part)}"
         )
     return found
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from math import ceil
 
 from fenics_gears.errors import SceneError
-from fenics_gears.scene.accuracy import FEWEST_LAYERS, SECTION_SIZE, SLICES_OF_A_LAYER
+from fenics_gears.scene.accuracy import FEWEST_LAYERS, FEWEST_SLICES, SECTION_SIZE
 from fenics_gears.scene.data import Accuracy
 
 from .cost import ExpectedCost, expected_cost
@@ -49,10 +49,10 @@ def _coarser(model: Model, factor: float) -> tuple[Accuracy, str]:
     if not model.scene.three_dimensional:
         size = _rounded(factor * model.resolution.flank_element_size)
         return replace(asked, flank_element_size=size), f'flank_element_size = "{size:g} mm"'
-    now = layers_of_common_face(model.scene, model.pair, model.face.evenly)
+    now = layers_of_common_face(model.scene, model.pair)
     size = _rounded(factor * (asked.body_element_size or SECTION_SIZE * model.scene.gears.module))
     layers = max(ceil(now / factor), FEWEST_LAYERS)
-    slices = min(model.face.evenly, SLICES_OF_A_LAYER * layers)
+    slices = max(ceil(model.face.evenly / factor), FEWEST_SLICES)
     words = f'body_element_size = "{size:g} mm", layers = {layers}, slices = {slices}'
     return replace(asked, body_element_size=size, layers=layers, slices=slices), words
 

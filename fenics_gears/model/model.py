@@ -124,7 +124,7 @@ class Model:
             return None, None
         from .face_resolution import layers_of_common_face
 
-        return self.face.evenly, layers_of_common_face(self.scene, self.pair, self.face.evenly)
+        return self.face.evenly, layers_of_common_face(self.scene, self.pair)
 
     def solid_discretisation(self, gear: int) -> FaceDiscretisation | None:
         """How the body of the pinion (0) or the wheel (1) is divided over its face; None of a plane scene."""

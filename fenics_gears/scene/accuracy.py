@@ -35,16 +35,14 @@ RESOLVED, FINEST_RESOLVED = 2.0, 1.0 / 400.0
 NODE_SPACING = 0.7
 STEPS_PER_PERIOD = 20
 MOST_STEPS_PER_MESH_CYCLE = 1000
-# Largest elements of the body's section and largest layers of it over the common face, in normal modules.
-SECTION_SIZE, LAYER_THICKNESS = 0.3, 0.7
-FEWEST_LAYERS = 4
-# Slices end where layers do: then a line load does not waver from slice to slice by what is of the layers alone.
-SLICES_OF_A_LAYER = 2
-# How far the line of contact of a helical pair moves along the path of contact within a layer, in base pitches: the
-# mean transmission error errs by up to 0.2 % (30 and 38 degrees, sharp tips), as the square of it, the peak-to-peak
-# value by 2 %; with relieved tips by 0.05 and 0.2 % at 0.11 (28 degrees). More slices in thicker layers let line loads
-# waver by 1 %, or the mean err twice as much.
-LAYER_TURN, LAYER_TURN_RELIEVED = 0.06, 0.12
+# Largest elements of the body's section and largest layers of it over the common face, in normal modules: what layers
+# leave out near a load is added (elasticity.face.near_field), so that they change the mean transmission error by less
+# than 0.05 %.
+SECTION_SIZE, LAYER_THICKNESS = 0.3, 1.75
+FEWEST_LAYERS, LARGEST_LAYER_TURN = 4, 0.3
+# Widest slices, in normal modules and by how far the line of contact of a helical pair moves along the path of contact
+# within one, in base pitches: the mean transmission error is then 0.15 to 0.2 % too small (28 degrees).
+SLICE_WIDTH, SLICE_RISE, FEWEST_SLICES = 0.7, 0.1, 8
 
 # Models of the mesh: the full contact of elastic flanks, and cheaper ones.
 ELASTIC, RIGID_TEETH, STIFFNESS_TABLE, ISO_6336 = "elastic", "rigid teeth", "stiffness table", "ISO 6336-1"
@@ -132,26 +130,21 @@ class Accuracy(Section):
         1000,
         40,
         meaning=(
-            "slices of the common face in which contact is resolved, best a multiple of `layers`; of 8 or more, helical"
-            " pairs have the outermost cut in two"
+            "slices of the common face in which contact is resolved; of 8 or more, helical pairs have the outermost cut"
+            " in two"
         ),
-        otherwise=f"{SLICES_OF_A_LAYER} for each of the default layers; with `layers`, the nearest multiple of it",
+        otherwise=(
+            f"{SLICE_WIDTH:g} modules wide, in helical pairs at most so that the line of contact moves by"
+            f" {SLICE_RISE:g} of the base pitch along the path of contact within a slice; at least {FEWEST_SLICES}"
+        ),
         over_face=True,
     )
     layers: int | None = whole_number(
         1,
         1000,
         12,
-        meaning=(
-            "layers of elements of either gear over the common face, of four or more the outermost cut in two; a wider"
-            " gear has more beyond it"
-        ),
-        otherwise=(
-            f"{LAYER_THICKNESS:g} modules thick, in helical pairs at most so that the line of contact moves by"
-            f" {LAYER_TURN:g} of the base pitch along the path of contact within a layer, {LAYER_TURN_RELIEVED:g} where"
-            f" both gears have tip relief; at least {FEWEST_LAYERS} layers. With `slices`, at most {SLICES_OF_A_LAYER}"
-            " of them to a layer, if possible ending where layers do"
-        ),
+        meaning="layers of elements of either gear over the common face; a wider gear has more beyond it",
+        otherwise=f"{LAYER_THICKNESS:g} modules thick; at least {FEWEST_LAYERS} layers",
         over_face=True,
     )
     condensation: str | None = choice(

@@ -9,7 +9,7 @@ from tests.helical import BEARINGS, helical_scene
 from fenics_gears import SceneError, model_of
 from fenics_gears.model.description import describe
 from fenics_gears.model.face_resolution import face_discretisation, loaded_part
-from fenics_gears.scene.accuracy import FEWEST_LAYERS, LAYER_THICKNESS, LAYER_TURN, SLICES_OF_A_LAYER
+from fenics_gears.scene.accuracy import FEWEST_LAYERS, LAYER_THICKNESS, SLICE_RISE, SLICE_WIDTH
 from fenics_gears.scene.data import Accuracy
 
 CROWNED = '[lead_modifications.pinion]\ncrowning = "5 um"\n'
@@ -24,41 +24,15 @@ def boundaries(model, gear):
     return face_discretisation(model, gear).sweep.boundaries + model.pair.gear_middles[gear]
 
 
-def slice_ends(model):
-    """z (mm), but for the cuts of the outermost slices."""
-    face = model.face
-    ends = np.append(face.positions - 0.5 * face.widths, face.positions[-1] + 0.5 * face.widths[-1])
-    return ends if face.slices == face.evenly else np.delete(ends, [1, -2])
-
-
-@pytest.mark.parametrize("wider", [0.0, 0.02, 0.7, 11.0])
-@pytest.mark.parametrize(("width", "helix"), [(2.0, 0.0), (24.7, 8.0), (31.3, 38.0)])
-def test_slices_end_where_layers_do(width, helix, wider):
-    """The same number of whole slices in each layer of either gear."""
-    scene = helical_scene(CROWNED, helix=helix, width=width, accuracy="")
-    model = model_of(
-        replace(scene, gears=replace(scene.gears, pinion=replace(scene.gears.pinion, face_width=width + 2.0 * wider)))
-    )
-    whole = slice_ends(model)[::SLICES_OF_A_LAYER]
-    # An overhang of less than a tenth of a layer is part of the layer beside it.
-    off = (wider if wider < 0.1 * (whole[1] - whole[0]) else 0.0) + 1e-9 * width
-    for gear in range(2):
-        on_face = boundaries(model, gear)
-        on_face = on_face[np.abs(on_face) <= 0.5 * width + off]
-        if len(boundaries(model, gear)) > len(on_face):  # no free end
-            assert len(on_face) == len(whole)
-        else:  # the outermost layers are cut in two
-            on_face = np.delete(on_face, [1, -2])
-        assert len(on_face) == len(whole) and np.abs(on_face - whole).max() <= off
-
-
 @pytest.mark.parametrize(("helix", "width"), [(1.0, 40.0), (20.0, 3.0), (20.0, 33.0), (40.0, 17.0)])
 def test_defaults_are_as_fine_as_they_say(helix, width):
     """docs/scene.md: parts of the module, and of the base pitch by the line of contact."""
     model = model_with(helix=helix, width=width)
     thickness = np.diff(boundaries(model, 0)).max()
     assert thickness <= LAYER_THICKNESS * model.scene.gears.module * (1.0 + 1e-9)
-    assert thickness * abs(model.pair.slope) <= LAYER_TURN * model.pair.base_pitch * (1.0 + 1e-9)
+    slice_width = model.face.widths.max()
+    assert slice_width <= SLICE_WIDTH * model.scene.gears.module * (1.0 + 1e-9)
+    assert slice_width * abs(model.pair.slope) <= SLICE_RISE * model.pair.base_pitch * (1.0 + 1e-9)
     assert face_discretisation(model, 0).layers >= FEWEST_LAYERS
 
 
@@ -77,22 +51,20 @@ def test_outermost_slices_of_helical_pairs_are_cut_in_two():
 
 def test_steeper_helices_have_more_slices():
     """Geometry: 24 mm of 3 mm and tau = 0.7086 move the line by 1.566 base pitches."""
-    assert model_with(helix=8.0).face.evenly == model_with(CROWNED, helix=0.0).face.slices == 24
-    assert model_with(helix=38.0).face.evenly == 2 * 27
+    assert model_with(helix=8.0).face.evenly == model_with(CROWNED, helix=0.0).face.slices == 12
+    assert model_with(helix=38.0).face.evenly == 16
 
 
 @pytest.mark.parametrize(
     ("asked", "slices", "layers"),
     [
         (Accuracy(slices=40, layers=12), 40, 12),
-        (Accuracy(slices=40), 40, 20),
-        (Accuracy(layers=8), 24, 8),
-        (Accuracy(slices=6), 6, 12),
-        (Accuracy(slices=25), 25, 13),
+        (Accuracy(slices=40), 40, 5),
+        (Accuracy(layers=8), 12, 8),
     ],
 )
 def test_what_the_scene_asks_for_is_taken(asked, slices, layers):
-    """Of one alone the other follows so that slices end where layers do."""
+    """Of one alone the other is what it is by default."""
     model = model_of(replace(helical_scene(accuracy="", helix=8.0), accuracy=asked))
     assert model.face.evenly == slices
     assert [face_discretisation(model, gear).layers for gear in range(2)] == [layers, layers]

@@ -22,8 +22,7 @@ class FaceDiscretisation:
 
     section_size: mm, of the elements along the flanks. layers: over the face. face_width: mm. twist: rad/mm, of the
     section along z, counter-clockwise positive. overhang: mm, at either end of the face, beyond that on which the mate
-    touches; it has overhang_layers of the layers, which are of one thickness in it and beside it. The outermost at a
-    free end is cut in two. web: lengths in mm, its sides are boundaries of layers too.
+    touches; it has overhang_layers of the layers, which are of one thickness in it and beside it. web: lengths in mm, its sides are boundaries of layers too.
     """
 
     section_size: float
@@ -41,7 +40,7 @@ class FaceDiscretisation:
         # fillet, rim and hub change the sum by less than 0.05 %.
         size = self.section_size
         return ElementSizes(
-            flank=size, fillet=size, coast=size, body=3.0 * size, depth=1.0, growth=1.0, both_flanks=True, hub_angle=0.2
+            flank=size, fillet=size, coast=size, body=4.0 * size, depth=1.0, growth=1.0, both_flanks=True, hub_angle=0.2
         )  # fmt: skip
 
     @property

@@ -74,19 +74,10 @@ class Sweep:
         return self.web is None or self.web.low == -self.web.high
 
 
-# From so many layers on, the outermost at a free end is cut in two. A layer has two slices; in the last one the line
-# load falls so steeply that the slice at the end was 8 % too low, and the next one 10 % too high (misaligned, 28
-# degrees, against layers of half the thickness). Cut, they are 7 and 4 % off.
-FEWEST_WITH_FINER_ENDS = 4
-
-
 def layers_of_face(layers: int, width: float, overhang_layers: int = 0, overhang: float = 0.0) -> np.ndarray:
     """Boundaries, mm from mid-width, each the exact opposite of another, of layers of one thickness over a width (mm),
-    the outermost cut in two, or of `overhang_layers` over an `overhang` (mm) beyond it at either end."""
+    and of `overhang_layers` over an `overhang` (mm) beyond it at either end."""
     inner = 0.5 * width * (np.arange(-layers, layers + 1, 2) / layers)
-    if layers >= FEWEST_WITH_FINER_ENDS and not overhang_layers:
-        half = 0.5 * (inner[-1] + inner[-2])
-        inner = np.concatenate([inner[:1], [-half], inner[1:-1], [half], inner[-1:]])
     beyond = 0.5 * width + overhang * np.arange(1, overhang_layers + 1) / max(overhang_layers, 1)
     return np.concatenate([-beyond[::-1], inner, beyond])
 

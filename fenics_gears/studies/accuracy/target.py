@@ -8,7 +8,6 @@ from math import ceil, sqrt
 import numpy as np
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.model.face_resolution import MOST_SLICES_OF_A_LAYER
 from fenics_gears.scene.accuracy import RESOLVED
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.system.progress import Progress
@@ -256,11 +255,10 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
 
 
 def _finer(sizes: Sizes, errors: Errors) -> list[Sizes]:
-    slices = sizes.slices + 2
     found = {
         MESH: replace(sizes, mesh=sizes.mesh / RATIO),
         STEPS: replace(sizes, steps=round_steps(RATIO * sizes.steps)),
-        SLICES: replace(sizes, slices=slices, layers=max(sizes.layers, ceil(slices / MOST_SLICES_OF_A_LAYER))),
+        SLICES: replace(sizes, slices=sizes.slices + 2),
         LAYERS: replace(sizes, layers=sizes.layers + 1),
     }
     return [found[name] for name in errors]
@@ -273,4 +271,4 @@ def _coarser(sizes: Sizes, coarsest: Sizes) -> list[Sizes]:
         replace(sizes, slices=max(sizes.slices - 2, coarsest.slices)),
         replace(sizes, layers=max(sizes.layers - 1, coarsest.layers)),
     ]
-    return [each for each in found if each != sizes and each.slices <= MOST_SLICES_OF_A_LAYER * each.layers]
+    return [each for each in found if each != sizes]

@@ -6,7 +6,6 @@ from types import SimpleNamespace
 
 import pytest
 
-from fenics_gears.model.face_resolution import MOST_SLICES_OF_A_LAYER
 from fenics_gears.studies.accuracy.target import (
     RATIO,
     ROUND_STEPS,
@@ -106,14 +105,13 @@ class KnownRunsOverFace(KnownRuns):
 @pytest.mark.parametrize("steps_matter", [True, False])
 @pytest.mark.parametrize("target", [0.05, 0.01])
 def test_slices_and_layers_are_chosen_beside_mesh_and_steps(steps_matter, target):
-    """Brute force: nothing that reaches the target is much cheaper; layers tell the slices apart."""
+    """Brute force: nothing that reaches the target is much cheaper."""
     runs = KnownRunsOverFace((0.002, 0.004 * 60**2), steps_matter=steps_matter)
     tried = first_sizes(target, FEWEST_STEPS, steps_matter, runs.slices, runs.layers)
     assert tried.slices == even(max(16, 14 * sqrt(0.01 / target))) and tried.layers == (6 if target == 0.01 else 4)
     errors = runs.errors(tried)
     found = search(runs, tried, errors, target)
     assert hypot(*errors_at(tried, errors, found).values()) <= target
-    assert found.slices <= MOST_SLICES_OF_A_LAYER * found.layers
     candidates = (
         Sizes(tried.mesh / RATIO**place, steps, slices, layers)
         for place, slices, layers, steps in product(
@@ -122,7 +120,6 @@ def test_slices_and_layers_are_chosen_beside_mesh_and_steps(steps_matter, target
             range(tried.layers // 2, 12),
             range(tried.steps, 161, ROUND_STEPS) if steps_matter else [tried.steps],
         )
-        if slices <= MOST_SLICES_OF_A_LAYER * layers
     )
     least = min(runs.cost(each) for each in candidates if hypot(*errors_at(tried, errors, each).values()) <= target)
     # A step of the mesh apart, by which costs change by its square.
