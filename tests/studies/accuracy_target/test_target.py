@@ -133,10 +133,10 @@ def test_what_two_runs_do_not_both_have_is_not_judged(scene, monkeypatch, finer,
 
 def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
     """With little memory; the target named instead is reached by the same runs."""
-    monkeypatch.setenv(MEMORY_VARIABLE, "330 MB")
+    monkeypatch.setenv(MEMORY_VARIABLE, "360 MB")
     with pytest.raises(
         TargetNotReached,
-        match=r"accuracy.target = 0.1 %.*P2 .* would take [\d.]+ GB of memory, and 0.33 GB are .*; [\d.]+ % can be",
+        match=r"accuracy.target = 0.1 %.*P2 .* would take [\d.]+ GB of memory, and 0.36 GB are .*; [\d.]+ % can be",
     ) as failure:
         choose(scene, 0.001, SilentProgress())
     assert failure.value.exit_code == 3
