@@ -12,7 +12,8 @@ COPY . /opt/fenics_gears
 RUN /opt/fenics_gears/gears --set-up-only
 RUN ln -sf /opt/fenics_gears/gears /usr/local/bin/gears \
     && useradd --create-home gears && install -d -m 1777 /cache /scenes
-# Condensed gears and compiled code; anybody may write there, whoever the container runs as.
+# Condensed gears and compiled code. Anybody may make folders there, but each belongs to the user who made it: another
+# user of the same volume works without keeping what it compiles and condenses, or takes a volume of its own.
 ENV XDG_CACHE_HOME=/cache HOME=/cache
 # mpirun as root, for studies: docker run --user root --entrypoint mpirun gears -n 4 gears study STUDY
 ENV OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

@@ -154,7 +154,10 @@ def _several(problem, visited: np.ndarray) -> str:
 
 def _reason(problem, attempts) -> str:
     if attempts[-1][1] == OUTCOMES[CYCLED]:
-        return "Newton and each of its fallbacks ended with sets that alternate"
+        return (
+            "Newton and each of its fallbacks ended with sets that alternate. Where contact nodes stand closer than the"
+            " nodes of flank elements, fewer accuracy.contact_nodes help, or a smaller accuracy.flank_element_size"
+        )
     return (
         "the sets settle, but the equations cannot be solved within the tolerance: "
         "the scene's stiffnesses or loads differ by too many orders of magnitude"

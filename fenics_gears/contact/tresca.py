@@ -9,13 +9,16 @@ whose multipliers of the equality are the centre coordinates q, also where K is 
 load. The sets that the programme settles on start Newton, so that the solution is as exact as by any other method.
 Without friction there are no bounds, and one programme is enough; it also solves contact nodes so close that elasticity
 hardly tells them apart, where Newton's sets alternate for ever.
+
+A programme is posed for the nodes that were closed before; those that then penetrate join it until none does. What is
+left out has no force and an open gap, as in the programme of all nodes, whose time grows with their cube.
 """
 
 from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import qr
@@ -26,11 +29,16 @@ from .newton import CONVERGED, CYCLED, SINGULAR
 
 LOGGER = logging.getLogger(__name__)
 MOST_PROGRAMMES = 100
-# Seconds of a programme by the cube of contact nodes (measured on 40 to 240 of them); a fixed point that takes longer
-# than the second number is told of before it begins.
-NODES_CUBE, NOTABLE_SECONDS = 1.7e-8, 10.0
+# Seconds of a programme by the cube of its nodes (measured on 40 to 240 of them). A fixed point that may take longer
+# than the second number is told of, and none goes on for longer than the third.
+NODES_CUBE, NOTABLE_SECONDS, MOST_SECONDS = 1.7e-8, 10.0, 60.0
 # From this programme on only half of each change of the bounds is taken, so that bounds that alternate converge.
 UNRELAXED = 20
+# In the largest gaps and deflections: longer slips before a step are cut to this, for they decide the direction of
+# friction alone. A run starts with millions of steps slid, beside which deflections are round-off.
+LONGEST_SLIP = 1e3
+# Nodes that are left out of a programme join it where they penetrate by more than this part of the tolerance.
+NO_PENETRATION = 1e-2
 
 
 @dataclass(frozen=True)
@@ -42,22 +50,45 @@ class Frozen:
     sets: np.ndarray
 
 
+class Work:
+    """Counted seconds of a step's programmes; not those of a clock, so that every machine ends at the same one."""
+
+    def __init__(self):
+        self.seconds, self._told = 0.0, False
+
+    def allows(self, nodes: int) -> bool:
+        """Whether there is time for one more programme of so many nodes, which is counted; says so where it is long."""
+        seconds = NODES_CUBE * nodes**3
+        if seconds > NOTABLE_SECONDS and not self._told:
+            self._told = True
+            LOGGER.warning(
+                "Newton's method does not solve a step. Its friction is now iterated as Tresca's, by quadratic"
+                " programmes of %d contact nodes and about %.2g s each, for about %.2g s at most. The usual cause:"
+                " contact nodes stand closer than the nodes of flank elements. Fewer accuracy.contact_nodes help, or a"
+                " smaller accuracy.flank_element_size.",
+                nodes,
+                seconds,
+                MOST_SECONDS,
+            )
+        self.seconds += seconds
+        return self.seconds <= MOST_SECONDS
+
+
 def tresca(problem, status: np.ndarray, polish: Callable):
     """The fixed point from no friction at all; `polish(sets)` solves from given sets, as `step_solver.run_newton` does.
 
     Returns what `step_solver.run_newton` returns, `polish`'s where it converges; iterations count programmes and
     Newton's together.
     """
-    n, spent, relaxation = len(problem.gap), 0, 1.0
-    _tell(n)
+    n, spent, relaxation, work = len(problem.gap), 0, 1.0, Work()
     history, sets, tried = [], [], set()
     bounds, before = np.zeros(n), status
     outcome = CYCLED
     for programme in range(MOST_PROGRAMMES):
-        frozen = frozen_friction(problem, bounds)
+        frozen = frozen_friction(problem, bounds, before != OPEN, work)
         spent += 1
         if frozen is None:
-            outcome = SINGULAR
+            outcome = SINGULAR if work.seconds <= MOST_SECONDS else CYCLED
             break
         displacement = problem.jacobian @ frozen.coordinates - problem.compliance @ frozen.forces
         history.append(problem.residual(frozen.sets, frozen.forces, frozen.coordinates, displacement))
@@ -80,22 +111,43 @@ def tresca(problem, status: np.ndarray, polish: Callable):
     return (outcome, spent, np.zeros(m), np.zeros(k), np.zeros(m), before), rows
 
 
-def _tell(nodes: int) -> None:
-    """Say what is tried, and how long it may take, where that is long."""
-    seconds = NODES_CUBE * nodes**3
-    if MOST_PROGRAMMES * seconds > NOTABLE_SECONDS:
-        LOGGER.warning(
-            "Newton's method does not solve a step of %d contact nodes. Its friction is now iterated as Tresca's: at"
-            " most %d quadratic programmes of about %.2g s each. The usual cause: contact nodes stand closer than the"
-            " nodes of flank elements. Fewer accuracy.contact_nodes help, or a smaller accuracy.flank_element_size.",
-            nodes,
-            MOST_PROGRAMMES,
-            seconds,
-        )
+def frozen_friction(problem, bounds: np.ndarray, first: np.ndarray, work: Work) -> Frozen | None:
+    """The forces that minimise the energy with |p_t| <= `bounds` (n,), N; None where the programme has no solution, or
+    no time is left. `first` (n,): nodes that the programme is posed for to begin with, besides those that may rub."""
+    n, chosen = len(problem.gap), first | (bounds > 0.0)
+    if not chosen.any():
+        chosen[:] = True
+    while work.allows(np.count_nonzero(chosen)):
+        nodes = np.flatnonzero(chosen)
+        rows = nodes if not len(problem.slip_before) else np.concatenate((nodes, n + nodes))
+        found = _programme(_of_nodes(problem, nodes, rows), bounds[nodes])
+        if found is None:
+            if chosen.all():
+                return None
+            chosen[:] = True
+            continue
+        forces, sets = np.zeros(len(problem.compliance)), np.full(n, OPEN, dtype=np.int8)
+        forces[rows], sets[nodes] = found.forces, found.sets
+        displacement = problem.jacobian[:n] @ found.coordinates - problem.compliance[:n] @ forces
+        missed = (displacement - problem.gap > NO_PENETRATION * problem.tolerance.length) & ~chosen
+        if not missed.any():
+            return Frozen(forces, found.coordinates, sets)
+        chosen |= missed
+    return None
 
 
-def frozen_friction(problem, bounds: np.ndarray) -> Frozen | None:
-    """The forces that minimise the energy with |p_t| <= `bounds` (n,), N; None where the programme has no solution."""
+def _of_nodes(problem, nodes: np.ndarray, rows: np.ndarray):
+    """The step without the other contact nodes."""
+    return replace(
+        problem,
+        compliance=problem.compliance[np.ix_(rows, rows)],
+        jacobian=problem.jacobian[rows],
+        gap=problem.gap[nodes],
+        slip_before=problem.slip_before[nodes] if len(problem.slip_before) else problem.slip_before,
+    )
+
+
+def _programme(problem, bounds: np.ndarray) -> Frozen | None:
     n, soft = len(problem.gap), problem.compliance[0, 0]
     # Of the load, or of wedged flanks, which press each other by far more.
     force = max(np.abs(problem.load).max(initial=0.0), 1e3 * problem.tolerance.force, -problem.gap.min() / soft)
@@ -107,7 +159,9 @@ def frozen_friction(problem, bounds: np.ndarray) -> Frozen | None:
     energy = np.eye(size + root.shape[1])
     energy[:size, :size] = problem.compliance[np.ix_(rows, rows)] / soft
     distance = np.zeros(len(energy))
-    distance[:size] = np.concatenate((problem.gap, -problem.slip_before))[rows] / (force * soft)
+    longest = LONGEST_SLIP * (np.abs(problem.gap).max() + force * soft)
+    slips = np.clip(problem.slip_before, -longest, longest)
+    distance[:size] = np.concatenate((problem.gap, -slips))[rows] / (force * soft)
     limits = np.zeros((n + 2 * tangents, len(energy)))
     limits[:n, :n] = np.eye(n)
     limits[n : n + tangents, n:size], limits[n + tangents :, n:size] = -np.eye(tangents), np.eye(tangents)
@@ -140,7 +194,9 @@ def _least(energy, linear, limits, least, balance, load) -> tuple[np.ndarray, np
     free = free @ (vectors / np.sqrt(np.maximum(values, 1e-15 * values.max(initial=0.0))))
     shift = free.T @ (energy @ start + linear)
     inner = limits @ free
-    rows = np.vstack((inner.T, least - limits @ start + inner @ shift))
+    # Lengths are those of the unbounded minimum, which is far from the origin where slips are long.
+    unit = max(np.linalg.norm(shift), 1.0)
+    rows = np.vstack((inner.T, (least - limits @ start + inner @ shift) / unit))
     lengths = np.linalg.norm(rows, axis=0)
     lengths[lengths == 0.0] = 1.0
     target = np.zeros(len(rows))
@@ -152,8 +208,8 @@ def _least(energy, linear, limits, least, balance, load) -> tuple[np.ndarray, np
     nearest = rows @ dual - target
     if not nearest[-1] < 0.0:
         return None
-    pressed = dual / -nearest[-1]
-    minimiser = start + free @ (nearest[:-1] / -nearest[-1] - shift)
+    pressed = dual * (unit / -nearest[-1])
+    minimiser = start + free @ (nearest[:-1] * (unit / -nearest[-1]) - shift)
     slope = energy @ minimiser + linear - limits.T @ pressed
     return minimiser, pressed, np.linalg.lstsq(balance.T, slope, rcond=None)[0]
 

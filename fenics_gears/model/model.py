@@ -173,7 +173,7 @@ class Model:
         """Sentences for the user before the run."""
         found = [*self._of_a_part(), *self._without_fields()]
         found += [each.unusual for each in self.scene.derived if each.unusual]
-        found += [*design_warnings(self.pair), *resolution_warnings(self.resolution, self.scene.friction is not None)]
+        found += [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
         found += [*locking_warnings(self.resolution, self.scene.gears.materials), *rim_warnings(self)]
         for sentences in from_effects(self.scene, "warnings", self):
             found += sentences

@@ -53,6 +53,8 @@ ONCE, EVERY_STEP = "once", "every step"
 RIGID, RIGID_WINDOW, RIGID_NODES = "rigid", 0.5, 81
 # Sizes that are given are rounded.
 ROUNDED = 1.01
+# Of the peak pressure with one element in a half-width; with two a quarter of it (`scene.accuracy.RESOLVED`).
+ERROR_AT_ONE = 0.2
 # Curves of fewer see little of the change from one tooth pair to two.
 FEWEST_STEPS = 20
 
@@ -204,7 +206,7 @@ def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
     return int(np.clip(wanted, fewest, MOST_STEPS_PER_MESH_CYCLE))
 
 
-def resolution_warnings(resolution: Resolution, friction: bool) -> list[str]:
+def resolution_warnings(resolution: Resolution) -> list[str]:
     """Sentences on settings too coarse for the contact or the mesh cycle, or contact nodes too close for the
     elements."""
     found: list[str] = []
@@ -219,10 +221,9 @@ def resolution_warnings(resolution: Resolution, friction: bool) -> list[str]:
     if spacing < CLOSEST_NODES * node_distance:
         most = max(int(resolution.contact_grid.length / (CLOSEST_NODES * node_distance)) + 1, 2)
         finer = 0.99 * spacing * resolution.order / CLOSEST_NODES
-        slow = ", and with friction a step may take minutes" if friction else ""
         found.append(
             f"contact nodes stand {spacing:.3g} mm apart, the flank's own nodes {node_distance:.3g} mm: the pressure"
-            f" oscillates{slow}; lower accuracy.contact_nodes to {most}, or accuracy.flank_element_size to"
+            f" oscillates; lower accuracy.contact_nodes to {most}, or accuracy.flank_element_size to"
             f' "{finer:.3g} mm"'
         )
     return found
@@ -241,7 +242,7 @@ def _unresolved(resolution: Resolution) -> list[str]:
         if size <= ROUNDED * enough:
             continue
         of = "half "
-        harm = "the peak contact pressure may be off by up to a fifth"
+        harm = f"the peak contact pressure may be off by {100.0 * ERROR_AT_ONE * (size / half_width) ** 2:.0f} %"
         if size > half_width:
             of = ""
             harm = (

@@ -54,7 +54,7 @@ def compile_loops(progress: Progress) -> None:
             _take_from_beside(places)
         else:
             progress.stage(STAGE)
-            progress.say("compiling, once for these sources: about half a minute on two cores")
+            progress.say("compiling, once for these sources: about 45 s on two cores")
             if any(codes := _compiling()):
                 LOGGER.warning("compiling ahead failed (exit codes %s); runs compile what they need", codes)
         with suppress(OSError):

@@ -19,7 +19,7 @@ def source(tmp_path_factory):
     """Texts by name, of the source distribution that setuptools makes of this checkout."""
     pytest.importorskip("setuptools", minversion="61")
     folder = tmp_path_factory.mktemp("build") / "checkout"
-    shutil.copytree(ROOT, folder, ignore=shutil.ignore_patterns(".*", "results", "__pycache__", "tests", "*.egg-info"))
+    shutil.copytree(ROOT, folder, ignore=shutil.ignore_patterns(".*", "results", "__pycache__", "*.egg-info"))
     call = [sys.executable, "-P", "-c", BUILD, "-q", "sdist", "-d", "dist"]
     done = subprocess.run(call, cwd=folder, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
@@ -44,3 +44,9 @@ def test_source_distribution_has_what_the_readme_runs(source):
     assert {"gears", "setup/install", "setup/trixie.apt", "docs/commands.md", "LICENSE", "COPYING"} <= set(source)
     demos = {path.relative_to(ROOT).as_posix() for path in (ROOT / "demos").rglob("*.toml")}
     assert demos and {name for name in demos if "/results/" not in name} <= set(source)
+
+
+def test_source_distribution_has_no_tests(source):
+    """They need each other and the checkout; setuptools on its own takes those that lie beside the folders of tests."""
+    assert (ROOT / "tests/test_architecture.py").is_file()
+    assert not [name for name in source if name.startswith("tests/")]
