@@ -3,7 +3,13 @@
 from dataclasses import replace
 
 from fenics_gears.contact.operator import SHARE_FORMED
-from fenics_gears.elasticity.face.cost import WHOLE_ENTRY, WHOLE_UNKNOWN, expected_condensing, expected_size
+from fenics_gears.elasticity.face.cost import (
+    WHOLE_ENTRY,
+    WHOLE_UNKNOWN,
+    expected_condensing,
+    expected_size,
+    near_unknowns,
+)
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.system.memory import allowed_memory
 
@@ -67,6 +73,8 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
         bodies.append((f"the {name}'s body", size.unknowns))
         ways.append((f"the {name}'s body", f"{own.memory / 1e9:.3g} GB"))
         condensing += UNKNOWN * size.unknowns + MULTIPLICATION * own.operations
+        gear, division = (model.pair.pinion, model.pair.wheel)[number], face_discretisation(model, number)
+        condensing += UNKNOWN * near_unknowns(gear, division)
         # The flanks' compliance by heights, and by slices for teeth ahead and behind.
         on_slices = size.flanks * model.face.slices / len(face_discretisation(model, number).sweep.heights)
         reach = model.touching.reach.farthest

@@ -45,9 +45,7 @@ class NearField:
     def scaled(self, module: float, youngs_modulus: float) -> NearField:
         """Of a gear of that module (mm) and Young's modulus (MPa), from that of one of module 1 and 1 MPa."""
         factor = 1.0 / (module * youngs_modulus)
-        return replace(
-            self, heights=module * self.heights, compliance=tuple(factor * each for each in self.compliance)
-        )
+        return replace(self, heights=module * self.heights, compliance=tuple(factor * each for each in self.compliance))
 
     @property
     def arrays(self) -> dict[str, np.ndarray]:

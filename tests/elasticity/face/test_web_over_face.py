@@ -42,8 +42,9 @@ def centred():
 
 
 def test_a_web_as_wide_as_the_face_is_the_gear_without_one():
-    """Identity, but for another mesh below the rim: measured, 2e-5."""
-    assert under_even_load(body(Web(18.0, 25.0, 1.0))) == pytest.approx(under_even_load(body()), rel=1e-4)
+    """Identity, but for another mesh below the rim: measured, up to 2e-4 as sections get finer."""
+    whole, plain = (body(web) for web in (Web(18.0, 25.0, 1.0), None))
+    assert under_even_load(whole) == pytest.approx(under_even_load(plain), rel=3e-4)
 
 
 def test_the_whole_sector_is_the_two_halves(centred, monkeypatch):

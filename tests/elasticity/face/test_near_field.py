@@ -1,0 +1,66 @@
+"""What layers leave out near a load, and averages along oblique lines of contact."""
+
+import numpy as np
+import pytest
+from tests.helical import helical_scene
+
+from fenics_gears import model_of
+from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.face.compliance import face_compliance
+from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+from fenics_gears.elasticity.slice_averages import add_along_normals, oblique_averages, on_slices
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.gear_data import Material
+
+WIDTH, TWIST = 9.0, 0.04
+STEEL = Material(youngs_modulus=206e3, poissons_ratio=0.3)
+# Slices that do not end where layers do, and their middles.
+SLICES = 7
+WIDTHS = np.full(SLICES, WIDTH / SLICES)
+MIDDLES = WIDTH * ((np.arange(SLICES) + 0.5) / SLICES - 0.5)
+
+
+def _along_normals(gear: Gear, layers: int, near: bool, flanks: int = 1) -> np.ndarray:
+    """Compliance (S n, S n) of the last flank of a tooth's own slices, along the normals of its nodes."""
+    division = FaceDiscretisation(0.4 * gear.module, layers, WIDTH, TWIST)
+    body = face_compliance(gear, STEEL, division, Reach(0, (0, 0) if flanks == 2 else None))
+    rise = (TWIST, -TWIST)[flanks - 1]
+
+    def seen(heights):
+        return oblique_averages(heights, MIDDLES, WIDTHS, body.roll_angle, rise)
+
+    found = on_slices(body.blocks, flanks * [seen(body.heights)], SLICES)
+    normals, missing = body.near.normals[flanks - 1], body.near.compliance[flanks - 1]
+    if near:
+        along = seen(body.near.heights)
+        add_along_normals(found, along @ missing @ along.T, normals, flanks - 1)
+    own = found[0, -SLICES:, -SLICES:].reshape(SLICES, SLICES, len(normals), 3, len(normals), 3)
+    return np.einsum("stanbm,an,bm->satb", own, normals, normals).reshape(2 * (SLICES * len(normals),))
+
+
+@pytest.mark.parametrize("flanks", [1, 2])
+def test_thick_layers_and_what_they_leave_out_are_thin_layers(flanks):
+    """Another route: a body of thin layers all through. Thick ones alone are several parts in a hundred off."""
+    gear = model_of(helical_scene(helix=8.0)).pair.pinion
+    thin = _along_normals(gear, 24, near=False, flanks=flanks)
+    thick, whole = (_along_normals(gear, 4, near, flanks) for near in (False, True))
+    scale = np.abs(thin).max()
+    assert np.abs(thick - thin).max() > 0.05 * scale
+    assert np.abs(whole - thin).max() < 0.01 * scale
+
+
+def test_oblique_averages_are_exact_for_what_layers_and_flanks_tell():
+    """Exact: 1 and z; and the arc length of the profile where the line goes, by the rule of middles."""
+    rolls = np.sqrt(np.linspace(0.1, 0.5, 9))
+    heights = np.linspace(-0.5, 0.5, 9) * WIDTH
+    rise = 0.01
+    seen = oblique_averages(heights, MIDDLES, WIDTHS, rolls, rise)
+    z, roll = (each.ravel() for each in np.meshgrid(heights, rolls, indexing="ij"))
+    middle = np.repeat(MIDDLES, len(rolls))
+    np.testing.assert_allclose(seen @ np.ones(len(z)), 1.0, rtol=1e-12)
+    np.testing.assert_allclose(seen @ z, middle, atol=1e-12 * WIDTH)
+    inner = np.tile(np.arange(len(rolls)), SLICES)
+    inner = (inner > 0) & (inner < len(rolls) - 1)
+    places = (np.arange(8) + 0.5) / 8 - 0.5
+    expected = np.mean([(roll[: len(middle)] + rise * place * WIDTHS[0]) ** 2 for place in places], axis=0)
+    np.testing.assert_allclose((seen @ roll**2)[inner], expected[inner], rtol=1e-12)
