@@ -22,7 +22,8 @@ class FaceDiscretisation:
 
     section_size: mm, of the elements along the flanks. layers: over the face. face_width: mm. twist: rad/mm, of the
     section along z, counter-clockwise positive. overhang: mm, at either end of the face, beyond that on which the mate
-    touches; it has overhang_layers of the layers, which are of one thickness in it and beside it. web: lengths in mm, its sides are boundaries of layers too.
+    touches; it has overhang_layers of the layers, which are of one thickness in it and beside it. web: lengths in mm,
+    its sides are boundaries of layers too.
     """
 
     section_size: float
