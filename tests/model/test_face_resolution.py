@@ -52,7 +52,7 @@ def test_outermost_slices_of_helical_pairs_are_cut_in_two():
 def test_steeper_helices_have_more_slices():
     """Geometry: 24 mm of 3 mm and tau = 0.7086 move the line by 1.566 base pitches."""
     assert model_with(helix=8.0).face.evenly == model_with(CROWNED, helix=0.0).face.slices == 12
-    assert model_with(helix=38.0).face.evenly == 16
+    assert model_with(helix=38.0).face.evenly == 20
 
 
 @pytest.mark.parametrize(
