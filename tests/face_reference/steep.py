@@ -50,14 +50,12 @@ class Sizes:
     heights: int = 24
     contact: float = 0.05
 
-    @property
-    def levels(self) -> np.ndarray:
-        return np.linspace(-0.5 * WIDTH, 0.5 * WIDTH, 2 * self.layers + 1)
+    def levels(self, width: float) -> np.ndarray:
+        return np.linspace(-0.5 * width, 0.5 * width, 2 * self.layers + 1)
 
-    @property
-    def contact_heights(self) -> np.ndarray:
-        """Even, but for four thin cells at either end; on boundaries of the thinnest layers."""
-        boundaries = self.levels[::2]
+    def contact_heights(self, width: float) -> np.ndarray:
+        """Even, but for thin cells at either end; on boundaries of the thinnest layers, mm."""
+        boundaries = self.levels(width)[::2]
         inner = np.linspace(0, self.layers, self.heights + 1).round().astype(int)
         return boundaries[np.unique([*inner, 1, 2, self.layers - 2, self.layers - 1])]
 
@@ -134,23 +132,25 @@ def graded_gear(position: Position, number: int, lines, sizes: Sizes) -> GradedG
                                                      sizes.growth, sizes.teeth_beside[number]))  # fmt: skip
     away = distances(section, gear, teeth)
     of_layers = np.minimum(np.minimum(away[:, :-1:2], away[:, 1::2]), away[:, 2::2])
-    doubled = halvings_wanted(of_layers, WIDTH / sizes.layers, sizes.grading)
-    made = GradedGear(section, Sweep(sizes.levels, position.twists[number]), STEEL, doubled)
+    width = position.pair.face_width
+    doubled = halvings_wanted(of_layers, width / sizes.layers, sizes.grading)
+    made = GradedGear(section, Sweep(sizes.levels(width), position.twists[number]), STEEL, doubled)
     print(f"  {len(section.cells)} triangles, {made.nodes} nodes, {made.unknowns} unknowns", flush=True)
     return made
 
 
-def resolved(phase: float, sizes: Sizes = Sizes()) -> Resolved:
-    position = position_at(phase)
-    lines = lines_of_contact(position, sizes.levels)
+def resolved(position: Position, load: float, sizes: Sizes = Sizes()) -> Resolved:
+    """Under a load (N, along n)."""
+    width = position.pair.face_width
+    lines = lines_of_contact(position, sizes.levels(width))
     gears = tuple(graded_gear(position, number, lines, sizes) for number in (0, 1))
-    heights = sizes.contact_heights
+    heights = sizes.contact_heights(width)
     points = [pair_points(position, index, sizes.offsets, gears, np.zeros_like, heights) for index in lines]
     points = [each for each in points if each is not None]
     print(f"  contact nodes {[len(each.chosen) for each in points]}", flush=True)
     matrix = compliance(position, points, gears)
     areas, gaps = (np.concatenate([getattr(each, name) for each in points]) for name in ("areas", "gaps"))
-    pressure, approach = pressed(matrix, gaps, areas, force(position))
+    pressure, approach = pressed(matrix, gaps, areas, load)
     share = np.convolve(np.diff(heights), [0.5, 0.5])
     loads, first = {}, 0
     for each in points:
