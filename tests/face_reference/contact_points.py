@@ -14,6 +14,8 @@ from fenics_gears import GearPair
 # Gauss points of a cell across the contact line and along the face.
 ACROSS, ALONG = 4, 3
 NEWTON_STEPS = 40
+# Gaps (mm) beyond which a node cannot close: alone, and by which it is wider than the least at its height.
+FARTHEST, FARTHER = 0.045, 0.012
 
 
 @dataclass(frozen=True)
@@ -92,14 +94,20 @@ class PairPoints:
 
 
 def pair_points(
-    position: Position, index: int, y: np.ndarray, gears: tuple[SweptGear, SweptGear], opening
+    position: Position,
+    index: int,
+    y: np.ndarray,
+    gears: tuple[SweptGear, SweptGear],
+    opening,
+    heights: np.ndarray | None = None,
 ) -> PairPoints | None:
-    """None where the flanks do not face each other. `opening(z)`: what opens them along n, mm, at heights (k,), mm."""
-    # Pressure varies straight between the layers' boundaries: with nodes at their middles as well it oscillates from
-    # node to node.
-    heights = gears[0].sweep.heights[::2]
-    at_y, weight_y, hat_y = _cells(y, ACROSS)
-    at_z, weight_z, hat_z = _cells(heights, ALONG)
+    """None where the flanks do not face each other. `opening(z)`: what opens them along n, mm, at heights (k,), mm.
+    Pressure varies straight between `heights` (mm), or between the layers' boundaries: with nodes at their middles as
+    well it oscillates from node to node. Of given heights, nodes that are too far apart to close are left out."""
+    boundaries, given = gears[0].sweep.heights[::2], heights is not None
+    heights = heights if given else boundaries
+    at_y, weight_y, hat_y = _cells(y, ACROSS, y)
+    at_z, weight_z, hat_z = _cells(heights, ALONG, boundaries)
     many_y, many_z = (each.ravel() for each in np.meshgrid(at_y, at_z))
     rolls, gap, there = position.flank_points(index, many_y, many_z)
     weight = np.outer(weight_z, weight_y).ravel() / position.cosine * there
@@ -108,9 +116,11 @@ def pair_points(
     areas = np.asarray(loaded.sum(axis=1)).ravel()
     whole = np.asarray(hats.T @ (np.outer(weight_z, weight_y).ravel() / position.cosine)).ravel()
     chosen = np.flatnonzero(areas > 0.02 * whole)
+    gaps = loaded @ (position.cosine * np.nan_to_num(gap) + opening(many_z))
+    if given:
+        chosen = chosen[_may_close((gaps / np.maximum(areas, 1e-30))[chosen], chosen // len(y))]
     if not len(chosen):
         return None
-    gaps = loaded @ (position.cosine * np.nan_to_num(gap) + opening(many_z))
     keys = (index, -index)
     weights = tuple(
         loaded[chosen] @ _flank_shapes(gear, key, position.pair, number, roll, many_z, there)
@@ -119,13 +129,20 @@ def pair_points(
     return PairPoints(index, y, heights, chosen, areas[chosen], gaps[chosen], weights)
 
 
-def _cells(nodes: np.ndarray, count: int):
-    """Gauss points (q,) of the cells between nodes (k,), weights, and hat functions (q, k)."""
+def _may_close(gaps: np.ndarray, levels: np.ndarray) -> np.ndarray:
+    """Of nodes' mean gaps (mm), at their heights' numbers: those near enough, alone and beside their height's least."""
+    least = np.full(levels.max(initial=0) + 1, np.inf)
+    np.minimum.at(least, levels, gaps)
+    return (gaps < FARTHEST) & (gaps < least[levels] + FARTHER)
+
+
+def _cells(nodes: np.ndarray, count: int, boundaries: np.ndarray):
+    """Gauss points (q,) of the cells between boundaries, weights, and hat functions of the nodes (q, k)."""
     gauss, weights = np.polynomial.legendre.leggauss(count)
-    share, length = 0.5 * (1 + gauss), np.diff(nodes)
-    at = (nodes[:-1, None] + length[:, None] * share).ravel()
-    cell = np.repeat(np.arange(len(length)), count)
-    shares, rows = np.tile(share, len(length)), np.arange(len(at))
+    length = np.diff(boundaries)
+    at = (boundaries[:-1, None] + length[:, None] * 0.5 * (1 + gauss)).ravel()
+    cell = np.clip(np.searchsorted(nodes, at) - 1, 0, len(nodes) - 2)
+    shares, rows = (at - nodes[cell]) / np.diff(nodes)[cell], np.arange(len(at))
     hats = sparse.csr_matrix(
         (np.concatenate([1 - shares, shares]), (np.tile(rows, 2), np.concatenate([cell, cell + 1]))),
         (len(at), len(nodes)),
@@ -202,9 +219,10 @@ def _loads(position: Position, points: list[PairPoints], gear: SweptGear, number
         weights = each.weights[number].tocoo()
         level, place = weights.col // len(nodes), weights.col % len(nodes)
         dofs = 3 * (level * gear.nodes + nodes[place])
-        rows = gear.place[dofs[:, None] + np.arange(3)]
+        rows = dofs[:, None] + np.arange(3)
         values = weights.data[:, None] * normal[level]
         columns = np.broadcast_to(weights.row[:, None], rows.shape)
-        keep = rows >= 0
-        blocks.append(sparse.csc_matrix((values[keep], (rows[keep], columns[keep])), (gear.unknowns, len(each.chosen))))
+        shape = (gear.spread.shape[0], len(each.chosen))
+        at_nodes = sparse.csc_matrix((values.ravel(), (rows.ravel(), columns.ravel())), shape)
+        blocks.append(gear.spread.T @ at_nodes)
     return sparse.hstack(blocks, format="csc")

@@ -51,6 +51,21 @@ class Sweep:
 
 def layer_stiffness(section: Section, thickness: float, twist: float, material: Material) -> sparse.csr_matrix:
     """Stiffness (9 n, 9 n) of one layer on its three levels, each in its own turned frame."""
+    count, number = len(section.points), np.arange(3)
+    rows, columns, entries = [], [], []
+    for cells, stiffness in wedges(section, section.cells, thickness, twist, material):
+        nodes = np.concatenate([cells + level * count for level in number], axis=1)
+        dofs = (3 * nodes[:, :, None] + number).reshape(-1, 54).astype(np.int32)
+        rows.append(np.repeat(dofs, 54, axis=1).ravel())
+        columns.append(np.tile(dofs, (1, 54)).ravel())
+        entries.append(stiffness.ravel())
+    shape = (9 * count, 9 * count)
+    return sparse.coo_matrix((np.concatenate(entries), (np.concatenate(rows), np.concatenate(columns))), shape).tocsr()
+
+
+def wedges(section: Section, all_cells: np.ndarray, thickness: float, twist: float, material: Material):
+    """Cells (c, 6) some at a time, and stiffness (c, 54, 54) of the wedges on them, node by node of their three
+    levels."""
     flat, flat_slope = _triangle_shapes(TRIANGLE_POINTS)
     gauss, gauss_weights = np.polynomial.legendre.leggauss(3)
     line, line_slope = line_shapes(gauss)
@@ -61,10 +76,8 @@ def layer_stiffness(section: Section, thickness: float, twist: float, material: 
     ], axis=-1).reshape(len(weights), 18, 3)  # fmt: skip
     levels = thickness * np.array([0.0, 0.5, 1.0])
     elasticity, turn = _elasticity(material), _frames(twist * levels)
-    count, number = len(section.points), np.arange(3)
-    rows, columns, entries = [], [], []
-    for first in range(0, len(section.cells), CELLS_AT_ONCE):
-        cells = section.cells[first : first + CELLS_AT_ONCE]
+    for first in range(0, len(all_cells), CELLS_AT_ONCE):
+        cells = all_cells[first : first + CELLS_AT_ONCE]
         points = np.concatenate(
             [
                 np.concatenate([rotated(section.points[cells], twist * z), np.full((*cells.shape, 1), z)], axis=-1)
@@ -73,16 +86,10 @@ def layer_stiffness(section: Section, thickness: float, twist: float, material: 
             axis=1,
         )
         stiffness = _wedge_stiffness(points, slope, weights, elasticity)
-        stiffness = np.einsum("dia,cdiej,ejb->cdaeb", turn, stiffness.reshape(-1, 18, 3, 18, 3), turn).reshape(
-            -1, 54, 54
-        )
-        nodes = np.concatenate([cells + level * count for level in number], axis=1)
-        dofs = (3 * nodes[:, :, None] + number).reshape(-1, 54).astype(np.int32)
-        rows.append(np.repeat(dofs, 54, axis=1).ravel())
-        columns.append(np.tile(dofs, (1, 54)).ravel())
-        entries.append(stiffness.ravel())
-    shape = (9 * count, 9 * count)
-    return sparse.coo_matrix((np.concatenate(entries), (np.concatenate(rows), np.concatenate(columns))), shape).tocsr()
+        in_space = np.zeros((54, 54))
+        for node, frame in enumerate(turn):
+            in_space[3 * node : 3 * node + 3, 3 * node : 3 * node + 3] = frame
+        yield cells, in_space.T @ stiffness @ in_space
 
 
 def _frames(angles: np.ndarray) -> np.ndarray:
@@ -128,7 +135,8 @@ class SweptGear:
         free[held] = False
         if sweep.plane:
             free[2::3] = False
-        self.place = np.where(free, np.cumsum(free) - 1, -1)
+        # Displacements of all nodes by the unknowns.
+        self.spread = sparse.identity(len(free), format="csc")[:, free]
         self.unknowns = int(free.sum())
         self._free, self._material = free, material
 
