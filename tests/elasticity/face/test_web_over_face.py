@@ -177,7 +177,7 @@ def annuli(circles, widths, order, load):
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("thickness", [1e-3, 1.0])
+@pytest.mark.parametrize("thickness", [5e-3, 1.0])
 def test_a_ring_that_is_nearly_free_and_one_on_a_web_that_becomes_oval(thickness):
     """Plane stress, exact; a free ring's curved beam has q R^4/(9 E I) by a load q cos(2 theta)."""
     rim, width, load = 54.0, 4.0, SECTORS / (2.0 * pi * OUTER)
