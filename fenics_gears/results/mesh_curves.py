@@ -55,7 +55,8 @@ def mesh_stiffness(contact, status, forces, coordinates):
         if on_drive_flanks[node] == side:
             overlap[node] = product(jacobian[node], coordinates) - gap[node]
     deflection = _highest(overlap, node_pair)
-    # Of a gear so heavy that it does not move, the deflection is below the last digit of its rotation.
+    # Of a gear so heavy that it does not move, the deflection is below the last digit of its rotation; wedged teeth may
+    # be pressed by friction where they do not approach.
     secant = force / deflection if deflection > 0.0 else np.nan
     return np.array([secant, _tangent(contact, closed[:count]), pairs])
 
