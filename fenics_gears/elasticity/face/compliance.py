@@ -18,7 +18,7 @@ from ..compliance import FlankCompliance, Reach
 from ..face_compliance_data import FaceCompliance
 from ..gear_compliance import check_inputs, similar_inputs
 from .discretisation import FaceDiscretisation
-from .near_field import NearField, near_field
+from .near_field import NearField
 
 if TYPE_CHECKING:
     from ..element_sizes import ElementSizes
@@ -81,6 +81,7 @@ def _computed(
     from ..ring import condensed_sector, ring_compliance
     from .condensed import condensed_swept_sector
     from .half_turn import ring_blocks
+    from .held_tooth import near_field
     from .swept_stiffness import ELEMENT
 
     clock = perf_counter()

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import ceil
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +16,7 @@ from ..element_sizes import ElementSizes, SizeField
 from ..sector_boundary import SectorBoundary, sector_boundary
 from .discretisation import FaceDiscretisation
 from .layer_cost import LayerCost, LayeredSize, eliminating
-from .near_field import THIN
+from .near_field import thin_layers
 
 # Nodes of a section by points of its outline, and by its area in squares of its elements' size: within 18 % of 110
 # sections from 0.1 to 1.4 modules, of 18 to 110 teeth, with thin rims too.
@@ -135,8 +134,8 @@ def near_unknowns(gear: Gear, face: FaceDiscretisation) -> float:
     """Of the held teeth whose thin layers tell what a body's layers leave out: one for each run of neighbours."""
     scaled = face.in_modules_of(gear)
     thick = [round(each, 9) for each in scaled.sweep.thicknesses.tolist()]
-    runs = {(number == 0, *thick[max(number - 1, 0) : number + 2]) for number in range(len(thick))}
-    heights = sum(2 * sum(ceil(each / THIN) for each in run[1:]) + 1 for run in runs)
+    runs = {tuple(thick[max(number - 1, 0) : number + 2]) for number in range(len(thick))}
+    heights = sum(2 * sum(thin_layers(each) for each in run) + 1 for run in runs)
     return 3.0 * heights * _section(gear.of_module_one, scaled.sizes).tooth
 
 

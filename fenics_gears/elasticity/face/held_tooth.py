@@ -1,0 +1,115 @@
+"""A tooth that is held at its root, swept through some layers: what these leave out near a load (`near_field`)."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import sparse
+from scipy.linalg import cho_factor, cho_solve
+
+from fenics_gears.geometry.gear import Gear
+
+from ..condensation import by_radius, dofs_of
+from ..element_nodes import numbers_at
+from ..mesh_data import BodyMesh
+from ..mumps import schur_complement
+from .layers import Sweep, interpolation_along
+from .near_field import NearField, thin_boundaries, thin_layers
+from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
+
+# Modules: how far below the root circle a tooth is held.
+DEPTH = 0.3
+
+
+def near_field(
+    gear: Gear, mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, rolls: np.ndarray, both: bool = False
+) -> NearField:
+    """Of a gear of module one, Young's modulus 1 MPa. `rolls` (n,), rad, of the section's flank nodes."""
+    tooth = _HeldTooth(gear, mesh, sweep.twist, poissons_ratio, rolls)
+    thick = [float(each) for each in sweep.thicknesses]
+    of_flanks = [_joined(tooth, thick)]
+    normals = [tooth.normals]
+    if both:
+        # Half a turn about a tooth's centreline takes one flank to the other, and z to -z.
+        order = _reversed_heights(of_flanks[0].shape[0] // len(rolls), len(rolls))
+        mirrored = of_flanks[0] if thick == thick[::-1] else _joined(tooth, thick[::-1])
+        of_flanks.append(mirrored[order][:, order].tocsr())
+        normals.append(tooth.normals * [1.0, 1.0, -1.0])
+    return NearField(Sweep(thin_boundaries(sweep.boundaries)).heights, np.array(normals), tuple(of_flanks))
+
+
+def _reversed_heights(heights: int, nodes: int) -> np.ndarray:
+    return np.arange(heights * nodes).reshape(heights, nodes)[::-1].ravel()
+
+
+class _HeldTooth:
+    """A tooth of a section, swept through some layers and held at its root."""
+
+    def __init__(self, gear: Gear, mesh: BodyMesh, twist: float, poissons_ratio: float, rolls: np.ndarray):
+        self._section, self._twist = SectionForms(mesh, poissons_ratio), twist
+        points = self._section.nodes.points
+        free = np.linalg.norm(points, axis=1) > gear.root_radius - DEPTH
+        for held in ("lower cut", "upper cut", "hub"):
+            free[numbers_at(points, mesh.edge_nodes(held, ELEMENT.order))] = False
+        self._free = free
+        flank = numbers_at(points, by_radius(mesh.edge_nodes("flank", ELEMENT.order)))
+        self._flank = (np.cumsum(free) - 1)[flank]
+        slope = -twist * gear.base_radius
+        transverse = np.column_stack([np.cos(rolls), -np.sin(rolls), np.full(len(rolls), slope)])
+        self.normals = transverse / np.sqrt(1.0 + slope**2)
+        self._along = _along_normals(int(free.sum()), self._flank, self.normals)
+        self._known: dict[tuple[float, ...], np.ndarray] = {}
+
+    @property
+    def nodes(self) -> int:
+        """Of a section's flank."""
+        return len(self._flank)
+
+    def missing(self, thick: tuple[float, ...], layer: int) -> np.ndarray:
+        """D (h n, H n) of layers of some thicknesses: displacements of one `layer`, at its thin layers' nodes, under
+        forces on all."""
+        if thick not in self._known:
+            boundaries = np.concatenate([[0.0], np.cumsum(thick)])
+            thin = thin_boundaries(boundaries)
+            along = sparse.kron(interpolation_along(boundaries, Sweep(thin).heights), sparse.eye(self.nodes), "csr")
+            self._known[thick] = self._compliance(thin) - along @ (along @ self._compliance(boundaries)).T
+        first = 2 * sum(thin_layers(each) for each in thick[:layer])
+        last = first + 2 * thin_layers(thick[layer]) + 1
+        return self._known[thick][first * self.nodes : last * self.nodes]
+
+    def _compliance(self, boundaries: np.ndarray) -> np.ndarray:
+        """T (H n, H n), along the normals, of layers between boundaries."""
+        sweep = Sweep(boundaries, self._twist)
+        heights, nodes = len(sweep.heights), int(self._free.sum())
+        free = dofs_of(np.flatnonzero(np.tile(self._free, heights)), 3)
+        along = sparse.kron(sparse.eye(heights), self._along, format="csr")
+        stiffness = along.T @ swept_stiffness(self._section, sweep)[free][:, free] @ along
+        on_flank = 3 * (nodes * np.arange(heights)[:, None] + self._flank).ravel()
+        found = cho_solve(cho_factor(schur_complement(stiffness.tocsr(), on_flank)), np.eye(len(on_flank)))
+        return 0.5 * (found + found.T)
+
+
+def _along_normals(nodes: int, flank: np.ndarray, normals: np.ndarray) -> sparse.csr_matrix:
+    """Motions (3 nodes, 3 nodes) in x, y, z of those whose first component is along the `normals` (n, 3) at `flank`
+    nodes."""
+    blocks = np.tile(np.eye(3), (nodes, 1, 1))
+    for node, normal in zip(flank, normals):
+        blocks[node] = np.linalg.qr(np.column_stack([normal, np.eye(3)[:, 1:]]))[0]
+        blocks[node][:, 0] = normal
+    return sparse.block_diag(list(blocks), format="csr")
+
+
+def _joined(tooth: _HeldTooth, thick: list[float]) -> sparse.csr_matrix:
+    """D of a whole face, of layers of some thicknesses: of each with its neighbours."""
+    parts = np.array([thin_layers(each) for each in thick])
+    first, heights = 2 * (np.cumsum(parts) - parts), 2 * int(parts.sum()) + 1
+    found = sparse.csr_matrix((heights * tooth.nodes,) * 2)
+    for layer in range(len(thick)):
+        low, high = max(layer - 1, 0), min(layer + 2, len(thick))
+        missing = tooth.missing(tuple(thick[low:high]), layer - low)
+        # Nodes between two layers have half of either's.
+        share = np.ones(2 * parts[layer] + 1)
+        share[[0, -1]] = 1.0 if layer == 0 else 0.5, 1.0 if layer == len(thick) - 1 else 0.5
+        block = sparse.coo_matrix(np.repeat(share, tooth.nodes)[:, None] * missing)
+        places = block.row + first[layer] * tooth.nodes, block.col + first[low] * tooth.nodes
+        found = found + sparse.csr_matrix((block.data, places), shape=found.shape)
+    return (0.5 * (found + found.T)).tocsr()
