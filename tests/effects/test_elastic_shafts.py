@@ -3,7 +3,16 @@
 import numpy as np
 import pytest
 from tests.beam_elements import assembled, condensed
-from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, INERTIA, INPUT, PINION, VIBRATING
+from tests.elastic_shaft_scenes import (
+    CUT,
+    ELASTIC,
+    FEW,
+    INERTIA,
+    INPUT,
+    PINION,
+    VIBRATING,
+    largest_difference_of_slow_runs,
+)
 from tests.hard_cases.invariants import cycle_of, run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
@@ -238,14 +247,7 @@ def test_what_is_said_of_shafts_that_vibrate():
 
 def test_a_slow_run_with_inertia_is_the_quasi_static_one():
     """Limit: a hundredth of a mesh cycle a second."""
-    runs = []
-    for more in (VIBRATING, VIBRATING.replace(INERTIA, "")):
-        model = model_of(helical_scene(more, offset=2.0, accuracy=FEW, frequency=0.01))
-        runs.append(run_of(model, on_stand_in_bodies(model)).result)
-    moving, still = runs
-    for name in ("transmission_error", "bearing_force_x", "bearing_moment_y", "tilt_y", "shaft_deflection_x"):
-        different = np.nanmax(np.abs(moving[name].values - still[name].values))
-        assert different <= 1e-9 * np.nanmax(np.abs(still[name].values))
+    assert largest_difference_of_slow_runs(VIBRATING) <= 1e-9
 
 
 @pytest.mark.parametrize("more", ["", "[friction]\ncoefficient = 0.05\n"])

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.elastic_shaft_scenes import FEW, INERTIA, OUTPUT, ROLLING, VIBRATING, WHEEL
+from tests.elastic_shaft_scenes import FEW, OUTPUT, ROLLING, VIBRATING, WHEEL, largest_difference_of_slow_runs
 from tests.hard_cases.invariants import cycle_of, run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
@@ -57,14 +57,7 @@ def test_results_of_rolling_bearings_are_by_their_law():
 
 def test_a_slow_run_on_rolling_bearings_is_the_quasi_static_one():
     """Limit: a hundredth of a mesh cycle a second. Without masses and modes equations are others."""
-    runs = []
-    for more in (VIBRATING_ROLLING, VIBRATING_ROLLING.replace(INERTIA, "")):
-        model = model_of(helical_scene(more, offset=2.0, accuracy=FEW, frequency=0.01))
-        runs.append(run_of(model, on_stand_in_bodies(model)).result)
-    moving, still = runs
-    for name in ("transmission_error", "bearing_force_x", "bearing_moment_y", "tilt_y", "shaft_deflection_x"):
-        different = np.nanmax(np.abs(moving[name].values - still[name].values))
-        assert different <= 1e-8 * np.nanmax(np.abs(still[name].values))
+    assert largest_difference_of_slow_runs(VIBRATING_ROLLING) <= 1e-8
 
 
 def test_a_shaft_vibrates_on_rolling_bearings_as_on_their_tangents():
