@@ -16,13 +16,12 @@ from fenics_gears.geometry.gear_data import Material
 
 from .element_sizes import Discretisation
 from .elements import element_named
-from .face.condensed import spanned
 from .face.discretisation import FaceDiscretisation
-from .face.half_turn import half_turn_basis, half_turn_whitened
 from .nodal_stress import NodalStress
-from .ring import Whitened, cyclic, cyclic_motion, ring_work, rotation, whitened
+from .ring import cyclic, cyclic_motion, ring_work, rotation, whitened
 from .sector import Sector, plane_sector, swept_sector
 from .sector_mesh import sector_mesh
+from .spanned import spanned
 
 
 @dataclass(frozen=True)
@@ -118,16 +117,10 @@ class GearRecovery:
         held, forces = self._link @ responding, self._link @ loaded
         # Many loads move the cuts in few ways.
         (shapes, of_held), (others, of_forces) = spanned(held.T), spanned(forces.T)
-        work = ring_work(self._whitened(), self.gear.teeth, reach, of_held.T, of_forces.T)
+        work = ring_work(whitened(self._link), self.gear.teeth, reach, of_held.T, of_forces.T)
         found = shapes @ work @ others.T
         found[reach] -= held.T @ loaded
         return found
-
-    def _whitened(self) -> Whitened:
-        sector = self.sector
-        if sector.sweep is None or not sector.sweep.alike:
-            return whitened(self._link)
-        return half_turn_whitened(self._link, half_turn_basis(sector.place(sector.lower)))
 
     def _cut_motion(self, free: dict[int, np.ndarray]) -> np.ndarray:
         """Motion (teeth, d, 1) of the sectors' lower cuts; `free`: that of the loaded sectors with free cuts."""

@@ -55,7 +55,11 @@ def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarr
     inverse of the flank, and for each harmonic one of the size of a cut. Back from harmonics to teeth, each power of
     e^{ik} is a shift by one tooth.
     """
-    held, to_cuts, link = between_cuts(sector, teeth)
+    return joined_blocks(*between_cuts(sector, teeth), teeth, offsets)
+
+
+def joined_blocks(held: np.ndarray, to_cuts: np.ndarray, link: np.ndarray, teeth: int, offsets: int) -> np.ndarray:
+    """The same, of what `between_cuts` gives."""
     joint = cut_response(link, teeth, offsets + 1)
     blocks = np.stack([to_cuts @ sector_response(joint, offset) @ to_cuts.T for offset in range(offsets + 1)])
     blocks[0] += held

@@ -3,13 +3,8 @@
 from dataclasses import replace
 
 from fenics_gears.contact.operator import SHARE_FORMED
-from fenics_gears.elasticity.face.cost import (
-    WHOLE_ENTRY,
-    WHOLE_UNKNOWN,
-    expected_condensing,
-    expected_size,
-    near_unknowns,
-)
+from fenics_gears.elasticity.face.cost import UNKNOWN as BYTES_OF_AN_UNKNOWN
+from fenics_gears.elasticity.face.cost import expected_condensing, expected_size, near_unknowns
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.system.memory import allowed_memory
 
@@ -31,6 +26,8 @@ from .model import Model
 UNKNOWN, MULTIPLICATION = 4e-5, 5e-11
 # Of the root stress, an unknown, factorised and solved for one load.
 FACTORISED_UNKNOWN, SOLVED_UNKNOWN = 6e-5, 4e-7
+# For each entry of the stiffness between the cuts that stresses are recovered by.
+BYTES_OF_A_LINK = 40.0
 # Seconds of a run; at a position of each tooth pair in a slice and of the square of contact nodes, whose rows are
 # formed when they close; of a step, of their square and their cube (elimination).
 RUN, PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE, STEP_NODES_CUBE = 0.08, 2.5e-4, 9e-9, 3e-10, 2e-13
@@ -85,8 +82,8 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
                 model, size.unknowns, (FACTORISED_UNKNOWN, SOLVED_UNKNOWN), on_slices
             )
             condensing, held, stress_step = condensing + seconds, held + kept, stress_step + step
-            # A sector that is not folded, factorised once more, and matrices of its cuts, beside what is held by then.
-            recovering = max(recovering, WHOLE_UNKNOWN * size.unknowns + WHOLE_ENTRY * (2 * size.cut) ** 2)
+            # The sector factorised once more, and matrices of its cuts, beside what is held by then.
+            recovering = max(recovering, BYTES_OF_AN_UNKNOWN * size.unknowns + BYTES_OF_A_LINK * (2 * size.cut) ** 2)
     held = max(held, condensed + largest) + recovering
     if model.scene.output.root_stress:
         held += ON_FLANKS * contact.positions * contact.nodes * (2.0 if friction else 1.0)

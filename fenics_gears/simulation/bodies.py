@@ -15,7 +15,6 @@ from fenics_gears.elasticity.compliance import Bodies, Body
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
-from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
 if TYPE_CHECKING:
@@ -26,9 +25,9 @@ if TYPE_CHECKING:
     Solids = tuple[FaceCompliance | None, FaceCompliance | None]
 
 
-def gear_bodies(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> Bodies:
-    """Pinion and wheel, from the cache or condensed; `job`: whose ranks share the work on each body over its face."""
-    with _begun(model, progress, cache, job) as solids:
+def gear_bodies(model: Model, progress: Progress, cache: Cache | None) -> Bodies:
+    """Pinion and wheel, from the cache or condensed."""
+    with _begun(model, progress, cache) as solids:
         sections = []
         for name in GEARS:
             progress.stage(f"condense {name}")
@@ -76,14 +75,14 @@ def _section(model: Model, name: str, cache: Cache | None):
     return flank_compliance(gear, material, division, reach, cache)
 
 
-def solids_of(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> Solids:
+def solids_of(model: Model, progress: Progress, cache: Cache | None) -> Solids:
     """Both bodies in three dimensions, at once where there are cores and memory for it; None of a plane scene."""
-    with _begun(model, progress, cache, job) as solids:
+    with _begun(model, progress, cache) as solids:
         return solids()
 
 
 @contextmanager
-def _begun(model: Model, progress: Progress, cache: Cache | None, job: Job | None) -> Iterator[Callable[[], Solids]]:
+def _begun(model: Model, progress: Progress, cache: Cache | None) -> Iterator[Callable[[], Solids]]:
     """What gives both bodies in three dimensions. Where there are cores and memory for both at once, a second process
     begins the wheel's here: to start it takes as long as both gears' sections."""
     if model.solid_discretisation(0) is None:
@@ -97,22 +96,22 @@ def _begun(model: Model, progress: Progress, cache: Cache | None, job: Job | Non
 
     def by(wheel: Callable[[], FaceCompliance]) -> Solids:
         begin(0)
-        pinion = solid_of(model, GEARS[0], cache, job)
+        pinion = solid_of(model, GEARS[0], cache)
         begin(1)
         return pinion, wheel()
 
-    if job is None and threads() > 1 and both_at_once(model):
+    if threads() > 1 and both_at_once(model):
         with ThreadPoolExecutor(1) as waiting, second_process() as second:
             yield partial(by, waiting.submit(solid_of, model, GEARS[1], cache, second).result)
     else:
-        yield partial(by, lambda: solid_of(model, GEARS[1], cache, job))
+        yield partial(by, lambda: solid_of(model, GEARS[1], cache))
 
 
-def solid_of(model: Model, name: str, cache: Cache | None, job: Job | SecondProcess | None = None) -> FaceCompliance:
+def solid_of(model: Model, name: str, cache: Cache | None, process: SecondProcess | None = None) -> FaceCompliance:
     """The body of the "pinion" or the "wheel" in three dimensions, from the cache or condensed."""
     from fenics_gears.elasticity.face.compliance import face_compliance
     from fenics_gears.model.face_resolution import face_discretisation
 
     gear, material = getattr(model.pair, name), model.scene.gears.material_of(name)
     division = face_discretisation(model, GEARS.index(name))
-    return face_compliance(gear, material, division, model.touching.reach, cache, job)
+    return face_compliance(gear, material, division, model.touching.reach, cache, process)

@@ -28,9 +28,8 @@ if TYPE_CHECKING:
 def elastic_route(
     model: Model, progress: Progress, cache: Cache | None, job: Job | None = None
 ) -> tuple[Bodies, Cycle]:
-    """The bodies of both gears, and the contact operators on them; `job`: whose ranks share the work on each body in
-    three dimensions."""
-    bodies = gear_bodies(model, progress, cache, job)
+    """The bodies of both gears, and the contact operators on them; no rank of a `job` but 0 has work."""
+    bodies = gear_bodies(model, progress, cache)
     return bodies, mesh_cycle(model, bodies)
 
 

@@ -75,7 +75,7 @@ def simulate(
     cache: where condensed gears are kept (`elasticity.cache.Cache`); that of the user unless given.
     preparation: what comes before the march, `prepared` unless given; `runs.gear_store` has one for runs that share
         gears and contact operators.
-    job: of rank 0, whose ranks share the bodies over the face and the remeshing of `condensation = "every step"`.
+    job: of rank 0, whose ranks share the remeshing of `condensation = "every step"`.
     journal: where a march that lasts longer than a few seconds is written down as it goes (`results.journal`); the
         caller removes it.
     keep: is given the result as soon as the march ends. What follows, dynamic factors and proposed lead modifications,

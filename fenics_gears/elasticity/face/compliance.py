@@ -10,7 +10,7 @@ import numpy as np
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.outline import centreline_angle
-from fenics_gears.system.job import Job, together
+from fenics_gears.system.job import together
 from fenics_gears.system.second_process import SecondProcess
 
 from ..cache import Cache, kept
@@ -34,15 +34,15 @@ def face_compliance(
     discretisation: FaceDiscretisation,
     reach: Reach,
     cache: Cache | None = None,
-    job: Job | SecondProcess | None = None,
+    process: SecondProcess | None = None,
 ) -> FaceCompliance:
     """Flank compliance of a gear over its face, from the cache or by condensing one swept tooth sector, hub held, end
     faces free.
 
     gear: its transverse section. With `reach.across` the coast flank's dofs follow the drive flank's, in the tooth's
-    frame mirrored at its centreline at that height: x and y as of the mirrored section, heights and z as they are. job:
-    whose ranks share the work, or the process that does it. Raises SceneError for an impossible size, ComputationError
-    when a stage fails.
+    frame mirrored at its centreline at that height: x and y as of the mirrored section, heights and z as they are.
+    process: that does the work, this one unless given. Raises SceneError for an impossible size, ComputationError when
+    a stage fails.
     """
     check_inputs(gear, material, reach)
     discretisation.check()
@@ -52,7 +52,7 @@ def face_compliance(
     inputs |= {"farthest": farthest, "both flanks": both}
 
     def compute() -> tuple[dict, dict]:
-        return together(job, _computed, similar, scaled, material.poissons_ratio, farthest, both)[0]
+        return together(process, _computed, similar, scaled, material.poissons_ratio, farthest, both)[0]
 
     arrays, timings = kept(cache, inputs, compute)
     # In place: the arrays are large, and nothing else refers to them.
@@ -72,38 +72,24 @@ def face_compliance(
 
 
 def _computed(
-    gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, comm
-) -> tuple[dict, dict] | None:
-    """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took; None on ranks other than 0."""
+    gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, _communicator: None
+) -> tuple[dict, dict]:
+    """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from ..condensation import by_radius
     from ..element_nodes import node_roll_angles
     from ..ring import condensed_sector, ring_compliance
-    from .condensed import condensed_swept_sector
-    from .half_turn import ring_blocks
+    from .condensed import condensed_swept_sector, ring_blocks
     from .held_tooth import near_field
     from .swept_stiffness import ELEMENT
 
     clock = perf_counter()
     mesh = swept_section(gear, face.sizes)
     meshed = perf_counter()
-    if face.sweep.alike:
-        sector = condensed_swept_sector(
-            mesh, face.sweep, poissons_ratio, centreline_angle(gear), gear.teeth, both, comm
-        )
-        found, blocks = sector.timings, ring_blocks(sector, gear.teeth, farthest, comm)
-        del sector
-    else:
-        # Imported here: few gears have such a web.
-        from .whole_sector import condensed_whole_sector, whole_ring_blocks
-
-        if comm is not None and comm.rank > 0:
-            return None
-        whole = condensed_whole_sector(mesh, face.sweep, poissons_ratio, both)
-        found, blocks = whole.timings, whole_ring_blocks(whole, gear.teeth, farthest)
-        del whole
-    if blocks is None:
-        return None
+    sector = condensed_swept_sector(mesh, face.sweep, poissons_ratio, gear.teeth, both)
+    blocks = ring_blocks(sector, gear.teeth, farthest)
+    found = sector.timings
+    del sector
     blocks = _in_mirrored_frame(blocks, gear, both)
     flanks = ("flank", "coast") if both else ("flank",)
     flank = np.vstack([by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in flanks])

@@ -1,169 +1,94 @@
-"""A swept tooth sector condensed onto its flanks and cuts: each of the two halves that it is folded into."""
+"""A swept tooth sector condensed onto its flanks and cuts, and the ring of such sectors."""
+
+from __future__ import annotations
 
 from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
-from scipy import sparse
-from scipy.linalg.blas import dtrsm
 
-from ..condensation import line_of
+from ..condensation import by_radius, dofs_of, line_of
 from ..mesh_data import BodyMesh
-from ..ring import check_congruent, definite_factor
-from .fold import EVEN, ODD, Fold
-from .layers import Sweep
-from .swept_stiffness import ELEMENT, SectionForms
-from .tooth_and_body import condensed_halves
-
-# Part of the motions of a flank by its cuts that may be missing, by their energy: the compliance then errs by 4e-12 of
-# that within a tooth, and by 7e-11 of the largest entry between two teeth (measured).
-MISSING = 1e-10
-# Random columns that tell what is missing.
-TRIED = 8
-
-
-@dataclass(frozen=True)
-class Half:
-    """The even or the odd motions of a sector (`fold`): of the drive flank (f) and of the upper cut (c).
-
-    flank: (f, f), compliance with the cuts held; empty on all ranks of a communicator but 0. shapes: (f, r),
-    orthonormal, and to_cut: (r, c): (minus) the flank's motion per motion of the cut is shapes @ to_cut. cut: (c, c),
-    stiffness with the flank free.
-    """
-
-    flank: np.ndarray
-    shapes: np.ndarray
-    to_cut: np.ndarray
-    cut: np.ndarray
+from ..mirrored_ring import flank_free
+from ..mumps import schur_complement
+from ..ring import check_congruent, joined_blocks, rotation
+from .cut_motions import cut_motions
+from .layers import Sweep, SweptWeb, swept_nodes
+from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 
 
 @dataclass(frozen=True)
 class SweptSector:
-    """A sector with its hub held, Young's modulus 1 MPa; dofs by height, radius, then x, y, z.
+    """A swept sector with its hub held, Young's modulus 1 MPa, condensed onto its flank (or its drive and coast flank),
+    its lower and its upper cut.
 
-    lower: (c / 3, 3), X, Y, z of the lower cut's nodes. lower_of_upper: sparse (c, c), from motions of the upper cut to
-    those of the lower cut, its image. coast: the same (f, f) from the drive to the coast flank, None where that is not
-    loaded.
+    stiffness: (f + 2 c, f + 2 c), N/mm; dofs by height, radius, then x, y, z in the section's frame turned with it, of
+    the upper cut in the next sector's. lower: (c / 3, 3), X, Y, z of the lower cut's nodes. profile: nodes of a flank
+    at a height.
     """
 
-    even: Half
-    odd: Half
+    stiffness: np.ndarray
     lower: np.ndarray
-    lower_of_upper: sparse.csr_matrix
-    coast: sparse.csr_matrix | None
+    profile: int
+    web: SweptWeb | None
     timings: dict
-
-    def held(self) -> np.ndarray:
-        """Compliance of the drive flank, or of drive and coast flank, with the cuts held; on rank 0."""
-        within = 0.5 * (self.even.flank + self.odd.flank)
-        if self.coast is None:
-            return within
-        across = self.coast @ (0.5 * (self.even.flank - self.odd.flank))
-        return np.block([[within, across.T], [across, self.coast @ (self.coast @ within).T]])
 
 
 def condensed_swept_sector(
-    mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, centreline: float, teeth: int, both: bool = False, comm=None
+    mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, teeth: int, both: bool = False
 ) -> SweptSector:
-    """A sector of a gear of `teeth`, its section symmetric about a line at the polar angle `centreline` (rad); `both`:
-    with its coast flank.
-
-    comm: communicator whose first two ranks share the work. Every rank calls this and gets the result, rank 0 alone the
-    flank's compliances.
-    """
+    """A sector of a gear of `teeth`; `both`: with its coast flank after its drive flank."""
     clock = perf_counter()
     section = SectionForms(mesh, poissons_ratio, sweep.web)
     compiled = perf_counter()
-    fold = Fold(mesh, section.nodes.points, section.material(sweep), centreline)
-    alone = comm is None or comm.size == 1
-    signs = (EVEN, ODD) if alone else (EVEN, ODD)[comm.rank % 2 :][:1]
-    pair, found = None if alone else comm.Split(min(comm.rank // 2, 1)), [None]
-    if alone or comm.rank < 2:
-        found = [in_shapes(*each) for each in condensed_halves(mesh, poissons_ratio, sweep, fold, signs, pair)]
-    if not alone:
-        found = [_of_rank(found[0], comm, rank) for rank in (0, 1)]
-    timings = {
-        "time_compile": compiled - clock,
-        "unknowns": 2 * fold.unknowns,
-        "condensed_unknowns": (2 if both else 1) * len(fold.flank) + 2 * len(fold.cut),
-    }
+    flanks = [by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in ("flank", "coast")[: 2 if both else 1]]
     cuts = [line_of(mesh, f"{name} cut", ELEMENT.order) for name in ("lower", "upper")]
     check_congruent(cuts[0], cuts[1], teeth)
-    places = np.tile(cuts[0], (fold.heights, 1)), np.repeat(sweep.heights, len(cuts[0]))
-    lower = np.column_stack(places)[fold.on_cut]
-    even, odd = found
-    return SweptSector(even, odd, lower, fold.cut_turned, fold.flank_turned if both else None, timings)
+    nodes = section.nodes.points
+    there = section.material(sweep).ravel()
+    numbers = [swept_nodes(nodes, line, len(sweep.heights)) for line in (*flanks, *cuts)]
+    numbers = [own[there[own]] for own in numbers]
+    there[swept_nodes(nodes, mesh.edge_nodes("hub", ELEMENT.order), len(sweep.heights))] = False
+    free = dofs_of(np.flatnonzero(there), 3)
+    stiffness = swept_stiffness(section, sweep)[free][:, free]
+    kept = dofs_of((np.cumsum(there) - 1)[np.concatenate(numbers)], 3)
+    condensed = schur_complement(stiffness, kept)
+    _turn(condensed, 3 * len(numbers[-1]), rotation(2.0 * np.pi / teeth, 3))
+    lower = np.column_stack([nodes[numbers[-2] % len(nodes)], sweep.heights[numbers[-2] // len(nodes)]])
+    timings = {"time_compile": compiled - clock, "unknowns": len(free), "condensed_unknowns": len(kept)}
+    return SweptSector(condensed, lower, len(flanks[0]), sweep.web, timings)
 
 
-def spanned(
-    matrix: np.ndarray, tried_first: int = 0, part: float = MISSING, energy: np.ndarray | None = None
-) -> tuple[np.ndarray, np.ndarray]:
-    """Orthonormal columns (n, r), and what they are multiplied by (r, k), to give a matrix (n, k) but for a `part`.
-
-    Products of the matrix with random columns span its range (Halko, Martinsson, Tropp 2011); others tell what is
-    missing. tried_first: so many columns; a quarter of all when 0. energy: (k, k), upper triangle U; the part is then
-    of ``matrix @ U^-1``.
-    """
-    # The same numbers in every run.
-    generator, most = np.random.default_rng(0), min(matrix.shape)
-
-    def random(count: int) -> np.ndarray:
-        columns = generator.standard_normal((matrix.shape[1], count))
-        return columns if energy is None else dtrsm(1.0, energy, columns)
-
-    tried = random(TRIED)
-    images = matrix @ tried
-    columns, rows = np.empty((len(matrix), 0)), np.empty((0, matrix.shape[1]))
-    size = tried_first or max(most // 4, 1)
-    while columns.shape[1] + size < most:
-        more = matrix @ random(size)
-        for _ in range(2):
-            more -= columns @ (columns.T @ more)
-        more = np.linalg.qr(more)[0]
-        columns, rows = np.hstack([columns, more]), np.vstack([rows, more.T @ matrix])
-        missing = np.linalg.norm(images - columns @ (rows @ tried), axis=0)
-        if missing.max() <= part * np.linalg.norm(images, axis=0).max():
-            return columns, rows
-        size = max(most // 40, 1)
-    return np.eye(len(matrix)), matrix
+def _turn(stiffness: np.ndarray, last: int, turn: np.ndarray) -> None:
+    """In place, of the `last` dofs."""
+    rows = stiffness[-last:].reshape(last // 3, 3, -1)
+    rows[:] = turn.T @ rows
+    columns = stiffness[:, -last:].reshape(len(stiffness), last // 3, 3)
+    stiffness[:, -last:] = (columns @ turn).reshape(len(stiffness), last)
 
 
-def in_shapes(flank: np.ndarray, to_cut: np.ndarray, cut: np.ndarray, to_neck: np.ndarray | None = None) -> Half:
-    """A half of the parts of `mirrored_ring.flank_free`; with the flank's motion `to_neck` (f, w), `to_cut` is the
-    neck's (w, c).
-
-    The ring adds to a flank's compliance ``response D^-1 response^T`` with D above the cut's own stiffness, so that
-    motions of the cut count by the strain energy that they take: with ``cut = U^T U`` the shapes are those of
-    ``response U^-1``, a quarter fewer than of the response itself.
-    """
-    energy = definite_factor(cut, "a cut")
-    if to_neck is None:
-        return Half(flank, *spanned(to_cut, energy=energy), cut)
-    # As long as the flank's motions are, in fewer rows.
-    columns, rows = np.linalg.qr(to_neck)
-    shapes, to_cut = spanned(rows @ to_cut, 3 * len(rows) // 5, energy=energy)
-    return Half(flank, columns @ shapes, to_cut, cut)
+def ring_blocks(sector: SweptSector, teeth: int, offsets: int) -> np.ndarray:
+    """Flank compliance blocks (offsets + 1, f, f) of the ring of such sectors, as `ring.ring_compliance`."""
+    stiffness = sector.stiffness
+    flanks = len(stiffness) - 2 * sector.lower.size
+    motions = cut_motions(stiffness, sector.lower, sector.profile, sector.web)
+    return joined_blocks(*flank_free(_in_motions(stiffness, flanks, motions), flanks), teeth, offsets)
 
 
-def _of_rank(half: Half | None, comm, rank: int) -> Half:
-    """The half that a rank has, on all ranks; its flank's compliance on rank 0 alone."""
-    own = comm.rank == rank
-    sizes = comm.bcast({name: each.shape for name, each in vars(half).items()} if own else None, root=rank)
-    found = {"flank": np.empty((0, 0))}
-    for name, size in sizes.items():
-        everywhere = name != "flank"
-        if not (everywhere or own or comm.rank == 0):
-            continue
-        each = np.empty(size)
-        if own:
-            # mpi4py does not know the type of an array made from C's memory.
-            each[:] = getattr(half, name)
-        if everywhere:
-            comm.Bcast(each, root=rank)
-        elif rank > 0 and own:
-            comm.Send(each, 0)
-        elif rank > 0:
-            comm.Recv(each, rank)
-        if everywhere or comm.rank == 0:
-            found[name] = each
-    return Half(**found)
+def _in_motions(stiffness: np.ndarray, flanks: int, motions: np.ndarray) -> np.ndarray:
+    """Stiffness of the flanks and of the `motions` (c, r) of each cut."""
+    dofs, size = motions.shape
+    if dofs == size:
+        return stiffness
+    found = np.empty((flanks + 2 * size,) * 2)
+    found[:flanks, :flanks] = stiffness[:flanks, :flanks]
+    for number in (0, 1):
+        cut = slice(flanks + number * dofs, flanks + (number + 1) * dofs)
+        own = slice(flanks + number * size, flanks + (number + 1) * size)
+        moved = motions.T @ stiffness[cut]
+        found[own, :flanks] = moved[:, :flanks]
+        found[:flanks, own] = moved[:, :flanks].T
+        for other in (0, 1):
+            there = slice(flanks + other * dofs, flanks + (other + 1) * dofs)
+            found[own, flanks + other * size : flanks + (other + 1) * size] = moved[:, there] @ motions
+    return found

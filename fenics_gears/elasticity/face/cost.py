@@ -10,12 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.outline import centreline_angle
 
 from ..element_sizes import ElementSizes, SizeField
 from ..sector_boundary import SectorBoundary, sector_boundary
 from .discretisation import FaceDiscretisation
-from .layer_cost import LayerCost, LayeredSize, eliminating
 from .near_field import thin_layers
 
 # Nodes of a section by points of its outline, and by its area in squares of its elements' size: within 18 % of 110
@@ -24,12 +22,11 @@ BY_OUTLINE, BY_AREA = 4.2, 3.9
 # Of a section on either side, where its area is measured. Modules from the root circle to a tooth's neck, which is two
 # wide.
 SAMPLES, NECK = 60, 0.3
-# Bytes, measured: for each entry of the condensed stiffness, which the ring takes several of; of a sector that is not
-# folded for each unknown, by MUMPS, and each entry.
-PER_ENTRY = 24.0
-WHOLE_UNKNOWN, WHOLE_ENTRY = 12e3, 40.0
-# Part of the motions of flanks by cuts that are told apart, and of those by which far teeth move each other.
-SHAPES, FAR = 0.4, 0.1
+# Measured, of sectors of 16,000 to 49,000 unknowns: bytes that MUMPS takes for each unknown, and for each entry of the
+# condensed stiffness; multiplications for each square of the unknowns.
+UNKNOWN, ENTRY, CONDENSING = 12e3, 26.0, 90.0
+# Motions of a cut, in the mean of its dofs and a flank's; time of the ring's multiplications in that of MUMPS's.
+MOTIONS, IN_RING = 0.2, 2.4
 
 
 class BodySize(NamedTuple):
@@ -54,13 +51,11 @@ class BodyCost:
 
 @dataclass(frozen=True)
 class _Section:
-    """Nodes of a section, second order: of all, of the tooth's part, on half its neck, on the tooth's and the body's
-    part of the centreline, on a flank, a cut, the bore; of them in a web's layers alone, all and on a cut."""
+    """Nodes of a section, second order: of all, of the tooth's part, on a flank, a cut, the bore; of them in a web's
+    layers alone, all and on a cut."""
 
     nodes: float
     tooth: float
-    neck: float
-    middle: tuple[float, float]
     flank: int
     cut: int
     hub: int
@@ -79,11 +74,9 @@ def _section(gear: Gear, sizes: ElementSizes) -> _Section:
 
     rim = _of_outline(rim_of(gear), *sector_boundary(rim_of(gear), sizes))
     web, of_hub = rows_of_web(gear, (rim.hub - 1) // 2)
-    rows, (upper, lower) = web + of_hub, rim.middle
-    return replace(
-        rim, nodes=rim.nodes + rows * rim.hub, middle=(upper, lower + rows), cut=rim.cut + rows,
-        web=(web - 1) * rim.hub, web_cut=web - 1,
-    )  # fmt: skip
+    rows = web + of_hub
+    nodes = rim.nodes + rows * rim.hub
+    return replace(rim, nodes=nodes, cut=rim.cut + rows, web=(web - 1) * rim.hub, web_cut=web - 1)
 
 
 def _of_outline(gear: Gear, boundary: SectorBoundary, field: SizeField) -> _Section:
@@ -99,16 +92,7 @@ def _of_outline(gear: Gear, boundary: SectorBoundary, field: SizeField) -> _Sect
         above = [np.linalg.norm(points, axis=1) > least for points in (boundary.points, places)]
         return BY_OUTLINE * float(above[0].sum()) + BY_AREA * float(squares[above[1]].sum())
 
-    def middle(inner: float, outer: float) -> float:
-        return (
-            2.0 * (outer - inner) * float((1.0 / field.at((inner + (outer - inner) * steps)[:, None] * along)).mean())
-        )
-
-    angle = centreline_angle(gear)
-    along = np.array([np.cos(angle), np.sin(angle)])
-    parts = max(middle(neck, gear.tip_radius), flank), max(middle(gear.bore_radius, neck), cut)
-    half_neck = max(2.0 / float(field.at(neck * along[None])[0]), 0.5 * flank)
-    return _Section(nodes(0.0), nodes(neck), half_neck, parts, flank, cut, hub)
+    return _Section(nodes(0.0), nodes(neck), flank, cut, hub)
 
 
 def _within(places: np.ndarray, outline: np.ndarray) -> np.ndarray:
@@ -147,33 +131,17 @@ def _heights_of_web(face: FaceDiscretisation) -> int:
 def expected_condensing(gear: Gear, face: FaceDiscretisation, farthest: int, both_flanks: bool = False) -> BodyCost:
     """What a process takes while it condenses a sector and joins the ring; teeth feel each other up to `farthest`."""
     size = expected_size(gear, face, both_flanks)
-    ring = PER_ENTRY * size.condensed**2
-    if not face.sweep.alike:
-        memory = WHOLE_UNKNOWN * size.unknowns + WHOLE_ENTRY * size.condensed**2
-        # MUMPS condenses, and complex harmonics take four times the operations (measured, of 35 and 61 teeth).
-        return BodyCost(memory, 0.8 * size.condensed**3 + 4.0 * _ring(size, gear.teeth, farthest))
-    most, operations = 0.0, 0.0
-    for part in _parts(_section(gear.of_module_one, face.in_modules_of(gear).sizes)):
-        layers = LayerCost.of(part, face.sweep.kinds)
-        most = max(most, layers.numbers, 1.5 * layers.size**2)
-        operations += layers.operations + 2.0 * eliminating(layers.size / 6.0, layers.size / 3.0)
-    return BodyCost(max(8.0 * most, ring), operations + _ring(size, gear.teeth, farthest))
-
-
-def _parts(section: _Section) -> tuple[LayeredSize, LayeredSize]:
-    """Half a section's tooth and body: dofs of a height."""
-    tooth, body = 0.5 * section.tooth, 0.5 * (section.nodes - section.tooth - section.hub)
-    lines = section.flank + section.neck + section.middle[0], section.cut + section.neck + section.middle[1]
-    web, web_lines = 0.5 * section.web, 2.0 * section.web_cut
-    of_tooth = LayeredSize(*({True: 3.0 * each, False: 3.0 * each} for each in (max(tooth - lines[0], 0.0), lines[0])))
-    inside = {True: 3.0 * max(body - lines[1], 0.0), False: 3.0 * max(body - web - lines[1] + web_lines, 0.0)}
-    return of_tooth, LayeredSize(inside, {True: 3.0 * lines[1], False: 3.0 * (lines[1] - web_lines)})
+    return BodyCost(
+        UNKNOWN * size.unknowns + ENTRY * size.condensed**2,
+        CONDENSING * size.unknowns**2 + IN_RING * _ring(size, gear.teeth, farthest),
+    )
 
 
 def _ring(size: BodySize, teeth: int, farthest: int) -> float:
-    """Multiplications by which sectors are joined, harmonic by harmonic (`half_turn`)."""
-    shapes, cut, few = SHAPES * size.flanks, size.cut, 2 * max(farthest, 3) + 1
-    whole = cut**3 / 6.0 + 0.5 * cut**2 * shapes + 0.5 * cut * shapes**2
-    if few > 0.35 * teeth:
-        return (teeth // 2 + 1) * whole
-    return (few // 2 + 1) * whole + (teeth // 2 + 1) * (cut**3 / 6.0 + 0.5 * cut**2 * FAR * shapes)
+    """Multiplications by which sectors are joined (`cut_motions`, `ring.joined_blocks`)."""
+    motions = MOTIONS * (size.cut * size.flanks) ** 0.5
+    local = (size.flanks + size.cut) ** 3 / 3.0
+    projected = 2.0 * motions * size.cut * size.condensed
+    flank = size.flanks**3 / 3.0 + 2.0 * motions * size.flanks * (size.flanks + motions)
+    blocks = (farthest + 1) * 2.0 * motions * size.flanks * (size.flanks + 2.0 * motions)
+    return local + projected + flank + blocks + 2.0 * (teeth // 2 + 1) * motions**3

@@ -68,11 +68,6 @@ class Sweep:
         """Thickness of each layer, and whether it has the whole section."""
         return list(zip(self.thicknesses.tolist(), self.in_web.tolist()))
 
-    @property
-    def alike(self) -> bool:
-        """Whether the body is the same towards both ends of the face."""
-        return self.web is None or self.web.low == -self.web.high
-
 
 def layers_of_face(layers: int, width: float, overhang_layers: int = 0, overhang: float = 0.0) -> np.ndarray:
     """Boundaries, mm from mid-width, each the exact opposite of another, of layers of one thickness over a width (mm),

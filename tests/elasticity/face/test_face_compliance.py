@@ -6,24 +6,22 @@ from math import radians, tan
 import numpy as np
 import pytest
 from tests.coarse_sector import PINION, STEEL
-from tests.elasticity.face.swept import GEAR, SIZES, TWISTED, mesh
+from tests.elasticity.face.swept import GEAR, TWISTED, mesh
 from tests.elasticity.test_coast_flank import difference
 
-from fenics_gears import ComputationError, SceneError
+from fenics_gears import SceneError
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import by_radius
-from fenics_gears.elasticity.face import half_turn, tooth_and_body
+from fenics_gears.elasticity.face import condensed
 from fenics_gears.elasticity.face.compliance import face_compliance
-from fenics_gears.elasticity.face.condensed import SweptSector, condensed_swept_sector, spanned
+from fenics_gears.elasticity.face.condensed import SweptSector, condensed_swept_sector
 from fenics_gears.elasticity.face.cost import expected_size
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_whitened, ring_blocks
+from fenics_gears.elasticity.face.layers import SweptWeb
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT
-from fenics_gears.elasticity.mirrored_ring import unfolded_link
-from fenics_gears.elasticity.ring import turned_nodes
-from fenics_gears.elasticity.sector_mesh import sector_mesh
-from fenics_gears.geometry.outline import centreline_angle
+from fenics_gears.elasticity.spanned import spanned
+from fenics_gears.geometry.gear_data import Web
 
 BOTH = Reach(1, (-1, 1))
 # Wider than its mate, so that layers are of two thicknesses.
@@ -43,7 +41,7 @@ def sector() -> SweptSector:
 
 
 def swept_sector(section_mesh, gear=GEAR) -> SweptSector:
-    return condensed_swept_sector(section_mesh, TWISTED, 0.3, centreline_angle(gear), gear.teeth, both=True)
+    return condensed_swept_sector(section_mesh, TWISTED, 0.3, gear.teeth, both=True)
 
 
 def flank_nodes(section_mesh, side):
@@ -61,29 +59,19 @@ def test_the_shapes_of_a_flank_are_all_that_its_cuts_move():
         assert difference(columns @ rows, matrix) < 1e-11
 
 
-def test_few_teeth_stand_for_many(sector, monkeypatch):
-    """Brute force: the same ring by all of its harmonics."""
-    found = []
-    for most in (0.0, 1.0):
-        monkeypatch.setattr(half_turn, "MOST_OF_TEETH", most)
-        found.append(ring_blocks(sector, GEAR.teeth, 2))
-    assert 0.0 < difference(*found) < 1e-11
-
-
-def test_a_sector_without_a_neck_is_condensed_whole(sector, monkeypatch):
-    """Two ways to one elimination."""
-    apart = ring_blocks(sector, GEAR.teeth, 1)
-    monkeypatch.setattr(tooth_and_body, "_tooth", lambda nodes, half, fold, sweep: np.zeros_like(half))
-    assert 0.0 < difference(ring_blocks(swept_sector(mesh(both_flanks=True)), GEAR.teeth, 1), apart) < 1e-10
-
-
-def test_a_body_without_a_node_of_its_own_on_the_centreline(monkeypatch):
-    """Two ways to one elimination, of a rim so thin that its only nodes there are those of the neck and of the bore."""
-    thin = replace(GEAR, bore_radius=GEAR.root_radius - 0.5)
-    section_mesh = sector_mesh(thin, replace(SIZES, both_flanks=True))
-    apart = ring_blocks(swept_sector(section_mesh, thin), thin.teeth, 1)
-    monkeypatch.setattr(tooth_and_body, "_tooth", lambda nodes, half, fold, sweep: np.zeros_like(half))
-    assert 0.0 < difference(ring_blocks(swept_sector(section_mesh, thin), thin.teeth, 1), apart) < 1e-10
+@pytest.mark.nightly
+@pytest.mark.parametrize("web", [None, Web(45.0, 98.0, 0.2), Web(45.0, 98.0, 0.05, offset=0.4)])
+def test_few_motions_of_a_cut_stand_for_all(web, monkeypatch):
+    """Brute force: the same ring with all dofs of the cuts."""
+    gear = replace(PINION, teeth=48, tip_radius=113.3, root_radius=103.25, bore_radius=30.0, web=web)
+    face = FaceDiscretisation(4.5, 8, 36.0, 0.003)
+    if web is not None:
+        sides = (face.face_width * (web.offset + side * web.share) for side in (-0.5, 0.5))
+        face = replace(face, web=SweptWeb(web.hub_radius, web.rim_radius, *sides))
+    few = face_compliance(gear, STEEL, face, Reach(1)).blocks
+    monkeypatch.setattr(condensed, "cut_motions", lambda stiffness, places, *given: np.eye(places.size))
+    whole = face_compliance(gear, STEEL, face, Reach(1)).blocks
+    assert 0.0 < abs(few - whole).max() < 5e-6 * abs(whole).max()
 
 
 def test_hands_mirror_each_other():
@@ -161,19 +149,6 @@ def test_impossible_bodies_are_refused(change, message):
     """What is wrong, and what is allowed."""
     with pytest.raises(SceneError, match=message):
         face_compliance(PINION, STEEL, replace(TWISTED_PINION, **change), Reach(0))
-
-
-def test_sector_without_the_symmetry_is_refused(sector):
-    """Half a turn does not map a sector on itself one of whose flanks or cuts differs."""
-    with pytest.raises(ComputationError, match="not symmetric"):
-        swept_sector(mesh())
-    cut, cross = (0.5 * (sector.even.cut + sign * sector.odd.cut) for sign in (1.0, -1.0))
-    link = unfolded_link(cut, cross, sector.lower_of_upper, turned_nodes(GEAR.teeth, len(cut) // 3, 3))
-    link[0, 0] *= 2.0
-    with pytest.raises(ComputationError, match="half a turn"):
-        half_turn_whitened(link, half_turn_basis(sector.lower))
-    with pytest.raises(ComputationError, match="half a turn"):
-        ring_blocks(replace(sector, lower_of_upper=-sector.lower_of_upper), GEAR.teeth, 1)
 
 
 @pytest.mark.parametrize("reach", [Reach(0), BOTH])

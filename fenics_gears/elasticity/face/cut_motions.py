@@ -1,0 +1,101 @@
+"""How the cuts of a swept sector move: in a few hundred ways, while they have thousands of dofs.
+
+A ring is solved for each of its harmonics (`elasticity.ring`). Half a tooth space and more is between a load on a flank
+and a cut, which therefore moves smoothly. Its motions are taken from a space of two parts (Galerkin's method: what the
+space misses enters a compliance squared):
+
+* motions under loads on the flanks, of a ring whose teeth are all loaded alike, and of one whose teeth are loaded by
+  turns one way and the other: all that is local;
+* polynomials of height and radius in hub, web and rim: what the body does as a whole, in the harmonics between.
+
+With 12 layers and 2,100 dofs of a cut 300 motions leave errors of 2e-6 of the largest compliance.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.polynomial.legendre import legvander
+from scipy.linalg import cho_solve
+
+from ..ring import definite_factor
+from .layers import SweptWeb
+
+# Local motions below this part of the largest are left out; shapes of a load along a profile.
+LEAST_MOTION = 1e-5
+PROFILE_SHAPES = 3
+# Degree of the polynomials along the radius, and the least along the face; their part of the nodes there. Beside a web
+# a rim bends sharply.
+DEGREE = 6
+OF_NODES = 1 / 3
+OF_NODES_WITH_WEB = 2 / 3
+# Motions are told apart by this part of their length. All dofs are kept where fewer than so many of them would go.
+TOLD_APART = 1e-6
+WORTHWHILE = 0.6
+
+
+def cut_motions(stiffness: np.ndarray, places: np.ndarray, profile: int, web: SweptWeb | None) -> np.ndarray:
+    """Orthonormal motions (c, r) of a cut.
+
+    stiffness: (f + 2 c, f + 2 c), N/mm, of the dofs of the flank or flanks, of the lower cut, and of the upper cut in
+    the next sector's frame. places: (c / 3, 3), X, Y, z of the lower cut's nodes. profile: nodes of a flank at a
+    height.
+    """
+    cut = 3 * len(places)
+    smooth = _polynomials(places, web)
+    if smooth.shape[1] > WORTHWHILE * cut:
+        return np.eye(cut)
+    loads = _loads(len(stiffness) - 2 * cut, profile)
+    local = np.hstack([_motions(stiffness, loads, sign) for sign in (1.0, -1.0)])
+    directions, sizes, _ = np.linalg.svd(local, full_matrices=False)
+    local = directions[:, sizes > LEAST_MOTION * sizes[0]]
+    motions, sizes, _ = np.linalg.svd(np.hstack([local, smooth]), full_matrices=False)
+    motions = motions[:, sizes > TOLD_APART]
+    return motions if motions.shape[1] <= WORTHWHILE * cut else np.eye(cut)
+
+
+def _loads(flanks: int, profile: int) -> np.ndarray:
+    """Loads (f, k): at each height in each direction, even, linear and quadratic along a profile. Mirrored, they are
+    the same set."""
+    shapes = legvander(np.linspace(-1.0, 1.0, profile), min(PROFILE_SHAPES, profile) - 1)
+    return np.kron(np.eye(flanks // (3 * profile)), np.kron(np.linalg.qr(shapes)[0], np.eye(3)))
+
+
+def _motions(stiffness: np.ndarray, loads: np.ndarray, sign: float) -> np.ndarray:
+    """Of a cut (c, k), where each tooth bears `sign` times what the one before it does."""
+    flanks = len(loads)
+    lower = (len(stiffness) + flanks) // 2
+    joined = stiffness[:lower, :lower].copy(order="F")
+    joined[:, flanks:] += sign * stiffness[:lower, lower:]
+    joined[flanks:] += sign * stiffness[lower:, :lower]
+    joined[flanks:, flanks:] += stiffness[lower:, lower:]
+    factor = definite_factor(joined, "a ring of equal loads", overwrite=True)
+    forces = np.zeros((lower, loads.shape[1]), order="F")
+    forces[:flanks] = loads
+    return cho_solve((factor, False), forces, overwrite_b=True, check_finite=False)[flanks:]
+
+
+def _polynomials(places: np.ndarray, web: SweptWeb | None) -> np.ndarray:
+    """Orthonormal polynomials (c, k) over hub, web and rim, a part by itself."""
+    radius = np.hypot(places[:, 0], places[:, 1])
+    circles = [] if web is None else [web.hub_radius, web.rim_radius * (1.0 - 1e-9)]
+    part = np.searchsorted(circles, radius)
+    share = OF_NODES if web is None else OF_NODES_WITH_WEB
+    found = []
+    for number in np.unique(part):
+        own = np.flatnonzero(part == number)
+        along_radius = _by_degree(radius[own])
+        along_face = _by_degree(places[own, 2], share)
+        shapes = np.zeros((len(places), along_radius.shape[1] * along_face.shape[1]))
+        shapes[own] = np.einsum("ni,nj->nij", along_radius, along_face).reshape(len(own), -1)
+        shapes[own] = np.linalg.qr(shapes[own])[0]
+        found.append(np.kron(shapes, np.eye(3)))
+    return np.hstack(found)
+
+
+def _by_degree(values: np.ndarray, share: float = 0.0) -> np.ndarray:
+    """Legendre polynomials (n, degree + 1) over the range of some values (n,), of DEGREE or of a `share` of the
+    different values."""
+    different = len(np.unique(values.round(9)))
+    middle = 0.5 * (values.max() + values.min())
+    half = 0.5 * (values.max() - values.min()) or 1.0
+    return legvander((values - middle) / half, min(max(DEGREE, int(share * different)), different - 1))
