@@ -89,11 +89,16 @@ def _stiffness(found) -> Said:
     """The tangent, which small vibrations have; the secant counts gaps of relief and misalignment as deflection."""
     if "mean_mesh_stiffness_tangent" in found:
         yield "mesh stiffness, mean tangent", f"{found['mean_mesh_stiffness_tangent']:.4g} N/(mm um)"
-        secant = f"{found['mean_mesh_stiffness']:.4g} N/(mm um), force over deflection"
-        single = found.get("single_pair_stiffness")
-        one = "" if single is None else f"; {single:.4g} at most while one tooth pair carries"
-        yield "mesh stiffness, mean secant", f"{secant}{one}"
+        yield "mesh stiffness, mean secant", _secant(found)
         yield from _bore_twist(found)
+
+
+def _secant(found) -> str:
+    if "mean_mesh_stiffness" not in found:
+        return "none: wedges and friction press flanks that do not approach"
+    single = found.get("single_pair_stiffness")
+    one = "" if single is None else f"; {single:.4g} at most while one tooth pair carries"
+    return f"{found['mean_mesh_stiffness']:.4g} N/(mm um), force over deflection{one}"
 
 
 def _bore_twist(found) -> Said:
