@@ -17,7 +17,7 @@ from fenics_gears.scene.data import ISO_6336, Scene
 
 from .bore_twist import bore_twist_stiffness
 from .cost import SECTOR_UNKNOWNS, expected_cost
-from .drivetrain import pair_stiffness
+from .drivetrain import mesh_stiffness
 from .model import Model, model_of
 from .motion_rows import Rows, frequency_rows, inertia_rows, period_rows, speed_rows, unknown_rows
 
@@ -139,7 +139,7 @@ def _face_rows(model: Model) -> Rows:
 def _stiffness_rows(model: Model) -> Rows:
     """About what stiffness a tooth pair has in the run, and how much of it is twist of the bodies."""
     scene, pair = model.scene, model.pair
-    one, twist = pair_stiffness(scene, pair), bore_twist_stiffness(scene, pair)
+    one, twist = mesh_stiffness(scene, pair), bore_twist_stiffness(scene, pair)
     if isinf(one) or isinf(twist):
         return []
     each = 1e-3 / pair.face_width

@@ -21,7 +21,7 @@ from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 
-from .drivetrain import drivetrain, mesh_stiffness, pair_stiffness
+from .drivetrain import drivetrain, mesh_stiffness
 from .modification import corner, removals, rim_warnings
 from .resolution import Resolution, locking_warnings, resolution_warnings, resolve
 from .storage import counted_bytes, sizes, stored_arrays
@@ -148,20 +148,16 @@ class Model:
     @cached_property
     def vibrations(self) -> list[Vibration]:
         """The drivetrain's elastic modes with one tooth pair in mesh, about; empty without inertia."""
-        return self._vibrations(pair_stiffness(self.scene, self.pair))
-
-    def _vibrations(self, stiffness: float) -> list[Vibration]:
         if self.drivetrain.mass is None:
             return []
         from fenics_gears.dynamics.frequencies import vibrations
 
-        return vibrations(self.drivetrain, stiffness, self.scene.friction is not None)
+        return vibrations(self.drivetrain, mesh_stiffness(self.scene, self.pair), self.scene.friction is not None)
 
     @cached_property
     def time_scales(self) -> TimeScales:
         """How mesh frequency and time step compare with the drivetrain's vibrations."""
-        # By the stiffness that default steps go by, the larger one.
-        elastic = np.array([vibration.frequency for vibration in self._vibrations(mesh_stiffness(self.scene))])
+        elastic = np.array([vibration.frequency for vibration in self.vibrations])
         found = time_scales(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
         if self.scene.tooth_elasticity is not None or self.drivetrain.mass is None:
             return found

@@ -10,7 +10,7 @@ from tests.coarse import coarse_scene, frictionless, teeth_alone
 from fenics_gears import model_of, simulate
 from fenics_gears.geometry.gear_data import Web
 from fenics_gears.model.bore_twist import bore_twist_stiffness
-from fenics_gears.model.drivetrain import pair_stiffness
+from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.results.summary import summary_rows
 
 
@@ -39,7 +39,7 @@ def test_bores_change_the_mesh_stiffness_by_the_twist_of_a_disc(paper_scene):
         found.append((1.0 / result.attrs["mean_mesh_stiffness_tangent"], 1.0 / result.attrs["bore_twist_stiffness"]))
         told = any(label == "twist of the bodies on their bores" for label, _, _ in summary_rows(result))
         assert told == (found[-1][1] / found[-1][0] >= 0.25)
-        one = 1e-3 * pair_stiffness(bored, pair) / pair.face_width
+        one = 1e-3 * mesh_stiffness(bored, pair) / pair.face_width
         assert one == pytest.approx(result.attrs["single_pair_stiffness"], rel=0.1)
     (small, of_small), (large, of_large) = found
     assert small - large == pytest.approx(of_small - of_large, rel=0.15)
