@@ -56,8 +56,8 @@ class Effect:
     ``needs`` and ``excludes``: section names; ``absent``: what the model is without it; ``unknowns``, ``terms`` and
     ``variables``: what it adds. ``fields``, a class of this module or of the physics that takes it, declares the
     section and is its data; where the data are something else, ``read`` makes them of the section, and ``write`` a
-    section (a dictionary) of them. ``rules`` finds what is wrong between fields: each place, and what to do about it. ``within``: the section's path where it is not at the top; the
-    scene's attribute is ``section`` all the same.
+    section (a dictionary) of them. ``rules`` finds what is wrong between fields: each place, and what to do about it.
+    ``within``: the section's path where it is not at the top; the scene's attribute is ``section`` all the same.
 
     Hooks, each with the effect's data first:
 

@@ -45,9 +45,9 @@ UNLIKE_CYCLES = 5
 # For the reference route, seconds: an unknown of a remeshed sector, a step, the cube of its contact rows; matrices of a
 # position.
 REMESHED_UNKNOWN, REMESHED_STEP, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 4e-4, 1.5e-10, 7.0
-# Of root stress, seconds: an unknown, and one for each column solved, a step for each stress of a tooth per force on one
-# (measured; several loaded teeth), each pair of flanks at a position. Bytes for each contact row of a position: what its
-# force is on the flank nodes of both gears (measured).
+# Of root stress, seconds: an unknown, and one for each column solved, a step for each stress of a tooth per force on
+# one (measured; several loaded teeth), each pair of flanks at a position. Bytes for each contact row of a position:
+# what its force is on the flank nodes of both gears (measured).
 UNKNOWN, SOLVED_UNKNOWN, STEP_STRESS, PAIR_ON_FLANKS, ON_FLANKS = 1.2e-5, 1.4e-7, 5e-9, 5e-4, 450.0
 # Bytes: the program with its libraries; the same with those that mesh and condense; one number.
 PROGRAM, CONDENSING_PROGRAM, BYTES_OF_A_NUMBER = 230e6, 335e6, 8.0

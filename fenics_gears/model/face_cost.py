@@ -28,8 +28,8 @@ from .cost import (
 from .face_resolution import face_discretisation
 from .model import Model
 
-# Seconds of an unknown of a body, of a held tooth's (measured of eight gears, 7.4e-5 to 1.2e-4), and of a multiplication
-# of dense matrices.
+# Seconds of an unknown of a body, of a held tooth's (measured of eight gears, 7.4e-5 to 1.2e-4), and of a
+# multiplication of dense matrices.
 UNKNOWN, NEAR_UNKNOWN, MULTIPLICATION = 4e-5, 9e-5, 5e-11
 # Of the root stress, an unknown, factorised and solved for one load.
 FACTORISED_UNKNOWN, SOLVED_UNKNOWN = 6e-5, 4e-7

@@ -24,7 +24,7 @@ from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 from .drivetrain import drivetrain, mesh_stiffness
 from .modification import corner, removals, rim_warnings
 from .resolution import Resolution, locking_warnings, resolution_warnings, resolve
-from .storage import counted_bytes, sizes, stored_arrays
+from .storage import Arrays, counted_bytes, packed_bytes, sizes, stored_arrays
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
@@ -140,10 +140,19 @@ class Model:
         return second + self.pair.rotation_ratio * first
 
     @cached_property
-    def stored_bytes(self) -> int:
+    def _stored(self) -> tuple[Arrays, dict[str, int]]:
         slots, nodes = self.touching.slots, self.resolution.contact_grid.most_nodes
         size = sizes(self.steps + 1, self.contact_steps, slots, nodes, self.face.slices, self.drivetrain.bearings)
-        return counted_bytes(stored_arrays(self.scene, size), size)
+        return stored_arrays(self.scene, size), size
+
+    @property
+    def stored_bytes(self) -> int:
+        return counted_bytes(*self._stored)
+
+    @property
+    def least_file_bytes(self) -> int:
+        """What the result's file takes at least."""
+        return packed_bytes(*self._stored)
 
     @cached_property
     def vibrations(self) -> list[Vibration]:
