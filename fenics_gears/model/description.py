@@ -99,7 +99,7 @@ def _face_rows(model: Model) -> Rows:
     if pair.axial_offsets != (0.0, 0.0) or pair.face_widths[0] != pair.face_widths[1]:
         places = pair.gear_middles if pair.axial_offsets != (0.0, 0.0) else (None, None)
         each = (
-            f"{name} {width:g} mm" + ("" if middle is None else f" about {middle:g} mm")
+            f"{name} {width:g} mm" + ("" if middle is None else f" about {round(middle, 9) + 0.0:g} mm")
             for name, width, middle in zip(GEARS, pair.face_widths, places)
         )
         widths = [("face width in common", pair.face_width, f"mm: {', '.join(each)}")]

@@ -142,7 +142,8 @@ def _face(found) -> Said:
 def _shafts(found) -> Said:
     if "largest_bearing_force" in found:
         for kind, over in (("inclination", ", over the common face"), ("offset", "")):
-            inside, outside = (found[f"mean_axis_{kind}_{plane}"] for plane in ("in_plane", "out_of_plane"))
+            planes = (found[f"mean_axis_{kind}_{plane}"] for plane in ("in_plane", "out_of_plane"))
+            inside, outside = (round(each, 6) + 0.0 for each in planes)
             words = f"{inside:.4g} um in the plane of action, {outside:.4g} um out of it{over}"
             yield f"{kind} of the axes, mean", words
         balls = found.get("largest_rolling_element_force")
