@@ -8,6 +8,7 @@ import pytest
 from tests.coarse import coarse_scene, frictionless, teeth_alone
 
 from fenics_gears import model_of, simulate
+from fenics_gears.dynamics.damping import Damping
 from fenics_gears.geometry.gear_data import Web
 from fenics_gears.model.bore_twist import bore_twist_stiffness
 from fenics_gears.model.drivetrain import mesh_stiffness
@@ -65,3 +66,10 @@ def test_a_web_twists_more_by_what_it_is_thinner(paper_scene):
     assert springs[1] < springs[0]
     rigid = replace(scene, accuracy=replace(scene.accuracy, model="rigid teeth"))
     assert bore_twist_stiffness(rigid, pair) == inf
+
+
+def test_modes_that_are_printed_have_the_ratios_of_the_scene(paper_scene):
+    """Definition: the modes of both are those of one stiffness; 0.062 was printed where the scene has 0.05."""
+    scene = with_bores(replace(paper_scene, damping=Damping(ratios=(0.05,))), 0.3)
+    ratios = [mode.damping_ratio for mode in model_of(scene).vibrations]
+    assert len(ratios) > 5 and ratios == pytest.approx(len(ratios) * [0.05], rel=1e-8)
