@@ -140,11 +140,12 @@ def _stiffness_rows(model: Model) -> Rows:
     """About what stiffness a tooth pair has in the run, and how much of it is twist of the bodies."""
     scene, pair = model.scene, model.pair
     one, twist = mesh_stiffness(scene, pair), bore_twist_stiffness(scene, pair)
-    if isinf(one) or isinf(twist):
+    if isinf(one):
         return []
-    each = 1e-3 / pair.face_width
-    share = f"{one / twist:.0%} of its deflection is twist of the bodies on their bores"
-    words = f"N/(mm um), about; {share}, {twist * each:.3g} N/(mm um)"
+    each, words = 1e-3 / pair.face_width, "N/(mm um), about"
+    if not isinf(twist):
+        share = f"{one / twist:.0%} of its deflection is twist of the bodies on their bores"
+        words = f"{words}; {share}, {twist * each:.3g} N/(mm um)"
     return [("stiffness of one tooth pair", f"{one * each:.3g}", words)]
 
 
