@@ -49,7 +49,7 @@ def check_writable(directory: Path, *names: str, room: int = 0) -> None:
                 raise SceneError(f"{directory / name} is no file; the result needs this name. Remove it, or {ANOTHER}")
         _try_to_write(existing)
         if (free := shutil.disk_usage(existing).free) < room:
-            raise OSError(0, f"the result takes {room / 1e9:.2g} GB at least, and {free / 1e9:.2g} GB are free")
+            raise OSError(0, f"the result takes {room / 1e6:,.1f} MB at least, and {free / 1e6:,.1f} MB are free")
     except OSError as error:
         # A folder that is there, as /proc, says so of the files that are to be made in it.
         why = "no file can be made there" if isinstance(error, FileNotFoundError) else error.strerror or error
