@@ -6,6 +6,7 @@ from math import radians
 import numpy as np
 
 from fenics_gears import Gear
+from fenics_gears.contact.flank_forces import centreline_mirror
 from fenics_gears.elasticity.element_sizes import ElementSizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.ring import condensed_sector
@@ -30,3 +31,10 @@ def coarse_condensed_sector(name: str, poissons_ratio: float = 0.3):
 
 def relative(difference, reference) -> float:
     return float(np.abs(difference).max() / np.abs(reference).max())
+
+
+def unmirrored(gear: Gear, forces: np.ndarray) -> np.ndarray:
+    """Forces (2 f, ...) on a coast flank in the tooth's own frame, from those in the frame mirrored at its
+    centreline."""
+    found = np.einsum("xy,fy...->fx...", centreline_mirror(gear), forces.reshape(-1, 2, *forces.shape[1:]))
+    return found.reshape(forces.shape)

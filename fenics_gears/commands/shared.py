@@ -147,7 +147,7 @@ def checked_model_and_directory(options, *names: str):
 
     model = checked_model(options.scene)
     directory = options.output or Path("results") / model.scene.name
-    check_writable(directory, *names)
+    check_writable(directory, *names, room=model.least_file_bytes if RUN_FILE in names else 0)
     return model, directory
 
 

@@ -1,7 +1,9 @@
 """What an effect is: the section that switches it on, and the hooks by which it enters the model.
 
-An effect is one module of this package and one entry in the list of ``fenics_gears.effects``. A hook is called only
-when the scene names the effect, and imports the effect's physics inside, so that a scene without it does not load it.
+An effect is one module of this package, one entry in the list of ``fenics_gears.effects`` and one field of
+``scene.data.Scene``. The module is loaded where a scene names the effect, or where all effects are listed; a hook is
+called only in the first case. Physics that takes the effect's data declares their class, which the module imports;
+other modules of physics are imported inside the hooks.
 """
 
 from collections.abc import Callable, Mapping
@@ -52,10 +54,10 @@ class Effect:
     """One effect: the section that switches it on, what it adds, and the sections it needs or excludes.
 
     ``needs`` and ``excludes``: section names; ``absent``: what the model is without it; ``unknowns``, ``terms`` and
-    ``variables``: what it adds. ``fields`` declares the section and is its data; where the data are something else,
-    ``read`` makes them of the section, and ``write`` a section (a dictionary) of them. ``rules`` finds what is wrong
-    between fields: each place, and what to do about it. ``within``: the section's path where it is not at the top; the
-    scene's attribute is ``section`` all the same.
+    ``variables``: what it adds. ``fields``, a class of this module or of the physics that takes it, declares the
+    section and is its data; where the data are something else, ``read`` makes them of the section, and ``write`` a
+    section (a dictionary) of them. ``rules`` finds what is wrong between fields: each place, and what to do about it.
+    ``within``: the section's path where it is not at the top; the scene's attribute is ``section`` all the same.
 
     Hooks, each with the effect's data first:
 

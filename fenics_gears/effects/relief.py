@@ -24,7 +24,10 @@ def starts_without_single_contact(section: str, word: str, reliefs: Reliefs, mod
     pair = model.pair
     if pair.fewest_pairs < 2:
         return []
-    contact, letters = pair.contact_by_fewest
+    # Imported here: few pairs of gears that are relieved have none.
+    from fenics_gears.geometry.characteristics import contact_by_fewest
+
+    contact, letters = contact_by_fewest(pair)
     rolls = pair.hpstc_roll_angles if word == "HPSTC" else pair.lpstc_roll_angles
     own = [(roll, relief) for roll, relief in zip(rolls, (reliefs.pinion, reliefs.wheel)) if relief is not None]
     angles = [roll for roll, relief in own if relief.start is None and relief.length is None]

@@ -130,7 +130,11 @@ EFFECT = Effect(
         *variables(
             OF_TIME,
             energy_teeth=("N mm", "elastic energy of the gears"),
-            mesh_stiffness=("N/mm", "mesh stiffness: mesh force divided by the deflection of the flanks"),
+            mesh_stiffness=(
+                "N/mm",
+                "mesh stiffness: mesh force divided by the deflection of the flanks; not a number (NaN) where these do"
+                " not approach, pressed by wedges and friction alone",
+            ),
             mesh_stiffness_tangent=("N/mm", "tangent mesh stiffness: change of mesh force over change of deflection"),
             loaded_pairs=("1", "number of loaded tooth pairs"),
             largest_contact_pressure=(

@@ -1,4 +1,4 @@
-"""The characteristic data of a pair, as ``gears check`` prints them."""
+"""The characteristic data of a pair, as ``gears check`` prints them, and what points of its path are called."""
 
 from math import atan, cos, degrees
 
@@ -53,6 +53,14 @@ def _helix_rows(pair: GearPair) -> list[tuple[str, float, str]]:
     ]
 
 
+def contact_by_fewest(pair: GearPair) -> tuple[str, str]:
+    """What contact by the fewest pairs is called, and the letters that LPSTC and HPSTC have in its place: "single tooth
+    contact", "STC"; above a contact ratio of 2 no pair is ever alone."""
+    pairs = max(pair.fewest_pairs, 1)
+    known = {1: ("single tooth contact", "STC"), 2: ("double tooth contact", "DTC")}
+    return known.get(pairs, (f"contact by {pairs} pairs", f"{pairs}TC"))
+
+
 def _gear_rows(
     pair: GearPair, name: str, measured_over: tuple[int | None, float | None]
 ) -> list[tuple[str, float, str]]:
@@ -60,7 +68,7 @@ def _gear_rows(
     # Where its active profile starts and where its tip meets the mate.
     lowest, tip = (pair.path_start, pair.path_end) if name == "pinion" else (pair.path_end, pair.path_start)
     teeth, ball = (given or of_gear(gear) for given, of_gear in zip(measured_over, (spanned_teeth, ball_diameter)))
-    contact, letters = pair.contact_by_fewest
+    contact, letters = contact_by_fewest(pair)
     lowest_words, highest_words = (
         "" if letters == "STC" else f", {which} point of {contact}" for which in ("lowest", "highest")
     )

@@ -179,14 +179,6 @@ class GearPair:
         return floor(self.contact_ratio + WHOLE_CONTACT_RATIO_ROUNDING)
 
     @property
-    def contact_by_fewest(self) -> tuple[str, str]:
-        """What contact by the fewest pairs is called, and the letters that LPSTC and HPSTC have in its place: "single
-        tooth contact", "STC"; above a contact ratio of 2 no pair is ever alone."""
-        pairs = max(self.fewest_pairs, 1)
-        known = {1: ("single tooth contact", "STC"), 2: ("double tooth contact", "DTC")}
-        return known.get(pairs, (f"contact by {pairs} pairs", f"{pairs}TC"))
-
-    @property
     def hpstc(self) -> float:
         """Position (mm) of the pinion's highest point of single tooth contact, the wheel's lowest; with a contact ratio
         above 2, where contact by the fewest pairs ends."""

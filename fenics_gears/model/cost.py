@@ -26,9 +26,10 @@ from .storage import fillet_points
 # paper's pair.
 SECTOR_UNKNOWNS = {"P1": (5200, 35.0), "P2": (2300, 30.0), "Q1": (6500, 31.0), "Q2": (3000, 35.0)}
 SECTOR_UNKNOWNS["Q1 incompatible"] = SECTOR_UNKNOWNS["Q1"]
-# Seconds of meshing and condensing: a gear, an unknown, the cube of a flank's dofs (a dense inverse), their square for
-# each block of compliance.
-GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.04, 1.2e-5, 7e-11, 2.8e-8
+# Seconds of meshing and condensing: an unknown (elements of first order are more, and longer to mesh) or one of
+# a mesh that is given, a gear, the cube of a flank's dofs (a dense inverse), their square for each block of compliance.
+MESHED_UNKNOWN = {"P1": 3.4e-5, "P2": 1.2e-5, "Q1": 2.2e-5, "Q1 incompatible": 2.8e-5, "Q2": 1.1e-5}
+GIVEN_UNKNOWN, GEAR, FLANK_CUBE, FLANK_SQUARE = 5e-6, 0.04, 7e-11, 2.8e-8
 # Two inverses of symmetric matrices by Cholesky, in those of a general one.
 BOTH_FLANKS_INVERSES = 0.75
 # Seconds of marching: at a position each pair of flanks and the square of contact rows, a step and each of its rows.
@@ -44,10 +45,10 @@ UNLIKE_CYCLES = 5
 # For the reference route, seconds: an unknown of a remeshed sector, a step, the cube of its contact rows; matrices of a
 # position.
 REMESHED_UNKNOWN, REMESHED_STEP, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 4e-4, 1.5e-10, 7.0
-# Of root stress, seconds: an unknown for each column solved, and a step for each stress
-# of a tooth per force on one (measured; several loaded teeth). Bytes for each contact row of a position: matrices from
-# its force to forces on the flank nodes of both gears (measured).
-SOLVED_UNKNOWN, STEP_STRESS, ON_FLANKS = 1.4e-7, 5e-9, 200.0
+# Of root stress, seconds: an unknown, and one for each column solved, a step for each stress of a tooth per force on
+# one (measured; several loaded teeth), each pair of flanks at a position. Bytes for each contact row of a position:
+# what its force is on the flank nodes of both gears (measured).
+UNKNOWN, SOLVED_UNKNOWN, STEP_STRESS, PAIR_ON_FLANKS, ON_FLANKS = 1.2e-5, 1.4e-7, 5e-9, 5e-4, 450.0
 # Bytes: the program with its libraries; the same with those that mesh and condense; one number.
 PROGRAM, CONDENSING_PROGRAM, BYTES_OF_A_NUMBER = 230e6, 335e6, 8.0
 # What a result needs to know of a contact node at a position, numbers, and their copies side by side; with what its
@@ -158,11 +159,13 @@ def expected_cost(model: Model) -> ExpectedCost:
 
 @dataclass(frozen=True)
 class _Gear:
-    """A gear to be condensed: its finite elements' unknowns, dofs of a flank, blocks of its compliance that are
-    computed, those that contact copies (the transposes, of teeth behind), dense inverses of a flank's size."""
+    """A gear to be condensed: its finite elements' unknowns, the seconds of one, dofs of a flank, blocks of its
+    compliance that are computed, those that contact copies (the transposes, of teeth behind), dense inverses of a
+    flank's size."""
 
     words: str
     unknowns: float
+    unknown: float
     flank_dofs: float
     blocks: float
     copied: float
@@ -175,13 +178,15 @@ def _condensed(model: Model, name: str) -> _Gear:
     dofs, meshed = flank_unknowns(model, name), _meshed(model, name)
     if meshed is not None:
         # Of all teeth, where each has a compliance of its own.
-        return _Gear(f"the whole {name}", meshed, dofs, 1.0 * gear.teeth, 1.0, gear.teeth)
+        inverses = 0.5 * BOTH_FLANKS_INVERSES * gear.teeth
+        return _Gear(f"the whole {name}", meshed, GIVEN_UNKNOWN, dofs, 1.0 * gear.teeth, 1.0, inverses)
+    unknown = MESHED_UNKNOWN[resolution.element]
     if reach.across is None:
-        return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1, reach.same)
+        return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, unknown, dofs, reach.same + 1, reach.same)
     # Half a symmetric sector, for motions of either symmetry.
     half, across = 0.5 * body + per_node * 0.5 * dofs, reach.across[1] - reach.across[0] + 1
     blocks = reach.same + 1 + across
-    return _Gear(f"half a {name} sector", half, dofs, blocks, 2 * reach.same, BOTH_FLANKS_INVERSES)
+    return _Gear(f"half a {name} sector", half, unknown, dofs, blocks, 2 * reach.same, BOTH_FLANKS_INVERSES)
 
 
 def _meshed(model: Model, name: str) -> int | None:
@@ -224,7 +229,7 @@ def _sections(model: Model, gears: list[_Gear]) -> ExpectedCost:
     contact = contact_of(model)
     condensing = sum(
         GEAR
-        + UNKNOWN * gear.unknowns
+        + gear.unknown * gear.unknowns
         + gear.inverses * FLANK_CUBE * gear.flank_dofs**3
         + gear.blocks * FLANK_SQUARE * gear.flank_dofs**2
         for gear in gears
@@ -259,7 +264,7 @@ def _with_root_stress(model: Model, gears: list[_Gear], sections: ExpectedCost) 
     return replace(
         sections,
         condensing=sections.condensing + seconds,
-        marching=sections.marching + model.steps * step,
+        marching=sections.marching + model.steps * step + PAIR_ON_FLANKS * contact.positions * contact.pairs,
         memory=sections.memory + held,
     )
 

@@ -17,7 +17,7 @@ from fenics_gears.scene.data import ISO_6336, Scene
 
 from .bore_twist import bore_twist_stiffness
 from .cost import SECTOR_UNKNOWNS, expected_cost
-from .drivetrain import pair_stiffness
+from .drivetrain import mesh_stiffness
 from .model import Model, model_of
 from .motion_rows import Rows, frequency_rows, inertia_rows, period_rows, speed_rows, unknown_rows
 
@@ -99,7 +99,7 @@ def _face_rows(model: Model) -> Rows:
     if pair.axial_offsets != (0.0, 0.0) or pair.face_widths[0] != pair.face_widths[1]:
         places = pair.gear_middles if pair.axial_offsets != (0.0, 0.0) else (None, None)
         each = (
-            f"{name} {width:g} mm" + ("" if middle is None else f" about {middle:g} mm")
+            f"{name} {width:g} mm" + ("" if middle is None else f" about {round(middle, 9) + 0.0:g} mm")
             for name, width, middle in zip(GEARS, pair.face_widths, places)
         )
         widths = [("face width in common", pair.face_width, f"mm: {', '.join(each)}")]
@@ -139,12 +139,13 @@ def _face_rows(model: Model) -> Rows:
 def _stiffness_rows(model: Model) -> Rows:
     """About what stiffness a tooth pair has in the run, and how much of it is twist of the bodies."""
     scene, pair = model.scene, model.pair
-    one, twist = pair_stiffness(scene, pair), bore_twist_stiffness(scene, pair)
-    if isinf(one) or isinf(twist):
+    one, twist = mesh_stiffness(scene, pair), bore_twist_stiffness(scene, pair)
+    if isinf(one):
         return []
-    each = 1e-3 / pair.face_width
-    share = f"{one / twist:.0%} of its deflection is twist of the bodies on their bores"
-    words = f"N/(mm um), about; {share}, {twist * each:.3g} N/(mm um)"
+    each, words = 1e-3 / pair.face_width, "N/(mm um), about"
+    if not isinf(twist):
+        share = f"{one / twist:.0%} of its deflection is twist of the bodies on their bores"
+        words = f"{words}; {share}, {twist * each:.3g} N/(mm um)"
     return [("stiffness of one tooth pair", f"{one * each:.3g}", words)]
 
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 from fenics_gears.dynamics.drivetrain import Drivetrain, Supports, assembled
 from fenics_gears.geometry.gear_data import rough_pair_stiffness
-from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.scene.data import Scene
+from fenics_gears.scene.data import ISO_6336, Scene
 
 if TYPE_CHECKING:
     import numpy as np
@@ -32,7 +32,7 @@ def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
     elastic = _elastic(scene, pair, gears)
     loads = even_loads(scene, pair, elastic)
     supports = Supports(scene.shafts, scene.bearings, scene.inertia, gears, scene.damping, elastic, loads)
-    return assembled(pair, scene.load.wheel_torque, supports, mesh_stiffness(scene))
+    return assembled(pair, scene.load.wheel_torque, supports, mesh_stiffness(scene, pair))
 
 
 def even_loads(scene: Scene, pair: GearPair, shafts: Sequence[ElasticShaft]) -> tuple[np.ndarray, ...]:
@@ -63,35 +63,39 @@ def highest_of_interest(scene: Scene, pair: GearPair, gears: Mapping[str, Lumped
     """Frequency (Hz) up to which shafts vibrate as they would with all of their modes: the highest of so many harmonics
     of the mesh, or the resonance of both gears on it, roughly."""
     along = sum(getattr(pair, name).base_radius ** 2 / each.moment_of_inertia for name, each in gears.items())
-    stiffness = mesh_stiffness(scene)
+    stiffness = mesh_stiffness(scene, pair)
     resonance = sqrt(stiffness * along) / (2.0 * pi) if isfinite(stiffness) else 0.0
     return max(HARMONICS * scene.mesh_frequencies[1], resonance)
 
 
-def mesh_stiffness(scene: Scene) -> float:
-    """Rough stiffness (N/mm) of one tooth pair along the line of action; infinite if rigid.
+def mesh_stiffness(scene: Scene, pair: GearPair | None = None) -> float:
+    """Stiffness (N/mm), about, of one tooth pair along the line of action in a run; infinite if rigid. `pair`: the
+    scene's, where it is known.
+
+    By ISO 6336-1, method B, where the scene takes that model. Otherwise by its theory, without its adjustment to
+    measurements, in series with the twist of both bodies on their bores.
 
     >>> from fenics_gears import load_scene
-    >>> mesh_stiffness(load_scene("demos/lundvall2004.toml"))
-    210000.0
+    >>> round(mesh_stiffness(load_scene("demos/lundvall2004.toml")), -3)
+    203000.0
     """
     if scene.tooth_elasticity is None:
         return inf
-    return rough_pair_stiffness(scene.tooth_elasticity, scene.gears.face_width)
-
-
-def pair_stiffness(scene: Scene, pair: GearPair) -> float:
-    """Stiffness (N/mm), about, that one tooth pair of a scene has in a run: by the theory of ISO 6336-1, method B,
-    without its adjustment to measurements, in series with the twist of both bodies on their bores."""
-    if scene.tooth_elasticity is None:
-        return inf
-    from fenics_gears.geometry.iso_6336 import theoretical_stiffness
+    from fenics_gears.geometry.iso_6336 import pair_stiffness, theoretical_stiffness
 
     from .bore_twist import bore_twist_stiffness
 
+    pair = pair or gear_pair(scene.gears)
+    if scene.accuracy.model == ISO_6336:
+        return pair_stiffness(scene.gears, line_load(scene, pair))
     theory = theoretical_stiffness(scene.gears)
-    teeth = theory if theory > 0.0 else mesh_stiffness(scene)
+    teeth = theory if theory > 0.0 else rough_pair_stiffness(scene.tooth_elasticity, scene.gears.face_width)
     return 1.0 / (1.0 / teeth + 1.0 / bore_twist_stiffness(scene, pair))
+
+
+def line_load(scene: Scene, pair: GearPair) -> float:
+    """N/mm, of the wheel's torque over the face."""
+    return abs(scene.load.wheel_torque) / pair.wheel.base_radius / pair.face_width
 
 
 def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:

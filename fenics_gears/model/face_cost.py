@@ -13,6 +13,7 @@ from .cost import (
     CONDENSING_PROGRAM,
     NUMBERS_OF_A_NODE,
     ON_FLANKS,
+    PAIR_ON_FLANKS,
     Contact,
     ExpectedCost,
     contact_of,
@@ -22,8 +23,9 @@ from .cost import (
 from .face_resolution import face_discretisation
 from .model import Model
 
-# Seconds of an unknown of a body, and of a multiplication of dense matrices.
-UNKNOWN, MULTIPLICATION = 4e-5, 5e-11
+# Seconds of an unknown of a body, of a held tooth's (measured of eight gears, 7.4e-5 to 1.2e-4), and of a
+# multiplication of dense matrices.
+UNKNOWN, NEAR_UNKNOWN, MULTIPLICATION = 4e-5, 9e-5, 5e-11
 # Of the root stress, an unknown, factorised and solved for one load.
 FACTORISED_UNKNOWN, SOLVED_UNKNOWN = 6e-5, 4e-7
 # For each entry of the stiffness between the cuts that stresses are recovered by.
@@ -63,7 +65,8 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
     bodies, ways, condensing, largest = [], [], sections.condensing, 0.0
     recovering = 0.0
     contact, friction = contact_of(model), model.scene.friction is not None
-    condensed, stress_step = CONDENSING_PROGRAM + model.stored_bytes + BYTES_OF_A_NUMBER * fine[0], 0.0
+    condensed = CONDENSING_PROGRAM + model.stored_bytes + BYTES_OF_A_NUMBER * fine[0]
+    pushing, stress_step = 0.0, 0.0
     held = condensed + BYTES_OF_A_NUMBER * (fine[1] + NUMBERS_OF_A_NODE * contact.positions * contact.nodes)
     for number, name in enumerate(GEARS):
         size, own = _size(model, number), _condensing(model, number)
@@ -71,7 +74,7 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
         ways.append((f"the {name}'s body", f"{own.memory / 1e9:.3g} GB"))
         condensing += UNKNOWN * size.unknowns + MULTIPLICATION * own.operations
         gear, division = (model.pair.pinion, model.pair.wheel)[number], face_discretisation(model, number)
-        condensing += UNKNOWN * near_unknowns(gear, division)
+        condensing += NEAR_UNKNOWN * near_unknowns(gear, division, model.scene.coast_flanks is not None)
         # The flanks' compliance by heights, and by slices for teeth ahead and behind.
         on_slices = size.flanks * model.face.slices / len(face_discretisation(model, number).sweep.heights)
         reach = model.touching.reach.farthest
@@ -87,12 +90,13 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
     held = max(held, condensed + largest) + recovering
     if model.scene.output.root_stress:
         held += ON_FLANKS * contact.positions * contact.nodes * (2.0 if friction else 1.0)
+        pushing = PAIR_ON_FLANKS * contact.positions * contact.pairs
     building = _building(model, contact)
     operators = SHARE_FORMED * operator_bytes(model, contact)
     return replace(
         sections,
         condensing=condensing,
-        marching=RUN + building + model.steps * (_step(contact, friction) + stress_step),
+        marching=RUN + building + pushing + model.steps * (_step(contact, friction) + stress_step),
         memory=held + operators,
         operators=operators,
         unknowns=(*sections.unknowns, *bodies),

@@ -21,10 +21,10 @@ from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 
-from .drivetrain import drivetrain, mesh_stiffness, pair_stiffness
+from .drivetrain import drivetrain, mesh_stiffness
 from .modification import corner, removals, rim_warnings
 from .resolution import Resolution, locking_warnings, resolution_warnings, resolve
-from .storage import counted_bytes, sizes, stored_arrays
+from .storage import Arrays, counted_bytes, packed_bytes, sizes, stored_arrays
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
@@ -140,28 +140,33 @@ class Model:
         return second + self.pair.rotation_ratio * first
 
     @cached_property
-    def stored_bytes(self) -> int:
+    def _stored(self) -> tuple[Arrays, dict[str, int]]:
         slots, nodes = self.touching.slots, self.resolution.contact_grid.most_nodes
         size = sizes(self.steps + 1, self.contact_steps, slots, nodes, self.face.slices, self.drivetrain.bearings)
-        return counted_bytes(stored_arrays(self.scene, size), size)
+        return stored_arrays(self.scene, size), size
+
+    @property
+    def stored_bytes(self) -> int:
+        return counted_bytes(*self._stored)
+
+    @property
+    def least_file_bytes(self) -> int:
+        """What the result's file takes at least."""
+        return packed_bytes(*self._stored)
 
     @cached_property
     def vibrations(self) -> list[Vibration]:
         """The drivetrain's elastic modes with one tooth pair in mesh, about; empty without inertia."""
-        return self._vibrations(pair_stiffness(self.scene, self.pair))
-
-    def _vibrations(self, stiffness: float) -> list[Vibration]:
         if self.drivetrain.mass is None:
             return []
         from fenics_gears.dynamics.frequencies import vibrations
 
-        return vibrations(self.drivetrain, stiffness, self.scene.friction is not None)
+        return vibrations(self.drivetrain, mesh_stiffness(self.scene, self.pair), self.scene.friction is not None)
 
     @cached_property
     def time_scales(self) -> TimeScales:
         """How mesh frequency and time step compare with the drivetrain's vibrations."""
-        # By the stiffness that default steps go by, the larger one.
-        elastic = np.array([vibration.frequency for vibration in self._vibrations(mesh_stiffness(self.scene))])
+        elastic = np.array([vibration.frequency for vibration in self.vibrations])
         found = time_scales(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
         if self.scene.tooth_elasticity is not None or self.drivetrain.mass is None:
             return found

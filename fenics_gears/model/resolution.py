@@ -31,7 +31,7 @@ from fenics_gears.scene.accuracy import (
 )
 from fenics_gears.scene.data import ISO_6336, Material, Scene
 
-from .drivetrain import mesh_stiffness
+from .drivetrain import line_load, mesh_stiffness
 
 DEFAULT_ELEMENT = "P2"
 # Half of the rough stiffness of a pair bounds its deflection from above.
@@ -115,14 +115,14 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     if scene.tooth_elasticity is None:
         return _rigid_resolution(scene, drivetrain)
     if scene.accuracy.model == ISO_6336:
-        steps = scene.accuracy.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, drivetrain)
+        steps = scene.accuracy.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, pair, drivetrain)
         return replace(_rigid_resolution(scene, drivetrain), element=ISO_6336, steps_per_mesh_cycle=steps)
     asked = scene.accuracy
-    line_load = abs(scene.load.wheel_torque) / pair.wheel.base_radius / pair.face_width
+    load = line_load(scene, pair)
     smallest = min(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end))
-    half_width = hertz_half_width(line_load, smallest, plane_contact_modulus(scene))
+    half_width = hertz_half_width(load, smallest, plane_contact_modulus(scene))
     size = asked.flank_element_size or _flank_element_size(scene, half_width)
-    length = asked.contact_length or _contact_length(scene, pair, line_load, half_width, size)
+    length = asked.contact_length or _contact_length(scene, pair, load, half_width, size)
     spacing = NODE_SPACING * size if (asked.element or DEFAULT_ELEMENT).endswith("2") else size
     nodes = asked.contact_nodes or max(ceil(length / spacing), 2) + 1
     condensation = asked.condensation or ONCE
@@ -132,14 +132,14 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
 
         modulus = plane_contact_modulus(scene)
         half_width_of = partial(hertz_half_width, relative_radius=_widest(pair), plane_modulus=modulus)
-        inner = in_steps(inner_length(scene, pair, line_load, half_width_of) + 2.0 * spacing, length)
+        inner = in_steps(inner_length(scene, pair, load, half_width_of) + 2.0 * spacing, length)
     return Resolution(
         element=asked.element or DEFAULT_ELEMENT,
         flank_element_size=size,
         contact_grid=ContactGrid(
             length, nodes, asked.interpolation or AVERAGED, closer_at_edges=condensation == ONCE, inner_length=inner
         ),
-        steps_per_mesh_cycle=asked.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, drivetrain),
+        steps_per_mesh_cycle=asked.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, pair, drivetrain),
         half_width=half_width,
         condensation=condensation,
         body_element_size=asked.body_element_size,
@@ -193,14 +193,14 @@ def _widest(pair: GearPair) -> float:
     return max(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end, middle))
 
 
-def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
+def _steps_per_mesh_cycle(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> int:
     """Steps that resolve the mesh cycle and, with inertia, the drivetrain's highest frequency."""
     fewest = scene.fineness.steps_per_mesh_cycle
     if drivetrain.mass is None:
         return fewest
     from fenics_gears.dynamics.frequencies import natural_frequencies
 
-    frequencies = natural_frequencies(drivetrain, mesh_stiffness(scene))
+    frequencies = natural_frequencies(drivetrain, mesh_stiffness(scene, pair))
     highest = frequencies[frequencies <= drivetrain.right_up_to].max(initial=0.0)
     wanted = ceil(STEPS_PER_PERIOD * highest / scene.mesh_frequencies[0])
     return int(np.clip(wanted, fewest, MOST_STEPS_PER_MESH_CYCLE))

@@ -18,6 +18,8 @@ from fenics_gears.scene.data import Scene
 FILLET_POINTS, FILLET_POINTS_OVER_FACE = 24, 12
 # Points of a shaft at which its deflection is given.
 SHAFT_POINTS = 41
+# Of an array that is compressed; measured: 0.13 to 0.3.
+PACKED = 0.1
 ROOT_STRESS = {
     "root_stress": ("contact_time", "gear", "slot", "fillet_point"),
     "root_stress_maximum": ("time", "gear", "slot"),
@@ -69,6 +71,12 @@ def stored_arrays(scene: Scene, size: Mapping[str, int]) -> Arrays:
 
 def counted_bytes(arrays: Arrays, size: Mapping[str, int]) -> int:
     return sum(kind.itemsize * prod(size[each] for each in dims) for dims, kind in arrays.values())
+
+
+def packed_bytes(arrays: Arrays, size: Mapping[str, int]) -> int:
+    """Of a file at least: curves are not compressed, other arrays to PACKED of their size at best."""
+    curves = counted_bytes({name: each for name, each in arrays.items() if len(each[0]) == 1}, size)
+    return int(curves + PACKED * (counted_bytes(arrays, size) - curves))
 
 
 Values = Mapping[str, np.ndarray]

@@ -20,6 +20,7 @@ class ResultAttribute:
 PER_WIDTH = "N/(mm um)"
 OF_WHOLE_CYCLES = "a whole mesh cycle was run, at one speed"
 WITH_TEETH = "the teeth are elastic"
+WITH_SECANT = WITH_TEETH + " and `mesh_stiffness` is a number"
 WITH_CONTACT = "the teeth are elastic and contact is resolved over nodes"
 WITH_PRESSURE = "the teeth are elastic, contact is resolved over nodes and a node is loaded"
 PAIR_LOADED = "the forces of the tooth pairs are determined and a pair is loaded"
@@ -101,13 +102,13 @@ _ROWS = (
     ),
     ("rms_transmission_error", "um", "r.m.s. transmission error without its mean", OF_WHOLE_CYCLES),
     ("rms_normal_force", "N", "r.m.s. force of the drive less the coast flanks, without its mean", OF_WHOLE_CYCLES),
-    ("mean_mesh_stiffness", PER_WIDTH, "c_gamma: mean of `mesh_stiffness` while the flanks touch", WITH_TEETH),
+    ("mean_mesh_stiffness", PER_WIDTH, "c_gamma: mean of `mesh_stiffness` while the flanks touch", WITH_SECANT),
     ("mean_mesh_stiffness_tangent", PER_WIDTH, "mean of `mesh_stiffness_tangent`, for small vibrations", WITH_TEETH),
     (
         "single_pair_stiffness",
         PER_WIDTH,
         "c': largest `mesh_stiffness` while one tooth pair is loaded",
-        WITH_TEETH + " and in some steps one pair is loaded",
+        WITH_SECANT + " in steps in which one pair is loaded",
     ),
     (
         "bore_twist_stiffness",

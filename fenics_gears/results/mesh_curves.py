@@ -29,7 +29,7 @@ from .side_by_side import Layouts, SideBySide
 @njit(cache=True)
 def mesh_stiffness(contact, status, forces, coordinates):
     """Secant and tangent stiffness, N/mm, of the drive or coast flanks, whichever carry more, and how many tooth pairs
-    carry there; all zero where nothing touches.
+    carry there; all zero where nothing touches, the secant not a number where they do not approach.
 
     `contact`: the `addresses.Arrays` of elastic flanks; others as of StepSolution.
     """

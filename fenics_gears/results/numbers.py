@@ -68,8 +68,9 @@ def mean_where_positive(values: np.ndarray) -> float:
 
 
 def largest_of_one_pair(stiffness: np.ndarray, pairs: np.ndarray) -> float:
-    """Largest stiffness (steps,) at steps with one pair (steps,) in mesh; not a number where there are always more."""
-    alone = pairs == 1
+    """Largest stiffness (steps,) at steps with one pair (steps,) in mesh and a stiffness; not a number where there are
+    none."""
+    alone = (pairs == 1) & np.isfinite(stiffness)
     return float(stiffness[alone].max()) if alone.any() else np.nan
 
 

@@ -5,6 +5,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 
 import numpy as np
+from scipy import sparse
 
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, rows_in_slice, sector_of
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -23,10 +24,9 @@ SIDES = ("drive", "coast")
 OF_BENDING = 0.5
 
 
-# Of a gear: the teeth loaded at a position, by `sector_of`; and for each tooth pair in its slice the forces on the
-# flank's nodes near it per contact force (f, n or 2 n), their places (f,) among those of all these teeth, and those of
-# its contact forces among all.
-OnFlanks = tuple[list[int], list[tuple[np.ndarray, np.ndarray, np.ndarray]]]
+# Of a gear: the teeth loaded at a position, by `sector_of`, and the forces on the nodes of their flanks per contact
+# force (teeth f, n or 2 n). A contact node loads a few of hundreds of flank nodes.
+OnFlanks = tuple[list[int], sparse.csc_array]
 
 
 class RootStress:
@@ -52,14 +52,16 @@ class RootStress:
     def _of_gear(self, gear: int, pairs: Sequence[ToothPair], tangential: bool) -> OnFlanks:
         sectors, dofs = sorted({sector_of(gear, pair) for pair in pairs}), self.rows[gear].rows.shape[-1]
         data, count = (self.pair.pinion, self.pair.wheel)[gear], sum(len(pair.offsets) for pair in pairs)
-        slices, pushed = self.rows[gear].rows.shape[1], []
+        slices, blocks = self.rows[gear].rows.shape[1], []
         for nodes, pair in zip(node_slices(pairs), pairs):
-            number, forces = pair.place.slice, rows_in_slice(gear, data, self.cycle.face, pair, tangential)
+            forces = rows_in_slice(gear, data, self.cycle.face, pair, tangential)
             columns = np.r_[nodes, count + nodes.start : count + nodes.stop] if tangential else np.r_[nodes]
-            first = dofs * sectors.index(sector_of(gear, pair)) + len(forces) * (slices * pair.place.flank + number)
-            near = np.flatnonzero(forces.any(axis=1))
-            pushed.append((forces[near], first + near, columns))
-        return sectors, pushed
+            in_slice = forces.shape[0] * (slices * pair.place.flank + pair.place.slice)
+            first = dofs * sectors.index(sector_of(gear, pair)) + in_slice
+            blocks.append((forces.data, columns[forces.col], first + forces.row))
+        values, from_contact, on_flanks = (np.concatenate(each) for each in zip(*blocks))
+        shape = len(sectors) * dofs, (2 if tangential else 1) * count
+        return sectors, sparse.csc_array((values, (on_flanks, from_contact)), shape)
 
     def _known(self, gear: int, ahead: int) -> np.ndarray:
         rows = self.rows[gear]
@@ -84,12 +86,9 @@ class RootStress:
             slots = nodes.slot_of(steps[:, None], teeth)
             values[steps[:, None], :, slots] = at_rest
             contact = all_forces[starts[steps] + np.arange(starts[steps[0] + 1] - starts[steps[0]])[:, None]]
-            for gear, (sectors, pushed) in enumerate(gears):
-                forces = np.zeros((len(sectors), self.rows[gear].rows.shape[-1], len(steps)))
-                on_teeth = forces.reshape(-1, len(steps))
-                for own, rows, columns in pushed:
-                    on_teeth[rows] += own @ contact[columns]
-                for sector, loaded, own in zip(sectors, forces.any(axis=1), forces):
+            for gear, (sectors, per_force) in enumerate(gears):
+                on_teeth = (per_force @ contact).reshape(len(sectors), -1, len(steps))
+                for sector, loaded, own in zip(sectors, on_teeth.any(axis=1), on_teeth):
                     some = loaded.nonzero()[0]
                     if len(some):
                         own, these, places = own[:, some].T, steps[some], slots[some]

@@ -89,11 +89,16 @@ def _stiffness(found) -> Said:
     """The tangent, which small vibrations have; the secant counts gaps of relief and misalignment as deflection."""
     if "mean_mesh_stiffness_tangent" in found:
         yield "mesh stiffness, mean tangent", f"{found['mean_mesh_stiffness_tangent']:.4g} N/(mm um)"
-        secant = f"{found['mean_mesh_stiffness']:.4g} N/(mm um), force over deflection"
-        single = found.get("single_pair_stiffness")
-        one = "" if single is None else f"; {single:.4g} at most while one tooth pair carries"
-        yield "mesh stiffness, mean secant", f"{secant}{one}"
+        yield "mesh stiffness, mean secant", _secant(found)
         yield from _bore_twist(found)
+
+
+def _secant(found) -> str:
+    if "mean_mesh_stiffness" not in found:
+        return "none: wedges and friction press flanks that do not approach"
+    single = found.get("single_pair_stiffness")
+    one = "" if single is None else f"; {single:.4g} at most while one tooth pair carries"
+    return f"{found['mean_mesh_stiffness']:.4g} N/(mm um), force over deflection{one}"
 
 
 def _bore_twist(found) -> Said:
@@ -137,7 +142,8 @@ def _face(found) -> Said:
 def _shafts(found) -> Said:
     if "largest_bearing_force" in found:
         for kind, over in (("inclination", ", over the common face"), ("offset", "")):
-            inside, outside = (found[f"mean_axis_{kind}_{plane}"] for plane in ("in_plane", "out_of_plane"))
+            planes = (found[f"mean_axis_{kind}_{plane}"] for plane in ("in_plane", "out_of_plane"))
+            inside, outside = (round(each, 6) + 0.0 for each in planes)
             words = f"{inside:.4g} um in the plane of action, {outside:.4g} um out of it{over}"
             yield f"{kind} of the axes, mean", words
         balls = found.get("largest_rolling_element_force")

@@ -18,7 +18,10 @@ NUMBERS = {
     "peak_to_peak_transmission_error": ("rad", "transmission error, peak to peak"),
     "mean_transmission_error": ("rad", "transmission error, mean"),
     "max_normal_force": ("N", "largest contact force of the mesh, on its drive or its coast flanks"),
-    "newton_iterations": ("1", "Newton iterations of the run"),
+    "newton_iterations": (
+        "1",
+        "Newton iterations of the run; without friction fewer after another run on the same contact equations",
+    ),
     "steps_per_mesh_cycle": ("1", "steps per mesh cycle"),
     "wall_time": ("s", "wall time of the run"),
 }

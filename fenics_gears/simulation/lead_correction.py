@@ -53,6 +53,8 @@ EVEN, MOST_TAKEN = 0.95, 1.5
 # Difference for derivatives, over the mean approach of the flanks, estimated by a mesh stiffness, N/mm per mm of face.
 DIFFERENCE, STIFFNESS = 0.05, 14e3
 MICROMETRE = 1e-3
+# Of amounts, mm.
+DECIMALS = 4
 
 
 class Proposal(NamedTuple):
@@ -109,7 +111,9 @@ def proposed(recorder: Recorder) -> Proposal | None:
         if not better:
             break
         amounts, found = min(better, key=lambda each: each[1].factor)
-    if first.factor - found.factor < GAIN:
+    # As they are printed; a tenth of a micrometre is less than any flank is ground to.
+    amounts = np.round(amounts, DECIMALS) + 0.0
+    if first.factor - found.factor < GAIN or np.abs(amounts - loads.own).max() < 10.0**-DECIMALS:
         return None
     return loads.confirmed(amounts, first.factor)
 

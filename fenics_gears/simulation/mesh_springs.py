@@ -14,7 +14,7 @@ from fenics_gears.contact.stiffness_table import LOADS, stiffness_table
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, coast_place, drive_place, facing_points_at
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies
-from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
+from fenics_gears.geometry.iso_6336 import mesh_factor
 from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.model.model import Model
 from fenics_gears.system.job import Job
@@ -49,7 +49,7 @@ def table_cycle(model: Model, bodies: Bodies) -> tuple[Bodies, Cycle]:
         tangential=False,
     )
     force = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius
-    force = force or DEFLECTION_WITHOUT_LOAD * model.scene.gears.module * mesh_stiffness(model.scene)
+    force = force or DEFLECTION_WITHOUT_LOAD * model.scene.gears.module * mesh_stiffness(model.scene, model.pair)
     table = stiffness_table(full, 0, force, LOADS)
     first, second = bodies
     spent = first.timings["time_condense"] + perf_counter() - begun
@@ -61,8 +61,7 @@ def iso_cycle(model: Model) -> Cycle:
     """The mesh cycle of pairs as stiff as ISO 6336-1 has them, on the theoretical path of contact, with gaps by
     material removed from the flanks. Of n pairs in mesh each has c' (0.75 n + 0.25)/n, so that the mean over the path
     is c_gamma_alpha."""
-    line_load = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius / model.scene.gears.face_width
-    single = pair_stiffness(model.scene.gears, line_load)
+    single = mesh_stiffness(model.scene, model.pair)
     flanks = (DRIVE, COAST) if model.scene.coast_flanks is not None else (DRIVE,)
 
     def springs(phase: float) -> list[PairSprings]:

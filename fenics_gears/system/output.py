@@ -39,14 +39,17 @@ def check_working_folder() -> None:
         raise SceneError("The working folder has been removed. Change into one that exists (cd).") from None
 
 
-def check_writable(directory: Path, *names: str) -> None:
-    """Raise SceneError where no result of these names could be written into a directory; leaves nothing there."""
+def check_writable(directory: Path, *names: str, room: int = 0) -> None:
+    """Raise SceneError where no result of these names, which takes so many bytes of `room`, could be written into a
+    directory; leaves nothing there."""
     try:
         existing = _existing(directory)
         for name in names:
             if _is_there(directory / name) and not (directory / name).is_file():
                 raise SceneError(f"{directory / name} is no file; the result needs this name. Remove it, or {ANOTHER}")
         _try_to_write(existing)
+        if (free := shutil.disk_usage(existing).free) < room:
+            raise OSError(0, f"the result takes {room / 1e6:,.1f} MB at least, and {free / 1e6:,.1f} MB are free")
     except OSError as error:
         # A folder that is there, as /proc, says so of the files that are to be made in it.
         why = "no file can be made there" if isinstance(error, FileNotFoundError) else error.strerror or error

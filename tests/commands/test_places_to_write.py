@@ -2,6 +2,7 @@
 
 import os
 import shlex
+import shutil
 import sys
 from pathlib import Path
 
@@ -65,6 +66,17 @@ def check_refusal(words, name, capsys):
         in capsys.readouterr().err
     )
     assert list(Path("out").rglob("*")) == [taken]
+
+
+def test_a_disk_with_less_room_than_a_run_takes(tmp_path, monkeypatch, capsys):
+    """Refused before, though a little can be written; pictures and tables alone take no such room."""
+    monkeypatch.chdir(tmp_path)
+    Path("pair.toml").write_text(SCENE)
+    usage = shutil.disk_usage(tmp_path)
+    monkeypatch.setattr(shutil, "disk_usage", lambda path: usage._replace(free=10_000))
+    assert main(["run", "pair.toml", "--output", "out"]) == 2
+    assert "out cannot be written to: the result takes" in capsys.readouterr().err
+    assert [path.name for path in Path().iterdir()] == ["pair.toml"]
 
 
 def test_libraries_do_not_read_the_commands_arguments(monkeypatch, capsys):

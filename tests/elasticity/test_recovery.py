@@ -5,11 +5,10 @@ from functools import lru_cache
 import numpy as np
 import pytest
 from scipy.interpolate import LinearNDInterpolator
-from tests.coarse_sector import PINION, STEEL
+from tests.coarse_sector import PINION, STEEL, unmirrored
 from tests.elasticity.flank_pressure import pressed
 from tests.whole_gear import whole_gear_mesh
 
-from fenics_gears.contact.flank_forces import unmirrored
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import dofs_of
 from fenics_gears.elasticity.dolfinx_adapter import node_coordinates

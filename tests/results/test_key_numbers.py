@@ -10,6 +10,7 @@ from fenics_gears import mesh_factor, model_of, simulate, single_stiffness
 from fenics_gears.dynamics.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.geometry.profile_modification import ProfileModification, ProfileModifications
 from fenics_gears.model.resolution import plane_contact_modulus
+from fenics_gears.results.key_numbers import _stiffness as stiffness_numbers
 from fenics_gears.results.numbers import harmonics, shares_at
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Motion
@@ -43,6 +44,24 @@ def test_the_printed_stiffness_is_the_tangent(paper_scene):
     assert sloped["mean_mesh_stiffness_tangent"] == pytest.approx(plain["mean_mesh_stiffness_tangent"], rel=0.01)
     row = next(value for label, value, _ in summary_rows(run) if label == "mesh stiffness, mean tangent")
     assert row.startswith(f"{sloped['mean_mesh_stiffness_tangent']:.4g} N/(mm um)")
+
+
+def test_flanks_that_do_not_approach_have_no_secant(static, paper_scene):
+    """Definition: force over a deflection that is not there is no number; other steps keep theirs, and where there are
+    none the summary says so instead of the KeyError that it was."""
+    pair, tangent = model_of(paper_scene).pair, np.full(3, 3e5)
+    curves = {"mesh_stiffness_tangent": tangent, "loaded_pairs": np.array([1.0, 1.0, 2.0])}
+    found = stiffness_numbers(curves | {"mesh_stiffness": np.array([np.nan, 2e5, 4e5])}, pair)
+    per_width = 1e3 * pair.face_width
+    assert found["mean_mesh_stiffness"] == pytest.approx(3e5 / per_width)
+    assert found["single_pair_stiffness"] == pytest.approx(2e5 / per_width)
+    found = stiffness_numbers(curves | {"mesh_stiffness": np.full(3, np.nan)}, pair)
+    assert list(found) == ["mean_mesh_stiffness_tangent"]
+    lost = {"mean_mesh_stiffness", "single_pair_stiffness"}
+    run = static.assign_attrs()
+    run.attrs = {name: value for name, value in static.attrs.items() if name not in lost}
+    rows = {label: value for label, value, _ in summary_rows(run)}
+    assert rows["mesh stiffness, mean secant"].startswith("none: ")
 
 
 def test_peak_pressure_is_that_of_hertz(static, paper_scene):

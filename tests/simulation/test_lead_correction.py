@@ -53,6 +53,8 @@ class Runs:
         foretold."""
         found = simulate(self.scene, preparation=self.prepare)
         slope, crowning = (found.attrs[f"proposed_{name}"] for name in ("helix_slope", "crowning"))
+        # What is confirmed is what is printed.
+        assert np.round([slope, crowning], 1) == pytest.approx([slope, crowning], abs=1e-9)
         least = self.factor(slope, crowning)
         assert least == pytest.approx(found.attrs["proposed_face_load_factor"], rel=foretold)
         beside = [(slope + d, max(crowning + c, 0.0)) for d in (-1.0, 0.0, 1.0) for c in (-1.0, 0.0, 1.0)]
@@ -157,6 +159,13 @@ def test_light_loads_have_a_proposal_that_helps_or_none(torque, in_plane):
     assert 1.0 <= factor < found.get("face_load_factor", np.inf)
     assert factor == pytest.approx(runs.factor(slope, crowning), rel=1e-9)
     assert abs(slope) <= 1.5 * (abs(in_plane) + 2.0)
+
+
+def test_no_amounts_that_are_printed_as_nothing():
+    """Definition: 0.04 um of misalignment would be taken out by "0.0 um", as printed."""
+    model = model_of(helical_scene('[misalignment]\nin_plane = "0.04 um"\n', helix=0.0, accuracy=ACCURACY, **LIGHT))
+    found = simulate(model.scene, preparation=Runs(model.scene, on_stand_in_bodies(model)).prepare)
+    assert found.attrs["face_load_factor"] > 1.001 and "proposed_helix_slope" not in found.attrs
 
 
 @pytest.mark.parametrize("slopes", [np.zeros((3, 2)), np.full((3, 2), np.nan), np.array([[1.0, 0.0]] * 3)])

@@ -1,6 +1,7 @@
 """Memory that a run may take."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,8 +13,11 @@ from fenics_gears import ComputationError, SceneError, expected_cost, model_of, 
 from fenics_gears.commands.cli import main
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.results import load
+from fenics_gears.model.cost import ON_FLANKS, contact_of
+from fenics_gears.results import load, save
+from fenics_gears.results.root_stress_variables import RootStress
 from fenics_gears.results.side_by_side import KnownLayouts
+from fenics_gears.scene.data import Output
 from fenics_gears.simulation import simulate as simulation
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.memory import MEMORY_VARIABLE, allowed_memory, size_in_bytes
@@ -169,6 +173,32 @@ def test_layouts_of_a_long_mesh_cycle_are_held_once(paper_scene, monkeypatch):
     held = {id(known): known for joined in layouts._joined.values() for known in joined._known}
     nodes = sum(end - first for _, first, end, _ in layouts._parts.values())
     assert sum(len(known["node"]) for known in held.values()) == nodes
+
+
+def test_root_stress_holds_of_the_positions_what_is_expected(paper_scene, monkeypatch):
+    """The arrays themselves: what a contact node loads, where blocks of all nodes of a pair took ten times as much and
+    ended runs that `check` had told to fit."""
+    made, scene = [], replace(coarse_scene(paper_scene, cycles=1), output=Output(root_stress=True))
+    of_gear = RootStress._of_gear
+
+    def kept(*arguments):
+        made.append(of_gear(*arguments))
+        return made[-1]
+
+    monkeypatch.setattr(RootStress, "_of_gear", kept)
+    simulate(scene, cache=user_cache())
+    contact = contact_of(model_of(scene))
+    expected = ON_FLANKS * 2 * contact.nodes * contact.positions
+    found = sum(each.nbytes for _, rows in made for each in (rows.data, rows.indices, rows.indptr))
+    assert expected / 4.0 < found < 1.5 * expected
+
+
+def test_a_file_takes_at_least_what_the_disk_is_asked_for(paper_scene, tmp_path):
+    """The file itself."""
+    scene = coarse_scene(paper_scene, cycles=3)
+    save(simulate(scene, cache=user_cache()), tmp_path / "run.nc")
+    model = model_of(scene)
+    assert 0.05 * model.stored_bytes < model.least_file_bytes < (tmp_path / "run.nc").stat().st_size
 
 
 def test_sizes_of_memory(monkeypatch):

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 from tests.coarse import coarse_scene, frictionless, quasi_static
-from tests.coarse_sector import PINION, STEEL
+from tests.coarse_sector import PINION, STEEL, unmirrored
 from tests.elasticity.flank_pressure import pressed
 from tests.iso_tooth_root import nominal_root_stress, standard_gear
 
 from fenics_gears import Load, SceneError, scene_from_text, simulate
 from fenics_gears.contact.compliance_product import directions
-from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, sector_of, unmirrored
+from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, sector_of
 from fenics_gears.contact.kinematics import displacement_jacobian
 from fenics_gears.contact.tooth_pair import COAST
 from fenics_gears.effects.coast_flanks import CoastFlanks

@@ -2,6 +2,7 @@
 
 import os
 import resource
+import shutil
 import subprocess
 import sys
 
@@ -139,3 +140,12 @@ def test_a_disk_without_room_is_found_by_writing(tmp_path):
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
     output.check_writable(tmp_path / "new" / "out", "run.nc")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_disk_with_less_room_than_the_result_takes_is_found_before(tmp_path, monkeypatch):
+    """Definition: what is free is less than what a file takes at least; both are said."""
+    usage = shutil.disk_usage(tmp_path)
+    monkeypatch.setattr(output.shutil, "disk_usage", lambda path: usage._replace(free=300_000_000))
+    with pytest.raises(SceneError, match=r"takes 1,200\.0 MB at least, and 300\.0 MB are free\. To go on, .*--output"):
+        output.check_writable(tmp_path / "new", "run.nc", room=1_200_000_000)
+    output.check_writable(tmp_path / "new", "run.nc", room=200_000_000)

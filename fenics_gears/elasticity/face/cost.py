@@ -114,11 +114,14 @@ def expected_size(gear: Gear, face: FaceDiscretisation, both_flanks: bool = Fals
     return BodySize(round(unknowns), (2 if both_flanks else 1) * 3 * heights * section.flank, cut)
 
 
-def near_unknowns(gear: Gear, face: FaceDiscretisation) -> float:
-    """Of the held teeth whose thin layers tell what a body's layers leave out: one for each run of neighbours."""
+def near_unknowns(gear: Gear, face: FaceDiscretisation, both_flanks: bool = False) -> float:
+    """Of the held teeth whose thin layers tell what a body's layers leave out: one for each run of neighbours, which
+    the coast flank has in reverse."""
     scaled = face.in_modules_of(gear)
     thick = [round(each, 9) for each in scaled.sweep.thicknesses.tolist()]
     runs = {tuple(thick[max(number - 1, 0) : number + 2]) for number in range(len(thick))}
+    if both_flanks:
+        runs |= {run[::-1] for run in runs}
     heights = sum(2 * sum(thin_layers(each) for each in run) + 1 for run in runs)
     return 3.0 * heights * _section(gear.of_module_one, scaled.sizes).tooth
 

@@ -100,7 +100,7 @@ def frequencies_over_load(scene: Scene, loads: np.ndarray, tangents: xr.DataArra
     torques (loads,), N m, on the wheel."""
     every = []
     for place, torque in enumerate(loads):
-        rough = mesh_stiffness(scene)
+        rough = mesh_stiffness(scene, pair)
         stiffness = rough if tangents is None else float(tangents.values[place]) * pair.face_width / MICROMETRE
         drivetrain = model_of(replace(scene, load=Load(1e3 * torque))).drivetrain
         known = np.isfinite(stiffness) or stiffness == rough

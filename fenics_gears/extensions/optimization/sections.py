@@ -88,6 +88,7 @@ class Sections:
         # A depth of exactly nothing is no relief; the least depth is as good.
         low, high = lowest / factor_of(unit) if numbers[0] == 0.0 < lowest else numbers[0], numbers[-1]
         if len(numbers) > 2 or not low < high:
+            ends = ends if len(numbers) == 2 else f"has {len(numbers)} values."
             self.wrong("variables", path, written, f"{ends} Allowed: two ends, the lower one first.")
         elif not lowest <= low * factor_of(unit) * (1 + 1e-12) or not high * factor_of(unit) <= highest:
             self.wrong("variables", path, written, f"{ends} Allowed for this field: {allowed.description}.")

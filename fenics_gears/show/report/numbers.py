@@ -2,6 +2,7 @@
 
 import math
 
+from fenics_gears.geometry.characteristics import contact_by_fewest
 from fenics_gears.results.summary import result_rows
 
 from ..panels import digits
@@ -42,7 +43,7 @@ def _contact_points(run: Run) -> Table:
     speed = ("Sliding speed (m/s)",) if timed else ()
     sliding = "Specific sliding, pinion", "Specific sliding, wheel"
     headings = ("Point", "Pinion (mm)", "Wheel (mm)", *speed, *sliding, "Share in the mesh force")
-    contact, letters = ("single tooth contact", "STC") if run.pair is None else run.pair.contact_by_fewest
+    contact, letters = ("single tooth contact", "STC") if run.pair is None else contact_by_fewest(run.pair)
     lowest, highest = f"LP{letters}", f"HP{letters}"
     words = dict(zip("ABCDE", ("start of contact", lowest, "pitch point", highest, "end of contact")))
     rows = []

@@ -5,6 +5,7 @@ from math import degrees
 import numpy as np
 
 from fenics_gears.elasticity.ring import rotation
+from fenics_gears.geometry.characteristics import contact_by_fewest
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import tip_corner, tooth_outline
 from fenics_gears.geometry.pair import GearPair
@@ -107,7 +108,7 @@ def _on_line(pair: GearPair, positions: list[float], coast: bool = False) -> np.
 
 def _points(pair: GearPair, coast: bool) -> dict[str, float]:
     """Positions (mm from T1) of the points on the path of contact."""
-    letters = pair.contact_by_fewest[1]
+    letters = contact_by_fewest(pair)[1]
     ends = ("end of contact", "start of contact") if coast else ("start of contact", "end of contact")
     names = (ends[0], f"LP{letters}", "pitch point", f"HP{letters}", ends[1])
     places = (pair.path_start, pair.lpstc, pair.pitch_point, pair.hpstc, pair.path_end)
@@ -118,7 +119,7 @@ def _points_in_words(pair: GearPair, coast: bool) -> str:
     points = _points(pair, coast).items()
     words = [f"{name} {place:.2f} mm ({degrees(pair.pinion_roll_angle(place)):.2f}°)" for name, place in points]
     said = f"From T1 on the line of action, with the pinion's roll angle: {'; '.join(words)}."
-    contact, letters = pair.contact_by_fewest
+    contact, letters = contact_by_fewest(pair)
     return f"{said} LP{letters} and HP{letters}: lowest and highest point of {contact}, of the pinion."
 
 

@@ -306,6 +306,10 @@ REFUSED = {
         '[variables]\ntip_relief.depth = ["60 um", "2 um"]\n' + GOAL,
         "Allowed: two ends, the lower one first.",
     ),
+    "more than two ends": (
+        '[variables]\ntip_relief.depth = ["2 um", "20 um", "60 um"]\n' + GOAL,
+        "has 3 values. Allowed: two ends, the lower one first.",
+    ),
     "an end that the field does not allow": (
         "[variables]\ntip_relief.exponent = [1, 30]\n" + GOAL,
         "goes from 1 to 30. Allowed for this field: a number from 1 up to 10",
