@@ -26,7 +26,7 @@ class SliceCompliance:
     def __init__(
         self, blocks: np.ndarray, averages: Sequence[sparse.csr_matrix], slices: int, additions: Sequence[Addition] = ()
     ):
-        flanks, (seen, nodes), size = len(averages), averages[0].shape, averages[0].shape[0] // slices
+        flanks, nodes, size = len(averages), averages[0].shape[1], averages[0].shape[0] // slices
         self._blocks, self._additions = blocks.reshape(len(blocks), flanks, nodes, 3, flanks, 3 * nodes), additions
         self._slices, shape = slices, (2 * len(blocks) - 1, flanks * slices, flanks * slices)
         self._there = np.zeros(shape, dtype=bool)
