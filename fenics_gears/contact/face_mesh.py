@@ -57,7 +57,7 @@ def face_mesh(
         pair,
         grid,
         lambda phases: [nodes(phase) for phase in phases],
-        lambda passages: [pairing.response(passage) for passage in passages],
+        pairing.responses,
         traits=MeshTraits(divisible=True, repeats=True),
         bodies=flanks.compliance, coast_flanks=coast, corner=corner, face=face,
     )  # fmt: skip

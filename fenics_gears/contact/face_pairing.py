@@ -17,19 +17,14 @@ from scipy import sparse
 
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
-from fenics_gears.elasticity.slice_averages import (
-    add_along_normals,
-    oblique_averages,
-    oblique_sections,
-    on_slices,
-    slice_averages,
-)
+from fenics_gears.elasticity.slice_averages import oblique_averages, oblique_sections, slice_averages
+from fenics_gears.elasticity.slice_compliance import Addition, SliceCompliance, along_normals
 from fenics_gears.errors import ComputationError
 
 from .addresses import form_rows
 from .compliance_product import directions
 from .face import Face
-from .fine_sections import BEGIN, IN_SLICE, OF_SLICE, SLICE, TOOTH, Fine, Side, stacked
+from .fine_sections import BEGIN, IN_SLICE, OF_SLICE, SECTION, SLICE, TOOTH, Fine, Side, by_nodes, stacked
 from .formed_rows import FormedRows, fine_section, uncertain_slices
 from .interpolation import FlankInterpolation
 from .kinematics import turned
@@ -71,7 +66,7 @@ class FacePairing:
         return [rise, -rise][: body.flanks]
 
     def _plane(self, gear: int, body: FaceCompliance) -> np.ndarray:
-        """What slices see of the body's section in plane strain (k, d, d), those of one width after the other."""
+        """What slices see of the body's section in plane strain (k, n, n, 4), those of one width after the other."""
         offsets = range(-body.plane.offsets, body.plane.offsets + 1)
         blocks = np.stack([body.plane.block(offset) for offset in offsets])
         size = blocks.shape[1]
@@ -79,41 +74,57 @@ class FacePairing:
         for kind, width in enumerate(self._widths):
             own = slice(size * kind, size * (kind + 1))
             found[:, own, own] = oblique_sections(blocks, body.roll_angle, self._rises(gear, body), width)
-        return found
+        return by_nodes(found, 2)
 
-    def _on_slices(self, gear: int, body: FaceCompliance) -> np.ndarray:
+    def _on_slices(self, gear: int, body: FaceCompliance) -> SliceCompliance:
         face, rises = self.face, self._rises(gear, body)
-        positions = face.positions - face.middles[gear]
+        positions, additions = face.positions - face.middles[gear], list[Addition]()
 
         def along(heights: np.ndarray) -> list[sparse.csr_matrix]:
             return [oblique_averages(heights, positions, face.widths, body.roll_angle, rise) for rise in rises]
 
-        found = on_slices(body.blocks, along(body.heights), face.slices)
         if body.near is not None:
             parts = zip(along(body.near.heights), body.near.compliance, body.near.normals)
-            for flank, (seen, compliance, normals) in enumerate(parts):
-                add_along_normals(found, seen @ compliance @ seen.T, normals, flank)
+            additions += [along_normals(*part, flank * face.slices) for flank, part in enumerate(parts)]
         if body.seat is not None:
             # Imported here: few gears are cut into a shaft.
-            from .face_seat import add_seat
+            from .face_seat import seat_motions
 
             weights = slice_averages(body.heights, body.element_order, positions, face.widths)
             own = (self.sections.pair.pinion, self.sections.pair.wheel)[gear]
-            add_seat(found, weights, body, own, rises[0])
-        return found
+            additions.append(seat_motions(weights, body, own, rises[0]))
+        return SliceCompliance(body.blocks, along(body.heights), face.slices, additions)
 
-    def response(self, passage: Passage) -> Response:
-        """How the contact nodes of a passage yield; dependent rows have a thin layer each (`contact.pairing`)."""
+    def responses(self, passages: Sequence[Passage]) -> list[Response]:
+        """How the contact nodes of passages yield; dependent rows have a thin layer each (`contact.pairing`)."""
+        sides = [self._side(passage.pairs, passage.previous is not None) for passage in passages]
+        before = [None if each.previous is None else self._side(each.previous, True) for each in passages]
+        together = [(one, now) for earlier, now in zip(before, sides) for one in (now, earlier) if one is not None]
+        for gear, (body, sections) in enumerate(self._bodies):
+            self._find(body, len(sections) // 2, [(one.on_gears[gear], two.on_gears[gear]) for one, two in together])
+        return [self._response(*each) for each in zip(passages, sides, before)]
+
+    def _find(self, body: SliceCompliance, sections: int, sides: list[tuple[np.ndarray, np.ndarray]]) -> None:
+        """Have the body's compliance between the groups of sides, each two of which are there together."""
+        offsets, teeth = len(body.values) // 2, []
+        for own, other in sides:
+            _check_known(min(offsets, sections), own[TOOTH], other[TOOTH])
+            ahead = own[TOOTH][:, None] - other[TOOTH]
+            pair = np.broadcast_arrays(ahead, own[SECTION][:, None], other[SECTION])
+            teeth.append(np.unique(np.ravel_multi_index((pair[0] + offsets, *pair[1:]), body.values.shape[:3])))
+        asked = np.unique(np.concatenate(teeth)) if teeth else np.empty(0, dtype=np.int64)
+        ahead, own, other = np.unravel_index(asked, body.values.shape[:3])
+        body.find(ahead - offsets, own, other)
+
+    def _response(self, passage: Passage, now: Side, before: Side | None) -> Response:
         pairs: Sequence[FacePair] = passage.pairs
-        previous: Sequence[FacePair] | None = passage.previous
-        now, angles = self._side(pairs, previous is not None), turned(self.sections.pair, passage.advance)
-        layers = np.zeros(self.face.slices)
+        angles, layers = turned(self.sections.pair, passage.advance), np.zeros(self.face.slices)
         compliance, earlier = self._rows(now, now, layers), None
-        if previous is not None:
+        if before is not None:
             # The tangents as they stood before. Reciprocal, so that rows are those of nodes before, as the march reads
             # them.
             tangents = now._replace(axes=np.stack([self._axes(gear, pairs, True, angles[gear]) for gear in GEARS]))
-            earlier = self._rows(self._side(previous, True), tangents, np.zeros_like(layers), by_columns=True)
+            earlier = self._rows(before, tangents, np.zeros_like(layers), by_columns=True)
         if not len(pairs):
             return Response(compliance, earlier)
         dependent = self._dependent(compliance, layers)
@@ -123,11 +134,11 @@ class FacePairing:
 
     def _rows(self, rows: Side, columns: Side, layers: np.ndarray, by_columns: bool = False) -> FormedRows:
         same = rows.groups[SLICE][:, None] == columns.groups[SLICE]
-        for (blocks, sections), fine, own, other in zip(self._bodies, self._fine, rows.on_gears, columns.on_gears):
-            _check_known(min(len(blocks), len(sections)) // 2, own[TOOTH], other[TOOTH])
+        for fine, own, other in zip(self._fine, rows.on_gears, columns.on_gears):
             _check_sections(fine, own[TOOTH][:, None] - other[TOOTH], (rows.flanks[:, None], columns.flanks), same)
         fine = Fine(*self._fine, self._shares, layers)
-        return FormedRows.of(self._bodies, rows, columns, fine, by_columns)
+        bodies = [(body.values, sections) for body, sections in self._bodies]
+        return FormedRows.of(bodies, rows, columns, fine, by_columns)
 
     def _side(self, pairs: Sequence[FacePair], tangential: bool) -> Side:
         """The pairs' nodes, along normal and tangent."""
@@ -145,8 +156,7 @@ class FacePairing:
             teeth = np.array([place.ahead(gear) for place in places], dtype=np.int64)
             section = flanks * self.face.slices + slices
             kinds = self._flanks * self._kinds[slices]
-            plane_dof = 2 * (count * (flanks + kinds) + lowest)
-            on_gears[gear] = teeth, under, beside, section, 3 * lowest, plane_dof
+            on_gears[gear] = teeth, under, beside, section, lowest, count * (flanks + kinds) + lowest
         axes, group = np.stack([self._axes(gear, pairs, tangential) for gear in GEARS]), np.arange(len(pairs))
         fine = _together([pair.interpolation for pair in pairs], padded=False)
         return Side(
@@ -239,7 +249,7 @@ def _check_sections(fine: np.ndarray, ahead: np.ndarray, flanks: tuple[np.ndarra
     """Raise ComputationError where the sections' compliance is not known between teeth (P, Q) `ahead` that touch in the
     same slice."""
     reach, (flank, other) = len(fine) // 2, np.broadcast_arrays(*flanks)
-    known = ~np.isnan(fine[:, :, :, 0, 0])
+    known = ~np.isnan(fine[:, :, :, 0, 0, 0])
     near = np.clip(ahead[same], -reach, reach)
     if np.any(near != ahead[same]) or not known[reach + near, flank[same], other[same]].all():
         raise ComputationError(

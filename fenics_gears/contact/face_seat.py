@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
+from fenics_gears.elasticity.slice_compliance import Addition
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import canonical_point
 from fenics_gears.geometry.outline import centreline_angle
@@ -13,19 +14,23 @@ from fenics_gears.geometry.outline import centreline_angle
 SIX = 6
 
 
-def add_seat(found: np.ndarray, weights: np.ndarray, body: FaceCompliance, gear: Gear, twist: float) -> None:
-    """Add to the compliance of slices (2 k - 1, F S, F S, d, d) of `on_slices` what the body's axis gives way.
+def seat_motions(weights: np.ndarray, body: FaceCompliance, gear: Gear, twist: float) -> Addition:
+    """Adds to the compliance of slices what the body's axis gives way.
 
     `weights` (S, h): of its heights in slices. `twist` (rad/mm): of the gear's section along z. Shaft and bearings are
     alike in all directions, so that only the angle between two sections matters.
     """
-    nodes = _of_nodes(body, gear)
+    nodes, slices = _of_nodes(body, gear), len(weights)
     axis = np.einsum("sh,hikj,tk->stij", weights, body.seat, weights, optimize=True)
     places = weights @ body.heights
-    for number, blocks in enumerate(found):
-        ahead = number - len(found) // 2
-        turn = _turned_back(ahead * gear.angular_pitch + twist * (places[:, None] - places))
-        blocks += np.einsum("fai,stij,gbj->fsgtab", nodes, turn @ axis, nodes, optimize=True).reshape(blocks.shape)
+
+    def add(values: np.ndarray, ahead: int, section: int, other: int) -> None:
+        (flank, own), (loaded, there) = divmod(section, slices), divmod(other, slices)
+        turn = _turned_back(ahead * gear.angular_pitch + twist * (places[own] - places[there]))
+        found = nodes[flank] @ (turn @ axis[own, there]) @ nodes[loaded].T
+        values += found.reshape(len(values), 3, len(values), 3).transpose(0, 2, 1, 3)
+
+    return add
 
 
 def _of_nodes(body: FaceCompliance, gear: Gear) -> np.ndarray:
@@ -45,9 +50,9 @@ def _of_nodes(body: FaceCompliance, gear: Gear) -> np.ndarray:
     return np.array(found)
 
 
-def _turned_back(angles: np.ndarray) -> np.ndarray:
+def _turned_back(angles: np.ndarray | float) -> np.ndarray:
     """Matrices (..., 6, 6) that take motions of an axis into a frame that is turned counter-clockwise by angles."""
-    found = np.zeros((*angles.shape, SIX, SIX))
+    found = np.zeros((*np.shape(angles), SIX, SIX))
     cosine, sine = np.cos(angles), np.sin(angles)
     for first in (0, 3):
         found[..., first, first] = found[..., first + 1, first + 1] = cosine

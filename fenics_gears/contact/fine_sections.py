@@ -16,8 +16,8 @@ from .compliance_product import add_multiple
 # Of a group: its first node, its slice, the place of that node among those in the slice, and how many these are.
 BEGIN, SLICE, IN_SLICE, OF_SLICE = range(4)
 # Of a group on a gear: its tooth, how many flank nodes lie under it, their place among those under all groups; the
-# body's section, by flank and slice, and the first degree of freedom in it; and that in the plane section.
-TOOTH, WIDTH, PLACE, SECTION, DOF, PLANE_DOF = range(6)
+# body's section, by flank and slice, and the first of the flank nodes in it; and that in the plane section.
+TOOTH, WIDTH, PLACE, SECTION, NODE, PLANE_NODE = range(6)
 
 
 class Side(NamedTuple):
@@ -56,14 +56,22 @@ class Fine(NamedTuple):
     layers: np.ndarray
 
 
+def by_nodes(blocks: np.ndarray, components: int) -> np.ndarray:
+    """Compliance (..., n, n', c^2) between flank nodes, with all components of a pair of nodes together, from blocks
+    (..., c n, c n')."""
+    *most, rows, columns = blocks.shape
+    apart = blocks.reshape(*most, rows // components, components, columns // components, components).swapaxes(-3, -2)
+    return np.ascontiguousarray(apart).reshape(*most, rows // components, columns // components, components**2)
+
+
 def stacked(section: FlankCompliance) -> np.ndarray:
-    """Compliance (2 k - 1, F, F, 2 n, 2 n) of a flank, by the teeth that it is ahead of the loaded one, from k - 1
-    behind on, and by both flanks; not a number where it is not known."""
-    reach, sides, dofs = section.farthest, section.flanks, 2 * section.nodes
-    found = np.full((2 * reach + 1, sides, sides, dofs, dofs), np.nan)
+    """Compliance (2 k - 1, F, F, n, n, 4) of a flank `by_nodes`, by the teeth that it is ahead of the loaded one, from
+    k - 1 behind on, and by both flanks; not a number where it is not known."""
+    reach, sides, nodes = section.farthest, section.flanks, section.nodes
+    found = np.full((2 * reach + 1, sides, sides, nodes, nodes, 4), np.nan)
     for number, side, other in np.ndindex(2 * reach + 1, sides, sides):
         try:
-            found[number, side, other] = section.between(number - reach, 0, (side, other))
+            found[number, side, other] = by_nodes(section.between(number - reach, 0, (side, other)), 2)
         except ComputationError:
             # Further apart than flanks that touch at a time.
             continue
@@ -95,7 +103,7 @@ def add_fine(found, rows, columns, fine, group, nodes):
         blocks = fine.second if gear else fine.first
         near, first = weights_of(rows, gear, group)
         axes = fine.shares[number] * rows.axes[gear, group]
-        weights, low = spread(near[own], first[own], blocks.shape[3] // 2)
+        weights, low = spread(near[own], first[own], blocks.shape[3])
         for q in np.flatnonzero(columns.groups[SLICE] == number):
             ahead = (len(blocks) - 1) // 2 + rows.on_gears[gear, TOOTH, group] - columns.on_gears[gear, TOOTH, q]
             block, across = blocks[ahead, rows.flanks[group], columns.flanks[q]], columns.axes[gear, q]
@@ -103,7 +111,7 @@ def add_fine(found, rows, columns, fine, group, nodes):
             start = firsts.min()
             ends = 0, firsts.max() + loaded.shape[1] - start
             lines = np.zeros((len(weights), len(axes), len(across), ends[1]))
-            add_section(lines, ends, block, (2 * low, 2 * start), axes, across)
+            add_section(lines, ends, block, (low, start), axes, across)
             displaced = weighted(lines, weights)
             for e in range(len(across)):
                 add_seen(found[e, columns.groups[BEGIN, q] : end_of(columns, q)], loaded, firsts - start, displaced[e])
@@ -141,21 +149,22 @@ def weighted(lines, weights):
 
 @njit(cache=True)
 def add_section(lines, ends, section, firsts, axes, across):
-    """Add compliance of a section between flank nodes i and others, from the `firsts` row and column on, two for each
-    node: by the last two components of directions `axes` (d, 5) and `across` (e, 5) to `lines` (i, d, e, j), from
-    `ends[0]` to `ends[1]`."""
+    """Add compliance `section` (n, n', 4) between flank nodes i and others, from the `firsts` on: by the last two
+    components of directions `axes` (d, 5) and `across` (e, 5) to `lines` (i, d, e, j), from `ends[0]` to `ends[1]`."""
     # Unsigned places need no look for a negative index.
-    row, one, two, three, four = np.uint64(firsts[0]), np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
-    for i in range(np.uint64(len(lines))):
-        for d in range(np.uint64(len(axes))):
-            own, other, column = axes[d, three], axes[d, four], np.uint64(firsts[1])
-            for j in range(np.uint64(ends[0]), np.uint64(ends[1])):
-                x = own * section[row, column] + other * section[row + one, column]
-                y = own * section[row, column + one] + other * section[row + one, column + one]
-                for e in range(np.uint64(len(across))):
-                    lines[i, d, e, j] += x * across[e, three] + y * across[e, four]
-                column += two
-        row += two
+    numbers, found, count = section.reshape(-1), lines.reshape(-1), np.uint64(ends[1] - ends[0])
+    one, two, three, four = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
+    for d, e in np.ndindex((len(axes), len(across))):
+        xx, xy = axes[d, 3] * across[e, 3], axes[d, 3] * across[e, 4]
+        yx, yy = axes[d, 4] * across[e, 3], axes[d, 4] * across[e, 4]
+        for i in range(len(lines)):
+            at = np.uint64(((firsts[0] + i) * section.shape[1] + firsts[1]) * 4)
+            place = np.uint64(((i * len(axes) + d) * len(across) + e) * lines.shape[3] + ends[0])
+            for j in range(place, place + count):
+                found[j] += (xx * numbers[at] + xy * numbers[at + one]) + (
+                    yx * numbers[at + two] + yy * numbers[at + three]
+                )
+                at += four
 
 
 @njit(cache=True)

@@ -21,11 +21,11 @@ from fenics_gears.system.memory import pages
 from .addresses import form_rows, to_flag, to_integer, to_number
 from .fine_sections import (
     BEGIN,
-    DOF,
     IN_SLICE,
+    NODE,
     OF_SLICE,
     PLACE,
-    PLANE_DOF,
+    PLANE_NODE,
     SECTION,
     SLICE,
     TOOTH,
@@ -88,15 +88,15 @@ class FormedRows:
         fine: Fine,
         by_columns: bool = False,
     ) -> FormedRows:
-        """`bodies`: of pinion and wheel `blocks` (k, s, s, D, D), mm/N, between sections, those of tooth i under forces
-        on tooth j being number (k - 1)/2 + i - j, and `sections` (k, D', D'), mm per N/mm. `by_columns`: rows here are
-        the compliance's columns."""
+        """`bodies`: of pinion and wheel `blocks` (k, s, s, n, n, 9), mm/N, between flank nodes in sections, by
+        components, those of tooth i under forces on tooth j being number (k - 1)/2 + i - j, and `sections`
+        (k, n', n', 4), mm per N/mm. `by_columns`: rows here are the compliance's columns."""
         blocks, sections = zip(*bodies)
         n, m = (side.axes.shape[2] * len(side.group) for side in (rows, columns))
         matrix, formed = pages(n, m), np.zeros(len(rows.group), dtype=bool)
         arrays = [np.ascontiguousarray(array) for array in (*rows, *columns, *fine, *blocks, *sections)]
         arrays += [matrix, formed]
-        table = np.zeros((1 + ARRAYS, 6), dtype=np.int64)
+        table = np.zeros((1 + ARRAYS, 7), dtype=np.int64)
         for row, array in zip(table[1:], arrays):
             row[0], row[1 : 1 + array.ndim] = array.ctypes.data, array.shape
         table[0, 0] = row_former().address
@@ -121,7 +121,7 @@ class FormedRows:
 
 @njit(cache=True)
 def _arrays(address):
-    return carray(to_integer(address), (1 + ARRAYS, 6))[1:]
+    return carray(to_integer(address), (1 + ARRAYS, 7))[1:]
 
 
 @cache
@@ -188,14 +188,19 @@ def _cube(row):
 
 
 @njit(cache=True)
+def _plates(row):
+    return carray(to_number(row[0]), (row[1], row[2], row[3], row[4]))
+
+
+@njit(cache=True)
 def _tiles(row):
-    return carray(to_number(row[0]), (row[1], row[2], row[3], row[4], row[5]))
+    return carray(to_number(row[0]), (row[1], row[2], row[3], row[4], row[5], row[6]))
 
 
 @njit(cache=True)
 def _source(table):
     fine = Fine(_tiles(table[22]), _tiles(table[23]), _numbers(table[24]), _numbers(table[25]))
-    blocks, sections = (_tiles(table[26]), _tiles(table[27])), (_cube(table[28]), _cube(table[29]))
+    blocks, sections = (_tiles(table[26]), _tiles(table[27])), (_plates(table[28]), _plates(table[29]))
     matrix = carray(to_number(table[30, 0]), (table[30, 1], table[30, 2]))
     return _Source(_side(table), _side(table[11:]), fine, blocks, sections, matrix)
 
@@ -239,62 +244,71 @@ def _form(source, group, nodes):
     """Form the rows of some contact nodes of a group."""
     rows, columns, matrix, count = source.rows, source.columns, source.matrix, len(nodes)
     n, m, kinds, others = len(rows.group), len(columns.group), rows.axes.shape[2], columns.axes.shape[2]
-    found, row = np.zeros((others, m, padded(kinds * count))), np.empty((kinds, others, m))
+    found = np.zeros((others, m, padded(kinds * count)))
     for gear in range(2):
         along = _displaced(source, gear, group, nodes)
         for e in range(others):
             add_seen(found[e], columns.near[gear], columns.first[gear], along[e])
     add_fine(found, rows, columns, source.fine, group, nodes)
     layer = source.fine.layers[rows.groups[SLICE, group]] * source.fine.shares[rows.groups[SLICE, group]]
-    for number in range(count):
-        for d, e in np.ndindex((kinds, others)):
-            row[d, e] = found[e, :, d * count + number]
+    # Written without being read: a page that is read first comes from the system twice.
+    for e, j in np.ndindex((others, m)):
         for d in range(kinds):
-            if layer != 0.0:
-                row[d, d, nodes[number]] += layer
-            # Written without being read: a page that is read first comes from the system twice.
-            matrix[d * n + nodes[number]] = row[d].reshape(-1)
+            for number in range(count):
+                matrix[d * n + nodes[number], e * m + j] = found[e, j, d * count + number]
+    if layer != 0.0:
+        for d in range(kinds):
+            for node in nodes:
+                matrix[d * n + node, d * m + node] += layer
 
 
 @njit(cache=True)
 def _displaced(source, gear, group, nodes):
     """Displacement (e, r, j), mm/N, of a group's contact nodes on one gear by forces on the flank nodes j under all
     groups, less that of its plane section in the same slice; r as of `weighted`."""
-    rows, columns, blocks, sections = source.rows, source.columns, source.blocks[gear], source.sections[gear]
-    own, other, offsets = rows.on_gears[gear, :, group], columns.on_gears[gear], (len(blocks) - 1) // 2
+    rows, columns, sections = source.rows, source.columns, source.sections[gear]
+    own, other, offsets = rows.on_gears[gear, :, group], columns.on_gears[gear], (len(sections) - 1) // 2
     axes, number = rows.axes[gear, group], rows.groups[SLICE, group]
     weights, low = spread(rows.near[gear][nodes], rows.first[gear][nodes] - own[PLACE], own[WIDTH])
     # Beyond the last flank node: narrow interpolations are as wide as the others, with weights of zero.
     room = other[PLACE, -1] + other[WIDTH, -1] + columns.near.shape[2]
     lines = np.zeros((len(weights), len(axes), columns.axes.shape[2], room))
-    for q in range(other.shape[1]):
+    _put_body(lines, source.blocks[gear], own, other, low, (axes, columns.axes[gear]))
+    for q in np.flatnonzero(columns.groups[SLICE] == number):
         ahead, ends = offsets + own[TOOTH] - other[TOOTH, q], (other[PLACE, q], other[PLACE, q] + other[WIDTH, q])
-        block, section = blocks[ahead, own[SECTION], other[SECTION, q]], sections[ahead]
-        _put_block(lines, ends, block, (own[DOF] + 3 * low, other[DOF, q]), axes, columns.axes[gear, q])
-        if columns.groups[SLICE, q] == number:
-            firsts, share = (own[PLANE_DOF] + 2 * low, other[PLANE_DOF, q]), source.fine.shares[number]
-            add_section(lines, ends, section, firsts, -share * axes, columns.axes[gear, q])
+        firsts, share = (own[PLANE_NODE] + low, other[PLANE_NODE, q]), source.fine.shares[number]
+        add_section(lines, ends, sections[ahead], firsts, -share * axes, columns.axes[gear, q])
     return weighted(lines, weights)
 
 
 @njit(cache=True)
-def _put_block(lines, ends, block, firsts, axes, across):
-    """Compliance of a body between flank nodes i and others, from the `firsts` row and column of a block on, three for
-    each node: by directions `axes` (d, 5) and `across` (e, 5) into `lines` (i, d, e, j), from `ends[0]` to
-    `ends[1]`."""
-    # Unsigned places need no look for a negative index.
-    row, zero, one, two, three = (np.uint64(firsts[0]), np.uint64(0), np.uint64(1), np.uint64(2), np.uint64(3))
-    for i in range(np.uint64(len(lines))):
-        for d in range(np.uint64(len(axes))):
-            column = np.uint64(firsts[1])
-            for j in range(np.uint64(ends[0]), np.uint64(ends[1])):
-                x, y, z = 0.0, 0.0, 0.0
-                for a in range(three):
-                    axis = axes[d, a]
-                    x += axis * block[row + a, column]
-                    y += axis * block[row + a, column + one]
-                    z += axis * block[row + a, column + two]
-                for e in range(np.uint64(len(across))):
-                    lines[i, d, e, j] = x * across[e, zero] + y * across[e, one] + z * across[e, two]
-                column += three
-        row += three
+def _put_body(lines, blocks, own, other, low, directions):
+    """Compliance of a body between flank nodes i of a group, the first of them `low`, and those under all groups: by
+    `directions`, of the group (d, 5) and of all groups (Q, e, 5), into `lines` (i, d, e, j)."""
+    (axes, across), (teeth, sections, _, nodes, _, size) = directions, blocks.shape
+    numbers, found, products = blocks.reshape(-1), lines.reshape(-1), np.empty((len(across), size))
+    for d, e in np.ndindex((len(axes), across.shape[1])):
+        for q, a, b in np.ndindex((len(across), 3, 3)):
+            products[q, 3 * a + b] = axes[d, a] * across[q, e, b]
+        for i in range(len(lines)):
+            line = ((i * len(axes) + d) * across.shape[1] + e) * lines.shape[3]
+            for q in range(len(across)):
+                tile = (teeth // 2 + own[TOOTH] - other[TOOTH, q]) * sections + own[SECTION]
+                row = (tile * sections + other[SECTION, q]) * nodes + own[NODE] + low + i
+                at = (row * nodes + other[NODE, q]) * size
+                _put_products(found, line + other[PLACE, q], other[WIDTH, q], products[q], numbers, at)
+
+
+@njit(cache=True)
+def _put_products(found, place, count, weights, numbers, at):
+    """Put products of nine weights with so many times nine numbers into place."""
+    # Unsigned places need no look for a negative index; three sums do not wait for each other.
+    a, b, c, d, e, f, g, h, k = (weights[0], weights[1], weights[2], weights[3], weights[4], weights[5], weights[6],
+                                 weights[7], weights[8])  # fmt: skip
+    at, one, two, three, four = np.uint64(at), np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
+    five, six, seven, eight, nine = np.uint64(5), np.uint64(6), np.uint64(7), np.uint64(8), np.uint64(9)
+    for j in range(np.uint64(place), np.uint64(place) + np.uint64(count)):
+        x = a * numbers[at] + b * numbers[at + one] + c * numbers[at + two]
+        y = d * numbers[at + three] + e * numbers[at + four] + f * numbers[at + five]
+        found[j] = x + y + (g * numbers[at + six] + h * numbers[at + seven] + k * numbers[at + eight])
+        at += nine

@@ -91,39 +91,3 @@ def _at_rolls(rolls: np.ndarray, shift: float) -> sparse.csr_matrix:
     columns = 2 * element[:, None] + np.arange(3)
     rows = np.repeat(np.arange(len(rolls)), 3)
     return sparse.csr_matrix((values.ravel(), (rows, columns.ravel())), shape=2 * (len(rolls),))
-
-
-def on_slices(blocks: np.ndarray, averages: Sequence[sparse.csr_matrix], slices: int) -> np.ndarray:
-    """Compliance (k, D, D) of teeth on the nodes of layers as that on slices, of every tooth from k - 1 behind to k - 1
-    ahead: (2 k - 1, F S, F S, d, d), between the d dofs of a flank's section in one slice and in another.
-
-    `averages`: of each flank (S n, h n), of `oblique_averages`; dofs of layers by flank, then height, node, x, y, z.
-    """
-    flanks, (seen, nodes) = len(averages), averages[0].shape
-    own, ahead = 3 * seen // slices, len(blocks) - 1
-    found = np.empty((2 * ahead + 1, flanks * slices, flanks * slices, own, own))
-    for number, block in enumerate(blocks):
-        of_layers = block.reshape(flanks, nodes, 3, flanks, 3 * nodes)
-        for flank, other in np.ndindex(flanks, flanks):
-            displaced = averages[flank] @ of_layers[flank, :, :, other].reshape(nodes, -1)
-            columns = displaced.reshape(3 * seen, nodes, 3).transpose(1, 2, 0).reshape(nodes, -1)
-            loaded = (averages[other] @ columns).reshape(slices, own, slices, own)
-            first = slice(flank * slices, (flank + 1) * slices)
-            second = slice(other * slices, (other + 1) * slices)
-            # What is read together at a position, two sections, lies together.
-            found[ahead + number, first, second] = loaded.transpose(2, 0, 3, 1)
-            if number:
-                found[ahead - number, second, first] = loaded.transpose(0, 2, 1, 3)
-    return found
-
-
-def add_along_normals(found: np.ndarray, compliance: sparse.csr_matrix, normals: np.ndarray, flank: int) -> None:
-    """Add to a tooth's own part of `on_slices` a compliance (S n, S n) of one of its flanks along `normals` (n, 3)."""
-    nodes = len(normals)
-    slices = compliance.shape[0] // nodes
-    own = slice(flank * slices, (flank + 1) * slices)
-    entries = compliance.tobsr((nodes, nodes))
-    rows = np.repeat(np.arange(slices), np.diff(entries.indptr))
-    part = found[len(found) // 2, own, own]
-    for row, column, values in zip(rows, entries.indices, entries.data):
-        part[row, column] += np.einsum("ai,ab,bj->aibj", normals, values, normals).reshape(part.shape[2:])

@@ -139,7 +139,7 @@ def test_coast_flanks_are_the_drive_flanks_turned_over(real):
                   pair.pitch_point - 1.0 + index * pair.base_pitch * 0.4 + 0.2 * number)
             for index, number in groups
         ]  # fmt: skip
-        return pairing.response(Passage(found, found)).compliance.whole()
+        return pairing.responses([Passage(found, found)])[0].compliance.whole()
 
     drive, coast = compliance(DRIVE), compliance(COAST)
     assert np.abs(drive).max() > 0.0

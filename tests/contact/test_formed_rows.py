@@ -6,7 +6,7 @@ from tests.stand_in import stand_in_compliance
 
 from fenics_gears import ComputationError
 from fenics_gears.contact.addresses import form_rows
-from fenics_gears.contact.fine_sections import Fine, Side, stacked
+from fenics_gears.contact.fine_sections import Fine, Side, by_nodes, stacked
 from fenics_gears.contact.formed_rows import FormedRows, fine_section, uncertain_slices
 
 NODES, FINE_NODES, SLICES, OFFSETS = 6, 9, 3, 2
@@ -28,9 +28,7 @@ def side(random, kinds):
     )
     lowest = first.reshape(2, 4, 3).min(axis=2)
     widths = first.reshape(2, 4, 3).max(axis=2) + 2 - lowest
-    on_gears = [
-        [TEETH, width, np.cumsum(width) - width, IN_SLICES, 3 * low, 2 * low] for width, low in zip(widths, lowest)
-    ]
+    on_gears = [[TEETH, width, np.cumsum(width) - width, IN_SLICES, low, low] for width, low in zip(widths, lowest)]
     first += np.repeat(np.array(on_gears)[:, 2] - lowest, 3, axis=1)
     group, axes = np.repeat(np.arange(4), 3), random.standard_normal((2, 4, kinds, 5))
     begins, flanks = 9 * np.arange(8).reshape(2, 4), np.zeros(4, dtype=int)
@@ -82,11 +80,14 @@ def test_rows_are_those_of_whole_matrices(kinds):
     rows, columns = (side(random, each) for each in kinds)
     bodies = [(symmetric(random, 3 * NODES * SLICES), symmetric(random, 2 * NODES)) for _ in range(2)]
     shape = (-1, SLICES, 3 * NODES, SLICES, 3 * NODES)
-    by_section = [(blocks.reshape(shape).transpose(0, 1, 3, 2, 4), sections) for blocks, sections in bodies]
-    sections = (symmetric(random, 2 * FINE_NODES)[:, None, None] for _ in range(2))
-    layers = random.random(SLICES) if kinds[0] == kinds[1] else np.zeros(SLICES)
-    fine = Fine(*sections, random.random(SLICES), layers)
-    expected = by_whole_matrices(bodies, fine, rows, columns)
+    by_section = [
+        (by_nodes(blocks.reshape(shape).transpose(0, 1, 3, 2, 4), 3), by_nodes(sections, 2))
+        for blocks, sections in bodies
+    ]
+    sections = [symmetric(random, 2 * FINE_NODES)[:, None, None] for _ in range(2)]
+    layers, shares = random.random(SLICES) if kinds[0] == kinds[1] else np.zeros(SLICES), random.random(SLICES)
+    expected = by_whole_matrices(bodies, Fine(*sections, shares, layers), rows, columns)
+    fine = Fine(*(by_nodes(each, 2) for each in sections), shares, layers)
     if kinds[0] == kinds[1]:
         expected += np.diag(np.tile(np.repeat((fine.shares * layers)[IN_SLICES], 3), kinds[0]))
     found = FormedRows.of(by_section, rows[0], columns[0], fine)
@@ -111,8 +112,8 @@ def test_slices_that_are_taken_as_independent_are(paper_pair):
     blocks = [np.zeros((2 * OFFSETS + 1, 1, 1, *own.shape)) for _ in range(2)]
     for block in blocks:
         block[OFFSETS, 0, 0] = own
-    fine = Fine(*blocks, np.ones(SLICES), np.zeros(SLICES))
-    by_section = [(np.zeros((2 * OFFSETS + 1, SLICES, SLICES, 1, 1)), np.zeros((2 * OFFSETS + 1, 1, 1)))] * 2
+    fine = Fine(*(by_nodes(block, 2) for block in blocks), np.ones(SLICES), np.zeros(SLICES))
+    by_section = [(np.zeros((2 * OFFSETS + 1, SLICES, SLICES, 1, 1, 9)), np.zeros((2 * OFFSETS + 1, 1, 1, 4)))] * 2
     softest = np.full(2, np.linalg.eigvalsh(own)[0])
 
     def uncertain(side, least):
@@ -138,7 +139,7 @@ def test_stacked_sections_are_all_that_is_known(paper_pair, coast):
     assert reach == section.farthest
     for ahead, side, other in np.ndindex(2 * reach + 3, section.flanks, section.flanks):
         try:
-            known = section.between(ahead - reach - 1, 0, (side, other))
+            known = by_nodes(section.between(ahead - reach - 1, 0, (side, other)), 2)
         except ComputationError:
             known = np.nan
         if 0 < ahead < 2 * reach + 2:

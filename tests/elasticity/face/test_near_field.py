@@ -8,7 +8,8 @@ from fenics_gears import model_of
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-from fenics_gears.elasticity.slice_averages import add_along_normals, oblique_averages, on_slices
+from fenics_gears.elasticity.slice_averages import oblique_averages
+from fenics_gears.elasticity.slice_compliance import SliceCompliance, along_normals
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 
@@ -29,13 +30,14 @@ def _along_normals(gear: Gear, layers: int, near: bool, flanks: int = 1) -> np.n
     def seen(heights):
         return oblique_averages(heights, MIDDLES, WIDTHS, body.roll_angle, rise)
 
-    found = on_slices(body.blocks, flanks * [seen(body.heights)], SLICES)
     normals, missing = body.near.normals[flanks - 1], body.near.compliance[flanks - 1]
-    if near:
-        along = seen(body.near.heights)
-        add_along_normals(found, along @ missing @ along.T, normals, flanks - 1)
-    own = found[0, -SLICES:, -SLICES:].reshape(SLICES, SLICES, len(normals), 3, len(normals), 3)
-    return np.einsum("stanbm,an,bm->satb", own, normals, normals).reshape(2 * (SLICES * len(normals),))
+    more = [along_normals(seen(body.near.heights), missing, normals, (flanks - 1) * SLICES)] if near else []
+    found = SliceCompliance(body.blocks, flanks * [seen(body.heights)], SLICES, more)
+    last = len(found.values[0]) - SLICES + np.arange(SLICES)
+    sections = np.array(np.meshgrid(last, last)).reshape(2, -1)
+    found.find(np.zeros(SLICES**2, dtype=int), *sections)
+    own = found.values[0, -SLICES:, -SLICES:].reshape(SLICES, SLICES, len(normals), len(normals), 3, 3)
+    return np.einsum("stabnm,an,bm->satb", own, normals, normals).reshape(2 * (SLICES * len(normals),))
 
 
 @pytest.mark.parametrize("flanks", [1, 2])
