@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import cache
 from threading import Event
 from time import perf_counter
 
 from threadpoolctl import ThreadpoolController
+
+from fenics_gears.system.second_process import threads
 
 SECONDS_BETWEEN_REPORTS = 0.1
 # Blocks at rest of so many steps are solved in two halves: the first step of the later one takes a few iterations more.
@@ -36,15 +39,7 @@ def meanwhile(solve: Solve, first: int, end: int) -> Iterator[Callable[[], int]]
                 return place
         return end
 
-    if first == end:
-        yield solved
-        return
-    # Imported here: a plane run does without.
-    from concurrent.futures import ThreadPoolExecutor
-
-    from fenics_gears.system.second_process import threads
-
-    if threads() == 1:
+    if threads() == 1 or first == end:
         yield solved
         return
     with ThreadPoolExecutor(1) as thread:

@@ -35,7 +35,7 @@ class Solver:
 @pytest.mark.parametrize("hard", [(), (3, END // 2 - 1), (END // 2,), (END // 2 + 4, END - 1), range(1, END)])
 def test_every_place_is_solved_once(monkeypatch, cores, at_rest, hard):
     """Identity: by compiled code, or plainly where that does not solve it, whichever thread comes to it."""
-    monkeypatch.setattr("fenics_gears.system.second_process.threads", lambda: cores)
+    monkeypatch.setattr("fenics_gears.dynamics.calls.threads", lambda: cores)
     solver = Solver(hard)
     reached = list(Calls().through(solver.solve, solver.plain, END, at_rest))
     assert sorted(solver.solved) == list(range(1, END))
@@ -45,7 +45,7 @@ def test_every_place_is_solved_once(monkeypatch, cores, at_rest, hard):
 @pytest.mark.parametrize("broken", [2, END - 2])
 def test_what_either_half_raises_is_raised(monkeypatch, broken):
     """The user's expectation: memory that ends in the other thread ends the march."""
-    monkeypatch.setattr("fenics_gears.system.second_process.threads", lambda: 2)
+    monkeypatch.setattr("fenics_gears.dynamics.calls.threads", lambda: 2)
     solver = Solver(broken=broken)
     with pytest.raises(MemoryError):
         list(Calls().through(solver.solve, solver.plain, END, True))
