@@ -158,8 +158,7 @@ def _unpacked(numbers, k):
     )
 
 
-# Two threads may be at work on steps that do not depend on each other.
-@njit(cache=True, nogil=True)
+@njit(cache=True)
 def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest, solver):
     steps, motion = in_block(block), _unpacked(packed, loads.shape[1])
     starts, kinds, states, status = steps.starts, steps.kinds, steps.states, steps.status

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import compress
 from math import ceil
 
 import numpy as np
+from threadpoolctl import ThreadpoolController
 
 from fenics_gears.contact.addresses import march_with_inertia
 from fenics_gears.contact.errors import ContactNotConverged
@@ -21,11 +22,11 @@ from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.errors import MemoryEnded
 
 from .average_acceleration import AverageAcceleration
-from .calls import SECONDS_BETWEEN_REPORTS, Calls, thread_pools
 from .compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, STATIC, Course, Motion, solve_steps
 from .stepping import EquationsOfMotion, Stepper
 from .steps import Record, Steps, drive_flanks_touch, smallest_openings
 
+SECONDS_BETWEEN_REPORTS = 0.1
 # Steps are handed on in blocks of at most so many; those of a cycle's own solver can take a tenth of a second each.
 LONGEST_BLOCK, LONGEST_BLOCK_OF_OWN_SOLVER = 512, 32
 
@@ -102,6 +103,12 @@ class March:
         return [record for steps in self._last for record in steps.records][-self.kept :]
 
 
+@cache
+def thread_pools() -> ThreadpoolController:
+    """The libraries with threads that are loaded as the first march begins: to find them takes milliseconds."""
+    return ThreadpoolController()
+
+
 class Marcher(Stepper):
     """Steps the equations of motion with the contact of a `cycle` through time; `plain`: every step by itself, in
     Python."""
@@ -116,7 +123,9 @@ class Marcher(Stepper):
         self._motion = Motion.of(
             self.drivetrain, method if self.dynamic.inert else STATIC, self.friction, self.tolerance, cycle.traits.rigid
         )
-        self._calls, self._reported = Calls(), 0.0
+        # Steps in a call of compiled code, which lasts until the next report as soon as it is known how long a step
+        # takes.
+        self._at_once, self._reported = 1, 0.0
 
     def run(
         self,
@@ -235,7 +244,7 @@ class Marcher(Stepper):
         self, last: Record, numbers: range, take: Callable[[Steps], None], report: Callable[[int], None]
     ) -> Record:
         """As `_plain_block`, many steps in each call of compiled code; steps that Newton's method does not solve at
-        once are plain ones. Positions at rest depend on no others: the later half is solved meanwhile."""
+        once are plain ones."""
         self.cycle.build(numbers)
         positions = [last.position, *map(self.cycle.position, numbers)]
         steps = Steps.to_solve([last.step, *numbers], positions, len(self.drivetrain.coordinates), NEWTON)
@@ -248,30 +257,28 @@ class Marcher(Stepper):
             if self.loads
             else np.tile(self.drivetrain.load, (len(steps), 1))
         )
-        done, taken = 1, 0 if numbers[0] == 1 else 1
+        course, done = Course(durations, loads, known, self.at_rest), 1
         try:
-            for done in self._solved(steps, Course(durations, loads, known, self.at_rest)):
+            while done < len(steps):
+                begun, end = time.perf_counter(), min(done + self._at_once, len(steps))
+                solved = solve_steps(steps, done, end, self._motion, course)
+                seconds = time.perf_counter() - begun
+                if solved == end:
+                    # Ctrl-C is heard between two calls.
+                    self._at_once = max(int((end - done) * SECONDS_BETWEEN_REPORTS / max(seconds, 1e-6)), 1)
+                for place in range(done, solved) if self.remembers else ():
+                    self.remember(numbers[place - 1], steps.status[steps.starts[place] : steps.starts[place + 1]])
+                done = solved
+                if done < end:
+                    step = numbers[done - 1]
+                    steps.put(done, self.step(self.scheme(step), steps.record(done - 1), step))
+                    done += 1
                 self._report(report, numbers[done - 2])
         finally:
+            taken = 0 if numbers[0] == 1 else 1
             if done > taken:
                 take(steps.between(taken, done))
         return steps.record(done - 1)
-
-    def _solved(self, steps: Steps, course: Course) -> Iterator[int]:
-        """Solve all steps but the first; gives the place behind the last one that is done after each call of compiled
-        code."""
-
-        def solve(first: int, last: int) -> int:
-            done = solve_steps(steps, first, last, self._motion, course)
-            for place in range(first, done) if self.remembers else ():
-                self.remember(int(steps.numbers[place]), steps.status[steps.starts[place] : steps.starts[place + 1]])
-            return done
-
-        def plain(place: int) -> None:
-            step = int(steps.numbers[place])
-            steps.put(place, self.step(self.scheme(step), steps.record(place - 1), step))
-
-        return self._calls.through(solve, plain, len(steps), self.at_rest)
 
     def _report(self, report: Callable[[int], None], step: int) -> None:
         now = time.perf_counter()

@@ -14,8 +14,7 @@ import numpy as np
 
 from fenics_gears.contact.mesh_cycle import COMMON_PLACES, Cycle
 from fenics_gears.dynamics.between_steps import BetweenSteps
-from fenics_gears.dynamics.calls import thread_pools
-from fenics_gears.dynamics.march import March
+from fenics_gears.dynamics.march import March, thread_pools
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects import common_period
 from fenics_gears.model.model import Model

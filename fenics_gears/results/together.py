@@ -13,7 +13,7 @@ import numpy as np
 
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.calls import thread_pools
+from fenics_gears.dynamics.march import thread_pools
 from fenics_gears.dynamics.marches import Marches, OpenedNodes
 from fenics_gears.dynamics.steps import Steps, drive_flanks_touch
 from fenics_gears.model.model import Model
