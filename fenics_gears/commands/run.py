@@ -9,8 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.errors import ComputationError
-from fenics_gears.results.afterwards import FAILED
+from fenics_gears.errors import FAILED, ComputationError
 from fenics_gears.results.summary import Row
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
 from fenics_gears.system.job import Job, led
@@ -50,7 +49,7 @@ def run(options: argparse.Namespace) -> int:
 def _run(options: argparse.Namespace, job: Job | None) -> int:
     model, directory = checked_model_and_directory(options, RUN_FILE, *PICTURE_FILES, *FACE_PICTURE_FILES)
     from fenics_gears.results.journal import Place, is_journal
-    from fenics_gears.simulation.simulate import simulate
+    from fenics_gears.runs.simulate import simulate
 
     # What imports have made stays: the search for garbage need not look at it.
     gc.freeze()

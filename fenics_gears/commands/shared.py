@@ -12,9 +12,8 @@ from math import inf
 from os.path import exists, isdir
 from pathlib import Path
 from types import ModuleType
-from typing import TypeVar
 
-from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.errors import ComputationError, Found, SceneError, attempted
 from fenics_gears.system.console import on_terminal, printable
 from fenics_gears.system.memory import size_in_bytes
 from fenics_gears.system.progress import BarProgress, LineProgress, Progress, SilentProgress
@@ -27,7 +26,6 @@ INTERRUPTED = 130
 # 128 + SIGPIPE, as a shell has it.
 NOBODY_READS = 141
 
-Found = TypeVar("Found")
 RUN_FILE, STUDY_FILE, CASES = "run.nc", "study.nc", "cases"
 # What a long run has recorded so far, removed when it has written RUN_FILE.
 JOURNAL = f"{RUN_FILE}.part"
@@ -235,8 +233,6 @@ def file_to_write(options: argparse.Namespace, default: Path, what: str) -> Path
 def after_result(kept: Path, what: str, carry_out: Callable[[], Found]) -> Found | None:
     """What `carry_out` makes of a result that is kept in a file already; None where it fails, which the error output
     says."""
-    from fenics_gears.results.afterwards import attempted
-
     said: dict[str, str] = {}
     found = attempted(said, what, carry_out)
     if said:

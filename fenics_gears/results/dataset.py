@@ -16,11 +16,11 @@ import fenics_gears
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, from_effects, result_variables
+from fenics_gears.errors import attempted
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.storage import CONTACT_COORDINATES
 from fenics_gears.numbers_version import NUMBERS_VERSION
 
-from .afterwards import attempted
 from .carried_scene import scene_attributes
 from .contact_variables import largest_normal_force, transmitted
 from .extrema import Extrema, extremes

@@ -11,22 +11,20 @@ from typing import Any, Protocol
 from fenics_gears.errors import GearsError
 from fenics_gears.model.model import Model
 from fenics_gears.results.dataset import RunResult
-from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.routes import Preparation
-from fenics_gears.simulation.simulate import solved
 from fenics_gears.simulation.warm_up import compile_kernels
-from fenics_gears.system.progress import Progress, SilentProgress
+from fenics_gears.system.progress import Progress
 
 from .condensing import condense, gear_tasks
 from .gear_store import operators_key, own_gear_store
+from .one_run import Tick, Ticking, completed
 from .run import Run
+from .simulate import settled
 from .spent import Spent
 from .team import Alone, Together
 
 LOGGER = logging.getLogger(__name__)
 # Runs that are computed together at most, and tasks that each process gets at least.
 MOST_TOGETHER, TASKS = 32, 2
-Tick = Callable[[], None]
 Finished = Callable[[Run, Any], None]
 
 
@@ -157,11 +155,19 @@ def computed(store: Store, runs: Sequence[Run], tick: Tick | None = None) -> lis
 def _kept(store: Store, run: Run, result: Any, progress: Progress) -> Any:
     """Keep a run, computed here unless its result is there already."""
     try:
-        return store.keep(run, result or completed(run.model, own_gear_store().prepared, progress))
+        return store.keep(run, result or _computed(run.model, progress))
     except Exception as error:
         if isinstance(error.__cause__, KeyboardInterrupt):  # compiled code that a second Ctrl-C hit in the middle
             raise KeyboardInterrupt from error
         return store.keep_failure(run, error)
+
+
+def _computed(model: Model, progress: Progress) -> RunResult:
+    """The result of a run, whose `wall_time` has the choice of its settings too."""
+    chosen = settled(model, progress)
+    result = completed(chosen.scene, own_gear_store().prepared, progress, chosen.describe)
+    result.attrs["wall_time"] += result.attrs.get("time_choose", 0.0)
+    return result
 
 
 def _together(runs: Sequence[Run], asked: Collection[str]) -> dict[str, Any]:
@@ -186,26 +192,5 @@ def _together(runs: Sequence[Run], asked: Collection[str]) -> dict[str, Any]:
     return found
 
 
-def completed(scene: Scene | Model, preparation: Preparation, progress: Progress | None = None) -> RunResult:
-    """The whole result of a run and its `wall_time`, s. Raises KeyboardInterrupt on Ctrl-C."""
-    begun = time.perf_counter()
-    result = solved(scene, progress=progress, preparation=preparation)
-    if not result.attrs["complete"]:
-        raise KeyboardInterrupt
-    result.attrs["wall_time"] = time.perf_counter() - begun
-    return result
-
-
 def failure_of(error: Exception) -> Failure:
     return Failure(error if isinstance(error, GearsError) else f"{type(error).__name__}: {error}")
-
-
-class Ticking(SilentProgress):
-    """Calls ``tick`` as often as a simulation reports; it may raise KeyboardInterrupt."""
-
-    def __init__(self, tick: Tick | None):
-        self._tick = tick
-
-    def update(self, done: int, total: int, note: str = "") -> None:
-        if self._tick is not None:
-            self._tick()

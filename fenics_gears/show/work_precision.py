@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator
 
-from fenics_gears.studies.accuracy.measures import FACE_LOAD, MEAN, SPAN, judged
+from fenics_gears.runs.settings.measures import FACE_LOAD, MEAN, SPAN, judged
 from fenics_gears.studies.accuracy.refinement import CONDENSATION, plan_of
 from fenics_gears.studies.accuracy.report import DEFAULTS, OWN, AccuracyReport, WholeResult
 from fenics_gears.studies.accuracy.table import in_one_sentence, judged_by, limits_it

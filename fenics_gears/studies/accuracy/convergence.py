@@ -1,4 +1,4 @@
-"""Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy` and `[accuracy] target`.
+"""Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy`.
 
 Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: the error of the finest
 run is the last change over r^p - 1, with r the ratio of sizes and p the order, times a safety factor: 1.25 for three
@@ -12,14 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from .measures import DEFECT, Answer, comparable, distance
+from fenics_gears.runs.settings.measures import DEFECT, Answer, comparable, distance
+from fenics_gears.runs.settings.two_runs import part_left
+
 from .refinement import LENGTH, Level, Refinement
 
 SAFETY = 1.25
 LEFT_WITHOUT_ORDER = 2.4
-# Of two runs, of which nothing but the order that is expected is known: at coarse sizes differences fall more slowly,
-# and scatter (docs/evidence/accuracy.md).
-EXPECTED_ORDER, SAFETY_OF_TWO = 2.0, 2.0
 LEAST_ORDER, MOST_ORDER = 0.1, 10.0
 # An order is used to extrapolate only above this, for else the limit lies far off, and not further above the expected
 # order than this.
@@ -31,10 +30,6 @@ ROUND_OFF = 1e-10
 # steps give changes in any direction whose length still falls with an order; below the second, where changes turn back,
 # there is no order.
 LEAST_COSINE, TURNED_BACK = 0.5, -0.5
-
-
-class NotComparable(ValueError):
-    """A measure, by its name, that two runs do not both have."""
 
 
 @dataclass(frozen=True)
@@ -72,21 +67,6 @@ def observed_order(values: Sequence[np.ndarray], sizes: Sequence[float]) -> floa
 def cosine(one: np.ndarray, other: np.ndarray) -> float:
     length = float(np.linalg.norm(one) * np.linalg.norm(other))
     return float(np.vdot(one, other)) / length if length else 0.0
-
-
-def part_left(sizes: Sequence[float], order: float) -> float:
-    """Error of the finest size in parts of the last change: 1/(r^p - 1)."""
-    return 1.0 / ((sizes[-2] / sizes[-1]) ** order - 1.0)
-
-
-def errors_of_two(finer: Answer, coarser: Answer, ratio: float) -> np.ndarray:
-    """Relative error of the finer of two runs in each measure, by the expected order; `ratio` of their sizes. Raises
-    NotComparable for a measure that one of them lacks, or of which nothing is left in the finer one."""
-    measures = sorted({*finer, *coarser})
-    changes = np.array([distance(coarser, finer, measure) for measure in measures])
-    if not np.isfinite(changes).all():
-        raise NotComparable(measures[int(np.argmin(np.isfinite(changes)))])
-    return SAFETY_OF_TWO * part_left((ratio, 1.0), EXPECTED_ORDER) * changes
 
 
 def richardson(values: Sequence[np.ndarray], sizes: Sequence[float], expected: float) -> Limit:

@@ -7,12 +7,12 @@ from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
+from fenics_gears.runs.settings.setting import Setting, default_setting, half_width, own_setting
 from fenics_gears.scene.accuracy import NODE_SPACING
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Scene
 
 from . import over_face
 from .over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, PLANE, SLICES, STEPS
-from .setting import Setting, default_setting, half_width, own_setting
 
 NODES, CONDENSATION = "contact node spacing", "condensation"
 # Flank elements and contact nodes, which stand at NODE_SPACING elements. Their errors interact: nodes refined alone

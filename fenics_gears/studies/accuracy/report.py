@@ -11,6 +11,10 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
+from fenics_gears.runs.settings.measures import DEFECT, Answer, answer, distances, judged, measures_of
+from fenics_gears.runs.settings.setting import Setting, default_setting, own_setting, without_settings
+from fenics_gears.runs.settings.setting_runs import SettingRuns
+from fenics_gears.runs.settings.target import settings_of
 from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.scene.data import STIFFNESS_TABLE, Accuracy, Output, Scene
 from fenics_gears.simulation.warm_up import compile_kernels
@@ -19,13 +23,9 @@ from fenics_gears.system.progress import Progress, SilentProgress
 
 from . import whole
 from .convergence import Limit, error_from, limit_of, together
-from .measures import DEFECT, Answer, answer, distances, judged, measures_of
 from .over_face import PLANE, in_the_plane
 from .refinement import CONDENSATION, LENGTH, OF_FAMILY, Level, Refinement, check_measurable, fine, plan_of, refinements
 from .root_point import peak_root_stress
-from .setting import Setting, default_setting, own_setting, without_settings
-from .setting_runs import SettingRuns
-from .target import settings_of
 
 OWN, DEFAULTS = "the scene's own", "the program's defaults"
 

@@ -7,11 +7,11 @@ from functools import reduce
 
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import model_of
+from fenics_gears.runs.settings.setting import Setting
 from fenics_gears.scene.data import Scene
 
 from .convergence import largest_part
 from .refinement import FAMILY, LENGTH, OF_FAMILY, Refinement
-from .setting import Setting
 
 # The path keeps a setting when its error is below this part of the error of the last one kept.
 KEPT_PART, MOST_KEPT = 0.7, 9

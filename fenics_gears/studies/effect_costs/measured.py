@@ -13,7 +13,7 @@ from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.runs.gear_store import GearStore
-from fenics_gears.runs.runs import completed
+from fenics_gears.runs.one_run import completed
 from fenics_gears.runs.timed import shared_gears
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.warm_up import compile_kernels

@@ -12,9 +12,9 @@ from fenics_gears.scene.accuracy import RESOLVED
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.system.progress import Progress
 
-from .convergence import EXPECTED_ORDER
 from .setting import Setting
 from .trial_runs import COARSER, LAYERS, MESH, SLICES, STEPS, Sizes, TargetNotReached, TrialRuns
+from .two_runs import EXPECTED_ORDER
 
 # Sizes at which errors are estimated first for a target of 1 %; over the face the mesh also for larger ones.
 FIRST_MESH, FIRST_STEPS = 2.5, 60.0

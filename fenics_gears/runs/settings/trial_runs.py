@@ -15,16 +15,16 @@ from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.validity import WINDOW_REACHED
-from fenics_gears.runs.runs import Ticking
+from fenics_gears.runs.one_run import Ticking
 from fenics_gears.scene.accuracy import MOST_CONTACT_NODES
 from fenics_gears.scene.accuracy_rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.data import Output, Scene
 from fenics_gears.system.memory import allowed_memory
 
-from .convergence import NotComparable, errors_of_two
 from .measures import Answer, judged_answer
 from .setting import Setting, own_setting, without_settings
 from .setting_runs import SettingRuns
+from .two_runs import NotComparable, errors_of_two
 
 # Fewest steps in a mesh cycle of the finer trial runs, where steps matter, and the most that are taken for the sake of
 # vibrations: if these are still faster, the motion follows the static one.
