@@ -21,7 +21,7 @@ from .loaded_contact import stored_place
 from .panels import DARK, GREY, PALETTE, framed, styled
 from .pressure import COLOURS as PRESSURE_COLOURS
 from .stress_grid import surface
-from .stress_picture import COLOURS, colour_bar, heading, rounded_up
+from .stress_heading import COLOURS, colour_bar, heading, rounded_up
 
 UNLOADED, EDGES = "#E4E7EA", "#5A6068"
 PIXELS = 150  # an inch

@@ -75,7 +75,12 @@ def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
     """The pictures of a result as figures, by file name. Raises ComputationError as ``draw_run`` does."""
     run = Run(dataset)
     _check_steps(run)
-    pictures = PICTURES | dict(zip(FACE_PICTURE_FILES, run.over_face.items()))
+    pictures = PICTURES
+    if run.over_face:
+        # Imported here: what plane runs do not load.
+        from .over_face import charts_over_face
+
+        pictures = PICTURES | dict(zip(FACE_PICTURE_FILES, charts_over_face(run).items()))
     subjects = {name: (subject, list(charts(run))) for name, (subject, charts) in pictures.items()}
     colour = DARK if run.complete else WARNING
     found = ((name, *subject) for name, subject in subjects.items())
