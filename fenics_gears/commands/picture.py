@@ -9,7 +9,8 @@ from fenics_gears.system.console import printable
 
 from .shared import add_output_argument, add_run_argument, loaded_run, print_files, run_file, shown_progress
 
-PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
+PICTURE_FILE = "stress.png"
+ANIMATION_FILE = "stress.gif"
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:

@@ -133,7 +133,8 @@ class _Kept:
         from fenics_gears.system.output import write_whole
 
         self._interruption.ignore()
-        self.dataset, self._written = dataset, _names(dataset)
+        self.dataset = dataset
+        self._written = _names(dataset)
         directory = self.file.parent
         write_whole(self.file, lambda path: results.save(dataset, path))
         remove(directory / JOURNAL)

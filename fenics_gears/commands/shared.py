@@ -26,7 +26,9 @@ INTERRUPTED = 130
 # 128 + SIGPIPE, as a shell has it.
 NOBODY_READS = 141
 
-RUN_FILE, STUDY_FILE, CASES = "run.nc", "study.nc", "cases"
+RUN_FILE = "run.nc"
+STUDY_FILE = "study.nc"
+CASES = "cases"
 # What a long run has recorded so far, removed when it has written RUN_FILE.
 JOURNAL = f"{RUN_FILE}.part"
 
@@ -109,7 +111,8 @@ def number_of_option(option: str, text: str, unit: str, low: float = 0.0, high: 
     from fenics_gears.inputs import units
 
     try:
-        (value, kind), (factor, wanted) = units.quantity(text), units.quantity(f"1 {unit}")
+        value, kind = units.quantity(text)
+        factor, wanted = units.quantity(f"1 {unit}")
     except units.QuantityError as error:
         raise SceneError(f'{option} "{text}": {error}') from None
     number = value / factor
@@ -211,7 +214,8 @@ def plots() -> ModuleType:
     quarter of that time."""
     from matplotlib import artist
 
-    properties, artist.kwdoc = artist.kwdoc, lambda kind: ""
+    properties = artist.kwdoc
+    artist.kwdoc = lambda kind: ""
     try:
         return import_module("fenics_gears.show.plots")
     finally:

@@ -92,7 +92,8 @@ def check(meshes: BodyMeshes, scene, pair) -> None:
 
 
 def warnings(meshes: BodyMeshes, model) -> list[str]:
-    wanted, found = model.resolution.flank_element_size, []
+    wanted = model.resolution.flank_element_size
+    found = []
     for name in GEARS:
         if getattr(meshes, name) is None:
             continue
@@ -111,7 +112,9 @@ def elasticity(meshes: BodyMeshes, model, name: str, reach, cache):
         return None
     from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 
-    gear, material, element = getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.element
+    gear = getattr(model.pair, name)
+    material = model.scene.gears.material_of(name)
+    element = model.resolution.element
     mesh = given_mesh(meshes, name, model.pair, element)
     # Forces one tooth beyond those that interact still open or close a crack.
     offsets = reach.same + 1

@@ -112,10 +112,12 @@ def shaft_at_work(scene: Any, pair: Any, gear: str) -> ElasticShaft:
 
 def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
     """The shaft with sections on which the "pinion" or the "wheel" of a scene sits, without load."""
-    shaft, number = scene.shafts.sections[gear], GEARS.index(gear)
+    shaft = scene.shafts.sections[gear]
+    number = GEARS.index(gear)
     material = scene.gears.materials[number]
     constants = shaft.material.constants(material)
-    width, bearings = pair.face_widths[number], scene.bearings.each_of(gear)
+    width = pair.face_widths[number]
+    bearings = scene.bearings.each_of(gear)
     found = ElasticShaft(
         gear, shaft.sections, constants, shaft.gear_at, width, shaft.torque_at, bearings,
         housing=stiffness_of_seats(shaft.housing),
@@ -127,7 +129,8 @@ def shaft_warnings(scene: Any, pair: Any) -> list[str]:
     """A sentence on each gear whose bore is not as wide as the shaft in it is thick."""
     found = []
     for gear, shaft in scene.shafts.sections.items():
-        bore, name = 2.0 * getattr(pair, gear).bore_radius, SHAFTS[GEARS.index(gear)]
+        bore = 2.0 * getattr(pair, gear).bore_radius
+        name = SHAFTS[GEARS.index(gear)]
         if shaft.seat != RIGID_SEAT:
             continue
         under = under_the_face(shaft.sections, elastic_shaft(scene, pair, gear).seat_ends)
@@ -159,7 +162,9 @@ def _sections_are_solid(found: ElasticShaft, shaft: str) -> Iterator[str]:
 
 def _places_are_on_the_shaft(found: ElasticShaft, shaft: str) -> Iterator[str]:
     """The gear's whole face and the coupling are on the shaft, and bearings beside the gear."""
-    length, half, width = found.length, 0.5 * found.seat, f"{found.seat:g} mm"
+    length = found.length
+    half = 0.5 * found.seat
+    width = f"{found.seat:g} mm"
     if length < found.seat - ROUND_OFF:
         yield (
             f"shafts.{shaft}.sections: are {length:g} mm long in all, shorter than the {found.gear}'s face of {width};"

@@ -59,7 +59,8 @@ def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
 
 def period(errors: FlankErrors, scene) -> int:
     """Mesh cycles of whole turns of the gears whose teeth differ."""
-    names, drawn = lists_of(scene), errors.tolerance_class is not None
+    names = lists_of(scene)
+    drawn = errors.tolerance_class is not None
     return lcm(*(getattr(scene.gears, gear).teeth for gear in GEARS if _differ(getattr(errors, gear), names, drawn)))
 
 

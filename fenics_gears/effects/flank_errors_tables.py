@@ -69,7 +69,8 @@ def check(errors: FlankErrors, scene, pair) -> None:
         name, problem = own.problem or _problem_of_tables(own, scene, pair, gear)
         in_table = [column for column in own.columns if column not in lists_of(scene)]
         if not problem and in_table:
-            name, problem = "file", f"the column {in_table[0]} {NOT_IN_THE_PLANE}"
+            name = "file"
+            problem = f"the column {in_table[0]} {NOT_IN_THE_PLANE}"
         if problem:
             written = as_written(getattr(own, name))
             raise SceneError(f"flank_errors.{gear}.{name} = {written}: {problem}\nNothing was computed or written.")
@@ -77,7 +78,8 @@ def check(errors: FlankErrors, scene, pair) -> None:
 
 def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str, str]:
     """The field that names a table which does not fit the gear, and why; empty where all fit."""
-    teeth, module = getattr(pair, gear).teeth, scene.gears.module
+    teeth = getattr(pair, gear).teeth
+    module = scene.gears.module
     problem = "" if errors.file is None else _problem_of_table(errors, teeth, module, gear)
     if problem:
         return "file", problem
@@ -99,7 +101,8 @@ def _problem_of_curve(curve, along, module: float, pair, gear: str, whole: str) 
     """What does not fit the gear; `whole`: of what a curve measures a part."""
     from fenics_gears.geometry.flank_deviations import measured_share
 
-    teeth, largest = getattr(pair, gear).teeth, LARGEST_ERROR * module
+    teeth = getattr(pair, gear).teeth
+    largest = LARGEST_ERROR * module
     if curve.tooth > teeth:
         return (
             f"has a curve of tooth {curve.tooth}, but the {gear} has {teeth} teeth. Allowed: teeth from 1 to {teeth},"

@@ -24,16 +24,19 @@ class SpeedRamp(Section):
 
 def speed_changes(tree: Tree) -> Broken:
     """A ramp leads to another frequency, and leaves time for it."""
-    ramp, motion = table(tree, "speed_ramp"), table(tree, "motion") or {}
+    ramp = table(tree, "speed_ramp")
+    motion = table(tree, "motion") or {}
     if ramp is None:
         return
-    start, end = quantity_in(motion.get("mesh_frequency")), quantity_in(ramp.get("end_frequency"))
+    start = quantity_in(motion.get("mesh_frequency"))
+    end = quantity_in(ramp.get("end_frequency"))
     if start is not None and start == end:
         message = (
             "is the frequency at the start, motion.mesh_frequency. Allowed: any other, or no section [speed_ramp]."
         )
         yield ("speed_ramp", "end_frequency"), message
-    held, run = ramp.get("hold_cycles"), motion.get("mesh_cycles")
+    held = ramp.get("hold_cycles")
+    run = motion.get("mesh_cycles")
     if type(held) is int and type(run) is int and held >= run > 0:
         message = (
             f"leaves no cycle of motion.mesh_cycles = {as_written(run)} for the ramp. Allowed: fewer than are run."
@@ -66,7 +69,8 @@ def period(ramp: SpeedRamp, scene) -> float:
 def _clock(ramp: SpeedRamp, scene, steps_per_mesh_cycle: int):
     from fenics_gears.dynamics.speed_ramp import RampClock
 
-    held, steps = ramp.hold_cycles * steps_per_mesh_cycle, scene.motion.mesh_cycles * steps_per_mesh_cycle
+    held = ramp.hold_cycles * steps_per_mesh_cycle
+    steps = scene.motion.mesh_cycles * steps_per_mesh_cycle
     return RampClock(scene.motion.mesh_frequency, ramp.end_frequency, held, steps, steps_per_mesh_cycle)
 
 

@@ -147,7 +147,8 @@ def wheel_torque(name: str, number: float, teeth: Sequence[int], mesh_frequency:
 def load_in(tree: Tree) -> tuple[Path, float] | None:
     """The field that gives the load, and the torque (N mm) on the wheel; None where there is none that can be read."""
     teeth = [teeth_in(tree, gear) or 1 for gear in GEARS]
-    frequency, speed = quantity_at(tree, "motion", "mesh_frequency"), quantity_at(tree, "motion", "pinion_speed")
+    frequency = quantity_at(tree, "motion", "mesh_frequency")
+    speed = quantity_at(tree, "motion", "pinion_speed")
     frequency = speed / (2.0 * pi) * teeth[0] if frequency is None and speed is not None else frequency
     given = [(name, number) for name in LOADS if (number := quantity_at(tree, "load", name)) is not None]
     torque = wheel_torque(*given[0], teeth, frequency) if given else None

@@ -79,7 +79,8 @@ def in_steps(wanted: float, whole: float) -> float:
 # Length of the window of contact nodes where no edge is near, in half-widths of the contact; and mesh stiffness per
 # face width, as a part of Young's modulus:
 # the largest line load is the mean one and this stiffness times the largest difference of openings along the face.
-INNER_HALF_WIDTHS, MESH_STIFFNESS = 4.5, 0.1
+INNER_HALF_WIDTHS = 4.5
+MESH_STIFFNESS = 0.1
 
 
 def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: Callable[[float], float]) -> float:
@@ -95,9 +96,12 @@ def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: 
 
 def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
     """How the body of the pinion (0) or the wheel (1) is divided over its face."""
-    pair, common = model.pair, layers_of_common_face(model.scene, model.pair)
-    width, thickness = pair.face_widths[gear], pair.face_width / common
-    overhang, beyond = 0.5 * (width - pair.face_width), 0
+    pair = model.pair
+    common = layers_of_common_face(model.scene, model.pair)
+    width = pair.face_widths[gear]
+    thickness = pair.face_width / common
+    overhang = 0.5 * (width - pair.face_width)
+    beyond = 0
     # Layers are alike towards both ends of a gear, which halves the work: they begin with the common face where the
     # gear reaches as far beyond it at either end.
     if overhang > LEAST_OVERHANG * thickness and abs(pair.gear_middles[gear]) < LEAST_OVERHANG * thickness:
@@ -119,7 +123,8 @@ def check_layers(model: Model) -> None:
 
 def face_warnings(model: Model) -> list[str]:
     """Sentences where too few slices carry the load."""
-    slices, found = model.face.evenly, []
+    slices = model.face.evenly
+    found = []
     part = loaded_part(model)
     if part < 1.0 and part * slices < FEWEST_LOADED_SLICES:
         found.append(

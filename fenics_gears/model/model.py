@@ -90,8 +90,10 @@ class Model:
     def touching(self) -> Touching:
         """Which tooth pairs can touch: how far apart loaded teeth are (`reach`), and how many pairs there are at once
         (`slots`)."""
-        grid, steps = self.resolution.contact_grid, self.resolution.steps_per_mesh_cycle
-        coast, shifts = self.scene.coast_flanks is not None, self.face.outermost_shifts
+        grid = self.resolution.contact_grid
+        steps = self.resolution.steps_per_mesh_cycle
+        coast = self.scene.coast_flanks is not None
+        shifts = self.face.outermost_shifts
         return touching(self.pair, grid, steps, coast, self.corner, shifts)
 
     @cached_property
@@ -141,7 +143,8 @@ class Model:
 
     @cached_property
     def stored_bytes(self) -> int:
-        slots, nodes = self.touching.slots, self.resolution.contact_grid.most_nodes
+        slots = self.touching.slots
+        nodes = self.resolution.contact_grid.most_nodes
         size = sizes(self.steps + 1, self.contact_steps, slots, nodes, self.face.slices, self.drivetrain.bearings)
         return counted_bytes(stored_arrays(self.scene, size), size)
 
@@ -194,7 +197,8 @@ class Model:
         return found
 
     def _of_a_part(self) -> list[str]:
-        period, run = common_period(self.scene), self.scene.motion.mesh_cycles
+        period = common_period(self.scene)
+        run = self.scene.motion.mesh_cycles
         if not run < period < inf:
             return []
         whole = lcm(self.scene.gears.pinion.teeth, self.scene.gears.wheel.teeth)
@@ -216,7 +220,8 @@ class Model:
 
 
 # Largest result; and the largest where the scene does not say how many contact fields to store.
-MOST_STORED_BYTES, MOST_UNASKED_BYTES = 4e9, 1e9
+MOST_STORED_BYTES = 4e9
+MOST_UNASKED_BYTES = 1e9
 
 
 def model_of(scene: Scene) -> Model:
@@ -270,7 +275,8 @@ def with_reliefs(model: Model, scene: Scene) -> Model:
 
 def _too_large(curves: Model, whole: Model) -> str:
     """Why a result is refused, and what makes it smaller."""
-    allowed, motion = f"at most {MOST_STORED_BYTES / 1e9:g} GB are allowed", whole.scene.motion
+    allowed = f"at most {MOST_STORED_BYTES / 1e9:g} GB are allowed"
+    motion = whole.scene.motion
     if curves.stored_bytes > MOST_STORED_BYTES:
         return (
             f"motion.mesh_cycles = {motion.mesh_cycles}: the curves of all steps would hold"

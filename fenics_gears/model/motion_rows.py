@@ -19,7 +19,8 @@ MILLIMETRE = 1e-3  # m
 def speed_rows(model: Model) -> Rows:
     """Nominal speeds of the gears, the pitch circles and the flanks' sliding, at the highest mesh frequency of the
     run."""
-    pair, highest = model.pair, model.scene.mesh_frequencies[1]
+    pair = model.pair
+    highest = model.scene.mesh_frequencies[1]
     turns = highest / pair.pinion.teeth
     ends = np.array([pair.path_start, pair.path_end])
     sliding = np.abs(sliding_speed(pair, ends, highest)) * MILLIMETRE
@@ -41,7 +42,8 @@ def inertia_rows(model: Model) -> Rows:
     from .drivetrain import lumped_gears
 
     rows: Rows = []
-    along, inertia = [], model.scene.inertia
+    along = []
+    inertia = model.scene.inertia
     for name, lumped in lumped_gears(model.scene, model.pair).items():
         given = inertia.of(name)
         for field, unit in (("mass", "kg"), ("moment_of_inertia", "kg mm^2")):
@@ -90,7 +92,8 @@ def unknown_rows(model: Model) -> Rows:
 
 def period_rows(model: Model) -> Rows:
     """Mesh cycles of the common period: after it all that differs between cycles repeats."""
-    period, gears = common_period(model.scene), model.scene.gears
+    period = common_period(model.scene)
+    gears = model.scene.gears
     if period == inf:
         return [("mesh cycles of the common period", "none", "(no two mesh cycles are alike)")]
     words = "(all mesh cycles are alike)" if period == 1 else ""

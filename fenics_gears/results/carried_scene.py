@@ -16,7 +16,8 @@ LOGGER = logging.getLogger(__name__)
 def scene_attributes(scene: Scene) -> dict[str, str]:
     """The text and the name of a scene; of one that names files also the folder from which they are looked for, and a
     hash of what was read from each."""
-    found, files = {"scene": scene.text, "scene_name": scene.name}, _files(scene)
+    found = {"scene": scene.text, "scene_name": scene.name}
+    files = _files(scene)
     if files:
         found |= {
             "scene_folder": scene.folder,

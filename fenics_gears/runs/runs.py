@@ -24,7 +24,8 @@ from .team import Alone, Together
 
 LOGGER = logging.getLogger(__name__)
 # Runs that are computed together at most, and tasks that each process gets at least.
-MOST_TOGETHER, TASKS = 32, 2
+MOST_TOGETHER = 32
+TASKS = 2
 Finished = Callable[[Run, Any], None]
 
 
@@ -60,9 +61,11 @@ class Runs:
     """
 
     def __init__(self, store: Store, team: Alone | Together, runs: Iterable[Run] = ()):
-        self._store, self._team = store, team
+        self._store = store
+        self._team = team
         self.known = store.known(runs)
-        self.kept, self.spent = len(self.known), Spent(team.size)
+        self.kept = len(self.known)
+        self.spent = Spent(team.size)
 
     def missing(self, runs: Iterable[Run]) -> list[Run]:
         """Those that are not known, each once, in the order in which they share most."""
@@ -74,7 +77,8 @@ class Runs:
         runs = list(runs)
         if runs:
             compile_kernels(tangential=True, progress=progress)
-        tasks, done = gear_tasks(runs), 0
+        tasks = gear_tasks(runs)
+        done = 0
         if not tasks:
             return
         progress.stage("condense gears")
@@ -148,7 +152,8 @@ def in_tasks(runs: Iterable[Run], most: int) -> list[list[Run]]:
 def computed(store: Store, runs: Sequence[Run], tick: Tick | None = None) -> list[Any]:
     """Compute runs and keep them, or why they failed; return what is known of each. Raises KeyboardInterrupt on
     Ctrl-C."""
-    found, ticking = {} if store.asked is None else _together(runs, store.asked), Ticking(tick)
+    found = {} if store.asked is None else _together(runs, store.asked)
+    ticking = Ticking(tick)
     return [_kept(store, run, found.get(run.key), ticking) for run in runs]
 
 

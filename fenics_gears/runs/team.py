@@ -42,7 +42,9 @@ class Together:
     """All ranks of a job, seen from rank 0."""
 
     def __init__(self, executor, size: int, meanwhile: Meanwhile | None = None):
-        self._executor, self.size, self._meanwhile = executor, size, meanwhile
+        self._executor = executor
+        self.size = size
+        self._meanwhile = meanwhile
 
     def run(self, function: Task, tasks: Sequence[Any], finished: Finished, tick: Callable[[], None]) -> None:
         """Compute every task; ``tick`` is called often and may raise KeyboardInterrupt, which ends the ranks after

@@ -9,7 +9,8 @@ from .accuracy import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy
 from .gear_schema import Gears
 
 # Smallest and largest sizes in modules: the dense compliance of a flank of finer elements has gigabytes.
-FINEST_ELEMENT, FINEST_BODY = 1e-3, 1e-2
+FINEST_ELEMENT = 1e-3
+FINEST_BODY = 1e-2
 _SIZES = (
     ("flank_element_size", FINEST_ELEMENT, 1.0),
     ("body_element_size", FINEST_BODY, 10.0),
@@ -24,7 +25,9 @@ def _resolution_fits_the_teeth(tree: Tree) -> Broken:
         return
     accuracy = table(tree, "accuracy") or {}
     for name, finest, coarsest in _SIZES:
-        size, smallest, largest = quantity_in(accuracy.get(name)), finest * module, coarsest * module
+        size = quantity_in(accuracy.get(name))
+        smallest = finest * module
+        largest = coarsest * module
         if size is None:
             continue
         if size > largest:
@@ -52,7 +55,8 @@ def _remeshing_has_its_own_nodes(tree: Tree) -> Broken:
 
 def _cheaper_models_have_what_they_need(tree: Tree) -> Broken:
     accuracy = table(tree, "accuracy") or {}
-    place, chosen = ("accuracy", "model"), accuracy.get("model")
+    place = ("accuracy", "model")
+    chosen = accuracy.get("model")
     if chosen not in (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336):
         return
     if chosen != RIGID_TEETH and not material_sections(tree):
@@ -74,7 +78,8 @@ _NOT_BESIDE_A_TARGET = {
 
 
 def _a_target_chooses_alone(tree: Tree) -> Broken:
-    accuracy, gears = table(tree, "accuracy") or {}, table(tree, "gears") or {}
+    accuracy = table(tree, "accuracy") or {}
+    gears = table(tree, "gears") or {}
     place = ("accuracy", "target")
     if "target" not in accuracy:
         return
@@ -93,7 +98,8 @@ def _a_target_chooses_alone(tree: Tree) -> Broken:
 
 
 def _root_stress_has_its_teeth(tree: Tree) -> Broken:
-    place, accuracy = ("output", "root_stress"), table(tree, "accuracy") or {}
+    place = ("output", "root_stress")
+    accuracy = table(tree, "accuracy") or {}
     if value_at(tree, *place) is not True:
         return
     if table(tree, "gears") is not None and not material_sections(tree):

@@ -68,7 +68,8 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
 
 def _in_normal_section(gears: Gears) -> tuple[Gears, list[Derived]]:
     """The section with module and pressure angle, whatever they are given by, and what was derived."""
-    found, derived = {}, []
+    found = {}
+    derived = []
     for names, unit, size in ((MODULES, "mm", 1.0), (PRESSURE_ANGLES, "deg", pi / 180.0)):
         own, *others = names
         name = next(each for each in names if getattr(gears, each) is not None)
@@ -204,7 +205,8 @@ def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequen
         * cos(rack_pair.operating_pressure_angle)
         / (2.0 * pinion.module * cos(pinion.pressure_angle) * tan(pair.pressure_angle))
     )
-    lowered, overlap = [shift - each for shift in cut], -rack_pair.circumferential_backlash
+    lowered = [shift - each for shift in cut]
+    overlap = -rack_pair.circumferential_backlash
     nominal = rack_pair.centre_distance_without_backlash
     thinner = 2.0 * each * pair.module * tan(pair.pressure_angle)
     words = "half of the backlash by each gear"
@@ -252,7 +254,8 @@ def _gear_data(
     reference = pair.module * drawn.teeth / cos(pair.helix_angle or 0.0)
     standard = RACKS[_of_rack(pair, drawn, "profile") or "ISO 53 A"]
     addendum, dedendum, radius = (_of_rack(pair, drawn, figure) for figure in ("addendum", "dedendum", "tip_radius"))
-    tip, root = drawn.tip_diameter, drawn.root_diameter
+    tip = drawn.tip_diameter
+    root = drawn.root_diameter
     radius = radius if drawn.rack_tip_radius is None else drawn.rack_tip_radius
     if tip is None:
         tip = reference + 2.0 * pair.module * (shift + (standard[0] if addendum is None else addendum) - shortening)

@@ -24,7 +24,8 @@ from .schema import LoadText
 
 
 def _teeth_have_a_size(tree: Tree) -> Broken:
-    gears, helix_angle = table(tree, "gears"), quantity_at(tree, "gears", "helix_angle") or 0.0
+    gears = table(tree, "gears")
+    helix_angle = quantity_at(tree, "gears", "helix_angle") or 0.0
     for names in (MODULES, PRESSURE_ANGLES) if gears is not None else ():
         allowed = allowed_in(Gears, names[0])
         name = next((each for each in names if each in gears), None)
@@ -104,7 +105,8 @@ def _no_figure_is_given_twice(tree: Tree) -> Broken:
 def _protuberance_is_more_than_the_stock(tree: Tree) -> Broken:
     """Finishing takes no more than the protuberance has cut free, or it leaves a step in the root."""
     gears = table(tree, "gears") or {}
-    found, pressure_angle = {}, pressure_angle_in(tree)
+    found = {}
+    pressure_angle = pressure_angle_in(tree)
     for gear in GEARS:
         amount, stock, angle = (
             _of_rack(gears, gear, name) for name in ("protuberance", "finishing_stock", "protuberance_angle")
@@ -130,7 +132,8 @@ def _of_rack(gears: Tree, gear: str, figure: str) -> tuple[tuple[str, ...], floa
 
 
 def _load_is_given_once(tree: Tree) -> Broken:
-    load, motion = table(tree, "load"), tree.get("motion", {})
+    load = table(tree, "load")
+    motion = tree.get("motion", {})
     if load is None:
         return
     given = [name for name in LOADS if name in load]

@@ -192,7 +192,8 @@ def _motion(checked) -> data.Motion:
     Cycles that are run, unless given: one, or a whole hunting tooth period where cycles differ, after those of a
     settling time. Cycles that are recorded, unless given: the last two; of a speed ramp or a whole period all that fit.
     """
-    motion, gears = checked.motion, checked.gears
+    motion = checked.motion
+    gears = checked.gears
     frequency = motion.mesh_frequency
     if motion.pinion_speed is not None:
         frequency = motion.pinion_speed / (2 * math.pi) * gears.pinion.teeth
@@ -203,7 +204,8 @@ def _motion(checked) -> data.Motion:
     recorded = None if motion.recorded_cycles is None else motion.recorded_cycles or whole_period
     stored = checked.output.contact_fields
     asked = None if isinstance(stored, bool) else stored
-    cycles, whole = motion.mesh_cycles or whole_period, motion.mesh_cycles == 0
+    cycles = motion.mesh_cycles or whole_period
+    whole = motion.mesh_cycles == 0
     if motion.mesh_cycles is None:
         least = 1 if motion.settling_time is None else data.LAST_CYCLES
         wanted = recorded or (least if asked in (None, math.inf) else asked)

@@ -63,7 +63,8 @@ def _problems(tree: Tree, broken: Broken) -> list[Problem]:
 
 
 def _effects_fit_together(tree: Tree) -> Broken:
-    known, always = effects.AT_THE_TOP, names_in(scene_text(()))
+    known = effects.AT_THE_TOP
+    always = names_in(scene_text(()))
     # A misspelt section is another problem.
     sections = {name if name in always else nearest(name, known) or meant((), name, known) or name for name in tree}
     # Without [gears] the teeth are unknown.
@@ -139,7 +140,8 @@ def _recorded_cycles_are_run(tree: Tree) -> Broken:
 
 
 def _contact_fields_are_of_cycles_that_run(tree: Tree) -> Broken:
-    written, motion = value_at(tree, "output", "contact_fields"), table(tree, "motion") or {}
+    written = value_at(tree, "output", "contact_fields")
+    motion = table(tree, "motion") or {}
     place = ("output", "contact_fields")
     if written is not None and "recorded_cycles" in motion:
         yield place, "stands beside motion.recorded_cycles, which says the same. Leave one of the two out."

@@ -131,7 +131,8 @@ def known_paths() -> dict[tuple[str, ...], bool]:
 def _paths(section: type[Section], home: tuple[str, ...]) -> dict[tuple[str, ...], bool]:
     found: dict[tuple[str, ...], bool] = {}
     for name in names_in(section):
-        inner, path = section_within(section, name), (*home, name)
+        inner = section_within(section, name)
+        path = (*home, name)
         found |= {path: inner is not None} | (_paths(inner, path) if inner is not None else {})
     return found
 
@@ -175,7 +176,8 @@ def _is_misspelt(missing: Path, unknown: Iterable[Path]) -> bool:
 
 
 def _why_unknown(path: Path) -> str:
-    name, home = path[-1], ".".join(path[:-1])
+    name = path[-1]
+    home = ".".join(path[:-1])
     known = [each[-1] for each in known_paths() if each[:-1] == path[:-1]]
     synonym = meant(path[:-1], name, known)
     hint = f' Did you mean "{synonym}"?' if synonym else did_you_mean(name, known) or _lives_elsewhere(name)

@@ -66,7 +66,8 @@ def section_trees(scene: data.Scene) -> dict[str, Any]:
 
 
 def _as_read_where_the_same(scene: data.Scene, sections: dict[str, Any]) -> dict[str, Any]:
-    read, written = scene_from_text(scene.written, scene.name, directory=Path(scene.folder)), parsed(scene.written, "")
+    read = scene_from_text(scene.written, scene.name, directory=Path(scene.folder))
+    written = parsed(scene.written, "")
     found = {}
     for name in written | sections:
         if getattr(read, name) != getattr(scene, name):
@@ -77,7 +78,8 @@ def _as_read_where_the_same(scene: data.Scene, sections: dict[str, Any]) -> dict
 
 
 def _gears(pair: GearPairData) -> dict[str, Any]:
-    section, own_width = gear_schema.Gears, any(getattr(pair, name).face_width is not None for name in GEARS)
+    section = gear_schema.Gears
+    own_width = any(getattr(pair, name).face_width is not None for name in GEARS)
     found = tree_of(pair, section, ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ())))
     if pair.helix_angle:
         found["pinion_hand"] = pair.pinion_hand
@@ -115,7 +117,8 @@ def _length_of(share: float, whole: float) -> float:
 
 
 def _motion(scene: data.Scene) -> dict[str, Any]:
-    motion, period = scene.motion, math.lcm(scene.gears.pinion.teeth, scene.gears.wheel.teeth)
+    motion = scene.motion
+    period = math.lcm(scene.gears.pinion.teeth, scene.gears.wheel.teeth)
     found: dict[str, Any] = {}
     if motion.speed_given:
         found["mesh_frequency"] = field_of(schema.MotionText, "mesh_frequency", motion.mesh_frequency)
@@ -153,5 +156,6 @@ def rows_of(tree: Mapping[str, Any], section: Any, home: str = "") -> Iterator[t
             yield (f"[{home}{name}]", "", "")
             yield from rows_of(value, inner, f"{home}{name}.")
         else:
-            text, meaning = value if isinstance(value, str) else toml_value(value), allowed_in(section, name).meaning
+            text = value if isinstance(value, str) else toml_value(value)
+            meaning = allowed_in(section, name).meaning
             yield (f"{home}{name}", text if len(text) <= MOST_LETTERS else text[: MOST_LETTERS - 3] + "...", meaning)

@@ -149,7 +149,9 @@ def png(pixels: np.ndarray, dots_per_inch: float) -> bytes:
     smaller."""
     height, width, _ = pixels.shape
     # The same few rows again and again: fresh memory for a second copy of a picture is slower than the copying.
-    rows, packer, packed = np.zeros((ROWS_AT_ONCE, 1 + 4 * width), dtype=np.uint8), zlib.compressobj(1), []
+    rows = np.zeros((ROWS_AT_ONCE, 1 + 4 * width), dtype=np.uint8)
+    packer = zlib.compressobj(1)
+    packed = []
     for first in range(0, height, ROWS_AT_ONCE):
         part = pixels[first : first + ROWS_AT_ONCE].reshape(-1, 4 * width)
         rows[: len(part), 1:] = part

@@ -20,7 +20,8 @@ from .stress_grid import save_vtu
 from .stress_heading import COLOURS
 from .stress_picture import frames
 
-FRAMES_PER_CYCLE, MOST_FRAMES = 24, 120
+FRAMES_PER_CYCLE = 24
+MOST_FRAMES = 120
 FRAMES_PER_SECOND = 12
 SUFFIXES = (".gif", ".mp4")
 # A scale is looked for, and the colours are fixed, on so many of the frames.

@@ -20,7 +20,8 @@ COLOURS = LinearSegmentedColormap.from_list("stress", [
     (1.0, "#A90E18"),
 ])  # fmt: skip
 # Letters that fit the picture's width, of its title and of the smaller lines below.
-LETTERS_OF_TITLE, LETTERS_OF_LINE = 110, 150
+LETTERS_OF_TITLE = 110
+LETTERS_OF_LINE = 150
 
 
 def rounded_up(stress: float) -> float:
@@ -42,7 +43,8 @@ def colour_bar(
     """Colours up to a limit, MPa, with an arrow there where some is `beyond`; `place`: lower end and height in the
     figure."""
     axes = figure.add_axes((0.931, place[0], 0.013, place[1]))
-    coloured, extend = ScalarMappable(Normalize(0.0, limit), colours), "max" if beyond else "neither"
+    coloured = ScalarMappable(Normalize(0.0, limit), colours)
+    extend = "max" if beyond else "neither"
     figure.colorbar(coloured, cax=axes, extend=extend).set_label(words, labelpad=8.0)
     axes.grid(False)
 
@@ -50,7 +52,8 @@ def colour_bar(
 def heading(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset) -> None:
     """Title of the run, its conditions, and the time of the picture."""
     run = Run(dataset)
-    scene, look = run.scene, {"color": DARK if run.complete else WARNING, "parse_math": False}
+    scene = run.scene
+    look = {"color": DARK if run.complete else WARNING, "parse_math": False}
     title = textwrap.shorten(f"Stress in the gears: {run.title}", LETTERS_OF_TITLE, placeholder=" …")
     figure.text(0.015, 0.959, title, fontsize=18, **look)
     timed = f", time {_time(mesh.time)}" if scene is None or scene.motion.speed_given else ""

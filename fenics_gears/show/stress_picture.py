@@ -77,7 +77,8 @@ def frames(
     limit = colour_limit(sampled)
     beyond = any(exceeds(mesh, limit) for mesh in sampled)
     if sampled[0].over_face:
-        dots, scale = DPI_OF_FRAMES if moving else DPI, 1.0 if scale is None else scale
+        dots = DPI_OF_FRAMES if moving else DPI
+        scale = 1.0 if scale is None else scale
         return lambda mesh: face_picture(mesh, dataset, scale, limit, beyond, dots)
     scale = automatic_scale(sampled) if scale is None else scale
     size = {"close_up": False, "width": FRAME_WIDTH} if moving else {}
@@ -104,7 +105,9 @@ def stress_picture(
     loaded = loaded_contact(mesh, dataset)
     coast = mesh.coast
     enlarged = close_up and loaded is not None
-    bottom, high, wide = 0.06, 0.79, 0.40 if enlarged else 0.585
+    bottom = 0.06
+    high = 0.79
+    wide = 0.40 if enlarged else 0.585
     left = _panel(figure, (0.015, bottom, 0.30, high), whole_view(mesh), mesh, scale, limit)
     middle = _panel(figure, (0.325, bottom, wide, high), teeth_view(mesh, coast), mesh, scale, limit)
     left.set_title(f"The pair, displacements × {scale:g}")
@@ -165,19 +168,23 @@ def _triangles(points: np.ndarray, cells: np.ndarray, values: np.ndarray) -> np.
     corners = np.column_stack([points, values])[triangles]
     while len(corners) < LEAST_TRIANGLES:
         a, b, c = corners.transpose(1, 0, 2)
-        ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
+        ab = 0.5 * (a + b)
+        bc = 0.5 * (b + c)
+        ca = 0.5 * (c + a)
         corners = np.stack([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca], axis=1).reshape(-1, 3, 3)
     return corners
 
 
 def _in_view(points: np.ndarray, parts: np.ndarray, view: View) -> np.ndarray:
     left, right, bottom, top = view.extent
-    x, y = points[parts, 0], points[parts, 1]
+    x = points[parts, 0]
+    y = points[parts, 1]
     return parts[(x.max(axis=1) > left) & (x.min(axis=1) < right) & (y.max(axis=1) > bottom) & (y.min(axis=1) < top)]
 
 
 def _numbers(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, place) -> None:
-    index, dataset = stored_place(mesh, dataset), contact_times(dataset)
+    index = stored_place(mesh, dataset)
+    dataset = contact_times(dataset)
     names = ("normal_force", "coast_normal_force", *PRESSURES)
     values = {name: float(dataset[name].values[index]) for name in names if name in dataset}
     peaks = [float(body.von_mises.max()) for body in mesh.gears]

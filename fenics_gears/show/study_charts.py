@@ -90,7 +90,8 @@ def logarithmic(field: SweptField) -> bool:
     values = np.unique(field.values[np.isfinite(field.values)])
     if len(values) < 3 or values[0] <= 0.0 or values[-1] / values[0] < LOGARITHMIC_SPAN:
         return False
-    steps, factors = np.diff(values), np.diff(np.log(values))
+    steps = np.diff(values)
+    factors = np.diff(np.log(values))
     return np.ptp(factors) / factors.mean() < np.ptp(steps) / steps.mean()
 
 
@@ -116,7 +117,8 @@ def _map(axis: SweptField, other: SweptField, values: np.ndarray, title: str, na
     (x, column), (y, row) = (np.unique(field.values, return_inverse=True) for field in (axis, other))
     grid = np.full((len(y), len(x)), np.nan)
     grid[row, column] = values
-    edges, divided = [], ""
+    edges = []
+    divided = ""
     for letter, field, places in (("x", axis, x), ("y", other, y)):
         divided += letter if logarithmic(field) else ""
         edges.append(np.exp(_edges(np.log(places))) if logarithmic(field) else _edges(places))

@@ -51,7 +51,10 @@ class Scenes:
     """The scenes of a study's cases: of a large study each is made again when it is asked for."""
 
     def __init__(self, name: str, directory: Path, changes: Changes, scene_tree: Mapping[str, Any]):
-        self._name, self._directory, self._changes, self._tree = name, directory, changes, scene_tree
+        self._name = name
+        self._directory = directory
+        self._changes = changes
+        self._tree = scene_tree
         self.points = list(changes.points())
         self.model = functools.lru_cache(MOST_HELD)(self._model)
 
@@ -69,7 +72,8 @@ class Models:
     time."""
 
     def __init__(self, name: str, directory: Path):
-        self._name, self._directory = name, directory
+        self._name = name
+        self._directory = directory
         # Parsed scenes without reliefs, the names of all that their reliefs say, and their models.
         self._known: list[tuple[dict[str, Any], Any, Model]] = []
 
@@ -89,7 +93,8 @@ class Models:
 
     def _with_reliefs(self, model: Model, tree: Mapping[str, Any]) -> Model | None:
         """A model with the reliefs of a parsed scene; None where something is wrong with them."""
-        own, problems = {}, broken_by_numbers(tree, RELIEFS)
+        own = {}
+        problems = broken_by_numbers(tree, RELIEFS)
         for effect in (effect_named(name) for name in RELIEFS if name in tree):
             section, wrong = read(effect.fields, tree[effect.section], (effect.section,))
             problems += wrong

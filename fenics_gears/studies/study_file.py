@@ -29,7 +29,9 @@ class Mistakes:
     """The mistakes of a study file so far, each once."""
 
     def __init__(self, source: str, lines: Mapping[tuple[str, ...], int]):
-        self._source, self._lines, self._said = source, lines, {}
+        self._source = source
+        self._lines = lines
+        self._said = {}
 
     def add(self, path: tuple[str, ...], written: str | None, message: str) -> None:
         """Note a mistake at a path of the study file; ``written`` as for `Problem`."""
@@ -72,7 +74,9 @@ def study_of(
     scene_tree = parsed(base.text, str(scene_file))
     _check_present(changes, scene_tree, str(scene_file), mistakes)
     mistakes.check()
-    name, combine, axes = name_of(path), changes.combine, changes.axes
+    name = name_of(path)
+    combine = changes.combine
+    axes = changes.axes
     cases = _cases(Scenes(name, scene_file.parent, changes, scene_tree), changes, mistakes)
     mistakes.check()
     return Study(name, tree.get("title", name), combine, axes, cases, text, base.text, scene_key(base))

@@ -13,7 +13,9 @@ from fenics_gears.inputs.fields import choice, declared, whole_number
 from fenics_gears.inputs.section import Section
 from fenics_gears.studies import fields
 
-MEAN, WORST, QUANTILE = "mean", "worst", "quantile"
+MEAN = "mean"
+WORST = "worst"
+QUANTILE = "quantile"
 Tree = Mapping[str, Any]
 _QUANTILE = AllowedNumber(
     description="a number from 0.5 to below 1, such as 0.9",

@@ -33,7 +33,8 @@ def load_design(path: str | Path) -> Design:
     base, directory = sections.scene()
     parts = ("variables", "loads", "goals", "bounds", "search", "tolerances")
     found: dict[str, Any] = {part: getattr(sections, part)() for part in parts}
-    without, fixed = left_out(tree, sections.mistakes), dict(entries(tree, "set", sections.mistakes))
+    without = left_out(tree, sections.mistakes)
+    fixed = dict(entries(tree, "set", sections.mistakes))
     sections.mistakes.check()
     varied = {variable.path[0] for variable in found["variables"]}
     before = {place: value for place, value in fixed.items() if place[0] not in varied}
@@ -49,7 +50,8 @@ def load_design(path: str | Path) -> Design:
 def _checked_ranges(design: Design, sections: Sections) -> Scene:
     """The scene in the middle of all ranges. Raises SceneError where it is none, where ends of a range, operating
     points or what is before make none, or where it has no such results as are wanted."""
-    middle, mistakes = _middle(design), sections.mistakes
+    middle = _middle(design)
+    mistakes = sections.mistakes
     _try(design, sections, design.before, ("scene",), "the scene before any change")
     where = "with all variables in the middle of their ranges"
     scene = _try(design, sections, design.scene_tree(middle), ("variables",), where)
@@ -103,10 +105,12 @@ def _with_class(design: Design, scene: Scene) -> Design:
     tolerance_class = design.tolerances.tolerance_class
     if tolerance_class is None:
         return design
-    pair, found = gear_pair(scene.gears), list(design.tolerances.scatters)
+    pair = gear_pair(scene.gears)
+    found = list(design.tolerances.scatters)
     for name, width in zip(GEARS, pair.face_widths):
         gear = getattr(pair, name)
-        diameter, named = 2.0 * gear.reference_radius, {each.path for each in found}
+        diameter = 2.0 * gear.reference_radius
+        named = {each.path for each in found}
         limits = flank_tolerance(diameter, gear.normal_module, tolerance_class)
         amounts = {
             ("profile_modifications", name, "slope"): limits.profile_slope,
@@ -123,7 +127,8 @@ def _with_class(design: Design, scene: Scene) -> Design:
 
 def _check_scatter(design: Design, sections: Sections) -> None:
     """Raise SceneError where something scatters that the scene does not have, or to where there is no scene."""
-    tree, scatters = design.scene_tree(_middle(design)), design.tolerances.scatters
+    tree = design.scene_tree(_middle(design))
+    scatters = design.tolerances.scatters
     for scatter in scatters:
         if scatter.path[0] not in FROM_ZERO and value_of(tree, scatter.path) is None:
             remedy = f'Give it a value below [set], such as "0 {scatter.unit}".'

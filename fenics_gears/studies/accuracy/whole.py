@@ -14,7 +14,8 @@ from .convergence import largest_part
 from .refinement import FAMILY, LENGTH, OF_FAMILY, Refinement
 
 # The path keeps a setting when its error is below this part of the error of the last one kept.
-KEPT_PART, MOST_KEPT = 0.7, 9
+KEPT_PART = 0.7
+MOST_KEPT = 9
 # Halving flank elements and contact nodes costs most, so that it waits until this part of their error is the largest.
 WAITS = {FAMILY: 0.5}
 # What is well below 0.1 % is not looked for.
@@ -67,7 +68,8 @@ def path(
     def setting() -> Setting:
         return reduce(lambda whole, name: moving[name].moved(whole, levels[name][at[name]]), at, base)
 
-    found, last = [], float("inf")
+    found = []
+    last = float("inf")
     while at and allowed(setting()):
         parts = {name: errors[name, levels[name][place]] for name, place in at.items()}
         if sum(parts.values()) <= KEPT_PART * last:
