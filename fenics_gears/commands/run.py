@@ -12,7 +12,9 @@ from typing import Any
 from fenics_gears.errors import FAILED, ComputationError
 from fenics_gears.results.summary import Row
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
+from fenics_gears.system.console import print_rows
 from fenics_gears.system.job import Job, led
+from fenics_gears.system.output import write_whole
 from fenics_gears.system.progress import Interruption
 
 from .shared import (
@@ -130,7 +132,6 @@ class _Kept:
     def _save(self, dataset) -> None:
         from fenics_gears import results
         from fenics_gears.results.journal import remove
-        from fenics_gears.system.output import write_whole
 
         self._interruption.ignore()
         self.dataset = dataset
@@ -163,7 +164,5 @@ def _summary(model, dataset, stages: Sequence[tuple[str, float]]) -> list[Row]:
 
 
 def _print(title: str, rows: Sequence[Row], files: Sequence[Path]) -> None:
-    from fenics_gears.system.console import print_rows
-
     print_rows(title, rows)
     print_rows("Files", [("", str(file), "") for file in files])

@@ -16,6 +16,7 @@ from types import ModuleType
 from fenics_gears.errors import ComputationError, Found, SceneError, attempted
 from fenics_gears.system.console import on_terminal, printable
 from fenics_gears.system.memory import size_in_bytes
+from fenics_gears.system.output import check_writable
 from fenics_gears.system.progress import BarProgress, LineProgress, Progress, SilentProgress
 
 # Exit codes that no error carries itself. The run came to its end, but jammed or came apart.
@@ -144,8 +145,6 @@ def checked_model(path: Path):
 def checked_model_and_directory(options, *names: str):
     """The model of a command's scene, and the directory to write into, which takes files of these names. Raises as
     `checked_model` does, and SceneError for the directory."""
-    from fenics_gears.system.output import check_writable
-
     model = checked_model(options.scene)
     directory = options.output or Path("results") / model.scene.name
     check_writable(directory, *names)
@@ -225,8 +224,6 @@ def plots() -> ModuleType:
 def file_to_write(options: argparse.Namespace, default: Path, what: str) -> Path:
     """The file of --output, or the default, which can be written; `what`: "the table", say. Raises SceneError for
     another ending than the default's, or where it cannot be written."""
-    from fenics_gears.system.output import check_writable
-
     output = options.output or default
     if output.suffix != default.suffix:
         raise SceneError(f"{output}: {what} is a {default.suffix} file; give --output such a name.")

@@ -6,6 +6,9 @@ from dataclasses import dataclass, replace
 from math import lcm
 from pathlib import Path
 
+from fenics_gears.dynamics.crack_openings import closed_cracks, crack_openings
+from fenics_gears.elasticity.element_nodes import element_nodes
+from fenics_gears.elasticity.elements import element_named
 from fenics_gears.inputs.fields import file_name
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
@@ -125,23 +128,16 @@ def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
     """Unknowns of a gear with a mesh of its own; None for the other."""
     if getattr(meshes, name) is None:
         return None
-    from fenics_gears.elasticity.element_nodes import element_nodes
-    from fenics_gears.elasticity.elements import element_named
-
     element = model.resolution.element
     return 2 * len(element_nodes(given_mesh(meshes, name, model.pair, element), element_named(element)).points)
 
 
 def watched(meshes: BodyMeshes, cycle, steps) -> dict:
     """Smallest and largest openings (steps,), mm, of the cracks of either gear."""
-    from fenics_gears.dynamics.crack_openings import crack_openings
-
     return crack_openings(cycle, steps.records)
 
 
 def findings(meshes: BodyMeshes, watched) -> list[str]:
-    from fenics_gears.dynamics.crack_openings import closed_cracks
-
     return closed_cracks(watched)
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from fenics_gears.dynamics.beam import STEEPEST_CONE
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions
+from fenics_gears.dynamics.shaft_at_work import at_work, even_load
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import LISTED, Broken
 from fenics_gears.inputs.section import names_in
@@ -105,8 +106,6 @@ def shaft_at_work(scene: Any, pair: Any, gear: str) -> ElasticShaft:
     found = elastic_shaft(scene, pair, gear)
     if all(each.rolling is None for each in found.bearings):
         return found
-    from fenics_gears.dynamics.shaft_at_work import at_work, even_load
-
     return replace(found, bearings=at_work(found, even_load(found, pair, scene.load.wheel_torque)))
 
 

@@ -9,6 +9,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+from fenics_gears.dynamics.elastic_shaft_hub import Hub, Ring
 from fenics_gears.inputs.tree import GEARS
 
 from .shafts import PRESS_FIT, RIGID_SEAT, ShaftSection
@@ -36,9 +37,6 @@ def seated(shaft: ElasticShaft, seat: str, gear: Gear, material: Material) -> El
 
 def hub_of(shaft: ElasticShaft, gear: Gear, material: Material) -> Hub:
     """Gear and shaft within the face as rings, the shaft as bored as it is there."""
-    # Imported here: few gears have a hub that gives way.
-    from fenics_gears.dynamics.elastic_shaft_hub import Hub, Ring
-
     half = 0.5 * shaft.seat
     bore = gear.bore_radius
     constants = (material.youngs_modulus, material.poissons_ratio)

@@ -6,10 +6,12 @@ from hashlib import sha256
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.flank_deviations import measured_share
 from fenics_gears.geometry.flank_errors import CURVES, LISTS, REPLACED, TABLES, FlankErrors, GearErrors, lists_of
 from fenics_gears.inputs.tree import GEARS, LARGEST_ERROR, NOT_IN_THE_PLANE
 from fenics_gears.inputs.written import as_written
 
+from . import flank_errors_file as tables
 from .flank_errors_rules import PITCH_ROUNDING, not_closed
 
 # Share of the active profile, or of the face, that a curve must cover.
@@ -24,22 +26,20 @@ def located(errors: FlankErrors, directory: Path) -> FlankErrors:
 def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
     if not any(getattr(errors, name) for name in TABLES):
         return errors
-    from . import flank_errors_file as files
-
     # `check` reports what is wrong; a scene that is only looked at needs no table.
     name = "file"
     try:
         if errors.file is not None:
-            found = files.deviations_in(_found(directory, errors.file), LISTS)
+            found = tables.deviations_in(_found(directory, errors.file), LISTS)
             twice = next((each for each in LISTS if each in found and getattr(errors, each) is not None), None)
             if twice is not None:
-                raise files.FileProblem(f"the table has {twice}, which the scene has, too. Leave one of the two out.")
+                raise tables.FileProblem(f"the table has {twice}, which the scene has, too. Leave one of the two out.")
             errors = replace(errors, columns=tuple(found), **found)
         for name, (measured, along) in CURVES.items():
             if getattr(errors, name) is not None:
-                curves = files.curves_in(_found(directory, getattr(errors, name)), getattr(files, along))
+                curves = tables.curves_in(_found(directory, getattr(errors, name)), getattr(tables, along))
                 errors = replace(errors, **{measured: curves})
-    except files.FileProblem as problem:
+    except tables.FileProblem as problem:
         return replace(errors, problem=(name, str(problem)))
     return errors
 
@@ -99,8 +99,6 @@ def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str,
 
 def _problem_of_curve(curve, along, module: float, pair, gear: str, whole: str) -> str:
     """What does not fit the gear; `whole`: of what a curve measures a part."""
-    from fenics_gears.geometry.flank_deviations import measured_share
-
     teeth = getattr(pair, gear).teeth
     largest = LARGEST_ERROR * module
     if curve.tooth > teeth:

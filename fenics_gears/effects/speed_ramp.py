@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from math import inf
 
+from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
 from fenics_gears.inputs.fields import quantity, whole_number
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
@@ -49,8 +50,6 @@ def clock(ramp: SpeedRamp, model):
 
 
 def load(ramp: SpeedRamp, model):
-    from fenics_gears.dynamics.speed_ramp import inertia_forces
-
     return inertia_forces(clock(ramp, model), model.drivetrain, model.scene.gears.wheel.teeth)
 
 
@@ -67,8 +66,6 @@ def period(ramp: SpeedRamp, scene) -> float:
 
 
 def _clock(ramp: SpeedRamp, scene, steps_per_mesh_cycle: int):
-    from fenics_gears.dynamics.speed_ramp import RampClock
-
     held = ramp.hold_cycles * steps_per_mesh_cycle
     steps = scene.motion.mesh_cycles * steps_per_mesh_cycle
     return RampClock(scene.motion.mesh_frequency, ramp.end_frequency, held, steps, steps_per_mesh_cycle)

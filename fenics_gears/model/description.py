@@ -18,6 +18,7 @@ from fenics_gears.scene.data import ISO_6336, Scene
 from .bore_twist import bore_twist_stiffness
 from .cost import SECTOR_UNKNOWNS, expected_cost
 from .drivetrain import pair_stiffness
+from .face_resolution import face_discretisation, layers_of_common_face
 from .model import Model, model_of
 from .motion_rows import Rows, frequency_rows, inertia_rows, period_rows, speed_rows, unknown_rows
 
@@ -109,8 +110,6 @@ def _face_rows(model: Model) -> Rows:
         widths = [("face width in common", pair.face_width, f"mm: {', '.join(each)}")]
     if not scene.three_dimensional:
         return [*widths, *_plane_rows(model)]
-    from .face_resolution import face_discretisation, layers_of_common_face
-
     low, high = pair.common_face
     found: Rows = [
         *widths,

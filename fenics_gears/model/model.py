@@ -20,6 +20,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
+from fenics_gears.scene.schema import WORDS
 
 from .drivetrain import drivetrain, mesh_stiffness, pair_stiffness
 from .modification import corner, removals, rim_warnings
@@ -257,8 +258,6 @@ def model_of(scene: Scene) -> Model:
 
 # Effects of a plane scene that change nothing of its model but the material removed from the flanks.
 RELIEFS = ("tip_relief", "root_relief", "profile_modifications")
-# What a model does not depend on.
-WORDS = ("title", "name", "derived", "measured_over", "written", "folder")
 
 
 def differ_only(one: Scene, other: Scene, names: Collection[str]) -> bool:

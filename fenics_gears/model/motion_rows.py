@@ -10,6 +10,7 @@ from fenics_gears.dynamics.tilting import NUMBERS
 from fenics_gears.effects import common_period
 from fenics_gears.geometry.sliding import sliding_speed
 
+from .drivetrain import lumped_gears
 from .model import Model
 
 Rows = list[tuple[str, object, str]]
@@ -39,8 +40,6 @@ def speed_rows(model: Model) -> Rows:
 def inertia_rows(model: Model) -> Rows:
     """Mass and moment of inertia of each gear, of the far end of the output shaft, and of both gears along the line of
     action."""
-    from .drivetrain import lumped_gears
-
     rows: Rows = []
     along = []
     inertia = model.scene.inertia

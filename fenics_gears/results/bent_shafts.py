@@ -9,6 +9,7 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.beam import SIX
 from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_seat import BentBySeat, bent_by_seat, carried_with_twist
+from fenics_gears.dynamics.frequencies import vibrations
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import SHAFT_POINTS
@@ -140,8 +141,6 @@ class BentShafts(AlongTheFace):
         """Natural frequencies with the mesh as it was, a line each; nothing without inertia or contact."""
         if self.drivetrain.mass is None or "mesh_stiffness_tangent" not in counted:
             return {}
-        from fenics_gears.dynamics.frequencies import vibrations
-
         stiffness = mean_where_positive(counted["mesh_stiffness_tangent"].values)
         if not np.isfinite(stiffness):
             return {}

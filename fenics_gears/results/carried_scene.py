@@ -8,7 +8,8 @@ import xarray as xr
 from fenics_gears.effects import from_effects
 from fenics_gears.errors import SceneError
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import NO_FILE, scene_from_text
+from fenics_gears.scene.parsing import NO_FILE
+from fenics_gears.scene.read import scene_from_text
 
 LOGGER = logging.getLogger(__name__)
 

@@ -28,6 +28,7 @@ from .contact_variables import (
 )
 from .dataset import friction_loss
 from .extrema import Extrema, Quantity, extremes
+from .face_variables import AlongTheFace
 from .key_numbers import HARMONIC_NAMES, key_numbers
 from .mesh_curves import EdgesAndKinks, pressure_curves
 from .recorder import KnownTouching
@@ -166,9 +167,6 @@ def _curves(
 
 
 def _load_factors(model: Model, nodes: SideBySide, curves: Curves, first: int) -> dict[str, float]:
-    # Imported here: plane runs do without.
-    from .face_variables import AlongTheFace
-
     of_pairs = {"pair_number": nodes.pair_number, **pair_variables(model.scene, nodes)}
     return AlongTheFace(nodes.cycle).numbers_of_curves(curves | of_pairs, nodes, first, model.contact_steps)
 

@@ -11,6 +11,7 @@ from typing import Any, Protocol
 from fenics_gears.errors import GearsError
 from fenics_gears.model.model import Model
 from fenics_gears.results.dataset import RunResult
+from fenics_gears.simulation.together import alike, can_be_solved_together, solved_together
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.system.progress import Progress
 
@@ -121,9 +122,6 @@ def most_together(missing: int, processes: int) -> int:
 
 def solved_at_once(models: Sequence[Model], asked: Collection[str]) -> bool:
     """Whether runs of these models are solved together where the numbers `asked` alone are kept."""
-    # Imported here, as in `_together`.
-    from fenics_gears.simulation.together import can_be_solved_together
-
     alike = len({operators_key(model) for model in models}) == 1
     return alike and all(can_be_solved_together(model, asked) for model in models)
 
@@ -177,9 +175,6 @@ def _computed(model: Model, progress: Progress) -> RunResult:
 
 def _together(runs: Sequence[Run], asked: Collection[str]) -> dict[str, Any]:
     """The numbers of those runs that can be solved together, by their keys."""
-    # Imported here: what keeps whole results does without.
-    from fenics_gears.simulation.together import alike, can_be_solved_together, solved_together
-
     groups: list[list[tuple[str, Model]]] = []
     for run in runs:
         model = run.model

@@ -12,6 +12,7 @@ import signal
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.system.job import communicator, ending_all
 
 SECONDS_BETWEEN_LOOKS = 0.05
@@ -100,8 +101,6 @@ def _outcome(compute: Callable[[], Any]) -> Any:
 
 def _load_what_runs_need() -> None:
     """Half a second of libraries and compiled code, while rank 0 reads what there is to do."""
-    from fenics_gears.simulation.warm_up import compile_kernels
-
     for module in ("results.files", "simulation.elastic_route"):
         importlib.import_module(f"fenics_gears.{module}")
     compile_kernels(tangential=True)

@@ -20,10 +20,9 @@ from fenics_gears.geometry.gear_data import MATERIALS, RACKS, GearData, GearPair
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, LOADS, MODULES, PRESSURE_ANGLES, in_normal_section, wheel_torque
 
-from .data import Derived, Load, Motion
 from .gear_schema import Gear as GearText
 from .gear_schema import Gears
-from .schema import LoadText
+from .schema import Derived, Load, LoadText, Motion
 
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
@@ -118,9 +117,8 @@ def load_data(load: LoadText, gears: Gears, motion: Motion) -> tuple[Load, list[
     )
     assert torque is not None, "a load by power has a speed"
     why = {"pinion_torque": "T_2 = T_1 z2/z1", "power": "T_2 = P/(2 pi n_2)"}
-    return Load(torque, name), (
-        [] if name == "wheel_torque" else [Derived("torque on the wheel", 1e-3 * torque, "N m", why[name])]
-    )
+    derived = [Derived("torque on the wheel", 1e-3 * torque, "N m", why[name])] if name in why else []
+    return Load(torque, name), derived
 
 
 def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Derived]]:

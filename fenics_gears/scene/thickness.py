@@ -8,9 +8,9 @@ from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse
 
 from . import unusual
-from .data import Derived
 from .gear_schema import MEASURES, Gears
 from .gear_schema import Gear as GearText
+from .schema import Derived
 
 # Largest difference, in modules, of the profile shift of a thickness from that of the drawing, and largest profile
 # shift that a thickness alone may stand for: one spanned tooth more or less is a shift of 4.3 at 20 deg.

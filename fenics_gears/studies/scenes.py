@@ -13,7 +13,8 @@ from fenics_gears.inputs.problem import NOTHING_DONE, Problem
 from fenics_gears.inputs.section import read
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.model import RELIEFS, Model, model_of, with_reliefs
-from fenics_gears.scene.read import scene_of
+from fenics_gears.scene.data import Scene
+from fenics_gears.scene.parsing import values_of
 from fenics_gears.scene.rules import broken_by_numbers
 
 from . import fields
@@ -124,9 +125,10 @@ def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Model:
     """The model of a parsed scene. Raises NoScene."""
     try:
         text = as_toml(tree)
-        scene, problems = scene_of(tree, text, name, directory)
-        if scene is None:
+        values, problems = values_of(tree, text, name, directory)
+        if values is None:
             raise NoScene(problems)
+        scene = Scene(**values)
         # It gives this scene, which need not be written and read again to see whether it does.
         scene.__dict__["text"] = text
         return model_of(scene)

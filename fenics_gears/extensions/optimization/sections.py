@@ -10,7 +10,7 @@ from fenics_gears import load_scene, units
 from fenics_gears.inputs.problem import did_you_mean, line_numbers
 from fenics_gears.inputs.section import Section, names_in, read
 from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.read import parsed
+from fenics_gears.scene.parsing import parsed
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import AxisError, factor_of, number_in, values_of
 from fenics_gears.studies.study_file import Mistakes, entries

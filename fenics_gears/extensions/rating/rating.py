@@ -8,7 +8,18 @@ from math import isnan, nan
 import numpy as np
 import xarray as xr
 
-from fenics_gears import GearPair, Scene, SceneError, gear_pair, lumped_gears, of_settled
+from fenics_gears import (
+    GearPair,
+    Scene,
+    SceneError,
+    face_compliance_of_shafts,
+    face_opening,
+    gear_pair,
+    lumped_gears,
+    middles_of_slices,
+    model_of,
+    of_settled,
+)
 
 from .finish import Finish
 from .flank import flank_stress
@@ -99,8 +110,6 @@ def _shafts_bend(scene: Scene) -> bool:
 def _on_bent_shafts(scene: Scene, pair: GearPair) -> dict[str, np.ndarray]:
     if not _shafts_bend(scene):
         return {}
-    from fenics_gears import face_compliance_of_shafts, face_opening, middles_of_slices, model_of
-
     z = middles_of_slices(pair)
     return {
         "shafts": face_compliance_of_shafts(model_of(scene).drivetrain.elastic, pair, z),
@@ -118,8 +127,6 @@ def _misalignment(scene: Scene, pair: GearPair) -> float | None:
     sloped = leads is not None and any(own is not None and own.helix_slope for own in (leads.pinion, leads.wheel))
     if scene.misalignment is None and not sloped:
         return None
-    from fenics_gears import face_opening
-
     z = np.linspace(*pair.common_face, POINTS)
     return 1e3 * pair.face_width * float(np.polyfit(z, face_opening(pair, leads, scene.misalignment, z), 1)[0])
 

@@ -12,6 +12,7 @@ from math import gcd
 import numpy as np
 import xarray as xr
 
+from fenics_gears.results.load_factors import mean_line_load
 from fenics_gears.results.pairs import carrying_side, in_middle_slice
 
 CURVE = "T_E"
@@ -75,8 +76,6 @@ def judged_answer(run: xr.Dataset) -> Answer:
 def _over_face(run: xr.Dataset) -> Answer:
     """Line load, N/mm, of all tooth pairs together, averaged over the mesh cycle, at places along the face; and the
     load factors."""
-    from fenics_gears.results.load_factors import mean_line_load
-
     names = {FACE_LOAD: "face_load_factor", LARGEST_LOAD: "largest_line_load_factor"}
     found = {measure: np.array([run.attrs[name]]) for measure, name in names.items() if name in run.attrs}
     load = mean_line_load(run, carrying_side(run)) if run.sizes.get("contact_time") else None
