@@ -1,7 +1,6 @@
 """The whole gear by brute force."""
 
 import numpy as np
-from meshes.root_crack import joined_sectors
 
 from fenics_gears import Gear, Material
 from fenics_gears.elasticity.compliance import FlankCompliance
@@ -10,6 +9,7 @@ from fenics_gears.elasticity.element_nodes import node_roll_angles
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import rotation
+from meshes.root_crack import joined_sectors
 
 
 def whole_gear_compliance(

@@ -208,15 +208,15 @@ def shown_progress(quiet: bool) -> Progress:
     return BarProgress(Console(stderr=True))
 
 
-def plots() -> ModuleType:
-    """The module `show.plots`; matplotlib is imported without the lists of properties in its docstrings, which take a
-    quarter of that time."""
+def plots(name: str = "plots") -> ModuleType:
+    """The module of that name in `show`; matplotlib is imported without the lists of properties in its docstrings,
+    which take a quarter of that time."""
     from matplotlib import artist
 
     properties = artist.kwdoc
     artist.kwdoc = lambda kind: ""
     try:
-        return import_module("fenics_gears.show.plots")
+        return import_module(f"fenics_gears.show.{name}")
     finally:
         artist.kwdoc = properties
 

@@ -63,7 +63,7 @@ def _told(outcome: Outcome, options: argparse.Namespace) -> int:
 
     pictures: list[Path] | None = []
     if not outcome.interrupted:
-        pictures = after_result(outcome.file, "pictures", lambda: plots().draw_study(outcome.file))
+        pictures = after_result(outcome.file, "pictures", lambda: plots("study_pictures").draw_study(outcome.file))
     if not options.quiet:
         print_rows(outcome.study.title, summary_rows(outcome))
         print_rows("Files", [("", str(file), "") for file in (outcome.file, *(pictures or []))])

@@ -50,7 +50,7 @@ def _found(directory: Path, name: str) -> Path:
 
 
 def files(errors: FlankErrors) -> dict[str, str]:
-    found = {}
+    found: dict[str, str] = {}
     for own in (errors.pinion, errors.wheel):
         said = {"file": {name: getattr(own, name) for name in own.columns}}
         said |= {name: repr(getattr(own, measured)) for name, (measured, _) in CURVES.items()}

@@ -71,9 +71,10 @@ def flank_deviations(
     """Deviations of pinion and wheel; `middles` (mm): heights of their mid-widths, None in the plane."""
     gears = zip((pair.pinion, pair.wheel), (errors.pinion, errors.wheel), pair.sap_roll_angles)
     faces = (None, None) if middles is None else tuple(zip(pair.face_widths, middles))
-    return tuple(
+    pinion, wheel = (
         _of_gear(gear, own, errors, number, start, faces[number]) for number, (gear, own, start) in enumerate(gears)
     )
+    return pinion, wheel
 
 
 def _of_gear(

@@ -162,8 +162,10 @@ def file_name(
     """The name of a file that ends in ``ending``, optional."""
     limits = f"that ends in {ending}, of at most {LONGEST_FILE_NAME} characters"
     description = f'the name of a file {limits}, such as "{example}"'
-    marks |= {"ending": ending, "made": made}
-    return declared(AllowedFile(description=description, meaning=meaning, otherwise=otherwise, **marks))
+    allowed = AllowedFile(
+        description=description, meaning=meaning, otherwise=otherwise, ending=ending, made=made, **marks
+    )
+    return declared(allowed)
 
 
 def switch(*, meaning: str) -> Any:

@@ -55,8 +55,13 @@ def shafts_with_sections(tree: Tree) -> list[str]:
 def written_out(tree: dict[str, Any]) -> dict[str, Any]:
     """A parsed file with its short forms written out: ``material = "steel"`` is a section with that name, and listed
     bearings, ``[[bearings.pinion]]``, are in the gear's section."""
-    gears, shafts, bearings = (table(tree, name) or {} for name in ("gears", "shafts", "bearings"))
-    homes = (gears, *(table(gears, gear) for gear in GEARS), *(table(shafts, shaft) for shaft in SHAFTS))
+    gears, shafts = (table(tree, name) or {} for name in ("gears", "shafts"))
+    bearings: Any = table(tree, "bearings") or {}
+    homes: tuple[Any, ...] = (
+        gears,
+        *(table(gears, gear) for gear in GEARS),
+        *(table(shafts, shaft) for shaft in SHAFTS),
+    )
     for home in homes:
         if home is not None and isinstance(home.get("material"), str):
             home["material"] = {"name": home["material"]}

@@ -55,10 +55,10 @@ def describe(scene: Scene) -> list[tuple[str, Rows]]:
     """Geometry, model, accuracy, natural frequencies and cost of a scene: headings, each with rows (label, value,
     unit). Raises GeometryError for impossible gears."""
     model = model_of(scene)
-    derived = [(each.name, each.value, f"{each.unit}, {each.formula}".lstrip(", ")) for each in scene.derived]
+    derived: Rows = [(each.name, each.value, f"{each.unit}, {each.formula}".lstrip(", ")) for each in scene.derived]
     sections: list[tuple[str, Rows]] = [("Derived, since the scene leaves it out", derived)] if derived else []
     sections += [
-        ("Gear pair", characteristics(model.pair, scene.measured_over)),
+        ("Gear pair", [*characteristics(model.pair, scene.measured_over)]),
         ("Model", _model_rows(model)),
         ("Accuracy", _accuracy_rows(model)),
     ]
@@ -175,7 +175,7 @@ def _plane_rows(model: Model) -> Rows:
     strain leaves out of a narrow face."""
     pair = model.pair
     scene = model.scene
-    found = []
+    found: Rows = []
     if scene.tooth_elasticity is None or scene.accuracy.model == ISO_6336:
         return []
     if pair.effective_face_widths != (pair.face_width, pair.face_width):

@@ -62,7 +62,7 @@ class AlongTheFace:
         return {**words, "root_stress_at_30_degrees": f"largest {section}", "root_stress_over_face": section}
 
     def numbers(self, counted: xr.Dataset) -> dict[str, float | str]:
-        return load_factors(counted, self.pair)
+        return {**load_factors(counted, self.pair)}
 
     def numbers_of_curves(
         self, curves: Mapping[str, np.ndarray], nodes: SideBySide, first: int, contact_steps: int

@@ -62,7 +62,8 @@ class GearStore:
             self._cycle = cycle.with_gaps(gaps_of(model, cycle)) if shared else cycle
             self._cycle_key = of_cycle
         if shared:
-            bodies = tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in bodies)
+            pinion, wheel = (replace(gear, timings={**gear.timings, **NO_TIME}) for gear in bodies)
+            bodies = pinion, wheel
         return bodies, self._cycle
 
     @property

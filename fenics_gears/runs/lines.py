@@ -81,7 +81,7 @@ def append(directory: Path, line: Mapping[str, Any]) -> None:
 
 def kept(directory: Path) -> tuple[dict[str, Line], int]:
     """All whole lines by their `key`, and how many more there are of versions of the program with other numbers."""
-    found = {}
+    found: dict[str, Line] = {}
     others = 0
     for file in sorted(directory.glob(f"*{ENDING}")):
         for text in file.read_bytes().split(b"\n"):

@@ -121,7 +121,7 @@ def settled(scene: Scene | Model, progress: Progress) -> Settled:
         found = choose(known, target, progress)
     except MemoryError:
         raise MemoryEnded("before the run was over") from None
-    how = {"target": target, "estimated_error": found.estimated_error}
+    how: dict[str, Any] = {"target": target, "estimated_error": found.estimated_error}
     how |= {f"{ESTIMATED}{name}": part for name, part in found.parts.items()}
     how |= {"target_runs": found.runs, "target_remarks": "", "time_choose": time.perf_counter() - begun}
     if found.accuracy.slices:

@@ -67,7 +67,7 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
 
 def _in_normal_section(gears: Gears) -> tuple[Gears, list[Derived]]:
     """The section with module and pressure angle, whatever they are given by, and what was derived."""
-    found = {}
+    found: dict[str, float | None] = {}
     derived = []
     for names, unit, size in ((MODULES, "mm", 1.0), (PRESSURE_ANGLES, "deg", pi / 180.0)):
         own, *others = names
@@ -128,10 +128,10 @@ def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Deriv
     cut, of_thickness = zip(*(_shift(pair, gear, name) for gear, name in zip(drawn, GEARS)))
     shifts = [gear.profile_shift if gear.profile_shift is not None else own for gear, own in zip(drawn, cut)]
     distance, of_distance = _centre_distance(pair, shifts, cut)
-    cut, of_backlash = _thinned(pair, cut, distance)
+    thinned, of_backlash = _thinned(pair, cut, distance)
     shortening, of_tips = _tip_shortening(pair, drawn, shifts, distance)
-    gears, of_gears = zip(*(_gear_data(pair, *each, shortening) for each in zip(drawn, GEARS, shifts, cut)))
-    asked = (_asked_measures(pair, *each) for each in zip(drawn, GEARS, cut))
+    gears, of_gears = zip(*(_gear_data(pair, *each, shortening) for each in zip(drawn, GEARS, shifts, thinned)))
+    asked = (_asked_measures(pair, *each) for each in zip(drawn, GEARS, thinned))
     return distance, gears, [*chain(*of_thickness, of_distance, of_backlash, of_tips, *of_gears, *asked)]
 
 

@@ -168,7 +168,7 @@ def of_variables(
 ) -> list[Chart]:
     """A chart of those of these variables, by name and words, that a run's result has, in this unit; none without any.
     Those of both gears have a curve for either. least: the smallest span shown, else a part of the largest value."""
-    curves = []
+    curves: list[Curve] = []
     for (name, words), colour in zip(names.items(), colours):
         if name in run.dataset:
             values = run.values(name, unit)

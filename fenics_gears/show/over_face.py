@@ -11,5 +11,10 @@ from .run import Run
 
 def charts_over_face(run: Run) -> dict[str, Callable[[Run], list[Chart]]]:
     """What draws them, by subject."""
-    found = {"Contact pattern": contact_patterns, "Line load along the face": line_loads}
-    return found | ({"Shafts under load": bent_shafts} if "bearing" in run.dataset.dims else {})
+    found: dict[str, Callable[[Run], list[Chart]]] = {
+        "Contact pattern": contact_patterns,
+        "Line load along the face": line_loads,
+    }
+    if "bearing" in run.dataset.dims:
+        found["Shafts under load"] = bent_shafts
+    return found

@@ -108,22 +108,6 @@ def _check_steps(run: Run) -> None:
     raise ComputationError(f"There is nothing to draw: {stored}, and a curve needs two. Run the scene again{remedy}.")
 
 
-def draw_study(file: Path) -> list[Path]:
-    """Draw what a study's cases are compared by over its parameters, as PNG beside its file, and return the files."""
-    from fenics_gears.studies.combine import load_combined
-
-    from .cases import Cases
-    from .study_charts import result_charts
-
-    cases = Cases(load_combined(file), file)
-    title = str(cases.dataset.attrs.get("title", "")) or file.parent.name
-    figures = {
-        f"{name}.png": picture(heading("Study", title, chart.caption, chart.note), [replace(chart, caption="")])
-        for name, chart in result_charts(cases).items()
-    }
-    return save_figures(figures, file.parent)
-
-
 def save_figures(figures: dict[str, Figure], directory: Path) -> list[Path]:
     """Save figures by their file names, all or none."""
     written: list[Path] = []

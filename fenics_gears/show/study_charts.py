@@ -1,6 +1,7 @@
 """Results over a study's parameters: lines over the field with most values; a map for many."""
 
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -123,8 +124,9 @@ def _map(axis: SweptField, other: SweptField, values: np.ndarray, title: str, na
         divided += letter if logarithmic(field) else ""
         edges.append(np.exp(_edges(np.log(places))) if logarithmic(field) else _edges(places))
     drawn = Field(edges[0], edges[1], grid, title, float(np.nanmax(values)), LOW_TO_HIGH)
-    options = {f"{letter}_range": (float(each[0]), float(each[-1])) for letter, each in zip("xy", edges)}
-    options |= {"logarithmic": divided, "field": drawn}
+    options: dict[str, Any] = {"logarithmic": divided, "field": drawn}
+    for letter, each in zip("xy", edges):
+        options[f"{letter}_range"] = (float(each[0]), float(each[-1]))
     words = f"{note} {'Blank where a case has no result.' if np.isnan(grid).any() else ''}".strip()
     caption = f"{name}{_against(name, axis)} and {other.called}"
     return Chart(caption, [], axis.title, other.title, words, 420, **options)

@@ -32,7 +32,7 @@ class Mistakes:
     def __init__(self, source: str, lines: Mapping[tuple[str, ...], int]):
         self._source = source
         self._lines = lines
-        self._said = {}
+        self._said: dict[str, None] = {}
 
     def add(self, path: tuple[str, ...], written: str | None, message: str) -> None:
         """Note a mistake at a path of the study file; ``written`` as for `Problem`."""

@@ -9,7 +9,6 @@ from demos.cracked_tooth.opening import CrackedBody
 from demos.cracked_tooth.opening import table as opening_table
 from demos.cracked_tooth.picture import draw
 from demos.cracked_tooth.turns import ALONE, SHOWN, table
-from meshes.root_crack import RootCrack, cracked_sector_mesh
 
 from fenics_gears import load_scene, model_of
 from fenics_gears.elasticity.element_sizes import element_sizes
@@ -17,6 +16,7 @@ from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.outline import whole_body
 from fenics_gears.scene.data import Accuracy
+from meshes.root_crack import RootCrack, cracked_sector_mesh
 
 COARSE = Accuracy(
     element="P2",

@@ -4,7 +4,6 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from meshes.root_crack import joined_sectors
 from tests.coarse_sector import COARSE, PINION, STEEL, relative
 
 from fenics_gears.elasticity.compliance import Reach
@@ -18,6 +17,7 @@ from fenics_gears.elasticity.ring import centre_motion, rotation
 from fenics_gears.elasticity.sector_boundary import flank_roll_angles, flank_through
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.involute import arc_length
+from meshes.root_crack import joined_sectors
 
 ANGLE = 0.37
 # Roll angles on two neighbouring teeth and on the third after them.

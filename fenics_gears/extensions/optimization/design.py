@@ -50,7 +50,7 @@ class Variable:
 
     def at(self, place: float | str) -> float | str:
         """The value, as it is written, at a place of its range, 0 to 1; a word as it is."""
-        return place if self.words else float(f"{self.low + place * (self.high - self.low):.5g}")
+        return place if self.words else float(f"{self.low + float(place) * (self.high - self.low):.5g}")
 
 
 @dataclass(frozen=True)

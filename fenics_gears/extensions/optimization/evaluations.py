@@ -136,7 +136,7 @@ class Evaluator:
         self.runs.compute(missing, tick)
 
     def _evaluation(self, values: dict[str, float | str], cases: list[Run | Failure], samples: int) -> Evaluation:
-        lines = [case if isinstance(case, Failure) else self.runs.known[case.key] for case in cases]
+        lines: list[Any] = [case if isinstance(case, Failure) else self.runs.known[case.key] for case in cases]
         failures = [str(line) for line in lines if isinstance(line, Failure)]
         if failures:
             return Evaluation(values, failure=failures[0])

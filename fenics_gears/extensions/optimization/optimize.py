@@ -158,7 +158,7 @@ def _look_around(outcome: Outcome, evaluator: Evaluator) -> None:
     nominal = np.zeros((1, count))
     for variable in design.variables:
         evenly = {*map(variable.at, np.linspace(0.0, 1.0, VALUES)), values[variable.name]}
-        places = list(variable.words) or sorted(evenly)
+        places: list[Any] = [*variable.words] or sorted(evenly)
         designs = [values | {variable.name: place} for place in places]
         outcome.along[variable.name] = places, evaluator.of_designs(designs, nominal)
     if not count:

@@ -23,7 +23,7 @@ def write_page(outcome: Outcome) -> Path:
 
 def optimization_page(outcome: Outcome) -> Page:
     design = outcome.design
-    maps = charts.harris_charts(outcome) or [Words("A run of the Harris maps failed.", warns=True)]
+    maps: list[Block] = [*charts.harris_charts(outcome)] or [Words("A run of the Harris maps failed.", warns=True)]
     sections = [
         _summary(outcome),
         Section(

@@ -59,8 +59,8 @@ def single_pair_factors(operation: Operation) -> tuple[float, float]:
         behind = ends[other] - (pair.contact_ratio - 1.0) * pitches[other]
         return tan(working) / sqrt(before * behind)
 
-    factors = factor(0, 1), factor(1, 0)
-    return tuple(max(each - overlap * (each - 1.0), 1.0) for each in factors)
+    pinion, wheel = (max(each - overlap * (each - 1.0), 1.0) for each in (factor(0, 1), factor(1, 0)))
+    return pinion, wheel
 
 
 def _film(operation: Operation) -> float:

@@ -34,7 +34,8 @@ class RootStress:
 def root_stresses(operation: Operation, factors: LoadFactors) -> tuple[RootStress, RootStress]:
     """Of pinion and wheel: F_t / (b m_n) Y_F Y_S Y_beta, raised by the load factors; the limit by Y_delta_relT, Y_RrelT
     and Y_X of case-hardened steel."""
-    return tuple(_of_gear(operation, factors, gear) for gear in (operation.pair.pinion, operation.pair.wheel))
+    pair = operation.pair
+    return _of_gear(operation, factors, pair.pinion), _of_gear(operation, factors, pair.wheel)
 
 
 def _of_gear(operation: Operation, factors: LoadFactors, gear: Gear) -> RootStress:

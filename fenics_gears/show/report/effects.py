@@ -24,7 +24,7 @@ def effects(run: Run) -> Section:
     states = effect_states(run.scene)
     on = [(f"[{state.effect.written}]", state.words) for state in states if state.on]
     off = [(f"[{state.effect.written}]", state.words) for state in states if not state.on]
-    tables = [
+    tables: list[Block] = [
         Table(("Section", "The model has"), on, "On", numbers=9),
         Fold(f"Off: {len(off)}", [Table(("Section", "In its place the model has"), off, numbers=9)]),
     ]  # fmt: skip

@@ -5,6 +5,7 @@ Only its browser library is used: plotly's Python objects take longer to make th
 
 import html
 import math
+from typing import Any
 
 import numpy as np
 
@@ -135,7 +136,7 @@ def _words(curve: Curve) -> list[dict]:
     """Words beside the points of a curve."""
     up = ("top" in curve.beside) - ("bottom" in curve.beside)
     right = 1 if "right" in curve.beside else -1
-    at = {"xanchor": "left" if right > 0 else "right", "yanchor": ("middle", "bottom", "top")[up]}
+    at: dict[str, Any] = {"xanchor": "left" if right > 0 else "right", "yanchor": ("middle", "bottom", "top")[up]}
     at |= {"xshift": 7 * right, "yshift": 5 * up}
     look = {"font": {"size": 12, "color": DARK}, "bgcolor": "rgba(255, 255, 255, 0.8)", "borderpad": 1}
     look["showarrow"] = False

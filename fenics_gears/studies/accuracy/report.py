@@ -228,7 +228,7 @@ class AccuracyStudy:
         """Run every scene once a round, with gears of its own, so that other load of the machine affects all alike."""
         self.progress.stage("whole settings")
         answers = {}
-        times = {}
+        times: dict[str, Times] = {}
         left = set(scenes)
         for name in self.progress.counted(list(scenes) * self.rounds, str):
             if name not in left:

@@ -3,7 +3,6 @@
 import gmsh
 import numpy as np
 import pytest
-from meshes.root_crack import RootCrack, cracked_gear_mesh
 from tests.coarse_sector import COARSE, PINION, STEEL, coarse_condensed_sector, coarse_sector_mesh, relative
 from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
@@ -19,6 +18,7 @@ from fenics_gears.elasticity.ring import ring_compliance, rotation
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.outline import whole_body
 from fenics_gears.geometry.outline import tooth_outline
+from meshes.root_crack import RootCrack, cracked_gear_mesh
 
 
 def standing_anywhere(mesh: BodyMesh) -> BodyMesh:

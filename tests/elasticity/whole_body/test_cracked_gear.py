@@ -9,7 +9,6 @@ from functools import lru_cache
 import numpy as np
 import pytest
 from matplotlib.tri import LinearTriInterpolator, Triangulation
-from meshes.root_crack import RootCrack, crack_line, cracked_gear_mesh, cracked_sector_mesh, opened
 from tests.coarse_sector import COARSE, PINION, STEEL, coarse_sector_mesh
 
 from fenics_gears import SceneError
@@ -24,6 +23,7 @@ from fenics_gears.elasticity.sector_mesh import filled, sector_mesh
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.outline import whole_body
 from fenics_gears.geometry.outline import tooth_outline
+from meshes.root_crack import RootCrack, crack_line, cracked_gear_mesh, cracked_sector_mesh, opened
 
 LENGTH, HEIGHT = 6.0, 1.0
 

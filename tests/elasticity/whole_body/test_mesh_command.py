@@ -4,12 +4,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from meshes.cracked_gear import main
 
 from fenics_gears import load_scene, model_of
 from fenics_gears.elasticity.body_mesh_file import read_body_mesh
 from fenics_gears.elasticity.whole_body.outline import whole_body
 from fenics_gears.elasticity.whole_body.parts import crack_faces
+from meshes.cracked_gear import main
 
 ROOT = Path(__file__).parents[3]
 SCENE = ROOT / "demos" / "lundvall2004.toml"

@@ -5,7 +5,6 @@ from dataclasses import replace
 import gmsh
 import numpy as np
 import pytest
-from meshes.root_crack import joined_sectors
 from tests.coarse_sector import PINION, coarse_sector_mesh
 from tests.whole_gear import whole_gear_mesh
 
@@ -15,6 +14,7 @@ from fenics_gears.elasticity.gmsh_session import start
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.whole_body.outline import OUTLINE_TOLERANCE, whole_body
+from meshes.root_crack import joined_sectors
 
 
 @pytest.fixture(scope="module")
