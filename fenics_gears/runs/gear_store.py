@@ -62,8 +62,8 @@ class GearStore:
             self._cycle = cycle.with_gaps(gaps_of(model, cycle)) if shared else cycle
             self._cycle_key = of_cycle
         if shared:
-            pinion, wheel = (replace(gear, timings={**gear.timings, **NO_TIME}) for gear in bodies)
-            bodies = pinion, wheel
+            # Of springs there are none.
+            bodies = tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in bodies)
         return bodies, self._cycle
 
     @property
