@@ -122,8 +122,8 @@ def most_together(missing: int, processes: int) -> int:
 
 def solved_at_once(models: Sequence[Model], asked: Collection[str]) -> bool:
     """Whether runs of these models are solved together where the numbers `asked` alone are kept."""
-    alike = len({operators_key(model) for model in models}) == 1
-    return alike and all(can_be_solved_together(model, asked) for model in models)
+    same = len({operators_key(model) for model in models}) == 1
+    return same and all(can_be_solved_together(model, asked) for model in models)
 
 
 def in_order_of_sharing(runs: Iterable[Run]) -> list[Run]:

@@ -31,7 +31,6 @@ from fenics_gears.runs import one_run, runs
 from fenics_gears.runs.simulate import simulate
 from fenics_gears.runs.team import Alone
 from fenics_gears.scene.read import build_scene, load_scene
-from fenics_gears.simulation import together
 from fenics_gears.simulation.simulate import solved
 from fenics_gears.system.progress import Interruption, SilentProgress
 
@@ -252,7 +251,7 @@ def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
         raise ComputationError("what fails together is computed run by run")
 
     monkeypatch.setattr(one_run, "solved", failing)
-    monkeypatch.setattr(together, "solved_together", failing_together)
+    monkeypatch.setattr(runs, "solved_together", failing_together)
     path = write(folder, STILL + VARIABLES + GOAL + FEW)
     outcome = found(path)
     failed = [each for each in outcome.tried if each.failure]
