@@ -38,12 +38,12 @@ from fenics_gears.results.files import load as load
 from fenics_gears.results.key_numbers import HARMONIC_NAMES as HARMONIC_NAMES
 from fenics_gears.results.key_numbers import MICROMETRE as MICROMETRE
 from fenics_gears.results.settled import of_settled as of_settled
+from fenics_gears.runs.simulate import simulate as simulate
 from fenics_gears.scene.data import Load as Load
 from fenics_gears.scene.data import Scene as Scene
 from fenics_gears.scene.read import build_scene as build_scene
 from fenics_gears.scene.read import load_scene as load_scene
 from fenics_gears.scene.read import scene_from_text as scene_from_text
-from fenics_gears.simulation.simulate import simulate as simulate
 from fenics_gears.system import user_file as user_file
 
 __version__: str

@@ -3,6 +3,8 @@ picture of error against time."""
 
 import argparse
 
+from fenics_gears.system.console import print_rows, print_table
+
 from .measuring import measured, print_origin, scene_to_measure, write_report
 from .shared import WITHOUT_SOMETHING, add_memory_argument, add_output_argument, add_scene_argument
 
@@ -31,7 +33,6 @@ def accuracy(options: argparse.Namespace) -> int:
 
 def _print(report, files) -> None:
     from fenics_gears.studies.accuracy import table
-    from fenics_gears.system.console import print_rows, print_table
 
     title = f"{report.scene.title}: each setting's error, the others at {report.fine.words}"
     print_table(title, table.headings(report), table.table_rows(report))

@@ -3,6 +3,8 @@
 import argparse
 from datetime import datetime
 
+from fenics_gears.system.console import print_rows
+
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("cache", parents=[shared])
@@ -14,7 +16,6 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 def cache(options: argparse.Namespace) -> int:
     from fenics_gears.elasticity.cache import user_cache
-    from fenics_gears.system.console import print_rows
 
     kept = user_cache()
     if options.clear:

@@ -3,6 +3,7 @@
 import argparse
 
 from fenics_gears.errors import ComputationError
+from fenics_gears.system.console import print_rows
 from fenics_gears.system.memory import allowed_memory
 
 from .shared import add_memory_argument, add_scene_argument, checked_model
@@ -20,7 +21,6 @@ def check(options: argparse.Namespace) -> int:
     hold it."""
     from fenics_gears.model.cost import expected_cost
     from fenics_gears.model.fitting import too_large
-    from fenics_gears.system.console import print_rows
 
     model = checked_model(options.scene)
     scene = model.scene

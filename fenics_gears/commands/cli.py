@@ -32,7 +32,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (``sys.argv`` where none is given) and return the exit code."""
     if arguments is None:
         # DOLFINx would read them too: it takes -v for its own, and ends at a name that is no UTF-8.
-        arguments, sys.argv = sys.argv[1:], ["gears"]
+        arguments = sys.argv[1:]
+        sys.argv = ["gears"]
     prepare_streams()
     return _written(lambda: _in_words(lambda: _command(list(arguments))))
 
@@ -47,7 +48,9 @@ def _command(arguments: list[str]) -> int:
 def _settings_of_a_command() -> Iterator[None]:
     """Look for garbage rarely; afterwards, since a notebook goes on in the same process, put back this and what the
     command freezes and sets FENICS_GEARS_MEMORY to."""
-    thresholds, frozen, memory = gc.get_threshold(), gc.get_freeze_count(), os.environ.get(MEMORY_VARIABLE)
+    thresholds = gc.get_threshold()
+    frozen = gc.get_freeze_count()
+    memory = os.environ.get(MEMORY_VARIABLE)
     # Python's usual search for garbage among a million objects that stay takes a tenth of a short run.
     gc.set_threshold(200_000, 50, 100)
     try:

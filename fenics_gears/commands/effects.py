@@ -3,6 +3,8 @@ each effect takes and how it changes the result."""
 
 import argparse
 
+from fenics_gears.system.console import print_rows, print_table
+
 from .measuring import measured, print_origin, scene_to_measure, write_report
 from .shared import WITHOUT_SOMETHING, add_memory_argument, add_output_argument, add_scene_argument
 
@@ -30,7 +32,6 @@ def effects(options: argparse.Namespace) -> int:
 
 def _print(report, files) -> None:
     from fenics_gears.studies.effect_costs import table
-    from fenics_gears.system.console import print_rows, print_table
 
     heading = f"{report.scene.title}: effects, one more than the bare scene and one less than all"
     print_table(heading, table.headings(report), table.table_rows(report))

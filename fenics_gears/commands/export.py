@@ -2,6 +2,8 @@
 
 import argparse
 
+from fenics_gears.system.output import write_whole
+
 from .shared import add_output_argument, add_run_argument, file_to_write, loaded_run, print_files, run_file
 
 CURVES_FILE = "curves.csv"
@@ -18,7 +20,6 @@ def export(options: argparse.Namespace) -> int:
     file = run_file(options.run)
     output = file_to_write(options, file.parent / CURVES_FILE, "the table")
     from fenics_gears.results.curves_table import save_curves
-    from fenics_gears.system.output import write_whole
 
     dataset = loaded_run(file)
     print_files([write_whole(output, lambda path: save_curves(dataset, path))], options.quiet)

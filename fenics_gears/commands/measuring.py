@@ -5,7 +5,9 @@ from contextlib import closing
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
+from fenics_gears.system.console import print_rows
 from fenics_gears.system.job import communicator
+from fenics_gears.system.output import written_aside
 
 from .shared import after_result, checked_model_and_directory, shown_progress
 
@@ -31,7 +33,6 @@ def measured(measure: Callable, quiet: bool):
 def write_report(report, directory: Path, name: str, write_csv: Callable, draw: Callable) -> list[Path]:
     """Write `name`.csv by `write_csv(report, file)`, then `name`.png, the figure `draw(report)`; return the files."""
     from fenics_gears.show.plots import save_figures
-    from fenics_gears.system.output import written_aside
 
     written: list[Path] = []
     with written_aside(directory, written) as aside:
@@ -42,7 +43,5 @@ def write_report(report, directory: Path, name: str, write_csv: Callable, draw: 
 
 def print_origin(report, files: list[Path]) -> None:
     """The end of a report: what it was measured on, and its files."""
-    from fenics_gears.system.console import print_rows
-
     print_rows("Measured on", [(name, words, "") for name, words in report.machine.items()])
     print_rows("Files", [("", str(file), "") for file in files])

@@ -6,10 +6,12 @@ from pathlib import Path
 
 from fenics_gears.errors import SceneError
 from fenics_gears.system.console import printable
+from fenics_gears.system.output import check_writable, write_whole
 
 from .shared import add_output_argument, add_run_argument, loaded_run, print_files, run_file, shown_progress
 
-PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
+PICTURE_FILE = "stress.png"
+ANIMATION_FILE = "stress.gif"
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -61,7 +63,6 @@ def _written(options, dataset, scene, index: int, output: Path | None, progress)
     from fenics_gears.show.stress_grid import save_vtu
     from fenics_gears.show.stress_picture import save_picture, still
     from fenics_gears.simulation.run_stresses import RunStresses
-    from fenics_gears.system.output import write_whole
 
     written: list[Path] = []
     with RunStresses(dataset, scene) as runs:
@@ -94,8 +95,6 @@ def _loaded(file: Path):
 
 
 def _check_outputs(options, output: Path | None) -> None:
-    from fenics_gears.system.output import check_writable
-
     for path in (output, options.vtu, options.pvd):
         if path is not None:
             check_writable(path.parent, path.name)

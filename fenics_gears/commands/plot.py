@@ -3,6 +3,7 @@
 import argparse
 
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
+from fenics_gears.system.output import check_writable
 
 from .shared import add_output_argument, add_run_argument, loaded_run, plots, print_files, run_file
 
@@ -15,8 +16,6 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def plot(options: argparse.Namespace) -> int:
-    from fenics_gears.system.output import check_writable
-
     file = run_file(options.run)
     directory = options.output or file.parent
     check_writable(directory, *PICTURE_FILES, *FACE_PICTURE_FILES)

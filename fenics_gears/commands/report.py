@@ -6,7 +6,10 @@ from os.path import exists, isdir
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
+from fenics_gears.system.job import communicator
+from fenics_gears.system.output import check_writable, write_whole
 
+from .measuring import NO_TIMES, write_report
 from .shared import (
     CASES,
     JOURNAL,
@@ -87,8 +90,6 @@ def output_file(asked: Path | None, file: Path, is_study: bool) -> Path:
 
 
 def _check(options: argparse.Namespace, file: Path, output: Path, is_study: bool) -> None:
-    from fenics_gears.system.output import check_writable
-
     check_writable(output.parent, output.name)
     if options.effects and not is_study:
         check_writable(file.parent, *EFFECTS_FILES)
@@ -122,9 +123,6 @@ def _measure_effects(run, progress) -> list[Path]:
     from fenics_gears.show.effect_costs import effect_costs
     from fenics_gears.studies.effect_costs.measured import measure
     from fenics_gears.studies.effect_costs.table import write_csv
-    from fenics_gears.system.job import communicator
-
-    from .measuring import NO_TIMES, write_report
 
     if run.scene is None:
         raise SceneError(f"{run.file}: the scene in it is none of this version. Run the scene again.")
@@ -135,7 +133,6 @@ def _measure_effects(run, progress) -> list[Path]:
 
 def _write(page, output: Path) -> Path:
     from fenics_gears.show.report.rendering import rendered
-    from fenics_gears.system.output import write_whole
 
     text = rendered(page)
     return write_whole(output, lambda path: path.write_text(text, encoding="utf-8"))

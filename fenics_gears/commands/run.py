@@ -9,11 +9,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.errors import ComputationError
-from fenics_gears.results.afterwards import FAILED
+from fenics_gears.errors import FAILED, ComputationError
 from fenics_gears.results.summary import Row
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
+from fenics_gears.system.console import print_rows
 from fenics_gears.system.job import Job, led
+from fenics_gears.system.output import write_whole
 from fenics_gears.system.progress import Interruption
 
 from .shared import (
@@ -50,7 +51,7 @@ def run(options: argparse.Namespace) -> int:
 def _run(options: argparse.Namespace, job: Job | None) -> int:
     model, directory = checked_model_and_directory(options, RUN_FILE, *PICTURE_FILES, *FACE_PICTURE_FILES)
     from fenics_gears.results.journal import Place, is_journal
-    from fenics_gears.simulation.simulate import simulate
+    from fenics_gears.runs.simulate import simulate
 
     # What imports have made stays: the search for garbage need not look at it.
     gc.freeze()
@@ -131,10 +132,10 @@ class _Kept:
     def _save(self, dataset) -> None:
         from fenics_gears import results
         from fenics_gears.results.journal import remove
-        from fenics_gears.system.output import write_whole
 
         self._interruption.ignore()
-        self.dataset, self._written = dataset, _names(dataset)
+        self.dataset = dataset
+        self._written = _names(dataset)
         directory = self.file.parent
         write_whole(self.file, lambda path: results.save(dataset, path))
         remove(directory / JOURNAL)
@@ -163,7 +164,5 @@ def _summary(model, dataset, stages: Sequence[tuple[str, float]]) -> list[Row]:
 
 
 def _print(title: str, rows: Sequence[Row], files: Sequence[Path]) -> None:
-    from fenics_gears.system.console import print_rows
-
     print_rows(title, rows)
     print_rows("Files", [("", str(file), "") for file in files])

@@ -12,11 +12,11 @@ from math import inf
 from os.path import exists, isdir
 from pathlib import Path
 from types import ModuleType
-from typing import TypeVar
 
-from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.errors import ComputationError, Found, SceneError, attempted
 from fenics_gears.system.console import on_terminal, printable
 from fenics_gears.system.memory import size_in_bytes
+from fenics_gears.system.output import check_writable
 from fenics_gears.system.progress import BarProgress, LineProgress, Progress, SilentProgress
 
 # Exit codes that no error carries itself. The run came to its end, but jammed or came apart.
@@ -27,8 +27,9 @@ INTERRUPTED = 130
 # 128 + SIGPIPE, as a shell has it.
 NOBODY_READS = 141
 
-Found = TypeVar("Found")
-RUN_FILE, STUDY_FILE, CASES = "run.nc", "study.nc", "cases"
+RUN_FILE = "run.nc"
+STUDY_FILE = "study.nc"
+CASES = "cases"
 # What a long run has recorded so far, removed when it has written RUN_FILE.
 JOURNAL = f"{RUN_FILE}.part"
 
@@ -111,7 +112,8 @@ def number_of_option(option: str, text: str, unit: str, low: float = 0.0, high: 
     from fenics_gears.inputs import units
 
     try:
-        (value, kind), (factor, wanted) = units.quantity(text), units.quantity(f"1 {unit}")
+        value, kind = units.quantity(text)
+        factor, wanted = units.quantity(f"1 {unit}")
     except units.QuantityError as error:
         raise SceneError(f'{option} "{text}": {error}') from None
     number = value / factor
@@ -143,8 +145,6 @@ def checked_model(path: Path):
 def checked_model_and_directory(options, *names: str):
     """The model of a command's scene, and the directory to write into, which takes files of these names. Raises as
     `checked_model` does, and SceneError for the directory."""
-    from fenics_gears.system.output import check_writable
-
     model = checked_model(options.scene)
     directory = options.output or Path("results") / model.scene.name
     check_writable(directory, *names, room=model.least_file_bytes if RUN_FILE in names else 0)
@@ -208,14 +208,15 @@ def shown_progress(quiet: bool) -> Progress:
     return BarProgress(Console(stderr=True))
 
 
-def plots() -> ModuleType:
-    """The module `show.plots`; matplotlib is imported without the lists of properties in its docstrings, which take a
-    quarter of that time."""
+def plots(name: str = "plots") -> ModuleType:
+    """The module of that name in `show`; matplotlib is imported without the lists of properties in its docstrings,
+    which take a quarter of that time."""
     from matplotlib import artist
 
-    properties, artist.kwdoc = artist.kwdoc, lambda kind: ""
+    properties = artist.kwdoc
+    artist.kwdoc = lambda kind: ""
     try:
-        return import_module("fenics_gears.show.plots")
+        return import_module(f"fenics_gears.show.{name}")
     finally:
         artist.kwdoc = properties
 
@@ -223,8 +224,6 @@ def plots() -> ModuleType:
 def file_to_write(options: argparse.Namespace, default: Path, what: str) -> Path:
     """The file of --output, or the default, which can be written; `what`: "the table", say. Raises SceneError for
     another ending than the default's, or where it cannot be written."""
-    from fenics_gears.system.output import check_writable
-
     output = options.output or default
     if output.suffix != default.suffix:
         raise SceneError(f"{output}: {what} is a {default.suffix} file; give --output such a name.")
@@ -235,8 +234,6 @@ def file_to_write(options: argparse.Namespace, default: Path, what: str) -> Path
 def after_result(kept: Path, what: str, carry_out: Callable[[], Found]) -> Found | None:
     """What `carry_out` makes of a result that is kept in a file already; None where it fails, which the error output
     says."""
-    from fenics_gears.results.afterwards import attempted
-
     said: dict[str, str] = {}
     found = attempted(said, what, carry_out)
     if said:

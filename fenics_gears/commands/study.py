@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fenics_gears.errors import ComputationError
+from fenics_gears.system.console import print_rows
 
 from .shared import (
     INTERRUPTED,
@@ -62,10 +63,8 @@ def _told(outcome: Outcome, options: argparse.Namespace) -> int:
 
     pictures: list[Path] | None = []
     if not outcome.interrupted:
-        pictures = after_result(outcome.file, "pictures", lambda: plots().draw_study(outcome.file))
+        pictures = after_result(outcome.file, "pictures", lambda: plots("study_pictures").draw_study(outcome.file))
     if not options.quiet:
-        from fenics_gears.system.console import print_rows
-
         print_rows(outcome.study.title, summary_rows(outcome))
         print_rows("Files", [("", str(file), "") for file in (outcome.file, *(pictures or []))])
         print(f"`gears report {outcome.file.parent}` makes one page of it all.")

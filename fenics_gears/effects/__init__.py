@@ -121,7 +121,8 @@ def check_files(scene, pair) -> None:
 
 
 def result_variables(scene) -> tuple[ResultVariable, ...]:
-    on, over_face = effects_on(scene), scene.three_dimensional
+    on = effects_on(scene)
+    over_face = scene.three_dimensional
 
     def is_there(variable: ResultVariable, data) -> bool:
         fields = variable.field.split(" or ") if variable.field else ()

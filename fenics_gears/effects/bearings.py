@@ -70,7 +70,8 @@ class Bearing(Section):
             from fenics_gears.dynamics.rolling_bearing import nominal_stiffness
 
             return self.worked or self.with_axial(nominal_stiffness(self.rolling))
-        radial, tilting = self.radial_stiffness or 0.0, self.tilting_stiffness
+        radial = self.radial_stiffness or 0.0
+        tilting = self.tilting_stiffness
         diagonal = (radial, radial, self.axial_stiffness, tilting, tilting)
         return tuple(tuple(each if row == column else 0.0 for column in range(5)) for row, each in enumerate(diagonal))
 

@@ -6,6 +6,9 @@ from dataclasses import dataclass, replace
 from math import lcm
 from pathlib import Path
 
+from fenics_gears.dynamics.crack_openings import closed_cracks, crack_openings
+from fenics_gears.elasticity.element_nodes import element_nodes
+from fenics_gears.elasticity.elements import element_named
 from fenics_gears.inputs.fields import file_name
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
@@ -92,7 +95,8 @@ def check(meshes: BodyMeshes, scene, pair) -> None:
 
 
 def warnings(meshes: BodyMeshes, model) -> list[str]:
-    wanted, found = model.resolution.flank_element_size, []
+    wanted = model.resolution.flank_element_size
+    found = []
     for name in GEARS:
         if getattr(meshes, name) is None:
             continue
@@ -111,7 +115,9 @@ def elasticity(meshes: BodyMeshes, model, name: str, reach, cache):
         return None
     from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 
-    gear, material, element = getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.element
+    gear = getattr(model.pair, name)
+    material = model.scene.gears.material_of(name)
+    element = model.resolution.element
     mesh = given_mesh(meshes, name, model.pair, element)
     # Forces one tooth beyond those that interact still open or close a crack.
     offsets = reach.same + 1
@@ -122,23 +128,16 @@ def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
     """Unknowns of a gear with a mesh of its own; None for the other."""
     if getattr(meshes, name) is None:
         return None
-    from fenics_gears.elasticity.element_nodes import element_nodes
-    from fenics_gears.elasticity.elements import element_named
-
     element = model.resolution.element
     return 2 * len(element_nodes(given_mesh(meshes, name, model.pair, element), element_named(element)).points)
 
 
 def watched(meshes: BodyMeshes, cycle, steps) -> dict:
     """Smallest and largest openings (steps,), mm, of the cracks of either gear."""
-    from fenics_gears.dynamics.crack_openings import crack_openings
-
     return crack_openings(cycle, steps.records)
 
 
 def findings(meshes: BodyMeshes, watched) -> list[str]:
-    from fenics_gears.dynamics.crack_openings import closed_cracks
-
     return closed_cracks(watched)
 
 

@@ -3,6 +3,8 @@
 from math import lcm
 
 from fenics_gears.contact.eccentricity import Eccentricity
+from fenics_gears.contact.run_out import RunOut
+from fenics_gears.contact.wobble import WobblingRunOut
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.tree import GEARS, Tree, table
 
@@ -18,10 +20,6 @@ def offsets_are_given(tree: Tree) -> Broken:
 
 
 def gaps(eccentricity: Eccentricity, model):
-    # Loaded here: what `gears check` does not need.
-    from fenics_gears.contact.run_out import RunOut
-    from fenics_gears.contact.wobble import WobblingRunOut
-
     kind = WobblingRunOut if eccentricity.wobbles else RunOut
     return kind(model.pair, eccentricity, model.resolution.steps_per_mesh_cycle)
 

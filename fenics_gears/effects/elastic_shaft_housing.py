@@ -19,7 +19,8 @@ from fenics_gears.system import user_file
 from .shafts import HousingFile, Shaft
 
 # Of a seat: displacements along x, y, z and rotations about them.
-OF_A_SEAT, ABOUT_Z = 6, 5
+OF_A_SEAT = 6
+ABOUT_Z = 5
 COMMENTS = ("#", "%", "!", "*")
 # Part of the largest entry that the digits of a file may be off by.
 ROUNDING = 1e-6
@@ -33,9 +34,12 @@ def found(shaft: Shaft | None, directory: Path) -> Shaft | None:
     path = os.path.realpath(directory / shaft.housing.path)
     try:
         text = user_file.text_of(Path(path), user_file.LARGEST_SCENE)
-        stiffness, problem = _matrix_in(text), ""
+        stiffness = _matrix_in(text)
+        problem = ""
     except (user_file.Unreadable, Refused) as refused:
-        text, stiffness, problem = "", None, str(refused)
+        text = ""
+        stiffness = None
+        problem = str(refused)
     return replace(shaft, housing=HousingFile(path, sha256(text.encode()).hexdigest(), stiffness, problem))
 
 
@@ -60,7 +64,8 @@ def check_housing(shaft: Shaft, name: str, bearings: int) -> None:
     """Raise SceneError where the matrix of [shafts.`name`] cannot be read, or is not of so many seats."""
     if shaft.housing is None:
         return
-    size, problem = OF_A_SEAT * bearings, shaft.housing.problem
+    size = OF_A_SEAT * bearings
+    problem = shaft.housing.problem
     rows = len(shaft.housing.stiffness or ())
     if not problem and rows != size:
         problem = f"has {rows} rows for {bearings} bearings; allowed are {size}: six motions of each seat"

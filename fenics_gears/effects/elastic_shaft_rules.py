@@ -8,6 +8,7 @@ from typing import Any
 
 from fenics_gears.dynamics.beam import STEEPEST_CONE
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions
+from fenics_gears.dynamics.shaft_at_work import at_work, even_load
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import LISTED, Broken
 from fenics_gears.inputs.section import names_in
@@ -105,17 +106,17 @@ def shaft_at_work(scene: Any, pair: Any, gear: str) -> ElasticShaft:
     found = elastic_shaft(scene, pair, gear)
     if all(each.rolling is None for each in found.bearings):
         return found
-    from fenics_gears.dynamics.shaft_at_work import at_work, even_load
-
     return replace(found, bearings=at_work(found, even_load(found, pair, scene.load.wheel_torque)))
 
 
 def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
     """The shaft with sections on which the "pinion" or the "wheel" of a scene sits, without load."""
-    shaft, number = scene.shafts.sections[gear], GEARS.index(gear)
+    shaft = scene.shafts.sections[gear]
+    number = GEARS.index(gear)
     material = scene.gears.materials[number]
     constants = shaft.material.constants(material)
-    width, bearings = pair.face_widths[number], scene.bearings.each_of(gear)
+    width = pair.face_widths[number]
+    bearings = scene.bearings.each_of(gear)
     found = ElasticShaft(
         gear, shaft.sections, constants, shaft.gear_at, width, shaft.torque_at, bearings,
         housing=stiffness_of_seats(shaft.housing),
@@ -127,7 +128,8 @@ def shaft_warnings(scene: Any, pair: Any) -> list[str]:
     """A sentence on each gear whose bore is not as wide as the shaft in it is thick."""
     found = []
     for gear, shaft in scene.shafts.sections.items():
-        bore, name = 2.0 * getattr(pair, gear).bore_radius, SHAFTS[GEARS.index(gear)]
+        bore = 2.0 * getattr(pair, gear).bore_radius
+        name = SHAFTS[GEARS.index(gear)]
         if shaft.seat != RIGID_SEAT:
             continue
         under = under_the_face(shaft.sections, elastic_shaft(scene, pair, gear).seat_ends)
@@ -159,7 +161,9 @@ def _sections_are_solid(found: ElasticShaft, shaft: str) -> Iterator[str]:
 
 def _places_are_on_the_shaft(found: ElasticShaft, shaft: str) -> Iterator[str]:
     """The gear's whole face and the coupling are on the shaft, and bearings beside the gear."""
-    length, half, width = found.length, 0.5 * found.seat, f"{found.seat:g} mm"
+    length = found.length
+    half = 0.5 * found.seat
+    width = f"{found.seat:g} mm"
     if length < found.seat - ROUND_OFF:
         yield (
             f"shafts.{shaft}.sections: are {length:g} mm long in all, shorter than the {found.gear}'s face of {width};"

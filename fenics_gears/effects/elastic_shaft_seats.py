@@ -9,6 +9,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+from fenics_gears.dynamics.elastic_shaft_hub import Hub, Ring
 from fenics_gears.inputs.tree import GEARS
 
 from .shafts import PRESS_FIT, RIGID_SEAT, ShaftSection
@@ -36,17 +37,18 @@ def seated(shaft: ElasticShaft, seat: str, gear: Gear, material: Material) -> El
 
 def hub_of(shaft: ElasticShaft, gear: Gear, material: Material) -> Hub:
     """Gear and shaft within the face as rings, the shaft as bored as it is there."""
-    # Imported here: few gears have a hub that gives way.
-    from fenics_gears.dynamics.elastic_shaft_hub import Hub, Ring
-
-    half, bore, constants = 0.5 * shaft.seat, gear.bore_radius, (material.youngs_modulus, material.poissons_ratio)
+    half = 0.5 * shaft.seat
+    bore = gear.bore_radius
+    constants = (material.youngs_modulus, material.poissons_ratio)
     bores = [part.bore for part, under in _cut_at(shaft.sections, shaft.seat_ends) if under]
     hollow = 0.5 * max(bores, default=0.0)
     within = Ring(hollow, bore, -half, half, *shaft.material)
     if gear.web is None:
         return Hub((Ring(bore, gear.root_radius, -half, half, *constants),), within)
-    middle, thick = gear.web.offset * shaft.seat, 0.5 * gear.web.share * shaft.seat
-    hub, rim = gear.web.hub_radius, gear.web.rim_radius
+    middle = gear.web.offset * shaft.seat
+    thick = 0.5 * gear.web.share * shaft.seat
+    hub = gear.web.hub_radius
+    rim = gear.web.rim_radius
     rings = [
         Ring(rim, gear.root_radius, -half, half, *constants),
         Ring(hub, rim, middle - thick, middle + thick, *constants),
@@ -67,7 +69,8 @@ def _cut_at(sections: Sequence[ShaftSection], face: tuple[float, float]) -> Iter
     """The sections of a shaft, cut at both ends of a gear's `face`, and whether each part is under it."""
     begin = 0.0
     for section in sections:
-        end, slope = begin + section.length, (section.right_diameter - section.diameter) / section.length
+        end = begin + section.length
+        slope = (section.right_diameter - section.diameter) / section.length
         stops = [begin, *(each for each in face if begin + ROUND_OFF < each < end - ROUND_OFF), end]
         for left, right in pairwise(stops):
             thick, end_thick = (section.diameter + slope * (each - begin) for each in (left, right))
@@ -83,8 +86,10 @@ def under_the_face(sections: Sequence[ShaftSection], face: tuple[float, float]) 
 
 def wrong_with_seat(scene: Any, pair: Any, found: ElasticShaft, shaft: str) -> Iterator[str]:
     """The shaft fits within the root circle; a gear cut into it is of one piece with it and coupled beside its face."""
-    own, gear = scene.shafts.sections[found.gear], getattr(pair, found.gear)
-    root, thickest = 2.0 * gear.root_radius, max(under_the_face(own.sections, found.seat_ends), default=0.0)
+    own = scene.shafts.sections[found.gear]
+    gear = getattr(pair, found.gear)
+    root = 2.0 * gear.root_radius
+    thickest = max(under_the_face(own.sections, found.seat_ends), default=0.0)
     if thickest > root:
         yield (
             f"shafts.{shaft}.sections: the shaft is {thickest:g} mm thick under the {found.gear}'s face, more than the"
@@ -92,7 +97,8 @@ def wrong_with_seat(scene: Any, pair: Any, found: ElasticShaft, shaft: str) -> I
         )
     if not found.yields_within:
         return
-    named, material = f'shafts.{shaft}.seat = "{own.seat}"', scene.gears.materials[GEARS.index(found.gear)]
+    named = f'shafts.{shaft}.seat = "{own.seat}"'
+    material = scene.gears.materials[GEARS.index(found.gear)]
     if found.hub is not None:
         yield from _is_a_cylinder(own, found, 2.0 * gear.bore_radius, named)
     elif found.material != (material.youngs_modulus, material.poissons_ratio):

@@ -12,6 +12,8 @@ from collections.abc import Sequence
 from math import lcm
 from typing import Any
 
+from fenics_gears.contact.flank_gaps import check_waves, deviations_of, flank_gaps
+from fenics_gears.geometry.flank_deviations import slope_and_form
 from fenics_gears.geometry.flank_errors import HELIX, FlankErrors, GearErrors, lists_of
 from fenics_gears.inputs.section import tree_of
 from fenics_gears.inputs.tree import GEARS
@@ -30,22 +32,15 @@ def write(errors: FlankErrors) -> dict:
 
 
 def gaps(errors: FlankErrors, model):
-    from fenics_gears.contact.flank_gaps import flank_gaps
-
     return flank_gaps(errors, model.pair, model.resolution.steps_per_mesh_cycle, model.face)
 
 
 def fits(errors: FlankErrors, model) -> None:
-    from fenics_gears.contact.flank_gaps import check_waves
-
     check_waves(errors, model.pair, model.resolution.steps_per_mesh_cycle)
 
 
 def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
     """The deviations of every tooth, given and drawn; slope and form of measured curves are evaluated by ISO 1328-1."""
-    from fenics_gears.contact.flank_gaps import deviations_of
-    from fenics_gears.geometry.flank_deviations import slope_and_form
-
     values = {}
     for gear, found in zip(GEARS, deviations_of(errors, cycle.pair, cycle.face)):
         dimension = (f"{gear}_tooth",)
@@ -59,7 +54,8 @@ def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
 
 def period(errors: FlankErrors, scene) -> int:
     """Mesh cycles of whole turns of the gears whose teeth differ."""
-    names, drawn = lists_of(scene), errors.tolerance_class is not None
+    names = lists_of(scene)
+    drawn = errors.tolerance_class is not None
     return lcm(*(getattr(scene.gears, gear).teeth for gear in GEARS if _differ(getattr(errors, gear), names, drawn)))
 
 

@@ -14,8 +14,10 @@ from fenics_gears.inputs.problem import did_you_mean, meant
 from fenics_gears.inputs.written import as_written
 from fenics_gears.system import user_file
 
-TOOTH, DEVIATION = "tooth", "deviation"
-LENGTH, ANGLE = "a length", "an angle"
+TOOTH = "tooth"
+DEVIATION = "deviation"
+LENGTH = "a length"
+ANGLE = "an angle"
 # Where a point of a measured curve lies.
 ALONG_PROFILE = {"roll_length": LENGTH, "roll_angle": ANGLE, "diameter": LENGTH}
 ALONG_FACE = {"face_position": LENGTH}
@@ -72,7 +74,8 @@ def curves_in(path: Path, along: Mapping[str, str]) -> MeasuredCurves:
         raise FileProblem(
             f"{path}: has {lacking}. Allowed: a first line such as `{example}`, with one of {', '.join(along)}."
         )
-    place, height = columns.index(places[0]), columns.index(DEVIATION)
+    place = columns.index(places[0])
+    height = columns.index(DEVIATION)
     points: dict[int, dict[float, float]] = {}
     for row in rows:
         own = points.setdefault(row.tooth, {})
@@ -101,7 +104,8 @@ def _table(path: Path, kinds: Mapping[str, str], example: str) -> tuple[list[str
     number, heading = lines[0]
     separator = next((each for each in ";\t" if each in heading), ",")
     columns = _columns(f"{path}:{number}", _cells(f"{path}:{number}", heading, separator), kinds, example)
-    measured, rows = [name for name in columns if name != TOOTH], []
+    measured = [name for name in columns if name != TOOTH]
+    rows = []
     for number, line in lines[1:]:
         place = f"{path}:{number}"
         cells = _cells(place, line, separator)

@@ -7,7 +7,8 @@ from fenics_gears.inputs.tree import GEARS, Tree, module_in, quantity_in, table,
 # Pitches of a measuring sheet are rounded to 0.1 um: their sum is off by at most half of that for each tooth.
 PITCH_ROUNDING = 0.05e-3
 # Reference diameters and modules (mm) that the tolerances of ISO 1328-1:2013 are for.
-DIAMETERS, MODULES = (5.0, 15e3), (0.5, 70.0)
+DIAMETERS = (5.0, 15e3)
+MODULES = (0.5, 70.0)
 
 
 def errors_fit_the_gears(tree: Tree) -> Broken:

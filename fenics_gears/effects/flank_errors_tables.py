@@ -6,10 +6,12 @@ from hashlib import sha256
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.flank_deviations import measured_share
 from fenics_gears.geometry.flank_errors import CURVES, LISTS, REPLACED, TABLES, FlankErrors, GearErrors, lists_of
 from fenics_gears.inputs.tree import GEARS, LARGEST_ERROR, NOT_IN_THE_PLANE
 from fenics_gears.inputs.written import as_written
 
+from . import flank_errors_file as tables
 from .flank_errors_rules import PITCH_ROUNDING, not_closed
 
 # Share of the active profile, or of the face, that a curve must cover.
@@ -24,22 +26,20 @@ def located(errors: FlankErrors, directory: Path) -> FlankErrors:
 def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
     if not any(getattr(errors, name) for name in TABLES):
         return errors
-    from . import flank_errors_file as files
-
     # `check` reports what is wrong; a scene that is only looked at needs no table.
     name = "file"
     try:
         if errors.file is not None:
-            found = files.deviations_in(_found(directory, errors.file), LISTS)
+            found = tables.deviations_in(_found(directory, errors.file), LISTS)
             twice = next((each for each in LISTS if each in found and getattr(errors, each) is not None), None)
             if twice is not None:
-                raise files.FileProblem(f"the table has {twice}, which the scene has, too. Leave one of the two out.")
+                raise tables.FileProblem(f"the table has {twice}, which the scene has, too. Leave one of the two out.")
             errors = replace(errors, columns=tuple(found), **found)
         for name, (measured, along) in CURVES.items():
             if getattr(errors, name) is not None:
-                curves = files.curves_in(_found(directory, getattr(errors, name)), getattr(files, along))
+                curves = tables.curves_in(_found(directory, getattr(errors, name)), getattr(tables, along))
                 errors = replace(errors, **{measured: curves})
-    except files.FileProblem as problem:
+    except tables.FileProblem as problem:
         return replace(errors, problem=(name, str(problem)))
     return errors
 
@@ -50,7 +50,7 @@ def _found(directory: Path, name: str) -> Path:
 
 
 def files(errors: FlankErrors) -> dict[str, str]:
-    found = {}
+    found: dict[str, str] = {}
     for own in (errors.pinion, errors.wheel):
         said = {"file": {name: getattr(own, name) for name in own.columns}}
         said |= {name: repr(getattr(own, measured)) for name, (measured, _) in CURVES.items()}
@@ -69,7 +69,8 @@ def check(errors: FlankErrors, scene, pair) -> None:
         name, problem = own.problem or _problem_of_tables(own, scene, pair, gear)
         in_table = [column for column in own.columns if column not in lists_of(scene)]
         if not problem and in_table:
-            name, problem = "file", f"the column {in_table[0]} {NOT_IN_THE_PLANE}"
+            name = "file"
+            problem = f"the column {in_table[0]} {NOT_IN_THE_PLANE}"
         if problem:
             written = as_written(getattr(own, name))
             raise SceneError(f"flank_errors.{gear}.{name} = {written}: {problem}\nNothing was computed or written.")
@@ -77,7 +78,8 @@ def check(errors: FlankErrors, scene, pair) -> None:
 
 def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str, str]:
     """The field that names a table which does not fit the gear, and why; empty where all fit."""
-    teeth, module = getattr(pair, gear).teeth, scene.gears.module
+    teeth = getattr(pair, gear).teeth
+    module = scene.gears.module
     problem = "" if errors.file is None else _problem_of_table(errors, teeth, module, gear)
     if problem:
         return "file", problem
@@ -97,9 +99,8 @@ def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str,
 
 def _problem_of_curve(curve, along, module: float, pair, gear: str, whole: str) -> str:
     """What does not fit the gear; `whole`: of what a curve measures a part."""
-    from fenics_gears.geometry.flank_deviations import measured_share
-
-    teeth, largest = getattr(pair, gear).teeth, LARGEST_ERROR * module
+    teeth = getattr(pair, gear).teeth
+    largest = LARGEST_ERROR * module
     if curve.tooth > teeth:
         return (
             f"has a curve of tooth {curve.tooth}, but the {gear} has {teeth} teeth. Allowed: teeth from 1 to {teeth},"

@@ -14,7 +14,8 @@ def end_reliefs_have_room(tree: Tree) -> Broken:
 
 def _end_relief_has_room(tree: Tree, gear: str) -> Broken:
     home = ("lead_modifications", gear, "end_relief")
-    length, sides = quantity_at(tree, *home, "length"), value_at(tree, *home, "sides")
+    length = quantity_at(tree, *home, "length")
+    sides = value_at(tree, *home, "sides")
     width = quantity_at(tree, "gears", gear, "face_width") or quantity_at(tree, "gears", "face_width")
     if length is None or width is None or not width > 0.0:
         return

@@ -82,7 +82,7 @@ def rules(section: str, word: str, tree: Tree) -> Broken:
 
 
 def _incomplete(both: Tree, own: dict[str, Tree], section: str, word: str) -> Broken:
-    given = {(section, gear): given_for(both, gear) for gear in own}
+    given: dict[tuple[str, ...], set[str]] = {(section, gear): given_for(both, gear) for gear in own}
     if "depth" in both or not given:
         given[section,] = set(both)
     for path, names in given.items():

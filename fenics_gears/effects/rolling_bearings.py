@@ -7,10 +7,13 @@ from math import pi
 from fenics_gears.inputs.fields import choice, number, quantity, whole_number
 from fenics_gears.inputs.section import Section
 
-BALLS, ROLLERS = "balls", "rollers"
-OF_ROLLERS, OF_BALLS = ("length",), ("inner_groove", "outer_groove")
+BALLS = "balls"
+ROLLERS = "rollers"
+OF_ROLLERS = ("length",)
+OF_BALLS = ("inner_groove", "outer_groove")
 # Radii of grooves over the ball's diameter to which ISO 281 and ISO/TS 16281 refer.
-INNER_GROOVE, OUTER_GROOVE = 0.52, 0.53
+INNER_GROOVE = 0.52
+OUTER_GROOVE = 0.53
 
 
 def _length(example: str, meaning: str, limits: str = "0.1 mm to 10 m", **otherwise: str):

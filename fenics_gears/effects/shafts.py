@@ -15,7 +15,9 @@ from .effect import OF_TIME, Effect, ResultVariable, own_or_shared, variables
 from .tooth_elasticity import material_name, poissons_ratio, youngs_modulus
 
 MOST_SECTIONS = 100
-RIGID_SEAT, PRESS_FIT, INTEGRAL = "rigid over its width", "press fit", "integral"
+RIGID_SEAT = "rigid over its width"
+PRESS_FIT = "press fit"
+INTEGRAL = "integral"
 
 
 def _stiffness(meaning: str, otherwise: str = ""):
@@ -166,7 +168,8 @@ def shafts_are_complete(tree: Tree) -> Broken:
         return
     if "torsional_stiffness" in both:
         return
-    missing, example = [name for name in SHAFTS if name not in both], 'Allowed: such as "0.203e9 N mm/rad"'
+    missing = [name for name in SHAFTS if name not in both]
+    example = 'Allowed: such as "0.203e9 N mm/rad"'
     if len(missing) == 2:
         message = f"is missing. {example}, or one each in [shafts.input] and [shafts.output]."
         yield ("shafts", "torsional_stiffness"), message

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from math import inf
 
+from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
 from fenics_gears.inputs.fields import quantity, whole_number
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
@@ -24,16 +25,19 @@ class SpeedRamp(Section):
 
 def speed_changes(tree: Tree) -> Broken:
     """A ramp leads to another frequency, and leaves time for it."""
-    ramp, motion = table(tree, "speed_ramp"), table(tree, "motion") or {}
+    ramp = table(tree, "speed_ramp")
+    motion = table(tree, "motion") or {}
     if ramp is None:
         return
-    start, end = quantity_in(motion.get("mesh_frequency")), quantity_in(ramp.get("end_frequency"))
+    start = quantity_in(motion.get("mesh_frequency"))
+    end = quantity_in(ramp.get("end_frequency"))
     if start is not None and start == end:
         message = (
             "is the frequency at the start, motion.mesh_frequency. Allowed: any other, or no section [speed_ramp]."
         )
         yield ("speed_ramp", "end_frequency"), message
-    held, run = ramp.get("hold_cycles"), motion.get("mesh_cycles")
+    held = ramp.get("hold_cycles")
+    run = motion.get("mesh_cycles")
     if type(held) is int and type(run) is int and held >= run > 0:
         message = (
             f"leaves no cycle of motion.mesh_cycles = {as_written(run)} for the ramp. Allowed: fewer than are run."
@@ -46,8 +50,6 @@ def clock(ramp: SpeedRamp, model):
 
 
 def load(ramp: SpeedRamp, model):
-    from fenics_gears.dynamics.speed_ramp import inertia_forces
-
     return inertia_forces(clock(ramp, model), model.drivetrain, model.scene.gears.wheel.teeth)
 
 
@@ -64,9 +66,8 @@ def period(ramp: SpeedRamp, scene) -> float:
 
 
 def _clock(ramp: SpeedRamp, scene, steps_per_mesh_cycle: int):
-    from fenics_gears.dynamics.speed_ramp import RampClock
-
-    held, steps = ramp.hold_cycles * steps_per_mesh_cycle, scene.motion.mesh_cycles * steps_per_mesh_cycle
+    held = ramp.hold_cycles * steps_per_mesh_cycle
+    steps = scene.motion.mesh_cycles * steps_per_mesh_cycle
     return RampClock(scene.motion.mesh_frequency, ramp.end_frequency, held, steps, steps_per_mesh_cycle)
 
 

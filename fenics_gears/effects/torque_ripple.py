@@ -16,11 +16,13 @@ FINEST_PART_OF_ORDER = 1000
 
 def torque_keeps_its_sign(tree: Tree) -> Broken:
     """A torque that changes its sign needs the coast flanks."""
-    ripple, mean = table(tree, "torque_ripple"), load_in(tree)
+    ripple = table(tree, "torque_ripple")
+    mean = load_in(tree)
     written = ripple.get("harmonics") if ripple else None
     if mean is None or "coast_flanks" in tree or not isinstance(written, list):
         return
-    torque, of_wheel = mean[1], "" if mean[0][-1] == "wheel_torque" else " is on the wheel"
+    torque = mean[1]
+    of_wheel = "" if mean[0][-1] == "wheel_torque" else " is on the wheel"
     amplitudes = [quantity_in(each.get("amplitude")) for each in written if isinstance(each, Mapping)]
     total = sum(amplitude for amplitude in amplitudes if amplitude is not None)
     if isfinite(total) and total > abs(torque):

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from fenics_gears.system.environment import cache_folder
-from fenics_gears.system.turns import one_at_a_time
+from fenics_gears.system.output import one_at_a_time
 
 
 def _load_vtk_before_old_dolfinx() -> None:

@@ -64,7 +64,8 @@ def contact_by_fewest(pair: GearPair) -> tuple[str, str]:
 def _gear_rows(
     pair: GearPair, name: str, measured_over: tuple[int | None, float | None]
 ) -> list[tuple[str, float, str]]:
-    gear, number = getattr(pair, name), ("pinion", "wheel").index(name)
+    gear = getattr(pair, name)
+    number = ("pinion", "wheel").index(name)
     # Where its active profile starts and where its tip meets the mate.
     lowest, tip = (pair.path_start, pair.path_end) if name == "pinion" else (pair.path_end, pair.path_start)
     teeth, ball = (given or of_gear(gear) for given, of_gear in zip(measured_over, (spanned_teeth, ball_diameter)))

@@ -60,7 +60,8 @@ def lead_removal(modification: LeadModification, place, face_width: float) -> np
 def coast_face_opening(pair: GearPair, misalignment: Misalignment, z, position) -> np.ndarray:
     """The gap of coast flanks along their own line of action by misaligned axes; position: mm from its start."""
     double = 2.0 * pair.operating_pressure_angle
-    cosine, sine = np.cos(double), np.sin(double)
+    cosine = np.cos(double)
+    sine = np.sin(double)
     # Mirrored about the line of centres, with the other hand.
     mirrored = replace(misalignment, in_plane=-cosine * misalignment.in_plane - sine * misalignment.out_of_plane)
     return misalignment_opening(pair, mirrored, z, position, -pair.slope)

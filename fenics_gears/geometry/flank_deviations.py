@@ -71,9 +71,10 @@ def flank_deviations(
     """Deviations of pinion and wheel; `middles` (mm): heights of their mid-widths, None in the plane."""
     gears = zip((pair.pinion, pair.wheel), (errors.pinion, errors.wheel), pair.sap_roll_angles)
     faces = (None, None) if middles is None else tuple(zip(pair.face_widths, middles))
-    return tuple(
+    pinion, wheel = (
         _of_gear(gear, own, errors, number, start, faces[number]) for number, (gear, own, start) in enumerate(gears)
     )
+    return pinion, wheel
 
 
 def _of_gear(
@@ -84,8 +85,11 @@ def _of_gear(
         raise SceneError(
             f"flank_errors.{('pinion', 'wheel')[number]}.{name} = {as_written(getattr(own, name))}: {problem}"
         )
-    measured, level, diameter = own.measured_profile is not None, np.zeros(gear.teeth), 2.0 * gear.reference_radius
-    active_profile, tolerance_class = (start, gear.tip_roll_angle), errors.tolerance_class
+    measured = own.measured_profile is not None
+    level = np.zeros(gear.teeth)
+    diameter = 2.0 * gear.reference_radius
+    active_profile = (start, gear.tip_roll_angle)
+    tolerance_class = errors.tolerance_class
 
     def values(given: tuple[float, ...] | None, drawn) -> np.ndarray:
         if given is not None:
@@ -160,10 +164,13 @@ def _places(curve: MeasuredCurve, along: str, gear: Gear) -> np.ndarray:
 def measured_share(curve: MeasuredCurve, along: str, pair: GearPair, name: str) -> float:
     """Share of the active profile, or of the face, of the gear `name` that a curve covers, from 0 to 1."""
     number = ("pinion", "wheel").index(name)
-    gear, width = (pair.pinion, pair.wheel)[number], pair.face_widths[number]
-    start, end = pair.sap_roll_angles[number], gear.tip_roll_angle
+    gear = (pair.pinion, pair.wheel)[number]
+    width = pair.face_widths[number]
+    start = pair.sap_roll_angles[number]
+    end = gear.tip_roll_angle
     if along == "face_position":
-        start, end = -0.5 * width, 0.5 * width
+        start = -0.5 * width
+        end = 0.5 * width
     places = _places(curve, along, gear)
     return max(min(places[-1], end) - max(places[0], start), 0.0) / (end - start)
 

@@ -6,7 +6,8 @@ from fenics_gears.inputs.fields import choice, file_name, quantities, quantity, 
 from fenics_gears.inputs.section import Section
 
 # Where a measured curve is zero.
-REFERENCE_POINT, MEAN = "reference point", "mean"
+REFERENCE_POINT = "reference point"
+MEAN = "mean"
 HELIX = ("helix_slope", "helix_form")
 LISTS = ("pitch", "profile_slope", "profile_form", *HELIX)
 

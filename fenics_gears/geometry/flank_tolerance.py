@@ -46,7 +46,9 @@ def helix_tolerance(reference_diameter: float, face_width: float, tolerance_clas
     >>> round(1e3 * tolerance.slope, 3), round(1e3 * tolerance.form, 3)  # um
     (6.25, 6.95)
     """
-    d, b, step = reference_diameter, face_width, MICROMETRE * sqrt(2.0) ** (tolerance_class - 5)
+    d = reference_diameter
+    b = face_width
+    step = MICROMETRE * sqrt(2.0) ** (tolerance_class - 5)
     return HelixTolerance(
         step * (0.05 * sqrt(d) + 0.35 * sqrt(b) + 4.0), step * (0.07 * sqrt(d) + 0.45 * sqrt(b) + 4.0)
     )
@@ -59,7 +61,9 @@ def flank_tolerance(reference_diameter: float, module: float, tolerance_class: i
     >>> [round(1e3 * flank_tolerance(100.0, 4.0, each).single_pitch, 3) for each in (5, 7)]  # um
     [6.7, 13.4]
     """
-    d, m, step = reference_diameter, module, MICROMETRE * sqrt(2.0) ** (tolerance_class - 5)
+    d = reference_diameter
+    m = module
+    step = MICROMETRE * sqrt(2.0) ** (tolerance_class - 5)
     return FlankTolerance(
         single_pitch=step * (0.001 * d + 0.4 * m + 5.0),
         cumulative_pitch=step * (0.002 * d + 0.55 * sqrt(d) + 0.7 * m + 12.0),

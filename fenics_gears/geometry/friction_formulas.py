@@ -30,7 +30,8 @@ def schlenk(pair: GearPair, normal_force: float, pinion_speed: float, viscosity:
     to.
     """
     pitch_radius = pair.pinion.base_radius / cos(pair.operating_pressure_angle)
-    speed, (slowest, fastest) = 1e-3 * 2.0 * pi * pinion_speed / 60.0 * pitch_radius, PITCH_LINE_SPEEDS
+    speed = 1e-3 * 2.0 * pi * pinion_speed / 60.0 * pitch_radius
+    slowest, fastest = PITCH_LINE_SPEEDS
     if speed < slowest:
         raise OutOfRange(
             f"was fitted to gears from {slowest:g} to {fastest:g} m/s at the pitch line (ISO/TR 13989-2, of the same"
@@ -38,7 +39,8 @@ def schlenk(pair: GearPair, normal_force: float, pinion_speed: float, viscosity:
             " 0.1."
         )
     line_load = max(normal_force / pair.face_width, LEAST_LINE_LOAD)
-    first, second = pair.pitch_point, pair.pitch_point_to_wheel_tangent
+    first = pair.pitch_point
+    second = pair.pitch_point_to_wheel_tangent
     radius = first * second / (first + second)
     # Both flanks' speeds along themselves at the pitch point.
     sum_of_speeds = 2.0 * min(speed, fastest) * sin(pair.operating_pressure_angle)
@@ -56,7 +58,8 @@ def benedict_kelley(
     """
     path = pair.path_start + (np.arange(POINTS) + 0.5) / POINTS * (pair.path_end - pair.path_start)
     turning = 1e-3 * 2.0 * pi * pinion_speed / 60.0
-    first, second = turning * path, turning * pair.pinion.teeth / pair.wheel.teeth * (pair.line_of_action_length - path)
+    first = turning * path
+    second = turning * pair.pinion.teeth / pair.wheel.teeth * (pair.line_of_action_length - path)
     rough = min(roughness / _MICROINCH, 30.0)
     values = 29.66e3 * normal_force / pair.face_width / (viscosity * np.abs(first - second) * (first + second) ** 2)
     if not values.min() > 1.0:

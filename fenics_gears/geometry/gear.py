@@ -133,7 +133,8 @@ class Gear:
     def rack_tip_centre(self) -> tuple[float, float]:
         """Centre of the rack's tip rounding, mm: distance from the rack tooth's centreline, negative where the rounding
         does not fit, and depth below the pitch line."""
-        alpha, radius = self.normal_pressure_angle, self.rack_tip_radius
+        alpha = self.normal_pressure_angle
+        radius = self.rack_tip_radius
         across = self._rack_half_tip_land - self.rack_stretch * radius * (1.0 - sin(alpha)) / cos(alpha)
         return across, self.rack_depth - radius
 

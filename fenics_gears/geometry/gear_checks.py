@@ -26,7 +26,8 @@ SHARE_ROUNDING = 1e-12
 # Thinnest rim between bore and root circle, in modules, that leaves room for a mesh.
 LEAST_RIM = 0.2
 # Thinnest neck of an undercut tooth, in modules.
-LEAST_NECK, NECK_SAMPLES = 0.1, 401
+LEAST_NECK = 0.1
+NECK_SAMPLES = 401
 # Parts of a module to which a tip radius is rounded down.
 STEPS_OF_TIP_RADIUS = 10_000
 
@@ -126,7 +127,8 @@ def _web(gear: Gear, section: str) -> Iterator[str]:
 
 
 def _rack(gear: Gear, section: str) -> Found:
-    module, dedendum = gear.normal_module, gear.dedendum / gear.normal_module
+    module = gear.normal_module
+    dedendum = gear.dedendum / gear.normal_module
     if gear.dedendum <= 0.0 or gear.rack_depth <= 0.0:
         limit = 2.0 * min(gear.root_radius + gear.dedendum, gear.reference_radius)
         yield (

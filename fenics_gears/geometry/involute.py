@@ -43,7 +43,8 @@ def inverse_involute(polar_angle: float) -> float:
 def canonical_point(base_radius: float, roll_angle) -> np.ndarray:
     """Drive-flank points in the tooth's body frame: (..., 2), mm, for roll angles (...) in rad."""
     roll = np.asarray(roll_angle, dtype=float)
-    sine, cosine = np.sin(roll), np.cos(roll)
+    sine = np.sin(roll)
+    cosine = np.cos(roll)
     return base_radius * np.stack([roll * cosine - sine, -(cosine + roll * sine)], axis=-1)
 
 

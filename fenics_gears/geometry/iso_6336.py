@@ -27,8 +27,10 @@ def single_stiffness(gears: GearPairData) -> tuple[float, float]:
     beta = gears.helix_angle
     # Of the spur gears that the teeth of helical ones are like: z / (cos(beta_b)^2 cos(beta)).
     of_virtual = (1.0 - (sin(beta) * cos(gears.pressure_angle)) ** 2) * cos(beta)
-    z1, z2 = gears.pinion.teeth / of_virtual, gears.wheel.teeth / of_virtual
-    x1, x2 = gears.pinion.profile_shift, gears.wheel.profile_shift
+    z1 = gears.pinion.teeth / of_virtual
+    z2 = gears.wheel.teeth / of_virtual
+    x1 = gears.pinion.profile_shift
+    x2 = gears.wheel.profile_shift
     flexibility = (
         0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x1 - 0.11654 * x1 / z1
         - 0.00193 * x2 - 0.24188 * x2 / z2 + 0.00529 * x1**2 + 0.00182 * x2**2

@@ -7,7 +7,9 @@ from fenics_gears.inputs.section import Section
 
 from .relief import LINEAR, PARABOLIC, POWERS
 
-BOTH, LEFT, RIGHT = "both", "left", "right"
+BOTH = "both"
+LEFT = "left"
+RIGHT = "right"
 
 
 @dataclass(frozen=True)

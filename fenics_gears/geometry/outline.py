@@ -49,7 +49,8 @@ class ToothOutline:
 
     def coast(self, points) -> np.ndarray:
         """Mirror images (..., 2) about the tooth's centreline of points (..., 2)."""
-        cosine, sine = cos(2.0 * self.centreline_angle), sin(2.0 * self.centreline_angle)
+        cosine = cos(2.0 * self.centreline_angle)
+        sine = sin(2.0 * self.centreline_angle)
         return np.asarray(points) @ np.array([[cosine, sine], [sine, -cosine]])
 
 
@@ -119,7 +120,9 @@ def fillet_tangent(gear: Gear, parameter) -> np.ndarray:
 def fillet_speed(gear: Gear, parameter) -> np.ndarray:
     """Length (mm) of fillet per rad of its parameter: rolling on the rack's rounding plus sliding."""
     angle, along = _on_rack(gear, parameter)
-    depth, excess, flattening = gear.rack_tip_centre[1], _excess(gear), _flattening(gear, angle)
+    depth = gear.rack_tip_centre[1]
+    excess = _excess(gear)
+    flattening = _flattening(gear, angle)
     turning = depth / (gear.reference_radius * np.cos(angle) ** 2) - excess * np.cos(angle) / (
         gear.reference_radius * flattening**3
     )
@@ -166,8 +169,10 @@ def _body_angle(gear: Gear, angle, along=0.0):
 
 
 def _turned(vectors, angle):
-    sine, cosine = np.sin(angle), np.cos(angle)
-    x, y = vectors[..., 0], vectors[..., 1]
+    sine = np.sin(angle)
+    cosine = np.cos(angle)
+    x = vectors[..., 0]
+    y = vectors[..., 1]
     return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
 
 
@@ -186,7 +191,8 @@ def crossing(gear: Gear) -> float:
     def above_base_circle(parameter: float) -> bool:
         return float(np.hypot(*fillet_point(gear, parameter))) >= gear.base_radius
 
-    last, inside = _last(gear), touching_end(gear)
+    last = _last(gear)
+    inside = touching_end(gear)
     if not (gear.protuberance and above_base_circle(inside)):
         inside = halved(above_base_circle, 0.0, last)
     return halved(lambda parameter: _outside(gear, parameter) >= 0.0, inside, last)
@@ -196,8 +202,10 @@ def _last(gear: Gear) -> float:
     """Parameter at the end of what cuts the fillet: of the rounding, or where the protuberance is back at the flank."""
     if not gear.protuberance:
         return touching_end(gear)
-    angle, flank = gear.transverse_protuberance_angle, gear.pressure_angle
-    end, rounding = 0.5 * pi - angle, gear.rack_tip_radius
+    angle = gear.transverse_protuberance_angle
+    flank = gear.pressure_angle
+    end = 0.5 * pi - angle
+    rounding = gear.rack_tip_radius
     flattening = float(_flattening(gear, end))
     across, depth = gear.rack_tip_centre
     beyond = (

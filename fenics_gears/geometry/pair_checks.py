@@ -62,7 +62,8 @@ def _centres(pair: GearPair) -> Found:
             (("raise", "centre_distance"),) if isfinite(pair.centre_distance) else (),
         )
     if pair.axial_offsets != (0.0, 0.0) and pair.face_width <= 0.0:
-        (first, second), widths = pair.axial_offsets, pair.face_widths
+        first, second = pair.axial_offsets
+        widths = pair.face_widths
         yield (
             f"pair: the gears do not overlap axially: pinion {widths[0]:.6g} mm wide at axial offset {first:.6g} mm,"
             f" wheel {widths[1]:.6g} mm wide at {second:.6g} mm; their middles may be less than"
@@ -96,7 +97,8 @@ def _contact_ratio(pair: GearPair) -> Found:
     if pair.contact_ratio < 1.0:
         short = [name for name, *_ in _shortened(pair) if getattr(pair, name).undercut]
         cut = "".join(f", shortened by the undercut {name}" for name in short)
-        kind, why = "", "otherwise a tooth pair leaves before the next one enters"
+        kind = ""
+        why = "otherwise a tooth pair leaves before the next one enters"
         if pair.helix:
             kind = "transverse "
             why = f"pairs that their overlap alone carries (here {pair.overlap_ratio:.4g}) are not simulated"

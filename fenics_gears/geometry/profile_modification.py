@@ -92,4 +92,7 @@ def profile_curves(
 ) -> tuple[ProfileCurve | None, ProfileCurve | None]:
     """The curves of pinion and wheel; None for a gear without modification."""
     sides = zip((pair.pinion, pair.wheel), (modifications.pinion, modifications.wheel), pair.sap_roll_angles)
-    return tuple(None if own is None else ProfileCurve(own, start, gear.tip_roll_angle) for gear, own, start in sides)
+    pinion, wheel = (
+        None if own is None else ProfileCurve(own, start, gear.tip_roll_angle) for gear, own, start in sides
+    )
+    return pinion, wheel

@@ -19,7 +19,8 @@ from .gear import Gear
 from .involute import arc_length
 from .pair import GearPair
 
-LINEAR, PARABOLIC = "linear", "parabolic"
+LINEAR = "linear"
+PARABOLIC = "parabolic"
 POWERS = {LINEAR: 1, PARABOLIC: 2}
 
 # Each alone says where a relief starts.
@@ -231,7 +232,8 @@ def _curve(relief: Relief, side: _Side) -> ReliefCurve:
     _check_depth(relief, side)
     start, written, field = _start(relief, side)
     gear = side.gear
-    lowest, highest = gear.form_roll_angle, gear.tip_roll_angle
+    lowest = gear.form_roll_angle
+    highest = gear.tip_roll_angle
     if not lowest <= start <= highest or start == side.end:
         raise side.refused(
             f"{side.section.replace('_', ' ')} starts at {written}, but its involute runs from"
@@ -259,7 +261,8 @@ def _check_depth(relief: Relief, side: _Side) -> None:
 def _start(relief: Relief, side: _Side) -> tuple[float, str, str]:
     """Roll angle (rad) of the start, negative for a diameter or a length that leads off the involute; the start as the
     scene has it, and the field that says so."""
-    gear, from_end = side.gear, -1.0 if side.at_tip else 1.0
+    gear = side.gear
+    from_end = -1.0 if side.at_tip else 1.0
     if (length := relief.length_on_path) is not None:
         written = f"{length:.6g} mm from the {side.written_end} on the path of contact"
         return side.end + from_end * length / gear.base_radius, written, "length_on_path"

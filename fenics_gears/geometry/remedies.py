@@ -75,7 +75,8 @@ def _tried(data: GearPairData, how: str, field: str, runs: Callable[[GearPairDat
 
 def _round_steps(data: GearPairData, gear: str, name: str, sign: float, step: float) -> Iterator[float]:
     """Steps (modules) at least as large that lead to a number with few digits, the fewest first."""
-    size, scale = _value(data, gear, name), 1.0 if name in ("profile_shift", "rack_tip_radius") else data.module
+    size = _value(data, gear, name)
+    scale = 1.0 if name in ("profile_shift", "rack_tip_radius") else data.module
     for digits in range(1, 6):
         unit = 10.0 ** (round(_magnitude(size)) - digits)
         reached = size + sign * step * scale
@@ -101,14 +102,16 @@ def _with_size(data: GearPairData, gear: str, name: str, step: float) -> GearPai
 
 def _with_shift(data: GearPairData, gear: str, name: str, step: float) -> GearPairData:
     """Another profile shift with its diameters, and the axes as far apart."""
-    own, wider = getattr(data, gear), step * data.module
+    own = getattr(data, gear)
+    wider = step * data.module
     sizes = {each: getattr(own, each) + 2.0 * wider for each in ("tip_diameter", "root_diameter")}
     shifted = _changed(data, gear, profile_shift=own.profile_shift + step, **sizes)
     return replace(shifted, centre_distance=data.centre_distance + wider)
 
 
 def _with_teeth(data: GearPairData, gear: str, more: int) -> GearPairData:
-    own, wider = getattr(data, gear), more * data.module / cos(data.helix_angle)
+    own = getattr(data, gear)
+    wider = more * data.module / cos(data.helix_angle)
     sizes = {each: getattr(own, each) + wider for each in ("tip_diameter", "root_diameter")}
     changed = _changed(data, gear, teeth=own.teeth + more, **sizes)
     return replace(changed, centre_distance=data.centre_distance + 0.5 * wider)
@@ -123,7 +126,8 @@ def _in_words(data: GearPairData, changed: GearPairData, how: str, gear: str, na
     words = f"{how} gears.{gear + '.' if gear else ''}{name} to {_value(changed, gear, name):.6g}{unit}"
     if name not in ("profile_shift", "teeth"):
         return words
-    own, other = getattr(data, gear), getattr(changed, gear)
+    own = getattr(data, gear)
+    other = getattr(changed, gear)
     return (
         f"{words} with gears.{gear}.tip_diameter = {other.tip_diameter:.6g} mm, root_diameter ="
         f" {own.root_diameter + other.tip_diameter - own.tip_diameter:.6g} mm and gears.centre_distance ="

@@ -27,8 +27,10 @@ class CrossSection:
 
 def gear_section(gear: Gear) -> CrossSection:
     """The cross-section of a gear from bore to tip; a web counts by its share of the face width."""
-    tip, form = gear.tip_roll_angle, gear.form_roll_angle
-    half_tip, chamfer = gear.tooth_half_angle_at_base - float(involute_function(tip)), 0.0
+    tip = gear.tip_roll_angle
+    form = gear.form_roll_angle
+    half_tip = gear.tooth_half_angle_at_base - float(involute_function(tip))
+    chamfer = 0.0
     if gear.tip_chamfer:
         half_tip = 0.5 * gear.tip_thickness / gear.tip_radius
         chamfer = _straight(tip_corner(gear), canonical_point(gear.base_radius, tip))
@@ -82,7 +84,8 @@ def _fillet(gear: Gear) -> np.ndarray:
     """From the form circle down the fillet and along the root circle to the middle of the tooth space."""
     nodes, weights = np.polynomial.legendre.leggauss(QUADRATURE_POINTS)
     half = 0.5 * gear.fillet_end
-    points, tangents = fillet_point(gear, half * (1.0 + nodes)), fillet_tangent(gear, half * (1.0 + nodes))
+    points = fillet_point(gear, half * (1.0 + nodes))
+    tangents = fillet_tangent(gear, half * (1.0 + nodes))
     turning = half * weights * (points[:, 1] * tangents[:, 0] - points[:, 0] * tangents[:, 1])
     along = np.array([0.5 * turning.sum(), 0.25 * turning @ np.einsum("nd,nd->n", points, points)])
     x, y = fillet_point(gear, 0.0)

@@ -48,7 +48,8 @@ def tip_edge(gear: Gear, radius: float) -> TipEdge:
             f"tip edge radius {radius:.4g} mm of the gear with {gear.teeth} teeth: it must lie between 0 and half the"
             f" tooth's thickness at the tip, {largest:.4g} mm; change corner_contact.edge_radius"
         )
-    base, inner = gear.base_radius, gear.tip_radius - radius
+    base = gear.base_radius
+    inner = gear.tip_radius - radius
     roll = (radius + np.sqrt(max(inner**2 - base**2, 0.0))) / base if radius else gear.tip_roll_angle
     if inner <= base or roll <= gear.form_roll_angle:
         raise GeometryError(
@@ -61,7 +62,9 @@ def tip_edge(gear: Gear, radius: float) -> TipEdge:
 
 
 def _chamfered(gear: Gear, radius: float) -> TipEdge:
-    base, foot, end = gear.base_radius, canonical_point(gear.base_radius, gear.tip_roll_angle), tip_corner(gear)
+    base = gear.base_radius
+    foot = canonical_point(gear.base_radius, gear.tip_roll_angle)
+    end = tip_corner(gear)
     along = (end - foot) / np.linalg.norm(end - foot)
     outward = np.array([-along[1], along[0]])
 

@@ -205,7 +205,8 @@ class AllowedSwitch(Allowed):
         return value
 
 
-TOO_LARGE, NOT_FINITE = "is too large.", "is not a finite number."
+TOO_LARGE = "is too large."
+NOT_FINITE = "is not a finite number."
 
 
 def out_of_range(
@@ -269,7 +270,8 @@ class AllowedMatrix(Allowed):
         if {len(rows), *map(len, rows)} != {self.size} or len(held) != self.size**2:
             raise Refused(f"is not {self.size} rows of {self.size} numbers of up to {LARGEST_ENTRY:g}.")
         matrix = np.array(numbers, dtype=float).reshape(self.size, self.size)
-        apart, round_off = np.abs(matrix - matrix.T), self.round_off * np.abs(matrix).max()
+        apart = np.abs(matrix - matrix.T)
+        round_off = self.round_off * np.abs(matrix).max()
         if apart.max() > round_off:
             row, column = (int(each) for each in np.unravel_index(apart.argmax(), apart.shape))
             places = f"{matrix[row, column]:g} in row {row + 1}, but {matrix[column, row]:g} in column {row + 1}"

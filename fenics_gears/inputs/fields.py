@@ -97,12 +97,16 @@ def numbers(lowest: float, highest: float, example: float, *, meaning: str, othe
 
 def either(*ranges: tuple[str, str], words: tuple[str, ...], meaning: str, otherwise: str) -> Any:
     """A quantity of one of several kinds, each given by its limits and an example, or a word; optional."""
-    described, bounds, usual = [], {}, {}
+    described = []
+    bounds = {}
+    usual = {}
     for limits, example in ranges:
         kind, *bounds_of_kind = _limits(limits)
         described.append(f'{kind} from {limits}, such as "{example}"')
-        bounds[kind], usual[kind] = bounds_of_kind, units.unit_of(example)
-    first, description = next(iter(bounds)), ", or ".join(described) + _or(words)
+        bounds[kind] = bounds_of_kind
+        usual[kind] = units.unit_of(example)
+    first = next(iter(bounds))
+    description = ", or ".join(described) + _or(words)
     allowed = AllowedEither(
         description=description, meaning=meaning, otherwise=otherwise, kind=first, unit=usual[first],
         ranges=bounds, units=usual, words=words,
@@ -141,7 +145,8 @@ def whole_number(
 def choice(*names: str, meaning: str, otherwise: str = "", default: str | None = None) -> Any:
     """One of a few names, optional."""
     listed = ", ".join(f'"{name}"' for name in names)
-    description, otherwise = f"{'one of' if len(names) > 1 else 'only'} {listed}", otherwise or f"`{default}`"
+    description = f"{'one of' if len(names) > 1 else 'only'} {listed}"
+    otherwise = otherwise or f"`{default}`"
     return declared(AllowedChoice(description=description, meaning=meaning, otherwise=otherwise, names=names), default)
 
 
@@ -157,8 +162,10 @@ def file_name(
     """The name of a file that ends in ``ending``, optional."""
     limits = f"that ends in {ending}, of at most {LONGEST_FILE_NAME} characters"
     description = f'the name of a file {limits}, such as "{example}"'
-    marks |= {"ending": ending, "made": made}
-    return declared(AllowedFile(description=description, meaning=meaning, otherwise=otherwise, **marks))
+    allowed = AllowedFile(
+        description=description, meaning=meaning, otherwise=otherwise, ending=ending, made=made, **marks
+    )
+    return declared(allowed)
 
 
 def switch(*, meaning: str) -> Any:

@@ -82,7 +82,8 @@ def line_numbers(text: str) -> dict[tuple[str, ...], int]:
     within_text = False
     for number, line in enumerate(text.splitlines(), 1):
         # A text over several lines may hold anything, also what looks like a key.
-        begins_within, within_text = within_text, within_text ^ (len(re.findall(r'"""|\'\'\'', line)) % 2 == 1)
+        begins_within = within_text
+        within_text = within_text ^ (len(re.findall(r'"""|\'\'\'', line)) % 2 == 1)
         if begins_within:
             continue
         if header := _HEADER.match(line):
@@ -133,7 +134,8 @@ def meant(section: Iterable[str], word: str, known: Iterable[str]) -> str | None
     # A scene without misspelt names does not load it.
     from .synonyms import SYNONYMS
 
-    section, known = tuple(section), tuple(known)
+    section = tuple(section)
+    known = tuple(known)
     homes = [section, *([section[:-1], (*section[:-1], "pinion")] if section[-1:] in (("pinion",), ("wheel",)) else [])]
     pairs = ((name, ".".join((*home, name))) for home in homes for name in known)
     return next((name for name, path in pairs if word.lower() in SYNONYMS.get(path, "").split()), None)

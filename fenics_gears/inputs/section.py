@@ -74,7 +74,9 @@ def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tu
     values: dict[str, Any] = {}
     problems = [Problem(path, "", section.empty)] if section.empty and not tree else []
     for name in names_in(section):
-        written, place, inner = tree.get(name), (*path, name), section_within(section, name)
+        written = tree.get(name)
+        place = (*path, name)
+        inner = section_within(section, name)
         if written is None:
             problems += _missing(section, name, place) if name in required_in(section) else ()
         elif inner is None:
@@ -112,7 +114,8 @@ def _beside_another(section: type[Section], tree: Mapping[str, Any], path: Path)
 def given(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> Iterator[tuple[Path, Allowed, Any]]:
     """The fields that a parsed file gives: path, what is allowed there, and what is written."""
     for name, written in tree.items():
-        inner, allowed = section_within(section, name), allowed_in(section, name)
+        inner = section_within(section, name)
+        allowed = allowed_in(section, name)
         if allowed is not None:
             yield (*path, name), allowed, written
         elif inner is not None and isinstance(written, Mapping):
@@ -120,7 +123,8 @@ def given(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> I
 
 
 def _missing(section: type[Section], name: str, place: Path) -> Iterator[Problem]:
-    inner, allowed = section_within(section, name), allowed_in(section, name)
+    inner = section_within(section, name)
+    allowed = allowed_in(section, name)
     if allowed is not None:
         yield Problem(place, None, f"is missing. Allowed: {allowed.description}.")
     elif inner is not None:
@@ -161,7 +165,8 @@ class AllowedTables(Allowed):
         found, problems = read(self.section, entry)
         # An unknown name first: it may be what is missing.
         for problem in sorted(problems, key=lambda each: not each.unknown):
-            name, where = ".".join(problem.path), f"at place {place}"
+            name = ".".join(problem.path)
+            where = f"at place {place}"
             if problem.unknown:
                 raise Refused(f'has "{name}" {where}, which no {self.singular} has.{did_you_mean(name, names)}')
             if problem.written is None:
@@ -182,7 +187,8 @@ def tree_of(values: Any, section: type[Section] | None = None, leaving: Collecti
     found: dict[str, Any] = {}
     usual: dict[str, Any] = {}
     for each in fields(values):
-        name, value = each.name, getattr(values, each.name)
+        name = each.name
+        value = getattr(values, each.name)
         if name not in names_in(section) or name in leaving or value is None:
             continue
         if value == _default(each) and name not in required_in(section):

@@ -16,7 +16,8 @@ _NUMBER = re.compile(r"[+-]?[\d.,_]+(?:[eE][+-]?\d*)?")
 
 def in_words(error: tomllib.TOMLDecodeError, text: str, source: str) -> str:
     """Two lines for people, as of any other mistake: file, line and what stands there; what to write."""
-    lines, place = text.splitlines(), _PLACE.search(str(error))
+    lines = text.splitlines()
+    place = _PLACE.search(str(error))
     own = _PLACE.sub("", str(error))
     number = int(place[1]) if place is not None and place[1] else _open_quote(lines)
     written = lines[number - 1].strip() if 0 < number <= len(lines) else ""
@@ -51,7 +52,8 @@ def _value(own: str, written: str) -> Iterator[str]:
         if own.startswith("Expected '='"):
             yield 'has no = between a field and its value. Write it as in module = "4.5 mm".'
         return
-    name, value = field[1], re.sub(r"\s+#.*$", "", field[2])
+    name = field[1]
+    value = re.sub(r"\s+#.*$", "", field[2])
     if not value or value.startswith("#"):
         yield f"{name} has no value."
     elif value[0] in "\"'":

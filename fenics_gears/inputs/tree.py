@@ -55,8 +55,13 @@ def shafts_with_sections(tree: Tree) -> list[str]:
 def written_out(tree: dict[str, Any]) -> dict[str, Any]:
     """A parsed file with its short forms written out: ``material = "steel"`` is a section with that name, and listed
     bearings, ``[[bearings.pinion]]``, are in the gear's section."""
-    gears, shafts, bearings = (table(tree, name) or {} for name in ("gears", "shafts", "bearings"))
-    homes = (gears, *(table(gears, gear) for gear in GEARS), *(table(shafts, shaft) for shaft in SHAFTS))
+    gears, shafts = (table(tree, name) or {} for name in ("gears", "shafts"))
+    bearings: Any = table(tree, "bearings") or {}
+    homes: tuple[Any, ...] = (
+        gears,
+        *(table(gears, gear) for gear in GEARS),
+        *(table(shafts, shaft) for shaft in SHAFTS),
+    )
     for home in homes:
         if home is not None and isinstance(home.get("material"), str):
             home["material"] = {"name": home["material"]}
@@ -147,7 +152,8 @@ def wheel_torque(name: str, number: float, teeth: Sequence[int], mesh_frequency:
 def load_in(tree: Tree) -> tuple[Path, float] | None:
     """The field that gives the load, and the torque (N mm) on the wheel; None where there is none that can be read."""
     teeth = [teeth_in(tree, gear) or 1 for gear in GEARS]
-    frequency, speed = quantity_at(tree, "motion", "mesh_frequency"), quantity_at(tree, "motion", "pinion_speed")
+    frequency = quantity_at(tree, "motion", "mesh_frequency")
+    speed = quantity_at(tree, "motion", "pinion_speed")
     frequency = speed / (2.0 * pi) * teeth[0] if frequency is None and speed is not None else frequency
     given = [(name, number) for name in LOADS if (number := quantity_at(tree, "load", name)) is not None]
     torque = wheel_torque(*given[0], teeth, frequency) if given else None

@@ -72,7 +72,8 @@ _UNITS = {
     "percent": (0.01, "ratio"),
 }
 
-A_FREQUENCY, AN_ANGULAR_SPEED = "a frequency (1/time)", "an angular speed"
+A_FREQUENCY = "a frequency (1/time)"
+AN_ANGULAR_SPEED = "an angular speed"
 # What a dimension is called, by its unit inside the program.
 _KINDS = {
     "mm": "a length",
@@ -179,7 +180,7 @@ def names_by_kind() -> dict[str, list[str]]:
     >>> names_by_kind()["a length"]
     ['mm', 'um', 'cm', 'dm', 'm', 'in', 'ft', 'mil']
     """
-    found = {}
+    found: dict[str, list[str]] = {}
     for name in _UNITS:
         found.setdefault(_unit(name)[1], []).append(name)
     return found
@@ -248,7 +249,8 @@ def _unit(written: str) -> tuple[float, str]:
 
 def _product(tidy: str) -> tuple[float, Counter]:
     """Factor of a product of known units to N, mm, s, rad, and its powers of length, force, time and angle."""
-    factor, powers = 1.0, Counter()
+    factor = 1.0
+    powers: Counter[str] = Counter()
     for item in _ITEMS.finditer(tidy):
         number, own = _product(item["inner"]) if item["inner"] else _in_base_units(item["name"])
         power = int(item["power"] or 1) * (-1 if item["joint"] else 1)

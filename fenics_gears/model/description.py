@@ -18,6 +18,7 @@ from fenics_gears.scene.data import ISO_6336, Scene
 from .bore_twist import bore_twist_stiffness
 from .cost import SECTOR_UNKNOWNS, expected_cost
 from .drivetrain import mesh_stiffness
+from .face_resolution import face_discretisation, layers_of_common_face
 from .model import Model, model_of
 from .motion_rows import Rows, frequency_rows, inertia_rows, period_rows, speed_rows, unknown_rows
 
@@ -33,7 +34,8 @@ class EffectState:
 
 
 def effect_states(scene: Scene) -> list[EffectState]:
-    states, there = [], {variable.name for variable in result_variables(scene)}
+    states = []
+    there = {variable.name for variable in result_variables(scene)}
     for effect in every_effect():
         data = getattr(scene, effect.section)
         if data is None:
@@ -53,10 +55,10 @@ def describe(scene: Scene) -> list[tuple[str, Rows]]:
     """Geometry, model, accuracy, natural frequencies and cost of a scene: headings, each with rows (label, value,
     unit). Raises GeometryError for impossible gears."""
     model = model_of(scene)
-    derived = [(each.name, each.value, f"{each.unit}, {each.formula}".lstrip(", ")) for each in scene.derived]
+    derived: Rows = [(each.name, each.value, f"{each.unit}, {each.formula}".lstrip(", ")) for each in scene.derived]
     sections: list[tuple[str, Rows]] = [("Derived, since the scene leaves it out", derived)] if derived else []
     sections += [
-        ("Gear pair", characteristics(model.pair, scene.measured_over)),
+        ("Gear pair", [*characteristics(model.pair, scene.measured_over)]),
         ("Model", _model_rows(model)),
         ("Accuracy", _accuracy_rows(model)),
     ]
@@ -70,10 +72,12 @@ def describe(scene: Scene) -> list[tuple[str, Rows]]:
 
 
 def _model_rows(model: Model) -> Rows:
-    grid, force = model.resolution.contact_grid, model.scene.load.wheel_torque / model.pair.wheel.base_radius
+    grid = model.resolution.contact_grid
+    force = model.scene.load.wheel_torque / model.pair.wheel.base_radius
     cut = ", the outermost cut in two" if model.face.slices > model.face.evenly else ""
     each = "normal and tangential force" if model.scene.friction is not None else "normal force"
-    touching, friction = "the first to touch carries all", model.scene.friction
+    touching = "the first to touch carries all"
+    friction = model.scene.friction
     if model.scene.tooth_elasticity is not None:
         touching = f"each with a {each} where flanks touch"
     rows: Rows = [*_face_rows(model), *_curve_rows(model), *_stiffness_rows(model), *unknown_rows(model)]
@@ -94,7 +98,8 @@ def _model_rows(model: Model) -> Rows:
 def _face_rows(model: Model) -> Rows:
     """Widths, where they or their places differ; of three-dimensional scenes also hands, modifications along the face
     and misalignment."""
-    pair, scene = model.pair, model.scene
+    pair = model.pair
+    scene = model.scene
     widths: Rows = []
     if pair.axial_offsets != (0.0, 0.0) or pair.face_widths[0] != pair.face_widths[1]:
         places = pair.gear_middles if pair.axial_offsets != (0.0, 0.0) else (None, None)
@@ -105,8 +110,6 @@ def _face_rows(model: Model) -> Rows:
         widths = [("face width in common", pair.face_width, f"mm: {', '.join(each)}")]
     if not scene.three_dimensional:
         return [*widths, *_plane_rows(model)]
-    from .face_resolution import face_discretisation, layers_of_common_face
-
     low, high = pair.common_face
     found: Rows = [
         *widths,
@@ -138,11 +141,14 @@ def _face_rows(model: Model) -> Rows:
 
 def _stiffness_rows(model: Model) -> Rows:
     """About what stiffness a tooth pair has in the run, and how much of it is twist of the bodies."""
-    scene, pair = model.scene, model.pair
-    one, twist = mesh_stiffness(scene, pair), bore_twist_stiffness(scene, pair)
+    scene = model.scene
+    pair = model.pair
+    one = mesh_stiffness(scene, pair)
+    twist = bore_twist_stiffness(scene, pair)
     if isinf(one):
         return []
-    each, words = 1e-3 / pair.face_width, "N/(mm um), about"
+    each = 1e-3 / pair.face_width
+    words = "N/(mm um), about"
     if not isinf(twist):
         share = f"{one / twist:.0%} of its deflection is twist of the bodies on their bores"
         words = f"{words}; {share}, {twist * each:.3g} N/(mm um)"
@@ -152,7 +158,8 @@ def _stiffness_rows(model: Model) -> Rows:
 def _curve_rows(model: Model) -> Rows:
     rows: Rows = []
     for name in GEARS if model.scene.flank_errors is not None else ():
-        own, gear = getattr(model.scene.flank_errors, name), getattr(model.pair, name)
+        own = getattr(model.scene.flank_errors, name)
+        gear = getattr(model.pair, name)
         zero = "in their mean" if own.anchor == MEAN else ""
         if own.measured_profile is not None:
             place = zero or f"at diameter {2.0 * float(gear.radius(v_roll_angle(gear))):.6g} mm"
@@ -168,7 +175,9 @@ OVER_THE_FACE = '[misalignment] with in_plane = "0 um" computes the pair over th
 def _plane_rows(model: Model) -> Rows:
     """Of elastic gears in the plane: the widths that count where a gear is wider than the common face, and what plane
     strain leaves out of a narrow face."""
-    pair, scene, found = model.pair, model.scene, []
+    pair = model.pair
+    scene = model.scene
+    found: Rows = []
     if scene.tooth_elasticity is None or scene.accuracy.model == ISO_6336:
         return []
     if pair.effective_face_widths != (pair.face_width, pair.face_width):
@@ -186,7 +195,8 @@ def _plane_rows(model: Model) -> Rows:
 # By how many per cent the mean transmission error in three dimensions is larger, over the face width in modules:
 # docs/third_dimension.md, plane limits, of steel; from how many on it is told.
 SOFTER = {0.5: 6.03, 1.0: 5.68, 2.0: 4.97, 4.0: 3.87, 8.0: 2.67, 15.0: 1.75, 30.0: 0.95, 60.0: 0.45}
-STEEL, NOTABLE_STIFFNESS = 0.3, 2.0
+STEEL = 0.3
+NOTABLE_STIFFNESS = 2.0
 
 
 def too_stiff(widths: float, materials: Sequence[Material]) -> float:
@@ -211,7 +221,8 @@ def _method(model: Model) -> str:
 
 
 def _accuracy_rows(model: Model) -> Rows:
-    resolution, asked = model.resolution, model.scene.accuracy
+    resolution = model.resolution
+    asked = model.scene.accuracy
 
     def origin(value) -> str:
         return "" if value is None else ", from the scene"

@@ -11,6 +11,7 @@ import numpy as np
 from fenics_gears.contact.face import Face, even_slices, finer_ends
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.layers import SweptWeb
+from fenics_gears.geometry.face import face_opening
 from fenics_gears.geometry.gear_data import mean_youngs_modulus
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.accuracy import (
@@ -79,14 +80,13 @@ def in_steps(wanted: float, whole: float) -> float:
 # Length of the window of contact nodes where no edge is near, in half-widths of the contact; and mesh stiffness per
 # face width, as a part of Young's modulus:
 # the largest line load is the mean one and this stiffness times the largest difference of openings along the face.
-INNER_HALF_WIDTHS, MESH_STIFFNESS = 4.5, 0.1
+INNER_HALF_WIDTHS = 4.5
+MESH_STIFFNESS = 0.1
 
 
 def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: Callable[[float], float]) -> float:
     """Length (mm) of that window, for the largest line load that is expected; `half_width_of`: half-width (mm) of the
     contact under a line load (N/mm)."""
-    from fenics_gears.geometry.face import face_opening
-
     opening = face_opening(pair, scene.lead_modifications, scene.misalignment, np.linspace(*pair.common_face, 21))
     return INNER_HALF_WIDTHS * half_width_of(
         line_load + MESH_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity) * float(np.ptp(opening))
@@ -95,9 +95,12 @@ def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: 
 
 def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
     """How the body of the pinion (0) or the wheel (1) is divided over its face."""
-    pair, common = model.pair, layers_of_common_face(model.scene, model.pair)
-    width, thickness = pair.face_widths[gear], pair.face_width / common
-    overhang, beyond = 0.5 * (width - pair.face_width), 0
+    pair = model.pair
+    common = layers_of_common_face(model.scene, model.pair)
+    width = pair.face_widths[gear]
+    thickness = pair.face_width / common
+    overhang = 0.5 * (width - pair.face_width)
+    beyond = 0
     # Layers are alike towards both ends of a gear, which halves the work: they begin with the common face where the
     # gear reaches as far beyond it at either end.
     if overhang > LEAST_OVERHANG * thickness and abs(pair.gear_middles[gear]) < LEAST_OVERHANG * thickness:
@@ -119,7 +122,8 @@ def check_layers(model: Model) -> None:
 
 def face_warnings(model: Model) -> list[str]:
     """Sentences where too few slices carry the load."""
-    slices, found = model.face.evenly, []
+    slices = model.face.evenly
+    found = []
     part = loaded_part(model)
     if part < 1.0 and part * slices < FEWEST_LOADED_SLICES:
         found.append(

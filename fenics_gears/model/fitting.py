@@ -14,7 +14,8 @@ from .face_resolution import layers_of_common_face
 from .model import Model, model_of
 
 # By how much elements and layers are made coarser from try to try, and how often.
-COARSER, TRIES = 1.2, 12
+COARSER = 1.2
+TRIES = 12
 
 
 def too_large(model: Model, cost: ExpectedCost, allowed: float) -> str:

@@ -20,6 +20,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
+from fenics_gears.scene.schema import WORDS
 
 from .drivetrain import drivetrain, mesh_stiffness
 from .modification import corner, removals, rim_warnings
@@ -90,8 +91,10 @@ class Model:
     def touching(self) -> Touching:
         """Which tooth pairs can touch: how far apart loaded teeth are (`reach`), and how many pairs there are at once
         (`slots`)."""
-        grid, steps = self.resolution.contact_grid, self.resolution.steps_per_mesh_cycle
-        coast, shifts = self.scene.coast_flanks is not None, self.face.outermost_shifts
+        grid = self.resolution.contact_grid
+        steps = self.resolution.steps_per_mesh_cycle
+        coast = self.scene.coast_flanks is not None
+        shifts = self.face.outermost_shifts
         return touching(self.pair, grid, steps, coast, self.corner, shifts)
 
     @cached_property
@@ -141,7 +144,8 @@ class Model:
 
     @cached_property
     def _stored(self) -> tuple[Arrays, dict[str, int]]:
-        slots, nodes = self.touching.slots, self.resolution.contact_grid.most_nodes
+        slots = self.touching.slots
+        nodes = self.resolution.contact_grid.most_nodes
         size = sizes(self.steps + 1, self.contact_steps, slots, nodes, self.face.slices, self.drivetrain.bearings)
         return stored_arrays(self.scene, size), size
 
@@ -199,7 +203,8 @@ class Model:
         return found
 
     def _of_a_part(self) -> list[str]:
-        period, run = common_period(self.scene), self.scene.motion.mesh_cycles
+        period = common_period(self.scene)
+        run = self.scene.motion.mesh_cycles
         if not run < period < inf:
             return []
         whole = lcm(self.scene.gears.pinion.teeth, self.scene.gears.wheel.teeth)
@@ -221,7 +226,8 @@ class Model:
 
 
 # Largest result; and the largest where the scene does not say how many contact fields to store.
-MOST_STORED_BYTES, MOST_UNASKED_BYTES = 4e9, 1e9
+MOST_STORED_BYTES = 4e9
+MOST_UNASKED_BYTES = 1e9
 
 
 def model_of(scene: Scene) -> Model:
@@ -257,8 +263,6 @@ def model_of(scene: Scene) -> Model:
 
 # Effects of a plane scene that change nothing of its model but the material removed from the flanks.
 RELIEFS = ("tip_relief", "root_relief", "profile_modifications")
-# What a model does not depend on.
-WORDS = ("title", "name", "derived", "measured_over", "written", "folder")
 
 
 def differ_only(one: Scene, other: Scene, names: Collection[str]) -> bool:
@@ -275,7 +279,8 @@ def with_reliefs(model: Model, scene: Scene) -> Model:
 
 def _too_large(curves: Model, whole: Model) -> str:
     """Why a result is refused, and what makes it smaller."""
-    allowed, motion = f"at most {MOST_STORED_BYTES / 1e9:g} GB are allowed", whole.scene.motion
+    allowed = f"at most {MOST_STORED_BYTES / 1e9:g} GB are allowed"
+    motion = whole.scene.motion
     if curves.stored_bytes > MOST_STORED_BYTES:
         return (
             f"motion.mesh_cycles = {motion.mesh_cycles}: the curves of all steps would hold"

@@ -85,7 +85,8 @@ def kinks(removal) -> tuple[float, ...]:
 
 # Tooth and rim on a rigid ring give way by STIFFEST exp(-thickness/FALL) per cent less than in a solid body, thickness
 # of the rim in root radii: within 4 of what is measured for 20 to 80 teeth (docs/drawing.md, thin rims).
-STIFFEST, FALL = 45.0, 0.19
+STIFFEST = 45.0
+FALL = 0.19
 # Per cent from which there is a warning.
 NOTABLE = 10.0
 
@@ -98,11 +99,13 @@ def too_stiff(gear: Gear) -> float:
 
 def rim_warnings(model: Model) -> list[str]:
     """A sentence on each gear of finite elements whose rim is thin for a rigid bore."""
-    scene, found = model.scene, []
+    scene = model.scene
+    found = []
     if scene.tooth_elasticity is None or scene.accuracy.model not in (None, ELASTIC):
         return []
     for name in GEARS:
-        gear, off = getattr(model.pair, name), too_stiff(getattr(model.pair, name))
+        gear = getattr(model.pair, name)
+        off = too_stiff(getattr(model.pair, name))
         if off < NOTABLE or getattr(scene.body_meshes, name, None) is not None:
             continue
         rim = gear.root_radius - gear.bore_radius

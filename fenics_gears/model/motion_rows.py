@@ -10,6 +10,7 @@ from fenics_gears.dynamics.tilting import NUMBERS
 from fenics_gears.effects import common_period
 from fenics_gears.geometry.sliding import sliding_speed
 
+from .drivetrain import lumped_gears
 from .model import Model
 
 Rows = list[tuple[str, object, str]]
@@ -19,7 +20,8 @@ MILLIMETRE = 1e-3  # m
 def speed_rows(model: Model) -> Rows:
     """Nominal speeds of the gears, the pitch circles and the flanks' sliding, at the highest mesh frequency of the
     run."""
-    pair, highest = model.pair, model.scene.mesh_frequencies[1]
+    pair = model.pair
+    highest = model.scene.mesh_frequencies[1]
     turns = highest / pair.pinion.teeth
     ends = np.array([pair.path_start, pair.path_end])
     sliding = np.abs(sliding_speed(pair, ends, highest)) * MILLIMETRE
@@ -38,10 +40,9 @@ def speed_rows(model: Model) -> Rows:
 def inertia_rows(model: Model) -> Rows:
     """Mass and moment of inertia of each gear, of the far end of the output shaft, and of both gears along the line of
     action."""
-    from .drivetrain import lumped_gears
-
     rows: Rows = []
-    along, inertia = [], model.scene.inertia
+    along = []
+    inertia = model.scene.inertia
     for name, lumped in lumped_gears(model.scene, model.pair).items():
         given = inertia.of(name)
         for field, unit in (("mass", "kg"), ("moment_of_inertia", "kg mm^2")):
@@ -90,7 +91,8 @@ def unknown_rows(model: Model) -> Rows:
 
 def period_rows(model: Model) -> Rows:
     """Mesh cycles of the common period: after it all that differs between cycles repeats."""
-    period, gears = common_period(model.scene), model.scene.gears
+    period = common_period(model.scene)
+    gears = model.scene.gears
     if period == inf:
         return [("mesh cycles of the common period", "none", "(no two mesh cycles are alike)")]
     words = "(all mesh cycles are alike)" if period == 1 else ""

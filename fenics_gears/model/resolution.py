@@ -41,16 +41,21 @@ HALF_WIDTHS_BESIDE = 2.0
 LONGEST_WINDOW = 3.0
 # Where the mate's tip edge presses, along the flank from the start of its active profile, in modules. Of the paper's
 # pair a longer part changes the transmission error by 0.01 % at 144 and at 575 N/mm, by 0.04 % at 1700 N/mm.
-BELOW_MATE_TIP, ABOVE_MATE_TIP = 0.03, 0.18
+BELOW_MATE_TIP = 0.03
+ABOVE_MATE_TIP = 0.18
 # Contact nodes closer than this part of the distance of flank nodes are nearly dependent.
 CLOSEST_NODES = 0.7
 # Above this Poisson's ratio these first-order elements are more than 0.5 % too stiff on a tooth (2 % at 0.49, 8 % at
 # 0.499).
-LOCKING_ELEMENTS, LOCKING_POISSONS_RATIO = ("P1", "Q1"), 0.45
+LOCKING_ELEMENTS = ("P1", "Q1")
+LOCKING_POISSONS_RATIO = 0.45
 # How often gears are meshed and condensed: the fast route, and the paper's.
-ONCE, EVERY_STEP = "once", "every step"
+ONCE = "once"
+EVERY_STEP = "every step"
 # For rigid flanks: contact window in modules, and the number of nodes in it among which the first contact is searched.
-RIGID, RIGID_WINDOW, RIGID_NODES = "rigid", 0.5, 81
+RIGID = "rigid"
+RIGID_WINDOW = 0.5
+RIGID_NODES = 81
 # Sizes that are given are rounded.
 ROUNDED = 1.01
 # Of the peak pressure with one element in a half-width; with two a quarter of it (`scene.accuracy.RESOLVED`).
@@ -149,7 +154,8 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
 
 
 def _flank_element_size(scene: Scene, half_width: float) -> float:
-    module, wanted = scene.gears.module, half_width / scene.fineness.elements_per_half_width
+    module = scene.gears.module
+    wanted = half_width / scene.fineness.elements_per_half_width
     usual = float(np.clip(wanted, FINEST_ELEMENT * module, COARSEST_ELEMENT * module))
     if scene.three_dimensional or not half_width:
         return usual
@@ -160,7 +166,8 @@ def mate_tips(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]
     """Roll angles (rad) of pinion and wheel between which the mate's tip edge may press on the flank: above the start
     of active profile, for a loaded pair touches with the edge alone before it enters and after it has left the path of
     contact."""
-    gears, ends = (pair.pinion, pair.wheel), (pair.path_start, pair.line_of_action_length - pair.path_end)
+    gears = (pair.pinion, pair.wheel)
+    ends = (pair.path_start, pair.line_of_action_length - pair.path_end)
     found = []
     for gear, end in zip(gears, ends):
         arc = arc_length(gear.base_radius, end / gear.base_radius)
@@ -172,7 +179,8 @@ def mate_tips(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]
 
 def _rigid_resolution(scene: Scene, drivetrain: Drivetrain) -> Resolution:
     """Rigid flanks touch at a point: a window in which it is found, and steps."""
-    asked, module = scene.accuracy, scene.gears.module
+    asked = scene.accuracy
+    module = scene.gears.module
     steps = asked.steps_per_mesh_cycle or (
         scene.fineness.steps_per_mesh_cycle if drivetrain.mass is None else MOST_STEPS_PER_MESH_CYCLE
     )
@@ -233,7 +241,9 @@ def _unresolved(resolution: Resolution) -> list[str]:
     """Elements and contact nodes that are too large for the pressure in the half-width, or for the contact itself."""
     if not resolution.half_width:
         return []
-    half_width, grid, found = resolution.half_width, resolution.contact_grid, []
+    half_width = resolution.half_width
+    grid = resolution.contact_grid
+    found = []
     enough = half_width / RESOLVED
     for name, size, remedy in (
         ("accuracy.flank_element_size", resolution.flank_element_size, f'flank_element_size = "{enough:.2g} mm"'),

@@ -15,7 +15,8 @@ from fenics_gears.effects import result_variables
 from fenics_gears.scene.data import Scene
 
 # Stress points of either fillet of a tooth, `elasticity.fillet_points`; the last is the one at the 30 degree tangent.
-FILLET_POINTS, FILLET_POINTS_OVER_FACE = 24, 12
+FILLET_POINTS = 24
+FILLET_POINTS_OVER_FACE = 12
 # Points of a shaft at which its deflection is given.
 SHAFT_POINTS = 41
 # Of an array that is compressed; measured: 0.13 to 0.3.
@@ -119,7 +120,9 @@ class InMemory:
     type of their own."""
 
     def __init__(self, stored: Arrays, steps: int, last: int):
-        self.stored, self.steps, self.last = stored, steps, last
+        self.stored = stored
+        self.steps = steps
+        self.last = last
         self.kinds: dict[str, Kind] = {}
         self._arrays: dict[str, np.ndarray] = {}
 
@@ -130,7 +133,8 @@ class InMemory:
             if name not in self.kinds:
                 kind = self.kinds[name] = Kind.of(name, own, self.stored, self.steps, self.last)
                 self._arrays[name] = np.empty((kind.last or self.steps, *kind.shape), kind.type)
-            kind, end = self.kinds[name], first + len(own)
+            kind = self.kinds[name]
+            end = first + len(own)
             begin = max(first, kind.kept_from(end))
             self._arrays[name][kind.places(begin, end)] = own[begin - first :]
 

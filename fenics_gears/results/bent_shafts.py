@@ -9,6 +9,7 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.beam import SIX
 from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_seat import BentBySeat, bent_by_seat, carried_with_twist
+from fenics_gears.dynamics.frequencies import vibrations
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import SHAFT_POINTS
@@ -31,7 +32,8 @@ class BentShafts(AlongTheFace):
 
     def __init__(self, cycle: Cycle, model: Model):
         super().__init__(cycle)
-        self.model, self.drivetrain = model, model.drivetrain
+        self.model = model
+        self.drivetrain = model.drivetrain
         self._lines = {each.gear: each.deflection(self.points(each.length)) for each in self.drivetrain.elastic}
         self._seats = {each.gear: self._seat(each) for each in self.drivetrain.elastic if each.yields_within}
 
@@ -50,7 +52,8 @@ class BentShafts(AlongTheFace):
         ]
         for place, each in enumerate(self.drivetrain.elastic):
             if each.gear in self._seats:
-                seat, teeth = self._seats[each.gear], self._loads(nodes, each.gear)
+                seat = self._seats[each.gear]
+                teeth = self._loads(nodes, each.gear)
                 motions[:, GEARS.index(each.gear)] += np.tensordot(teeth, seat.teeth, ((1, 2), (1, 2)))
                 loads[place] += np.tensordot(teeth, seat.bearings, ((1, 2), (1, 2))).reshape(loads[place].shape)
         carried = np.concatenate(loads, axis=1)
@@ -104,12 +107,14 @@ class BentShafts(AlongTheFace):
     def _seat(self, shaft: ElasticShaft) -> BentBySeat:
         """What a seat does under loads (S, 6) in the slices of the face, at their own heights: of its teeth, motions
         (5, S, 6) of the straight axis that is nearest to them over the common face, in the middle of the gear."""
-        z, widths = self.face.positions - self.pair.gear_middles[GEARS.index(shaft.gear)], self.face.widths
+        z = self.face.positions - self.pair.gear_middles[GEARS.index(shaft.gear)]
+        widths = self.face.widths
         heights = np.concatenate([z - GAUSS * widths, z + GAUSS * widths])
         found = bent_by_seat(shaft, heights, self.points(shaft.length))
         teeth, line, bearings = (each.reshape(*each.shape[:-2], 2, len(z), SIX).mean(axis=-3) for each in found)
         teeth = teeth.reshape(2, len(z), SIX, len(z), SIX).mean(axis=0)
-        moved, straight = np.zeros((len(MOTIONS), len(z), SIX)), np.stack([np.ones_like(z), z], axis=1)
+        moved = np.zeros((len(MOTIONS), len(z), SIX))
+        straight = np.stack([np.ones_like(z), z], axis=1)
         nearest = np.linalg.solve((straight.T * widths) @ straight, straight.T * widths)
         # A positive tilt about x moves what lies further along the axis to negative y.
         for axis, rows, sense in ((0, [0, 4], 1.0), (1, [1, 3], -1.0)):
@@ -119,7 +124,8 @@ class BentShafts(AlongTheFace):
     def _loads(self, nodes: SideBySide, gear: str) -> np.ndarray:
         """Loads (steps, S, 6) of the teeth on a gear in the slices of the face, at their own heights, over MOTIONS and
         the twist."""
-        number, loaded = GEARS.index(gear), np.flatnonzero(nodes.normal)
+        number = GEARS.index(gear)
+        loaded = np.flatnonzero(nodes.normal)
         rows = np.array([0, 1, 6, 7, 8, 2]) + 3 * number
         place = nodes.step[loaded] * self.face.slices + nodes.of("slice")[loaded]
         forces = nodes.of("rows_of_normals")[rows][:, loaded] * nodes.normal[loaded]
@@ -135,8 +141,6 @@ class BentShafts(AlongTheFace):
         """Natural frequencies with the mesh as it was, a line each; nothing without inertia or contact."""
         if self.drivetrain.mass is None or "mesh_stiffness_tangent" not in counted:
             return {}
-        from fenics_gears.dynamics.frequencies import vibrations
-
         stiffness = mean_where_positive(counted["mesh_stiffness_tangent"].values)
         if not np.isfinite(stiffness):
             return {}
@@ -146,7 +150,8 @@ class BentShafts(AlongTheFace):
 
     def _rolling_elements(self, counted: xr.Dataset) -> dict[str, float]:
         """Under the mean motions of the gears, which shafts and bearings follow at rest."""
-        rolling, drivetrain = self.drivetrain.rolling, self.drivetrain
+        rolling = self.drivetrain.rolling
+        drivetrain = self.drivetrain
         if rolling is None:
             return {}
         coordinates = rolling.reference.copy()

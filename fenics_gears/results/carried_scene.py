@@ -8,7 +8,8 @@ import xarray as xr
 from fenics_gears.effects import from_effects
 from fenics_gears.errors import SceneError
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import NO_FILE, scene_from_text
+from fenics_gears.scene.parsing import NO_FILE
+from fenics_gears.scene.read import scene_from_text
 
 LOGGER = logging.getLogger(__name__)
 
@@ -16,7 +17,8 @@ LOGGER = logging.getLogger(__name__)
 def scene_attributes(scene: Scene) -> dict[str, str]:
     """The text and the name of a scene; of one that names files also the folder from which they are looked for, and a
     hash of what was read from each."""
-    found, files = {"scene": scene.text, "scene_name": scene.name}, _files(scene)
+    found = {"scene": scene.text, "scene_name": scene.name}
+    files = _files(scene)
     if files:
         found |= {
             "scene_folder": scene.folder,

@@ -38,7 +38,8 @@ class Curves(Protocol):
 def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
     """Forces of the whole mesh at consecutive steps, on drive and coast flanks, and their reactions on both gears'
     centres."""
-    steps, drive = nodes.steps, nodes.drive
+    steps = nodes.steps
+    drive = nodes.drive
     layouts = nodes.layouts
     reactions = _summed(layouts.known("rows_of_normals"), layouts.places, nodes.normal, layouts.starts)
 
@@ -120,15 +121,18 @@ def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
 def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
     """Forces of pairs of rigid flanks; not a number where several touch together: all with the gap of the node that has
     the force."""
-    gap, steps = np.concatenate([position.operator.gap for position in nodes.steps.positions]), len(nodes.steps)
+    gap = np.concatenate([position.operator.gap for position in nodes.steps.positions])
+    steps = len(nodes.steps)
     found = {}
     for name, drive in (("pair_normal_force", True), ("pair_coast_normal_force", False)):
         if not drive and scene.coast_flanks is None:
             break
         of_side = nodes.drive == drive
         loaded = np.flatnonzero(of_side & (nodes.normal != 0.0))
-        force, largest_gap = np.zeros(steps), np.full(steps, -np.inf)
-        force[nodes.step[loaded]], largest_gap[nodes.step[loaded]] = nodes.normal[loaded], gap[loaded] + SAME_GAP
+        force = np.zeros(steps)
+        largest_gap = np.full(steps, -np.inf)
+        force[nodes.step[loaded]] = nodes.normal[loaded]
+        largest_gap[nodes.step[loaded]] = gap[loaded] + SAME_GAP
         touching = nodes.by_slot(of_side & (gap <= largest_gap[nodes.step])) > 0
         force[touching.sum(axis=1) > 1] = np.nan
         found[name] = np.where(touching, force[:, None], 0.0)
@@ -169,7 +173,8 @@ def energy_variables(scene: Scene, drivetrain: Drivetrain, steps: Steps) -> dict
     parts = {}
     if scene.tooth_elasticity is not None:
         parts["energy_teeth"] = energy_of_teeth(steps)
-    positions, velocities = steps.states[:, 0], steps.states[:, 1]
+    positions = steps.states[:, 0]
+    velocities = steps.states[:, 1]
     if scene.bearings is not None:
         parts["energy_bearings"] = 0.5 * quadratic(positions, drivetrain.bearing_stiffness)
         if drivetrain.rolling is not None:
@@ -192,8 +197,11 @@ def _energy_of_teeth(block):
     steps = in_block(block)
     energies = np.zeros(len(steps.rows))
     for s in range(len(steps.rows)):
-        jacobian, coordinates, forces = operator_at(steps, s).jacobian, steps.states[s, 0], forces_at(steps, s)
-        loads, displacement = steps.forces[forces], steps.displacement[forces]
+        jacobian = operator_at(steps, s).jacobian
+        coordinates = steps.states[s, 0]
+        forces = forces_at(steps, s)
+        loads = steps.forces[forces]
+        displacement = steps.displacement[forces]
         for row in range(len(loads)):
             if loads[row] != 0.0:
                 energies[s] += 0.5 * loads[row] * (product(jacobian[row], coordinates) - displacement[row])

@@ -14,19 +14,16 @@ from math import inf, isnan, nan, sqrt
 import numpy as np
 from numba import njit
 
-from .numbers import SAME
+from .numbers import LIKE, SAME, crest_of_cubic, differences, is_smooth
 
 # Values asked for at most.
 MOST_SOLVED = 20
 # How far down from the largest value a curve is followed, in parts of what is sought.
 NEAR = 25.0
-# A curve has not jumped where it falls in the next step by at least this part of the fall before. A crest is smooth
-# where the lower of the parabolas from either side is above the steps by at least this part of the higher one; between
-# steps where their curvatures are as much alike.
-LIKE = 0.5
 # A cubic holds where it differs from a value between its steps by at most so many parts of what is sought; the value is
 # asked for at most this part of the interval from its middle.
-AGREES, MIDDLE = 2.0, 0.25
+AGREES = 2.0
+MIDDLE = 0.25
 # A position is sought no nearer to a step than this part of the distance to the next.
 NEAREST = 0.02
 
@@ -53,11 +50,14 @@ class Searches:
     def __init__(self, steps: np.ndarray, curves: np.ndarray, sought: np.ndarray, finest: float, corners: bool = True):
         count, s = curves.shape
         self._points = np.zeros((count, 2, s + MOST_SOLVED))
-        self._points[:, 0, :s], self._points[:, 1, :s] = steps, curves
+        self._points[:, 0, :s] = steps
+        self._points[:, 1, :s] = curves
         self._intervals = np.zeros((count, len(KNOWN), s + MOST_SOLVED))
-        self._counted, self._ends = np.tile([s, -1, 0], (count, 1)), np.full((count, 3), nan)
+        self._counted = np.tile([s, -1, 0], (count, 1))
+        self._ends = np.full((count, 3), nan)
         self._settings = sought, float(finest), bool(corners)
-        self.asked, self.tops = self._ends[:, 0], self._ends[:, 1:]
+        self.asked = self._ends[:, 0]
+        self.tops = self._ends[:, 1:]
         self.take(self.asked)
 
     def take(self, values: np.ndarray) -> None:
@@ -69,7 +69,11 @@ class Searches:
 def _go_on(points, intervals, counted, ends, values, sought, finest, corners):
     """Take the values (c,) that were asked for, and ask for the next ones."""
     for c in range(len(points)):
-        x, y, known, own, settings = points[c, 0], points[c, 1], intervals[c], counted[c], (sought[c], finest, corners)
+        x = points[c, 0]
+        y = points[c, 1]
+        known = intervals[c]
+        own = counted[c]
+        settings = (sought[c], finest, corners)
         if own[LEFT] < 0:
             own[LEFT] = 0 if _is_level(y[: own[COUNT]]) else MOST_SOLVED
             _begin(x[: own[COUNT]], y[: own[COUNT]], known, settings)
@@ -77,8 +81,11 @@ def _go_on(points, intervals, counted, ends, values, sought, finest, corners):
             own[LEFT] = 0
         else:
             _take(x, y, known, own[COUNT], (own[AT], ends[c, 0], values[c]), settings)
-            own[COUNT], own[LEFT] = own[COUNT] + 1, own[LEFT] - 1
-        x, y, known = x[: own[COUNT]], y[: own[COUNT]], known[:, : max(own[COUNT] - 1, 0)]
+            own[COUNT] += 1
+            own[LEFT] -= 1
+        x = x[: own[COUNT]]
+        y = y[: own[COUNT]]
+        known = known[:, : max(own[COUNT] - 1, 0)]
         place, top = _top(x, y, known)
         own[AT], asked = _next(x, y, known, top, settings) if own[LEFT] else (0, nan)
         ends[c] = asked, place, top
@@ -87,7 +94,8 @@ def _go_on(points, intervals, counted, ends, values, sought, finest, corners):
 @njit(cache=True)
 def _is_level(values):
     """Whether a curve has its largest value at three steps in a row: two may lie on either side of a crest."""
-    least, row = values.max() - SAME * np.abs(values).max(), 0
+    least = values.max() - SAME * np.abs(values).max()
+    row = 0
     for value in values:
         row = row + 1 if value >= least or row >= 3 else 0
     return row >= 3
@@ -97,7 +105,8 @@ def _is_level(values):
 def _begin(x, y, known, settings):
     """Look at the intervals but the outer ones in which a line from either side rises above the largest value by more
     than is sought."""
-    known[BOUND], known[HEIGHT] = -inf, -inf
+    known[BOUND] = -inf
+    known[HEIGHT] = -inf
     highest = y.max() + settings[0]
     for i in range(1, len(x) - 2):
         h = x[i + 1] - x[i]
@@ -120,17 +129,22 @@ def _top(x, y, known):
 @njit(cache=True)
 def _next(x, y, known, top, settings):
     """The interval in which the largest value may lie, and the place there to ask for; 0 where it is known."""
-    interval, crossing, bound, (sought, finest, _) = 0, True, -inf, settings
+    interval = 0
+    crossing = True
+    bound = -inf
+    sought, finest, _ = settings
     if len(known[BOUND]):
         bound = known[BOUND].max()
         interval = known[BOUND].argmax() if bound > -inf else 0
     if bound <= top + sought:
-        at, crossing = y.argmax(), False
+        at = y.argmax()
+        crossing = False
         # Beside the crest of a cubic that holds there are no lines.
         interval = 0 if known[CUBIC, max(at - 1, 0) : at + 1].any() else _steep_neighbour(x, y, at, sought, finest)
     if not interval:
         return 0, nan
-    start, end = x[interval], x[interval + 1]
+    start = x[interval]
+    end = x[interval + 1]
     place = known[PLACE, interval] if crossing and known[ASKED, interval] else 0.5 * (start + end)
     return interval, min(max(finest * round(place / finest), start + finest), end - finest)
 
@@ -140,7 +154,9 @@ def _steep_neighbour(x, y, top, sought, finest):
     """The steeper of the intervals in which the curve falls below its largest value, at the point `top`, by more than
     NEAR times what is sought within a step of it; 0 where neither does so in itself, has a place between, or both are
     at an end."""
-    near, steepest, fall = NEAR * sought, 0, -inf
+    near = NEAR * sought
+    steepest = 0
+    fall = -inf
     for side in (-1, 1):
         end = top
         while 0 < end + side < len(y) - 1 and y[end + side] >= y[top] - near and abs(x[end + side] - x[top]) < 1.0:
@@ -151,7 +167,8 @@ def _steep_neighbour(x, y, top, sought, finest):
             and x[interval + 1] - x[interval] >= 2.0 * finest
             and y[end] - y[end + side] > fall
         ):
-            steepest, fall = interval, y[end] - y[end + side]
+            steepest = interval
+            fall = y[end] - y[end + side]
     return steepest if fall > near else 0
 
 
@@ -161,12 +178,17 @@ def _take(x, y, known, count, value, settings):
     interval, place, found = value
     holds = _holds(x[interval - 1 :], y[interval - 1 :], place, found, AGREES * settings[0])
     for i in range(count, interval + 1, -1):
-        x[i], y[i] = x[i - 1], y[i - 1]
+        x[i] = x[i - 1]
+        y[i] = y[i - 1]
         known[:, i - 1] = known[:, i - 2]
-    x[interval + 1], y[interval + 1] = place, found
+    x[interval + 1] = place
+    y[interval + 1] = found
     for i in (interval, interval + 1):
         known[:, i] = 0.0
-        known[BOUND, i], known[HEIGHT, i], known[ASKED, i], known[CUBIC, i] = -inf, -inf, 1.0, holds
+        known[BOUND, i] = -inf
+        known[HEIGHT, i] = -inf
+        known[ASKED, i] = 1.0
+        known[CUBIC, i] = holds
     for i in range(max(interval - 2, 1), min(interval + 4, count - 1)):
         _look_at(x[: count + 1], y[: count + 1], known, i, settings)
 
@@ -175,18 +197,24 @@ def _take(x, y, known, count, value, settings):
 def _look_at(x, y, known, interval, settings):
     """How high the curve may be in an interval, or is."""
     _, finest, corners = settings
-    four, heights = x[interval - 1 : interval + 3], y[interval - 1 : interval + 3]
+    four = x[interval - 1 : interval + 3]
+    heights = y[interval - 1 : interval + 3]
     height, place, jumps = _bound(four, heights)
-    divisible, cubic = four[2] - four[1] >= 2.0 * finest, known[CUBIC, interval] != 0.0
+    divisible = four[2] - four[1] >= 2.0 * finest
+    cubic = known[CUBIC, interval] != 0.0
     known[BOUND, interval] = height if divisible and not cubic else -inf
-    known[PLACE, interval], crest, top = place, 0.0, -inf
+    known[PLACE, interval] = place
+    crest = 0.0
+    top = -inf
     if corners and not (divisible or cubic or jumps) and 1 < interval < len(x) - 3:
         crest, top = _corner(x[interval - 2 : interval + 4], y[interval - 2 : interval + 4])
-    if cubic or not divisible and _is_smooth(four, heights):
-        of_cubic, its_height = _crest(four, heights)
+    if cubic or not divisible and is_smooth(four, heights):
+        of_cubic, its_height = crest_of_cubic(four, heights)
         if its_height > top:
-            crest, top = of_cubic, its_height
-    known[CREST, interval], known[HEIGHT, interval] = crest, top
+            crest = of_cubic
+            top = its_height
+    known[CREST, interval] = crest
+    known[HEIGHT, interval] = top
 
 
 @njit(cache=True)
@@ -197,9 +225,13 @@ def _bound(x, y):
     That is the crossing of the lines from either side; half-way where one rises into the interval and the other lies
     far below its end, so that the curve may have jumped down anywhere.
     """
-    h, a, b = x[2] - x[1], y[1], y[2]
-    left, right = (a - y[0]) / (x[1] - x[0]), (y[3] - b) / (x[3] - x[2])
-    from_left, from_right = a + left * h, b - right * h
+    h = x[2] - x[1]
+    a = y[1]
+    b = y[2]
+    left = (a - y[0]) / (x[1] - x[0])
+    right = (y[3] - b) / (x[3] - x[2])
+    from_left = a + left * h
+    from_right = b - right * h
     if a >= b and left > 0.0 and from_right < a - LIKE * (a - b):
         return from_left, x[1] + 0.5 * h, True
     if b > a and right < 0.0 and from_left < b - LIKE * (b - a):
@@ -215,12 +247,15 @@ def _corner(x, y):
     """Place and height of the crossing of the parabolas through the first and the last three of six points x, y (6,)
     between them; no height where they do not cross there, the first from below."""
     h = x[3] - x[2]
-    before, after = (y[2] - y[1]) / (x[2] - x[1]), (y[4] - y[3]) / (x[4] - x[3])
+    before = (y[2] - y[1]) / (x[2] - x[1])
+    after = (y[4] - y[3]) / (x[4] - x[3])
     bend_before = (before - (y[1] - y[0]) / (x[1] - x[0])) / (x[2] - x[0])
     bend_after = ((y[5] - y[4]) / (x[5] - x[4]) - after) / (x[5] - x[3])
     # Slopes at the third and the fourth point; the first parabola less the second is c + u (b + u a), u from the third.
-    before, after = before + (x[2] - x[1]) * bend_before, after - (x[4] - x[3]) * bend_after
-    a, b = bend_before - bend_after, before - after + 2.0 * h * bend_after
+    before = before + (x[2] - x[1]) * bend_before
+    after = after - (x[4] - x[3]) * bend_after
+    a = bend_before - bend_after
+    b = before - after + 2.0 * h * bend_after
     c = y[2] - y[3] + h * (after - h * bend_after)
     inside = b * b - 4.0 * a * c
     if not (c < 0.0 < c + h * (b + h * a) and inside >= 0.0):
@@ -230,67 +265,9 @@ def _corner(x, y):
 
 
 @njit(cache=True)
-def _differences(x, y):
-    """Divided differences of four points x, y (4,): the middle first one, both second ones, the third one."""
-    before, middle, after = (y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1]), (y[3] - y[2]) / (x[3] - x[2])
-    one, other = (middle - before) / (x[2] - x[0]), (after - middle) / (x[3] - x[1])
-    return middle, (one, other), (other - one) / (x[3] - x[0])
-
-
-@njit(cache=True)
 def _holds(x, y, place, found, most):
     """Whether the cubic through four points x, y (4,), concave in the middle, is `found` at a place, by `most`."""
-    slope, (one, _), third = _differences(x, y)
+    slope, (one, _), third = differences(x, y)
     after = place - x[1]
     cubic = y[1] + after * (slope + (place - x[2]) * (one + third * (place - x[0])))
-    return _is_smooth(x, y) and abs(found - cubic) <= most and abs(after / (x[2] - x[1]) - 0.5) <= MIDDLE
-
-
-@njit(cache=True)
-def _is_smooth(x, y):
-    """Whether a curve bends alike through the first and the last three of four points x, y (4,), and down."""
-    one, other = _differences(x, y)[1]
-    return max(one, other) < 0.0 and min(one / other, other / one) >= LIKE
-
-
-@njit(cache=True)
-def _crest(x, y):
-    """Place and value of the crest of the cubic through four points x, y (4,) between the middle two; no value where it
-    has none there."""
-    slope, (one, _), third = _differences(x, y)
-    # It is y[1] + u (a + u (b + u third)), u from x[1] on.
-    curvature, h = one + third * (x[1] - x[0]), x[2] - x[1]
-    a, b = slope - h * curvature, curvature - h * third
-    inside = b * b - 3.0 * a * third
-    fall = sqrt(inside) - b if inside >= 0.0 else 0.0
-    u = a / fall if fall > 0.0 else h
-    if not 0.0 < u < h:
-        return x[1], -inf
-    return x[1] + u, y[1] + u * (a + u * (b + u * third))
-
-
-def largest_of_cubics(steps: np.ndarray, values: np.ndarray) -> tuple[float, float]:
-    """Place and largest value of the cubics through each four consecutive `values` (s,) at whole `steps`, between the
-    middle two; only where the parabolas through three of them, either way, have crests alike: at a corner the curve is
-    no cubic."""
-    return _largest_of_cubics(*(np.asarray(each, dtype=float) for each in (steps, values)))
-
-
-@njit(cache=True)
-def _largest_of_cubics(x, y):
-    top = y.argmax()
-    place, largest, crest, height = x[top], y[top], 0.0, -inf
-    for i in range(1, len(x) - 2):
-        four, own = x[i - 1 : i + 3], y[i - 1 : i + 3]
-        one, other = _differences(four, own)[1]
-        if not (one < 0.0 and other < 0.0):
-            continue
-        # Crests of both parabolas above the middle two values.
-        above = own[1] - (0.5 * (own[2] - own[0])) ** 2 / (4.0 * one)
-        beyond = own[2] - (0.5 * (own[3] - own[1])) ** 2 / (4.0 * other)
-        between = max(own[1], own[2])
-        if min(above, beyond) - between >= LIKE * (max(above, beyond) - between):
-            at, found = _crest(four, own)
-            if found > height:
-                crest, height = at, found
-    return (crest, height) if height > largest else (place, largest)
+    return is_smooth(x, y) and abs(found - cubic) <= most and abs(after / (x[2] - x[1]) - 0.5) <= MIDDLE

@@ -61,7 +61,8 @@ def curves(result: xr.Dataset) -> Iterator[tuple[str, np.ndarray]]:
     and gear."""
     first = [name for name in ("time", "mesh_phase") if name in result.variables]
     for name in (*first, *(name for name in result.data_vars if name not in first)):
-        variable, unit = result[name], _unit(result[name].attrs.get("units", "1"))
+        variable = result[name]
+        unit = _unit(result[name].attrs.get("units", "1"))
         if variable.dims == ("time",):
             yield f"{name}{unit}", variable.values
         elif variable.dims == ("time", "gear"):

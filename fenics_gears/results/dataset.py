@@ -16,11 +16,11 @@ import fenics_gears
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, from_effects, result_variables
+from fenics_gears.errors import attempted
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.storage import CONTACT_COORDINATES
 from fenics_gears.numbers_version import NUMBERS_VERSION
 
-from .afterwards import attempted
 from .carried_scene import scene_attributes
 from .contact_variables import largest_normal_force, transmitted
 from .extrema import Extrema, extremes
@@ -40,7 +40,8 @@ class RunResult:
         begun = time.perf_counter()
         recorder.finish()
         model = recorder.model
-        self.recorder, self._curves = recorder, recorder.arrays
+        self.recorder = recorder
+        self._curves = recorder.arrays
         counted = settled(model, max(recorder.steps - 1, 0))
         self._first = counted.first
         self.attrs = _attributes(recorder, march, self, counted.first)
@@ -86,7 +87,8 @@ class RunResult:
 
 def _variables(recorder: Recorder, first: int):
     """Name, dimensions, values and labels of each variable; `first`: the first settled step."""
-    scene, arrays = recorder.model.scene, recorder.arrays
+    scene = recorder.model.scene
+    arrays = recorder.arrays
     described = {variable.name: variable for variable in result_variables(scene)}
     for name, variable in described.items():
         if name in arrays:
@@ -95,7 +97,8 @@ def _variables(recorder: Recorder, first: int):
         for name, (dims, values) in found.items():
             if dims[:1] != ("time",):
                 yield name, dims, values, described[name].labels
-    forces, numbers = arrays["pair_normal_force"][first:], arrays["pair_number"][first:]
+    forces = arrays["pair_normal_force"][first:]
+    numbers = arrays["pair_number"][first:]
     phase = arrays["mesh_phase"][first:]
     points = path_point_values(scene, recorder.model.pair, phase, numbers, forces, recorder.first_number)
     for name, values in points.items():
@@ -204,5 +207,6 @@ def _numbers(recorder: Recorder, march: March, result: RunResult, first: int) ->
 
 def friction_loss(counted: Mapping[str, np.ndarray]) -> dict[str, float]:
     """The share of the drive's work that friction takes; nothing where the drive does no work."""
-    drive, taken = abs(transmitted(counted).drive), counted["work_friction"]
+    drive = abs(transmitted(counted).drive)
+    taken = counted["work_friction"]
     return {"friction_loss": float(taken[-1] - taken[0]) / drive} if drive else {}

@@ -19,15 +19,16 @@ from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects import common_period
 from fenics_gears.model.model import Model
 
-from .crests import Searches, largest_of_cubics
+from .crests import Searches
 from .key_numbers import largest_force_over_time
-from .numbers import CUBICS, SAME, SOLVED, STEPS
+from .numbers import CUBICS, SAME, SOLVED, STEPS, largest_of_cubics
 
 # Up to which part of the curve's span an extremum is sought.
 SOUGHT = 1e-4
 # Places between steps divide a step by eight at least and a mesh cycle by so many: friction turns, and pairs enter
 # contact, within less.
-LARGEST_PART, PLACES = 0.125, 800
+LARGEST_PART = 0.125
+PLACES = 800
 # Over a face positions cost a hundred times as much, and slices leave a peak-to-peak value some 2 % uncertain.
 SOUGHT_OVER_FACE = 3e-4
 # Longer periods are not held in memory.
@@ -71,7 +72,8 @@ class Extrema:
         transmission_error: np.ndarray,
         march: March | None = None,
     ):
-        self._model, self._cycle = model, cycle
+        self._model = model
+        self._cycle = cycle
         self._steps = np.rint(mesh_phase * cycle.steps).astype(int)
         self._period = common_period(model.scene) * cycle.steps
         whole = isfinite(self._period) and len(self._steps) > self._period
@@ -80,10 +82,13 @@ class Extrema:
         self._whole = whole
         self._quasi_static = model.drivetrain.mass is None
         follows_statics = self._quasi_static or not model.time_scales.averages_acceleration
-        self._sought, self._finest, self._corners = SOUGHT_OVER_FACE, LARGEST_PART, cycle.face.slices == 1
+        self._sought = SOUGHT_OVER_FACE
+        self._finest = LARGEST_PART
+        self._corners = cycle.face.slices == 1
         if self._corners:
             wanted = 2.0 ** -ceil(log2(PLACES / cycle.steps))
-            self._sought, self._finest = SOUGHT, min(max(wanted, 1.0 / COMMON_PLACES), LARGEST_PART)
+            self._sought = SOUGHT
+            self._finest = min(max(wanted, 1.0 / COMMON_PLACES), LARGEST_PART)
         self._way = CUBICS if not follows_statics else SOLVED if cycle.traits.divisible else STEPS
         if self._way == SOLVED:
             # Not methods: a circle of references would keep all operators until Python looks for garbage.
@@ -95,7 +100,8 @@ class Extrema:
     def largest(self, quantities: Sequence[Quantity]) -> list[Extremum]:
         """The largest value of each quantity; what they ask for between steps is solved together."""
         curves = np.array([quantity.curve for quantity in quantities])
-        tops, round_off = curves.max(axis=1), _round_off(curves)
+        tops = curves.max(axis=1)
+        round_off = _round_off(curves)
         if self._way == SOLVED:
             located = self._solved(quantities, curves, round_off)
         else:
@@ -108,7 +114,8 @@ class Extrema:
         found = []
         for (step, value, way), top, least, first in zip(located, tops.tolist(), round_off.tolist(), firsts.tolist()):
             if value <= top + least:
-                step, value = float(first), top
+                step = float(first)
+                value = top
             found.append(Extremum(value, step / self._cycle.steps, way))
         return found
 
@@ -116,7 +123,8 @@ class Extrema:
         self, quantities: Sequence[Quantity], curves: np.ndarray, round_off: np.ndarray
     ) -> list[tuple[float, float, str]]:
         """Step, largest value, and the way, of each quantity by positions that are solved."""
-        sought, ways = self._sought * np.ptp(curves, axis=1) + round_off, [SOLVED] * len(quantities)
+        sought = self._sought * np.ptp(curves, axis=1) + round_off
+        ways = [SOLVED] * len(quantities)
         search = Searches(*self._last_period(curves), sought, self._finest, self._corners)
         with thread_pools().limit(limits=1):
             while len(asking := np.flatnonzero(~np.isnan(search.asked)).tolist()):
@@ -157,7 +165,8 @@ class Extrema:
         repeats; of all steps where none is whole."""
         if not self._whole:
             return self._steps.astype(float), curves
-        steps, values = self._steps[-self._period - 1 :] - self.first, curves[:, -self._period - 1 :]
+        steps = self._steps[-self._period - 1 :] - self.first
+        values = curves[:, -self._period - 1 :]
         return np.concatenate(([steps[0] - 1.0], steps, [steps[-1] + 1.0])), np.concatenate(
             (values[:, -2:-1], values, values[:, 1:2]), axis=1
         )
@@ -196,7 +205,8 @@ def extremes(
 ) -> list[tuple[Numbers, Numbers]]:
     """Of each run, by its number and curves: numbers of the extremes of the transmission error, and of the largest
     normal force of a tooth pair where it is asked for."""
-    of, quantities = extrema.transmission_error, []
+    of = extrema.transmission_error
+    quantities = []
     for run, curves, force in runs:
         error = curves["transmission_error"]
         quantities += [Quantity(error, of, run), Quantity(-error, lambda record: -of(record), run)]

@@ -8,7 +8,8 @@ from fenics_gears.geometry.pair import GearPair
 
 # Depth of the zone at either end of the common face, in normal modules, and the largest part of the face that it
 # takes. Within it the tooth's free end, or the edge of the narrower gear on the wider one, changes the line load.
-END_DEPTH, LARGEST_PART = 0.5, 0.1
+END_DEPTH = 0.5
+LARGEST_PART = 0.1
 ROUNDING = 1e-9
 
 
@@ -32,7 +33,8 @@ def in_end_zone(pair: GearPair, positions: np.ndarray) -> np.ndarray:
 
 def slice_ends(result: xr.Dataset) -> np.ndarray:
     """Ends (S + 1,), mm, of the slices along the face."""
-    z, widths = result["face_position"].values, result["face_slice_width"].values
+    z = result["face_position"].values
+    widths = result["face_slice_width"].values
     return np.append(z - 0.5 * widths, z[-1] + 0.5 * widths[-1])
 
 
@@ -46,7 +48,9 @@ def window_depth(pair: GearPair) -> float:
 def windows(result: xr.Dataset, pair: GearPair) -> np.ndarray:
     """Shares (k, S) of the slices in windows of the inner face: all windows over which the mean of values of slices can
     be largest. Values are not resolved within a layer of the bodies; means over such a window are."""
-    ends, (low, high), depth = slice_ends(result), inner_face(pair), window_depth(pair)
+    ends = slice_ends(result)
+    low, high = inner_face(pair)
+    depth = window_depth(pair)
     # Side by side they fill the inner face.
     beside = low + depth * np.arange(round((high - low) / depth))
     starts = np.unique(np.clip(np.concatenate([ends, ends - depth, beside]), low, high - depth))

@@ -23,7 +23,9 @@ class AlongTheFace:
     """What the result of a mesh cycle over a face of many slices has beside that of one slice."""
 
     def __init__(self, cycle: Cycle):
-        self.face, self.pair, self.coast_flanks = cycle.face, cycle.pair, cycle.coast_flanks
+        self.face = cycle.face
+        self.pair = cycle.pair
+        self.coast_flanks = cycle.coast_flanks
 
     def fields(self, nodes: SideBySide) -> dict[str, np.ndarray]:
         """Line load of each tooth pair on its drive flanks, and on its coast flanks where they can touch (steps, slots,
@@ -37,7 +39,8 @@ class AlongTheFace:
         A transverse approach of 1 mm is one of the cosine of the base helix angle along the normal, and of the force
         the transverse part is as large.
         """
-        share, sides = self.face.cosine**2, (True, False)
+        share = self.face.cosine**2
+        sides = (True, False)
         loaded = [(nodes.by_slot(nodes.normal * (nodes.drive == side)) > NO_FORCE).sum(axis=1) for side in sides]
         stiffness = {name: share * curves[name] for name in ("mesh_stiffness", "mesh_stiffness_tangent")}
         return stiffness | {"loaded_pairs": np.maximum(*loaded).astype(float)}
@@ -59,7 +62,7 @@ class AlongTheFace:
         return {**words, "root_stress_at_30_degrees": f"largest {section}", "root_stress_over_face": section}
 
     def numbers(self, counted: xr.Dataset) -> dict[str, float | str]:
-        return load_factors(counted, self.pair)
+        return {**load_factors(counted, self.pair)}
 
     def numbers_of_curves(
         self, curves: Mapping[str, np.ndarray], nodes: SideBySide, first: int, contact_steps: int
@@ -94,8 +97,11 @@ class AlongTheFace:
         part = face.widths[touched].sum() / face.widths.sum()
         if not touched.any() or part >= NOTABLE_PART:
             return []
-        begins, ends = face.positions - 0.5 * face.widths, face.positions + 0.5 * face.widths
-        where, remedy, coarse = "", "lower the crowning or the end relief", ""
+        begins = face.positions - 0.5 * face.widths
+        ends = face.positions + 0.5 * face.widths
+        where = ""
+        remedy = "lower the crowning or the end relief"
+        coarse = ""
         if touched[0] != touched[-1]:
             where = f"at its {'left' if touched[0] else 'right'} end, "
             remedy = "lower [misalignment], correct it by lead_modifications.pinion.helix_slope"

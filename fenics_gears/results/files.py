@@ -50,7 +50,8 @@ class NeverFull:
 
     def write(self, content) -> int:
         """Write all of it."""
-        left, place = memoryview(content).cast("B"), self._file.tell()
+        left = memoryview(content).cast("B")
+        place = self._file.tell()
         try:
             while left:
                 left = left[self._file.write(left) :]
@@ -69,7 +70,8 @@ class NeverFull:
             return self._file.truncate(size)
 
     def _go_on_in_memory(self, failure: OSError) -> None:
-        self.failure, place = failure, self._file.tell()
+        self.failure = failure
+        place = self._file.tell()
         self._file.seek(0)
         self._file = io.BytesIO(self._file.read())
         self._file.seek(place)
@@ -159,7 +161,8 @@ class Layout:
 @functools.lru_cache(maxsize=4)
 def _without_values(layout: Layout) -> bytes:
     """A file that has all of a dataset but its values and its own attributes."""
-    content, sizes = io.BytesIO(), layout.sizes
+    content = io.BytesIO()
+    sizes = layout.sizes
     dims = {name: dims for name, _, _, dims, _ in layout.variables}
     with h5py.File(content, "w", track_order=True) as file:
         written = {name: _made(file, name, kind, shape, labels) for name, kind, shape, _, labels in layout.variables}

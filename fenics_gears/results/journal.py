@@ -33,13 +33,15 @@ logger = logging.getLogger(__name__)
 
 # A march that is over sooner keeps no journal.
 SECONDS_WITHOUT = 2.0
-HEADER, STATE = "journal.json", "state.json"
+HEADER = "journal.json"
+STATE = "state.json"
 DAMAGED = "it does not hold what was written into it"
 # Places beside those of the last steps: values that a reader still needs are not overwritten while a block or two are
 # written.
 SPARE = 4 * LONGEST_BLOCK
 # Names of the check sums of a step's values, and whether they are of contact fields.
-CHECKS, CHECK = {"check: curves": False, "check: fields": True}, Kind(np.dtype(np.uint32), ())
+CHECKS = {"check: curves": False, "check: fields": True}
+CHECK = Kind(np.dtype(np.uint32), ())
 # What a March counts, and the lists that it makes longer.
 COUNTS = ("newton_iterations", "steps", "steps_by_method", "judged", "uncertified")
 LISTS = {"separations": Kind(np.dtype(float), (2,)), "locked": Kind(np.dtype(np.int64), ())}
@@ -59,8 +61,11 @@ class Journal(InMemory):
 
     def __init__(self, place: Place, scene: Scene, stored: Arrays, steps: int, last: int):
         super().__init__(stored, steps, last)
-        self.place, self.directory, self._scene = place, place.directory, scene
-        self._due, self._listed = time.monotonic() + SECONDS_WITHOUT, dict.fromkeys(LISTS, (0, 0))
+        self.place = place
+        self.directory = place.directory
+        self._scene = scene
+        self._due = time.monotonic() + SECONDS_WITHOUT
+        self._listed = dict.fromkeys(LISTS, (0, 0))
         self._files: dict[str, FileIO] = {}
         # How many steps are whole on disk.
         self._whole = 0
@@ -101,7 +106,8 @@ class Journal(InMemory):
             _write(self._files[name], self.kinds[name], first + count - len(each), each)
         for check, of_fields in CHECKS.items():
             summed = [each for name, each in own.items() if bool(self.kinds[name].last) == of_fields]
-            known, sums = len(summed[0]) if summed else 0, np.zeros(count, np.uint32)
+            known = len(summed[0]) if summed else 0
+            sums = np.zeros(count, np.uint32)
             sums[count - known :] = check_sums(first + count - known, known, summed)
             _write(self._files[check], CHECK, first, sums)
 
@@ -141,7 +147,8 @@ class Journal(InMemory):
     def _commit(self, steps: int, march: March) -> None:
         """Say that so many steps are whole."""
         for name, kind in LISTS.items():
-            (known, check), longer = self._listed[name], getattr(march, name)
+            known, check = self._listed[name]
+            longer = getattr(march, name)
             new = np.array(longer[known:], dtype=kind.type).reshape(-1, *kind.shape)
             _write(self._files[name], kind, known, new)
             self._listed[name] = len(longer), check + int(check_sums(known, len(new), [new]).sum())
@@ -151,7 +158,8 @@ class Journal(InMemory):
         self._whole = steps
 
     def _write_text(self, name: str, content: dict) -> None:
-        text, aside = json.dumps(content).encode(), self.directory / f"{name}.{os.getpid()}"
+        text = json.dumps(content).encode()
+        aside = self.directory / f"{name}.{os.getpid()}"
         aside.write_bytes(text + seal(text))
         os.replace(aside, self.directory / name)
 
@@ -161,7 +169,9 @@ class Journal(InMemory):
             for name, kind in self.kinds.items():
                 self._arrays[name] = np.empty((kind.last or self.steps, *kind.shape), kind.type)
                 self._arrays[name][kind.places(kind.kept_from(steps), steps)] = self.get(name, steps)
-        self._files, self._due, self._whole = {}, float("inf"), 0
+        self._files = {}
+        self._due = float("inf")
+        self._whole = 0
         with suppress(OSError):
             remove(self.directory)
 
@@ -194,7 +204,8 @@ def read(directory: Path) -> Recorded:
     """What a journal holds, also one that is still written. Raises ComputationError where it is damaged or of another
     version of the program."""
     try:
-        header, state = _text(directory / HEADER), _text(directory / STATE)
+        header = _text(directory / HEADER)
+        state = _text(directory / STATE)
         if header["version"] != fenics_gears.__version__:
             raise ValueError(
                 f"only version {header['version']} of this program, which wrote it, can read it; this is"
@@ -256,15 +267,19 @@ def _text(path: Path) -> dict:
 
 
 def _write(file: FileIO, kind: Kind, first: int, values: np.ndarray) -> None:
-    own, size = np.ascontiguousarray(values, kind.type), kind.type.itemsize * prod(kind.shape)
+    own = np.ascontiguousarray(values, kind.type)
+    size = kind.type.itemsize * prod(kind.shape)
     room = kind.last + SPARE if kind.last else first + len(own)
     while len(own):
         place = first % room
-        left, offset = memoryview(own[: room - place]).cast("B"), place * size
-        first, own = first + room - place, own[room - place :]
+        left = memoryview(own[: room - place]).cast("B")
+        offset = place * size
+        first = first + room - place
+        own = own[room - place :]
         while left:
             written = os.pwrite(file.fileno(), left, offset)
-            left, offset = left[written:], offset + written
+            left = left[written:]
+            offset = offset + written
 
 
 def _read(file: FileIO, kind: Kind, steps: int) -> np.ndarray:

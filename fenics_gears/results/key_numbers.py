@@ -14,7 +14,8 @@ from fenics_gears.scene.data import Scene
 from .contact_variables import Curves, largest_normal_force, mesh_force, transmitted
 from .numbers import HARMONICS, first_largest, harmonics, largest_of_one_pair, mean_where_positive, shares_at
 
-MICROMETRE, WATT = 1e-3, 1e3  # mm, N mm/s
+MICROMETRE = 1e-3  # mm
+WATT = 1e3  # N mm/s
 HARMONIC_NAMES = tuple(f"transmission_error_harmonic_{n}" for n in range(1, HARMONICS + 1))
 # The numbers that a study takes of each case, where it has them.
 STUDIED = (
@@ -153,7 +154,8 @@ def _power(counted: Curves, loss: float | None, timed: bool) -> dict[str, float]
     the drive does no work."""
     if "work_input" not in counted:
         return {}
-    seconds, drive = float(np.ptp(counted["time"])), abs(transmitted(counted).drive)
+    seconds = float(np.ptp(counted["time"]))
+    drive = abs(transmitted(counted).drive)
     if not seconds or not drive or largest_normal_force(counted) <= NO_FORCE:
         return {}
     power = drive / seconds / WATT
@@ -183,7 +185,8 @@ def path_point_values(
     points = contact_points(pair)
     rolls = pair.pinion_roll_angle(points), pair.wheel_roll_angle(points)
     diameters = [2.0 * gear.radius(roll) for gear, roll in zip((pair.pinion, pair.wheel), rolls)]
-    positions, forces = (points - pair.path_start) / pair.base_pitch, np.where(numbers > 0, forces, np.nan)
+    positions = (points - pair.path_start) / pair.base_pitch
+    forces = np.where(numbers > 0, forces, np.nan)
     return {
         "path_point_position": points,
         "path_point_diameter": np.transpose(diameters),

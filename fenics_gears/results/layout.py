@@ -33,7 +33,8 @@ def _mistakes(result: xr.Dataset) -> Iterator[str]:
     for name, allowed in _known_dims().items():
         if name not in result.variables:
             continue
-        dims, kind = result[name].dims, result[name].dtype.kind
+        dims = result[name].dims
+        kind = result[name].dtype.kind
         if dims not in allowed:
             yield f"{name} is over ({', '.join(dims)}), not over ({', '.join(allowed[0])})"
         if kind not in "iuf":
@@ -78,7 +79,8 @@ def _mistakes_of_places(result: xr.Dataset) -> Iterator[str]:
     for name in both:
         if name not in result.variables:
             yield f"it has tooth pairs in slots and no {name}"
-        numbers, slots = result[name], result.sizes["slot"]
+        numbers = result[name]
+        slots = result.sizes["slot"]
         if not isinstance(numbers.attrs.get("number_at_phase_0"), (int, np.integer)):
             yield f"{name} has no whole number as its attribute number_at_phase_0"
         wrong = (numbers.values != 0) & (numbers.values % max(slots, 1) != np.arange(slots)) | (numbers.values < 0)

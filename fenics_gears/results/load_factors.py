@@ -76,9 +76,11 @@ def _of_instants(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, fl
     slice at edges: over the line load that the force of that step makes if it spreads evenly along the lines of contact
     of rigid gears when they are shortest. It is no mean of the same places: where edges carry more than that, the rest
     carries less, and the factor away from edges may be below 1."""
-    loads, z = line_loads(settled, side), settled["face_position"].values
+    loads = line_loads(settled, side)
+    z = settled["face_position"].values
     force = (loads @ settled["face_slice_width"].values).sum(axis=1)
-    ended, shares = _line_ends(settled, pair, side, z), windows(settled, pair)
+    ended = _line_ends(settled, pair, side, z)
+    shares = windows(settled, pair)
     away = np.where(ended @ (shares > BESIDE).T, 0.0, loads @ shares.T)
     edges = np.where(ended | in_end_zone(pair, z), loads, 0.0)
     found = {}
@@ -129,7 +131,8 @@ def contact_line_lengths(pair: GearPair, positions) -> np.ndarray:
     """Length (mm) along the axes of the line of contact of pairs that stand at positions (mm from T1, any shape) in the
     middle of the face."""
     positions = np.asarray(positions, dtype=float)
-    half, slope = 0.5 * pair.face_width, abs(pair.slope)
+    half = 0.5 * pair.face_width
+    slope = abs(pair.slope)
     if slope == 0.0:
         return np.where((positions >= pair.path_start) & (positions <= pair.path_end), pair.face_width, 0.0)
     low, high = ((end - positions) / slope for end in (pair.path_start, pair.path_end))

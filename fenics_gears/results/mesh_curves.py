@@ -34,20 +34,30 @@ def mesh_stiffness(contact, status, forces, coordinates):
     `contact`: the `addresses.Arrays` of elastic flanks; others as of StepSolution.
     """
     # Taken out of the record once: in a loop that would cost more than the numbers.
-    jacobian, gap, on_drive_flanks, node_pair = (
-        contact.jacobian, contact.gap, contact.on_drive_flanks, contact.node_pair,
-    )  # fmt: skip
-    n, drive, whole = len(gap), 0.0, 0.0
+    jacobian = contact.jacobian
+    gap = contact.gap
+    on_drive_flanks = contact.on_drive_flanks
+    node_pair = contact.node_pair
+    n = len(gap)
+    drive = 0.0
+    whole = 0.0
     for node in range(n):
         whole += forces[node]
         drive += forces[node] if on_drive_flanks[node] else 0.0
     side = 2.0 * drive >= whole
-    closed, count, force, pairs, last = np.empty(n, dtype=np.int64), 0, 0.0, 0, -1
+    closed = np.empty(n, dtype=np.int64)
+    count = 0
+    force = 0.0
+    pairs = 0
+    last = -1
     for node in range(n):
         if status[node] != OPEN and on_drive_flanks[node] == side:
-            closed[count], count, force = node, count + 1, force + forces[node]
+            closed[count] = node
+            count = count + 1
+            force = force + forces[node]
             if forces[node] > 0.0 and node_pair[node] != last:
-                pairs, last = pairs + 1, node_pair[node]
+                pairs = pairs + 1
+                last = node_pair[node]
     if force <= NO_FORCE:
         return np.zeros(3)
     overlap = np.full(n, -np.inf)
@@ -66,12 +76,14 @@ def _highest(overlap, node_pair):
     """Largest overlap (mm) of flanks with overlaps (n,) at evenly spaced nodes: the highest vertex of the parabolas
     through a node and its neighbours, of all nodes that are no lower than these. At nodes alone it would be too small
     by up to spacing^2/(8 rho). Of slices whose highest nodes are alike no one is taken before the others."""
-    highest, last = -np.inf, len(overlap) - 1
+    highest = -np.inf
+    last = len(overlap) - 1
     for node in range(last + 1):
         at = overlap[node]
         highest = max(highest, at)
         if 0 < node < last and node_pair[node - 1] == node_pair[node] == node_pair[node + 1]:
-            before, after = overlap[node - 1], overlap[node + 1]
+            before = overlap[node - 1]
+            after = overlap[node + 1]
             bend = 2.0 * at - before - after
             if at >= before and at >= after and bend > 0.0:
                 highest = max(highest, at + (after - before) ** 2 / (8.0 * bend))
@@ -82,10 +94,14 @@ def _highest(overlap, node_pair):
 def _tangent(contact, nodes):
     """Force (N) on some nodes when all of them approach by 1 mm; over a face by what the march factored, where they are
     all that are closed."""
-    compliance, n, approach = contact.compliance, len(contact.gap), np.ones(len(nodes))
+    compliance = contact.compliance
+    n = len(contact.gap)
+    approach = np.ones(len(nodes))
     # In the plane nothing is factored.
     if contact.rows != 0:
-        still, unmoved, nothing = np.eye(1), np.zeros((n, 1)), np.empty(0)
+        still = np.eye(1)
+        unmoved = np.zeros((n, 1))
+        nothing = np.empty(0)
         equations = Equations(still, np.zeros(1), compliance, unmoved, contact.gap, nothing, 0.0, nothing, contact.rows)
         iterate = Iterate(np.empty(0, dtype=np.int8), np.zeros(n), np.zeros(1), nothing)
         if solve_factored(equations, iterate, nodes, nothing, -approach):
@@ -111,7 +127,8 @@ def _stiffness(block):
     steps = in_block(block)
     found = np.zeros((3, len(steps.rows)))
     for s in range(len(steps.rows)):
-        forces, status = steps.forces[forces_at(steps, s)], steps.status[nodes_at(steps, s)]
+        forces = steps.forces[forces_at(steps, s)]
+        status = steps.status[nodes_at(steps, s)]
         found[:, s] = mesh_stiffness(operator_at(steps, s), status, forces, steps.states[s, 0])
     return found
 
@@ -123,8 +140,11 @@ def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singula
     a tip, or of an undercut involute, and slices near the ends of the face: there the number grows as contact nodes
     come closer.
     """
-    pressed_edge, beside = nodes.of("on_edge").any(axis=0) & (nodes.normal > NO_FORCE), singular.beside(nodes)
-    largest, rolls, steps = {kind: [] for kind in (NOTHING, KINK, EDGE)}, [], len(nodes.steps)
+    pressed_edge = nodes.of("on_edge").any(axis=0) & (nodes.normal > NO_FORCE)
+    beside = singular.beside(nodes)
+    largest = {kind: [] for kind in (NOTHING, KINK, EDGE)}
+    rolls = []
+    steps = len(nodes.steps)
     for side, drive in (("", True), ("coast_", False)):
         if f"{side}contact_pressure" not in fields:
             continue
@@ -138,7 +158,8 @@ def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singula
         rolls.append(np.take_along_axis(place, node, -1).reshape(steps, -1))
     pressures = {kind: np.concatenate(found, axis=1) for kind, found in largest.items()}
     repeated = np.repeat(nodes.pair_number, rolls[0].shape[1] // nodes.pair_number.shape[1], axis=1)
-    numbers, off_edge = np.concatenate([repeated] * len(rolls), axis=1), pressures[NOTHING]
+    numbers = np.concatenate([repeated] * len(rolls), axis=1)
+    off_edge = pressures[NOTHING]
     at = np.arange(len(off_edge)), off_edge.argmax(axis=1)
     touching = off_edge[at] > 0.0
     return {
@@ -171,7 +192,8 @@ class EdgesAndKinks:
     """The edges and kinks of a model's flanks; over a face slices near its ends are edges."""
 
     def __init__(self, model: Model):
-        self.half_width, self._end_slices = model.resolution.half_width, None
+        self.half_width = model.resolution.half_width
+        self._end_slices = None
         if model.face.slices > 1:
             from .face_ends import in_end_zone
 
@@ -193,7 +215,8 @@ class EdgesAndKinks:
         return self._last[1]
 
     def _beside(self, nodes: SideBySide) -> np.ndarray:
-        found, arcs = np.full(len(nodes.step), NOTHING), nodes.of("arcs")
+        found = np.full(len(nodes.step), NOTHING)
+        arcs = nodes.of("arcs")
         for place in self._places:
             near = np.abs(arcs[place.gear] - place.arc) <= REACH[place.kind] * self.half_width
             found[near & nodes.drive if place.kind == KINK else near] = place.kind

@@ -6,20 +6,29 @@ Curves (steps,) are those of whole settled mesh cycles, one value a step, withou
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from math import inf, sqrt
 
 import numpy as np
+from numba import njit
 
 from fenics_gears.dynamics.clock import Clock
 
 # Names of attributes begin with these: one for each method of the solver, one for each setting whose error was
 # estimated.
-RUNG, ESTIMATED = "steps_by_rung: ", "estimated_error: "
+RUNG = "steps_by_rung: "
+ESTIMATED = "estimated_error: "
 # How extrema were found.
-SOLVED, CUBICS, STEPS = "positions solved between steps", "cubics through four steps where the curve is smooth", "steps"
+SOLVED = "positions solved between steps"
+CUBICS = "cubics through four steps where the curve is smooth"
+STEPS = "steps"
 HARMONICS = 5
 ROUNDING = 1e-9  # mesh cycles
 # Of the largest of some values: what differs by less is the same.
 SAME = 1e-9
+# A curve has not jumped where it falls in the next step by at least this part of the fall before. A crest is smooth
+# where the lower of the parabolas from either side is above the steps by at least this part of the higher one; between
+# steps where their curvatures are as much alike.
+LIKE = 0.5
 
 
 def harmonics(curve: np.ndarray, cycles: int, count: int = HARMONICS) -> np.ndarray:
@@ -45,19 +54,23 @@ def shares_at(positions, phase: np.ndarray, numbers: np.ndarray, forces: np.ndar
     total = np.nansum(forces, axis=1, keepdims=True)
     share = np.divide(forces, total, out=np.full(forces.shape, np.nan), where=total > 0.0)
     known = np.isfinite(share)
-    number, share = np.broadcast_to(numbers, forces.shape)[known], share[known]
+    number = np.broadcast_to(numbers, forces.shape)[known]
+    share = share[known]
     passed = (phase[:, None] - numbers)[known]
     if not len(share):
         return np.full(len(positions), np.nan)
     order = np.lexsort((passed, number))
-    passed, share = passed[order], share[order]
+    passed = passed[order]
+    share = share[order]
     _, first, of_pair = np.unique(number[order], return_index=True, return_inverse=True)
-    lowest, highest = passed[first], passed[np.append(first[1:], len(passed)) - 1]
+    lowest = passed[first]
+    highest = passed[np.append(first[1:], len(passed)) - 1]
     # One pair after the other on a single axis, so that all are interpolated at once.
     apart = np.ptp(passed) + 1.0
     inside = (positions >= lowest[:, None] - ROUNDING) & (positions <= highest[:, None] + ROUNDING)
     found = np.interp(positions + apart * np.arange(len(first))[:, None], passed + apart * of_pair, share)
-    total, count = np.where(inside, found, 0.0).sum(axis=0), inside.sum(axis=0)
+    total = np.where(inside, found, 0.0).sum(axis=0)
+    count = inside.sum(axis=0)
     return np.divide(total, count, out=np.full(len(positions), np.nan), where=count > 0)
 
 
@@ -78,6 +91,74 @@ def first_largest(values: np.ndarray) -> int:
     """Place of the first value that is the largest but for round-off, which must not say which of equal cycles is
     named."""
     return int(np.argmax(values >= np.nanmax(values) * (1.0 - SAME)))
+
+
+@njit(cache=True)
+def differences(x, y):
+    """Divided differences of four points x, y (4,): the middle first one, both second ones, the third one."""
+    before = (y[1] - y[0]) / (x[1] - x[0])
+    middle = (y[2] - y[1]) / (x[2] - x[1])
+    after = (y[3] - y[2]) / (x[3] - x[2])
+    one = (middle - before) / (x[2] - x[0])
+    other = (after - middle) / (x[3] - x[1])
+    return middle, (one, other), (other - one) / (x[3] - x[0])
+
+
+@njit(cache=True)
+def is_smooth(x, y):
+    """Whether a curve bends alike through the first and the last three of four points x, y (4,), and down."""
+    one, other = differences(x, y)[1]
+    return max(one, other) < 0.0 and min(one / other, other / one) >= LIKE
+
+
+@njit(cache=True)
+def crest_of_cubic(x, y):
+    """Place and value of the crest of the cubic through four points x, y (4,) between the middle two; no value where it
+    has none there."""
+    slope, (one, _), third = differences(x, y)
+    # It is y[1] + u (a + u (b + u third)), u from x[1] on.
+    curvature = one + third * (x[1] - x[0])
+    h = x[2] - x[1]
+    a = slope - h * curvature
+    b = curvature - h * third
+    inside = b * b - 3.0 * a * third
+    fall = sqrt(inside) - b if inside >= 0.0 else 0.0
+    u = a / fall if fall > 0.0 else h
+    if not 0.0 < u < h:
+        return x[1], -inf
+    return x[1] + u, y[1] + u * (a + u * (b + u * third))
+
+
+def largest_of_cubics(steps: np.ndarray, values: np.ndarray) -> tuple[float, float]:
+    """Place and largest value of the cubics through each four consecutive `values` (s,) at whole `steps`, between the
+    middle two; only where the parabolas through three of them, either way, have crests alike: at a corner the curve is
+    no cubic."""
+    return _largest_of_cubics(*(np.asarray(each, dtype=float) for each in (steps, values)))
+
+
+@njit(cache=True)
+def _largest_of_cubics(x, y):
+    top = y.argmax()
+    place = x[top]
+    largest = y[top]
+    crest = 0.0
+    height = -inf
+    for i in range(1, len(x) - 2):
+        four = x[i - 1 : i + 3]
+        own = y[i - 1 : i + 3]
+        one, other = differences(four, own)[1]
+        if not (one < 0.0 and other < 0.0):
+            continue
+        # Crests of both parabolas above the middle two values.
+        above = own[1] - (0.5 * (own[2] - own[0])) ** 2 / (4.0 * one)
+        beyond = own[2] - (0.5 * (own[3] - own[1])) ** 2 / (4.0 * other)
+        between = max(own[1], own[2])
+        if min(above, beyond) - between >= LIKE * (max(above, beyond) - between):
+            at, found = crest_of_cubic(four, own)
+            if found > height:
+                crest = at
+                height = found
+    return (crest, height) if height > largest else (place, largest)
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,8 @@ def carrying_side(result: xr.Dataset) -> str:
 
 def shown_steps(result: RunResult | xr.Dataset) -> slice:
     """Which steps of a result pictures show: its last cycles, as many as its attribute `shown_cycles` says."""
-    cycles, phase = result.attrs.get("shown_cycles"), np.asarray(result["mesh_phase"])
+    cycles = result.attrs.get("shown_cycles")
+    phase = np.asarray(result["mesh_phase"])
     if cycles is None or not len(phase) or phase[-1] - phase[0] <= cycles * (1.0 + 1e-9):
         return slice(None)
     return slice(int(np.searchsorted(phase, phase[-1] - cycles - 1e-9)), None)
@@ -82,9 +83,11 @@ def by_pair(variable: xr.DataArray, absent: float = np.nan) -> xr.DataArray:
     """A variable of a result with the dimension `pair` in place of `slot`: each tooth pair's own curve, `absent` while
     it is out of reach. As many values as steps times pairs: of a long run take a part first, `shown(result)`."""
     stored = "contact_" if "contact_time" in variable.dims else ""
-    time, numbers = f"{stored}time", f"{stored}pair_number"
+    time = f"{stored}time"
+    numbers = f"{stored}pair_number"
     rest = [each for each in variable.dims if each not in (time, "slot")]
-    values, pairs = variable.transpose(time, "slot", *rest).values, list(lives(variable[numbers].values))
+    values = variable.transpose(time, "slot", *rest).values
+    pairs = list(lives(variable[numbers].values))
     own = np.full((len(values), len(pairs), *values.shape[2:]), absent)
     for place, life in enumerate(pairs):
         own[life.steps, place] = values[life.steps, life.slot]

@@ -52,12 +52,14 @@ def _undercut_edge(watched: Mapping[str, np.ndarray]) -> list[str]:
 
 def yielding(scene: Scene, numbers: Mapping) -> list[str]:
     """Stresses above what the materials bear without yielding, where their yield strength is known."""
-    found, pressure = [], numbers.get("peak_contact_pressure", 0.0)
+    found = []
+    pressure = numbers.get("peak_contact_pressure", 0.0)
     for gear, material in zip(GEARS, scene.gears.materials):
         strength = material.yield_strength
         if strength is None:
             continue
-        limit, root = LINE_CONTACT * strength, numbers.get(f"largest_root_stress_{gear}", 0.0)
+        limit = LINE_CONTACT * strength
+        root = numbers.get(f"largest_root_stress_{gear}", 0.0)
         if pressure > limit:
             found.append(
                 f"the peak contact pressure, {pressure:.4g} MPa, is above what the {gear}'s material bears below the"
@@ -75,7 +77,8 @@ def yielding(scene: Scene, numbers: Mapping) -> list[str]:
 def _kink(scene: Scene, numbers: Mapping) -> list[str]:
     """More pressure at the kink where a linear relief starts than elsewhere: linear elasticity has infinite pressure
     there."""
-    largest, elsewhere = numbers.get("peak_kink_pressure", 0.0), numbers.get("peak_contact_pressure", 0.0)
+    largest = numbers.get("peak_kink_pressure", 0.0)
+    elsewhere = numbers.get("peak_contact_pressure", 0.0)
     if largest <= elsewhere:
         return []
     linear = {section: _linear(getattr(scene, section)) for section in ("tip_relief", "root_relief")}

@@ -80,10 +80,13 @@ class Recorder:
         stress: RootStress | None = None,
         journal: Place | None = None,
     ):
-        self.model, self.cycle, self.stress = model, cycle, stress
+        self.model = model
+        self.cycle = cycle
+        self.stress = stress
         self.loads = model.loads if loads is None else loads
         ways = cycle.beside(KnownTouching).of(cycle)
-        self.first_number, self.slots = 1 + ways.latest, ways.slots
+        self.first_number = 1 + ways.latest
+        self.slots = ways.slots
         nodes = cycle.grid.most_nodes
         self.size = sizes(
             model.steps + 1, model.contact_steps, self.slots, nodes, cycle.face.slices, model.drivetrain.bearings
@@ -130,7 +133,8 @@ class Recorder:
 
     def recall(self, recorded: Recorded) -> None:
         """Take over what a journal holds, in place of a march."""
-        self.kept, self.steps = recorded, len(recorded.values["time"])
+        self.kept = recorded
+        self.steps = len(recorded.values["time"])
         self._watched = tuple(name.removeprefix(WATCHED) for name in recorded.values if name.startswith(WATCHED))
 
     def _evaluate(self, march: March | None = None) -> None:
@@ -138,9 +142,11 @@ class Recorder:
             self._evaluate_block(self._waiting[0], march)
 
     def _evaluate_block(self, block: Steps, march: March | None) -> None:
-        scene, cycle = self.model.scene, self.cycle
+        scene = self.model.scene
+        cycle = self.cycle
         nodes = SideBySide(cycle.beside(KnownLayouts), cycle, block, self.slots, self.first_number)
-        numbers, times = block.numbers, self.model.clock.times(block.numbers)
+        numbers = block.numbers
+        times = self.model.clock.times(block.numbers)
         values = {"time": times, "mesh_phase": numbers / cycle.steps, "pair_number": nodes.pair_number}
         values |= self._centres(block) | mesh_variables(scene, nodes) | pair_variables(scene, nodes)
         if scene.tooth_elasticity is not None:
@@ -173,7 +179,8 @@ class Recorder:
         # Last of all: a march that is interrupted before this line evaluates these steps again.
         self._watched = tuple(watched)
         del self._waiting[0]
-        self._last, self._worked = block.between(len(block) - 1, len(block)), worked
+        self._last = block.between(len(block) - 1, len(block))
+        self._worked = worked
         self.steps += len(block)
 
     def _in_shape(self, values: np.ndarray, dims: Sequence[str]) -> np.ndarray:
@@ -181,7 +188,8 @@ class Recorder:
         return values.reshape(len(values), *(self.size[each] for each in dims[1:]))
 
     def _centres(self, block: Steps) -> dict[str, np.ndarray]:
-        scene, drivetrain = self.model.scene, self.model.drivetrain
+        scene = self.model.scene
+        drivetrain = self.model.drivetrain
         states = block.states[:, 0]
 
         def both(first: str, second: str) -> np.ndarray:
@@ -202,10 +210,12 @@ class Recorder:
     def _energies(self, block: Steps) -> tuple[dict[str, np.ndarray], dict[str, float]]:
         """Energies and the work since the first step; and the work at the last step, from which the next block goes
         on."""
-        model, before = self.model, 0 if self._last is None else 1
+        model = self.model
+        before = 0 if self._last is None else 1
         together = block if self._last is None else self._last.followed_by(block)
         energies = energy_variables(model.scene, model.drivetrain, together)
-        drivetrain, clock = model.drivetrain, model.clock
+        drivetrain = model.drivetrain
+        clock = model.clock
         work = work_variables(model.scene, self.cycle, drivetrain, clock, self.loads, together, energies["energy"])
         work = {name: value + self._worked.get(name, 0.0) for name, value in work.items()}
         worked = {name: value[-1] for name, value in work.items()}

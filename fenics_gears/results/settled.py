@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 
 # The start has died down when so much is left of the slowest vibration that it has set off; where the run is long
 # enough, less is left: at high speed the start may be twenty times as large as the settled motion.
-DIED_DOWN, QUIET = 0.01, 0.001
+DIED_DOWN = 0.01
+QUIET = 0.001
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,8 @@ def settled(model: Model, steps: int) -> Settled:
     They are whole common periods: at least the last one, and where all cycles are alike at least those with contact
     fields, even if the start has not died down. A ramp on which it does not die down counts as a whole.
     """
-    a_cycle, period = model.resolution.steps_per_mesh_cycle, common_period(model.scene)
+    a_cycle = model.resolution.steps_per_mesh_cycle
+    period = common_period(model.scene)
     rate, slowest = _slowest(model)
     calm, quiet = (_step_at(model, log(1.0 / left) / rate if rate else inf, steps) for left in (DIED_DOWN, QUIET))
     if not isfinite(period):
@@ -86,7 +88,8 @@ def _slowest(model: Model) -> tuple[float, Vibration | None]:
 
 def _rate(vibration: Vibration, model: Model) -> float:
     """Rate (1/s) at which a vibration decays, by its damping and by the numerical damping of backward Euler."""
-    angular, ratio = 2.0 * pi * vibration.frequency, vibration.damping_ratio
+    angular = 2.0 * pi * vibration.frequency
+    ratio = vibration.damping_ratio
     rate = angular * (ratio if ratio <= 1.0 else ratio - sqrt(ratio**2 - 1.0))
     if not model.time_scales.averages_acceleration:
         rate += 0.5 * log(1.0 + (angular * model.time_step) ** 2) / model.time_step

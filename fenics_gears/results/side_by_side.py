@@ -30,12 +30,15 @@ def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool)
     (x, y), N, and torque, N mm; over a face (12, n), with the axial force, N, and the moments about x and y, N mm, of
     both gears after these.
     """
-    pairs, face = [pair for operator in operators for pair in operator.pairs], operators[0].face
-    ends, offsets = node_ends(pairs), over_nodes(pairs, "offsets")
+    pairs = [pair for operator in operators for pair in operator.pairs]
+    face = operators[0].face
+    ends = node_ends(pairs)
+    offsets = over_nodes(pairs, "offsets")
     places = np.array([(pair.place.index, pair.place.flank, pair.place.slice) for pair in pairs], dtype=int)
     index, flank, number = per_node(pairs, places.reshape(-1, 3)).T
     rolls = np.array([pair.place.contact_rolls for pair in pairs]).reshape(-1, 2).T
-    of_flanks, at_end = ends_of(cycle.pair, rolls), np.abs(offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
+    of_flanks = ends_of(cycle.pair, rolls)
+    at_end = np.abs(offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
     if cycle.grid.inner_length is not None:
         at_end |= _at_inner_end(cycle, offsets, ends, of_flanks)
     found = {
@@ -59,8 +62,10 @@ def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool)
 def _at_inner_end(cycle: Cycle, offsets: np.ndarray, ends: np.ndarray, of_flanks: np.ndarray) -> np.ndarray:
     """Nodes (n,) that stand first or last in a window that is shorter than the whole one, and not on the edge of a
     flank."""
-    found, round_off = np.zeros(len(offsets), dtype=bool), 1e-9 * cycle.grid.length
-    first, last = ends[:-1], ends[1:] - 1
+    found = np.zeros(len(offsets), dtype=bool)
+    round_off = 1e-9 * cycle.grid.length
+    first = ends[:-1]
+    last = ends[1:] - 1
     found[first] = offsets[first] > of_flanks[:, 0].max(axis=1) + round_off
     found[last] = offsets[last] < of_flanks[:, 1].min(axis=1) - round_off
     return found & (np.abs(np.abs(offsets) - 0.5 * cycle.grid.inner_length) <= cycle.grid.spacing)
@@ -72,15 +77,20 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
 
     `ends` (P + 1,): where the nodes of each pair begin and end; `of_flanks` (P, 2, 2): as of `window.ends_of`.
     """
-    found, half = np.zeros((4, ends[-1]), dtype=bool), 0.5 * cycle.grid.length * (1.0 - 1e-9)
-    cut, of_flanks = (cycle.pair.pinion.undercut, cycle.pair.wheel.undercut), of_flanks.copy()
+    found = np.zeros((4, ends[-1]), dtype=bool)
+    half = 0.5 * cycle.grid.length * (1.0 - 1e-9)
+    cut = (cycle.pair.pinion.undercut, cycle.pair.wheel.undercut)
+    of_flanks = of_flanks.copy()
     by_line = np.array([pair.place.line is None for pair in pairs], dtype=bool)
     if any(cut):
         from fenics_gears.contact.corner import edge_ends
 
         for pair in np.flatnonzero(~by_line):
             of_flanks[pair] = edge_ends(cycle.pair, cycle.corner, pairs[pair].place)
-    first, last, below, above = ends[:-1], ends[1:] - 1, of_flanks[:, 0].T, of_flanks[:, 1].T
+    first = ends[:-1]
+    last = ends[1:] - 1
+    below = of_flanks[:, 0].T
+    above = of_flanks[:, 1].T
     found[0, first] = by_line & (below[0] >= below[1]) & (below[0] > -half)
     found[1, last] = by_line & (above[1] <= above[0]) & (above[1] < half)
     found[2, last] = cut[0] & (above[0] <= above[1]) & (above[0] < half)
@@ -98,7 +108,8 @@ def _arcs(gears: GearPair, pairs, contact_rolls: np.ndarray, offsets: np.ndarray
 
 def _reaction_rows(operators: Sequence[ContactOperator], pairs, tangential: bool) -> np.ndarray:
     """-G^T of all coordinates of both centres, rotations as torques."""
-    radii, face = operators[0].base_radii, operators[0].face
+    radii = operators[0].base_radii
+    face = operators[0].face
     first, second = (np.concatenate([each.normal_lever_arms[gear] for each in operators]) for gear in (0, 1))
     rows = displacement_jacobian(pairs, radii, (first, second), tangential, face=face).T
     units = np.concatenate([[1.0, 1.0, radius] for radius in radii])
@@ -122,7 +133,8 @@ class Layouts:
         self, known: Sequence[dict[str, np.ndarray]], parts: np.ndarray, dependent_rows: np.ndarray, kinds: int
     ):
         counts = parts[:, 1] - parts[:, 0]
-        self.starts, self.dependent_rows = np.concatenate(([0], np.cumsum(counts))), dependent_rows
+        self.starts = np.concatenate(([0], np.cumsum(counts)))
+        self.dependent_rows = dependent_rows
         self.step = np.repeat(np.arange(len(counts)), counts)
         # Where the normal forces stand among all forces, a step's normals before its tangents.
         self.normal = np.arange(len(self.step)) + (kinds - 1) * np.repeat(self.starts[:-1], counts)
@@ -174,7 +186,8 @@ class KnownLayouts:
         return self._joined[key]
 
     def _add(self, cycle: Cycle, new: dict[_Key, Position], kinds: int) -> None:
-        operators, end = [position.operator for position in new.values()], 0
+        operators = [position.operator for position in new.values()]
+        end = 0
         for key, operator in zip(new, operators):
             self._parts[key] = len(self._layouts), end, end + operator.nodes, operator.dependent_rows
             end += operator.nodes
@@ -195,16 +208,20 @@ class SideBySide:
     """
 
     def __init__(self, known: KnownLayouts, cycle: Cycle, steps: Steps, slots: int, first_number: int):
-        self.cycle, self.slots, self.first_number = cycle, slots, first_number
+        self.cycle = cycle
+        self.slots = slots
+        self.first_number = first_number
         self.layouts = known.joined(cycle, steps)
-        self.step, self.of = self.layouts.step, self.layouts.of
+        self.step = self.layouts.step
+        self.of = self.layouts.of
         self.cycles = (steps.numbers // self.cycle.steps).astype(int)
         self.number = self.cycles[self.step] - self.of("index") + first_number
         self.slot = self.number % slots
         self._take(steps)
 
     def _take(self, steps: Steps) -> None:
-        self.steps, self.normal = steps, steps.forces[self.layouts.normal]
+        self.steps = steps
+        self.normal = steps.forces[self.layouts.normal]
         self.tangential = steps.forces[self.layouts.tangential] if steps.kinds == 2 else None
 
     def with_forces(self, steps: Steps) -> SideBySide:

@@ -15,11 +15,16 @@ from fenics_gears.scene.data import Scene
 
 from .contact_variables import largest_normal_force, mesh_force
 
-MESH, PINION, WHEEL = "mesh", "turn of the pinion", "turn of the wheel"
-BOTH, HUNTING = "turn of either gear", "hunting tooth"
+MESH = "mesh"
+PINION = "turn of the pinion"
+WHEEL = "turn of the wheel"
+BOTH = "turn of either gear"
+HUNTING = "hunting tooth"
 # Factors of the cosines; a line on a bin spreads over as many bins on either side as there are cosines. A line midway
 # between bins is 36 % too low without a window, 15 % in Hann's, 0.1 % in the flat top.
-NO_WINDOW, HANN, FLAT_TOP = "none", "hann", "flat-top"
+NO_WINDOW = "none"
+HANN = "hann"
+FLAT_TOP = "flat-top"
 WINDOWS = {
     NO_WINDOW: (1.0,),
     HANN: (0.5, 0.5),
@@ -87,7 +92,8 @@ def order_lines(
     window: one of `WINDOWS`, laid over the whole record; None takes whole hunting tooth periods without a window where
     the record has them, else Hann's.
     """
-    steps, period = len(error) - 1, lcm(*teeth)
+    steps = len(error) - 1
+    period = lcm(*teeth)
     if cycles < teeth[0] * (1.0 - 1e-9) or steps < 2:
         return None
     whole = int(cycles * (1.0 + 1e-9)) // period
@@ -97,7 +103,8 @@ def order_lines(
     name = NO_WINDOW if exact else window or HANN
     # The mean by the window's own weights: of a line between bins any other leaves a constant, which spreads over the
     # lowest orders.
-    values, weights = error[-length - 1 : -1], weights_of(name, length)
+    values = error[-length - 1 : -1]
+    weights = weights_of(name, length)
     values = values - np.average(values, weights=weights)
     amplitudes = 2.0 * np.abs(np.fft.rfft(values * weights)) / weights.sum()
     orders = np.arange(len(amplitudes)) * teeth[0] * steps / (cycles * length)
@@ -156,7 +163,9 @@ def _whole(number: float) -> bool:
 
 def known_orders(scene: Scene) -> list[tuple[float, str]]:
     """Orders with a known cause, in words: run-out of either gear and waves on its flanks."""
-    errors, run_out, found = scene.flank_errors, scene.eccentricity, []
+    errors = scene.flank_errors
+    run_out = scene.eccentricity
+    found = []
     for name, turns in (("pinion", 1.0), ("wheel", scene.gears.pinion.teeth / scene.gears.wheel.teeth)):
         if run_out is not None and getattr(run_out, name) is not None:
             found.append((turns, f"run-out of the {name}"))

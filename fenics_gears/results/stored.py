@@ -16,7 +16,8 @@ class Stored:
     is asked for."""
 
     def __init__(self, root: h5py.h5g.GroupID):
-        self._root, self.attrs = root, Attributes(root)
+        self._root = root
+        self.attrs = Attributes(root)
 
     def __contains__(self, name: str) -> bool:
         return name.encode() in self._root
@@ -29,7 +30,8 @@ class StoredVariable:
     """A variable of numbers in an open file, an array where one is wanted."""
 
     def __init__(self, held: h5py.h5d.DatasetID):
-        self._held, self.attrs = held, Attributes(held)
+        self._held = held
+        self.attrs = Attributes(held)
 
     @cached_property
     def values(self) -> np.ndarray:

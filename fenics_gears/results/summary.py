@@ -227,9 +227,11 @@ def _estimated_error(found) -> Said:
         return
     parts = {name.removeprefix(ESTIMATED): error for name, error in found.items() if name.startswith(ESTIMATED)}
     worst = max(parts, key=parts.__getitem__)
-    judged, over_face = "T_E and T_EPP", ""
+    judged = "T_E and T_EPP"
+    over_face = ""
     if "slices" in found:
-        judged, over_face = "T_E, T_EPP, line load", f", {found['slices']} slices on {found['layers']} layers"
+        judged = "T_E, T_EPP, line load"
+        over_face = f", {found['slices']} slices on {found['layers']} layers"
     yield f"estimated error of {judged}", f"{found['estimated_error']:.2%}, target {found['target']:.3%}"
     yield "what limits it", f"{worst}: {parts[worst]:.2%}"
     yield (
@@ -244,10 +246,12 @@ def _estimated_error(found) -> Said:
 
 def solver_rows(dataset) -> list[Row]:
     """How the steps were solved, with the fallbacks of their route's own method where some needed them."""
-    rows, found = [], dataset.attrs
+    rows = []
+    found = dataset.attrs
     if dataset.sizes["time"]:
         iterations = dataset["newton_iterations"]
-        mean, most = float(iterations.mean()), int(iterations.max())
+        mean = float(iterations.mean())
+        most = int(iterations.max())
         rows.append(("Newton iterations per step", f"{mean:.2f} on average, {most} at most", ""))
     used = {name.removeprefix(RUNG): int(count) for name, count in found.items() if name.startswith(RUNG)}
     used.pop(PUBLISHED if found.get("condensation") == EVERY_STEP else NEWTON, None)

@@ -28,15 +28,17 @@ from .contact_variables import (
 )
 from .dataset import friction_loss
 from .extrema import Extrema, Quantity, extremes
+from .face_variables import AlongTheFace
 from .key_numbers import HARMONIC_NAMES, key_numbers
 from .mesh_curves import EdgesAndKinks, pressure_curves
 from .recorder import KnownTouching
 from .settled import settled
 from .side_by_side import KnownLayouts, SideBySide
 
-ERROR, FORCE, PRESSURE, LOSS = (
-    "peak_to_peak_transmission_error", "largest_pair_force", "peak_contact_pressure", "friction_loss",
-)  # fmt: skip
+ERROR = "peak_to_peak_transmission_error"
+FORCE = "largest_pair_force"
+PRESSURE = "peak_contact_pressure"
+LOSS = "friction_loss"
 # What can be asked for, and what of it takes no other key numbers.
 OVER_FACE = "face_load_factor", "largest_line_load_factor", "edge_line_load_factor", "transverse_load_factor"
 OF_THEMSELVES = frozenset((ERROR, LOSS, "max_normal_force", *OVER_FACE))
@@ -48,7 +50,9 @@ class NumbersOfRun:
     took."""
 
     def __init__(self, attrs: dict[str, Any], curves: dict[str, np.ndarray], seconds: float):
-        self.attrs, self._curves, self.seconds = attrs, curves, seconds
+        self.attrs = attrs
+        self._curves = curves
+        self.seconds = seconds
 
     def __getitem__(self, name: str) -> np.ndarray:
         return self._curves[name]
@@ -71,10 +75,12 @@ def numbers_together(
 ) -> list[NumbersOfRun | None]:
     """The numbers that are `asked` of OFFERED of runs on a `cycle` without gaps of its own; None of a run that has to
     be run by itself."""
-    begun, model = time.perf_counter(), models[0]
+    begun = time.perf_counter()
+    model = models[0]
     with thread_pools().limit(limits=1):
         marches = Marches(cycle, _equations(models), opened, model.steps)
-    marched, count = time.perf_counter() - begun, len(models)
+    marched = time.perf_counter() - begun
+    count = len(models)
     states = marches.block.states[:, 0].reshape(count, model.steps + 1, -1)
     errors = model.transmission_error(states)
     # Of the first step contact is no matter, as `March.take` has it.
@@ -88,15 +94,18 @@ def numbers_together(
     curves, factors = _curves(models, marches, errors, (runs, first), asked)
     counted = [{name: values[first:] for name, values in of_run.items()} for of_run in curves]
     loss = [_loss(*each) if LOSS in asked else {} for each in zip(curves, counted)]
-    timed, key = model.scene.motion.speed_given, not OF_THEMSELVES.issuperset(asked)
+    timed = model.scene.motion.speed_given
+    key = not OF_THEMSELVES.issuperset(asked)
     others = [key_numbers(each, model.pair, of.get(LOSS), timed) if key else {} for each, of in zip(counted, loss)]
     extrema = _Extrema(model, cycle, counted[0]["mesh_phase"], counted[0]["transmission_error"])
-    extrema.marches, marches.first = marches, extrema.first
+    extrema.marches = marches
+    marches.first = extrema.first
     located = extremes(extrema, [(run, each, FORCE in of) for run, each, of in zip(runs, counted, others)])
     iterations = marches.block.iterations.reshape(count, -1)[:, 1:].sum(axis=1)
     seconds = (time.perf_counter() - begun) / count
     for place, run in enumerate(runs):
-        error, (of_error, of_force) = counted[place]["transmission_error"], located[place]
+        error = counted[place]["transmission_error"]
+        of_error, of_force = located[place]
         numbers = others[place] | loss[place] | factors[place] | of_error | of_force
         numbers |= {
             "mean_transmission_error": float(error[:-1].mean()),
@@ -113,7 +122,8 @@ def numbers_together(
 
 def _equations(models: Sequence[Model]) -> list:
     """What each run solves for, made once for runs with the same load: they are alike in all else."""
-    found, known = [], {}
+    found = []
+    known = {}
     for model in models:
         load = model.drivetrain.load.tobytes()
         if load not in known:
@@ -139,7 +149,10 @@ def _curves(
 ) -> tuple[list[Curves], list[dict[str, float]]]:
     """Curves of the runs that are `counted`, and load factors over a face where they are asked for, from a first step
     on."""
-    (runs, first), model, found, factors = counted, models[0], [], []
+    runs, first = counted
+    model = models[0]
+    found = []
+    factors = []
     numbers = np.arange(model.steps + 1)
     common = {"time": model.clock.times(numbers), "mesh_phase": numbers / model.resolution.steps_per_mesh_cycle}
     nodes: SideBySide | None = None
@@ -154,9 +167,6 @@ def _curves(
 
 
 def _load_factors(model: Model, nodes: SideBySide, curves: Curves, first: int) -> dict[str, float]:
-    # Imported here: plane runs do without.
-    from .face_variables import AlongTheFace
-
     of_pairs = {"pair_number": nodes.pair_number, **pair_variables(model.scene, nodes)}
     return AlongTheFace(nodes.cycle).numbers_of_curves(curves | of_pairs, nodes, first, model.contact_steps)
 
@@ -167,7 +177,8 @@ def _nodes(cycle: Cycle, steps: Steps) -> SideBySide:
 
 
 def _of_nodes(model: Model, cycle: Cycle, nodes: SideBySide, asked: Collection[str]) -> Curves:
-    scene, steps = model.scene, nodes.steps
+    scene = model.scene
+    steps = nodes.steps
     values = normal_forces(scene, nodes) | (pair_variables(scene, nodes) if FORCE in asked else {})
     if PRESSURE in asked:
         values |= pressure_curves(nodes, node_variables(scene, nodes), EdgesAndKinks(model))

@@ -47,7 +47,8 @@ def warnings_of_energy(
     meet, in all steps or some; cycle by cycle, for over a long run even little of it adds up."""
     if scene.inertia is None or scene.tooth_elasticity is None or not len(result["time"]):
         return []
-    work, largest = result["work_contact_changes"][steps], max(result["energy"][steps].max(), np.finfo(float).tiny)
+    work = result["work_contact_changes"][steps]
+    largest = max(result["energy"][steps].max(), np.finfo(float).tiny)
     cycles = (work[first : first + steps_per_mesh_cycle + 1] for first in range(0, len(work), steps_per_mesh_cycle))
     part = max(float(np.ptp(cycle)) for cycle in cycles) / largest
     if part <= NOTABLE_WORK:
@@ -62,7 +63,9 @@ def warnings_of_energy(
 def warnings_of(recorder: Recorder, march: March, result: RunResult) -> list[str]:
     """A sentence for each assumption of the model that a march breaks. Every step is judged; the uniqueness of the
     solution, whose proof costs more than a step, by the last steps."""
-    cycle, drivetrain, clock = recorder.cycle, recorder.model.drivetrain, recorder.model.clock
+    cycle = recorder.cycle
+    drivetrain = recorder.model.drivetrain
+    clock = recorder.model.clock
     watched = recorder.watched
     of_flanks = [*_window(cycle, watched), *_rank(watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
     if cycle.traits.has_pressure and recorder.steps:
@@ -132,7 +135,8 @@ def _rotation(result: RunResult) -> list[str]:
 def _wedged(cycle: Cycle, result: RunResult) -> list[str]:
     if not cycle.coast_flanks:
         return []
-    coast, both = result["coast_normal_force"], wedged(result)
+    coast = result["coast_normal_force"]
+    both = wedged(result)
     if not both.any():
         return []
     return [
@@ -149,7 +153,8 @@ def _separation(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock
     # With a negative torque the wheel drives on the coast flanks; that is no loss of contact.
     if not losses or (cycle.coast_flanks and drivetrain.driven_backwards and len(march.separations) == march.steps):
         return []
-    backlash, widest = cycle.pair.backlash, max(loss.opening for loss in losses)
+    backlash = cycle.pair.backlash
+    widest = max(loss.opening for loss in losses)
     longest = max(losses, key=lambda loss: loss.duration(clock))
     share = sum(loss.duration(clock) for loss in losses) / clock.duration(0, march.steps)
     times = "once" if len(losses) == 1 else f"{len(losses)} times"

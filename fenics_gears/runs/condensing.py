@@ -17,7 +17,8 @@ from .gear_store import own_gear_store
 from .run import Run
 
 # What is condensed of a gear.
-BODY, ROOT_STRESS = "body", "root stress"
+BODY = "body"
+ROOT_STRESS = "root stress"
 
 
 @dataclass(frozen=True)

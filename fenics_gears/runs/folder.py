@@ -25,7 +25,8 @@ from .runs import Failure, failure_of
 from .spent import seconds_of
 
 LOGGER = logging.getLogger(__name__)
-ENDING, FAILED_ENDING = ".nc", ".failed.txt"
+ENDING = ".nc"
+FAILED_ENDING = ".failed.txt"
 FILES_AHEAD = 8
 
 
@@ -62,7 +63,8 @@ class Folder:
 
     def keep_failure(self, run: Run, error: Exception) -> Failure:
         """Write why the run failed, and its scene; the next time it is tried again."""
-        reason, details = failure_of(error), "".join(traceback.format_exception(error))
+        reason = failure_of(error)
+        details = "".join(traceback.format_exception(error))
         text = f"{run} failed: {reason}\n\n{details}\nIts scene:\n\n{run.scene.text}"
         try:
             write_whole(self._file(run, FAILED_ENDING), lambda aside: aside.write_text(text, encoding="utf-8"))

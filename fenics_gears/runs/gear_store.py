@@ -18,7 +18,8 @@ from fenics_gears.system.progress import Progress
 
 # Mesh cycles of the same gears that are kept, as of torques with other elements or contact nodes, and the part of the
 # memory for contact operators that they and their bodies may take beside another one.
-MOST_CYCLES, SHARE_OF_OTHERS = 8, 0.35
+MOST_CYCLES = 8
+SHARE_OF_OTHERS = 0.35
 NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
 
 
@@ -34,7 +35,8 @@ class GearStore:
 
     def __init__(self, most: int | None = 2, cycles: bool = True):
         self._gears: dict[tuple, Body] = {}
-        self._most, self._cycles = most, cycles
+        self._most = most
+        self._cycles = cycles
         self._operators: dict[tuple, tuple[Bodies, Cycle]] = {}
         self._cycle_key: tuple | None = None
         self._cycle: Cycle | None = None
@@ -57,8 +59,10 @@ class GearStore:
         bodies, cycle = found
         cycle.kept.beside = self._taken - cycle.kept.taken - _bytes_of(bodies)
         if of_cycle != self._cycle_key:
-            self._cycle, self._cycle_key = cycle.with_gaps(gaps_of(model, cycle)) if shared else cycle, of_cycle
+            self._cycle = cycle.with_gaps(gaps_of(model, cycle)) if shared else cycle
+            self._cycle_key = of_cycle
         if shared:
+            # Of springs there are none.
             bodies = tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in bodies)
         return bodies, self._cycle
 
@@ -123,7 +127,9 @@ def own_gear_store() -> GearStore:
 def operators_key(model: Model, grid: ContactGrid | None = None) -> tuple:
     """What the contact operators of a mesh cycle depend on, whatever opens their nodes; `grid`: the model's unless
     given."""
-    scene, resolution, apart = model.scene, model.resolution, sections_of_gaps(model)
+    scene = model.scene
+    resolution = model.resolution
+    apart = sections_of_gaps(model)
     accuracy = resolution.condensation, grid or resolution.contact_grid, resolution.steps_per_mesh_cycle
     shaping = (section for section in _shaping(scene) if section not in apart)
     in_operators = (scene.corner_contact, *(getattr(scene, section) for section in shaping))

@@ -38,7 +38,8 @@ class Lines:
 
     def known(self, runs: Iterable[Run]) -> dict[str, Line | Failure]:
         """All whole lines with what is asked for by their keys, whichever runs are."""
-        asked, lines = {*self.asked}, kept(self.directory)[0].items()
+        asked = {*self.asked}
+        lines = kept(self.directory)[0].items()
         return {key: _known(line) for key, line in lines if "failure" in line or asked <= line["numbers"].keys()}
 
     def keep(self, run: Run, result: RunResult | NumbersOfRun) -> Line | Failure:
@@ -80,7 +81,8 @@ def append(directory: Path, line: Mapping[str, Any]) -> None:
 
 def kept(directory: Path) -> tuple[dict[str, Line], int]:
     """All whole lines by their `key`, and how many more there are of versions of the program with other numbers."""
-    found, others = {}, 0
+    found: dict[str, Line] = {}
+    others = 0
     for file in sorted(directory.glob(f"*{ENDING}")):
         for text in file.read_bytes().split(b"\n"):
             try:

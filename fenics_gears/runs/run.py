@@ -6,9 +6,10 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from fenics_gears.elasticity.cache import as_json
-from fenics_gears.model.model import WORDS, Model
+from fenics_gears.model.model import Model
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.scene.data import Scene
+from fenics_gears.scene.schema import WORDS
 
 from .gear_store import cycle_key, operators_key
 

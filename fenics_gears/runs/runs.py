@@ -11,22 +11,22 @@ from typing import Any, Protocol
 from fenics_gears.errors import GearsError
 from fenics_gears.model.model import Model
 from fenics_gears.results.dataset import RunResult
-from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.routes import Preparation
-from fenics_gears.simulation.simulate import solved
+from fenics_gears.simulation.together import alike, can_be_solved_together, solved_together
 from fenics_gears.simulation.warm_up import compile_kernels
-from fenics_gears.system.progress import Progress, SilentProgress
+from fenics_gears.system.progress import Progress
 
 from .condensing import condense, gear_tasks
 from .gear_store import operators_key, own_gear_store
+from .one_run import Tick, Ticking, completed
 from .run import Run
+from .simulate import settled
 from .spent import Spent
 from .team import Alone, Together
 
 LOGGER = logging.getLogger(__name__)
 # Runs that are computed together at most, and tasks that each process gets at least.
-MOST_TOGETHER, TASKS = 32, 2
-Tick = Callable[[], None]
+MOST_TOGETHER = 32
+TASKS = 2
 Finished = Callable[[Run, Any], None]
 
 
@@ -62,9 +62,11 @@ class Runs:
     """
 
     def __init__(self, store: Store, team: Alone | Together, runs: Iterable[Run] = ()):
-        self._store, self._team = store, team
+        self._store = store
+        self._team = team
         self.known = store.known(runs)
-        self.kept, self.spent = len(self.known), Spent(team.size)
+        self.kept = len(self.known)
+        self.spent = Spent(team.size)
 
     def missing(self, runs: Iterable[Run]) -> list[Run]:
         """Those that are not known, each once, in the order in which they share most."""
@@ -76,7 +78,8 @@ class Runs:
         runs = list(runs)
         if runs:
             compile_kernels(tangential=True, progress=progress)
-        tasks, done = gear_tasks(runs), 0
+        tasks = gear_tasks(runs)
+        done = 0
         if not tasks:
             return
         progress.stage("condense gears")
@@ -119,11 +122,8 @@ def most_together(missing: int, processes: int) -> int:
 
 def solved_at_once(models: Sequence[Model], asked: Collection[str]) -> bool:
     """Whether runs of these models are solved together where the numbers `asked` alone are kept."""
-    # Imported here, as in `_together`.
-    from fenics_gears.simulation.together import can_be_solved_together
-
-    alike = len({operators_key(model) for model in models}) == 1
-    return alike and all(can_be_solved_together(model, asked) for model in models)
+    same = len({operators_key(model) for model in models}) == 1
+    return same and all(can_be_solved_together(model, asked) for model in models)
 
 
 def in_order_of_sharing(runs: Iterable[Run]) -> list[Run]:
@@ -150,25 +150,31 @@ def in_tasks(runs: Iterable[Run], most: int) -> list[list[Run]]:
 def computed(store: Store, runs: Sequence[Run], tick: Tick | None = None) -> list[Any]:
     """Compute runs and keep them, or why they failed; return what is known of each. Raises KeyboardInterrupt on
     Ctrl-C."""
-    found, ticking = {} if store.asked is None else _together(runs, store.asked), Ticking(tick)
+    found = {} if store.asked is None else _together(runs, store.asked)
+    ticking = Ticking(tick)
     return [_kept(store, run, found.get(run.key), ticking) for run in runs]
 
 
 def _kept(store: Store, run: Run, result: Any, progress: Progress) -> Any:
     """Keep a run, computed here unless its result is there already."""
     try:
-        return store.keep(run, result or completed(run.model, own_gear_store().prepared, progress))
+        return store.keep(run, result or _computed(run.model, progress))
     except Exception as error:
         if isinstance(error.__cause__, KeyboardInterrupt):  # compiled code that a second Ctrl-C hit in the middle
             raise KeyboardInterrupt from error
         return store.keep_failure(run, error)
 
 
+def _computed(model: Model, progress: Progress) -> RunResult:
+    """The result of a run, whose `wall_time` has the choice of its settings too."""
+    chosen = settled(model, progress)
+    result = completed(chosen.scene, own_gear_store().prepared, progress, chosen.describe)
+    result.attrs["wall_time"] += result.attrs.get("time_choose", 0.0)
+    return result
+
+
 def _together(runs: Sequence[Run], asked: Collection[str]) -> dict[str, Any]:
     """The numbers of those runs that can be solved together, by their keys."""
-    # Imported here: what keeps whole results does without.
-    from fenics_gears.simulation.together import alike, can_be_solved_together, solved_together
-
     groups: list[list[tuple[str, Model]]] = []
     for run in runs:
         model = run.model
@@ -186,26 +192,5 @@ def _together(runs: Sequence[Run], asked: Collection[str]) -> dict[str, Any]:
     return found
 
 
-def completed(scene: Scene | Model, preparation: Preparation, progress: Progress | None = None) -> RunResult:
-    """The whole result of a run and its `wall_time`, s. Raises KeyboardInterrupt on Ctrl-C."""
-    begun = time.perf_counter()
-    result = solved(scene, progress=progress, preparation=preparation)
-    if not result.attrs["complete"]:
-        raise KeyboardInterrupt
-    result.attrs["wall_time"] = time.perf_counter() - begun
-    return result
-
-
 def failure_of(error: Exception) -> Failure:
     return Failure(error if isinstance(error, GearsError) else f"{type(error).__name__}: {error}")
-
-
-class Ticking(SilentProgress):
-    """Calls ``tick`` as often as a simulation reports; it may raise KeyboardInterrupt."""
-
-    def __init__(self, tick: Tick | None):
-        self._tick = tick
-
-    def update(self, done: int, total: int, note: str = "") -> None:
-        if self._tick is not None:
-            self._tick()

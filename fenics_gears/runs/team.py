@@ -12,6 +12,7 @@ import signal
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.system.job import communicator, ending_all
 
 SECONDS_BETWEEN_LOOKS = 0.05
@@ -42,7 +43,9 @@ class Together:
     """All ranks of a job, seen from rank 0."""
 
     def __init__(self, executor, size: int, meanwhile: Meanwhile | None = None):
-        self._executor, self.size, self._meanwhile = executor, size, meanwhile
+        self._executor = executor
+        self.size = size
+        self._meanwhile = meanwhile
 
     def run(self, function: Task, tasks: Sequence[Any], finished: Finished, tick: Callable[[], None]) -> None:
         """Compute every task; ``tick`` is called often and may raise KeyboardInterrupt, which ends the ranks after
@@ -98,8 +101,6 @@ def _outcome(compute: Callable[[], Any]) -> Any:
 
 def _load_what_runs_need() -> None:
     """Half a second of libraries and compiled code, while rank 0 reads what there is to do."""
-    from fenics_gears.simulation.warm_up import compile_kernels
-
     for module in ("results.files", "simulation.elastic_route"):
         importlib.import_module(f"fenics_gears.{module}")
     compile_kernels(tangential=True)

@@ -15,7 +15,7 @@ from fenics_gears.simulation.routes import Prepared
 from fenics_gears.system.progress import Progress, SilentProgress
 
 from .gear_store import GearStore
-from .runs import completed
+from .one_run import completed
 
 STAGES = ("mesh", "condense", "march")
 

@@ -25,12 +25,15 @@ class Fineness(NamedTuple):
 # Three elements: the paper's pair is within 0.15 % of its limit in the transmission error, 0.1 % in the peak pressure;
 # two would do, but for rounded edges of a sixtieth of the module (2 %). Between steps curves are straight lines, 0.4 %
 # off in L2. Over a face a step costs more, and helical pairs are smoother.
-IN_THE_PLANE, OVER_THE_FACE = Fineness(3.0, 200), Fineness(2.0, 100)
+IN_THE_PLANE = Fineness(3.0, 200)
+OVER_THE_FACE = Fineness(2.0, 100)
 # Flank elements stay between these parts of the module, whatever the load: a vanishing load has no half-width.
-FINEST_ELEMENT, COARSEST_ELEMENT = 1.0 / 200.0, 1.0 / 25.0
+FINEST_ELEMENT = 1.0 / 200.0
+COARSEST_ELEMENT = 1.0 / 25.0
 # Flank elements in a half-width that the peak pressure takes: with two it is 5 % off, with one a fifth. In the plane
 # elements become finer than above for their sake, down to this part of the module.
-RESOLVED, FINEST_RESOLVED = 2.0, 1.0 / 400.0
+RESOLVED = 2.0
+FINEST_RESOLVED = 1.0 / 400.0
 # Distance of contact nodes in flank elements, of second order; first-order elements cannot tell so many apart.
 NODE_SPACING = 0.7
 STEPS_PER_PERIOD = 20
@@ -38,15 +41,22 @@ MOST_STEPS_PER_MESH_CYCLE = 1000
 # Largest elements of the body's section and largest layers of it over the common face, in normal modules: what layers
 # leave out near a load is added (elasticity.face.near_field), so that they change the mean transmission error by less
 # than 0.05 %.
-SECTION_SIZE, LAYER_THICKNESS = 0.3, 1.75
-FEWEST_LAYERS, LARGEST_LAYER_TURN = 4, 0.3
+SECTION_SIZE = 0.3
+LAYER_THICKNESS = 1.75
+FEWEST_LAYERS = 4
+LARGEST_LAYER_TURN = 0.3
 # Widest slices, in normal modules and by how far the line of contact of a helical pair moves along the path of contact
 # within one, in base pitches: the mean transmission error is then 0.1 to 0.2 % too small (28 and 30 degrees), and at a
 # whole overlap its peak-to-peak value too large by 0.15 % of the mean.
-SLICE_WIDTH, SLICE_RISE, FEWEST_SLICES = 0.7, 0.08, 8
+SLICE_WIDTH = 0.7
+SLICE_RISE = 0.08
+FEWEST_SLICES = 8
 
 # Models of the mesh: the full contact of elastic flanks, and cheaper ones.
-ELASTIC, RIGID_TEETH, STIFFNESS_TABLE, ISO_6336 = "elastic", "rigid teeth", "stiffness table", "ISO 6336-1"
+ELASTIC = "elastic"
+RIGID_TEETH = "rigid teeth"
+STIFFNESS_TABLE = "stiffness table"
+ISO_6336 = "ISO 6336-1"
 # For a tooth pair.
 MOST_CONTACT_NODES = 1000
 

@@ -20,6 +20,12 @@ from .accuracy import RIGID_TEETH as RIGID_TEETH
 from .accuracy import STIFFNESS_TABLE as STIFFNESS_TABLE
 from .accuracy import Accuracy as Accuracy
 from .accuracy import Output as Output
+from .schema import HUNTING_TOOTH_PERIOD as HUNTING_TOOTH_PERIOD
+from .schema import LAST_CYCLES as LAST_CYCLES
+from .schema import LOAD_WORDS as LOAD_WORDS
+from .schema import Derived as Derived
+from .schema import Load as Load
+from .schema import Motion as Motion
 
 if TYPE_CHECKING:
     from fenics_gears.contact.eccentricity import Eccentricity
@@ -39,59 +45,6 @@ if TYPE_CHECKING:
     from fenics_gears.geometry.lead_modification import LeadModifications
     from fenics_gears.geometry.misalignment import Misalignment
     from fenics_gears.geometry.profile_modification import ProfileModifications
-
-
-@dataclass(frozen=True)
-class Load:
-    """Torque on the wheel's shaft, N mm; positive when it resists the drive. `given`: the field by which the scene has
-    it.
-    """
-
-    wheel_torque: float
-    given: str = field(default="wheel_torque", compare=False)
-
-
-# How a scene can give its load: unit and name for people.
-LOAD_WORDS = {
-    "wheel_torque": ("N m", "torque on the wheel"),
-    "pinion_torque": ("N m", "torque on the pinion"),
-    "power": ("kW", "power"),
-}
-
-
-@dataclass(frozen=True)
-class Derived:
-    """A figure that a scene leaves out: its name, value, unit and formula, and a remark if it is `unusual`."""
-
-    name: str
-    value: float
-    unit: str
-    formula: str
-    unusual: str = ""
-
-
-# Mesh cycles until every tooth has met every other: the least common multiple of the numbers of teeth.
-HUNTING_TOOTH_PERIOD = "hunting tooth period"
-# Recorded cycles where the scene does not give their number and all cycles are alike, or the result could not hold all.
-LAST_CYCLES = 2
-# Mesh frequency, Hz, of a scene that has no speed and needs none: its nominal time is 1 s a mesh cycle.
-NOMINAL_FREQUENCY = 1.0
-
-
-@dataclass(frozen=True)
-class Motion:
-    """Mesh frequency, Hz, mesh cycles that are run, and how many of the last of them have their contact fields stored
-    and are shown.
-
-    ``fewer_where_too_large``: the scene does not give that number, so a large result stores fewer. ``speed_given``: if
-    not, no result depends on a speed, and the frequency is ``NOMINAL_FREQUENCY``.
-    """
-
-    mesh_frequency: float
-    mesh_cycles: int
-    recorded_cycles: int
-    fewer_where_too_large: bool = False
-    speed_given: bool = True
 
 
 @dataclass(frozen=True)

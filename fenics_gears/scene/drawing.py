@@ -20,10 +20,9 @@ from fenics_gears.geometry.gear_data import MATERIALS, RACKS, GearData, GearPair
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, LOADS, MODULES, PRESSURE_ANGLES, in_normal_section, wheel_torque
 
-from .data import Derived, Load, Motion
 from .gear_schema import Gear as GearText
 from .gear_schema import Gears
-from .schema import LoadText
+from .schema import Derived, Load, LoadText, Motion
 
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
@@ -68,7 +67,8 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
 
 def _in_normal_section(gears: Gears) -> tuple[Gears, list[Derived]]:
     """The section with module and pressure angle, whatever they are given by, and what was derived."""
-    found, derived = {}, []
+    found: dict[str, float | None] = {}
+    derived = []
     for names, unit, size in ((MODULES, "mm", 1.0), (PRESSURE_ANGLES, "deg", pi / 180.0)):
         own, *others = names
         name = next(each for each in names if getattr(gears, each) is not None)
@@ -117,9 +117,8 @@ def load_data(load: LoadText, gears: Gears, motion: Motion) -> tuple[Load, list[
     )
     assert torque is not None, "a load by power has a speed"
     why = {"pinion_torque": "T_2 = T_1 z2/z1", "power": "T_2 = P/(2 pi n_2)"}
-    return Load(torque, name), (
-        [] if name == "wheel_torque" else [Derived("torque on the wheel", 1e-3 * torque, "N m", why[name])]
-    )
+    derived = [Derived("torque on the wheel", 1e-3 * torque, "N m", why[name])] if name in why else []
+    return Load(torque, name), derived
 
 
 def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Derived]]:
@@ -129,10 +128,10 @@ def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Deriv
     cut, of_thickness = zip(*(_shift(pair, gear, name) for gear, name in zip(drawn, GEARS)))
     shifts = [gear.profile_shift if gear.profile_shift is not None else own for gear, own in zip(drawn, cut)]
     distance, of_distance = _centre_distance(pair, shifts, cut)
-    cut, of_backlash = _thinned(pair, cut, distance)
+    thinned, of_backlash = _thinned(pair, cut, distance)
     shortening, of_tips = _tip_shortening(pair, drawn, shifts, distance)
-    gears, of_gears = zip(*(_gear_data(pair, *each, shortening) for each in zip(drawn, GEARS, shifts, cut)))
-    asked = (_asked_measures(pair, *each) for each in zip(drawn, GEARS, cut))
+    gears, of_gears = zip(*(_gear_data(pair, *each, shortening) for each in zip(drawn, GEARS, shifts, thinned)))
+    asked = (_asked_measures(pair, *each) for each in zip(drawn, GEARS, thinned))
     return distance, gears, [*chain(*of_thickness, of_distance, of_backlash, of_tips, *of_gears, *asked)]
 
 
@@ -204,7 +203,8 @@ def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequen
         * cos(rack_pair.operating_pressure_angle)
         / (2.0 * pinion.module * cos(pinion.pressure_angle) * tan(pair.pressure_angle))
     )
-    lowered, overlap = [shift - each for shift in cut], -rack_pair.circumferential_backlash
+    lowered = [shift - each for shift in cut]
+    overlap = -rack_pair.circumferential_backlash
     nominal = rack_pair.centre_distance_without_backlash
     thinner = 2.0 * each * pair.module * tan(pair.pressure_angle)
     words = "half of the backlash by each gear"
@@ -252,7 +252,8 @@ def _gear_data(
     reference = pair.module * drawn.teeth / cos(pair.helix_angle or 0.0)
     standard = RACKS[_of_rack(pair, drawn, "profile") or "ISO 53 A"]
     addendum, dedendum, radius = (_of_rack(pair, drawn, figure) for figure in ("addendum", "dedendum", "tip_radius"))
-    tip, root = drawn.tip_diameter, drawn.root_diameter
+    tip = drawn.tip_diameter
+    root = drawn.root_diameter
     radius = radius if drawn.rack_tip_radius is None else drawn.rack_tip_radius
     if tip is None:
         tip = reference + 2.0 * pair.module * (shift + (standard[0] if addendum is None else addendum) - shortening)

@@ -66,7 +66,8 @@ def _class_is_for_the_faces(tree: Tree) -> Broken:
 
 
 def _layers_are_no_needles(tree: Tree) -> Broken:
-    module, layers = module_in(tree), value_at(tree, "accuracy", "layers")
+    module = module_in(tree)
+    layers = value_at(tree, "accuracy", "layers")
     homes = [("gears", "face_width"), *(("gears", gear, "face_width") for gear in GEARS)]
     widths = {
         path: width for path in homes if (width := quantity_in(value_at(tree, *path))) is not None and width > 0.0
@@ -74,7 +75,8 @@ def _layers_are_no_needles(tree: Tree) -> Broken:
     if module is None or not widths:
         return
     path = min(widths, key=lambda each: widths[each])
-    thinnest, width = THINNEST_LAYER * module, widths[path]
+    thinnest = THINNEST_LAYER * module
+    width = widths[path]
     if width < thinnest:
         yield path, f"is less than a layer of elements. Allowed in three dimensions: from {thinnest:g} mm."
     elif type(layers) is int and (count := min(layers, MOST_LAYERS)) * thinnest > width:

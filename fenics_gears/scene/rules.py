@@ -1,41 +1,51 @@
-"""Rules between the fields of a scene; those of one effect are in its own module.
+"""Rules between the fields of a scene, and of what a drawing may leave out; those of one effect are in its own module,
+those of speed and accuracy in ``accuracy_rules``.
 
 They read the parsed TOML file, so that they apply even where some field is wrong; a value that they cannot read is
 reported elsewhere.
 """
 
-import re
 from collections.abc import Iterable, Mapping
 from itertools import chain
-from math import lcm
+from math import degrees
 
 from fenics_gears import effects
+from fenics_gears.inputs import units
 from fenics_gears.inputs.problem import Broken, Problem, meant, nearest
-from fenics_gears.inputs.section import allowed_in, fields_of, given, names_in
+from fenics_gears.inputs.section import allowed_in, given, names_in
 from fenics_gears.inputs.tree import (
     GEARS,
     LARGEST_ERROR,
+    LOADS,
     MODULES,
     NOT_IN_THE_PLANE,
+    PRESSURE_ANGLES,
     Tree,
     given_for,
+    in_normal_section,
     load_in,
     material_sections,
     module_in,
     over_the_face,
+    pressure_angle_in,
     quantity_at,
     quantity_in,
     table,
-    teeth_in,
     value_at,
+    with_gears,
 )
 from fenics_gears.inputs.written import as_written
 
-from .accuracy_rules import ACCURACY_RULES, EVERY_STEP
-from .data import HUNTING_TOOTH_PERIOD
-from .drawing_rules import DRAWING_RULES
-from .gear_schema import Gears
-from .schema import MotionText, scene_text
+from .accuracy_rules import (
+    ACCURACY_RULES,
+    EVERY_STEP,
+    a_speed_where_time_matters,
+    contact_fields_are_of_cycles_that_run,
+    recorded_cycles_are_run,
+    settling_is_of_vibrations,
+)
+from .gear_schema import MEASURES, Gear, Gears
+from .schema import LoadText, scene_text
 
 TEETH = "tooth_elasticity"
 
@@ -63,7 +73,8 @@ def _problems(tree: Tree, broken: Broken) -> list[Problem]:
 
 
 def _effects_fit_together(tree: Tree) -> Broken:
-    known, always = effects.AT_THE_TOP, names_in(scene_text(()))
+    known = effects.AT_THE_TOP
+    always = names_in(scene_text(()))
     # A misspelt section is another problem.
     sections = {name if name in always else nearest(name, known) or meant((), name, known) or name for name in tree}
     # Without [gears] the teeth are unknown.
@@ -87,72 +98,12 @@ def _both_gears_have_a_width(tree: Tree) -> Broken:
     yield ("gears", "face_width"), message
 
 
-def _a_speed_where_time_matters(tree: Tree) -> Broken:
-    motion = table(tree, "motion") or {}
-    # Without these a scene is a sequence of positions, each in equilibrium.
-    named = (each for each in effects.AT_THE_TOP if each in tree)
-    needing = next((each for each in named if "inertia" in (each, *effects.effect_named(each).needs)), None)
-    if needing is None or not isinstance(tree.get("motion", {}), Mapping):
-        return
-    if "motion" not in tree:
-        yield (
-            ("motion",),
-            f"is missing. Add the section [motion] with {fields_of(MotionText)}; [{needing}] needs a speed.",
-        )
-        return
-    names = ("mesh_frequency", "pinion_speed")
-    if not any(nearest(name, names) or meant(("motion",), name, names) for name in motion):
-        either = 'mesh_frequency, such as "200 Hz", or pinion_speed, such as "750 rpm"'
-        yield ("motion", "mesh_frequency"), f"is missing. Allowed: {either}; [{needing}] needs one."
-    if "mesh_cycles" not in motion and "settling_time" not in motion:
-        allowed = allowed_in(MotionText, "mesh_cycles").description
-        message = f'is missing. Allowed: {allowed}; [{needing}] needs it, or settling_time, such as "25 ms".'
-        yield ("motion", "mesh_cycles"), message
-
-
 def _a_wheel_that_drives_has_coast_flanks(tree: Tree) -> Broken:
     load = load_in(tree)
     if load is not None and load[1] < 0.0 and "coast_flanks" not in tree:
         unit = "kW" if load[0][-1] == "power" else "N m"
         why = "is negative: it drives the pair from the wheel"
         yield load[0], f"{why}. Allowed: with the section [coast_flanks] any sign, without it 0 {unit} and above."
-
-
-def _settling_is_of_vibrations(tree: Tree) -> Broken:
-    motion = table(tree, "motion") or {}
-    if "settling_time" not in motion:
-        return
-    place = ("motion", "settling_time")
-    if "inertia" not in tree:
-        yield place, "is for scenes with [inertia]: without it there is no vibration that dies down. Leave it out."
-    if "speed_ramp" in tree:
-        yield place, "is for a steady speed. Allowed with [speed_ramp]: mesh_cycles, the length of the whole ramp."
-
-
-def _recorded_cycles_are_run(tree: Tree) -> Broken:
-    motion = table(tree, "motion") or {}
-    recorded, run = (_cycles(tree, motion.get(name)) for name in ("recorded_cycles", "mesh_cycles"))
-    if type(recorded) is int and type(run) is int and recorded > run > 0:
-        count = "" if motion["recorded_cycles"] == recorded else f"({recorded} mesh cycles) "
-        more = f"{count}is more than mesh_cycles = {as_written(motion['mesh_cycles'])}"
-        yield ("motion", "recorded_cycles"), f"{more}. Allowed: at most that."
-
-
-def _contact_fields_are_of_cycles_that_run(tree: Tree) -> Broken:
-    written, motion = value_at(tree, "output", "contact_fields"), table(tree, "motion") or {}
-    place = ("output", "contact_fields")
-    if written is not None and "recorded_cycles" in motion:
-        yield place, "stands beside motion.recorded_cycles, which says the same. Leave one of the two out."
-    asked = re.fullmatch(r"last (\d{1,7}) cycles?", written) if isinstance(written, str) else None
-    run = _cycles(tree, motion.get("mesh_cycles"))
-    if asked and type(run) is int and int(asked[1]) > run > 0:
-        yield place, f"is more than motion.mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most that."
-
-
-def _cycles(tree: Tree, written) -> object:
-    """Mesh cycles as a number, also of a whole hunting tooth period; else what is written."""
-    teeth = [teeth_in(tree, gear) for gear in GEARS]
-    return lcm(*teeth) if written == HUNTING_TOOTH_PERIOD and None not in teeth else written
 
 
 def _errors_are_small(tree: Tree) -> Broken:
@@ -195,16 +146,148 @@ def _remeshed_gears_have_one_width(tree: Tree) -> Broken:
         yield ("accuracy", "condensation"), f"is for gears of one face width without axial_offset. {remedy}"
 
 
+def _teeth_have_a_size(tree: Tree) -> Broken:
+    gears = table(tree, "gears")
+    helix_angle = quantity_at(tree, "gears", "helix_angle") or 0.0
+    for names in (MODULES, PRESSURE_ANGLES) if gears is not None else ():
+        allowed = allowed_in(Gears, names[0])
+        name = next((each for each in names if each in gears), None)
+        number = quantity_at(tree, "gears", name) if name is not None else None
+        if name is None:
+            others = ", ".join(names[1:-1]) + " or " * (len(names) > 2) + names[-1]
+            yield ("gears", names[0]), f"is missing. Allowed: {allowed.description}; or {others}."
+        elif name != names[0] and number:
+            found = in_normal_section(name, number, helix_angle)
+            if not allowed.lowest <= found <= allowed.highest:
+                words = f"{found / units.quantity(f'1 {allowed.unit}')[0]:.4g} {allowed.unit}"
+                message = f"makes {names[0]} = {words} in the normal section. Allowed of that: {allowed.description}."
+                yield ("gears", name), message
+
+
+# Names by which an internal gear is asked for.
+INTERNAL = ("internal", "internal_gear", "internal_teeth", "ring", "ring_gear")
+
+
+def _gears_are_external(tree: Tree) -> Broken:
+    for path, section in with_gears(tree, "gears").items():
+        for name in (each for each in INTERNAL if each in section):
+            message = "is not known: internal gears are not computed yet. Allowed: two external gears. Leave it out."
+            yield (*path, name), message
+
+
+def _thickness_is_given_once(tree: Tree) -> Broken:
+    gears = table(tree, "gears") or {}
+    for gear in GEARS:
+        own = table(gears, gear)
+        if own is None:
+            continue
+        measures = [name for name in MEASURES if name in own]
+        if not measures and "profile_shift" not in own:
+            allowed = allowed_in(Gear, "profile_shift").description
+            yield ("gears", gear, "profile_shift"), f"is missing. Allowed: {allowed}; or one of {', '.join(MEASURES)}."
+        for name in measures:
+            beside = MEASURES[name]
+            if beside is not None and beside not in own:
+                allowed = allowed_in(Gear, beside).description
+                yield ("gears", gear, beside), f"is missing. Allowed: {allowed}; {name} has no meaning without it."
+
+
+def _backlash_has_its_place(tree: Tree) -> Broken:
+    """A backlash is made by thinner teeth of both gears, or by the centre distance of measured ones."""
+    gears = table(tree, "gears") or {}
+    if "backlash" not in gears:
+        return
+    measured = [f"gears.{gear}.{name}" for gear in GEARS for name in MEASURES if name in (table(gears, gear) or {})]
+    if measured and (len({name.split(".")[1] for name in measured}) == 1 or "centre_distance" in gears):
+        beside = measured[0] if "centre_distance" not in gears else f"{measured[0]} and gears.centre_distance"
+        message = (
+            f"stands beside {beside}, of which it follows. Allowed: profile shifts of both gears alone, or measured"
+            " tooth thicknesses of both without centre_distance."
+        )
+        yield ("gears", "backlash"), message
+
+
+def _no_figure_is_given_twice(tree: Tree) -> Broken:
+    gears = table(tree, "gears") or {}
+    if "tip_shortening" in gears and all("tip_diameter" in (table(gears, gear) or {}) for gear in GEARS):
+        message = "stands beside the tip diameters of both gears, which say the same. Leave it out, or a tip diameter."
+        yield ("gears", "tip_shortening"), message
+    for gear in GEARS:
+        own = table(gears, gear) or {}
+        rack = table(own, "rack") or {}
+        for name, diameter in (
+            ("addendum", "tip_diameter"),
+            ("dedendum", "root_diameter"),
+            ("tip_radius", "rack_tip_radius"),
+        ):
+            if name in rack and diameter in own:
+                message = f"stands beside gears.{gear}.{diameter}, which says the same. Leave one of the two out."
+                yield ("gears", gear, "rack", name), message
+
+
+def _protuberance_is_more_than_the_stock(tree: Tree) -> Broken:
+    """Finishing takes no more than the protuberance has cut free, or it leaves a step in the root."""
+    gears = table(tree, "gears") or {}
+    found = {}
+    pressure_angle = pressure_angle_in(tree)
+    for gear in GEARS:
+        amount, stock, angle = (
+            _of_rack(gears, gear, name) for name in ("protuberance", "finishing_stock", "protuberance_angle")
+        )
+        cut = amount[1] if amount else 0.0
+        if stock and stock[1] > cut:
+            why = f"is more than the protuberance of the {gear}'s rack: finishing would leave a step in the root"
+            found[stock[0]] = f"{why}. Allowed: up to {cut:.4g} mm."
+        if angle and not cut:
+            found[angle[0]] = "has no meaning without a protuberance. Give protuberance, or leave both out."
+        elif angle and pressure_angle and angle[1] >= pressure_angle:
+            found[angle[0]] = f"must be less than the pressure angle, {degrees(pressure_angle):.6g} deg. Lower it."
+    yield from found.items()
+
+
+def _of_rack(gears: Tree, gear: str, figure: str) -> tuple[tuple[str, ...], float] | None:
+    """Where a quantity of a gear's rack is written, its own section first, and its number."""
+    for path in ((gear, "rack", figure), ("rack", figure)):
+        number = quantity_at(gears, *path)
+        if number is not None:
+            return ("gears", *path), number
+    return None
+
+
+def _load_is_given_once(tree: Tree) -> Broken:
+    load = table(tree, "load")
+    motion = tree.get("motion", {})
+    if load is None:
+        return
+    given = [name for name in LOADS if name in load]
+    if not given:
+        message = f"is missing. Allowed: {allowed_in(LoadText, 'wheel_torque').description}; or pinion_torque or power."
+        yield ("load", "wheel_torque"), message
+    if "power" not in given:
+        return
+    if isinstance(motion, Mapping) and not {"mesh_frequency", "pinion_speed"} & set(motion):
+        message = 'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or mesh_frequency, or give a torque.'
+        yield ("load", "power"), message
+    if "speed_ramp" in tree:
+        yield ("load", "power"), "has no one torque beside [speed_ramp]. Give wheel_torque or pinion_torque."
+
+
 _RULES = (
     _effects_fit_together,
     _both_gears_have_a_width,
-    _a_speed_where_time_matters,
+    a_speed_where_time_matters,
     _a_wheel_that_drives_has_coast_flanks,
-    _settling_is_of_vibrations,
-    _recorded_cycles_are_run,
-    _contact_fields_are_of_cycles_that_run,
+    settling_is_of_vibrations,
+    recorded_cycles_are_run,
+    contact_fields_are_of_cycles_that_run,
     _errors_are_small,
     *ACCURACY_RULES,
     _flanks_are_resolved_over_the_face,
-    *DRAWING_RULES,
+    _teeth_have_a_size,
+    _gears_are_external,
+    _thickness_is_given_once,
+    _backlash_has_its_place,
+    _no_figure_is_given_twice,
+    _protuberance_is_more_than_the_stock,
+    _load_is_given_once,
 )

@@ -1,5 +1,5 @@
-"""The sections that every scene has, with what each field allows, and mistakes against them in words; an effect's are
-in its own module. Ranges are generous: ``geometry`` checks whether teeth and diameters make a gear.
+"""The sections that every scene has, with what each field allows, their data, and mistakes against them in words; an
+effect's are in its own module. Ranges are generous: ``geometry`` checks whether teeth and diameters make a gear.
 """
 
 import functools
@@ -14,8 +14,25 @@ from fenics_gears.inputs.section import Section, names_in, read, section_within
 from fenics_gears.inputs.tree import LOADS
 
 from .accuracy import Accuracy, Output
-from .data import HUNTING_TOOTH_PERIOD
 from .gear_schema import Gears
+
+
+@dataclass(frozen=True)
+class Load:
+    """Torque on the wheel's shaft, N mm; positive when it resists the drive. `given`: the field by which the scene has
+    it.
+    """
+
+    wheel_torque: float
+    given: str = field(default="wheel_torque", compare=False)
+
+
+# How a scene can give its load: unit and name for people.
+LOAD_WORDS = {
+    "wheel_torque": ("N m", "torque on the wheel"),
+    "pinion_torque": ("N m", "torque on the pinion"),
+    "power": ("kW", "power"),
+}
 
 
 @dataclass(frozen=True)
@@ -43,6 +60,30 @@ class LoadText(Section):
         meaning="power that goes through the pair at the speed of `[motion]`, which is then required",
         otherwise="`wheel_torque` or `pinion_torque` is given",
     )
+
+
+# Mesh cycles until every tooth has met every other: the least common multiple of the numbers of teeth.
+HUNTING_TOOTH_PERIOD = "hunting tooth period"
+# Recorded cycles where the scene does not give their number and all cycles are alike, or the result could not hold all.
+LAST_CYCLES = 2
+# Mesh frequency, Hz, of a scene that has no speed and needs none: its nominal time is 1 s a mesh cycle.
+NOMINAL_FREQUENCY = 1.0
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Mesh frequency, Hz, mesh cycles that are run, and how many of the last of them have their contact fields stored
+    and are shown.
+
+    ``fewer_where_too_large``: the scene does not give that number, so a large result stores fewer. ``speed_given``: if
+    not, no result depends on a speed, and the frequency is ``NOMINAL_FREQUENCY``.
+    """
+
+    mesh_frequency: float
+    mesh_cycles: int
+    recorded_cycles: int
+    fewer_where_too_large: bool = False
+    speed_given: bool = True
 
 
 # No number of mesh cycles, but as many as a hunting tooth period has.
@@ -95,6 +136,21 @@ class MotionText(Section):
     )
 
 
+@dataclass(frozen=True)
+class Derived:
+    """A figure that a scene leaves out: its name, value, unit and formula, and a remark if it is `unusual`."""
+
+    name: str
+    value: float
+    unit: str
+    formula: str
+    unusual: str = ""
+
+
+# What a scene is called, and where it was read; it has its data whatever they are.
+WORDS = ("title", "name", "derived", "measured_over", "written", "folder")
+
+
 @dataclass(frozen=True, kw_only=True)
 class _AlwaysThere(Section):
     title: str | None = text(500, meaning="title in summaries and pictures", otherwise="the name of the file")
@@ -131,7 +187,8 @@ def known_paths() -> dict[tuple[str, ...], bool]:
 def _paths(section: type[Section], home: tuple[str, ...]) -> dict[tuple[str, ...], bool]:
     found: dict[tuple[str, ...], bool] = {}
     for name in names_in(section):
-        inner, path = section_within(section, name), (*home, name)
+        inner = section_within(section, name)
+        path = (*home, name)
         found |= {path: inner is not None} | (_paths(inner, path) if inner is not None else {})
     return found
 
@@ -175,7 +232,8 @@ def _is_misspelt(missing: Path, unknown: Iterable[Path]) -> bool:
 
 
 def _why_unknown(path: Path) -> str:
-    name, home = path[-1], ".".join(path[:-1])
+    name = path[-1]
+    home = ".".join(path[:-1])
     known = [each[-1] for each in known_paths() if each[:-1] == path[:-1]]
     synonym = meant(path[:-1], name, known)
     hint = f' Did you mean "{synonym}"?' if synonym else did_you_mean(name, known) or _lives_elsewhere(name)

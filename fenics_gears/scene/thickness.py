@@ -8,18 +8,20 @@ from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse
 
 from . import unusual
-from .data import Derived
 from .gear_schema import MEASURES, Gears
 from .gear_schema import Gear as GearText
+from .schema import Derived
 
 # Largest difference, in modules, of the profile shift of a thickness from that of the drawing, and largest profile
 # shift that a thickness alone may stand for: one spanned tooth more or less is a shift of 4.3 at 20 deg.
-LARGEST_ALLOWANCE, LARGEST_SHIFT = 0.5, 2.0
+LARGEST_ALLOWANCE = 0.5
+LARGEST_SHIFT = 2.0
 
 
 def shift_of_thickness(pair: Gears, drawn: GearText, name: str) -> tuple[float, list[Derived]]:
     """The profile shift of the gear's measured thickness, and what was derived."""
-    gear, measure = pair.rack_gear(drawn.teeth, 0.0), drawn.measure
+    gear = pair.rack_gear(drawn.teeth, 0.0)
+    measure = drawn.measure
     beside = MEASURES[measure]
     written = f"gears.{name}.{measure} = {getattr(drawn, measure):.6g} mm" + (
         f" with {beside} {getattr(drawn, beside):g}" if beside else ""
@@ -41,7 +43,8 @@ def shift_of_thickness(pair: Gears, drawn: GearText, name: str) -> tuple[float, 
             f" {than}: check both, and gears.module",
         )
     if drawn.profile_shift is None:
-        words, odd = "profile shift", unusual.of_profile_shift(name, shift)
+        words = "profile shift"
+        odd = unusual.of_profile_shift(name, shift)
     else:
         words = "profile shift of its tooth thickness"
         odd = unusual.of_allowance(pair, name, shift - nominal, pair.centre_distance or 0.0)
@@ -50,7 +53,8 @@ def shift_of_thickness(pair: Gears, drawn: GearText, name: str) -> tuple[float, 
 
 def check_measure(drawn: GearText, name: str, gear: Gear) -> None:
     """Caliper and balls touch the involute, and balls stand out of the tip circle and clear of the root."""
-    lowest, measure = gear.form_radius, drawn.measure
+    lowest = gear.form_radius
+    measure = drawn.measure
     if measure == "tooth_thickness":
         return
     if measure == "base_tangent_length":
@@ -59,7 +63,8 @@ def check_measure(drawn: GearText, name: str, gear: Gear) -> None:
     else:
         touched = tooth_thickness.ball_contact_radius(gear, drawn.ball_diameter)
         better = f"about {tooth_thickness.ball_diameter(gear):.4g} mm"
-        centre, radius = tooth_thickness.ball_centre(gear, drawn.ball_diameter), 0.5 * drawn.ball_diameter
+        centre = tooth_thickness.ball_centre(gear, drawn.ball_diameter)
+        radius = 0.5 * drawn.ball_diameter
         if centre + radius < gear.tip_radius:
             refuse(
                 name,

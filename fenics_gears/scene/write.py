@@ -1,11 +1,13 @@
 """From a scene's data to a scene file that gives the same data, bit for bit; and to a table for notebooks."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields
 from html import escape
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GearsError
@@ -14,15 +16,15 @@ from fenics_gears.inputs.section import allowed_in, field_of, section_within, tr
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_toml, toml_value
 
-from . import data, gear_schema, schema
-from .read import NO_FILE, parsed, scene_from_text
-from .schema import scene_text
+from . import gear_schema, schema
+from .parsing import NO_FILE, parsed, values_of_text
+from .schema import HUNTING_TOOTH_PERIOD, LAST_CYCLES, WORDS, scene_text
 
-# What a scene is called, and where it was read; it has these data whatever they are.
-WORDS = ("title", "name", "derived", "measured_over", "written", "folder")
+if TYPE_CHECKING:
+    from .data import Scene
 
 
-def text_of(scene: data.Scene) -> str:
+def text_of(scene: Scene) -> str:
     """The text of a scene file that gives a scene's data: sections as they were read where they give them, else written
     from the data. What no file gives, as where a mesh file was overwritten since, has a text that says so."""
     sections = section_trees(scene)
@@ -36,21 +38,21 @@ def text_of(scene: data.Scene) -> str:
     return f"{NO_FILE}: {why}\n"
 
 
-def why_another(scene: data.Scene, text: str) -> str:
+def why_another(scene: Scene, text: str) -> str:
     """Why a text does not give a scene's data, in words; empty where it does."""
     try:
-        found = scene_from_text(text, scene.name, directory=Path(scene.folder), with_lines=False)
+        found = values_of_text(text, scene.name, directory=Path(scene.folder), with_lines=False)
     except GearsError as error:
         return " ".join(str(error).removesuffix("Nothing was computed or written.").split())
     names = (each.name for each in fields(scene) if each.name not in WORDS)
-    differing = [name for name in names if getattr(found, name) != getattr(scene, name)]
+    differing = [name for name in names if found.get(name) != getattr(scene, name)]
     if not differing:
         return ""
     verb = "is" if len(differing) == 1 else "are"
     return f"{', '.join(differing)} {verb} not what a file, and the files that it names, can say"
 
 
-def section_trees(scene: data.Scene) -> dict[str, Any]:
+def section_trees(scene: Scene) -> dict[str, Any]:
     """All sections of a scene file, by their names, from the data alone."""
     found = {
         "title": scene.title or None,
@@ -65,11 +67,12 @@ def section_trees(scene: data.Scene) -> dict[str, Any]:
     return {name: tree for name, tree in found.items() if tree is not None}
 
 
-def _as_read_where_the_same(scene: data.Scene, sections: dict[str, Any]) -> dict[str, Any]:
-    read, written = scene_from_text(scene.written, scene.name, directory=Path(scene.folder)), parsed(scene.written, "")
+def _as_read_where_the_same(scene: Scene, sections: dict[str, Any]) -> dict[str, Any]:
+    read = values_of_text(scene.written, scene.name, directory=Path(scene.folder))
+    written = parsed(scene.written, "")
     found = {}
     for name in written | sections:
-        if getattr(read, name) != getattr(scene, name):
+        if read.get(name) != getattr(scene, name):
             found[name] = sections.get(name)
         elif name in written:
             found[name] = written[name]
@@ -77,7 +80,8 @@ def _as_read_where_the_same(scene: data.Scene, sections: dict[str, Any]) -> dict
 
 
 def _gears(pair: GearPairData) -> dict[str, Any]:
-    section, own_width = gear_schema.Gears, any(getattr(pair, name).face_width is not None for name in GEARS)
+    section = gear_schema.Gears
+    own_width = any(getattr(pair, name).face_width is not None for name in GEARS)
     found = tree_of(pair, section, ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ())))
     if pair.helix_angle:
         found["pinion_hand"] = pair.pinion_hand
@@ -114,8 +118,9 @@ def _length_of(share: float, whole: float) -> float:
     return next((each for each in near if each / whole == share), product)
 
 
-def _motion(scene: data.Scene) -> dict[str, Any]:
-    motion, period = scene.motion, math.lcm(scene.gears.pinion.teeth, scene.gears.wheel.teeth)
+def _motion(scene: Scene) -> dict[str, Any]:
+    motion = scene.motion
+    period = math.lcm(scene.gears.pinion.teeth, scene.gears.wheel.teeth)
     found: dict[str, Any] = {}
     if motion.speed_given:
         found["mesh_frequency"] = field_of(schema.MotionText, "mesh_frequency", motion.mesh_frequency)
@@ -125,15 +130,15 @@ def _motion(scene: data.Scene) -> dict[str, Any]:
     if scene.speed_ramp is not None:
         return found | {"mesh_cycles": motion.mesh_cycles}
     if motion.mesh_cycles == period:
-        return found | {"mesh_cycles": data.HUNTING_TOOTH_PERIOD}
-    settling = (motion.mesh_cycles - max(period, data.LAST_CYCLES)) / motion.mesh_frequency
+        return found | {"mesh_cycles": HUNTING_TOOTH_PERIOD}
+    settling = (motion.mesh_cycles - max(period, LAST_CYCLES)) / motion.mesh_frequency
     return found | {"settling_time": field_of(schema.MotionText, "settling_time", settling)}
 
 
 MOST_LETTERS = 80
 
 
-def html(scene: data.Scene) -> str:
+def html(scene: Scene) -> str:
     """The fields that are not at their defaults, as a scene file has them, and what each of them is."""
 
     def row(kind: str, cells: Iterable[str]) -> str:
@@ -153,5 +158,6 @@ def rows_of(tree: Mapping[str, Any], section: Any, home: str = "") -> Iterator[t
             yield (f"[{home}{name}]", "", "")
             yield from rows_of(value, inner, f"{home}{name}.")
         else:
-            text, meaning = value if isinstance(value, str) else toml_value(value), allowed_in(section, name).meaning
+            text = value if isinstance(value, str) else toml_value(value)
+            meaning = allowed_in(section, name).meaning
             yield (f"{home}{name}", text if len(text) <= MOST_LETTERS else text[: MOST_LETTERS - 3] + "...", meaning)

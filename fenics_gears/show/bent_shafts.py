@@ -45,7 +45,9 @@ def bent_shafts(run: Run) -> list[Chart]:
 
 
 def _lines(run: Run) -> Iterator[Line]:
-    part, pair, shafts = run.last_fields, run.pair, run.scene.shafts.sections
+    part = run.last_fields
+    pair = run.pair
+    shafts = run.scene.shafts.sections
     for number, gear in enumerate(GEARS):
         if gear in shafts:
             from_end = pair.gear_middles[number] - shafts[gear].gear_at
@@ -64,14 +66,16 @@ def _to_scale(run: Run, lines: list[Line]) -> Chart:
     magnified = floor(wanted / 10 ** floor(log10(wanted))) * 10.0 ** floor(log10(wanted))
     curves = []
     for line in lines:
-        gear, colour = getattr(run.pair, line.gear), OF_GEAR[line.gear]
+        gear = getattr(run.pair, line.gear)
+        colour = OF_GEAR[line.gear]
         axis = _axis(run, line.gear)
 
         def moved(places: np.ndarray, line: Line = line, axis: float = axis) -> np.ndarray:
             return axis + magnified * np.interp(places, line.places, line.deflection["x"])
 
         places, radii = _outline(run, line)
-        upper, lower = moved(places) + radii, moved(places) - radii
+        upper = moved(places) + radii
+        lower = moved(places) - radii
         shaft = np.append(places, places[::-1]), np.append(upper, lower[::-1])
         curves.append(_closed(f"{line.gear}'s shaft", *shaft, DARK))
         corners = line.seat[[0, 1, 1, 0]]
@@ -81,7 +85,8 @@ def _to_scale(run: Run, lines: list[Line]) -> Chart:
         curves.append(Curve(f"{line.gear}'s bearings", line.bearings, at_bearings, colour, mode=MARKERS, width=8.0))
     for number, gear in enumerate(GEARS):
         if gear not in {line.gear for line in lines}:
-            half, tip = 0.5 * run.pair.face_widths[number], getattr(run.pair, gear).tip_radius
+            half = 0.5 * run.pair.face_widths[number]
+            tip = getattr(run.pair, gear).tip_radius
             corners = run.pair.gear_middles[number] + half * np.array([-1.0, 1.0, 1.0, -1.0])
             tips = _axis(run, gear) + tip * np.array([1.0, 1.0, -1.0, -1.0])
             curves.append(_closed(f"{gear}, its shaft rigid", corners, tips, OF_GEAR[gear]))
@@ -102,7 +107,9 @@ def _closed(name: str, x: np.ndarray, y: np.ndarray, colour: str) -> Curve:
 
 def _outline(run: Run, line: Line) -> tuple[np.ndarray, np.ndarray]:
     """Places and radii of a shaft from end to end; a step has two radii at one place."""
-    begin, places, radii = line.places[0], [], []
+    begin = line.places[0]
+    places = []
+    radii = []
     for section in run.scene.shafts.sections[line.gear].sections:
         part = np.linspace(begin, begin + section.length, 9)
         places.append(part)
@@ -114,7 +121,8 @@ def _outline(run: Run, line: Line) -> tuple[np.ndarray, np.ndarray]:
 def _deflection(lines: list[Line], direction: str) -> Chart:
     curves = []
     for line in lines:
-        colour, values = OF_GEAR[line.gear], 1e3 * line.deflection[direction]
+        colour = OF_GEAR[line.gear]
+        values = 1e3 * line.deflection[direction]
         curves.append(Curve(f"{line.gear}'s shaft", line.places, values, colour))
         at_seat, at_bearings = (np.interp(each, line.places, values) for each in (line.seat, line.bearings))
         curves.append(Curve(f"{line.gear}'s seat", line.seat, at_seat, colour, width=5.0))

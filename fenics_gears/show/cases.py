@@ -17,7 +17,8 @@ from fenics_gears.system.output import unsealed
 
 from .panels import factor
 
-PRESENT, ABSENT = "present", "absent"
+PRESENT = "present"
+ABSENT = "absent"
 # Sections whose name says nothing that their fields' names do not.
 PLAIN_SECTIONS = ("motion", "load", "gears", "accuracy", "output")
 # A value this many times the largest of the other cases would make them a line along the axis.
@@ -83,7 +84,8 @@ class Cases:
     @cached_property
     def fields(self) -> list[SweptField]:
         """The swept fields, the last one turning fastest."""
-        shape, found = self.dataset["failed"], []
+        shape = self.dataset["failed"]
+        found = []
         for name, coordinate in self.dataset.coords.items():
             if name in ("case", "mesh_phase", "gear") or not set(coordinate.dims) <= set(shape.dims):
                 continue

@@ -17,8 +17,14 @@ from .panels import DARK, PALETTE, limits
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-TIME, MESH_CYCLES = "time", "Time (mesh cycles since the start)"
-LINES, MARKERS, MARKED_LINES, BARS, BAND, WORDS = "lines", "markers", "lines+markers", "bars", "band", "words"
+TIME = "time"
+MESH_CYCLES = "Time (mesh cycles since the start)"
+LINES = "lines"
+MARKERS = "markers"
+MARKED_LINES = "lines+markers"
+BARS = "bars"
+BAND = "band"
+WORDS = "words"
 # Smallest span that an axis shows, in parts of the largest value.
 LEAST_SHARE = 0.02
 # Width of a letter in a flag, in parts of the chart's width, on a page of usual width.
@@ -162,7 +168,7 @@ def of_variables(
 ) -> list[Chart]:
     """A chart of those of these variables, by name and words, that a run's result has, in this unit; none without any.
     Those of both gears have a curve for either. least: the smallest span shown, else a part of the largest value."""
-    curves = []
+    curves: list[Curve] = []
     for (name, words), colour in zip(names.items(), colours):
         if name in run.dataset:
             values = run.values(name, unit)
@@ -188,18 +194,31 @@ def stems(places: np.ndarray, heights: np.ndarray, foot: float) -> tuple[np.ndar
     return np.repeat(places, 3), np.stack([feet, heights, feet], axis=1).ravel()
 
 
-WIDTH, GAP = 10.0, 0.12
+WIDTH = 10.0
+GAP = 0.12
 # The inside of a panel for each pixel of a chart's height.
 PANEL = 0.0086
 # Heights of a line of the heading and of a title, of a row of a legend and of flags, and of tick labels below an axis.
-HEADING_LINE, LINE, LEGEND_ROW, FLAG_ROW, TICK_ROW = 0.25, 0.22, 0.265, 0.236, 0.33
+HEADING_LINE = 0.25
+LINE = 0.22
+LEGEND_ROW = 0.265
+FLAG_ROW = 0.236
+TICK_ROW = 0.33
 # Widths of a letter at a tick, in a flag and in a legend, and of what a legend's entry has besides.
-LETTER, FLAG_LETTER, LEGEND_LETTER, LEGEND_HANDLE = 0.106, 0.092, 0.092, 0.56
+LETTER = 0.106
+FLAG_LETTER = 0.092
+LEGEND_LETTER = 0.092
+LEGEND_HANDLE = 0.56
 # A tick and the gap to its label; room of an axis' title; half a tick label beyond an axis' end; a colour bar and the
 # room before it.
-TICK, TITLE, HALF_LABEL, BAR, BAR_GAP = 0.05, 0.28, 0.3, 0.2, 0.24
+TICK = 0.05
+TITLE = 0.28
+HALF_LABEL = 0.3
+BAR = 0.2
+BAR_GAP = 0.24
 # Least distance of ticks on an upright and on a level axis.
-APART_UPRIGHT, APART_LEVEL = 0.36, 0.75
+APART_UPRIGHT = 0.36
+APART_LEVEL = 0.75
 # Letters of a line of heading and titles.
 LETTERS = 92
 BAR_NAME = "colour bar"

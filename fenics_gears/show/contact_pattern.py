@@ -58,7 +58,8 @@ def rolls_on_wheel(pair: GearPair, part: xr.Dataset, side: str, rolls: np.ndarra
 
 
 def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyond: str) -> Chart:
-    pair, name = run.pair, GEARS[gear]
+    pair = run.pair
+    name = GEARS[gear]
     data = getattr(pair, name)
     ends = data.form_roll_angle, data.tip_roll_angle
     numbers = run.last_fields["contact_pair_number"].values

@@ -76,7 +76,9 @@ def still(chart: Chart) -> bytes:
 
 def _figure(panels: Sequence[Panel], heading: float = 0.0) -> Figure:
     height = heading + sum(panel.height for panel in panels)
-    figure, bottom, every = Figure(figsize=(WIDTH, height)), height - heading, []
+    figure = Figure(figsize=(WIDTH, height))
+    bottom = height - heading
+    every = []
     with matplotlib.rc_context({"axes.grid": False}):
         for panel in panels:
             foot = bottom - panel.above - panel.inside
@@ -120,12 +122,14 @@ def _draw(axes: Axes, panel: Panel) -> list[Scale]:
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(NullLocator())
         axis.set_minor_locator(NullLocator())
-    ends, logarithmic = np.array(axes.get_ylim()), "y" in chart.logarithmic
+    ends = np.array(axes.get_ylim())
+    logarithmic = "y" in chart.logarithmic
     places = ticks(ends, panel.inside / APART_UPRIGHT, logarithmic)
     own = Scale(axes, places, tick_labels(places, logarithmic), chart.y_title)
     if chart.second is None:
         return [own, *bars]
-    factor, offset = chart.second.factor, chart.second.offset
+    factor = chart.second.factor
+    offset = chart.second.offset
     places = ticks(offset + factor * ends, panel.inside / APART_UPRIGHT)
     return [own, Scale(axes, (places - offset) / factor, tick_labels(places), chart.second.title), *bars]
 
@@ -160,8 +164,10 @@ def _draw_level(axes: Axes, panel: Panel, width: float) -> None:
 
 def _draw_upright(scale: Scale, side: int, room: float) -> None:
     """Ticks of an upright axis, labels on its left (-1) or right (1) side, its title at the end of the room."""
-    axes, end = scale.axes, 0.5 + 0.5 * side
-    inch, across = side / (axes.get_position().width * WIDTH), axes.get_yaxis_transform()
+    axes = scale.axes
+    end = 0.5 + 0.5 * side
+    inch = side / (axes.get_position().width * WIDTH)
+    across = axes.get_yaxis_transform()
     _draw_lines(axes, [((end, place), (end + TICK * inch, place)) for place in scale.places], across)
     away, back = ("left", "right") if side > 0 else ("right", "left")
     for place, label in zip(scale.places, scale.labels):
@@ -178,7 +184,8 @@ def _draw_lines(axes: Axes, ends: list, transform, colour: str = DARK) -> None:
 
 def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
     label = curve.name if curve.listed else None
-    x, y = np.asarray(curve.x), np.asarray(curve.y, dtype=float)
+    x = np.asarray(curve.x)
+    y = np.asarray(curve.y, dtype=float)
     if curve.mode == BAND:
         axes.fill_between(x, *y, color=curve.colour, alpha=0.25, linewidth=0.0, label=label)
         for edge in y:
@@ -186,13 +193,16 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
         return
     if curve.mode == BARS:
         # Thousands of bars in one artist.
-        left, right, foot = x - 0.5 * curve.width, x + 0.5 * curve.width, np.zeros_like(y)
+        left = x - 0.5 * curve.width
+        right = x + 0.5 * curve.width
+        foot = np.zeros_like(y)
         corners = np.stack([left, foot, left, y, right, y, right, foot], axis=1).reshape(-1, 4, 2)
         axes.add_collection(PolyCollection(corners, facecolors=curve.colour, edgecolors="none", label=label))
         return
     if chart.x_range is not None and not chart.equal:
         near = chart.in_range(x)
-        x, y = x[near], y[near]
+        x = x[near]
+        y = y[near]
     places = thinned(y, len(y) if chart.equal else STILL_POINTS)
     marker = "o" if curve.mode in (MARKERS, MARKED_LINES) else ""
     style = DASHES[curve.dash] if curve.mode in (LINES, MARKED_LINES) else ""
@@ -203,7 +213,8 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
     )  # fmt: skip
     if curve.fill:
         axes.fill(x, y, color=curve.fill, zorder=0.9)
-    up, right = ("top" in curve.beside) - ("bottom" in curve.beside), 1 if "right" in curve.beside else -1
+    up = ("top" in curve.beside) - ("bottom" in curve.beside)
+    right = 1 if "right" in curve.beside else -1
     for words, place, height in zip(curve.words, x, y):
         axes.annotate(
             words, (place, height), xytext=(6 * right, 6 * up), textcoords="offset points", fontsize=10.5,
@@ -227,7 +238,8 @@ def _draw_field(axes: Axes, panel: Panel) -> Scale:
 
 
 def _draw_flags(axes: Axes, panel: Panel) -> None:
-    chart, rows = panel.chart, panel.chart.flag_rows
+    chart = panel.chart
+    rows = panel.chart.flag_rows
     low, high = axes.get_ylim()
     room = 1.0 - FLAG_ROW * (max(rows) + 1) / panel.inside
     stretched = "y" in chart.logarithmic

@@ -46,7 +46,8 @@ def overlap(mesh: GearsInMesh, scale: float) -> float:
 def outer_loop(mesh: GearsInMesh, gear: int) -> np.ndarray:
     """Nodes along a gear's outline without the bore, by the angle at which they are reached going round it."""
     body = mesh.gears[gear]
-    points, outline = in_plane(body.points), body.of_sectors(body.outline)
+    points = in_plane(body.points)
+    outline = body.of_sectors(body.outline)
     nodes = np.unique(outline)
     # Nodes at the ends of sectors are there twice, once for either sector.
     twins = nodes[cKDTree(points[nodes]).query_pairs(1e-7 * mesh.pair.pinion.module, output_type="ndarray")]
@@ -62,7 +63,8 @@ def _distance_to_line(points: np.ndarray, loop: np.ndarray) -> np.ndarray:
     nearest = cKDTree(loop).query(points)[1]
     distances = []
     for step in (-1, 0):
-        first, second = loop[(nearest + step) % len(loop)], loop[(nearest + step + 1) % len(loop)]
+        first = loop[(nearest + step) % len(loop)]
+        second = loop[(nearest + step + 1) % len(loop)]
         along = second - first
         part = np.clip(((points - first) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
         distances.append(np.linalg.norm(first + part[:, None] * along - points, axis=1))

@@ -21,12 +21,14 @@ from .loaded_contact import stored_place
 from .panels import DARK, GREY, PALETTE, framed, styled
 from .pressure import COLOURS as PRESSURE_COLOURS
 from .stress_grid import surface
-from .stress_picture import COLOURS, colour_bar, heading, rounded_up
+from .stress_heading import COLOURS, colour_bar, heading, rounded_up
 
-UNLOADED, EDGES = "#E4E7EA", "#5A6068"
+UNLOADED = "#E4E7EA"
+EDGES = "#5A6068"
 PIXELS = 150  # an inch
 # Dots an inch of the figure, and of one in a moving picture.
-DPI, DPI_OF_FRAMES = 100.0, 60.0
+DPI = 100.0
+DPI_OF_FRAMES = 60.0
 LIGHT = {"ambient": 0.55, "diffuse": 0.5, "specular": 0.0}
 CAPTION = (
     "On the flanks that carry: the run's contact pressure. Elsewhere: von Mises stress of the bodies' mesh, which"
@@ -82,8 +84,10 @@ def sights(mesh: GearsInMesh) -> tuple[Sight, Sight, Sight]:
     # line of action.
     middle = -0.5 * (pair.centre_distance - pair.pinion.tip_radius + pair.wheel.tip_radius) * along
     half = 0.5 * (pair.centre_distance + pair.pinion.tip_radius + pair.wheel.tip_radius) + 0.15 * pair.face_width
-    side, axis = (-1.0 if mesh.coast else 1.0) * across, np.array([0.0, 0.0, 1.0])
-    close, deep = 0.45 * pair.face_width + 2.6 * pair.pinion.module, 0.9 * pair.pinion.module * along
+    side = (-1.0 if mesh.coast else 1.0) * across
+    axis = np.array([0.0, 0.0, 1.0])
+    close = 0.45 * pair.face_width + 2.6 * pair.pinion.module
+    deep = 0.9 * pair.pinion.module * along
     from_above = 0.45 * across + 0.25 * along + 0.9 * axis
     places = [(left, 0.12, 0.265, 0.74) for left in (0.385, 0.66)]
     return (
@@ -153,7 +157,8 @@ def _add_gear(plotter, gear: GearInSpace, scale: float, limit: float, tiles: Pre
     from pyvista import PolyData
 
     moved = gear.points + scale * gear.elastic
-    points, sides = moved.reshape(-1, 3), surface(moved, gear)
+    points = moved.reshape(-1, 3)
+    sides = surface(moved, gear)
     flank = np.tile(gear.on_flank, moved[..., 0, 0].size)[sides].all(axis=1)
     stressed = PolyData.from_regular_faces(points, sides[~flank])
     stressed.point_data["stress"] = gear.von_mises.ravel()

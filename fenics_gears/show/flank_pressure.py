@@ -32,7 +32,8 @@ class PressedTiles:
 
 def pressed_tiles(mesh: GearsInMesh, dataset: xr.Dataset, gear: int, scale: float) -> PressedTiles:
     """The tiles of a gear at the time of a mesh, moved as its teeth are; `scale`: of their displacements."""
-    side, pair = "coast_" if mesh.coast else "", mesh.pair
+    side = "coast_" if mesh.coast else ""
+    pair = mesh.pair
     part = dataset.isel(contact_time=[stored_place(mesh, dataset)])
     pressure, rolls = over_face(part, side)
     low, high = node_edges(rolls_on_wheel(pair, part, side, rolls) if gear else rolls)
@@ -40,7 +41,8 @@ def pressed_tiles(mesh: GearsInMesh, dataset: xr.Dataset, gear: int, scale: floa
     _, slots, slices, _ = np.nonzero(pressed)
     numbers = part["contact_pair_number"]
     entered = (mesh.mesh_phase - (numbers.values[0] - numbers.attrs["number_at_phase_0"]))[slots]
-    middles, ends = part["face_position"].values, slice_ends(part)
+    middles = part["face_position"].values
+    ends = slice_ends(part)
 
     def contact_roll(z: np.ndarray) -> np.ndarray:
         xi = pair.path_start + entered * pair.base_pitch + pair.slope * z
@@ -60,9 +62,11 @@ def pressed_tiles(mesh: GearsInMesh, dataset: xr.Dataset, gear: int, scale: floa
 def _placed(pair: GearPair, gear: int, coast: bool, rolls: np.ndarray, touching: np.ndarray) -> np.ndarray:
     """Points (n, 2) of a gear's flank at roll angles (n,), a little off it, where the flank touches at others (n,)."""
     x, height = flank_point((pair.pinion, pair.wheel)[gear].base_radius, rolls, touching)
-    x, bases = x + STAND_OFF * pair.pinion.module, pair.pinion.base_radius + pair.wheel.base_radius
+    x = x + STAND_OFF * pair.pinion.module
+    bases = pair.pinion.base_radius + pair.wheel.base_radius
     if gear:
-        x, height = pair.line_of_action_length - x, bases - height
+        x = pair.line_of_action_length - x
+        height = bases - height
     points = np.column_stack([x, -height])
     if not coast:
         return points

@@ -14,10 +14,12 @@ from .chart import WORDS, Chart, Curve
 from .motion import LEAST_LENGTH
 from .panels import DARK, digits, factor, in_unit, shades
 
-CYCLES, MOST_NAMED = 2.0, 20
+CYCLES = 2.0
+MOST_NAMED = 20
 # Room for the loads' words right of the curves, in mesh cycles, and the least distance of two of them, in parts of the
 # chart's height.
-ROOM, APART = 0.245, 0.042
+ROOM = 0.245
+APART = 0.042
 
 
 def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "") -> Chart:
@@ -44,7 +46,8 @@ def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "") -> Chart:
         Curve(f"{digits(load)} {unit}", *_two_cycles(phase, each), colour, listed=False)
         for load, each, colour in zip(loads, values, shades(len(loads)))
     ]
-    drawn, y_title = [*curves, *_names(curves)], "Transmission error along the line of action (µm)"
+    drawn = [*curves, *_names(curves)]
+    y_title = "Transmission error along the line of action (µm)"
     options = {"height": 520, "least": LEAST_LENGTH, "x_range": (0.0, CYCLES + ROOM)}
     return Chart(caption, drawn, "Mesh phase (mesh cycles)", y_title, **options)
 
@@ -64,7 +67,8 @@ def _two_cycles(phase: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.n
     phase = phase - np.floor(phase[0] + 1e-9)
     if 1.0 - 1e-9 < phase[-1] - phase[0] < CYCLES - 1e-9:
         again = phase > phase[-1] - 1.0 + 1e-9
-        phase, values = np.concatenate([phase, phase[again] + 1.0]), np.concatenate([values, values[again]])
+        phase = np.concatenate([phase, phase[again] + 1.0])
+        values = np.concatenate([values, values[again]])
     seen = phase <= CYCLES + 1e-9
     return phase[seen], values[seen]
 
@@ -72,7 +76,8 @@ def _two_cycles(phase: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.n
 def _names(curves: list[Curve]) -> list[Curve]:
     if not curves:
         return []
-    every, count = np.concatenate([curve.y for curve in curves]), len(curves)
+    every = np.concatenate([curve.y for curve in curves])
+    count = len(curves)
     named = np.unique(np.linspace(0, count - 1, min(count, MOST_NAMED)).round().astype(int))
     ends = [(CYCLES, float(curves[place].y[-1]), curves[place].name) for place in named]
     return [words_apart(ends, APART * (np.ptp(every[np.isfinite(every)]) or 1.0), "right")]
@@ -84,5 +89,6 @@ def words_apart(ends: Sequence[tuple[float, float, str]], apart: float, beside: 
     heights = np.array([height for _, height, _ in ends])
     for place in range(1, len(heights)):
         heights[place] = max(heights[place], heights[place - 1] + apart)
-    x, words = np.array([x for x, *_ in ends]), [words for *_, words in ends]
+    x = np.array([x for x, *_ in ends])
+    words = [words for *_, words in ends]
     return Curve("words", x, heights, DARK, mode=WORDS, listed=False, words=words, beside=beside)

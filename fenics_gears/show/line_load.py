@@ -32,8 +32,10 @@ def line_loads(run: Run) -> list[Chart]:
     phase = part["contact_mesh_phase"].values
     if not loads.any():
         return []
-    slices, z = slice_ends(run.dataset), part["face_position"].values
-    mesh, pair = _of_mesh(side, loads, phase, slices), _of_pair(run, side, loads, phase, slices)
+    slices = slice_ends(run.dataset)
+    z = part["face_position"].values
+    mesh = _of_mesh(side, loads, phase, slices)
+    pair = _of_pair(run, side, loads, phase, slices)
     return [mesh, pair, _over_face(run, side, loads, z)]
 
 
@@ -50,7 +52,8 @@ def _of_mesh(side: str, loads: np.ndarray, phase: np.ndarray, slices: np.ndarray
 
 def _of_pair(run: Run, side: str, loads: np.ndarray, phase: np.ndarray, slices: np.ndarray) -> Chart:
     """Line load from the start to the end of contact, put together of all pairs, of unlike ones the largest."""
-    pair, numbers = run.pair, run.last_fields["contact_pair_number"]
+    pair = run.pair
+    numbers = run.last_fields["contact_pair_number"]
     entered = numbers.values - numbers.attrs["number_at_phase_0"]
     step = float(np.diff(phase).min())
     since = np.rint((phase[:, None] - entered) / step).astype(int)
@@ -63,7 +66,8 @@ def _of_pair(run: Run, side: str, loads: np.ndarray, phase: np.ndarray, slices: 
     start, pitch, end = sorted(passing(pair, position, side) for position in positions)
     last = float(phase[-1]) - step * round(float(phase[-1]) / step)
     places = step * (first + np.arange(len(own))) + last - (start - pair.path_start) / pair.base_pitch
-    ends, lines = np.array([slices[0], slices[-1]]), []
+    ends = np.array([slices[0], slices[-1]])
+    lines = []
     for words, position, dash in (
         ("start and end of contact", start, "dash"), ("pitch point", pitch, "dot"), ("", end, "dash"),
     ):  # fmt: skip
@@ -80,7 +84,8 @@ def _of_pair(run: Run, side: str, loads: np.ndarray, phase: np.ndarray, slices: 
 
 
 def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
-    part, total = run.last_fields, loads.sum(axis=1)
+    part = run.last_fields
+    total = loads.sum(axis=1)
     mean = mean_line_load(part, side)
     away = np.where(at_edges(part, run.pair, side), 0.0, loads).max(axis=(0, 1))
     curves = {
@@ -118,7 +123,8 @@ def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
 
 
 def _correction(found) -> str:
-    slope, crowning = found["proposed_helix_slope"], found["proposed_crowning"]
+    slope = found["proposed_helix_slope"]
+    crowning = found["proposed_crowning"]
     factor = FACTORS["face_load_factor"].format(found["proposed_face_load_factor"])
     return f"mesh, as proposed: pinion's helix slope {slope:.1f} µm, crowning {crowning:.1f} µm{factor}"
 

@@ -31,8 +31,10 @@ def stored_place(mesh: GearsInMesh, dataset: xr.Dataset) -> int:
 def loaded_contact(mesh: GearsInMesh, dataset: xr.Dataset) -> LoadedContact | None:
     """The contact of the tooth pair with the largest normal force, on the flanks that carry more; None where nothing
     touches."""
-    index, pair = stored_place(mesh, dataset), mesh.pair
-    coast, dataset = mesh.coast, contact_times(dataset)
+    index = stored_place(mesh, dataset)
+    pair = mesh.pair
+    coast = mesh.coast
+    dataset = contact_times(dataset)
     forces = np.nan_to_num(dataset["pair_coast_normal_force" if coast else "pair_normal_force"].values[index])
     slot = int(np.argmax(forces))
     if forces[slot] <= 0.0:

@@ -10,7 +10,8 @@ from .panels import DARK, PALETTE, factor
 from .run import Run
 
 # Smallest spans shown. Contact is solved to 1e-4 um and to 1e-6 of the transmitted force; what is smaller is no curve.
-LEAST_LENGTH, LEAST_ANGLE = 0.1, 1e-3  # um, urad
+LEAST_LENGTH = 0.1  # um
+LEAST_ANGLE = 1e-3  # urad
 ERROR = "Transmission error"
 
 
@@ -29,13 +30,16 @@ def error_values(run: Run) -> tuple[np.ndarray, str]:
 def transmission_error(run: Run) -> Chart:
     """The transmission error over the mesh cycles."""
     values, unit = error_values(run)
-    note, second, place = "", None, ""
+    note = ""
+    second = None
+    place = ""
     if unit == "µm":
         turned = factor("rad", "µrad") / run.micrometres
         note = (
             f"Length on the wheel's base circle; 1 µm is {turned:.4g} µrad of the wheel. Positive where the wheel lags."
         )
-        second, place = Second("Angle of the wheel (µrad)", turned), " on the wheel's base circle"
+        second = Second("Angle of the wheel (µrad)", turned)
+        place = " on the wheel's base circle"
     least = LEAST_SHARE * float(np.abs(values).max())
     caption = f"{ERROR}{place}: {_peak_to_peak(run, values, unit)}"
     curves = [("transmission error", values, PALETTE[0])]
@@ -64,7 +68,8 @@ def error_by_cycle(run: Run) -> list[Chart]:
         Curve("from least to largest of a mesh cycle", middle, edges, PALETTE[0], width=1.0, mode=BAND),
         Curve("mean of a mesh cycle", middle, mean, DARK),
     ]
-    caption, least = f"{ERROR} over all {len(middle)} mesh cycles", LEAST_SHARE * float(np.abs(values).max())
+    caption = f"{ERROR} over all {len(middle)} mesh cycles"
+    least = LEAST_SHARE * float(np.abs(values).max())
     return [Chart(caption, curves, title, f"{ERROR} ({unit})", least=least, height=280)]
 
 
@@ -74,12 +79,14 @@ def wheels_shaft(run: Run) -> list[Chart]:
     if name not in run.dataset:
         return []
     values = run.values(name, "µm")[:, run.dataset["gear"].values.tolist().index("wheel")]
-    caption, curves = f"Displacement of the wheel's shaft {words} the line of action", [("wheel", values, PALETTE[1])]
+    caption = f"Displacement of the wheel's shaft {words} the line of action"
+    curves = [("wheel", values, PALETTE[1])]
     return [over_time(run, caption, "Displacement (µm)", curves, least=LEAST_LENGTH, height=240)]
 
 
 def _shafts(run: Run) -> list[Chart]:
-    caption, sides = "Displacement of the gears' centres", {"centre_x": "along", "centre_y": "off"}
+    caption = "Displacement of the gears' centres"
+    sides = {"centre_x": "along", "centre_y": "off"}
     # Without friction gears that do not tilt stay on the line of action.
     if not {"friction_force", "tilt_x"} & set(run.dataset):
         del sides["centre_y"]
@@ -125,7 +132,8 @@ def mesh_forces(run: Run) -> list[Chart]:
     if "normal_force" not in run.dataset:
         return []
     drive = run.values("normal_force", "N")
-    curves, note = [("normal force", drive, PALETTE[0])], ""
+    curves = [("normal force", drive, PALETTE[0])]
+    note = ""
     if "coast_normal_force" in run.dataset:
         curves = [
             ("drive flanks", drive, PALETTE[0]),

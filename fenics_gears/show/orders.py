@@ -26,13 +26,19 @@ from .motion import error_values
 from .panels import GREY, PALETTE
 from .run import Run
 
-MESH_ORDERS, FOLLOWED_ORDERS, CYCLES_TO_FOLLOW = 10.5, 4, 8
+MESH_ORDERS = 10.5
+FOLLOWED_ORDERS = 4
+CYCLES_TO_FOLLOW = 8
 # Of the picture by orders of the pinion: mesh orders and decades that it shows. Contact is solved to 1e-4 um.
-MESH_ORDERS_SHOWN, DECADES, LEAST_AMPLITUDE = 4.5, 3, 1e-4
+MESH_ORDERS_SHOWN = 4.5
+DECADES = 3
+LEAST_AMPLITUDE = 1e-4
 # Lines below this part of the largest are the solver's tolerance.
 LEAST_PART = 1e-5
 COLOURS = {MESH: PALETTE[0], PINION: PALETTE[1], WHEEL: PALETTE[2], BOTH: PALETTE[5], HUNTING: GREY}
-ERROR, FORCE, BETWEEN = "Transmission error", "Mesh force", "between mesh orders"
+ERROR = "Transmission error"
+FORCE = "Mesh force"
+BETWEEN = "between mesh orders"
 OF_ERROR = "Orders of the transmission error"
 
 
@@ -116,7 +122,8 @@ def mesh_order_chart(run: Run, name: str, unit: str, found: Spectrum) -> Chart:
     both = "coast_normal_force" in run.dataset and name == FORCE
     sides = ", drive flanks positive, coast flanks negative" if both else ""
     note = f"Amplitudes of the harmonics, without the mean{sides}; {found.record}.{_beyond(lines)}"
-    curves, title = _by_origin(lines, found.origins, shown, width, width), "Mesh order (events a mesh cycle)"
+    curves = _by_origin(lines, found.origins, shown, width, width)
+    title = "Mesh order (events a mesh cycle)"
     return Chart(name, curves, title, f"Amplitude ({unit})", note, height=320, x_range=(0.0, MESH_ORDERS))
 
 

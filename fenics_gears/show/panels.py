@@ -15,7 +15,9 @@ from fenics_gears.inputs.units import QuantityError, quantity
 
 # Okabe and Ito's palette without its yellow, which is too pale for a line: told apart with any colour vision.
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
-DARK, GREY, GRID = "#222222", "#8C8C8C", "#E3E3E3"
+DARK = "#222222"
+GREY = "#8C8C8C"
+GRID = "#E3E3E3"
 WARNING = "#B00020"
 # From low to high, in order of lightness (viridis).
 LOW_TO_HIGH = ("#440154", "#414487", "#2A788E", "#22A884", "#7AD151", "#FDE725")
@@ -89,7 +91,8 @@ def ticks(ends: Sequence[float], most: float, logarithmic: bool = False) -> np.n
     """Round numbers (n,) between an axis' ends."""
     low, high = sorted(ends)
     if logarithmic:
-        locator, beyond = LogLocator(subs=(1.0,) if high > 100.0 * low else (1.0, 2.0, 5.0)), 0.0
+        locator = LogLocator(subs=(1.0,) if high > 100.0 * low else (1.0, 2.0, 5.0))
+        beyond = 0.0
     else:
         locator = MaxNLocator(max(2, min(10, int(most))), steps=[1, 2, 2.5, 5, 10])
         beyond = 1e-9 * (high - low)

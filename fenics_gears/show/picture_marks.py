@@ -13,12 +13,14 @@ from .panels import DARK
 from .stress_grid import upright
 
 # Radii, points: of a bore that a gear's name fits into with its arrow, and of that arrow.
-LEAST_BORE, LEAST_ARROW = 28.0, 12.0
+LEAST_BORE = 28.0
+LEAST_ARROW = 12.0
 
 
 def line_of_action(axes: Axes, mesh: GearsInMesh, coast: bool, labelled: bool) -> None:
     """The line between the base circles, its part that is the path of contact, and the pitch point."""
-    pair, frame = mesh.pair, partial(upright, mesh.pair, coast=coast)
+    pair = mesh.pair
+    frame = partial(upright, mesh.pair, coast=coast)
     height = -pair.pinion.base_radius
     ends = frame(np.array([[0.0, height], [pair.line_of_action_length, height]]))
     path = frame(np.array([[pair.path_start, height], [pair.path_end, height]]))
@@ -29,7 +31,8 @@ def line_of_action(axes: Axes, mesh: GearsInMesh, coast: bool, labelled: bool) -
     look = {"markerfacecolor": "white", "markeredgecolor": "black", "markeredgewidth": 1.4}
     axes.plot(*pitch, "o", markersize=8 if labelled else 5, **look)
     if labelled:
-        side, before = -1 if coast else 1, frame(np.array([pair.path_start - 0.12 * pair.base_pitch, height]))
+        side = -1 if coast else 1
+        before = frame(np.array([pair.path_start - 0.12 * pair.base_pitch, height]))
         _note(axes, "pitch point", pitch, (side * 14, 16))
         _note(axes, "line of action", before, (side * 12, 30))
 
@@ -42,7 +45,8 @@ def _note(axes: Axes, words: str, point, offset) -> None:
 
 def name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
     """Names in the bores, or above or beside too small ones; which gear drives, and the sense in which either turns."""
-    (bottom, top), height = axes.get_ylim(), axes.get_position().height * axes.figure.get_figheight() * 72.0
+    bottom, top = axes.get_ylim()
+    height = axes.get_position().height * axes.figure.get_figheight() * 72.0
     point = (top - bottom) / height
     for number, (gear, name, turns) in enumerate(((mesh.pair.pinion, "pinion", 1), (mesh.pair.wheel, "wheel", -1))):
         name += "\ndrives" if number == driving else ""
@@ -50,7 +54,8 @@ def name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
         place, ha, va = place_of_name(gear, point)
         axes.text(*(centre + place), name, ha=ha, va=va, fontsize=11.5, color=DARK)
         radius = max(0.78 * gear.bore_radius, LEAST_ARROW * point)
-        start, end = 200.0, 340.0
+        start = 200.0
+        end = 340.0
         axes.add_patch(Arc(centre, 2 * radius, 2 * radius, theta1=start, theta2=end, color=DARK, linewidth=1.4))
         tip = np.radians(end if turns > 0 else start)
         head = centre + radius * np.array([np.cos(tip), np.sin(tip)])
@@ -70,20 +75,25 @@ def place_of_name(gear, point: float) -> tuple[np.ndarray, str, str]:
 
 def frame_in(axes: Axes, enlarged: Axes, moved: np.ndarray | None = None) -> None:
     """Where in one panel another one is."""
-    (left, right), (bottom, top) = enlarged.get_xlim(), enlarged.get_ylim()
+    left, right = enlarged.get_xlim()
+    bottom, top = enlarged.get_ylim()
     x, y = (0.0, 0.0) if moved is None else moved
-    corner, width, height = (left + x, bottom + y), right - left, top - bottom
+    corner = (left + x, bottom + y)
+    width = right - left
+    height = top - bottom
     for colour, line in (("black", 2.6), ("white", 1.2)):
         axes.add_patch(Rectangle(corner, width, height, fill=False, edgecolor=colour, linewidth=line))
 
 
 def length_bar(axes: Axes) -> None:
     """A bar of a round length at the panel's lower edge."""
-    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    left, right = axes.get_xlim()
+    bottom, top = axes.get_ylim()
     wanted = 0.3 * (right - left)
     power = 10.0 ** np.floor(np.log10(wanted))
     length = max(step * power for step in (1.0, 2.0, 5.0) if step * power <= wanted)
-    x, y = left + 0.06 * (right - left), bottom + 0.06 * (top - bottom)
+    x = left + 0.06 * (right - left)
+    y = bottom + 0.06 * (top - bottom)
     for colour, width in (("black", 5.0), ("white", 2.5)):
         axes.plot([x, x + length], [y, y], color=colour, linewidth=width, solid_capstyle="butt")
     bright = [withStroke(linewidth=3.0, foreground="white")]

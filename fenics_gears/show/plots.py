@@ -75,7 +75,12 @@ def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
     """The pictures of a result as figures, by file name. Raises ComputationError as ``draw_run`` does."""
     run = Run(dataset)
     _check_steps(run)
-    pictures = PICTURES | dict(zip(FACE_PICTURE_FILES, run.over_face.items()))
+    pictures = PICTURES
+    if run.over_face:
+        # Imported here: what plane runs do not load.
+        from .over_face import charts_over_face
+
+        pictures = PICTURES | dict(zip(FACE_PICTURE_FILES, charts_over_face(run).items()))
     subjects = {name: (subject, list(charts(run))) for name, (subject, charts) in pictures.items()}
     colour = DARK if run.complete else WARNING
     found = ((name, *subject) for name, subject in subjects.items())
@@ -103,22 +108,6 @@ def _check_steps(run: Run) -> None:
     raise ComputationError(f"There is nothing to draw: {stored}, and a curve needs two. Run the scene again{remedy}.")
 
 
-def draw_study(file: Path) -> list[Path]:
-    """Draw what a study's cases are compared by over its parameters, as PNG beside its file, and return the files."""
-    from fenics_gears.studies.combine import load_combined
-
-    from .cases import Cases
-    from .study_charts import result_charts
-
-    cases = Cases(load_combined(file), file)
-    title = str(cases.dataset.attrs.get("title", "")) or file.parent.name
-    figures = {
-        f"{name}.png": picture(heading("Study", title, chart.caption, chart.note), [replace(chart, caption="")])
-        for name, chart in result_charts(cases).items()
-    }
-    return save_figures(figures, file.parent)
-
-
 def save_figures(figures: dict[str, Figure], directory: Path) -> list[Path]:
     """Save figures by their file names, all or none."""
     written: list[Path] = []
@@ -144,7 +133,9 @@ def png(pixels: np.ndarray, dots_per_inch: float) -> bytes:
     smaller."""
     height, width, _ = pixels.shape
     # The same few rows again and again: fresh memory for a second copy of a picture is slower than the copying.
-    rows, packer, packed = np.zeros((ROWS_AT_ONCE, 1 + 4 * width), dtype=np.uint8), zlib.compressobj(1), []
+    rows = np.zeros((ROWS_AT_ONCE, 1 + 4 * width), dtype=np.uint8)
+    packer = zlib.compressobj(1)
+    packed = []
     for first in range(0, height, ROWS_AT_ONCE):
         part = pixels[first : first + ROWS_AT_ONCE].reshape(-1, 4 * width)
         rows[: len(part), 1:] = part

@@ -15,10 +15,12 @@ SIDES = {"": "drive flanks", "coast_": "coast flanks"}
 # the peak pressure away from edges, in which single nodes scatter.
 ABOVE_PEAK = 1.1
 # Where that is not known: per cent of the cells that the colours span; times that, from which they end there.
-COMMON_SHARE, CLIPPED = 98.0, 1.2
+COMMON_SHARE = 98.0
+CLIPPED = 1.2
 # Relative; cycles that repeat differ by less.
 SAME = 1e-6
-ROWS, MOST_COLUMNS = 260, 640
+ROWS = 260
+MOST_COLUMNS = 640
 # From light to dark in lightness, so that zero lies close to the paper and grey print keeps the order.
 COLOURS = ("#FDE9B8", "#F6A04D", "#D9483B", "#8A1A63", "#2A0A4A")
 _DEGREES = factor("rad", "deg")
@@ -63,12 +65,15 @@ def _map(
         # Of cycles that repeat, the last.
         step = np.flatnonzero(pressure.max(axis=(1, 2)) >= highest * (1.0 - SAME))[-1]
         caption += f". Highest: {highest:.0f} MPa at mesh cycle {phase[step]:.2f}, off the scale"
-    curves, second, window = [], None, (float(phase[0]), float(phase[-1]))
+    curves = []
+    second = None
+    window = (float(phase[0]), float(phase[-1]))
     if run.pair is not None:
         pair = run.pair
         roll = float(pair.pinion_roll_angle(pair.pitch_point)) * _DEGREES
         curves.append(Curve("pitch point", np.array(window), np.array([roll, roll]), DARK, "dash", 1.0))
-        ratio, length = pair.pinion.base_radius, pair.line_of_action_length * _DEGREES
+        ratio = pair.pinion.base_radius
+        length = pair.line_of_action_length * _DEGREES
         radius = pair.wheel.base_radius
         second = Second("Roll angle on the wheel's flank (deg)", -ratio / radius, length / radius)
     heights = (float(field.y[0]), float(field.y[-1]))
@@ -132,7 +137,8 @@ def node_edges(place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     other."""
     missing = np.full(place.shape[:-1] + (1,), np.nan)
     half = 0.5 * np.diff(place, axis=-1)
-    back, forth = np.concatenate([missing, half], axis=-1), np.concatenate([half, missing], axis=-1)
+    back = np.concatenate([missing, half], axis=-1)
+    forth = np.concatenate([half, missing], axis=-1)
     back, forth = np.where(np.isnan(back), forth, back), np.where(np.isnan(forth), back, forth)
     edges = np.stack([place - back, place + forth])
     return edges.min(axis=0), edges.max(axis=0)
@@ -143,7 +149,9 @@ def _names(
 ) -> list[Curve]:
     """The number of each pair above its band's end, where the band is long enough to leave it room."""
     top = np.where(pressure > 0.0, place, -np.inf).max(axis=2)
-    words, x, y = [], [], []
+    words = []
+    x = []
+    y = []
     for pair in np.unique(number[np.isfinite(top)]):
         steps, rows = np.nonzero((number == pair) & np.isfinite(top))
         middle = 0.5 * (phase[steps[0]] + phase[steps[-1]])

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -20,9 +18,6 @@ from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import LOAD_WORDS, Scene
 
 from .panels import digits, factor, in_unit
-
-if TYPE_CHECKING:
-    from .chart import Chart
 
 NO_SCENE = (
     "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene"
@@ -167,20 +162,9 @@ class Run:
         return curves
 
     @property
-    def over_face(self) -> dict[str, Callable[[Run], list[Chart]]]:
-        """What draws the charts of flanks that are resolved over the face, by subject."""
-        if "face_position" not in self.dataset.dims:
-            return {}
-        # Imported here: plane runs have none.
-        from .contact_pattern import contact_patterns
-        from .line_load import line_loads
-
-        found = {"Contact pattern": contact_patterns, "Line load along the face": line_loads}
-        if "bearing" not in self.dataset.dims:
-            return found
-        from .bent_shafts import bent_shafts
-
-        return found | {"Shafts under load": bent_shafts}
+    def over_face(self) -> bool:
+        """Whether the flanks are resolved over the face."""
+        return "face_position" in self.dataset.dims
 
     @cached_property
     def last_fields(self) -> xr.Dataset:

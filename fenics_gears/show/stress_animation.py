@@ -17,9 +17,11 @@ from fenics_gears.results.pairs import contact_times
 from fenics_gears.simulation.run_stresses import RunStresses
 
 from .stress_grid import save_vtu
-from .stress_picture import COLOURS, frames
+from .stress_heading import COLOURS
+from .stress_picture import frames
 
-FRAMES_PER_CYCLE, MOST_FRAMES = 24, 120
+FRAMES_PER_CYCLE = 24
+MOST_FRAMES = 120
 FRAMES_PER_SECOND = 12
 SUFFIXES = (".gif", ".mp4")
 # A scale is looked for, and the colours are fixed, on so many of the frames.

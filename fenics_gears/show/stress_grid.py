@@ -46,7 +46,8 @@ def shown_points(mesh: GearsInMesh, gear: int, scale: float) -> np.ndarray:
     touch are drawn touching at any scale.
     """
     body = mesh.gears[gear]
-    radius, points = (mesh.pair.pinion, mesh.pair.wheel)[gear].base_radius, in_plane(body.points)
+    radius = (mesh.pair.pinion, mesh.pair.wheel)[gear].base_radius
+    points = in_plane(body.points)
     arm = points - body.centre
     arc = -0.5 * mesh.approach if mesh.coast else 0.5 * mesh.approach
     turned = arc / radius * np.column_stack([-arm[:, 1], arm[:, 0]])
@@ -71,14 +72,16 @@ class View:
     @property
     def extent(self) -> tuple[float, float, float, float]:
         """Left, right, bottom, top, mm."""
-        (x, y), (w, h) = self.centre, self.half
+        x, y = self.centre
+        w, h = self.half
         return x - w, x + w, y - h, y + h
 
 
 def whole_view(mesh: GearsInMesh) -> View:
     """Both gears with some room around them."""
     tips = mesh.pair.pinion.tip_radius, mesh.pair.wheel.tip_radius
-    low, high = -mesh.pair.centre_distance - tips[1], tips[0]
+    low = -mesh.pair.centre_distance - tips[1]
+    high = tips[0]
     half = np.array([max(tips), 0.5 * (high - low)]) * 1.04
     return View(np.array([0.0, 0.5 * (low + high)]), half)
 
@@ -161,10 +164,12 @@ def save_vtu(mesh: GearsInMesh, path: Path, *, precision: type = np.float64) -> 
 
 def _fields(body: GearInSpace, number: int, over_face: bool) -> dict[str, np.ndarray]:
     if over_face:
-        fields, components = {"displacement": body.elastic}, STRESSES
+        fields = {"displacement": body.elastic}
+        components = STRESSES
         fields["largest_principal_stress"] = body.principal
     else:
-        fields, components = {"displacement": body.displacement}, PLANE_STRESSES
+        fields = {"displacement": body.displacement}
+        components = PLANE_STRESSES
         fields["elastic_displacement"] = body.elastic
     fields |= {f"stress_{name}": body.stress[..., i, j] for name, (i, j) in components.items()}
     fields["von_mises_stress"] = body.von_mises
@@ -179,7 +184,8 @@ def in_tooth_order(mesh: GearsInMesh, gear: int) -> GearInSpace:
 
     The sectors of a `GearInSpace` begin anew in each mesh cycle, with the tooth that last reached the start of contact.
     """
-    teeth, cycles = (mesh.pair.pinion, mesh.pair.wheel)[gear].teeth, int(np.floor(mesh.mesh_phase + ROUNDING))
+    teeth = (mesh.pair.pinion, mesh.pair.wheel)[gear].teeth
+    cycles = int(np.floor(mesh.mesh_phase + ROUNDING))
     # Sectors are counted counterclockwise; so turns the pinion.
     sectors = (cycles - np.arange(teeth)) * (1 if gear == 0 else -1) % teeth
     body = mesh.gears[gear]

@@ -1,7 +1,6 @@
 """The gears of a run in mesh at one time, deformed and coloured by von Mises stress, in the plane; over the face by
 `face_picture`."""
 
-import textwrap
 from collections.abc import Callable
 from pathlib import Path
 from typing import BinaryIO
@@ -10,9 +9,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.cm import ScalarMappable
 from matplotlib.collections import TriMesh
-from matplotlib.colors import LinearSegmentedColormap, Normalize
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
@@ -21,25 +19,18 @@ from fenics_gears.simulation.run_stresses import GearsInMesh
 
 from .chart import Chart
 from .drawn_scale import automatic_scale
+from .face_picture import DPI, DPI_OF_FRAMES, face_picture, root_tension
 from .loaded_contact import LoadedContact, loaded_contact, stored_place
-from .panels import DARK, WARNING, framed, styled
+from .panels import DARK, framed, styled
 from .picture_marks import frame_in, length_bar, line_of_action, name_gears
-from .run import Run, conditions
 from .stress_grid import View, fitted, shown_points, teeth_view, whole_view
+from .stress_heading import COLOURS, colour_bar, heading, rounded_up
 
-# Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots
-# are.
-COLOURS = LinearSegmentedColormap.from_list("stress", [
-    (0.0, "#F1F3F5"), (0.1, "#B4D0E8"), (0.24, "#539FD0"), (0.4, "#35A388"), (0.58, "#F0D24A"), (0.79, "#EB7A2F"),
-    (1.0, "#A90E18"),
-])  # fmt: skip
 # Triangles of a gear in a panel, at least: with fewer their edges are seen in the colours.
 LEAST_TRIANGLES = 20_000
 # The colours end at this multiple of the largest stress in the fillets: what touches would else leave no colour for the
 # roots.
 ROOTS_IN_COLOURS = 3.0
-# Letters that fit the picture's width, of its title and of the smaller lines below.
-LETTERS_OF_TITLE, LETTERS_OF_LINE = 110, 150
 # In millimetres of flank around the most loaded contact, in Hertz half-widths.
 CLOSE_UP_HALF_WIDTHS = 5.0
 # What a picture names of the pressure at its time.
@@ -62,14 +53,6 @@ def colour_limit(meshes: list[GearsInMesh]) -> float:
     return rounded_up(min(peak, ROOTS_IN_COLOURS * roots) if roots > 0.0 else peak)
 
 
-def rounded_up(stress: float) -> float:
-    """A stress (MPa) rounded up to two digits; 1 where there is none."""
-    if stress <= 0.0:
-        return 1.0
-    step = 10.0 ** (np.floor(np.log10(stress)) - 1.0)
-    return float(np.ceil(stress / step - 1e-9) * step)
-
-
 def _stress_of_roots(mesh: GearsInMesh) -> float:
     return max(float(body.von_mises[..., body.in_root].max(initial=0.0)) for body in mesh.gears)
 
@@ -83,8 +66,6 @@ def charts_of(mesh: GearsInMesh) -> tuple[str, list[Chart]]:
     """What the picture of one time shows, in words, and charts beside it."""
     if not mesh.over_face:
         return "Von Mises stress", []
-    from .face_picture import root_tension
-
     return "Contact pressure and von Mises stress", [root_tension(mesh)]
 
 
@@ -96,10 +77,8 @@ def frames(
     limit = colour_limit(sampled)
     beyond = any(exceeds(mesh, limit) for mesh in sampled)
     if sampled[0].over_face:
-        # Imported here: plane runs have no picture in three dimensions.
-        from .face_picture import DPI, DPI_OF_FRAMES, face_picture
-
-        dots, scale = DPI_OF_FRAMES if moving else DPI, 1.0 if scale is None else scale
+        dots = DPI_OF_FRAMES if moving else DPI
+        scale = 1.0 if scale is None else scale
         return lambda mesh: face_picture(mesh, dataset, scale, limit, beyond, dots)
     scale = automatic_scale(sampled) if scale is None else scale
     size = {"close_up": False, "width": FRAME_WIDTH} if moving else {}
@@ -126,7 +105,9 @@ def stress_picture(
     loaded = loaded_contact(mesh, dataset)
     coast = mesh.coast
     enlarged = close_up and loaded is not None
-    bottom, high, wide = 0.06, 0.79, 0.40 if enlarged else 0.585
+    bottom = 0.06
+    high = 0.79
+    wide = 0.40 if enlarged else 0.585
     left = _panel(figure, (0.015, bottom, 0.30, high), whole_view(mesh), mesh, scale, limit)
     middle = _panel(figure, (0.325, bottom, wide, high), teeth_view(mesh, coast), mesh, scale, limit)
     left.set_title(f"The pair, displacements × {scale:g}")
@@ -187,19 +168,23 @@ def _triangles(points: np.ndarray, cells: np.ndarray, values: np.ndarray) -> np.
     corners = np.column_stack([points, values])[triangles]
     while len(corners) < LEAST_TRIANGLES:
         a, b, c = corners.transpose(1, 0, 2)
-        ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
+        ab = 0.5 * (a + b)
+        bc = 0.5 * (b + c)
+        ca = 0.5 * (c + a)
         corners = np.stack([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca], axis=1).reshape(-1, 3, 3)
     return corners
 
 
 def _in_view(points: np.ndarray, parts: np.ndarray, view: View) -> np.ndarray:
     left, right, bottom, top = view.extent
-    x, y = points[parts, 0], points[parts, 1]
+    x = points[parts, 0]
+    y = points[parts, 1]
     return parts[(x.max(axis=1) > left) & (x.min(axis=1) < right) & (y.max(axis=1) > bottom) & (y.min(axis=1) < top)]
 
 
 def _numbers(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, place) -> None:
-    index, dataset = stored_place(mesh, dataset), contact_times(dataset)
+    index = stored_place(mesh, dataset)
+    dataset = contact_times(dataset)
     names = ("normal_force", "coast_normal_force", *PRESSURES)
     values = {name: float(dataset[name].values[index]) for name in names if name in dataset}
     peaks = [float(body.von_mises.max()) for body in mesh.gears]
@@ -218,39 +203,6 @@ def exceeds(mesh: GearsInMesh, limit: float) -> bool:
     carry."""
     drawn = (body.von_mises[..., ~body.on_flank] if mesh.over_face else body.von_mises for body in mesh.gears)
     return max(float(each.max()) for each in drawn) > limit * (1.0 + 1e-9)
-
-
-def colour_bar(
-    figure: Figure,
-    limit: float,
-    beyond: bool,
-    words: str = "von Mises stress (MPa)",
-    place: tuple[float, float] = (0.08, 0.72),
-    colours: LinearSegmentedColormap = COLOURS,
-) -> None:
-    """Colours up to a limit, MPa, with an arrow there where some is `beyond`; `place`: lower end and height in the
-    figure."""
-    axes = figure.add_axes((0.931, place[0], 0.013, place[1]))
-    coloured, extend = ScalarMappable(Normalize(0.0, limit), colours), "max" if beyond else "neither"
-    figure.colorbar(coloured, cax=axes, extend=extend).set_label(words, labelpad=8.0)
-    axes.grid(False)
-
-
-def heading(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset) -> None:
-    """Title of the run, its conditions, and the time of the picture."""
-    run = Run(dataset)
-    scene, look = run.scene, {"color": DARK if run.complete else WARNING, "parse_math": False}
-    title = textwrap.shorten(f"Stress in the gears: {run.title}", LETTERS_OF_TITLE, placeholder=" …")
-    figure.text(0.015, 0.959, title, fontsize=18, **look)
-    timed = f", time {_time(mesh.time)}" if scene is None or scene.motion.speed_given else ""
-    instant = f"mesh phase {mesh.mesh_phase:.3f} (mesh cycles since the start){timed}"
-    told = [] if scene is None else textwrap.wrap(conditions(scene), LETTERS_OF_LINE, max_lines=2, placeholder=" …")
-    lines = [*told, instant if run.complete else f"{instant}  ·  INCOMPLETE RUN"]
-    figure.text(0.015, 0.947, "\n".join(lines), fontsize=13 if len(lines) < 3 else 10, va="top", **look)
-
-
-def _time(seconds: float) -> str:
-    return f"{1e3 * seconds:.4g} ms" if abs(seconds) < 1.0 else f"{seconds:.6g} s"
 
 
 def save_picture(figure: Figure, path: Path | BinaryIO) -> None:

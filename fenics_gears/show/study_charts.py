@@ -1,6 +1,7 @@
 """Results over a study's parameters: lines over the field with most values; a map for many."""
 
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -90,7 +91,8 @@ def logarithmic(field: SweptField) -> bool:
     values = np.unique(field.values[np.isfinite(field.values)])
     if len(values) < 3 or values[0] <= 0.0 or values[-1] / values[0] < LOGARITHMIC_SPAN:
         return False
-    steps, factors = np.diff(values), np.diff(np.log(values))
+    steps = np.diff(values)
+    factors = np.diff(np.log(values))
     return np.ptp(factors) / factors.mean() < np.ptp(steps) / steps.mean()
 
 
@@ -116,13 +118,15 @@ def _map(axis: SweptField, other: SweptField, values: np.ndarray, title: str, na
     (x, column), (y, row) = (np.unique(field.values, return_inverse=True) for field in (axis, other))
     grid = np.full((len(y), len(x)), np.nan)
     grid[row, column] = values
-    edges, divided = [], ""
+    edges = []
+    divided = ""
     for letter, field, places in (("x", axis, x), ("y", other, y)):
         divided += letter if logarithmic(field) else ""
         edges.append(np.exp(_edges(np.log(places))) if logarithmic(field) else _edges(places))
     drawn = Field(edges[0], edges[1], grid, title, float(np.nanmax(values)), LOW_TO_HIGH)
-    options = {f"{letter}_range": (float(each[0]), float(each[-1])) for letter, each in zip("xy", edges)}
-    options |= {"logarithmic": divided, "field": drawn}
+    options: dict[str, Any] = {"logarithmic": divided, "field": drawn}
+    for letter, each in zip("xy", edges):
+        options[f"{letter}_range"] = (float(each[0]), float(each[-1]))
     words = f"{note} {'Blank where a case has no result.' if np.isnan(grid).any() else ''}".strip()
     caption = f"{name}{_against(name, axis)} and {other.called}"
     return Chart(caption, [], axis.title, other.title, words, 420, **options)

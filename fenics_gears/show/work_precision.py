@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator
 
-from fenics_gears.studies.accuracy.measures import FACE_LOAD, MEAN, SPAN, judged
+from fenics_gears.runs.settings.measures import FACE_LOAD, MEAN, SPAN, judged
 from fenics_gears.studies.accuracy.refinement import CONDENSATION, plan_of
 from fenics_gears.studies.accuracy.report import DEFAULTS, OWN, AccuracyReport, WholeResult
 from fenics_gears.studies.accuracy.table import in_one_sentence, judged_by, limits_it
@@ -111,7 +111,8 @@ def _logarithmic(axes: Axes, results, floor: float) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
     # Room above for the list of settings.
-    low, high = min(errors.min(), max(floor, LEAST_SHOWN)), errors.max()
+    low = min(errors.min(), max(floor, LEAST_SHOWN))
+    high = errors.max()
     axes.set_ylim(0.5 * low, high * (high / low) ** 0.55)
     _percent_over_seconds(axes)
 
@@ -122,11 +123,14 @@ def _alone(axes: Axes, report: AccuracyReport) -> None:
         points = [(seconds, error) for seconds, error in points if error > LEAST_SHOWN]
         if not points:
             continue
-        order, expected = result.order("T_E"), result.refinement.expected
+        order = result.order("T_E")
+        expected = result.refinement.expected
         look = {"marker": MARKS[place], "color": PALETTE[place % len(PALETTE)], "markersize": 5.5, "linewidth": 1.3}
-        style, note = ":", f" ({result.refinement.why})" if result.refinement.name == CONDENSATION else ""
+        style = ":"
+        note = f" ({result.refinement.why})" if result.refinement.name == CONDENSATION else ""
         if expected is not None:
-            style, note = "-", f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
+            style = "-"
+            note = f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
         axes.plot(*zip(*points), style, label=result.refinement.name + note, **look)
     axes.set_xscale("log")
     axes.set_yscale("log")

@@ -26,8 +26,8 @@ import numba
 from numba.core.caching import IndexDataCacheFile
 from numba.core.dispatcher import Dispatcher
 
+from fenics_gears.system.output import one_at_a_time
 from fenics_gears.system.progress import Progress
-from fenics_gears.system.turns import one_at_a_time
 
 LOGGER = logging.getLogger(__name__)
 PACKAGE = Path(__file__).parents[1]

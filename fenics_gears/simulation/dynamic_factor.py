@@ -59,7 +59,8 @@ def dynamic_factors(recorder: Recorder, result: RunResult) -> dict[str, float | 
     stress_still, force_still = peaks_still
     if not force_still:
         return {"dynamic_factor_unknown": "without inertia nothing touches"}
-    factors = {"quasi_static_pair_normal_force": force_still, "dynamic_factor_by_force": force_moving / force_still}
+    factors: dict[str, float | str] = {"quasi_static_pair_normal_force": force_still}
+    factors["dynamic_factor_by_force"] = force_moving / force_still
     if stress_still:
         factors |= {"quasi_static_root_stress": stress_still, "dynamic_factor_by_stress": stress_moving / stress_still}
     return factors

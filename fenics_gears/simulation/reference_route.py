@@ -37,4 +37,5 @@ def reference_route(
         gears.append(remeshed_stiffness(gear, material, teeth, division, **how))
     positions = list(zip(*(gear.positions for gear in gears)))
     mesh = remeshed_mesh(model.pair, nodes, positions, resolution.contact_grid, order, model.drivetrain.indices)
-    return tuple(gears), cycle_of(model, mesh)
+    pinion, wheel = gears
+    return (pinion, wheel), cycle_of(model, mesh)

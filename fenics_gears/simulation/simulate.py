@@ -1,14 +1,12 @@
-"""A scene from its data to its result: the stages of a run, in order."""
+"""A scene whose settings are settled, from its data to its result: the stages of a run, in order."""
 
 from __future__ import annotations
 
 import functools
-import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import replace
 from math import isinf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -17,14 +15,12 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import March, Marcher
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
-from fenics_gears.errors import ComputationError, MemoryEnded
+from fenics_gears.errors import ComputationError, MemoryEnded, attempted
 from fenics_gears.model.bore_twist import bore_twist_stiffness
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.results.afterwards import attempted
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.extrema import repeating_steps
-from fenics_gears.results.numbers import ESTIMATED
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.validity import worst_first
 from fenics_gears.scene.data import ELASTIC, LAST_CYCLES, Scene
@@ -38,64 +34,10 @@ from .warm_up import compile_kernels, compile_loops
 if TYPE_CHECKING:
     from fenics_gears.results.journal import Place
 
-# The remedy where a warning recommends a setting, for settings may not stand beside a target.
-OTHER_SETTINGS = (
-    "a warning names settings of [accuracy]: take a smaller target, or change the chosen settings, which the result's"
-    " scene has"
-)
 # The stage that marches through time.
 MARCH = "march"
 MICROMETRE = 1e-3
-Keep = Callable[[xr.Dataset], None]
-
-
-def simulate(
-    scene: Scene | Model,
-    *,
-    progress: Progress | None = None,
-    cache: Cache | None = None,
-    preparation: Preparation | None = None,
-    job: Job | None = None,
-    journal: Place | None = None,
-    keep: Keep | None = None,
-) -> xr.Dataset:
-    """Run a scene and return its result, an `xarray.Dataset` (docs/result.md).
-
-    Its variables, over time, tooth pairs and contact nodes, have their units as `attrs["units"]`: rotations and the
-    transmission error are in rad, displacements in mm, forces in N, pressures and stresses in MPa, torques and energies
-    in N mm, times in s. Numbers of the whole run, such as `mean_transmission_error` (rad), the warnings, and the text
-    of the scene that was run are in `result.attrs`.
-
-    With `[accuracy] target` settings are chosen first, by trial runs. The result then has the attributes `target`,
-    `estimated_error`, and `estimated_error: ...` by setting, all in parts of 1, `time_choose` (s), `target_runs`,
-    `target_remarks`; its scene has the settings in place of the target, so that it repeats the run.
-
-    scene: from `load_scene` or `build_scene`, as it is or changed by `dataclasses.replace`; or its `model_of`.
-    progress: is told the stages and how far they are (`system.progress`); nothing is shown unless given.
-    cache: where condensed gears are kept (`elasticity.cache.Cache`); that of the user unless given.
-    preparation: what comes before the march, `prepared` unless given; `runs.gear_store` has one for runs that share
-        gears and contact operators.
-    job: of rank 0, whose ranks share the remeshing of `condensation = "every step"`.
-    journal: where a march that lasts longer than a few seconds is written down as it goes (`results.journal`); the
-        caller removes it.
-    keep: is given the result as soon as the march ends. What follows, dynamic factors and proposed lead modifications,
-        may fail: a warning then says so, and the attribute `failed_afterwards` names it.
-
-    Raises GeometryError before any computation where the gears are impossible; ComputationError where the run does not
-    fit into the memory that it may take, or a stage fails: steps that were computed before are then in its attribute
-    `partial`; TargetNotReached where no settings keep the target.
-    Ctrl-C during the march returns the steps computed so far, with the attribute `complete` 0.
-
-    >>> from fenics_gears import load_scene, simulate
-    >>> result = simulate(load_scene("demos/lundvall2004.toml"))
-    >>> result.transmission_error.dims, result.transmission_error.attrs["units"]
-    (('time',), 'rad')
-    >>> mm = result.transmission_error.max().item() * result.attrs["base_radius_wheel"]
-    >>> print(f"{mm:.2f} mm along the line of action at most")
-    0.16 mm along the line of action at most
-    """
-    result = solved(scene, progress=progress, cache=cache, preparation=preparation, job=job, journal=journal, keep=keep)
-    return _with_lead_correction(result, progress or SilentProgress())
+Ended = Callable[[RunResult], None]
 
 
 def solved(
@@ -106,24 +48,23 @@ def solved(
     preparation: Preparation | None = None,
     job: Job | None = None,
     journal: Place | None = None,
-    keep: Keep | None = None,
+    ended: Ended | None = None,
 ) -> RunResult:
-    """As `simulate`, without proposed lead modifications; its dataset is put together when it is asked for."""
-    progress, cache = progress or SilentProgress(), cache or user_cache()
+    """A run whose settings are settled, without proposed lead modifications; its dataset is put together when it is
+    asked for. `ended`: is given the result as soon as the march ends; the rest and the errors are those of
+    `runs.simulate`."""
+    progress = progress or SilentProgress()
     try:
         # Here for what the model and its bodies call; `compile_kernels` of the march finds it done.
         compile_loops(progress)
-        said = scene.scene if isinstance(scene, Model) else scene
-        decided, chosen = _with_chosen_settings(said, progress)
-        model = scene if isinstance(scene, Model) and decided is said else model_of(decided)
+        model = scene if isinstance(scene, Model) else model_of(scene)
+        if model.scene.accuracy.target is not None:
+            raise ValueError("the settings of a run with a target are to be settled first: `runs.simulate.settled`")
         prepare = preparation or functools.partial(prepared, job=job)
-        with writing_meanwhile(cache) as kept:
+        with writing_meanwhile(cache or user_cache()) as kept:
             result = _simulated(model, progress, kept, prepare, journal)
-        if chosen and "accuracy." in result.attrs["warnings"]:
-            chosen["target_remarks"] = OTHER_SETTINGS
-        result.attrs.update(chosen)
-        if keep is not None:
-            keep(result.dataset)
+        if ended is not None:
+            ended(result)
         _add_dynamic_factors(result, progress)
     except MemoryError:
         raise MemoryEnded("before the run was over") from None
@@ -131,23 +72,6 @@ def solved(
         # Here, where the run's own arrays are free.
         give_back()
     return result
-
-
-def _with_chosen_settings(scene: Scene, progress: Progress) -> tuple[Scene, dict[str, Any]]:
-    """The scene with settings in place of its target, and attributes on how they were chosen."""
-    target = scene.accuracy.target
-    if target is None:
-        return scene, {}
-    from fenics_gears.studies.accuracy.target import choose
-
-    begun = time.perf_counter()
-    found = choose(scene, target, progress)
-    how = {"target": target, "estimated_error": found.estimated_error}
-    how |= {f"{ESTIMATED}{name}": part for name, part in found.parts.items()}
-    how |= {"target_runs": found.runs, "target_remarks": "", "time_choose": time.perf_counter() - begun}
-    if found.accuracy.slices:
-        how |= {"slices": found.accuracy.slices, "layers": found.accuracy.layers}
-    return replace(scene, accuracy=found.accuracy), how
 
 
 def _simulated(
@@ -240,7 +164,7 @@ def _add_dynamic_factors(result: RunResult, progress: Progress) -> None:
         result.attrs.update(found or {})
 
 
-def _with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
+def with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
     """The result's dataset with the lead modifications that are proposed for its pinion, where there are any."""
     model, dataset = result.recorder.model, result.dataset
     if not model.scene.three_dimensional or not result.attrs["complete"]:

@@ -3,6 +3,7 @@
 from collections.abc import Collection, Sequence
 
 from fenics_gears.contact.mesh_cycle import SHARE_KEPT, SHARE_OF_A_BLOCK, Cycle, Gaps
+from fenics_gears.contact.relief_gaps import Profiles
 from fenics_gears.effects import ALONG_THE_FACE, common_period, effects_on
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import RELIEFS, Model, differ_only
@@ -42,9 +43,6 @@ def solved_together(
 ) -> list[NumbersOfRun | None]:
     """The numbers `asked` of runs that can be solved together and are `alike`; None of a run that has to be run by
     itself. Raises GearsError as `simulate` does."""
-    # Imported here, as of true involutes.
-    from fenics_gears.contact.relief_gaps import Profiles
-
     model = models[0]
     try:
         most = memory_for_operators(model)

@@ -110,7 +110,8 @@ def _evaluate(steps: Steps, tangential: bool) -> None:
 
 def _look_for_extremes() -> None:
     """Not with every run: each is loaded where a run looks for its extremes."""
-    from fenics_gears.results.crests import Searches, largest_of_cubics
+    from fenics_gears.results.crests import Searches
+    from fenics_gears.results.numbers import largest_of_cubics
 
     largest_of_cubics(np.arange(4.0), np.zeros(4))
     Searches(np.arange(4.0), np.zeros((1, 4)), np.ones(1), 0.125)

@@ -164,7 +164,8 @@ def _range(table: Mapping[str, Any]) -> tuple[Any, ...]:
 def _ends(given: Mapping[str, Any]) -> tuple[list[float], str]:
     """Start, stop and step, if any, as numbers in the unit of the start, and that unit."""
     if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in given.values()):
-        unit, bare = "", [number_in(value, "") for value in given.values()]
+        unit = ""
+        bare = [number_in(value, "") for value in given.values()]
         numbers = [math.inf if number is None else number for number in bare]
     else:
         for name, value in given.items():

@@ -54,12 +54,12 @@ def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int,
 
 def _variables(
     study: Study, records: Mapping[int, Record], failures: Mapping[int, str]
-) -> dict[str, tuple[dict, Any, dict]]:
+) -> dict[str, tuple[Mapping, Any, dict]]:
     """By name the values of the cases that have one, what stands for the others, and the attributes."""
     known = {name for record in records.values() for name in record.numbers}
     studied = (each for each in RESULT_ATTRIBUTES if each.name in known.intersection(STUDIED))
     numbers = NUMBERS | {each.name: (each.units, each.meaning) for each in studied}
-    found: dict[str, tuple[dict, Any, dict]] = {
+    found: dict[str, tuple[Mapping, Any, dict]] = {
         name: (
             {i: each.numbers[name] for i, each in records.items() if name in each.numbers},
             np.nan,

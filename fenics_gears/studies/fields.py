@@ -38,11 +38,13 @@ def _found_at(path: Path) -> tuple[type[Section] | None, Allowed | None] | None:
             listed = allowed_in(section, LISTED) if section is not None else allowed
             if not isinstance(listed, AllowedTables):
                 return None
-            section, allowed = listed.section, None
+            section = listed.section
+            allowed = None
             continue
         if section is None or name not in names_in(section):
             return None
-        section, allowed = section_within(section, name), allowed_in(section, name)
+        allowed = allowed_in(section, name)
+        section = section_within(section, name)
     return section, allowed
 
 
@@ -75,7 +77,8 @@ def _changed(home: Any, path: Path, value: Any, whole: Path) -> Any:
     """A copy of a section, or of a list of tables, with the value at a path in it, which ends the `whole` path."""
     name: Any = path[0]
     if isinstance(home, list):
-        home, name = list(home), _place_in(home, name, whole)
+        name = _place_in(home, name, whole)
+        home = list(home)
     elif name.isdigit():
         return {**home, LISTED: _changed(home.get(LISTED, []), path, value, whole)}
     else:

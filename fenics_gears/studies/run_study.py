@@ -74,7 +74,8 @@ def run_with(
 
 
 def _run(runs: Runs, study: Study, directory: Path, progress: Progress, quiet: bool) -> Outcome:
-    outcome, missing = Outcome(study, kept=runs.kept, spent=runs.spent), runs.missing(study.cases)
+    outcome = Outcome(study, kept=runs.kept, spent=runs.spent)
+    missing = runs.missing(study.cases)
     opening = _opening(study, runs.kept, len(missing), changed_since(study, directory), runs.spent.processes)
     if not quiet:
         print(opening, file=sys.stderr, flush=True)

@@ -13,7 +13,8 @@ from fenics_gears.inputs.problem import NOTHING_DONE, Problem
 from fenics_gears.inputs.section import read
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.model import RELIEFS, Model, model_of, with_reliefs
-from fenics_gears.scene.read import scene_of
+from fenics_gears.scene.data import Scene
+from fenics_gears.scene.parsing import values_of
 from fenics_gears.scene.rules import broken_by_numbers
 
 from . import fields
@@ -51,7 +52,10 @@ class Scenes:
     """The scenes of a study's cases: of a large study each is made again when it is asked for."""
 
     def __init__(self, name: str, directory: Path, changes: Changes, scene_tree: Mapping[str, Any]):
-        self._name, self._directory, self._changes, self._tree = name, directory, changes, scene_tree
+        self._name = name
+        self._directory = directory
+        self._changes = changes
+        self._tree = scene_tree
         self.points = list(changes.points())
         self.model = functools.lru_cache(MOST_HELD)(self._model)
 
@@ -69,7 +73,8 @@ class Models:
     time."""
 
     def __init__(self, name: str, directory: Path):
-        self._name, self._directory = name, directory
+        self._name = name
+        self._directory = directory
         # Parsed scenes without reliefs, the names of all that their reliefs say, and their models.
         self._known: list[tuple[dict[str, Any], Any, Model]] = []
 
@@ -89,7 +94,8 @@ class Models:
 
     def _with_reliefs(self, model: Model, tree: Mapping[str, Any]) -> Model | None:
         """A model with the reliefs of a parsed scene; None where something is wrong with them."""
-        own, problems = {}, broken_by_numbers(tree, RELIEFS)
+        own = {}
+        problems = broken_by_numbers(tree, RELIEFS)
         for effect in (effect_named(name) for name in RELIEFS if name in tree):
             section, wrong = read(effect.fields, tree[effect.section], (effect.section,))
             problems += wrong
@@ -119,9 +125,10 @@ def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Model:
     """The model of a parsed scene. Raises NoScene."""
     try:
         text = as_toml(tree)
-        scene, problems = scene_of(tree, text, name, directory)
-        if scene is None:
+        values, problems = values_of(tree, text, name, directory)
+        if values is None:
             raise NoScene(problems)
+        scene = Scene(**values)
         # It gives this scene, which need not be written and read again to see whether it does.
         scene.__dict__["text"] = text
         return model_of(scene)

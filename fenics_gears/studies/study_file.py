@@ -11,7 +11,8 @@ from fenics_gears.inputs.problem import Problem, counted, did_you_mean, line_num
 from fenics_gears.inputs.tree import value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.runs.run import Run, run_of, scene_key
-from fenics_gears.scene.read import load_scene, name_of, parsed, text_of
+from fenics_gears.scene.parsing import parsed
+from fenics_gears.scene.read import load_scene, name_of, text_of
 
 from . import fields
 from .axis import Axis, AxisError, label, unit_of, values_of
@@ -29,7 +30,9 @@ class Mistakes:
     """The mistakes of a study file so far, each once."""
 
     def __init__(self, source: str, lines: Mapping[tuple[str, ...], int]):
-        self._source, self._lines, self._said = source, lines, {}
+        self._source = source
+        self._lines = lines
+        self._said: dict[str, None] = {}
 
     def add(self, path: tuple[str, ...], written: str | None, message: str) -> None:
         """Note a mistake at a path of the study file; ``written`` as for `Problem`."""
@@ -72,7 +75,9 @@ def study_of(
     scene_tree = parsed(base.text, str(scene_file))
     _check_present(changes, scene_tree, str(scene_file), mistakes)
     mistakes.check()
-    name, combine, axes = name_of(path), changes.combine, changes.axes
+    name = name_of(path)
+    combine = changes.combine
+    axes = changes.axes
     cases = _cases(Scenes(name, scene_file.parent, changes, scene_tree), changes, mistakes)
     mistakes.check()
     return Study(name, tree.get("title", name), combine, axes, cases, text, base.text, scene_key(base))

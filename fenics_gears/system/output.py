@@ -2,11 +2,13 @@
 file.
 
 Sealed files end with a digest of all bytes before it, which is checked first: HDF5 can end the whole process at one
-wrong bit, and ignores bytes after its own end.
+wrong bit, and ignores bytes after its own end. Processes that write the same files do it one at a time.
 """
 
 import contextlib
+import fcntl
 import hashlib
+import logging
 import os
 import shutil
 import socket
@@ -16,12 +18,13 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, TextIO
 
 from fenics_gears.errors import ComputationError, SceneError
 
 from .user_file import check_file
 
+LOGGER = logging.getLogger(__name__)
 # The beginning of names of files, and of directories of files, while they are written; machine and process follow.
 UNFINISHED = ".unfinished-"
 # What another machine has not changed for longer (s) was left by a process that was killed.
@@ -200,3 +203,32 @@ def unsealed(path: Path) -> BinaryIO:
     except BaseException:
         file.close()
         raise
+
+
+@contextlib.contextmanager
+def one_at_a_time(file: Path, waits: Callable[[], None] = lambda: None) -> Iterator[None]:
+    """Wait until no other process is in here by the same file, which is made where it is missing; `waits` is called
+    where there is one. The system lets the next one in when a process ends, however it ends. Where the file system has
+    no locks nobody waits."""
+    lock = None
+    with contextlib.suppress(OSError):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        lock = open(file, "a")
+    try:
+        if lock is not None:
+            _lock(lock, file, waits)
+        yield
+    finally:
+        if lock is not None:
+            lock.close()
+
+
+def _lock(lock: TextIO, file: Path, waits: Callable[[], None]) -> None:
+    try:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            waits()
+            fcntl.flock(lock, fcntl.LOCK_EX)
+    except OSError as error:
+        LOGGER.debug("%s: no locks on this file system: %s", file, error)

@@ -187,11 +187,8 @@ class Interruption(Progress):
 
     def __init__(self, progress: Progress):
         self._progress = progress
+        self.finished = progress.finished
         self._counting = self._asked = self._ignoring = False
-
-    @property
-    def finished(self) -> Finished:
-        return self._progress.finished
 
     def __enter__(self) -> Interruption:
         """Take Ctrl-C over; only the main thread can."""

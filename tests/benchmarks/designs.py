@@ -24,7 +24,8 @@ from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.model.model import Model
 from fenics_gears.runs.common_windows import CommonWindows
 from fenics_gears.runs.gear_store import GearStore
-from fenics_gears.runs.runs import MOST_TOGETHER, completed
+from fenics_gears.runs.one_run import completed
+from fenics_gears.runs.runs import MOST_TOGETHER
 from fenics_gears.simulation.together import solved_together
 from fenics_gears.studies.scenes import model_of_tree
 

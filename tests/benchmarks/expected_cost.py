@@ -129,8 +129,8 @@ def measure(name: str) -> dict[str, float]:
     from fenics_gears.elasticity.cache import Cache
     from fenics_gears.model.cost import expected_cost
     from fenics_gears.model.model import model_of
+    from fenics_gears.runs.simulate import simulate
     from fenics_gears.scene.read import scene_from_text
-    from fenics_gears.simulation.simulate import simulate
     from fenics_gears.system.progress import LineProgress
 
     beside = next((path.parent for path in DEMOS if path.stem == name), ROOT)

@@ -22,7 +22,7 @@ from threadpoolctl import threadpool_limits
 
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.runs.gear_store import GearStore
-from fenics_gears.runs.runs import completed
+from fenics_gears.runs.one_run import completed
 from fenics_gears.simulation.bodies import gear_body
 from fenics_gears.system.progress import SilentProgress
 

@@ -15,14 +15,14 @@ from tests.benchmarks.target_pairs import held_out, pairs
 from tests.benchmarks.target_reference import Reference, at_sizes, counted_seconds, reference
 
 from fenics_gears.model.model import model_of
+from fenics_gears.runs.settings.measures import JUDGED, Answer, distance, judged_answer
+from fenics_gears.runs.settings.setting import Setting
+from fenics_gears.runs.settings.target import Chosen, choose
+from fenics_gears.runs.settings.trial_runs import TargetNotReached
 from fenics_gears.runs.timed import run_sharing, shared_gears
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.warm_up import compile_kernels
-from fenics_gears.studies.accuracy.measures import JUDGED, Answer, distance, judged_answer
-from fenics_gears.studies.accuracy.setting import Setting
-from fenics_gears.studies.accuracy.target import Chosen, choose
-from fenics_gears.studies.accuracy.trial_runs import TargetNotReached
 from fenics_gears.system.progress import SilentProgress
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -12,11 +12,11 @@ import numpy as np
 from tests.benchmarks.target_reference import counted_seconds
 from tests.helical import helical_scene
 
+from fenics_gears.runs.settings.measures import distance, judged_answer
+from fenics_gears.runs.settings.setting import Setting, without_settings
+from fenics_gears.runs.settings.setting_runs import SettingRuns
+from fenics_gears.runs.settings.target import choose
 from fenics_gears.scene.data import Scene
-from fenics_gears.studies.accuracy.measures import distance, judged_answer
-from fenics_gears.studies.accuracy.setting import Setting, without_settings
-from fenics_gears.studies.accuracy.setting_runs import SettingRuns
-from fenics_gears.studies.accuracy.target import choose
 from fenics_gears.system.progress import SilentProgress
 
 PAIRS, TARGETS = 10, (0.05, 0.03, 0.02)

@@ -7,10 +7,10 @@ import numpy as np
 
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import model_of
+from fenics_gears.runs.settings.measures import JUDGED, Answer, comparable, judged_answer
+from fenics_gears.runs.settings.setting import Setting, own_setting, without_settings
 from fenics_gears.runs.timed import run_sharing, shared_gears
 from fenics_gears.scene.data import Scene
-from fenics_gears.studies.accuracy.measures import JUDGED, Answer, comparable, judged_answer
-from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
 
 # Meshes in parts of the default, and steps in a mesh cycle: the fine mesh has few, the coarser one few and many.
 FINE, COARSER, FEW, MANY = 0.5, 1.0, 120, 960

@@ -31,7 +31,7 @@ def small_result(complete=1):
 def simulation(monkeypatch, tmp_path):
     """Its ``outcome`` is kept and goes through ``afterwards``, or is raised; the test runs in an empty directory."""
     monkeypatch.chdir(tmp_path)
-    stand_in = types.ModuleType("fenics_gears.simulation.simulate")
+    stand_in = types.ModuleType("fenics_gears.runs.simulate")
     stand_in.outcome, stand_in.calls = small_result(), []
     stand_in.afterwards = lambda result: result
 
@@ -53,7 +53,7 @@ def simulation(monkeypatch, tmp_path):
         return [picture]
 
     plots.draw_run = draw_run
-    monkeypatch.setitem(sys.modules, "fenics_gears.simulation.simulate", stand_in)
+    monkeypatch.setitem(sys.modules, "fenics_gears.runs.simulate", stand_in)
     monkeypatch.setitem(sys.modules, "fenics_gears.show.plots", plots)
     return stand_in
 

@@ -132,7 +132,7 @@ PHYSICS = ("geometry", "contact", "dynamics")
 PROGRAM = """
 import json, sys
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
+from fenics_gears.runs.simulate import simulate
 loaded = []
 for text in json.load(sys.stdin):
     simulate(scene_from_text(text))

@@ -64,7 +64,7 @@ def run(folder, *arguments, given=None):
 PROGRAM = """
 import json, sys
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
+from fenics_gears.runs.simulate import simulate
 found = []
 for text in json.load(sys.stdin):
     run = simulate(scene_from_text(text))

@@ -10,7 +10,7 @@ from fenics_gears import model_of
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.rolling_bearing import reaction
-from fenics_gears.simulation.simulate import simulate
+from fenics_gears.runs.simulate import simulate
 
 INTEGRAL_ROLLING = ROLLING.replace("torque_at", 'seat = "integral"\ntorque_at')
 VIBRATING_ROLLING = (

@@ -21,7 +21,7 @@ from tests.hard_cases.scene_fields import (
 )
 from tests.paper_text import ACCURACY, without
 
-import fenics_gears.simulation.simulate
+import fenics_gears.runs.simulate
 from fenics_gears import GeometryError, Scene, SceneError, scene_from_text
 from fenics_gears.commands.cli import main
 from fenics_gears.inputs.problem import LISTED
@@ -41,7 +41,7 @@ def outcome(tmp_path, monkeypatch, capsys):
     def compute(scene, **options):
         raise Computed
 
-    monkeypatch.setattr(fenics_gears.simulation.simulate, "simulate", compute)
+    monkeypatch.setattr(fenics_gears.runs.simulate, "simulate", compute)
 
     def run(text):
         file = tmp_path / "pair.toml"

@@ -14,7 +14,7 @@ from fenics_gears.results.mesh_curves import read_off
 from fenics_gears.results.pairs import in_middle_slice
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.runs.record import record_of
-from fenics_gears.studies.accuracy.measures import MEAN, OVER_FACE, answer
+from fenics_gears.runs.settings.measures import MEAN, OVER_FACE, answer
 
 OF_FACE = {
     "overlap_ratio",

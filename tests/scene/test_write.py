@@ -13,8 +13,9 @@ from tests.scene.test_cut_away import RACK, SCENE
 
 from fenics_gears import Load, Material, Scene, SceneError, as_toml, load_scene, scene_from_text
 from fenics_gears.scene.data import Accuracy, Motion
-from fenics_gears.scene.read import NO_FILE
-from fenics_gears.scene.write import WORDS, section_trees, text_of
+from fenics_gears.scene.parsing import NO_FILE
+from fenics_gears.scene.schema import WORDS
+from fenics_gears.scene.write import section_trees, text_of
 
 DEMOS = Path(__file__).parents[2] / "demos"
 SCENES = [

@@ -12,7 +12,7 @@ from tests.over_face import MORE, helical_run, root_stress_run
 from tests.show.synthetic import made_up_run
 
 from fenics_gears.results.mesh_curves import read_off
-from fenics_gears.show import FACE_PICTURE_FILES, face_picture, stress_picture
+from fenics_gears.show import FACE_PICTURE_FILES, face_picture, stress_heading
 from fenics_gears.show.contact_pattern import contact_patterns, pattern
 from fenics_gears.show.line_load import line_loads
 from fenics_gears.show.plots import draw_run
@@ -40,11 +40,11 @@ def test_pictures_of_the_face_are_written_beside_the_others(tmp_path):
 @pytest.mark.parametrize("length", [90, 250, 600])
 def test_words_above_a_stress_picture_end_within_it(monkeypatch, length):
     """However many conditions a scene has, no line leaves the picture or reaches into its panels."""
-    monkeypatch.setattr(stress_picture, "conditions", lambda scene: ("tip relief, " * length)[:length])
+    monkeypatch.setattr(stress_heading, "conditions", lambda scene: ("tip relief, " * length)[:length])
     figure = Figure(figsize=(16.0, 9.0))
     FigureCanvasAgg(figure)
     dataset = helical_run()
-    stress_picture.heading(figure, SimpleNamespace(mesh_phase=0.25, time=1e-3), dataset)
+    stress_heading.heading(figure, SimpleNamespace(mesh_phase=0.25, time=1e-3), dataset)
     boxes = [words.get_window_extent() for words in figure.texts]
     assert max(box.x1 for box in boxes) < figure.bbox.width and min(box.y0 for box in boxes) > 0.89 * figure.bbox.height
     assert "mesh phase 0.250" in figure.texts[1].get_text()

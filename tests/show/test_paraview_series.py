@@ -22,7 +22,7 @@ pyvista = pytest.importorskip("pyvista")
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
     """Two stored mesh cycles, four steps each, and its scene as in the file."""
-    from fenics_gears.simulation.simulate import simulate
+    from fenics_gears.runs.simulate import simulate
 
     directory = tmp_path_factory.mktemp("run")
     coarse = (

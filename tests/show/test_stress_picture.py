@@ -16,7 +16,7 @@ environment.prepare()
 
 @pytest.fixture(scope="module")
 def run(paper_scene, tmp_path_factory):
-    from fenics_gears.simulation.simulate import simulate
+    from fenics_gears.runs.simulate import simulate
 
     directory = tmp_path_factory.mktemp("run")
     scene = scene_from_text(coarse_text(cycles=1, recorded=1, accuracy=COARSE))

@@ -78,7 +78,7 @@ def test_who_cannot_write_beside_the_sources_takes_what_lies_there(places, tmp_p
 def test_of_processes_that_start_together_one_compiles(tmp_path):
     """Each holds the lock for a while and finds whether another was there before."""
     program = (
-        "import sys, time, pathlib; from fenics_gears.system.turns import one_at_a_time\n"
+        "import sys, time, pathlib; from fenics_gears.system.output import one_at_a_time\n"
         "done = pathlib.Path(sys.argv[1], 'done')\n"
         "with one_at_a_time(pathlib.Path(sys.argv[1], 'lock')):\n"
         "    if not done.exists(): time.sleep(0.2); done.touch(); print('compiled')\n"

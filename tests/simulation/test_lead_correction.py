@@ -11,11 +11,12 @@ from fenics_gears import model_of, scene_from_text
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
 from fenics_gears.results.summary import summary_rows
+from fenics_gears.runs.simulate import simulate
 from fenics_gears.scene.write import text_of
 from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle
 from fenics_gears.simulation.lead_correction import _towards_even, wanted
 from fenics_gears.simulation.routes import prepared
-from fenics_gears.simulation.simulate import simulate, solved
+from fenics_gears.simulation.simulate import solved
 
 ACCURACY = FEW.replace("5", "10")
 MISALIGNED = '[misalignment]\nin_plane = "12 um"\n'

@@ -23,7 +23,7 @@ from fenics_gears.geometry.relief import Relief
 from fenics_gears.results.together import ERROR, OFFERED, OVER_FACE
 from fenics_gears.runs.common_windows import CommonWindows
 from fenics_gears.runs.gear_store import operators_key
-from fenics_gears.runs.runs import completed
+from fenics_gears.runs.one_run import completed
 from fenics_gears.scene.data import Load
 from fenics_gears.simulation import together
 from fenics_gears.simulation.elastic_route import gaps_of

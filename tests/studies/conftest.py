@@ -17,7 +17,7 @@ def folder(tmp_path, monkeypatch):
 @pytest.fixture
 def undrawn(monkeypatch):
     """Studies in this process are not drawn, which takes longer than their runs."""
-    monkeypatch.setattr("fenics_gears.show.plots.draw_study", lambda file: [])
+    monkeypatch.setattr("fenics_gears.show.study_pictures.draw_study", lambda file: [])
 
 
 def write_study(folder, text, name="study.toml"):

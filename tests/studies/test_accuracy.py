@@ -10,15 +10,16 @@ from tests.helical import wide_pair
 
 from fenics_gears import ComputationError, SceneError, model_of, simulate
 from fenics_gears.commands.cli import main
+from fenics_gears.runs.settings import setting_runs
+from fenics_gears.runs.settings.measures import CURVE, FACE_LOAD, MEAN, MEASURES, ROOT, SPAN, judged
+from fenics_gears.runs.settings.setting import default_setting, half_width, own_setting
 from fenics_gears.runs.timed import run_sharing
 from fenics_gears.scene.accuracy import NODE_SPACING
 from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion
 from fenics_gears.show.work_precision import work_precision
-from fenics_gears.studies.accuracy import refinement, setting_runs, table
+from fenics_gears.studies.accuracy import refinement, table
 from fenics_gears.studies.accuracy import report as reports
-from fenics_gears.studies.accuracy.measures import CURVE, FACE_LOAD, MEAN, MEASURES, ROOT, SPAN, judged
 from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, FLANK, LENGTH, NODES, QUICK_IN_THE_PLANE, STEPS
-from fenics_gears.studies.accuracy.setting import default_setting, half_width, own_setting
 
 TEETH = "tooth_elasticity"
 # Fewer and coarser than --quick: what is tested here is the way, not the numbers.
@@ -203,7 +204,7 @@ def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monke
 
 def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
     """Exit code 130."""
-    from fenics_gears.runs import runs
+    from fenics_gears.runs import one_run
     from fenics_gears.simulation.simulate import solved
 
     monkeypatch.chdir(tmp_path)
@@ -213,7 +214,7 @@ def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
         result.attrs["complete"] = 0
         return result
 
-    monkeypatch.setattr(runs, "solved", interrupted)
+    monkeypatch.setattr(one_run, "solved", interrupted)
     (tmp_path / "small.toml").write_text(text_of(TEETH))
     assert main(["accuracy", "small.toml", "--quick", "--output", "there"]) == 130
     assert "Interrupted" in capsys.readouterr().err

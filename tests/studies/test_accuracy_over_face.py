@@ -8,8 +8,7 @@ from tests.helical import wide_pair
 
 from fenics_gears import model_of
 from fenics_gears.model.face_resolution import face_discretisation
-from fenics_gears.studies.accuracy import report as reports
-from fenics_gears.studies.accuracy.measures import (
+from fenics_gears.runs.settings.measures import (
     CURVE,
     DEFECT,
     FACE_LOAD,
@@ -19,9 +18,10 @@ from fenics_gears.studies.accuracy.measures import (
     distances,
     judged,
 )
+from fenics_gears.runs.settings.setting import own_setting
+from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.over_face import LAYERS, PLANE, SLICES, in_the_plane
 from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, LENGTH, STEPS, fine, refinements
-from fenics_gears.studies.accuracy.setting import own_setting
 
 LEAD = '[lead_modifications.pinion]\ncrowning = "6 um"\n'
 TILTING = '[bearings]\nstiffness = "1e6 N/mm"\naxial_stiffness = "1e5 N/mm"\nplaces = { wheel = ["-40 mm", "40 mm"] }\n'

@@ -11,7 +11,7 @@ from tests.effects.examples import scene_of, text_of
 from fenics_gears import SceneError, model_of, scene_from_text, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.effects import SECTIONS
-from fenics_gears.runs import runs
+from fenics_gears.runs import one_run
 from fenics_gears.show.effect_costs import effect_costs
 from fenics_gears.simulation.simulate import solved
 from fenics_gears.studies.effect_costs import measured, table
@@ -173,7 +173,7 @@ def test_a_subset_that_fails_is_a_line_with_its_reason(monkeypatch):
             raise ComputationError("no solution at step 3\nand a history")
         return solved(model, **options)
 
-    monkeypatch.setattr(runs, "solved", fails_with_friction)
+    monkeypatch.setattr(one_run, "solved", fails_with_friction)
     report = measured.measure(scene_of(TEETH, "shafts", "friction"), rounds=1)
     assert {(each.name, each.reason) for each in report.skipped} == {("+ friction", "no solution at step 3")}
     assert report.row(ALONE, "shafts") is not None

@@ -14,7 +14,7 @@ from fenics_gears.commands import study as commands_study
 from fenics_gears.commands.cli import main
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.runs import runs
+from fenics_gears.runs import one_run
 from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.simulation.simulate import solved
 from fenics_gears.studies.study_file import load_study
@@ -154,7 +154,7 @@ def test_a_failed_case_is_a_record_and_the_others_go_on(folder, capsys, monkeypa
             raise ContactNotConverged([], "self-locking", time=0.1, step=3)
         return solved(model, **options)
 
-    monkeypatch.setattr(runs, "solved", fails_once)
+    monkeypatch.setattr(one_run, "solved", fails_once)
     study = write_study(folder, THREE)
     assert main(["study", str(study), "--output", "here"]) == 3
     assert "1 of 3 cases failed" in capsys.readouterr().err

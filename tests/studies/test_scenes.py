@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from fenics_gears.elasticity.cache import content_key
-from fenics_gears.model.model import WORDS
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.runs.lines import Lines, append
 from fenics_gears.runs.run import run_of, scene_key
 from fenics_gears.runs.runs import Failure
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.scene.schema import WORDS
 from fenics_gears.studies import scenes
 from fenics_gears.studies.scenes import Models, NoScene, model_of_tree
 

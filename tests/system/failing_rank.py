@@ -25,7 +25,7 @@ STAGES = {
     "writing": "results:save",
     "reading a study": "studies.run_study:load_study",
     "condensing for a study": "runs.gear_store:GearStore.body",
-    "a case": "runs.runs:solved",
+    "a case": "runs.one_run:solved",
     "writing a case": "runs.folder:Folder.keep",
     "combining": "studies.run_study:save_study",
 }

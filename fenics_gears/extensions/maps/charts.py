@@ -25,9 +25,11 @@ from fenics_gears.charts import (
 )
 
 MESH_ORDERS = 5
-SPEED, FREQUENCY = "Mesh frequency (Hz)", "Frequency (Hz)"
+SPEED = "Mesh frequency (Hz)"
+FREQUENCY = "Frequency (Hz)"
 # Of a waterfall: decibels from the base line to the highest line, which is as high as so many steps of the speed.
-DECIBELS, STEPS_HIGH = 40.0, 2.5
+DECIBELS = 40.0
+STEPS_HIGH = 2.5
 # Room right of and above the lines of a Campbell diagram for their words, in parts of the axes.
 BESIDE = 1.12
 # A line from the first axis' zero on, in parts of its end.
@@ -58,7 +60,8 @@ def map_pictures(found: xr.Dataset) -> dict[str, tuple[str, list[Chart]]]:
         pictures["campbell.png"] = ("Campbell diagram", [campbell(found)])
         unit = found["load"].attrs["units"]
         for load in found["load"].values if found.sizes["mesh_frequency"] > 1 else ():
-            name, charts = f"waterfall_{load:g}_{unit.replace(' ', '_')}.png", waterfall(found.sel(load=load))
+            name = f"waterfall_{load:g}_{unit.replace(' ', '_')}.png"
+            charts = waterfall(found.sel(load=load))
             pictures[name] = (f"Waterfall at {load:g} {unit}", charts)
     return pictures
 
@@ -127,8 +130,10 @@ def _speed(found: xr.Dataset) -> str:
 def campbell(found: xr.Dataset) -> Chart:
     """Frequency over speed: mesh orders as lines from the origin, natural frequencies level, marked where an order
     meets one that contact excites."""
-    fastest, largest = float(found["mesh_frequency"].max()), float(np.nanmax(found["natural_frequency"], initial=0.0))
-    top, orders = max(1.1 * fastest, min(MESH_ORDERS * fastest, 1.2 * largest)), np.arange(1, MESH_ORDERS + 1)
+    fastest = float(found["mesh_frequency"].max())
+    largest = float(np.nanmax(found["natural_frequency"], initial=0.0))
+    top = max(1.1 * fastest, min(MESH_ORDERS * fastest, 1.2 * largest))
+    orders = np.arange(1, MESH_ORDERS + 1)
     ends = np.minimum(fastest, top / orders)
     curves = [
         Curve("mesh orders", end * FROM_ZERO, order * end * FROM_ZERO, PALETTE[0], listed=order == 1)
@@ -138,11 +143,13 @@ def campbell(found: xr.Dataset) -> Chart:
     curves.append(Curve("orders", ends, orders * ends, DARK, mode=WORDS, listed=False, words=named, beside="right"))
     modes = found[["natural_frequency", "damping_ratio", "excited", "motion"]].dropna("load")
     modes = modes.isel(mode=found["natural_frequency"].min("load").values < top)
-    low, high = modes["natural_frequency"].min("load").values, modes["natural_frequency"].max("load").values
+    low = modes["natural_frequency"].min("load").values
+    high = modes["natural_frequency"].max("load").values
     curves += _natural_frequencies(low, high, modes, fastest, top)
     middle = 0.5 * (low + high)
     resonant = middle[modes["excited"].values.astype(bool) & (modes["damping_ratio"].min("load").values < MOST_DAMPED)]
-    x, y = resonant[:, None] / orders, np.outer(resonant, np.ones(len(orders)))
+    x = resonant[:, None] / orders
+    y = np.outer(resonant, np.ones(len(orders)))
     if (x <= fastest).any():
         curves.append(Curve("resonances", x[x <= fastest], y[x <= fastest], PALETTE[1], mode=MARKERS))
     ranges = {"x_range": (0.0, BESIDE * fastest), "y_range": (0.0, 1.06 * top)}
@@ -177,8 +184,10 @@ def waterfall(found: xr.Dataset) -> list[Chart]:
 
 
 def _waterfall(found: xr.Dataset, amplitudes: np.ndarray, signal: str, reference: str) -> Chart:
-    speeds, orders = found["mesh_frequency"].values, found["order"].values
-    levels, widest = spectrum.level(amplitudes), MESH_ORDERS * speeds[-1]
+    speeds = found["mesh_frequency"].values
+    orders = found["order"].values
+    levels = spectrum.level(amplitudes)
+    widest = MESH_ORDERS * speeds[-1]
     highest = float(np.nanmax(levels))
     high = STEPS_HIGH * float(np.median(np.diff(speeds)))
     curves = []
@@ -192,10 +201,14 @@ def _waterfall(found: xr.Dataset, amplitudes: np.ndarray, signal: str, reference
         curves.append(Curve(f"{speed:g} Hz", x, y, colour, width=1.2, listed=False))
     for natural in np.unique(np.round(np.nan_to_num(found["natural_frequency"].values), 1)):
         if 0.0 < natural < widest:
-            x, y = np.full(2, natural), np.array([0.0, speeds[-1] + high])
+            x = np.full(2, natural)
+            y = np.array([0.0, speeds[-1] + high])
             curves.append(Curve("natural frequencies", x, y, PALETTE[1], "dash", 1.0, listed=False))
-    rays, top = np.arange(1, MESH_ORDERS + 1), speeds[-1] + 1.1 * high
-    x, y, words = rays * speeds[-1], np.full(len(rays), top), [f"{ray} × mesh" for ray in rays]
+    rays = np.arange(1, MESH_ORDERS + 1)
+    top = speeds[-1] + 1.1 * high
+    x = rays * speeds[-1]
+    y = np.full(len(rays), top)
+    words = [f"{ray} × mesh" for ray in rays]
     curves.append(Curve("orders", x, y, DARK, mode=WORDS, listed=False, words=words, beside="top left"))
     caption = (
         f"{signal}: base lines stand at their speed; height is the level of the amplitude, {DECIBELS:g} dB up to the"

@@ -69,7 +69,8 @@ def _run(options: argparse.Namespace, team) -> int:
 
     scene = checked_model(options.scene).scene
     wanted = load_map(options.scene, scene, options.loads, options.speeds, options.most_runs)
-    directory, outcomes = options.output or Path("results") / f"{scene.name}_map", {}
+    directory = options.output or Path("results") / f"{scene.name}_map"
+    outcomes = {}
     check_writable(directory, "map.nc", "harris_map.png", "over_load.png", "over_speed.png", "campbell.png")
     studies = wanted.studies
     if not options.quiet:

@@ -20,9 +20,12 @@ from fenics_gears.studies.axis import AxisError, values_in_words
 from fenics_gears.studies.study import Study
 from fenics_gears.studies.study_file import study_of
 
-QUASI_STATIC, OVER_SPEED = "quasi_static", "over_speed"
-LOADS, SPEEDS = "--loads", "--speeds"
-FREQUENCY, PINION_SPEED = "motion.mesh_frequency", "motion.pinion_speed"
+QUASI_STATIC = "quasi_static"
+OVER_SPEED = "over_speed"
+LOADS = "--loads"
+SPEEDS = "--speeds"
+FREQUENCY = "motion.mesh_frequency"
+PINION_SPEED = "motion.pinion_speed"
 SPEED_KINDS = (units.A_FREQUENCY, units.AN_ANGULAR_SPEED)
 
 
@@ -74,7 +77,8 @@ class LoadMap:
     def expected_seconds(self) -> float:
         """About how long all runs take on one core, by the cost of those at the ends of loads and speeds."""
         ends = replace(self, loads=_ends(self.loads), speeds=_ends(self.speeds))
-        seconds, gears = 0.0, 0.0
+        seconds = 0.0
+        gears = 0.0
         for name, study in ends.studies.items():
             costs = [expected_cost(case.model) for case in study.cases]
             runs = self.count - len(self.loads) if name == OVER_SPEED else len(self.loads)
@@ -167,7 +171,8 @@ def _quasi_static(wanted: LoadMap) -> dict[str, Any]:
     """Changes of the scene: without inertia, two mesh cycles, or all where they differ."""
     still = quasi_static(wanted.scene)
     before, after = ({effect.section for effect in effects_on(each)} for each in (wanted.scene, still))
-    without, fixed = [*sorted(before - after), "motion.settling_time"], shared_accuracy(wanted)
+    without = [*sorted(before - after), "motion.settling_time"]
+    fixed = shared_accuracy(wanted)
     if common_period(still) == 1:
         without += ["motion.recorded_cycles", "output.contact_fields"]
         fixed = {"motion.mesh_cycles": 2, **fixed}
@@ -192,7 +197,8 @@ def shared_accuracy(wanted: LoadMap) -> dict[str, Any]:
     """Settings that the scene leaves to the program and that depend on the load: the same for all, so that all loads
     share gears and contact operators. Flank elements are those of the geometric mean of the loads, the contact length
     is that of the largest."""
-    scene, given = wanted.scene, wanted.scene.accuracy
+    scene = wanted.scene
+    given = wanted.scene.accuracy
     every = (wanted.wheel_torque(each, speed) for each in wanted.loads for speed in _frequencies(wanted))
     torques = [abs(torque) for torque in every if torque]
     if not scene.resolves_contact or given.target is not None or not torques:

@@ -30,10 +30,8 @@ from .load_map import LoadMap
 # Half mesh orders tell a motion that repeats only after two mesh cycles.
 ORDERS = np.arange(1, 21) / 2.0
 # What a map takes of its studies; of that with inertia by the prefix.
-CURVES, ERRORS = (
-    ("transmission_error", "mesh_stiffness"),
-    ("peak_to_peak_transmission_error", "mean_transmission_error", "rms_transmission_error", *HARMONIC_NAMES),
-)
+CURVES = ("transmission_error", "mesh_stiffness")
+ERRORS = ("peak_to_peak_transmission_error", "mean_transmission_error", "rms_transmission_error", *HARMONIC_NAMES)
 AT_REST = (
     *ERRORS,
     "mean_mesh_stiffness",
@@ -42,7 +40,8 @@ AT_REST = (
     "largest_pair_force",
     "mesh_efficiency",
 )
-WITH_INERTIA, DYNAMIC = (*ERRORS, "rms_normal_force", "largest_pair_force", "contact_loss_share"), "dynamic_"
+WITH_INERTIA = (*ERRORS, "rms_normal_force", "largest_pair_force", "contact_loss_share")
+DYNAMIC = "dynamic_"
 Columns = dict[str, tuple[tuple[str, ...], np.ndarray, dict[str, str]]]
 
 
@@ -51,8 +50,10 @@ def map_dataset(wanted: LoadMap, at_rest: Outcome, over_speed: Outcome | None) -
 
     Transmission errors are in um along the line of action. A case without a result has not a number.
     """
-    scene, pair = wanted.scene, model_of(wanted.scene).pair
-    length, study = pair.wheel.base_radius / MICROMETRE, load_combined(at_rest.file)
+    scene = wanted.scene
+    pair = model_of(wanted.scene).pair
+    length = pair.wheel.base_radius / MICROMETRE
+    study = load_combined(at_rest.file)
     found = xr.Dataset(coords={"load": ("load", np.array(wanted.numbers), _labels(*LOAD_WORDS[scene.load.given]))})
     found = found.assign(_taken(study, AT_REST, ("load",), length))
     if "mesh_phase" in study:
@@ -60,14 +61,13 @@ def map_dataset(wanted: LoadMap, at_rest: Outcome, over_speed: Outcome | None) -
             _taken(study, CURVES, ("load", "mesh_phase"), length)
         )
     if scene.inertia is not None:
-        torques, tangents = (
-            [wanted.wheel_torque(each) for each in wanted.loads],
-            found.get("mean_mesh_stiffness_tangent"),
-        )
+        torques = [wanted.wheel_torque(each) for each in wanted.loads]
+        tangents = found.get("mean_mesh_stiffness_tangent")
         frequencies = frequencies_over_load(scene, 1e-3 * np.array(torques), tangents, pair)
         found = found.assign(frequencies).set_coords(["excited", "motion"])
     if over_speed is not None:
-        study, dimensions = load_combined(over_speed.file), ("load", "mesh_frequency")
+        study = load_combined(over_speed.file)
+        dimensions = ("load", "mesh_frequency")
         found = found.assign(_spectra(over_speed, pair, found.sizes["load"])).set_coords("pinion_speed")
         found = found.assign(_taken(study, WITH_INERTIA, dimensions, length, DYNAMIC))
         found = found.assign(_taken(study, ("dynamic_factor_by_force",), dimensions, length))
@@ -113,7 +113,8 @@ def frequencies_over_load(scene: Scene, loads: np.ndarray, tangents: xr.DataArra
     values = np.array([[(mode.frequency, mode.damping_ratio) for mode in each or nothing] for each in every])
     frequency, damping = np.moveaxis(values.reshape(len(loads), len(modes), 2), 2, 0)
     excited = np.array([int(mode.excited) for mode in modes], dtype=int)
-    motion, what = np.array([mode.motion for mode in modes], dtype=object), "what moves, where a gear tilts or moves"
+    motion = np.array([mode.motion for mode in modes], dtype=object)
+    what = "what moves, where a gear tilts or moves"
     note = _labels("Hz", "natural frequency with the mean tangent mesh stiffness")
     return {
         "mode": (("mode",), np.arange(1, len(modes) + 1), _labels("1", "number of the mode")),
@@ -133,7 +134,8 @@ def _spectra(outcome: Outcome, pair: GearPair, loads: int) -> Columns:
         run = of_settled(load(outcome.file.parent / "cases" / f"{cases[index].name}.nc"))
         error = run["transmission_error"].values * pair.wheel.base_radius / MICROMETRE
         amplitudes[index] = [_orders(run, error), _orders(run, mesh_force(run))]
-    dimensions, speeds = ("load", "mesh_frequency", "order"), 60.0 * frequencies / pair.pinion.teeth
+    dimensions = ("load", "mesh_frequency", "order")
+    speeds = 60.0 * frequencies / pair.pinion.teeth
     error, force = np.moveaxis(amplitudes.reshape(loads, len(frequencies), 2, len(ORDERS)), 2, 0)
     words = "amplitude of the transmission error along the line of action, with inertia"
     return {
@@ -149,7 +151,8 @@ def _orders(run: xr.Dataset, values: np.ndarray) -> np.ndarray:
     """Amplitudes at ORDERS of the last settled mesh cycles, an even number of them so that half orders stand alone; NaN
     for what the steps do not sample."""
     phase = run["mesh_phase"].values
-    steps, cycles = round(1.0 / (phase[1] - phase[0])), int((phase[-1] - phase[0]) * (1.0 + 1e-9))
+    steps = round(1.0 / (phase[1] - phase[0]))
+    cycles = int((phase[-1] - phase[0]) * (1.0 + 1e-9))
     whole = cycles - cycles % 2 or cycles
     lines = spectrum.order_lines(values[-whole * steps - 1 :], whole, (1, 1), spectrum.NO_WINDOW) if whole else None
     if lines is None:

@@ -7,7 +7,9 @@ from fenics_gears.charts import DARK, GREY, PALETTE, WORDS, Chart, Curve, stems
 
 from .figures import SIGNALS
 
-ORDERS_SHOWN, FOLLOWED, DECIBELS = 5.5, 5, 60.0
+ORDERS_SHOWN = 5.5
+FOLLOWED = 5
+DECIBELS = 60.0
 # Sidebands with less of their line's energy are round-off.
 LEAST_RATIO = 1e-8
 
@@ -28,7 +30,8 @@ def _titles(name: str) -> tuple[str, str]:
 def _levels(found: xr.Dataset, name: str) -> Chart:
     orders = found["order"].values[found["order"].values <= ORDERS_SHOWN]
     levels = found[f"{name}_level"].values[: len(orders)]
-    mesh, top = np.abs(orders - np.round(orders)) < 1e-6, float(levels.max())
+    mesh = np.abs(orders - np.round(orders)) < 1e-6
+    top = float(levels.max())
     foot = top - DECIBELS
     between, whole = ((orders[shown], levels[shown]) for shown in (~mesh & (levels > foot), mesh & (levels > foot)))
     caption, title = _titles(name)

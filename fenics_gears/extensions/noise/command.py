@@ -18,9 +18,11 @@ from fenics_gears.command_line import (
     write_whole,
 )
 
-SECONDS, LONGEST = 5.0, 600.0
+SECONDS = 5.0
+LONGEST = 600.0
 NOISE_FILES = "noise.png", "noise.nc"
-AUTOMATIC, WINDOWS = "auto", ("auto", "none", "hann", "flat-top")
+AUTOMATIC = "auto"
+WINDOWS = ("auto", "none", "hann", "flat-top")
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -73,7 +75,8 @@ def _checked(result, options: argparse.Namespace) -> float | None:
     curves = [name for name in result.data_vars if result[name].dims == ("time",) and result[name].dtype.kind == "f"]
     if options.curve not in curves:
         raise SceneError(f"--curve {options.curve}: is no curve of this run. Allowed: {', '.join(curves)}.")
-    phase, time = result["mesh_phase"].values, result["time"].values
+    phase = result["mesh_phase"].values
+    time = result["time"].values
     fastest = abs(phase[-1] - phase[0]) / (time[-1] - time[0]) if len(time) > 1 else 0.0
     if fastest < LOWEST_HEARD:
         low = f"has a mesh frequency of {fastest:.3g} Hz, too low to hear (from {LOWEST_HEARD:g} Hz)"
@@ -102,5 +105,6 @@ def _noise(dataset, directory: Path, window: str) -> list[Path]:
 
     found = noise_figures(dataset, None if window == AUTOMATIC else window)
     picture = {"noise.png": ("Noise figures", noise_charts(found))}
-    title, more = str(dataset.attrs.get("title", "")), f"Window: {found.attrs['window']}"
+    title = str(dataset.attrs.get("title", ""))
+    more = f"Window: {found.attrs['window']}"
     return [*save_tables(found, directory, "noise"), *draw_charts(picture, directory, title, more)]

@@ -14,7 +14,8 @@ SIGNALS = {
     "transmission_error": ("um", "transmission error along the line of action"),
     "mesh_force": ("N", "mesh force"),
 }
-HARMONICS, GEARS = np.arange(1, 11), ("pinion", "wheel")
+HARMONICS = np.arange(1, 11)
+GEARS = ("pinion", "wheel")
 
 
 def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
@@ -66,7 +67,8 @@ def _labels(units: str, name: str) -> dict[str, str]:
 
 def _levels(name: str, dimensions: tuple[str, ...], amplitudes: np.ndarray) -> dict[str, tuple]:
     unit, words = SIGNALS[name]
-    words, levels = f"amplitude of the {words}", spectrum.level(amplitudes)
+    words = f"amplitude of the {words}"
+    levels = spectrum.level(amplitudes)
     return {
         f"{name}_amplitude": (dimensions, amplitudes, _labels(unit, words)),
         f"{name}_level": (dimensions, levels, _labels(f"dB re 1 {unit}", f"level of the {words}")),
@@ -76,10 +78,12 @@ def _levels(name: str, dimensions: tuple[str, ...], amplitudes: np.ndarray) -> d
 def _steady(
     name: str, values: np.ndarray, cycles: float, teeth: tuple[int, int], window: str | None
 ) -> dict[str, tuple]:
-    lines, known = spectrum.order_lines(values, cycles, teeth, window), True
+    lines = spectrum.order_lines(values, cycles, teeth, window)
+    known = True
     if lines is None or not lines.exact and window is None:
         # Whole mesh cycles have exact mesh orders, though nothing that turns with a gear.
-        lines, known = spectrum.order_lines(values, cycles, (1, 1), window), False
+        lines = spectrum.order_lines(values, cycles, (1, 1), window)
+        known = False
     orders = lines.orders / (teeth[0] if known else 1)
     found = {"order": (("order",), orders, _labels("1", "mesh order")), **_levels(name, ("order",), lines.amplitudes)}
     return found | (_beside(name, lines, teeth) if known else {})
@@ -101,7 +105,8 @@ def _beside(name: str, lines: spectrum.OrderLines, teeth: tuple[int, int]) -> di
 
 def _followed(name: str, values: np.ndarray, run: xr.Dataset, window: str) -> dict[str, tuple]:
     """Mesh orders in overlapping parts of the record, one from each half of a window's length to the next."""
-    phase, length = run["mesh_phase"].values, window_cycles(window)
+    phase = run["mesh_phase"].values
+    length = window_cycles(window)
     steps = round(1.0 / (phase[1] - phase[0]))
     starts = np.arange(0, len(values) - length * steps, length * steps // 2)
     records = [slice(start, start + length * steps + 1) for start in starts]

@@ -43,7 +43,8 @@ def sound(result: xr.Dataset, name: str, seconds: float, full_scale: float | Non
     speed = np.diff(result["mesh_phase"].values) / np.diff(result["time"].values)
     steady = bool(np.ptp(speed) < 1e-6 * speed.max())
     heard = of_settled(result)[name] if steady else result[name]
-    time, values = heard["time"].values, heard.values - heard.values[:-1].mean()
+    time = heard["time"].values
+    values = heard.values - heard.values[:-1].mean()
     if not np.ptp(values) > ROUND_OFF * np.abs(heard.values).max():
         raise ValueError("does not fluctuate")
     samples = _samples(time - time[0], values, seconds if steady else None)
@@ -60,7 +61,8 @@ def _samples(time: np.ndarray, values: np.ndarray, seconds: float | None) -> np.
     """
     times = max(ceil(1.0 / (np.diff(time).min() * SAMPLE_RATE) - 1e-9), 1)
     if seconds is None:
-        spline, at = CubicSpline(time, values), np.arange(0.0, time[-1], 1.0 / (times * SAMPLE_RATE))
+        spline = CubicSpline(time, values)
+        at = np.arange(0.0, time[-1], 1.0 / (times * SAMPLE_RATE))
     else:
         spline = CubicSpline(time, np.append(values[:-1], values[0]), bc_type="periodic")
         at = np.arange(round(seconds * SAMPLE_RATE) * times) / (times * SAMPLE_RATE) % time[-1]

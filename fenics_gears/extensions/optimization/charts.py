@@ -13,7 +13,8 @@ from .evaluations import Evaluation
 from .optimize import Outcome, score
 from .result import harris_dataset
 
-BEFORE, BEST = "before", "chosen design"
+BEFORE = "before"
+BEST = "chosen design"
 MOST_TIMES = 3.0
 """Goals above this many times the larger of before and chosen are left out of pictures, which they would flatten."""
 
@@ -24,7 +25,8 @@ def called(name: str) -> str:
 
 def title(name: str, unit: str) -> str:
     """A variable or goal in words with its unit, for an axis."""
-    words, unit = sentence(called(name)), unit.replace("um", "µm")
+    words = sentence(called(name))
+    unit = unit.replace("um", "µm")
     return f"{words} ({unit})" if unit not in ("", "1") else words
 
 
@@ -44,7 +46,8 @@ def _shown(outcome: Outcome, goal: Goal, values: np.ndarray) -> np.ndarray:
 
 def search_chart(outcome: Outcome, goal: Goal) -> Chart:
     """A goal of all designs in the order in which they were tried, the least so far, and what it is before."""
-    every, numbers = goals_of(outcome.tried, goal), np.arange(1, len(outcome.tried) + 1)
+    every = goals_of(outcome.tried, goal)
+    numbers = np.arange(1, len(outcome.tried) + 1)
     allowed = np.where([each.allowed for each in outcome.tried], every, np.nan)
     least = np.fmin.accumulate(np.where(np.isfinite(allowed), allowed, np.inf))
     curves = [
@@ -87,7 +90,8 @@ def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
     places, evaluations = outcome.along[variable.name]
     x = np.array([each.values[variable.name] for each in outcome.tried])
     scatters = " without scatter" if outcome.design.tolerances.scatters else ""
-    alone, mode = f"{BEST}{scatters}, this variable alone changed", MARKERS if variable.words else MARKED_LINES
+    alone = f"{BEST}{scatters}, this variable alone changed"
+    mode = MARKERS if variable.words else MARKED_LINES
     curves = [
         Curve("designs", x, _shown(outcome, goal, goals_of(outcome.tried, goal)), GREY, mode=MARKERS),
         Curve(alone, np.array(places), goals_of(evaluations, goal), PALETTE[0], mode=mode),
@@ -130,7 +134,8 @@ def harris_charts(outcome: Outcome) -> list[Chart]:
 
 def write_pictures(outcome: Outcome) -> list[Path]:
     """Draw all charts as PNG, and return the files."""
-    design, first = outcome.design, outcome.design.goals[0]
+    design = outcome.design
+    first = outcome.design.goals[0]
     charts = {
         "search": [search_chart(outcome, goal) for goal in design.goals],
         "pareto_front": [front_chart(outcome)] if len(design.goals) > 1 else [],
@@ -156,7 +161,8 @@ def goal_words(outcome: Outcome, goal: Goal, evaluation: Evaluation) -> str:
 
 def no_gain(outcome: Outcome) -> str:
     """A warning where the chosen design is not better than what is before; empty where it is."""
-    before, design = outcome.before, outcome.design
+    before = outcome.before
+    design = outcome.design
     if before.failure or score(design, before, outcome.chosen) < score(design, before, before):
         return ""
     return "The chosen design is not better than the scene before: try more designs, other variables or wider ranges."

@@ -13,7 +13,9 @@ from fenics_gears.inputs.fields import choice, declared, whole_number
 from fenics_gears.inputs.section import Section
 from fenics_gears.studies import fields
 
-MEAN, WORST, QUANTILE = "mean", "worst", "quantile"
+MEAN = "mean"
+WORST = "worst"
+QUANTILE = "quantile"
 Tree = Mapping[str, Any]
 _QUANTILE = AllowedNumber(
     description="a number from 0.5 to below 1, such as 0.9",
@@ -48,7 +50,7 @@ class Variable:
 
     def at(self, place: float | str) -> float | str:
         """The value, as it is written, at a place of its range, 0 to 1; a word as it is."""
-        return place if self.words else float(f"{self.low + place * (self.high - self.low):.5g}")
+        return place if self.words else float(f"{self.low + float(place) * (self.high - self.low):.5g}")
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,8 @@ from typing import Any
 
 from fenics_gears import Scene, SceneError, flank_tolerance, gear_pair, helix_tolerance
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.scene.read import name_of, parsed, text_of
+from fenics_gears.scene.parsing import parsed
+from fenics_gears.scene.read import name_of, text_of
 from fenics_gears.studies import fields
 from fenics_gears.studies.scenes import Changes, NoScene, model_of_tree
 from fenics_gears.studies.study_file import entries, left_out
@@ -33,7 +34,8 @@ def load_design(path: str | Path) -> Design:
     base, directory = sections.scene()
     parts = ("variables", "loads", "goals", "bounds", "search", "tolerances")
     found: dict[str, Any] = {part: getattr(sections, part)() for part in parts}
-    without, fixed = left_out(tree, sections.mistakes), dict(entries(tree, "set", sections.mistakes))
+    without = left_out(tree, sections.mistakes)
+    fixed = dict(entries(tree, "set", sections.mistakes))
     sections.mistakes.check()
     varied = {variable.path[0] for variable in found["variables"]}
     before = {place: value for place, value in fixed.items() if place[0] not in varied}
@@ -49,7 +51,8 @@ def load_design(path: str | Path) -> Design:
 def _checked_ranges(design: Design, sections: Sections) -> Scene:
     """The scene in the middle of all ranges. Raises SceneError where it is none, where ends of a range, operating
     points or what is before make none, or where it has no such results as are wanted."""
-    middle, mistakes = _middle(design), sections.mistakes
+    middle = _middle(design)
+    mistakes = sections.mistakes
     _try(design, sections, design.before, ("scene",), "the scene before any change")
     where = "with all variables in the middle of their ranges"
     scene = _try(design, sections, design.scene_tree(middle), ("variables",), where)
@@ -103,10 +106,12 @@ def _with_class(design: Design, scene: Scene) -> Design:
     tolerance_class = design.tolerances.tolerance_class
     if tolerance_class is None:
         return design
-    pair, found = gear_pair(scene.gears), list(design.tolerances.scatters)
+    pair = gear_pair(scene.gears)
+    found = list(design.tolerances.scatters)
     for name, width in zip(GEARS, pair.face_widths):
         gear = getattr(pair, name)
-        diameter, named = 2.0 * gear.reference_radius, {each.path for each in found}
+        diameter = 2.0 * gear.reference_radius
+        named = {each.path for each in found}
         limits = flank_tolerance(diameter, gear.normal_module, tolerance_class)
         amounts = {
             ("profile_modifications", name, "slope"): limits.profile_slope,
@@ -123,7 +128,8 @@ def _with_class(design: Design, scene: Scene) -> Design:
 
 def _check_scatter(design: Design, sections: Sections) -> None:
     """Raise SceneError where something scatters that the scene does not have, or to where there is no scene."""
-    tree, scatters = design.scene_tree(_middle(design)), design.tolerances.scatters
+    tree = design.scene_tree(_middle(design))
+    scatters = design.tolerances.scatters
     for scatter in scatters:
         if scatter.path[0] not in FROM_ZERO and value_of(tree, scatter.path) is None:
             remedy = f'Give it a value below [set], such as "0 {scatter.unit}".'

@@ -68,9 +68,12 @@ class Evaluator:
     """
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
-        self.design, self._progress = design, progress
-        self.runs, self.others = Runs(Lines(directory, line_of, self.design.asked), team), kept(directory)[1]
-        self._models, self._windows = Models(design.name, design.directory), CommonWindows()
+        self.design = design
+        self._progress = progress
+        self.runs = Runs(Lines(directory, line_of, self.design.asked), team)
+        self.others = kept(directory)[1]
+        self._models = Models(design.name, design.directory)
+        self._windows = CommonWindows()
         self.designs = 0, 0
 
     def of_designs(self, designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray) -> list[Evaluation]:
@@ -120,7 +123,8 @@ class Evaluator:
 
     def _run(self, cases: list[Run], batch: int) -> None:
         """Compute the runs of a `batch` of designs that are not kept; their processes keep them."""
-        missing, known = self.runs.missing(cases), len(self.runs.known)
+        missing = self.runs.missing(cases)
+        known = len(self.runs.known)
         if not missing:
             return
         before, total = self.designs
@@ -132,7 +136,7 @@ class Evaluator:
         self.runs.compute(missing, tick)
 
     def _evaluation(self, values: dict[str, float | str], cases: list[Run | Failure], samples: int) -> Evaluation:
-        lines = [case if isinstance(case, Failure) else self.runs.known[case.key] for case in cases]
+        lines: list[Any] = [case if isinstance(case, Failure) else self.runs.known[case.key] for case in cases]
         failures = [str(line) for line in lines if isinstance(line, Failure)]
         if failures:
             return Evaluation(values, failure=failures[0])
@@ -145,7 +149,8 @@ class Evaluator:
         of_samples = {name: self.design.loads.combined(numbers) for name, numbers in found.items()}
         judge = self.design.tolerances.statistic
         goals = {goal.name: judge(of_samples[goal.name]) for goal in self.design.goals}
-        bounds, at_points = self.design.bounds, {name: each.mean(axis=1) for name, each in found.items()}
+        bounds = self.design.bounds
+        at_points = {name: each.mean(axis=1) for name, each in found.items()}
         violation = sum(max(bound.violation(judge(each)) for each in found[bound.goal.name]) for bound in bounds)
         return Evaluation(values, goals, of_samples, at_points, violation)
 

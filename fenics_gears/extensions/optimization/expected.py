@@ -22,14 +22,18 @@ from .design import Design
 MOST_HOURS = 8.0
 # Of a run by itself beside its march: seconds, and positions whose operators extremes between steps take (measured on
 # the paper's pair and on a helical one).
-TIME_OF_A_RESULT, EXTREMES = 0.015, 10
+TIME_OF_A_RESULT = 0.015
+EXTREMES = 10
 # Of runs that are solved together beside their march, seconds: of each, and of a task of them (measured on the paper's
 # pair, its march of 1.6 ms included: 2.7 ms a run of 32 in a task, 6.7 ms of 8, 10 ms of 4).
-TIME_OF_NUMBERS, TIME_OF_A_TASK = 0.001, 0.02
+TIME_OF_NUMBERS = 0.001
+TIME_OF_A_TASK = 0.02
 # Of a run over the face whose contact operators a run before had, by itself and together with others: seconds, and its
 # march with its numbers in parts of a march; of both with friction (measured on a helical pair of 870 to 1,880 contact
 # nodes: within 1.5 times).
-ALONE_OVER_FACE, TOGETHER_OVER_FACE, WITH_FRICTION = (0.02, 1.4), (0.005, 0.56), 2.0
+ALONE_OVER_FACE = (0.02, 1.4)
+TOGETHER_OVER_FACE = (0.005, 0.56)
+WITH_FRICTION = 2.0
 # Marches until rolling bearings are as stiff as their loads make them.
 ON_ROLLING_BEARINGS = 3.0
 # Values of a variable at which the chosen design's goals are evaluated, over its whole range.
@@ -64,7 +68,9 @@ class Work:
 
 def expected_work(design: Design, kept: int, processes: int = 1) -> Work:
     """Of a design file of which so many runs are kept."""
-    points, samples, scatters = len(design.loads.points), design.tolerances.samples, len(design.tolerances.scatters)
+    points = len(design.loads.points)
+    samples = design.tolerances.samples
+    scatters = len(design.tolerances.scatters)
     designs = 1 + design.search.evaluations
     along = sum(len(each.words) or VALUES + 1 for each in design.variables)
     around = 2 * FRESH * samples + 1 + 2 * scatters if scatters else 0
@@ -80,7 +86,8 @@ def expected_work(design: Design, kept: int, processes: int = 1) -> Work:
     )
     tasks = len(gear_tasks(cases))
     bodies = 1 if tasks == len(gear_tasks(ends[0])) else designs
-    first, position = marching - building, building / cases[0].model.resolution.steps_per_mesh_cycle
+    first = marching - building
+    position = building / cases[0].model.resolution.steps_per_mesh_cycle
     operators = len({operators_key(case.model) for case in cases})
     together = solved_at_once([end[0].model for end in ends], design.asked)
     if cases[0].scene.three_dimensional:
@@ -102,7 +109,8 @@ def expected_work(design: Design, kept: int, processes: int = 1) -> Work:
 def at_ends(design: Design) -> list[list[Run]]:
     """The scenes with all variables at the beginning and at the end of their ranges, where they are scenes: each at all
     operating points."""
-    found, nominal = [], np.zeros((1, len(design.tolerances.scatters)))
+    found = []
+    nominal = np.zeros((1, len(design.tolerances.scatters)))
     for end in (0, -1):
         values = {each.name: (each.words or (each.low, each.high))[end] for each in design.variables}
         # All variables at their ends together may be gears that cannot be.

@@ -26,7 +26,10 @@ from .evaluations import Evaluation, Evaluator
 from .expected import TORQUES, VALUES, Work, at_ends, expected_work
 from .search import front, optimiser, search
 
-RESULT, TABLE, BEST, PAGE = "optimization.nc", "designs.csv", "best.toml", "report.html"
+RESULT = "optimization.nc"
+TABLE = "designs.csv"
+BEST = "best.toml"
+PAGE = "report.html"
 NOT_IN_A_HARRIS_MAP = ("inertia", "damping", "motion", "speed_ramp", "torque_ripple")
 
 
@@ -84,7 +87,8 @@ def optimize(
 def _run(
     design: Design, directory: Path, team: Alone | Together, progress: Interruption, quiet: bool, any_time: bool
 ) -> Outcome:
-    evaluator, deviations = Evaluator(design, directory / "runs", team, progress), samples(design)
+    evaluator = Evaluator(design, directory / "runs", team, progress)
+    deviations = samples(design)
     work = expected_work(design, evaluator.runs.kept, team.size)
     if not any_time:
         work.check(design.title, team.size)
@@ -107,7 +111,8 @@ def _run(
     _look_around(outcome, evaluator)
     progress.stage("Harris map")
     outcome.harris = _harris(design, evaluator, outcome.chosen)
-    outcome.kept, outcome.spent = evaluator.runs.kept, evaluator.runs.spent
+    outcome.kept = evaluator.runs.kept
+    outcome.spent = evaluator.runs.spent
     return outcome
 
 
@@ -147,12 +152,13 @@ def score(design: Design, before: Evaluation, evaluation: Evaluation) -> float:
 
 def _look_around(outcome: Outcome, evaluator: Evaluator) -> None:
     """The chosen design with each variable over its range, and at both limits of each scatter."""
-    design, values = outcome.design, outcome.chosen.values
+    design = outcome.design
+    values = outcome.chosen.values
     count = len(design.tolerances.scatters)
     nominal = np.zeros((1, count))
     for variable in design.variables:
         evenly = {*map(variable.at, np.linspace(0.0, 1.0, VALUES)), values[variable.name]}
-        places = list(variable.words) or sorted(evenly)
+        places: list[Any] = [*variable.words] or sorted(evenly)
         designs = [values | {variable.name: place} for place in places]
         outcome.along[variable.name] = places, evaluator.of_designs(designs, nominal)
     if not count:

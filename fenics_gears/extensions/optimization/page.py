@@ -23,7 +23,7 @@ def write_page(outcome: Outcome) -> Path:
 
 def optimization_page(outcome: Outcome) -> Page:
     design = outcome.design
-    maps = charts.harris_charts(outcome) or [Words("A run of the Harris maps failed.", warns=True)]
+    maps: list[Block] = [*charts.harris_charts(outcome)] or [Words("A run of the Harris maps failed.", warns=True)]
     sections = [
         _summary(outcome),
         Section(
@@ -44,15 +44,18 @@ def optimization_page(outcome: Outcome) -> Page:
         scene_section(best_scene(outcome), f"Chosen design ({BEST})"),
         scene_section(design.text, "Design file", "design"),
     ]
-    designs, points = counted(len(outcome.tried), "design"), counted(len(design.loads.points), "operating point")
+    designs = counted(len(outcome.tried), "design")
+    points = counted(len(design.loads.points), "operating point")
     subtitle = f"{designs} of {counted(len(design.variables), 'variable')} at {points}"
     return Page("Gear pair: optimisation", design.title, subtitle, sections, made_by(), charts.no_gain(outcome))
 
 
 def _summary(outcome: Outcome) -> Section:
-    tiles, goals = [], outcome.design.goals
+    tiles = []
+    goals = outcome.design.goals
     for goal in goals:
-        value, unit = f"{outcome.chosen.goals[goal.name]:.4g}", goal.unit.replace("um", "µm").removeprefix("1")
+        value = f"{outcome.chosen.goals[goal.name]:.4g}"
+        unit = goal.unit.replace("um", "µm").removeprefix("1")
         note = f"before: {charts.goal_words(outcome, goal, outcome.before)}"
         tiles.append(Tile(charts.sentence(charts.called(goal.name)), value, unit, note))
     rows = charts.summary_rows(outcome)
@@ -67,10 +70,12 @@ def _designs(outcome: Outcome) -> Section:
     design = outcome.design
     blocks: list[Block] = [charts.search_chart(outcome, goal) for goal in design.goals]
     allowed = (place for place, each in enumerate(outcome.tried) if each.allowed)
-    listed, words = sorted(allowed, key=lambda place: outcome.tried[place].goals[design.goals[0].name]), "best"
+    listed = sorted(allowed, key=lambda place: outcome.tried[place].goals[design.goals[0].name])
+    words = "best"
     if len(design.goals) > 1:
         blocks.insert(0, charts.front_chart(outcome))
-        listed, words = [place for place in listed if place in outcome.front], "designs of the Pareto front"
+        listed = [place for place in listed if place in outcome.front]
+        words = "designs of the Pareto front"
     headings = [
         "Design",
         *(

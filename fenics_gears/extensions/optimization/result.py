@@ -22,7 +22,8 @@ from .optimize import BEST, RESULT, TABLE, Outcome
 def write_result(outcome: Outcome) -> list[Path]:
     """Write the dataset, the table and the scene, and return their files. Raises ComputationError where they cannot be
     written."""
-    result, directory = dataset(outcome), outcome.directory
+    result = dataset(outcome)
+    directory = outcome.directory
     columns = result.drop_dims([name for name in result.dims if name != "design"]).to_dataframe()
     titled = columns.rename(
         columns={name: f"{name} ({unit})" for name in columns if (unit := result[name].attrs.get("units", "1")) != "1"}
@@ -42,7 +43,8 @@ def dataset(outcome: Outcome) -> xr.Dataset:
     operating point. The transmission errors of the Harris map are over `choice` ("before", "best"), `load` and
     `mesh_phase`.
     """
-    design, tried = outcome.design, outcome.tried
+    design = outcome.design
+    tried = outcome.tried
     numbers = np.arange(len(tried))
     described = {"long_name": "design, in the order in which they were tried"}
     result = xr.Dataset(coords={"design": ("design", numbers, described)})

@@ -61,7 +61,9 @@ def _distributions(optuna, design: Design) -> dict:
 
 
 def _sampler(optuna, design: Design):
-    seed, population, samplers = design.search.seed, design.search.population, optuna.samplers
+    seed = design.search.seed
+    population = design.search.population
+    samplers = optuna.samplers
     if len(design.goals) > 1 or len(design.variables) == 1 or any(each.words for each in design.variables):
         return samplers.TPESampler(seed=seed, multivariate=True, n_startup_trials=2 * population)
     begin = {"x0": {each.name: 0.5 for each in design.variables}, "sigma0": 1.0 / 6.0}

@@ -10,7 +10,7 @@ from fenics_gears import load_scene, units
 from fenics_gears.inputs.problem import did_you_mean, line_numbers
 from fenics_gears.inputs.section import Section, names_in, read
 from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.read import parsed
+from fenics_gears.scene.parsing import parsed
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import AxisError, factor_of, number_in, values_of
 from fenics_gears.studies.study_file import Mistakes, entries
@@ -26,7 +26,8 @@ class Sections:
     """A parsed design file and its mistakes so far; each method reads a section."""
 
     def __init__(self, path: Path, text: str, tree: Mapping[str, Any]):
-        self.path, self.tree = path, tree
+        self.path = path
+        self.tree = tree
         lines = {
             (name[0], ".".join(name[1:])) if len(name) > 1 else name: line for name, line in line_numbers(text).items()
         }
@@ -86,7 +87,8 @@ class Sections:
         allowed, lowest, highest = fields.allowed_at(path)
         ends = f"goes from {as_written(written[0])} to {as_written(written[-1])}."
         # A depth of exactly nothing is no relief; the least depth is as good.
-        low, high = lowest / factor_of(unit) if numbers[0] == 0.0 < lowest else numbers[0], numbers[-1]
+        low = lowest / factor_of(unit) if numbers[0] == 0.0 < lowest else numbers[0]
+        high = numbers[-1]
         if len(numbers) > 2 or not low < high:
             ends = ends if len(numbers) == 2 else f"has {len(numbers)} values."
             self.wrong("variables", path, written, f"{ends} Allowed: two ends, the lower one first.")
@@ -100,7 +102,8 @@ class Sections:
         """Numbers of a field's values, in the unit of the first one, and that unit; none, with a mistake noted, where
         they are none of its kind."""
         allowed, *_ = fields.allowed_at(path)
-        kinds, shown = [*getattr(allowed, "ranges", {})] or [allowed.kind], written if len(written) > 1 else written[0]
+        kinds = [*getattr(allowed, "ranges", {})] or [allowed.kind]
+        shown = written if len(written) > 1 else written[0]
         unit = units.unit_of(written[0]) if isinstance(written[0], str) else ""
         try:
             found = [
@@ -118,7 +121,8 @@ class Sections:
 
     def loads(self) -> Loads:
         """The operating points."""
-        table, swept = self.table("loads"), {}
+        table = self.table("loads")
+        swept = {}
         for path, written in entries(self.tree, "loads", self.mistakes, ("weights", *names_in(Loads))):
             try:
                 swept[path] = values_of(path, written)
@@ -128,7 +132,8 @@ class Sections:
         if len(lengths) > 1:
             listed = ", ".join(f"{'.'.join(path)} has {len(values)}" for path, values in swept.items())
             self.mistakes.add(("loads",), "", f"needs a value of each field for each operating point: {listed}.")
-        weights, points = table.get("weights"), tuple(dict(zip(swept, each)) for each in zip(*swept.values())) or ({},)
+        weights = table.get("weights")
+        points = tuple(dict(zip(swept, each)) for each in zip(*swept.values())) or ({},)
         found = replace(self._own("loads", Loads), points=points, weights=(1.0,) * len(points))
         if weights is None:
             return found
@@ -179,7 +184,9 @@ class Sections:
 
     def tolerances(self) -> Tolerances:
         """What scatters, but for the flank tolerance class."""
-        table, found, own = self.table("tolerances"), [], self._own("tolerances", Tolerances)
+        table = self.table("tolerances")
+        found = []
+        own = self._own("tolerances", Tolerances)
         for path, written in entries(self.tree, "tolerances", self.mistakes, names_in(Tolerances)):
             if fields.is_section(path) or not fields.is_numeric(path):
                 self.wrong("tolerances", path, written, "is no field of a number that could scatter.")

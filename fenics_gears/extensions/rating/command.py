@@ -87,7 +87,8 @@ def _finish(options: argparse.Namespace, scene):
         if text is not None:
             given[name] = number_of_option(_option(name), text, unit, low, high)
     for name, (low, high, _) in _NUMBERS.items():
-        value, whole = getattr(options, name), name == "tolerance_class"
+        value = getattr(options, name)
+        whole = name == "tolerance_class"
         if value is None:
             continue
         if not low <= value <= high or whole and value != int(value):

@@ -21,7 +21,8 @@ def flank_stress(operation: Operation, factors: LoadFactors) -> FlankStress:
     """Stresses of both gears by Z_H, Z_E, Z_eps, Z_beta, Z_B and Z_D."""
     pair = operation.pair
     ratio = pair.wheel.teeth / pair.pinion.teeth
-    area, finish = 2.0 * pair.pinion.reference_radius * operation.face_width, operation.finish
+    area = 2.0 * pair.pinion.reference_radius * operation.face_width
+    finish = operation.finish
     load = operation.tangential_force / area * (ratio + 1.0) / ratio
     by_shape = zone_factor(operation) * elasticity_factor(operation) * contact_ratio_factor(operation)
     nominal = by_shape * sqrt(load / cos(operation.helix_angle))
@@ -32,7 +33,8 @@ def flank_stress(operation: Operation, factors: LoadFactors) -> FlankStress:
 
 def zone_factor(operation: Operation) -> float:
     """Z_H."""
-    working, transverse = operation.pair.operating_pressure_angle, operation.pair.pinion.pressure_angle
+    working = operation.pair.operating_pressure_angle
+    transverse = operation.pair.pinion.pressure_angle
     return sqrt(2.0 * cos(operation.base_helix_angle) * cos(working) / (cos(transverse) ** 2 * sin(working)))
 
 
@@ -45,18 +47,20 @@ def single_pair_factors(operation: Operation) -> tuple[float, float]:
     """Z_B and Z_D: from the pitch point to the inner points of single contact; with an overlap they lose their
     weight."""
     pair = operation.pair
-    working, overlap = pair.operating_pressure_angle, min(pair.overlap_ratio, 1.0)
+    working = pair.operating_pressure_angle
+    overlap = min(pair.overlap_ratio, 1.0)
 
     # Where contact ends on either gear: at the tip, at its chamfer, or where the mate is cut away.
     ends = pair.pinion_roll_angle(pair.path_end), pair.wheel_roll_angle(pair.path_start)
     pitches = pair.pinion.angular_pitch, pair.wheel.angular_pitch
 
     def factor(own: int, other: int) -> float:
-        before, behind = ends[own] - pitches[own], ends[other] - (pair.contact_ratio - 1.0) * pitches[other]
+        before = ends[own] - pitches[own]
+        behind = ends[other] - (pair.contact_ratio - 1.0) * pitches[other]
         return tan(working) / sqrt(before * behind)
 
-    factors = factor(0, 1), factor(1, 0)
-    return tuple(max(each - overlap * (each - 1.0), 1.0) for each in factors)
+    pinion, wheel = (max(each - overlap * (each - 1.0), 1.0) for each in (factor(0, 1), factor(1, 0)))
+    return pinion, wheel
 
 
 def _film(operation: Operation) -> float:

@@ -39,8 +39,10 @@ def flash_temperature(
 def standard_share(pair: GearPair, positions) -> np.ndarray:
     """Load share X_Gamma (n,) of unmodified spur teeth in ISO/TS 6336-20: a third at the ends of the path, two thirds
     beside single contact, one in it."""
-    start, end = pair.path_start, pair.path_end
-    lowest, highest = end - pair.base_pitch, start + pair.base_pitch
+    start = pair.path_start
+    end = pair.path_end
+    lowest = end - pair.base_pitch
+    highest = start + pair.base_pitch
     positions = np.asarray(positions, dtype=float)
     third = 1.0 / 3.0
     approach = third + third * (positions - start) / (lowest - start)

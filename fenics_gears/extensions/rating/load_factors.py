@@ -39,14 +39,16 @@ def load_factors(operation: Operation) -> LoadFactors:
     height = max(gear.tip_radius - gear.root_radius for gear in (operation.pair.pinion, operation.pair.wheel))
     part = min(height / operation.face_width, 1.0 / 3.0)
     transverse = _transverse(operation, deviations, dynamic * face)
-    total, alpha = operation.pair.total_contact_ratio, operation.pair.contact_ratio
+    total = operation.pair.total_contact_ratio
+    alpha = operation.pair.contact_ratio
     highest = total / (alpha * contact_ratio_factor(operation) ** 2), total / (0.25 * alpha + 0.75)
     root = face ** (1.0 / (1.0 + part + part**2))
     return LoadFactors(dynamic, face, root, *(min(max(transverse, 1.0), most) for most in highest))
 
 
 def _deviations(operation: Operation) -> _Deviations:
-    gears, grade = (operation.pair.pinion, operation.pair.wheel), operation.finish.tolerance_class
+    gears = (operation.pair.pinion, operation.pair.wheel)
+    grade = operation.finish.tolerance_class
     tolerances = [flank_tolerance(2.0 * gear.reference_radius, gear.normal_module, grade) for gear in gears]
     base_pitch = 1e3 * max(each.single_pitch for each in tolerances) * cos(gears[0].pressure_angle)
     form = 1e3 * max(each.profile_form for each in tolerances)
@@ -62,22 +64,29 @@ def _dynamic(operation: Operation, deviations: _Deviations) -> float:
     """K_v by method B, section 6.5: below, in and above the main resonance."""
     line_load = operation.line_load()
     relief = operation.tip_relief or (operation.finish.flank_limit / 97.0 - 18.45) ** 2 / 18.0 + 1.5
-    stiffness, total = operation.single_stiffness, operation.pair.total_contact_ratio
-    pitch, form, modified = (
-        stiffness * deviations.base_pitch_left / line_load, stiffness * deviations.profile_form_left / line_load,
-        abs(1.0 - stiffness * relief / line_load),
-    )  # fmt: skip
-    c1, c5 = 0.32, 0.47
+    stiffness = operation.single_stiffness
+    total = operation.pair.total_contact_ratio
+    pitch = stiffness * deviations.base_pitch_left / line_load
+    form = stiffness * deviations.profile_form_left / line_load
+    modified = abs(1.0 - stiffness * relief / line_load)
+    c1 = 0.32
+    c5 = 0.47
     if total <= 2.0:
-        c2, c3, c4, c6 = 0.34, 0.23, 0.90, 0.47
+        c2 = 0.34
+        c3 = 0.23
+        c4 = 0.90
+        c6 = 0.47
     else:
-        c2, c3 = 0.57 / (total - 0.3), 0.096 / (total - 1.56)
-        c4, c6 = (0.57 - 0.05 * total) / (total - 1.44), 0.12 / (total - 1.74)
+        c2 = 0.57 / (total - 0.3)
+        c3 = 0.096 / (total - 1.56)
+        c4 = (0.57 - 0.05 * total) / (total - 1.44)
+        c6 = 0.12 / (total - 1.74)
     c7 = 0.75 if total <= 1.5 else 0.125 * sin(pi * (total - 2.0)) + 0.875 if total <= 2.5 else 1.0
     resonance = 30e3 / (pi * operation.pair.pinion.teeth) * sqrt(operation.mesh_stiffness / operation.reduced_mass)
     ratio = operation.pinion_speed / resonance
     main = 0.85 if line_load >= 100.0 else 0.5 + 0.35 * sqrt(line_load / 100.0)
-    at_resonance, above = c1 * pitch + c2 * form + c4 * modified + 1.0, c5 * pitch + c6 * form + c7
+    at_resonance = c1 * pitch + c2 * form + c4 * modified + 1.0
+    above = c5 * pitch + c6 * form + c7
     if ratio <= main:
         return 1.0 + ratio * (c1 * pitch + c2 * form + c3 * modified)
     if ratio <= 1.15:
@@ -97,7 +106,8 @@ def _face(operation: Operation, dynamic: float) -> float:
 def iterated_face_factor(operation: Operation, dynamic: float) -> float:
     """K_Hbeta by method B (annex E): the largest line load over the mean one, on shafts that bend and a foundation of
     0.85 c_gamma_alpha, where flanks can part. Without running-in."""
-    slices, force = len(operation.opening), operation.finish.application_factor * dynamic * operation.base_force
+    slices = len(operation.opening)
+    force = operation.finish.application_factor * dynamic * operation.base_force
     foundation = 1e3 * 0.85 * operation.mesh_stiffness * operation.face_width
     yielding = operation.shafts + np.eye(slices) * slices / foundation
     loaded = np.full(slices, True)
@@ -105,7 +115,9 @@ def iterated_face_factor(operation: Operation, dynamic: float) -> float:
         # Approach and loads: gaps of loaded slices close, loads add up to the force.
         own = np.flatnonzero(loaded)
         system = np.zeros((len(own) + 1,) * 2)
-        system[:-1, :-1], system[:-1, -1], system[-1, :-1] = yielding[np.ix_(own, own)], -1.0, 1.0
+        system[:-1, :-1] = yielding[np.ix_(own, own)]
+        system[:-1, -1] = -1.0
+        system[-1, :-1] = 1.0
         loads = np.linalg.solve(system, np.append(-operation.opening[own], force))[:-1]
         if (loads >= 0.0).all():
             break
@@ -119,7 +131,8 @@ def mesh_misalignment(operation: Operation) -> float:
     if operation.misalignment is not None:
         return abs(operation.misalignment)
     gears = operation.pair.pinion, operation.pair.wheel
-    face, grade = operation.face_width, operation.finish.tolerance_class
+    face = operation.face_width
+    grade = operation.finish.tolerance_class
     return 1e3 * hypot(*(helix_tolerance(2.0 * gear.reference_radius, face, grade).slope for gear in gears))
 
 
@@ -133,5 +146,6 @@ def _transverse(operation: Operation, deviations: _Deviations, before: float) ->
 
 def contact_ratio_factor(operation: Operation) -> float:
     """Z_eps, ISO 6336-2:2006 section 8."""
-    alpha, beta = operation.pair.contact_ratio, min(operation.pair.overlap_ratio, 1.0)
+    alpha = operation.pair.contact_ratio
+    beta = min(operation.pair.overlap_ratio, 1.0)
     return sqrt((4.0 - alpha) / 3.0 * (1.0 - beta) + beta / alpha)

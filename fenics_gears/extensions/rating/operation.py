@@ -80,7 +80,8 @@ class Operation:
     @property
     def reduced_radius(self) -> float:
         """Reduced radius of curvature (mm) at the pitch point, in the transverse section."""
-        gears, angle = (self.pair.pinion, self.pair.wheel), self.pair.operating_pressure_angle
+        gears = (self.pair.pinion, self.pair.wheel)
+        angle = self.pair.operating_pressure_angle
         first, second = (gear.base_radius * tan(angle) for gear in gears)
         return first * second / (first + second)
 
@@ -97,5 +98,6 @@ def solid_reduced_mass(pair: GearPair) -> float:
         mean = gear.tip_radius + gear.root_radius
         return 0.125 * pi * DENSITY * mean**4 / (4.0 * gear.base_radius**2)
 
-    first, second = mass(pair.pinion), mass(pair.wheel)
+    first = mass(pair.pinion)
+    second = mass(pair.wheel)
     return first * second / (first + second)

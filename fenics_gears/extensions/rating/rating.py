@@ -8,7 +8,18 @@ from math import isnan, nan
 import numpy as np
 import xarray as xr
 
-from fenics_gears import GearPair, Scene, SceneError, gear_pair, lumped_gears, of_settled
+from fenics_gears import (
+    GearPair,
+    Scene,
+    SceneError,
+    face_compliance_of_shafts,
+    face_opening,
+    gear_pair,
+    lumped_gears,
+    middles_of_slices,
+    model_of,
+    of_settled,
+)
 
 from .finish import Finish
 from .flank import flank_stress
@@ -39,10 +50,12 @@ class Row:
 def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[Row]:
     """The rows of a run. Raises SceneError for a scene without speed, load or elastic teeth."""
     operation = _operation(scene, finish, result)
-    factors, found = load_factors(operation), result.attrs
+    factors = load_factors(operation)
+    found = result.attrs
     face = found.get("face_load_factor", nan)
     misaligned = nan if isnan(face) else abs(operation.misalignment or 0.0)
-    flank, roots = flank_stress(operation, factors), root_stresses(operation, factors)
+    flank = flank_stress(operation, factors)
+    roots = root_stresses(operation, factors)
     rows = [
         Row("K_v, dynamic factor", "1", factors.dynamic, found.get("dynamic_factor_by_force", nan)),
         Row("F_betax, misalignment over the face", "um", mesh_misalignment(operation), misaligned),
@@ -74,7 +87,8 @@ def _operation(scene: Scene, finish: Finish, result: xr.Dataset) -> Operation:
     if not scene.motion.speed_given:
         raise SceneError("a rating needs a speed: give the scene motion.pinion_speed or motion.mesh_frequency.")
     pair = gear_pair(scene.gears)
-    misalignment, inclined = _misalignment(scene, pair), result.attrs.get(INCLINED)
+    misalignment = _misalignment(scene, pair)
+    inclined = result.attrs.get(INCLINED)
     return Operation(
         pair=pair,
         materials=scene.gears.materials,
@@ -96,8 +110,6 @@ def _shafts_bend(scene: Scene) -> bool:
 def _on_bent_shafts(scene: Scene, pair: GearPair) -> dict[str, np.ndarray]:
     if not _shafts_bend(scene):
         return {}
-    from fenics_gears import face_compliance_of_shafts, face_opening, middles_of_slices, model_of
-
     z = middles_of_slices(pair)
     return {
         "shafts": face_compliance_of_shafts(model_of(scene).drivetrain.elastic, pair, z),
@@ -115,8 +127,6 @@ def _misalignment(scene: Scene, pair: GearPair) -> float | None:
     sloped = leads is not None and any(own is not None and own.helix_slope for own in (leads.pinion, leads.wheel))
     if scene.misalignment is None and not sloped:
         return None
-    from fenics_gears import face_opening
-
     z = np.linspace(*pair.common_face, POINTS)
     return 1e3 * pair.face_width * float(np.polyfit(z, face_opening(pair, leads, scene.misalignment, z), 1)[0])
 
@@ -148,7 +158,8 @@ def of_place(found: Mapping, pair: GearPair) -> str:
     if looked_at[0] - BESIDE * pair.base_pitch <= position <= looked_at[-1] + BESIDE * pair.base_pitch:
         return ""
     pitch = 2.0 * float(pair.pinion.radius(pair.pinion_roll_angle(pair.pitch_point)))
-    up, down = position - pair.path_start, pair.path_end - position
+    up = position - pair.path_start
+    down = pair.path_end - position
     nearer = f"{max(up, 0.0):.2f} mm after the start" if up < down else f"{max(down, 0.0):.2f} mm before the end"
     return (
         f"sigma_H of this run is at the pinion's diameter {diameter:.5g} mm, {nearer} of the path of contact. ISO"
@@ -177,7 +188,8 @@ def _flash(operation: Operation, result: xr.Dataset) -> list[Row]:
     friction = result.attrs.get("friction_coefficient")
     if friction is None:
         return []
-    pair, settled = operation.pair, of_settled(result)
+    pair = operation.pair
+    settled = of_settled(result)
     path = np.linspace(pair.path_start, pair.path_end, POINTS)
     whole = operation.finish.application_factor * transverse_line_force(pair, operation.tangential_force)
     at_work = friction, operation.pinion_speed

@@ -34,11 +34,13 @@ class RootStress:
 def root_stresses(operation: Operation, factors: LoadFactors) -> tuple[RootStress, RootStress]:
     """Of pinion and wheel: F_t / (b m_n) Y_F Y_S Y_beta, raised by the load factors; the limit by Y_delta_relT, Y_RrelT
     and Y_X of case-hardened steel."""
-    return tuple(_of_gear(operation, factors, gear) for gear in (operation.pair.pinion, operation.pair.wheel))
+    pair = operation.pair
+    return _of_gear(operation, factors, pair.pinion), _of_gear(operation, factors, pair.wheel)
 
 
 def _of_gear(operation: Operation, factors: LoadFactors, gear: Gear) -> RootStress:
-    tooth, finish = form_at_outer_point(gear, operation.pair.contact_ratio), operation.finish
+    tooth = form_at_outer_point(gear, operation.pair.contact_ratio)
+    finish = operation.finish
     load = operation.tangential_force / (operation.face_width * gear.normal_module)
     nominal = load * tooth.form * tooth.stress_correction * helix_angle_factor(operation)
     stress = nominal * finish.application_factor * factors.dynamic * factors.face_root * factors.transverse_root
@@ -56,7 +58,8 @@ def helix_angle_factor(operation: Operation) -> float:
 def virtual_gear(gear: Gear) -> Gear:
     """The virtual spur gear in the normal section: z_n = z/(cos(beta_b)^2 cos(beta)) teeth, tip and root as far from
     the reference circle."""
-    teeth, module = gear.teeth / (cos(base_helix_angle(gear)) ** 2 * cos(gear.helix_angle)), gear.normal_module
+    teeth = gear.teeth / (cos(base_helix_angle(gear)) ** 2 * cos(gear.helix_angle))
+    module = gear.normal_module
     away = 0.5 * teeth * module - gear.reference_radius
     return replace(
         gear, teeth=teeth, module=module, pressure_angle=gear.normal_pressure_angle,
@@ -79,8 +82,12 @@ def tooth_form(gear: Gear, roll_angle: float) -> ToothForm:
     Y_F = 6 h cos(alpha_Fen) / (s^2 cos(alpha_n)), s the chord and h the lever arm at the 30 degree tangents;
     Y_S = (1.2 + 0.13 s/h) q^(1 / (1.21 + 2.3 h/s)) with q = s/(2 rho).
     """
-    z, x, alpha, module = gear.teeth, gear.profile_shift, gear.pressure_angle, gear.module
-    depth_of_rack, tip = gear.dedendum / module, gear.rack_tip_radius / module
+    z = gear.teeth
+    x = gear.profile_shift
+    alpha = gear.pressure_angle
+    module = gear.module
+    depth_of_rack = gear.dedendum / module
+    tip = gear.rack_tip_radius / module
     land = (
         0.25 * pi
         - depth_of_rack * tan(alpha)

@@ -10,7 +10,8 @@ from .model import Component
 from .stage import Fields, GearParts, Stage
 from .values import SAME, Value, ValueProblem, computed, in_words, place, together, word_of
 
-TIP, ROOT = "tip_relief", "root_relief"
+TIP = "tip_relief"
+ROOT = "root_relief"
 CLASSES = range(1, 12)
 
 
@@ -46,7 +47,8 @@ def tolerance_class(reading: Reading, stage: Stage) -> Value | None:
     found = [value for part in stage.named.values() for value in _classes(reading, part)]
     if not found:
         return None
-    coarse, origin = max(found, key=lambda value: value.number), together(value.origin for value in found)
+    coarse = max(found, key=lambda value: value.number)
+    origin = together(value.origin for value in found)
     if len({value.number for value in found}) > 1:
         origin = f"{coarse.origin}, the coarser of the two gears"
     elif len(found) == 1:
@@ -129,15 +131,18 @@ def _start(relief: Component, base: float, tip: float) -> tuple[str, Value, floa
     """Where a relief starts, as the field that a scene has for it: by the diameter, or by its length of roll (L_C, ISO
     21771). The diameter (mm) of a tip relief's start beside it: a flank rolls through s = sqrt(d^2 - d_b^2)/2.
     """
-    where, by_length = (relief, f"{relief.type}_datum_diameter", "mm"), (relief, f"{relief.type}_datum_length", "mm")
-    start, length = stated(where), stated(by_length)
+    where = (relief, f"{relief.type}_datum_diameter", "mm")
+    by_length = (relief, f"{relief.type}_datum_length", "mm")
+    start = stated(where)
+    length = stated(by_length)
     if start is None and length is None:
         raise missing(where, by_length)
     if start is not None:
         positive(start, where)
     if length is None:
         return "start", start, start.number
-    whole, diameter = 0.5 * sqrt(max(tip**2 - base**2, 0.0)), None
+    whole = 0.5 * sqrt(max(tip**2 - base**2, 0.0))
+    diameter = None
     if not 0.0 < length.number < whole:
         raise ValueProblem(
             f"{place(*by_length[:2])} = {length.words} is no length of roll of this flank. Allowed: above 0 and below"

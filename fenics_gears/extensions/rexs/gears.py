@@ -28,7 +28,8 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
     helix = reading.attempt(_helix, stage) or {}
     beta = helix["helix_angle"].number if helix else 0.0
     module = reading.attempt(_module, stage)
-    angle, distance = reading.attempt(_pressure_angle, stage), reading.attempt(first, stage, "centre_distance")
+    angle = reading.attempt(_pressure_angle, stage)
+    distance = reading.attempt(first, stage, "centre_distance")
     parts = stage.named.values()
     teeth = [reading.attempt(needed, part, "teeth") for part in parts]
     shifts = _profile_shifts(reading, stage, module, angle, distance, teeth, beta)
@@ -66,7 +67,8 @@ def _helix(stage: Stage) -> dict[str, Value | None]:
             f"{stage.stage}: {pinion.origin} is {pinion.words}, {wheel.origin} is {wheel.words}. Allowed on parallel"
             " axes: the same angle with opposite signs."
         )
-    angle, origin = there[0], together(each.origin for each in there)
+    angle = there[0]
+    origin = together(each.origin for each in there)
     hand = "right" if (angle.number > 0.0) == (pinion is not None) else "left"
     return {
         "helix_angle": Value(abs(angle.number), angle.written.replace('"-', '"'), origin),
@@ -90,7 +92,8 @@ def _pressure_angle(stage: Stage) -> Value:
 def _face_widths(stage: Stage) -> list[Value]:
     """One for both gears, or that of each: where the common width is less than both, the file does not say at which
     ends they stand out, and it holds for both."""
-    common, own = first(stage, "common_face_width"), [first(part, "face_width") for part in stage.named.values()]
+    common = first(stage, "common_face_width")
+    own = [first(part, "face_width") for part in stage.named.values()]
     widths = [width for width in own if width is not None]
     if common is not None and len(widths) < 2:
         return [common]
@@ -109,7 +112,8 @@ def _profile_shifts(
     shifts = [reading.attempt(partial(_stated_shift, part, module)) for part in parts]
     unsaid = [number for number, part in enumerate(parts) if not given(part, "profile_shift")]
     if len(unsaid) == 2:
-        pinion, name = place(stage.pinion.gear, "addendum_modification_coefficient"), stage.wheel.gear.id
+        pinion = place(stage.pinion.gear, "addendum_modification_coefficient")
+        name = stage.wheel.gear.id
         reading.problems.append(f"{pinion} is missing, for its flanks too, and so is that of component {name}.")
     elif unsaid and not given(stage, "centre_distance"):
         shift = (list(parts)[unsaid[0]].gear, "addendum_modification_coefficient", NUMBER)
@@ -139,7 +143,8 @@ def _remaining_shift(
     stage: Stage, beta: float, known: Value, module: Value, angle: Value, distance: Value, *teeth: Value
 ) -> Value:
     """What is left of the sum of both shifts that leaves no backlash (ISO 21771)."""
-    count, transverse = sum(each.number for each in teeth), transverse_angle(angle.number, beta)
+    count = sum(each.number for each in teeth)
+    transverse = transverse_angle(angle.number, beta)
     cosine = 0.5 * module.number * count * cos(transverse) / cos(beta) / distance.number
     if not cosine < 1.0:
         name = place(stage.stage, "center_distance")
@@ -193,7 +198,8 @@ def _root_diameter(part: GearParts, beta: float, module: Value, teeth: Value, sh
     if depth is not None:
         why = f"no root_diameter; tip diameter less twice {depth.origin}"
         return computed(tip.number - 2.0 * depth.number, 1.0, "mm", why)
-    generated, addendum = first(part, "generated_shift"), _of_tool(part, module, "tool_addendum")
+    generated = first(part, "generated_shift")
+    addendum = _of_tool(part, module, "tool_addendum")
     at = "profile shift" if generated is None else generated.origin
     modules, source = _or_standard(addendum, "dedendum", DEDENDUM)
     number = module.number * (teeth.number / cos(beta) + 2.0 * ((generated or shift).number - modules))

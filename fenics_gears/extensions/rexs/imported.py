@@ -42,7 +42,8 @@ def imported_scene(
     and `pinion_speed`, of the driven and the driving gear, stand before those of the file.
     """
     by_call = _by_call("--wheel-torque", wheel_torque, "437 N m"), _by_call("--pinion-speed", pinion_speed, "750 rpm")
-    model, reading = read_model(path), Reading()
+    model = read_model(path)
+    reading = Reading()
     # A call that says all that a load case is asked for needs none.
     if load_case is None and None not in by_call:
         loaded: Model | None = model
@@ -100,9 +101,11 @@ def _load_sections(
 def _error_sections(reading: Reading, stage: Stage, sections: Sections) -> Sections:
     """The tolerance class, and how long the run takes."""
     tolerance = reading.attempt(tolerance_class, reading, stage)
-    written, why = "1", "quasi-static, so that all mesh cycles are alike"
+    written = "1"
+    why = "quasi-static, so that all mesh cycles are alike"
     if tolerance is not None:
-        written, why = '"hunting tooth period"', "errors differ from tooth to tooth; so long until all have met"
+        written = '"hunting tooth period"'
+        why = "errors differ from tooth to tooth; so long until all have met"
     motion = {**sections["motion"], "mesh_cycles": Value(0.0, written, why, assumed=True)}
     return {"motion": motion, **({"flank_errors": {"tolerance_class": tolerance}} if tolerance is not None else {})}
 

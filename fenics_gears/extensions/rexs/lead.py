@@ -14,7 +14,10 @@ from .model import Component
 from .stage import Fields, GearParts, Stage
 from .values import SAME, Value, ValueProblem, computed, place, word_of
 
-CROWNING, SLOPE, DATUM, OPPOSITE = "helix_crowning", "helix_slope", "end_relief_datum_face", "end_relief_non_datum_face"
+CROWNING = "helix_crowning"
+SLOPE = "helix_slope"
+DATUM = "end_relief_datum_face"
+OPPOSITE = "end_relief_non_datum_face"
 LEAD_TYPES = (CROWNING, SLOPE, DATUM, OPPOSITE)
 SHAPE = "shape_of_relief"
 # Of the roll angle, or of the distance from where an end relief begins.
@@ -125,7 +128,8 @@ def _end_relief(component: Component, width: float) -> tuple[Value, Value, Value
     if depth.number < 0.0:
         raise ValueProblem(f"{place(component, f'end_relief_depth_{face}')} = {depth.words} is negative.")
     where = (component, f"end_relief_length_{face}", "mm")
-    length, shape = positive(required(*where), where), shape_of(component)
+    length = positive(required(*where), where)
+    shape = shape_of(component)
     reference = f"end_relief_evaluation_reference_{face}"
     at = abs(_coordinate(component, reference, 0.5 * width))
     if not isclose(at, 0.5 * width, rel_tol=SAME):

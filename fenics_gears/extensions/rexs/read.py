@@ -105,7 +105,8 @@ def _of_xml(content: bytes) -> Any:
     components = [_component(each) for each in _within(root, "components", "component")]
     found = _within(root, "relations", "relation")
     relations = [{**each.attrib, "refs": [ref.attrib for ref in _within(each, "ref")]} for each in found]
-    spectra, cases = list(_within(root, "load_spectrum")), []
+    spectra = list(_within(root, "load_spectrum"))
+    cases = []
     for spectrum in spectra:
         # Where there are several spectra, a case has the name of its own before its own.
         before = f"{spectrum.get('id')}." if len(spectra) > 1 else ""

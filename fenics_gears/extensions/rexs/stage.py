@@ -7,7 +7,9 @@ from .model import Component, Model, Relation
 from .train import Train
 from .values import COUNT, Value, ValueProblem, value_of, word_of
 
-CYLINDRICAL, EXTERNAL, INTERNAL = "cylindrical_stage", "cylindrical_gear", "ring_gear"
+CYLINDRICAL = "cylindrical_stage"
+EXTERNAL = "cylindrical_gear"
+INTERNAL = "ring_gear"
 RACK_TOOL = "rack_shaped_tool"
 # Of a section of a scene.
 Fields = dict[str, Value]
@@ -134,7 +136,8 @@ def _with_teeth(gear: Component) -> str:
 
 
 def _stage(model: Model, relation: Relation) -> Stage:
-    stage, train = model.components[relation.roles["stage"]], Train(model)
+    stage = model.components[relation.roles["stage"]]
+    train = Train(model)
     parts = [_parts(model, stage, model.components[relation.roles[role]]) for role in ("gear_1", "gear_2")]
     for part in parts:
         _check_external(part.gear)

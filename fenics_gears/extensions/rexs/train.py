@@ -79,7 +79,8 @@ class Train:
         """The nearest speed that is given in the train, how many times as fast the gear turns, without sign, and the
         stages between; None where none is given."""
         waiting: list[tuple[Component, float, tuple[int, ...]]]
-        waiting, seen = [(gear, 1.0, ())], set()
+        waiting = [(gear, 1.0, ())]
+        seen = set()
         while waiting:
             part, factor, stages = waiting.pop(0)
             turning = self._turning(part)
@@ -128,7 +129,8 @@ class Train:
         return found
 
     def _own_share(self, load: Component, turning: tuple[Component, ...]) -> Share:
-        torque, sign = value_of(load, TORQUE, "N m"), self._sign(load, self._axis_of(turning))
+        torque = value_of(load, TORQUE, "N m")
+        sign = self._sign(load, self._axis_of(turning))
         number = torque.number * (sign or 1.0)
         speed = self._own_speed(turning)
         power = None if sign is None or speed is None or speed[1] is None else number * speed[0].number * speed[1]
@@ -152,7 +154,8 @@ class Train:
 
     def _turning(self, part: Component) -> tuple[Component, ...]:
         """All that turns as one with a part, the part first."""
-        found, waiting = {part.id}, [part.id]
+        found = {part.id}
+        waiting = [part.id]
         while waiting:
             new = [each for each in self._joined.get(waiting.pop(), ()) if each not in found]
             found.update(new)
@@ -182,7 +185,8 @@ class Train:
 
     @cached_property
     def _meshes(self) -> list[_Mesh]:
-        components, found = self.model.components, []
+        components = self.model.components
+        found = []
         for relation in self.model.related("stage"):
             if {"stage", "gear_1", "gear_2"} <= relation.roles.keys():
                 stage, *gears = (components[relation.roles[role]] for role in ("stage", "gear_1", "gear_2"))

@@ -19,12 +19,16 @@ SPELLINGS = {"none": "", "1": "", "-": "", "°": "deg", "mum": "um", "mus": "us"
 # By their letters without blanks.
 TURNS = {"1/min": "rpm", "min^-1": "rpm", "1/s": "rev / s", "s^-1": "rev / s", "Hz": "rev / s"}
 # Kinds of values that are no quantity: a number, a whole number, and a length that a scene has in modules.
-NUMBER, COUNT, MODULES, SPEED = "", "whole number", "in modules", "rpm"
+NUMBER = ""
+COUNT = "whole number"
+MODULES = "in modules"
+SPEED = "rpm"
 # Arrays in binary form: little-endian, in base64, from REXS 1.3 on.
 CODES = {"float32": "<f4", "float64": "<f8", "int32": "<i4"}
 # Values that a program rounded before it wrote them in two places differ by less, relatively.
 SAME = 1e-6
-_WHOLE, _NUMBER = re.compile(r"[+-]?\d{1,15}(\.0*)?"), re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_WHOLE = re.compile(r"[+-]?\d{1,15}(\.0*)?")
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _OF_COMPONENTS = re.compile(r"(\w+) of components? (\d+(?:, \d+)*)")
 
 
@@ -57,9 +61,11 @@ def value_of(component: Component, name: str, unit: str, module: Value | None = 
     if unit == MODULES:
         length = value_of(component, name, "mm")
         return bare(length.number / module.number, f"{length.origin}, over the module")
-    text, written = word_of(component, name), component.attributes[name].unit
+    text = word_of(component, name)
+    written = component.attributes[name].unit
     spelt = TURNS.get(written.replace(" ", ""), written) if unit == SPEED else written
-    spelt, said = SPELLINGS.get(spelt, spelt), f"{place(component, name)} = {text} {written}".rstrip()
+    spelt = SPELLINGS.get(spelt, spelt)
+    said = f"{place(component, name)} = {text} {written}".rstrip()
     origin = f"{name} of component {component.id}"
     if unit == COUNT:
         whole = text.partition(".")[0]
@@ -107,7 +113,8 @@ def numbers_of(component: Component, name: str) -> list[float]:
 
 def in_words(component: Component, name: str) -> str:
     """An attribute's value, or how many an array has and from where to where they go, with its unit."""
-    entries, unit = _entries(component, name), component.attributes[name].unit
+    entries = _entries(component, name)
+    unit = component.attributes[name].unit
     try:
         numbers = [float(each) for each in entries]
         text = entries[0] if len(entries) == 1 else f"{len(entries)} values from {min(numbers):g} to {max(numbers):g}"
@@ -161,7 +168,8 @@ def agreed(values: Iterable[Value | None], what: str) -> Value | None:
             )
     if not there:
         return None
-    origin, assumed = together(value.origin for value in there), any(value.assumed for value in there)
+    origin = together(value.origin for value in there)
+    assumed = any(value.assumed for value in there)
     return replace(there[0], origin=origin, assumed=assumed)
 
 

@@ -11,7 +11,8 @@ from fenics_gears.studies.effect_costs.table import MILLI
 from ..run import NO_SCENE, Run
 from .page import Block, Fold, Picture, Section, Table, Words, sentence
 
-MEASURED_TABLE, MEASURED_PICTURE = "effects.csv", "effects.png"
+MEASURED_TABLE = "effects.csv"
+MEASURED_PICTURE = "effects.png"
 # Relative; the same scene gives the same transmission error, on another processor to round-off.
 SAME_ANSWER = 1e-3
 
@@ -23,7 +24,7 @@ def effects(run: Run) -> Section:
     states = effect_states(run.scene)
     on = [(f"[{state.effect.written}]", state.words) for state in states if state.on]
     off = [(f"[{state.effect.written}]", state.words) for state in states if not state.on]
-    tables = [
+    tables: list[Block] = [
         Table(("Section", "The model has"), on, "On", numbers=9),
         Fold(f"Off: {len(off)}", [Table(("Section", "In its place the model has"), off, numbers=9)]),
     ]  # fmt: skip
@@ -32,7 +33,8 @@ def effects(run: Run) -> Section:
 
 def _measured(run: Run) -> list[Block]:
     """The picture that `gears effects` wrote into the run's directory, where it is of this scene."""
-    file, picture = run.file.with_name(MEASURED_TABLE), run.file.with_name(MEASURED_PICTURE)
+    file = run.file.with_name(MEASURED_TABLE)
+    picture = run.file.with_name(MEASURED_PICTURE)
     if not (file.is_file() and picture.is_file()):
         said = "What each effect costs and changes was not measured; the report's option `--effects` does it."
         return [Words(said)]

@@ -38,7 +38,8 @@ def _rows(run: Run) -> list[tuple[str, str, str]]:
         for name in (*TAKEN, "work_contact_changes") if name in run.dataset
     }  # fmt: skip
     held = in_unit(run.dataset["energy"], UNIT)
-    work, to_unit = transmitted(run.dataset), factor("N mm", UNIT)
+    work = transmitted(run.dataset)
+    to_unit = factor("N mm", UNIT)
     drive = abs(work.drive) * to_unit
 
     def row(label: str, value: float) -> tuple[str, str, str]:

@@ -1,5 +1,6 @@
 """Contact over the face: pattern and line load, where the flanks are resolved over it."""
 
+from ..over_face import charts_over_face
 from ..run import TOO_FEW, Run
 from .page import Section, Words, sentence
 
@@ -28,7 +29,8 @@ def face(run: Run) -> Section | None:
         return None
     if not run.has_curves:
         return sentence("face", HEADING, TOO_FEW, True)
-    charts, found = [chart for draw in run.over_face.values() for chart in draw(run)], run.dataset.attrs
+    charts = [chart for draw in charts_over_face(run).values() for chart in draw(run)]
+    found = run.dataset.attrs
     said = [Words(words.format(found[name])) for name, words in FACTORS.items() if name in found]
     if not charts and not said:
         none = "There are none: no contact fields are stored (`[output] contact_fields`), or no flank is loaded."

@@ -18,7 +18,8 @@ def geometry(run: Run) -> Section:
     """What the scene gives of the gears, what follows, and both gears drawn in mesh."""
     if run.pair is None:
         return sentence("geometry", "Geometry", NO_SCENE, True)
-    given, rows = run.scene.gears, characteristics(run.pair, run.scene.measured_over)
+    given = run.scene.gears
+    rows = characteristics(run.pair, run.scene.measured_over)
     normal = "normal " if given.helix_angle else ""
     of_pair: list[tuple[str, object, str]] = [
         (f"{normal}module", given.module, "mm"), (f"{normal}pressure angle", degrees(given.pressure_angle), "deg"),

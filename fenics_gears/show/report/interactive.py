@@ -5,6 +5,7 @@ Only its browser library is used: plotly's Python objects take longer to make th
 
 import html
 import math
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +17,9 @@ GRID = "#E9ECEF"
 # More digits than a screen shows; curves such as the transmission error vary by a hundredth of their mean.
 DIGITS = 7
 # Pixels, and letters in a row of a legend on a usual page.
-LEGEND_ROW, LETTERS_A_ROW, FLAG_ROW = 19, 120, 17
+LEGEND_ROW = 19
+LETTERS_A_ROW = 120
+FLAG_ROW = 17
 
 
 def legend_rows(chart: Chart) -> int:
@@ -131,8 +134,9 @@ def _flag(layout: dict, chart: Chart) -> None:
 
 def _words(curve: Curve) -> list[dict]:
     """Words beside the points of a curve."""
-    up, right = ("top" in curve.beside) - ("bottom" in curve.beside), 1 if "right" in curve.beside else -1
-    at = {"xanchor": "left" if right > 0 else "right", "yanchor": ("middle", "bottom", "top")[up]}
+    up = ("top" in curve.beside) - ("bottom" in curve.beside)
+    right = 1 if "right" in curve.beside else -1
+    at: dict[str, Any] = {"xanchor": "left" if right > 0 else "right", "yanchor": ("middle", "bottom", "top")[up]}
     at |= {"xshift": 7 * right, "yshift": 5 * up}
     look = {"font": {"size": 12, "color": DARK}, "bgcolor": "rgba(255, 255, 255, 0.8)", "borderpad": 1}
     look["showarrow"] = False

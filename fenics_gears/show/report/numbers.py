@@ -39,12 +39,14 @@ def _round_off(name: str, attributes) -> bool:
 
 
 def _contact_points(run: Run) -> Table:
-    dataset, timed = run.dataset, "sliding_speed" in run.dataset
+    dataset = run.dataset
+    timed = "sliding_speed" in run.dataset
     speed = ("Sliding speed (m/s)",) if timed else ()
     sliding = "Specific sliding, pinion", "Specific sliding, wheel"
     headings = ("Point", "Pinion (mm)", "Wheel (mm)", *speed, *sliding, "Share in the mesh force")
     contact, letters = ("single tooth contact", "STC") if run.pair is None else contact_by_fewest(run.pair)
-    lowest, highest = f"LP{letters}", f"HP{letters}"
+    lowest = f"LP{letters}"
+    highest = f"HP{letters}"
     words = dict(zip("ABCDE", ("start of contact", lowest, "pitch point", highest, "end of contact")))
     rows = []
     for point in dataset["path_point"].values.tolist():

@@ -30,7 +30,8 @@ def _sentence(words: str) -> str:
 
 
 def _tiles(run: Run) -> Iterator[Tile]:
-    attributes, dataset = run.dataset.attrs, run.dataset
+    attributes = run.dataset.attrs
+    dataset = run.dataset
     part = "" if run.complete else " of what is stored"
     for name, label in (
         ("peak_to_peak_transmission_error", "Transmission error, peak to peak"),
@@ -41,7 +42,8 @@ def _tiles(run: Run) -> Iterator[Tile]:
             note = f"{digits(angle * factor('rad', 'µrad'))} µrad of the wheel"
             yield Tile(label + part, digits(angle * run.micrometres), "µm", note)
     if "normal_force" in dataset:
-        largest, note = largest_normal_force(dataset), ""
+        largest = largest_normal_force(dataset)
+        note = ""
         # Both along the contact normal, which leans by the base helix angle from the transverse line of action.
         if run.pair is not None and run.scene.load.wheel_torque:
             nominal = abs(run.scene.load.wheel_torque) / run.pair.wheel.base_radius / run.pair.cosine
@@ -66,7 +68,8 @@ def _tiles(run: Run) -> Iterator[Tile]:
     if "face_load_factor" in attributes:
         yield Tile("Face load factor", f"{attributes['face_load_factor']:.3f}")
     if attributes.get("contact_loss_count"):
-        share, opening = 100.0 * attributes["contact_loss_share"], 1e3 * attributes["contact_loss_opening"]
+        share = 100.0 * attributes["contact_loss_share"]
+        opening = 1e3 * attributes["contact_loss_opening"]
         note = f"{share:.3g} % of the time{_longest(run)}, by up to {opening:.3g} µm"
         if run.scene is not None and run.scene.load.wheel_torque < 0.0:
             note += "; the wheel drives, on the coast flanks"
@@ -82,7 +85,9 @@ def _longest(run: Run) -> str:
 def _conditions(run: Run) -> Iterator[Tile]:
     if run.scene is None:
         return
-    gears, motion, ramp = run.scene.gears, run.scene.motion, run.scene.speed_ramp
+    gears = run.scene.gears
+    motion = run.scene.motion
+    ramp = run.scene.speed_ramp
     teeth = gears.pinion.teeth, gears.wheel.teeth
     torque = run.scene.load.wheel_torque * factor("N mm", "N m")
     power = f", {load_in_words(run.scene)}" if run.scene.load.given == "power" else ""

@@ -15,7 +15,9 @@ from ..chart import MARKERS, Chart, Curve
 from ..panels import DARK, GREY, PALETTE
 from ..stress_grid import upright
 
-FILLET_POINTS, INVOLUTE_POINTS, CIRCLE_POINTS = 9, 14, 181
+FILLET_POINTS = 9
+INVOLUTE_POINTS = 14
+CIRCLE_POINTS = 181
 FILLS = ("#DCE9F3", "#F3E6DA")
 
 
@@ -35,7 +37,8 @@ def drawings(pair: GearPair, coast: bool = False) -> list[Chart]:
 
 
 def _drawing(caption: str, note: str, height: int, curves: list[Curve], middle: np.ndarray, half: float) -> Chart:
-    (left, bottom), (right, top) = middle - half, middle + half
+    left, bottom = middle - half
+    right, top = middle + half
     ends = {"x_range": (left, right), "y_range": (bottom, top)}
     return Chart(caption, curves, "x (mm)", "y (mm)", note, height, equal=True, **ends)
 
@@ -54,7 +57,8 @@ def _tooth(gear: Gear) -> np.ndarray:
     """One tooth (n, 2) from the middle of the space beside its drive flank to the middle of the other."""
     outline = tooth_outline(gear, FILLET_POINTS)
     involute = outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, INVOLUTE_POINTS))[1:]
-    foot, middle = np.arctan2(outline.fillet[0, 1], outline.fillet[0, 0]), outline.centreline_angle
+    foot = np.arctan2(outline.fillet[0, 1], outline.fillet[0, 0])
+    middle = outline.centreline_angle
     space = middle + np.remainder(outline.space_angle - middle + np.pi, 2 * np.pi) - np.pi
     land = _arc(gear.root_radius, space, space + np.remainder(foot - space + np.pi, 2 * np.pi) - np.pi)
     chamfer = [tip_corner(gear)] if gear.tip_chamfer else []
@@ -68,7 +72,8 @@ def _arc(radius: float, start: float, end: float, points: int = 4) -> np.ndarray
 
 
 def _curves(pair: GearPair, teeth: list[np.ndarray], coast: bool, labels: bool) -> list[Curve]:
-    gears, curves = (("pinion", pair.pinion), ("wheel", pair.wheel)), []
+    gears = (("pinion", pair.pinion), ("wheel", pair.wheel))
+    curves = []
 
     def line(name: str, points: np.ndarray, colour: str, width: float, **style) -> None:
         curves.append(Curve(name, points[:, 0], points[:, 1], colour, width=width, **style))
@@ -83,7 +88,8 @@ def _curves(pair: GearPair, teeth: list[np.ndarray], coast: bool, labels: bool) 
     line("line of action", _on_line(pair, [0.0, pair.line_of_action_length], coast), PALETTE[1], 1.2)
     line("path of contact", _on_line(pair, [pair.path_start, pair.path_end], coast), PALETTE[1], 4.0)
     places = {name: place for name, place in _points(pair, coast).items() if labels or name == "pitch point"}
-    at, names = _on_line(pair, list(places.values()), coast), list(places)
+    at = _on_line(pair, list(places.values()), coast)
+    names = list(places)
     # The pitch point lies close to its neighbours, and the path's end has room below alone.
     below = np.array([name in ("pitch point", names[-1]) for name in names])
     for own, side in zip((~below, below), ("top left", "bottom right") if coast else ("top right", "bottom left")):
@@ -124,7 +130,8 @@ def _points_in_words(pair: GearPair, coast: bool) -> str:
 
 
 def _whole(pair: GearPair) -> tuple[np.ndarray, float]:
-    low, high = -pair.centre_distance - pair.wheel.tip_radius, pair.pinion.tip_radius
+    low = -pair.centre_distance - pair.wheel.tip_radius
+    high = pair.pinion.tip_radius
     return np.array([0.0, 0.5 * (low + high)]), 0.53 * (high - low)
 
 

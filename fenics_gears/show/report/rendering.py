@@ -13,7 +13,9 @@ from ..panels import digits
 from .interactive import figure, height
 from .page import Beside, Block, Fold, Page
 
-TEMPLATE, STYLE, SCRIPT = "page.html", "page.css", "page.js"
+TEMPLATE = "page.html"
+STYLE = "page.css"
+SCRIPT = "page.js"
 
 
 def rendered(page: Page) -> str:

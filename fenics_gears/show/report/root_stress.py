@@ -24,7 +24,8 @@ def root_stress(run: Run) -> Section:
 
 def _over_time(run: Run) -> list[Chart]:
     largest = run.dataset["root_stress_maximum"].transpose("time", "gear", "slot")
-    values, gears = in_unit(largest, "MPa"), [str(gear) for gear in run.dataset["gear"].values]
+    values = in_unit(largest, "MPa")
+    gears = [str(gear) for gear in run.dataset["gear"].values]
     envelope = [(gear, np.fmax.reduce(values[:, place], axis=1), PALETTE[place]) for place, gear in enumerate(gears)]
     least = span(envelope)
     plots = [over_time(run, "Largest tension in the fillets of either gear", "Stress (MPa)", envelope, least=least)]
@@ -69,8 +70,10 @@ def _along_fillets(run: Run) -> list[Chart]:
             largest = along.max(axis=0)
             plots.append(_over_face(run, gear, largest))
             z = run.dataset["face_position"].values[largest.argmax()]
-            along, where = along[:, largest.argmax()], f", {z:.2f} mm from the middle of the face"
-        angle, side = own["fillet_tangent_angle"].values * factor("rad", "deg"), own["fillet_side"].values
+            along = along[:, largest.argmax()]
+            where = f", {z:.2f} mm from the middle of the face"
+        angle = own["fillet_tangent_angle"].values * factor("rad", "deg")
+        side = own["fillet_side"].values
         curves = [
             Curve(f"{name} side", angle[side == name], along[side == name], colour, mode=MARKED_LINES)
             for name, colour in zip(dict.fromkeys(side.tolist()), PALETTE)

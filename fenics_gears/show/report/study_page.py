@@ -27,7 +27,8 @@ def study_page(dataset: xr.Dataset, file: Path, output: Path, progress: Progress
     """The page of a study's dataset, read from `file`; links are from `output` on."""
     progress = progress or SilentProgress()
     progress.stage("sections")
-    cases, attributes = Cases(dataset, file, output), dataset.attrs
+    cases = Cases(dataset, file, output)
+    attributes = dataset.attrs
     sections = [make(cases) for make in (_summary, _failures, _warnings, _results, _standing_out, _table, _effort)]
     sections += [
         version_section(attributes, file), scene_section(str(attributes.get("study", "")), "Study", "study"),
@@ -54,7 +55,8 @@ def _summary(cases: Cases) -> Section:
         far_off = cases.far_off(values)
         known = values[np.isfinite(values) & ~far_off]
         if len(known):
-            least, largest = digits(known.min()), digits(known.max())
+            least = digits(known.min())
+            largest = digits(known.max())
             notes = [f"median {digits(np.median(known))} {unit}"] if least != largest else []
             shown = f"{least} – {largest}" if notes else least
             if far_off.any():
@@ -111,9 +113,11 @@ def _standing_out(cases: Cases) -> Section:
     chosen = [(case, why, run) for case, why, run in found if run is not None and run.sizes.get("time", 0)]
     if not chosen:
         return sentence("outstanding", heading, "There is no file of a case to show one from.")
-    curves, links = [], []
+    curves = []
+    links = []
     for (case, why, run), colour in zip(chosen, PALETTE):
-        phase, error = run["mesh_phase"].values, run["transmission_error"].values * scale
+        phase = run["mesh_phase"].values
+        error = run["transmission_error"].values * scale
         curves.append(Curve(f"case {case}", phase - np.floor(phase[0]), error, colour))
         file = Cell(cases.texts("case_file")[case], link=cases.link(case))
         links.append((str(case), cases.words(case), ", ".join(why), file))
@@ -148,7 +152,9 @@ def _table(cases: Cases) -> Section:
     names = ("T_EPP", "Mean error", "Largest force", "Wall time")
     measured = [f"{name} ({unit})" for name, (_, unit) in zip(names, measures)]
     headings = ["Case", *(field.title for field in cases.fields), "State", *measured, "Newton iterations"]
-    rows, states, iterations = [], cases.states, cases.numbers("newton_iterations")
+    rows = []
+    states = cases.states
+    iterations = cases.numbers("newton_iterations")
     for case in range(min(cases.count, MOST_ROWS)):
         swept = [
             Cell(field.words(case), float(field.values[case]) if field.numeric else None) for field in cases.fields
@@ -175,7 +181,8 @@ def _table(cases: Cases) -> Section:
 
 
 def _effort(cases: Cases) -> Section:
-    times, iterations = cases.numbers("wall_time"), cases.numbers("newton_iterations")
+    times = cases.numbers("wall_time")
+    iterations = cases.numbers("newton_iterations")
     if not np.isfinite(times).any():
         return sentence("effort", "Solver and effort", NO_RESULT, True)
     steps = cases.numbers("steps_per_mesh_cycle")

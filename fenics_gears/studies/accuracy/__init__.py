@@ -1,2 +1,2 @@
 """What accuracy costs in time (`gears accuracy`): the error of each setting alone, of whole settings and of cheaper
-models; and the fits of errors that `[accuracy] target` uses, too."""
+models."""

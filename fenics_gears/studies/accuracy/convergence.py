@@ -1,4 +1,4 @@
-"""Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy` and `[accuracy] target`.
+"""Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy`.
 
 Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: the error of the finest
 run is the last change over r^p - 1, with r the ratio of sizes and p the order, times a safety factor: 1.25 for three
@@ -12,29 +12,27 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from .measures import DEFECT, Answer, comparable, distance
+from fenics_gears.runs.settings.measures import DEFECT, Answer, comparable, distance
+from fenics_gears.runs.settings.two_runs import part_left
+
 from .refinement import LENGTH, Level, Refinement
 
 SAFETY = 1.25
 LEFT_WITHOUT_ORDER = 2.4
-# Of two runs, of which nothing but the order that is expected is known: at coarse sizes differences fall more slowly,
-# and scatter (docs/evidence/accuracy.md).
-EXPECTED_ORDER, SAFETY_OF_TWO = 2.0, 2.0
-LEAST_ORDER, MOST_ORDER = 0.1, 10.0
+LEAST_ORDER = 0.1
+MOST_ORDER = 10.0
 # An order is used to extrapolate only above this, for else the limit lies far off, and not further above the expected
 # order than this.
-LEAST_TRUSTED, MOST_ABOVE_EXPECTED = 0.5, 1.0
+LEAST_TRUSTED = 0.5
+MOST_ABOVE_EXPECTED = 1.0
 # A limit and its order are found from so many of the finest terms.
 LAST_TERMS = 3
 ROUND_OFF = 1e-10
 # Cosine of the angle between the last two changes: above the first the limit is extrapolated; kinks that move between
 # steps give changes in any direction whose length still falls with an order; below the second, where changes turn back,
 # there is no order.
-LEAST_COSINE, TURNED_BACK = 0.5, -0.5
-
-
-class NotComparable(ValueError):
-    """A measure, by its name, that two runs do not both have."""
+LEAST_COSINE = 0.5
+TURNED_BACK = -0.5
 
 
 @dataclass(frozen=True)
@@ -54,8 +52,10 @@ def observed_order(values: Sequence[np.ndarray], sizes: Sequence[float]) -> floa
     no p fits, or differences are round-off, do not fall, or turn back. `sizes` fall and need not halve."""
     if len(values) < 3:
         return None
-    first, second = values[-3] - values[-2], values[-2] - values[-1]
-    before, after = float(np.linalg.norm(first)), float(np.linalg.norm(second))
+    first = values[-3] - values[-2]
+    second = values[-2] - values[-1]
+    before = float(np.linalg.norm(first))
+    after = float(np.linalg.norm(second))
     scale = ROUND_OFF * float(np.linalg.norm(values[-1]))
     if after <= scale or before <= scale or cosine(first, second) < TURNED_BACK:
         return None
@@ -74,24 +74,10 @@ def cosine(one: np.ndarray, other: np.ndarray) -> float:
     return float(np.vdot(one, other)) / length if length else 0.0
 
 
-def part_left(sizes: Sequence[float], order: float) -> float:
-    """Error of the finest size in parts of the last change: 1/(r^p - 1)."""
-    return 1.0 / ((sizes[-2] / sizes[-1]) ** order - 1.0)
-
-
-def errors_of_two(finer: Answer, coarser: Answer, ratio: float) -> np.ndarray:
-    """Relative error of the finer of two runs in each measure, by the expected order; `ratio` of their sizes. Raises
-    NotComparable for a measure that one of them lacks, or of which nothing is left in the finer one."""
-    measures = sorted({*finer, *coarser})
-    changes = np.array([distance(coarser, finer, measure) for measure in measures])
-    if not np.isfinite(changes).all():
-        raise NotComparable(measures[int(np.argmin(np.isfinite(changes)))])
-    return SAFETY_OF_TWO * part_left((ratio, 1.0), EXPECTED_ORDER) * changes
-
-
 def richardson(values: Sequence[np.ndarray], sizes: Sequence[float], expected: float) -> Limit:
     """The limit of a sequence as its sizes go to zero; its last term where it cannot be extrapolated."""
-    order, last = observed_order(values, sizes), values[-1]
+    order = observed_order(values, sizes)
+    last = values[-1]
     difference = last - values[-2]
     away = float(np.linalg.norm(difference))
     if order is None or not LEAST_TRUSTED <= order <= expected + MOST_ABOVE_EXPECTED:
@@ -131,7 +117,8 @@ def error_from(limits: Mapping[str, Limit], found: Answer, name: str) -> float:
 def together(base: np.ndarray, changes: Sequence[tuple[Limit, np.ndarray]], name: str) -> Limit:
     """All settings at their limits at once: `base`, a measure of a whole setting, and the change from a setting's own
     base to its limit, for each. Uncertainties, relative to their limits, add, for their signs are unknown."""
-    value, uncertainty = base, 0.0
+    value = base
+    uncertainty = 0.0
     for limit, own_base in changes:
         value, end, start = comparable((value, limit.value, own_base), name)
         value = value + end - start

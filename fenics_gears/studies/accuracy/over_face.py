@@ -6,10 +6,14 @@ from math import atan, cos, tan
 
 from fenics_gears.scene.data import Scene
 
-SLICES, LAYERS = "slices", "layers"
+SLICES = "slices"
+LAYERS = "layers"
 # Values as `refinement.Plan` has them; slices and layers in parts of their defaults.
-FAMILY, FLANK, BODY = "flank elements and contact nodes", "flank element size", "body element size"
-STEPS, LENGTH = "steps per mesh cycle", "contact length"
+FAMILY = "flank elements and contact nodes"
+FLANK = "flank element size"
+BODY = "body element size"
+STEPS = "steps per mesh cycle"
+LENGTH = "contact length"
 FULL: dict[str, tuple[float, ...]] = {
     SLICES: (0.25, 0.5, 1.0, 2.0), LAYERS: (0.5, 1.0, 2.0), BODY: (2.0, 1.4, 1.0), FAMILY: (0.7, 1.4, 2.8),
     STEPS: (10, 20, 40), LENGTH: (0.75, 1.0),
@@ -35,7 +39,8 @@ def in_the_plane(scene: Scene) -> Scene:
     a spur pair. Shafts that bend, with their bearings, are left out."""
     if scene.shafts is not None and scene.shafts.sections is not None:
         scene = replace(scene, shafts=None, bearings=None)
-    gears, bearings = scene.gears, scene.bearings
+    gears = scene.gears
+    bearings = scene.bearings
     lean = cos(gears.helix_angle)
     pinion, wheel = (
         replace(gear, profile_shift=gear.profile_shift * lean, rack_tip_radius=gear.rack_tip_radius * lean)

@@ -7,14 +7,15 @@ from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
+from fenics_gears.runs.settings.setting import Setting, default_setting, half_width, own_setting
 from fenics_gears.scene.accuracy import NODE_SPACING
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Scene
 
 from . import over_face
 from .over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, PLANE, SLICES, STEPS
-from .setting import Setting, default_setting, half_width, own_setting
 
-NODES, CONDENSATION = "contact node spacing", "condensation"
+NODES = "contact node spacing"
+CONDENSATION = "condensation"
 # Flank elements and contact nodes, which stand at NODE_SPACING elements. Their errors interact: nodes refined alone
 # converge to what fixed elements give. So whole settings and the reference take both together.
 OF_FAMILY = (FLANK, NODES)
@@ -85,7 +86,8 @@ def plan_of(scene: Scene, quick: bool = False) -> Plan:
 # Settings that are numbers, whose inverse is a size.
 COUNTED = ("steps", SLICES, LAYERS)
 # Whose value a level has that stands between the others.
-SCENE, DEFAULT = "scene", "default"
+SCENE = "scene"
+DEFAULT = "default"
 
 
 @dataclass(frozen=True)
@@ -159,7 +161,8 @@ def fine(scene: Scene, quick: bool = False) -> Setting:
 def _setting(scene: Scene, values: dict[str, float]) -> Setting:
     """A whole setting with elements of second order and, unless `values` says otherwise, contact nodes at NODE_SPACING
     of them."""
-    unit, default = half_width(scene), default_setting(scene)
+    unit = half_width(scene)
+    default = default_setting(scene)
     flank = unit / values[FLANK]
     spacing = unit / values[NODES] if NODES in values else NODE_SPACING * flank
     found = Setting("P2", flank, spacing, values.get(LENGTH, 1.0) * default.length, values[BODY], values[STEPS])
@@ -175,7 +178,9 @@ def _whole(part: float, default: int) -> int:
 def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
     """All settings with their levels, the values of the scene and of the program's defaults among them."""
     plan = plan_of(scene, quick)
-    unit, orders, default = half_width(scene), expected_orders(scene), default_setting(scene)
+    unit = half_width(scene)
+    orders = expected_orders(scene)
+    default = default_setting(scene)
     orders[LENGTH] = (None, "nothing, once all that touches is inside")
     whole_length = fine(scene, quick).length
     of_value = {

@@ -11,6 +11,10 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
+from fenics_gears.runs.settings.measures import DEFECT, Answer, answer, distances, judged, measures_of
+from fenics_gears.runs.settings.setting import Setting, default_setting, own_setting, without_settings
+from fenics_gears.runs.settings.setting_runs import SettingRuns
+from fenics_gears.runs.settings.target import settings_of
 from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.scene.data import STIFFNESS_TABLE, Accuracy, Output, Scene
 from fenics_gears.simulation.warm_up import compile_kernels
@@ -19,15 +23,12 @@ from fenics_gears.system.progress import Progress, SilentProgress
 
 from . import whole
 from .convergence import Limit, error_from, limit_of, together
-from .measures import DEFECT, Answer, answer, distances, judged, measures_of
 from .over_face import PLANE, in_the_plane
 from .refinement import CONDENSATION, LENGTH, OF_FAMILY, Level, Refinement, check_measurable, fine, plan_of, refinements
 from .root_point import peak_root_stress
-from .setting import Setting, default_setting, own_setting, without_settings
-from .setting_runs import SettingRuns
-from .target import settings_of
 
-OWN, DEFAULTS = "the scene's own", "the program's defaults"
+OWN = "the scene's own"
+DEFAULTS = "the program's defaults"
 
 
 @dataclass(frozen=True)
@@ -127,8 +128,11 @@ class AccuracyStudy:
     def __init__(self, scene: Scene, progress: Progress, quick: bool, rounds: int):
         check_measurable(scene)
         # Root stress is taken at one point; the output of it along both fillets is not what is measured here.
-        self.scene, self.progress, self.rounds = replace(scene, output=Output()), progress, rounds
-        self.base, self.refinements = fine(scene, quick), refinements(scene, quick)
+        self.scene = replace(scene, output=Output())
+        self.progress = progress
+        self.rounds = rounds
+        self.base = fine(scene, quick)
+        self.refinements = refinements(scene, quick)
         # Length over which pressures are compared, mm.
         self.window = max(level.setting.length for each in self.refinements for level in each.levels)
         self.failures: list[tuple[str, str]] = []
@@ -152,7 +156,8 @@ class AccuracyStudy:
 
     def reference(self, results: tuple[RefinementResult, ...]) -> tuple[Answer, dict[str, float]]:
         """The reference, all settings at their limits, and its relative uncertainty by measure."""
-        base, value = self.runs.answers[self.base], {}
+        base = self.runs.answers[self.base]
+        value = {}
         uncertainty = dict.fromkeys(measures_of(base), float("nan"))
         moved = [
             (each.limits, self.runs.answers[each.refinement.base])
@@ -161,7 +166,8 @@ class AccuracyStudy:
         ]
         for name in base:
             limit = together(base[name], [(limits[name], own_base[name]) for limits, own_base in moved], name)
-            value[name], scale = limit.value, float(np.linalg.norm(limit.value))
+            value[name] = limit.value
+            scale = float(np.linalg.norm(limit.value))
             uncertainty[name] = limit.uncertainty / scale if scale and name != DEFECT else 0.0
         return value, uncertainty
 
@@ -221,7 +227,9 @@ class AccuracyStudy:
     def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:
         """Run every scene once a round, with gears of its own, so that other load of the machine affects all alike."""
         self.progress.stage("whole settings")
-        answers, times, left = {}, {}, set(scenes)
+        answers = {}
+        times: dict[str, Times] = {}
+        left = set(scenes)
         for name in self.progress.counted(list(scenes) * self.rounds, str):
             if name not in left:
                 continue
@@ -239,7 +247,8 @@ class AccuracyStudy:
 
     def _result(self, refinement: Refinement) -> RefinementResult:
         """Errors of the levels from the limit of their setting; a choice is compared with its base."""
-        answers, base = self.runs.answers, self.runs.answers[refinement.base]
+        answers = self.runs.answers
+        base = self.runs.answers[refinement.base]
         ran = [(level, answers[level.setting]) for level in refinement.levels if level.setting in answers]
         regular = [(level, found) for level, found in ran if not level.own or refinement.name == LENGTH]
         limits = {name: limit_of(refinement, regular, base, name) for name in base}

@@ -39,7 +39,8 @@ def point_rows(rows: RootStressRows) -> np.ndarray:
 
 def _stress(point: np.ndarray, stored: StoredForces, model) -> float:
     """Larger stress (MPa) of both sides of the loaded teeth at a stored step; 0 where none is loaded."""
-    forces, reach = stored.on_flanks(model, PINION), len(point) // 2
+    forces = stored.on_flanks(model, PINION)
+    reach = len(point) // 2
     loads = {tooth: force.ravel() for tooth, force in forces.items()}
     of_teeth = [sum(point[reach + tooth - loaded] @ load for loaded, load in loads.items()) for tooth in loads]
     return float(np.max(of_teeth, initial=0.0))

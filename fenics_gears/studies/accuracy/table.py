@@ -3,11 +3,11 @@
 from math import isnan
 from pathlib import Path
 
+from fenics_gears.runs.settings.measures import OVER_FACE, judged, measures_of
 from fenics_gears.runs.timed import STAGES, Times
 from fenics_gears.studies.machine import write_lines
 
 from .convergence import largest_part
-from .measures import OVER_FACE, judged, measures_of
 from .refinement import CONDENSATION
 from .report import AccuracyReport, RefinementResult, WholeResult
 
@@ -16,7 +16,8 @@ ORDERED = ("T_E", "T_EPP", "root stress")
 TARGETS = (0.01, 0.001)
 # An order further than this from the expected one gets a remark; a setting whose errors are all below this, relative,
 # has no influence.
-ORDER_OFF, NO_INFLUENCE = 0.5, 1e-6
+ORDER_OFF = 0.5
+NO_INFLUENCE = 1e-6
 
 
 def headings(report: AccuracyReport) -> list[tuple[str, ...]]:

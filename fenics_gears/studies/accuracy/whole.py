@@ -7,14 +7,15 @@ from functools import reduce
 
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import model_of
+from fenics_gears.runs.settings.setting import Setting
 from fenics_gears.scene.data import Scene
 
 from .convergence import largest_part
 from .refinement import FAMILY, LENGTH, OF_FAMILY, Refinement
-from .setting import Setting
 
 # The path keeps a setting when its error is below this part of the error of the last one kept.
-KEPT_PART, MOST_KEPT = 0.7, 9
+KEPT_PART = 0.7
+MOST_KEPT = 9
 # Halving flank elements and contact nodes costs most, so that it waits until this part of their error is the largest.
 WAITS = {FAMILY: 0.5}
 # What is well below 0.1 % is not looked for.
@@ -67,7 +68,8 @@ def path(
     def setting() -> Setting:
         return reduce(lambda whole, name: moving[name].moved(whole, levels[name][at[name]]), at, base)
 
-    found, last = [], float("inf")
+    found = []
+    last = float("inf")
     while at and allowed(setting()):
         parts = {name: errors[name, levels[name][place]] for name, place in at.items()}
         if sum(parts.values()) <= KEPT_PART * last:

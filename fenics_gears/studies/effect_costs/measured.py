@@ -13,7 +13,7 @@ from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.runs.gear_store import GearStore
-from fenics_gears.runs.runs import completed
+from fenics_gears.runs.one_run import completed
 from fenics_gears.runs.timed import shared_gears
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.warm_up import compile_kernels
@@ -87,7 +87,8 @@ class EffectReport:
     @property
     def ratios(self) -> tuple[float, ...]:
         """Time of a step of the full scene by that of the bare one, in each round."""
-        bare, full = self.row(BARE), self.row(ALL)
+        bare = self.row(BARE)
+        full = self.row(ALL)
         if bare is None or full is None:
             return ()
         return tuple(large / small for small, large in zip(bare.step_times, full.step_times))
@@ -108,7 +109,9 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
     for tangential in (False, True):
         compile_kernels(tangential, progress=progress)
     progress.stage("condense, and answers")
-    store, benches, kept = shared_gears(), [], 0.0
+    store = shared_gears()
+    benches = []
+    kept = 0.0
     for subset in progress.counted(subsets, lambda subset: subset.name):
         try:
             bench = Bench(subset, store)
@@ -153,7 +156,9 @@ class Bench:
     run."""
 
     def __init__(self, subset: Subset, store: GearStore):
-        self.subset, self._store, self._model = subset, store, model_of(subset.scene)
+        self.subset = subset
+        self._store = store
+        self._model = model_of(subset.scene)
         self._gears, self.cycle, self._seconds = self._build()
         self._whole = self._run(self._model, self.cycle)
         motion = subset.scene.motion

@@ -14,12 +14,17 @@ from fenics_gears.inputs.written import WrittenFloat
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.rules import broken_rules
 
-NOTHING, BARE, ALONE, LEFT_OUT, ALL = "nothing", "bare", "alone", "left out", "all"
+NOTHING = "nothing"
+BARE = "bare"
+ALONE = "alone"
+LEFT_OUT = "left out"
+ALL = "all"
 # The other effects act on elastic teeth: a scene that has them is called bare with them and nothing else.
 BASE = "tooth_elasticity"
 UNMODIFIED = LeadModification()
 OF_LEAD = tuple(vars(UNMODIFIED))
-TILTING, AXIAL = "tilting and axial motion", "axial motion"
+TILTING = "tilting and axial motion"
+AXIAL = "axial motion"
 # Most further effects that are added or left out to make a subset valid.
 MOST_FURTHER = 2
 

@@ -10,7 +10,8 @@ from fenics_gears.studies.machine import write_lines
 from .measured import EffectReport, Row
 from .subsets import ALL, BARE
 
-MICRO, MILLI = 1e6, 1e3
+MICRO = 1e6
+MILLI = 1e3
 NUMBERS_OF_ONE = " (numbers of the first row that says so)"
 HEADINGS = (
     "effects", "unknowns", "closed nodes", "Newton iterations per step", "time per step", "operators", "condensing",
@@ -92,10 +93,12 @@ def _words(remark: str) -> str:
 
 
 def ratio_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
-    bare, full = report.row(BARE), report.row(ALL)
+    bare = report.row(BARE)
+    full = report.row(ALL)
     if not report.ratios:
         return []
-    low, high = min(report.ratios), max(report.ratios)
+    low = min(report.ratios)
+    high = max(report.ratios)
     return [
         ("unknowns", f"{bare.unknowns:.1f} and {full.unknowns:.1f}, ratio {full.unknowns / bare.unknowns:.2f}", ""),
         ("time a step", f"{bare.step_time * MICRO:.1f} and {full.step_time * MICRO:.1f}", "us"),

@@ -9,7 +9,7 @@ pytestmark = [pytest.mark.ranks, pytest.mark.nightly]
 COMMAND = (["optimize", "design.toml"], {"pair.toml": PLANE, "design.toml": RIGID + VARIABLES + GOAL + FEWER})
 STAGES = {
     "reading a design": "extensions.optimization.optimize:load_design",
-    "a design's run": "runs.runs:solved",
+    "a design's run": "runs.one_run:solved",
     "keeping a run": "runs.lines:append",
     "choosing": "extensions.optimization.optimize:chosen",
 }

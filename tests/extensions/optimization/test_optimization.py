@@ -27,11 +27,11 @@ from fenics_gears.extensions.optimization.search import front
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.files import read
 from fenics_gears.runs import lines as run_lines
-from fenics_gears.runs import runs
+from fenics_gears.runs import one_run, runs
+from fenics_gears.runs.simulate import simulate
 from fenics_gears.runs.team import Alone
 from fenics_gears.scene.read import build_scene, load_scene
-from fenics_gears.simulation import together
-from fenics_gears.simulation.simulate import simulate, solved
+from fenics_gears.simulation.simulate import solved
 from fenics_gears.system.progress import Interruption, SilentProgress
 
 ERROR = "peak_to_peak_transmission_error"
@@ -250,15 +250,15 @@ def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
     def failing_together(models, *_):
         raise ComputationError("what fails together is computed run by run")
 
-    monkeypatch.setattr(runs, "solved", failing)
-    monkeypatch.setattr(together, "solved_together", failing_together)
+    monkeypatch.setattr(one_run, "solved", failing)
+    monkeypatch.setattr(runs, "solved_together", failing_together)
     path = write(folder, STILL + VARIABLES + GOAL + FEW)
     outcome = found(path)
     failed = [each for each in outcome.tried if each.failure]
     assert failed and len(failed) < len(outcome.tried)
     assert all(each.failure == "deep reliefs fail here" and not each.goals for each in failed)
     assert outcome.chosen.values["tip_relief.depth"] <= 25.0 and not outcome.chosen.failure
-    monkeypatch.setattr(runs, "solved", None)
+    monkeypatch.setattr(one_run, "solved", None)
     again = found(path)
     assert again.spent.computed == 0 and [each.failure for each in again.tried] == [
         each.failure for each in outcome.tried

@@ -184,7 +184,7 @@ def write_measured(directory, lines):
 
 def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
     """--effects writes what `gears effects` writes, before the page reads it."""
-    from fenics_gears.commands import measuring
+    from fenics_gears.commands import report
     from fenics_gears.studies.effect_costs import measured
 
     dataset = results.load(run / "run.nc")
@@ -197,7 +197,7 @@ def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
         write_measured(directory, measured_lines(dataset, error))
         return [directory / "effects.csv"]
 
-    monkeypatch.setattr(measuring, "write_report", write)
+    monkeypatch.setattr(report, "write_report", write)
     page = page_of(dataset, tmp_path, "--effects")
     assert asked == [dataset.attrs["scene"]] and "What each effect costs and changes" in page.sections["effects"]
 

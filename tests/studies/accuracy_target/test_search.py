@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from fenics_gears.studies.accuracy.target import (
+from fenics_gears.runs.settings.target import (
     RATIO,
     ROUND_STEPS,
     _chosen,
@@ -16,7 +16,7 @@ from fenics_gears.studies.accuracy.target import (
     round_steps,
     search,
 )
-from fenics_gears.studies.accuracy.trial_runs import FEWEST_STEPS, LAYERS, MESH, SLICES, STEPS, Sizes, TargetNotReached
+from fenics_gears.runs.settings.trial_runs import FEWEST_STEPS, LAYERS, MESH, SLICES, STEPS, Sizes, TargetNotReached
 
 TRIED = Sizes(2.0, 60)
 MODULE = 4.5

@@ -13,12 +13,12 @@ from fenics_gears import SceneError, expected_cost, model_of, scene_from_text, s
 from fenics_gears.commands.cli import main
 from fenics_gears.effects.friction import Friction
 from fenics_gears.results.validity import WINDOW_REACHED
+from fenics_gears.runs.settings import setting_runs
+from fenics_gears.runs.settings.measures import FACE_LOAD, JUDGED, SPAN, distance, judged_answer
+from fenics_gears.runs.settings.target import choose, settings_of
+from fenics_gears.runs.settings.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
 from fenics_gears.runs.timed import run_sharing
 from fenics_gears.scene.data import Accuracy, Motion
-from fenics_gears.studies.accuracy import setting_runs
-from fenics_gears.studies.accuracy.measures import FACE_LOAD, JUDGED, SPAN, distance, judged_answer
-from fenics_gears.studies.accuracy.target import choose, settings_of
-from fenics_gears.studies.accuracy.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
 from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.progress import SilentProgress
 

@@ -8,7 +8,7 @@ from tests.helical import helical_scene
 from fenics_gears import model_of, scene_from_text, simulate
 from fenics_gears.model.face_resolution import face_warnings
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.studies.accuracy.measures import JUDGED, OVER_FACE, distance, judged_answer
+from fenics_gears.runs.settings.measures import JUDGED, OVER_FACE, distance, judged_answer
 
 TARGET = 0.03
 PAIRS = {

@@ -12,13 +12,21 @@ from math import gcd
 import numpy as np
 import xarray as xr
 
+from fenics_gears.results.load_factors import mean_line_load
 from fenics_gears.results.pairs import carrying_side, in_middle_slice
 
-CURVE, SPAN, STIFFNESS, PRESSURE, PEAK = "T_E", "T_EPP", "mesh stiffness", "pressure", "peak pressure"
-ROOT, DEFECT = "root stress", "energy defect"
+CURVE = "T_E"
+SPAN = "T_EPP"
+STIFFNESS = "mesh stiffness"
+PRESSURE = "pressure"
+PEAK = "peak pressure"
+ROOT = "root stress"
+DEFECT = "energy defect"
 MEASURES = (CURVE, SPAN, STIFFNESS, PRESSURE, PEAK, ROOT, DEFECT)
 # Of flanks resolved over the face: the line load averaged over the mesh cycle, and two load factors.
-LINE_LOAD, FACE_LOAD, LARGEST_LOAD = "line load", "face load factor", "largest line load"
+LINE_LOAD = "line load"
+FACE_LOAD = "face load factor"
+LARGEST_LOAD = "largest line load"
 OVER_FACE = (LINE_LOAD, FACE_LOAD, LARGEST_LOAD)
 # Of these the mean transmission error too, which is on record: nothing is judged by it.
 MEAN = "mean T_E"
@@ -27,11 +35,14 @@ MEAN = "mean T_E"
 JUDGED = (CURVE, SPAN)
 # Places at which line loads are compared, and the part of the face that these take: further out line loads are those
 # of edges.
-PLACES, PART_OF_FACE = 41, 0.8
+PLACES = 41
+PART_OF_FACE = 0.8
 # Curves are compared at the phases that all of them have, unless these are fewer.
 FEWEST_PHASES = 20
-PRESSURE_PHASES, PRESSURE_POINTS = 20, 401
-PAIRS_BACK, PAIRS = 6, 9
+PRESSURE_PHASES = 20
+PRESSURE_POINTS = 401
+PAIRS_BACK = 6
+PAIRS = 9
 
 Answer = dict[str, np.ndarray]
 
@@ -65,8 +76,6 @@ def judged_answer(run: xr.Dataset) -> Answer:
 def _over_face(run: xr.Dataset) -> Answer:
     """Line load, N/mm, of all tooth pairs together, averaged over the mesh cycle, at places along the face; and the
     load factors."""
-    from fenics_gears.results.load_factors import mean_line_load
-
     names = {FACE_LOAD: "face_load_factor", LARGEST_LOAD: "largest_line_load_factor"}
     found = {measure: np.array([run.attrs[name]]) for measure, name in names.items() if name in run.attrs}
     load = mean_line_load(run, carrying_side(run)) if run.sizes.get("contact_time") else None
@@ -114,7 +123,8 @@ def distance(one: Answer, other: Answer, name: str) -> float:
     if name not in one or name not in other:
         return np.nan
     value, reference = comparable((one[name], other[name]), name)
-    scale, away = float(np.linalg.norm(reference)), float(np.linalg.norm(value - reference))
+    scale = float(np.linalg.norm(reference))
+    away = float(np.linalg.norm(value - reference))
     return away / scale if scale else np.nan if away else 0.0
 
 
@@ -142,15 +152,18 @@ def _pressure(run: xr.Dataset, window: float) -> np.ndarray:
     """Pressure (phases, pairs, points), MPa, at common phases, those of the nearest steps, and offsets, in the middle
     of the face; zero beyond a run's contact nodes."""
     run = in_middle_slice(run)
-    phase, numbers = run["contact_mesh_phase"].values, run["contact_pair_number"]
-    last, first = phase[-1], numbers.attrs["number_at_phase_0"]
+    phase = run["contact_mesh_phase"].values
+    numbers = run["contact_pair_number"]
+    last = phase[-1]
+    first = numbers.attrs["number_at_phase_0"]
     offsets = np.linspace(-0.5 * window, 0.5 * window, PRESSURE_POINTS)
     field = np.zeros((PRESSURE_PHASES, PAIRS, PRESSURE_POINTS))
     pressure, places = (run[name].values for name in ("contact_pressure", "contact_offset"))
     for i in range(PRESSURE_PHASES):
         step = int(np.argmin(np.abs(phase - (last - 1.0 + (i + 1) / PRESSURE_PHASES))))
         for j, number in enumerate(numbers.values[step]):
-            row, there = int(number) - first - round(last) + PAIRS_BACK, np.isfinite(places[step, j])
+            row = int(number) - first - round(last) + PAIRS_BACK
+            there = np.isfinite(places[step, j])
             if 0 <= row < PAIRS and there.any():
                 field[i, row] = np.interp(
                     offsets, places[step, j][there], pressure[step, j][there], left=0.0, right=0.0

@@ -15,21 +15,25 @@ from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.validity import WINDOW_REACHED
-from fenics_gears.runs.runs import Ticking
+from fenics_gears.runs.one_run import Ticking
 from fenics_gears.scene.accuracy import MOST_CONTACT_NODES
 from fenics_gears.scene.accuracy_rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.data import Output, Scene
 from fenics_gears.system.memory import allowed_memory
 
-from .convergence import NotComparable, errors_of_two
 from .measures import Answer, judged_answer
 from .setting import Setting, own_setting, without_settings
 from .setting_runs import SettingRuns
+from .two_runs import NotComparable, errors_of_two
 
 # Fewest steps in a mesh cycle of the finer trial runs, where steps matter, and the most that are taken for the sake of
 # vibrations: if these are still faster, the motion follows the static one.
-FEWEST_STEPS, MOST_STEPS = 40, 1280
-MESH, STEPS, SLICES, LAYERS = "finite elements and contact nodes", "steps per mesh cycle", "slices", "layers"
+FEWEST_STEPS = 40
+MOST_STEPS = 1280
+MESH = "finite elements and contact nodes"
+STEPS = "steps per mesh cycle"
+SLICES = "slices"
+LAYERS = "layers"
 COARSER = 2
 # Steps that barely follow a vibration err by more than order 2 says: from 40 to 80 of them errors fell by order 1, and
 # were 2.2 times what the two runs said, more than the factor that every estimate has.
@@ -37,7 +41,8 @@ MORE_OF_VIBRATIONS = 1.25
 # Gears kept in memory: pinion and wheel of two meshes.
 KEPT_GEARS = 4
 # Factor by which the contact window is lengthened where contact reaches its end, and how often.
-LONGER, MOST_LENGTHENED = 1.25, 4
+LONGER = 1.25
+MOST_LENGTHENED = 4
 
 
 class TargetNotReached(ComputationError):
@@ -62,7 +67,8 @@ class TrialRuns:
     def __init__(self, scene: Scene, begun: Callable[[str], None], tick: Callable[[], None] | None = None):
         self._whole = without_settings(scene)
         self._trial = replace(self._whole, output=Output(), motion=replace(scene.motion, recorded_cycles=1))
-        self._begun, self._tick = begun, tick
+        self._begun = begun
+        self._tick = tick
         self._known = SettingRuns(self._trial, lambda run, model, cycle: judged_answer(run), KEPT_GEARS)
         self._default = own_setting(self._whole)
         # Without friction and inertia the value at a step does not depend on the steps before.
@@ -144,7 +150,8 @@ class TrialRuns:
         return (expected.condensing or 0.0) + expected.marching
 
     def _model(self, sizes: Sizes) -> Model:
-        setting, module = self.setting(sizes), self._whole.gears.module
+        setting = self.setting(sizes)
+        module = self._whole.gears.module
         accuracy = setting.accuracy(module)
         if (
             setting.flank < FINEST_ELEMENT * module

@@ -12,20 +12,23 @@ from fenics_gears.scene.accuracy import RESOLVED
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.system.progress import Progress
 
-from .convergence import EXPECTED_ORDER
 from .setting import Setting
 from .trial_runs import COARSER, LAYERS, MESH, SLICES, STEPS, Sizes, TargetNotReached, TrialRuns
+from .two_runs import EXPECTED_ORDER
 
 # Sizes at which errors are estimated first for a target of 1 %; over the face the mesh also for larger ones.
-FIRST_MESH, FIRST_STEPS = 2.5, 60.0
+FIRST_MESH = 2.5
+FIRST_STEPS = 60.0
 # In the plane: twice a mesh of 2.5 has 0.6 elements in the Hertz half-width, and the change from there says nothing of
 # 1 % (1.2 % was seen where 0.95 % were expected).
 FIRST_PLANE_MESH = 1.8
 # Over the face the first mesh of larger targets is coarser, up to that of this part.
 COARSEST_FIRST = 0.7
 # Slices and layers of the first trial runs for a target of 1 %, in the default numbers, and the fewest.
-FIRST_SLICES, FEWEST_SLICES = 0.7, 16
-FIRST_LAYERS, FEWEST_LAYERS = 0.5, 4
+FIRST_SLICES = 0.7
+FEWEST_SLICES = 16
+FIRST_LAYERS = 0.5
+FEWEST_LAYERS = 4
 # Steps over the face for a target of 1 %, where they know nothing of one another: line loads are averaged over them.
 # From 20 to 100 steps the mean changes by 0.25 %.
 FACE_STEPS = 28.0
@@ -35,7 +38,8 @@ ROUND_STEPS = 20
 RATIO = 2.0 ** (1.0 / 6.0)
 # Sizes finer by more than this factor than those of the trial runs are not trusted: new trial runs with sizes coarser
 # by the second factor.
-EXTRAPOLATED, COARSER_FIRST = 2.5, 1.5
+EXTRAPOLATED = 2.5
+COARSER_FIRST = 1.5
 MOST_ROUNDS = 6
 # In the search a finer size counts as dearer by this part at least.
 LEAST_DEARER = 1e-6
@@ -97,11 +101,13 @@ def settings_of(
 
 
 def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
-    done, now = -1, ""
+    done = -1
+    now = ""
 
     def begun(words: str) -> None:
         nonlocal done, now
-        done, now = done + 1, words
+        done = done + 1
+        now = words
         tick()
 
     def tick() -> None:
@@ -228,9 +234,11 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
         return float(np.maximum(_squares(errors_at(tried, errors, sizes)) - target**2, 0.0).sum())
 
     sizes = coarsest
-    least, left = runs.cost(sizes), excess(sizes)
+    least = runs.cost(sizes)
+    left = excess(sizes)
     while left > 0.0:
-        best, refused = None, ""
+        best = None
+        refused = ""
         for finer in _finer(sizes, errors):
             try:
                 cost = runs.cost(finer)
@@ -251,7 +259,8 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
         )
         if cost >= least:
             return sizes
-        least, sizes = cost, cheaper
+        least = cost
+        sizes = cheaper
 
 
 def _finer(sizes: Sizes, errors: Errors) -> list[Sizes]:

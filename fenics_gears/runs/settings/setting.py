@@ -82,7 +82,8 @@ def body_size(order: int, over_face: bool) -> float:
 
 def half_width(scene: Scene) -> float:
     """The contact half-width (mm) in which sizes are given: Hertz's, within bounds, for it vanishes with the load."""
-    size, hertz = default_setting(scene).flank, model_of(without_settings(scene)).resolution.half_width
+    size = default_setting(scene).flank
+    hertz = model_of(without_settings(scene)).resolution.half_width
     return min(max(hertz, RESOLVED * size), scene.fineness.elements_per_half_width * size)
 
 
@@ -94,8 +95,10 @@ def default_setting(scene: Scene) -> Setting:
 def own_setting(scene: Scene) -> Setting:
     """The setting that the scene has, its defaults included."""
     model = model_of(scene)
-    resolution, (slices, layers) = model.resolution, model.slices_and_layers
-    grid, size = resolution.contact_grid, resolution.body_element_size
+    resolution = model.resolution
+    slices, layers = model.slices_and_layers
+    grid = resolution.contact_grid
+    size = resolution.body_element_size
     usual = body_size(resolution.order, slices is not None) * scene.gears.module
     body = 1.0 if size is None else size / usual
     return Setting(

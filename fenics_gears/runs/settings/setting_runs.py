@@ -22,7 +22,9 @@ class SettingRuns:
     its mesh cycle, and the times. `most`: how many gears are held, None for all."""
 
     def __init__(self, scene: Scene, measured: Measured, most: int | None = None):
-        self.scene, self._measured, self._gears = scene, measured, shared_gears(most)
+        self.scene = scene
+        self._measured = measured
+        self._gears = shared_gears(most)
         self.times: dict[Setting, Times] = {}
         self.answers: dict[Setting, Answer] = {}
 
@@ -33,5 +35,6 @@ class SettingRuns:
         """Run a setting. Raises GearsError, and KeyboardInterrupt on Ctrl-C."""
         model = model_of(setting.of(self.scene))
         result, cycle = run_sharing(model, self._gears, progress)
-        self.answers[setting], self.times[setting] = self._measured(result, model, cycle), Times().and_also(result)
+        self.answers[setting] = self._measured(result, model, cycle)
+        self.times[setting] = Times().and_also(result)
         return result

@@ -1,0 +1,1 @@
+"""The settings of a run that names a target: chosen by trial runs before it starts."""
