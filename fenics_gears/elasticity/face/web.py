@@ -14,8 +14,7 @@ nodes where there is material. Turning by a pitch still maps one cut on the othe
     A = flank block of the inverse of (sum over sectors of S),  S = K_aa - K_ad K_dd^-1 K_da,  a = flanks and cuts
 
 with the bore held. Membrane and plate stiffness of the web, its tilting, bending and twisting of the rim and all their
-couplings to the teeth are in K. A web at mid-width keeps the half turn about a tooth's centreline (`fold`): two halves,
-real harmonics. Of another web the whole sector is condensed (`whole_sector`), and harmonics are complex.
+couplings to the teeth are in K.
 """
 
 from __future__ import annotations

@@ -56,7 +56,7 @@ def rigid_motions(points: np.ndarray, twist: float) -> np.ndarray:
 def condense_swept(
     mesh, sweep: Sweep, poissons_ratio: float, lines: dict[str, np.ndarray], held: np.ndarray | None = None
 ) -> CondensedBody:
-    """Brute force: Schur complement of a swept body, not folded, onto surfaces swept from nodes (k, 2); nodes (j, 2)
+    """Brute force: Schur complement of a swept body onto surfaces swept from nodes (k, 2); nodes (j, 2)
     are held."""
     section = SectionForms(mesh, poissons_ratio)
     nodes, heights = section.nodes.points, sweep.heights
