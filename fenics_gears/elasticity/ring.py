@@ -200,7 +200,8 @@ def definite_factor(matrix: np.ndarray, what: str, overwrite: bool = False) -> n
 
 
 def _not_definite(what: str) -> ComputationError:
-    return ComputationError(f"ring of sectors: the stiffness of {what} is not positive definite; is the hub held?")
+    words = f"ring of sectors: the stiffness of {what} is not positive definite"
+    return ComputationError(f"{words}; is the hub held, or is a web thinner than a thousandth of the face?")
 
 
 def centre_motion(points: np.ndarray) -> np.ndarray:

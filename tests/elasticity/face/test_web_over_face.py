@@ -37,7 +37,8 @@ def under_even_load(found):
 
 
 def test_a_web_as_wide_as_the_face_is_the_gear_without_one():
-    """Identity, but for another mesh below the rim: measured, up to 2e-4 as sections get finer."""
+    """Identity, but for another mesh below the rim: 1.4e-4 with elements of the body that are four times those of the
+    flank, 2e-5 with three times."""
     whole, plain = (body(web) for web in (Web(18.0, 25.0, 1.0), None))
     assert under_even_load(whole) == pytest.approx(under_even_load(plain), rel=3e-4)
 
@@ -167,7 +168,10 @@ def annuli(circles, widths, order, load):
 @pytest.mark.nightly
 @pytest.mark.parametrize("thickness", [5e-3, 1.0])
 def test_a_ring_that_is_nearly_free_and_one_on_a_web_that_becomes_oval(thickness):
-    """Plane stress, exact; a free ring's curved beam has q R^4/(9 E I) by a load q cos(2 theta)."""
+    """Plane stress, exact; a free ring's curved beam has q R^4/(9 E I) by a load q cos(2 theta).
+
+    A web of 2 um ends in a typed error: the sector's stiffnesses then reach from 1e-13 to 5e3 N/mm, past all digits.
+    """
     rim, width, load = 54.0, 4.0, SECTORS / (2.0 * pi * OUTER)
     middle = 0.5 * (rim + OUTER)
     beam = load * OUTER / middle * middle**4 / (9.0 * width * (OUTER - rim) ** 3 / 12.0)
