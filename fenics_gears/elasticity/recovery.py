@@ -16,6 +16,7 @@ from fenics_gears.geometry.gear_data import Material
 
 from .element_sizes import Discretisation
 from .elements import element_named
+from .face.cut_motions import cut_motions, loads_over_motions, over_motions
 from .face.discretisation import FaceDiscretisation
 from .nodal_stress import NodalStress
 from .ring import cyclic, cyclic_motion, ring_work, rotation, whitened
@@ -117,10 +118,21 @@ class GearRecovery:
         held, forces = self._link @ responding, self._link @ loaded
         # Many loads move the cuts in few ways.
         (shapes, of_held), (others, of_forces) = spanned(held.T), spanned(forces.T)
-        work = ring_work(whitened(self._link), self.gear.teeth, reach, of_held.T, of_forces.T)
+        work = self._ring_work(of_held.T, of_forces.T, reach)
         found = shapes @ work @ others.T
         found[reach] -= held.T @ loaded
         return found
+
+    def _ring_work(self, responding: np.ndarray, loaded: np.ndarray, reach: int) -> np.ndarray:
+        """`ring.ring_work` of forces on the cuts, over the face by those motions of the cuts that they cause."""
+        link = self._link
+        if self.sector.sweep is not None:
+            loads = np.hstack([each / np.linalg.norm(each) for each in (responding, loaded)])
+            motions = cut_motions(link, loads, self.sector.place(self.sector.lower), self.sector.sweep.web)
+            link = over_motions(link, motions)
+            responding = loads_over_motions(responding, motions)
+            loaded = loads_over_motions(loaded, motions)
+        return ring_work(whitened(link), self.gear.teeth, reach, responding, loaded)
 
     def _cut_motion(self, free: dict[int, np.ndarray]) -> np.ndarray:
         """Motion (teeth, d, 1) of the sectors' lower cuts; `free`: that of the loaded sectors with free cuts."""

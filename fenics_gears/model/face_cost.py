@@ -26,8 +26,9 @@ from .model import Model
 # Seconds of an unknown of a body, of a held tooth's (measured of eight gears, 7.4e-5 to 1.2e-4), and of a
 # multiplication of dense matrices.
 UNKNOWN, NEAR_UNKNOWN, MULTIPLICATION = 4e-5, 9e-5, 5e-11
-# Of the root stress, an unknown, factorised and solved for one load.
+# Of the root stress, an unknown, factorised and solved for one load; of the cube of a cut's dofs.
 FACTORISED_UNKNOWN, SOLVED_UNKNOWN = 6e-5, 4e-7
+RECOVERED_CUT = 2.2e-9
 # For each entry of the stiffness between the cuts that stresses are recovered by.
 BYTES_OF_A_LINK = 40.0
 # Seconds of a run; at a position of each tooth pair in a slice and of the square of contact nodes, whose rows are
@@ -84,7 +85,9 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
             seconds, kept, step = root_stress_cost(
                 model, size.unknowns, (FACTORISED_UNKNOWN, SOLVED_UNKNOWN), on_slices
             )
-            condensing, held, stress_step = condensing + seconds, held + kept, stress_step + step
+            condensing += seconds + RECOVERED_CUT * size.cut**3
+            held += kept
+            stress_step += step
             # The sector factorised once more, and matrices of its cuts, beside what is held by then.
             recovering = max(recovering, BYTES_OF_AN_UNKNOWN * size.unknowns + BYTES_OF_A_LINK * (2 * size.cut) ** 2)
     held = max(held, condensed + largest) + recovering

@@ -12,7 +12,7 @@ from ..mesh_data import BodyMesh
 from ..mirrored_ring import flank_free
 from ..mumps import schur_complement
 from ..ring import check_congruent, joined_blocks, rotation
-from .cut_motions import cut_motions
+from .cut_motions import cut_motions, loads_on_flanks, over_motions
 from .layers import Sweep, SweptWeb, swept_nodes
 from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 
@@ -71,24 +71,8 @@ def ring_blocks(sector: SweptSector, teeth: int, offsets: int) -> np.ndarray:
     """Flank compliance blocks (offsets + 1, f, f) of the ring of such sectors, as `ring.ring_compliance`."""
     stiffness = sector.stiffness
     flanks = len(stiffness) - 2 * sector.lower.size
-    motions = cut_motions(stiffness, sector.lower, sector.profile, sector.web)
-    return joined_blocks(*flank_free(_in_motions(stiffness, flanks, motions), flanks), teeth, offsets)
-
-
-def _in_motions(stiffness: np.ndarray, flanks: int, motions: np.ndarray) -> np.ndarray:
-    """Stiffness of the flanks and of the `motions` (c, r) of each cut."""
-    dofs, size = motions.shape
-    if dofs == size:
-        return stiffness
-    found = np.empty((flanks + 2 * size,) * 2)
-    found[:flanks, :flanks] = stiffness[:flanks, :flanks]
-    for number in (0, 1):
-        cut = slice(flanks + number * dofs, flanks + (number + 1) * dofs)
-        own = slice(flanks + number * size, flanks + (number + 1) * size)
-        moved = motions.T @ stiffness[cut]
-        found[own, :flanks] = moved[:, :flanks]
-        found[:flanks, own] = moved[:, :flanks].T
-        for other in (0, 1):
-            there = slice(flanks + other * dofs, flanks + (other + 1) * dofs)
-            found[own, flanks + other * size : flanks + (other + 1) * size] = moved[:, there] @ motions
-    return found
+    on_flanks = loads_on_flanks(flanks, sector.profile)
+    loads = np.zeros((len(stiffness), on_flanks.shape[1]))
+    loads[:flanks] = on_flanks
+    motions = cut_motions(stiffness, loads, sector.lower, sector.web)
+    return joined_blocks(*flank_free(over_motions(stiffness, motions), flanks), teeth, offsets)

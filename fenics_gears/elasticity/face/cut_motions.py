@@ -33,19 +33,17 @@ TOLD_APART = 1e-6
 WORTHWHILE = 0.6
 
 
-def cut_motions(stiffness: np.ndarray, places: np.ndarray, profile: int, web: SweptWeb | None) -> np.ndarray:
-    """Orthonormal motions (c, r) of a cut.
+def cut_motions(stiffness: np.ndarray, loads: np.ndarray, places: np.ndarray, web: SweptWeb | None) -> np.ndarray:
+    """Orthonormal motions (c, r) of a cut under loads (f + 2 c, k).
 
-    stiffness: (f + 2 c, f + 2 c), N/mm, of the dofs of the flank or flanks, of the lower cut, and of the upper cut in
-    the next sector's frame. places: (c / 3, 3), X, Y, z of the lower cut's nodes. profile: nodes of a flank at a
-    height.
+    stiffness: (f + 2 c, f + 2 c), N/mm, of some dofs of a sector, of its lower cut, and of its upper cut in the next
+    sector's frame. places: (c / 3, 3), X, Y, z of the lower cut's nodes.
     """
     cut = 3 * len(places)
     smooth = _polynomials(places, web)
     if smooth.shape[1] > WORTHWHILE * cut:
         return np.eye(cut)
-    loads = _loads(len(stiffness) - 2 * cut, profile)
-    local = np.hstack([_motions(stiffness, loads, sign) for sign in (1.0, -1.0)])
+    local = np.hstack([_motions(stiffness, loads, cut, sign) for sign in (1.0, -1.0)])
     directions, sizes, _ = np.linalg.svd(local, full_matrices=False)
     local = directions[:, sizes > LEAST_MOTION * sizes[0]]
     motions, sizes, _ = np.linalg.svd(np.hstack([local, smooth]), full_matrices=False)
@@ -53,25 +51,47 @@ def cut_motions(stiffness: np.ndarray, places: np.ndarray, profile: int, web: Sw
     return motions if motions.shape[1] <= WORTHWHILE * cut else np.eye(cut)
 
 
-def _loads(flanks: int, profile: int) -> np.ndarray:
-    """Loads (f, k): at each height in each direction, even, linear and quadratic along a profile. Mirrored, they are
-    the same set."""
+def over_motions(stiffness: np.ndarray, motions: np.ndarray) -> np.ndarray:
+    """Such a stiffness with the `motions` (c, r) of each cut in place of its dofs."""
+    dofs, size = motions.shape
+    if dofs == size:
+        return stiffness
+    others = len(stiffness) - 2 * dofs
+    found = np.empty((others + 2 * size,) * 2)
+    found[:others, :others] = stiffness[:others, :others]
+    for number in (0, 1):
+        own = slice(others + number * size, others + (number + 1) * size)
+        moved = motions.T @ stiffness[others + number * dofs : others + (number + 1) * dofs]
+        found[own, :others] = moved[:, :others]
+        found[:others, own] = moved[:, :others].T
+        found[own, others:] = loads_over_motions(moved[:, others:].T, motions).T
+    return found
+
+
+def loads_over_motions(loads: np.ndarray, motions: np.ndarray) -> np.ndarray:
+    """Loads (2 r, k) on the motions of both cuts from loads (2 c, k) on their dofs."""
+    return np.vstack([motions.T @ each for each in np.split(loads, 2)])
+
+
+def loads_on_flanks(flanks: int, profile: int) -> np.ndarray:
+    """Loads (f, k): at each height in each direction, even, linear and quadratic along the `profile` nodes of a flank.
+    Mirrored, they are the same set."""
     shapes = legvander(np.linspace(-1.0, 1.0, profile), min(PROFILE_SHAPES, profile) - 1)
     return np.kron(np.eye(flanks // (3 * profile)), np.kron(np.linalg.qr(shapes)[0], np.eye(3)))
 
 
-def _motions(stiffness: np.ndarray, loads: np.ndarray, sign: float) -> np.ndarray:
+def _motions(stiffness: np.ndarray, loads: np.ndarray, cut: int, sign: float) -> np.ndarray:
     """Of a cut (c, k), where each tooth bears `sign` times what the one before it does."""
-    flanks = len(loads)
-    lower = (len(stiffness) + flanks) // 2
+    lower = len(stiffness) - cut
+    own = slice(lower - cut, lower)
     joined = stiffness[:lower, :lower].copy(order="F")
-    joined[:, flanks:] += sign * stiffness[:lower, lower:]
-    joined[flanks:] += sign * stiffness[lower:, :lower]
-    joined[flanks:, flanks:] += stiffness[lower:, lower:]
+    joined[:, own] += sign * stiffness[:lower, lower:]
+    joined[own] += sign * stiffness[lower:, :lower]
+    joined[own, own] += stiffness[lower:, lower:]
+    forces = loads[:lower].copy(order="F")
+    forces[own] += sign * loads[lower:]
     factor = definite_factor(joined, "a ring of equal loads", overwrite=True)
-    forces = np.zeros((lower, loads.shape[1]), order="F")
-    forces[:flanks] = loads
-    return cho_solve((factor, False), forces, overwrite_b=True, check_finite=False)[flanks:]
+    return cho_solve((factor, False), forces, overwrite_b=True, check_finite=False)[own]
 
 
 def _polynomials(places: np.ndarray, web: SweptWeb | None) -> np.ndarray:
