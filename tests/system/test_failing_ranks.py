@@ -58,7 +58,6 @@ def failures(stages, shared=SHARED, goes_on=()):
 
 
 MATRIX = [(command, *each) for command, stages in STAGES_OF.items() for each in failures(stages)] + [
-    ("face", "condensing", 0, "breaks"),
     ("face", "reading", 0, "refuses"),
     ("face", "ring", 0, "interrupted"),
     ("face", "march", 0, "interrupted"),
