@@ -31,6 +31,8 @@ OF_NODES_WITH_WEB = 1.0
 # Motions are told apart by this part of their length. All dofs are kept where fewer than so many of them would go.
 TOLD_APART = 1e-6
 WORTHWHILE = 0.6
+# In the radius.
+ROUND_OFF = 1e-9
 
 
 def cut_motions(stiffness: np.ndarray, loads: np.ndarray, places: np.ndarray, web: SweptWeb | None) -> np.ndarray:
@@ -40,7 +42,7 @@ def cut_motions(stiffness: np.ndarray, loads: np.ndarray, places: np.ndarray, we
     sector's frame. places: (c / 3, 3), X, Y, z of the lower cut's nodes.
     """
     cut = 3 * len(places)
-    smooth = _polynomials(places, web)
+    smooth = smooth_motions(places, web)
     if smooth.shape[1] > WORTHWHILE * cut:
         return np.eye(cut)
     local = np.hstack([_motions(stiffness, loads, cut, sign) for sign in (1.0, -1.0)])
@@ -94,10 +96,11 @@ def _motions(stiffness: np.ndarray, loads: np.ndarray, cut: int, sign: float) ->
     return cho_solve((factor, False), forces, overwrite_b=True, check_finite=False)[own]
 
 
-def _polynomials(places: np.ndarray, web: SweptWeb | None) -> np.ndarray:
+def smooth_motions(places: np.ndarray, web: SweptWeb | None) -> np.ndarray:
     """Orthonormal polynomials (c, k) over hub, web and rim, a part by itself."""
     radius = np.hypot(places[:, 0], places[:, 1])
-    circles = [] if web is None else [web.hub_radius, web.rim_radius * (1.0 - 1e-9)]
+    # Nodes on the circles belong to hub and rim.
+    circles = [] if web is None else [web.hub_radius * (1.0 + ROUND_OFF), web.rim_radius * (1.0 - ROUND_OFF)]
     part = np.searchsorted(circles, radius)
     share = OF_NODES if web is None else OF_NODES_WITH_WEB
     found = []
@@ -105,9 +108,11 @@ def _polynomials(places: np.ndarray, web: SweptWeb | None) -> np.ndarray:
         own = np.flatnonzero(part == number)
         along_radius = _by_degree(radius[own])
         along_face = _by_degree(places[own, 2], share)
-        shapes = np.zeros((len(places), along_radius.shape[1] * along_face.shape[1]))
-        shapes[own] = np.einsum("ni,nj->nij", along_radius, along_face).reshape(len(own), -1)
-        shapes[own] = np.linalg.qr(shapes[own])[0]
+        products = np.einsum("ni,nj->nij", along_radius, along_face).reshape(len(own), -1)
+        # No more than there are nodes, at all heights or not.
+        orthonormal = np.linalg.qr(products)[0]
+        shapes = np.zeros((len(places), orthonormal.shape[1]))
+        shapes[own] = orthonormal
         found.append(np.kron(shapes, np.eye(3)))
     return np.hstack(found)
 

@@ -9,6 +9,7 @@ from tests.coarse_sector import PINION, STEEL
 from tests.elasticity.face.body_of_revolution import BORE, OUTER, POISSON, SECTORS, Meridian, Part, motion, simpson
 
 from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.face import cut_motions
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.cost import expected_size
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
@@ -213,3 +214,13 @@ def test_a_rim_on_a_web_against_a_resolved_model(offset):
     if offset:
         for exact, found in tilts:
             assert found == pytest.approx(exact, rel=0.02)
+
+
+def test_a_cut_has_its_polynomials_part_by_part():
+    """Definition: orthonormal, none over more than one of hub, web and rim; circles belong to hub and rim."""
+    radii, heights = np.array([16.0, 18.0 * (1.0 + 1e-15), 20.0, 22.0, 25.0 * (1.0 - 1e-15), 27.0]), np.arange(-2, 3)
+    nodes = [(r, 0.0, z) for z in heights for r in radii if abs(z) < 2 or not 18.5 < r < 24.5]
+    found = cut_motions.smooth_motions(np.array(nodes), SweptWeb(18.0, 25.0, -1.0, 1.0))
+    np.testing.assert_allclose(found.T @ found, np.eye(found.shape[1]), rtol=0.0, atol=1e-12)
+    web = np.repeat([18.5 < r < 24.5 for r, _, _ in nodes], 3)
+    assert not (abs(found[web]).max(axis=0) * abs(found[~web]).max(axis=0)).any()
