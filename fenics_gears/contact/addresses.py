@@ -75,6 +75,37 @@ to_number, to_integer, to_flag = (_pointer_to(kind) for kind in (types.float64, 
 to_set, to_row = _pointer_to(types.int8), _pointer_to(from_dtype(ROW))
 
 
+# An array by a row of a table of arrays: its address, then its shape.
+@njit(cache=True)
+def integer_vector(row):
+    return carray(to_integer(row[0]), row[1])
+
+
+@njit(cache=True)
+def integer_matrix(row):
+    return carray(to_integer(row[0]), (row[1], row[2]))
+
+
+@njit(cache=True)
+def number_vector(row):
+    return carray(to_number(row[0]), row[1])
+
+
+@njit(cache=True)
+def number_array_3(row):
+    return carray(to_number(row[0]), (row[1], row[2], row[3]))
+
+
+@njit(cache=True)
+def number_array_4(row):
+    return carray(to_number(row[0]), (row[1], row[2], row[3], row[4]))
+
+
+@njit(cache=True)
+def number_array_6(row):
+    return carray(to_number(row[0]), (row[1], row[2], row[3], row[4], row[5], row[6]))
+
+
 @intrinsic
 def call(typing_context, function, numbers):
     """What the C function at an address returns of some numbers; all are int64. It is compiled once, where a compiled

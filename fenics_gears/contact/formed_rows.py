@@ -18,7 +18,18 @@ from numba import carray, cfunc, njit
 
 from fenics_gears.system.memory import pages
 
-from .addresses import form_rows, to_flag, to_integer, to_number
+from .addresses import (
+    form_rows,
+    integer_matrix,
+    integer_vector,
+    number_array_3,
+    number_array_4,
+    number_array_6,
+    number_vector,
+    to_flag,
+    to_integer,
+    to_number,
+)
 from .fine_sections import (
     BEGIN,
     IN_SLICE,
@@ -153,54 +164,29 @@ def _form_rows(address, nodes, count):
 @njit(cache=True)
 def _side(table):
     return Side(
-        _integers(table[0]),
-        _pairs(table[1]),
-        _pairs(table[2]),
+        integer_vector(table[0]),
+        integer_matrix(table[1]),
+        integer_matrix(table[2]),
         carray(to_integer(table[3, 0]), (2, 6, table[3, 3])),
-        _cube(table[4]),
+        number_array_3(table[4]),
         carray(to_number(table[5, 0]), (2, table[5, 2], table[5, 3], 5)),
-        _integers(table[6]),
-        _pairs(table[7]),
-        _numbers(table[8]),
-        _pairs(table[9]),
-        _pairs(table[10]),
+        integer_vector(table[6]),
+        integer_matrix(table[7]),
+        number_vector(table[8]),
+        integer_matrix(table[9]),
+        integer_matrix(table[10]),
     )
 
 
 @njit(cache=True)
-def _integers(row):
-    return carray(to_integer(row[0]), row[1])
-
-
-@njit(cache=True)
-def _pairs(row):
-    return carray(to_integer(row[0]), (row[1], row[2]))
-
-
-@njit(cache=True)
-def _numbers(row):
-    return carray(to_number(row[0]), row[1])
-
-
-@njit(cache=True)
-def _cube(row):
-    return carray(to_number(row[0]), (row[1], row[2], row[3]))
-
-
-@njit(cache=True)
-def _plates(row):
-    return carray(to_number(row[0]), (row[1], row[2], row[3], row[4]))
-
-
-@njit(cache=True)
-def _tiles(row):
-    return carray(to_number(row[0]), (row[1], row[2], row[3], row[4], row[5], row[6]))
-
-
-@njit(cache=True)
 def _source(table):
-    fine = Fine(_tiles(table[22]), _tiles(table[23]), _numbers(table[24]), _numbers(table[25]))
-    blocks, sections = (_tiles(table[26]), _tiles(table[27])), (_plates(table[28]), _plates(table[29]))
+    fine = Fine(
+        number_array_6(table[22]), number_array_6(table[23]), number_vector(table[24]), number_vector(table[25])
+    )
+    blocks, sections = (
+        (number_array_6(table[26]), number_array_6(table[27])),
+        (number_array_4(table[28]), number_array_4(table[29])),
+    )
     matrix = carray(to_number(table[30, 0]), (table[30, 1], table[30, 2]))
     return _Source(_side(table), _side(table[11:]), fine, blocks, sections, matrix)
 

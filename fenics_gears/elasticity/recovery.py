@@ -19,7 +19,7 @@ from .elements import element_named
 from .face.cut_motions import cut_motions, loads_over_motions, over_motions
 from .face.discretisation import FaceDiscretisation
 from .nodal_stress import NodalStress
-from .ring import cyclic, cyclic_motion, ring_work, rotation, whitened
+from .ring import cyclic, cyclic_motion, ring_work, rotation
 from .sector import Sector, plane_sector, swept_sector
 from .sector_mesh import sector_mesh
 from .spanned import spanned
@@ -132,7 +132,7 @@ class GearRecovery:
             link = over_motions(link, motions)
             responding = loads_over_motions(responding, motions)
             loaded = loads_over_motions(loaded, motions)
-        return ring_work(whitened(link), self.gear.teeth, reach, responding, loaded)
+        return ring_work(link, self.gear.teeth, reach, responding, loaded)
 
     def _cut_motion(self, free: dict[int, np.ndarray]) -> np.ndarray:
         """Motion (teeth, d, 1) of the sectors' lower cuts; `free`: that of the loaded sectors with free cuts."""

@@ -6,12 +6,9 @@ Sector s + 1 stands one pitch counter-clockwise of sector s; in the sectors' own
 many teeth runs of sectors are joined instead (`elasticity.cut_chain`).
 """
 
-from collections.abc import Callable
-
 import numpy as np
 from scipy.linalg import block_diag, cho_solve, get_lapack_funcs
 from scipy.linalg.blas import ztrsm
-from scipy.sparse import csr_matrix
 
 from fenics_gears.errors import ComputationError
 
@@ -47,7 +44,6 @@ def check_congruent(lower: np.ndarray, upper: np.ndarray, teeth: int) -> None:
 
 def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarray:
     """Flank compliance blocks (offsets + 1, 2n, 2n) of the ring, hub held, Young's modulus 1 MPa; see FlankCompliance.
-    Of sectors in three dimensions (offsets + 1, 3n, 3n).
 
     With ``F`` the flank's and ``L`` the lower cut's dofs, harmonic k has the stiffness ``[[S_FF, B_k], [B_k^H, D_k]]``
     with ``B_k = S_FL + S_FU R e^{ik}`` and ``D_k = S_LL + R^T S_UU R + S_LU R e^{ik} + R^T S_UL e^{-ik}``. Its
@@ -78,13 +74,12 @@ def between_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndar
 
 
 def sector_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray]:
-    """Dofs (2 c,) of a sector's lower and upper cut, and what turns them (2 c, 2 c), sparse in three dimensions: the
-    upper cut's are in the frame of the next sector. Raises ComputationError for cuts that are not congruent."""
+    """Dofs (2 c,) of a sector's lower and upper cut, and what turns them (2 c, 2 c): the upper cut's are in the
+    frame of the next sector. Raises ComputationError for cuts that are not congruent."""
     check_congruent(sector.points["lower"], sector.points["upper"], teeth)
     lower, upper = sector.dofs("lower"), sector.dofs("upper")
-    components = sector.points["upper"].shape[1]
-    turn = block_diag(np.eye(len(lower)), turned_nodes(teeth, len(upper) // components, components))
-    return np.concatenate([lower, upper]), turn if components == 2 else csr_matrix(turn)
+    turn = block_diag(np.eye(len(lower)), turned_nodes(teeth, len(sector.points["upper"])))
+    return np.concatenate([lower, upper]), turn
 
 
 def sector_response(joint: CutResponse, offset: int) -> np.ndarray:
@@ -143,32 +138,21 @@ def harmonic_of(number: int, teeth: int) -> tuple[float, float]:
     return 2.0 * np.pi * number / teeth, (1.0 if number == 0 or 2 * number == teeth else 2.0) / teeth
 
 
-# Of a harmonic's angle and forces (2 c, k) on both cuts of a sector: U^-H f (c, k), with the harmonic's stiffness
-# U^H U and its forces f.
-Whitened = Callable[[float, np.ndarray], np.ndarray]
-
-
-def whitened(link: np.ndarray) -> Whitened:
-    """Of a sector between its cuts (2 c, 2 c)."""
-    same, ahead = cyclic(link)
-
-    def of_harmonic(angle: float, forces: np.ndarray) -> np.ndarray:
-        back, (lower, upper) = np.exp(-1j * angle), np.vsplit(forces, 2)
-        # Transposed, the conjugate is in LAPACK's order.
-        factor = definite_factor((same + ahead * back + ahead.T * np.conj(back)).T, "a harmonic")
-        return ztrsm(1.0, factor, lower + upper * back, trans_a=2)
-
-    return of_harmonic
-
-
-def ring_work(of_harmonic: Whitened, teeth: int, reach: int, responding: np.ndarray, loaded: np.ndarray) -> np.ndarray:
+def ring_work(link: np.ndarray, teeth: int, reach: int, responding: np.ndarray, loaded: np.ndarray) -> np.ndarray:
     """Reciprocal work (2 reach + 1, k, j) in a ring of forces (2 c, k) on the cuts of the sector m pitches ahead, m
-    from -reach to reach, and of forces (2 c, j) on those of a sector, by harmonics, whose inverses need not be made."""
-    offsets, both = np.arange(-reach, reach + 1), np.hstack([responding, loaded])
+    from -reach to reach, and of forces (2 c, j) on those of a sector; `link`: a sector between its cuts. By harmonics,
+    whose inverses need not be made: with ``U^H U`` the stiffness of one, its forces f enter by ``U^-H f``."""
+    same, ahead = cyclic(link)
+    offsets = np.arange(-reach, reach + 1)
+    lower, upper = np.vsplit(np.hstack([responding, loaded]), 2)
     found = np.zeros((len(offsets), responding.shape[1], loaded.shape[1]))
     for harmonic in range(teeth // 2 + 1):
         angle, weight = harmonic_of(harmonic, teeth)
-        one, other = np.split(of_harmonic(angle, both), [responding.shape[1]], axis=1)
+        back = np.exp(-1j * angle)
+        # Transposed, the conjugate is in LAPACK's order.
+        factor = definite_factor((same + ahead * back + ahead.T * np.conj(back)).T, "a harmonic")
+        whitened = ztrsm(1.0, factor, lower + upper * back, trans_a=2)
+        one, other = np.split(whitened, [responding.shape[1]], axis=1)
         product = one.conj().T @ other
         for offset, work in zip(offsets, found):
             work += weight * (np.cos(offset * angle) * product.real - np.sin(offset * angle) * product.imag)
@@ -219,6 +203,6 @@ def rotation(angle: float, components: int = 2) -> np.ndarray:
     return turn
 
 
-def turned_nodes(teeth: int, nodes: int, components: int = 2) -> np.ndarray:
-    """Rotation (2n, 2n) of the displacements of n nodes by one pitch; with three components (3n, 3n)."""
-    return np.kron(np.eye(nodes), rotation(2.0 * np.pi / teeth, components))
+def turned_nodes(teeth: int, nodes: int) -> np.ndarray:
+    """Rotation (2n, 2n) of the displacements of n nodes by one pitch."""
+    return np.kron(np.eye(nodes), rotation(2.0 * np.pi / teeth))

@@ -3,8 +3,7 @@
 from dataclasses import replace
 
 from fenics_gears.contact.operator import SHARE_FORMED
-from fenics_gears.elasticity.face.cost import UNKNOWN as BYTES_OF_AN_UNKNOWN
-from fenics_gears.elasticity.face.cost import expected_condensing, expected_size, near_unknowns
+from fenics_gears.elasticity.face.cost import BYTES_OF_AN_UNKNOWN, expected_condensing, expected_size, near_unknowns
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.system.memory import allowed_memory
 

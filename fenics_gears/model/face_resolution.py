@@ -101,8 +101,8 @@ def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
     thickness = pair.face_width / common
     overhang = 0.5 * (width - pair.face_width)
     beyond = 0
-    # Layers are alike towards both ends of a gear, which halves the work: they begin with the common face where the
-    # gear reaches as far beyond it at either end.
+    # Where a gear reaches as far beyond the common face at either end, layers begin with that face, and are alike
+    # towards both ends.
     if overhang > LEAST_OVERHANG * thickness and abs(pair.gear_middles[gear]) < LEAST_OVERHANG * thickness:
         beyond = ceil(overhang / thickness - LEAST_OVERHANG)
     layers = common + 2 * beyond if beyond else ceil(width / thickness - LEAST_OVERHANG)

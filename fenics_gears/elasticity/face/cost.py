@@ -24,9 +24,12 @@ BY_OUTLINE, BY_AREA = 4.2, 3.9
 SAMPLES, NECK = 60, 0.3
 # Measured, of sectors of 16,000 to 49,000 unknowns: bytes that MUMPS takes for each unknown, and for each entry of the
 # condensed stiffness; multiplications for each square of the unknowns.
-UNKNOWN, ENTRY, CONDENSING = 12e3, 26.0, 90.0
+BYTES_OF_AN_UNKNOWN = 12e3
+BYTES_OF_AN_ENTRY = 26.0
+CONDENSING = 90.0
 # Motions of a cut, in the mean of its dofs and a flank's; time of the ring's multiplications in that of MUMPS's.
-MOTIONS, IN_RING = 0.2, 2.4
+MOTIONS = 0.2
+IN_RING = 2.4
 
 
 class BodySize(NamedTuple):
@@ -135,7 +138,7 @@ def expected_condensing(gear: Gear, face: FaceDiscretisation, farthest: int, bot
     """What a process takes while it condenses a sector and joins the ring; teeth feel each other up to `farthest`."""
     size = expected_size(gear, face, both_flanks)
     return BodyCost(
-        UNKNOWN * size.unknowns + ENTRY * size.condensed**2,
+        BYTES_OF_AN_UNKNOWN * size.unknowns + BYTES_OF_AN_ENTRY * size.condensed**2,
         CONDENSING * size.unknowns**2 + IN_RING * _ring(size, gear.teeth, farthest),
     )
 

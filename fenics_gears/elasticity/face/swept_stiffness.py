@@ -104,7 +104,7 @@ def swept_stiffness(section: SectionForms, sweep: Sweep) -> sparse.csr_matrix:
     heights, size = len(sweep.heights), 3 * len(section.nodes.points)
     # A block in every row and column, so that the matrix has all.
     rows = [[sparse.csr_matrix((size, size)) if 0 in (i, j) else None for j in range(heights)] for i in range(heights)]
-    known = {kind: layer_of_kind(section, sweep.twist, kind, np.arange(size)) for kind in set(sweep.kinds)}
+    known = {kind: layer_of_kind(section, sweep.twist, kind) for kind in set(sweep.kinds)}
     for layer, kind in enumerate(sweep.kinds):
         for (low, high), block in known[kind].items():
             row, column = rows[2 * layer + low], 2 * layer + high
@@ -113,15 +113,15 @@ def swept_stiffness(section: SectionForms, sweep: Sweep) -> sparse.csr_matrix:
 
 
 def layer_of_kind(
-    section: SectionForms, twist: float, kind: tuple[float, bool], dofs: np.ndarray
+    section: SectionForms, twist: float, kind: tuple[float, bool]
 ) -> dict[tuple[int, int], sparse.csr_matrix]:
     """`layer_stiffness` of one of `Sweep.kinds`."""
     thickness, within = kind
-    return (layer_stiffness if within else _layer_beside_web)(section, thickness, twist, dofs)
+    return (layer_stiffness if within else _layer_beside_web)(section, thickness, twist)
 
 
 def _layer_beside_web(
-    section: SectionForms, thickness: float, twist: float, dofs: np.ndarray
+    section: SectionForms, thickness: float, twist: float
 ) -> dict[tuple[int, int], sparse.csr_matrix]:
     """As `layer_stiffness`, of rim and hub alone."""
     assert section.beside_web is not None
@@ -130,15 +130,13 @@ def _layer_beside_web(
     placed = sparse.csr_matrix(
         (np.ones(len(own)), (own, np.arange(len(own)))), shape=(3 * len(section.nodes.points), len(own))
     )
-    blocks = layer_stiffness(beside, thickness, twist, np.arange(len(own)))
-    return {pair: (placed[dofs] @ block @ placed.T).tocsr() for pair, block in blocks.items()}
+    blocks = layer_stiffness(beside, thickness, twist)
+    return {pair: (placed @ block @ placed.T).tocsr() for pair, block in blocks.items()}
 
 
-def layer_stiffness(
-    section: SectionForms, thickness: float, twist: float, dofs: np.ndarray
-) -> dict[tuple[int, int], sparse.csr_matrix]:
-    """Blocks (k, 3n) between the lower, middle and upper nodes of a layer, each in the section's frame at its own
-    height; rows of dofs (k,)."""
+def layer_stiffness(section: SectionForms, thickness: float, twist: float) -> dict[tuple[int, int], sparse.csr_matrix]:
+    """Blocks (3n, 3n) between the lower, middle and upper nodes of a layer, each in the section's frame at its own
+    height."""
     angles = 0.5 * twist * thickness * np.array([-1.0, 0.0, 1.0])
     entries, factors = [], []
     for place, weight in zip(POINTS, WEIGHTS):
@@ -156,7 +154,7 @@ def layer_stiffness(
         sparse.csr_matrix((data, own.indices, own.indptr), shape=own.shape)
         for data in np.transpose(factors) @ np.array(entries)
     )
-    found = {divmod(number, 3): matrix[dofs] for number, matrix in enumerate(added)}
+    found = {divmod(number, 3): matrix for number, matrix in enumerate(added)}
     nodes = len(section.nodes.points)
     frames = [sparse.kron(sparse.eye(nodes), rotation(angle, 3), format="csr") for angle in angles]
-    return {(i, j): (frames[i].T[dofs][:, dofs] @ block @ frames[j]).tocsr() for (i, j), block in found.items()}
+    return {(i, j): (frames[i].T @ block @ frames[j]).tocsr() for (i, j), block in found.items()}
