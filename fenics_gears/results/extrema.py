@@ -30,7 +30,7 @@ SOUGHT = 1e-4
 LARGEST_PART = 0.125
 PLACES = 800
 # Over a face positions cost a hundred times as much, and slices leave a peak-to-peak value some 2 % uncertain.
-SOUGHT_OVER_FACE = 3e-4
+SOUGHT_OVER_FACE = 2e-3
 # Longer periods are not held in memory.
 MOST_RECORDS = 2000
 # A position solved again is that of the march if it is as near as this part of what is sought.
