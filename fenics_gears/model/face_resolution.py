@@ -80,7 +80,7 @@ def in_steps(wanted: float, whole: float) -> float:
 # Length of the window of contact nodes where no edge is near, in half-widths of the contact; and mesh stiffness per
 # face width, as a part of Young's modulus:
 # the largest line load is the mean one and this stiffness times the largest difference of openings along the face.
-INNER_HALF_WIDTHS = 4.5
+INNER_HALF_WIDTHS = 3.0
 MESH_STIFFNESS = 0.1
 
 

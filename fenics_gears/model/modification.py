@@ -52,6 +52,22 @@ def removals(scene: Scene, pair: GearPair) -> tuple:
     return tuple(Removals(of_gear) if len(of_gear) > 1 else (of_gear[0] if of_gear else None) for of_gear in parts)
 
 
+# At which slopes of what is removed from a flank are taken.
+PROFILE_POINTS = 201
+
+
+def steepest_relief(scene: Scene, pair: GearPair) -> float:
+    """Largest slope of what is removed from both flanks along them. Under a slope m the gap y^2/(2 R) + m y is least at
+    y = -R m: so far from the line of action reliefs move the contact."""
+    steepest = 0.0
+    for gear, removed in zip((pair.pinion, pair.wheel), removals(scene, pair)):
+        if removed is not None:
+            rolls = np.linspace(gear.form_roll_angle, gear.tip_roll_angle, PROFILE_POINTS)
+            arcs = 0.5 * gear.base_radius * rolls**2
+            steepest += float(np.abs(np.diff(removed(rolls)) / np.diff(arcs)).max())
+    return steepest
+
+
 @dataclass(frozen=True)
 class Removals:
     """The removals of several effects from one flank."""

@@ -32,6 +32,7 @@ from fenics_gears.scene.accuracy import (
 from fenics_gears.scene.data import ISO_6336, Material, Scene
 
 from .drivetrain import line_load, mesh_stiffness
+from .modification import steepest_relief
 
 DEFAULT_ELEMENT = "P2"
 # Half of the rough stiffness of a pair bounds its deflection from above.
@@ -127,7 +128,8 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     smallest = min(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end))
     half_width = hertz_half_width(load, smallest, plane_contact_modulus(scene))
     size = asked.flank_element_size or _flank_element_size(scene, half_width)
-    length = asked.contact_length or _contact_length(scene, pair, load, half_width, size)
+    shift = _widest(pair) * steepest_relief(scene, pair)
+    length = asked.contact_length or _contact_length(scene, pair, load, half_width, size, shift)
     spacing = NODE_SPACING * size if (asked.element or DEFAULT_ELEMENT).endswith("2") else size
     nodes = asked.contact_nodes or max(ceil(length / spacing), 2) + 1
     condensation = asked.condensation or ONCE
@@ -137,7 +139,8 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
 
         modulus = plane_contact_modulus(scene)
         half_width_of = partial(hertz_half_width, relative_radius=_widest(pair), plane_modulus=modulus)
-        inner = in_steps(inner_length(scene, pair, load, half_width_of) + 2.0 * spacing, length)
+        needed = inner_length(scene, pair, load, half_width_of) + 2.0 * shift + 2.0 * spacing
+        inner = in_steps(needed, length)
     return Resolution(
         element=asked.element or DEFAULT_ELEMENT,
         flank_element_size=size,
@@ -188,10 +191,14 @@ def _rigid_resolution(scene: Scene, drivetrain: Drivetrain) -> Resolution:
     return Resolution(RIGID, 0.0, grid, steps, half_width=0.0, condensation=ONCE)
 
 
-def _contact_length(scene: Scene, pair: GearPair, line_load: float, half_width: float, size: float) -> float:
-    """Window (mm) outside which nothing touches: there the flanks' own curvature opens more than the teeth deflect."""
+def _contact_length(
+    scene: Scene, pair: GearPair, line_load: float, half_width: float, size: float, shift: float
+) -> float:
+    """Where teeth may touch off the line of action, mm: as far as their deflection lets them, or reliefs `shift` the
+    contact (mm)."""
     deflection = line_load / (LEAST_PAIR_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity))
-    wanted = 2.0 * (sqrt(2.0 * _widest(pair) * deflection) + HALF_WIDTHS_BESIDE * half_width + 2.0 * size)
+    reach = max(sqrt(2.0 * _widest(pair) * deflection), shift)
+    wanted = 2.0 * (reach + HALF_WIDTHS_BESIDE * half_width + 2.0 * size)
     return min(wanted, LONGEST_WINDOW * scene.gears.module)
 
 

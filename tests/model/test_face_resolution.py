@@ -4,13 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.helical import BEARINGS, helical_scene
+from tests.helical import BEARINGS, helical_scene, on_stand_in_bodies
 
-from fenics_gears import SceneError, model_of
+from fenics_gears import SceneError, model_of, simulate
 from fenics_gears.model.description import describe
 from fenics_gears.model.face_resolution import face_discretisation, loaded_part
+from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.scene.accuracy import FEWEST_LAYERS, LAYER_THICKNESS, SLICE_RISE, SLICE_WIDTH
 from fenics_gears.scene.data import Accuracy
+from fenics_gears.simulation.elastic_route import mesh_cycle
 
 CROWNED = '[lead_modifications.pinion]\ncrowning = "5 um"\n'
 
@@ -122,3 +124,27 @@ def test_check_prints_slices_layers_and_motions():
     assert rows["layers of the bodies"] == "pinion 8, wheel 6, 6 of them on the common face"
     motions = rows["motions of the gears that are unknown"]
     assert motions.startswith("11:") and "_" not in motions and "pinion tilt about x" in motions
+
+
+RELIEVED = "[tip_relief]\ndepth = {depth}\nlength_on_flank = {length}\n"
+
+
+def test_windows_reach_as_far_as_reliefs_move_the_contact():
+    """A gap y^2/(2 R) + m y is least at y = -R m: the largest radius in the middle of T1 T2, and relief on both flanks.
+    Under a light load the contact is narrow, and beyond a window that reckons with its half-width alone."""
+    depth, length = 0.03, 2.0
+    relief = RELIEVED.format(depth=f'"{depth} mm"', length=f'"{length} mm"')
+    light = dict(torque=3e3, helix=20.0)
+    plain = model_with(**light)
+    model = model_with(relief, **light)
+    radius = 0.25 * plain.pair.line_of_action_length
+    window = model.resolution.contact_grid.inner_length
+    # Windows are one of a row, each longer by a fourth root of two.
+    wanted = 2.0 * radius * 2.0 * depth / length
+    assert plain.resolution.contact_grid.inner_length < wanted < window < 1.5 * wanted
+    run = simulate(replace(model.scene, accuracy=Accuracy(steps_per_mesh_cycle=8)), preparation=on_bodies)
+    assert not [each for each in run.warnings if WINDOW_REACHED in each]
+
+
+def on_bodies(model, progress, cache):
+    return (), mesh_cycle(model, on_stand_in_bodies(model))
