@@ -39,6 +39,8 @@ NODES_OF_THEIR_OWN, SHARES = (
     ("contact_offset", "contact_roll_angle", "_opening", "load_share", "pressure_roll_angle"),
     ("pair_normal_force", "pair_coast_normal_force"),
 )
+# Of wedged teeth that friction holds the flanks do not approach (docs/result.md).
+OF_WEDGED_TEETH = ("mesh_stiffness",)
 
 
 def cycle_of(model: Model, bodies: Bodies | None) -> Cycle:
@@ -51,6 +53,8 @@ def run_of(model: Model, bodies: Bodies | None) -> Run:
     numbers."""
     cycle = cycle_of(model, bodies)
     without_number = NODES_OF_THEIR_OWN + (SHARES if bodies is None else ())
+    if model.scene.friction and model.scene.coast_flanks:
+        without_number += OF_WEDGED_TEETH
     marcher = Marcher(cycle, model.equations_of_motion)
     recorder = Recorder(model, cycle)
     try:
