@@ -148,14 +148,14 @@ def _difference_and_gap(
 def edge_ends(pair: GearPair, corner: CornerContact, place: Place) -> Ends:
     """Offsets (mm) from the place's line where the flanks end, as of `window.flank_ends`; tips at the far end of their
     edge."""
-    ends = np.empty((2, 2))
+    ends = []
     line = place.line_in(pair)
     for side, edge, roll, arm in zip(pair.sides, corner.edges, place.contact_rolls, line.lever_arms):
         tip = edge_position(edge, roll, edge.centre + edge.radius * edge.tip_normal)[1]
         form = flank_point(side.gear.base_radius, side.gear.form_roll_angle, roll)[1]
-        ends[:, side.number] = side.sense * (arm - np.array([tip, form][:: side.sense]))
-    below, above = ends.tolist()
-    return tuple(below), tuple(above)
+        # The first gear's tip is below the line, and the second one's above it.
+        ends.append((side.sense * (arm - tip), side.sense * (arm - form))[:: side.sense])
+    return tuple(zip(*ends))
 
 
 def _surface(gear, edge: TipEdge, contact_roll: float, height: np.ndarray, removal) -> np.ndarray:
