@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fenics_gears.contact.interpolation import flank_interpolation
+from fenics_gears.contact.interpolation import GearContacts, flank_interpolations
 from fenics_gears.elasticity.condensation import condense
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
@@ -51,7 +51,9 @@ def straight_interpolation(offsets, places, order: int, sense: float):
     middle = 0.5 * STRAIGHT * CONTACT_ROLL**2
     rolls = np.sqrt(2.0 * (middle + places - 0.5) / STRAIGHT)
     contact_rolls = np.sqrt(2.0 * (middle + sense * offsets) / STRAIGHT)
-    return flank_interpolation(offsets, contact_rolls, STRAIGHT, CONTACT_ROLL, sense, rolls, order).weights
+    ends, contact = np.array([0, len(offsets)]), np.array([CONTACT_ROLL])
+    nodes = GearContacts(offsets, ends, contact_rolls, contact, [rolls], STRAIGHT, round(-sense), order)
+    return flank_interpolations(nodes)[0].weights
 
 
 def collocation(offsets, places, order: int, sense: float):

@@ -21,14 +21,14 @@ from fenics_gears.geometry.tip_edge import TipEdge, form_edge, tip_edge
 
 from .flank_at_height import flank_at_height
 from .interpolation import INTERPOLATIONS
-from .tooth_pair import DRIVE, SENSES, Flanks, Line, Place, ToothPair, nodes_on_flanks
+from .tooth_pair import DRIVE, Flanks, Line, Place, ToothPair, nodes_on_flanks
 from .window import ContactGrid, Ends, node_offsets, window
 
 
 @dataclass(frozen=True, eq=False)
 class CornerContact:
-    """The tip edges of pinion and wheel, and those at their form circles where they are undercut; equal to itself
-    alone, so that what depends on it can be kept by it."""
+    """The tip edges of both gears, and those at their form circles where they are undercut; equal to itself alone, so
+    that what depends on it can be kept by it."""
 
     edges: tuple[TipEdge, TipEdge]
     form_edges: tuple[TipEdge | None, TipEdge | None] = (None, None)
@@ -51,18 +51,16 @@ def corner_contact(pair: GearPair, edge_radius: float | tuple[float, float] = 0.
     Raises GeometryError for a radius that does not fit the tip.
     """
     radii = edge_radius if isinstance(edge_radius, tuple) else (edge_radius, edge_radius)
-    gears = pair.pinion, pair.wheel
-    first, second = (tip_edge(gear, radius) for gear, radius in zip(gears, radii))
-    form_1, form_2 = (form_edge(gear) if gear.undercut else None for gear in gears)
-    return CornerContact((first, second), (form_1, form_2))
+    gears = [side.gear for side in pair.sides]
+    tips = tuple(tip_edge(gear, radius) for gear, radius in zip(gears, radii))
+    return CornerContact(tips, tuple(form_edge(gear) if gear.undercut else None for gear in gears))
 
 
 def edge_warnings(pair: GearPair, corner: CornerContact) -> list[str]:
     """A warning where the edges leave the flanks less than one base pitch of the path of contact, so that at times only
     edges carry."""
-    pinion, wheel = corner.edges
-    start = max(pair.line_of_action_length - pair.wheel.base_radius * wheel.flank_roll, pair.path_start)
-    ratio = (min(pair.pinion.base_radius * pinion.flank_roll, pair.path_end) - start) / pair.base_pitch
+    end, start = (side.position(edge.flank_roll) for side, edge in zip(pair.sides, corner.edges))
+    ratio = (min(end, pair.path_end) - max(start, pair.path_start)) / pair.base_pitch
     if ratio >= 1.0:
         return []
     return [
@@ -77,17 +75,20 @@ def corner_place(pair: GearPair, corner: CornerContact, place: Place) -> Place:
     beyond = corner.edge_beyond(place)
     if beyond is None:
         return place
-    (tip, edge), radii = beyond, (pair.pinion.base_radius, pair.wheel.base_radius)
-    mate = 1 - tip
-    x, height = edge_position(edge, place.contact_rolls[tip])
+    tip, edge = beyond
+    arms = list(pair.base_radii)
+    own = arms[1 - tip]
+    from_tip, above_tip = edge_position(edge, place.contact_rolls[tip])
     # The same point from the mate's tangent point and centre.
-    x, height = pair.line_of_action_length - x, sum(radii) - height
-    tangent = np.sqrt(x**2 + height**2 - radii[mate] ** 2)
-    lean = np.arctan2(x, height) - np.arctan2(tangent, radii[mate])
-    cosine, sine = np.cos(lean), np.sin(lean)
-    across = pair.line_of_action_length * sine + sum(radii) * cosine
-    arms = (across - radii[1], radii[1]) if tip == 0 else (radii[0], across - radii[0])
-    line = Line(arms, pair.line_of_action_length * cosine - sum(radii) * sine)
+    x = pair.line_of_action_length - from_tip
+    height = sum(arms) - above_tip
+    tangent = np.sqrt(x**2 + height**2 - own**2)
+    lean = np.arctan2(x, height) - np.arctan2(tangent, own)
+    cosine = np.cos(lean)
+    sine = np.sin(lean)
+    length = pair.line_of_action_length * cosine - sum(arms) * sine
+    arms[tip] = pair.line_of_action_length * sine + sum(arms) * cosine - own
+    line = Line(tuple(arms), length)
     return replace(
         place,
         contact_rolls=tuple(float(roll - lean) for roll in place.contact_rolls),
@@ -107,7 +108,8 @@ def edge_position(edge: TipEdge, contact_roll: float, point: np.ndarray | None =
     """Position (x, h), mm as in flank_point, of the arc's centre, or of another `point` (2,) of the tooth's body
     frame."""
     x, y = edge.centre if point is None else point
-    cosine, sine = np.cos(contact_roll), np.sin(contact_roll)
+    cosine = np.cos(contact_roll)
+    sine = np.sin(contact_roll)
     return float(cosine * x - sine * y), float(-(sine * x + cosine * y))
 
 
@@ -115,46 +117,45 @@ def corner_pairs(
     flanks: Flanks, grid: ContactGrid, corner: CornerContact, theoretical: Sequence[Place]
 ) -> list[ToothPair]:
     """The contact nodes of the flanks at those theoretical places, tip edges included, whose window is not empty."""
-    pair, view, found = flanks.pair, INTERPOLATIONS[grid.interpolation], []
-    for place in (corner_place(pair, corner, each) for each in theoretical):
-        offsets = node_offsets(edge_ends(pair, corner, place), grid)
+    view = INTERPOLATIONS[grid.interpolation]
+    nodes = []
+    for place in (corner_place(flanks.pair, corner, each) for each in theoretical):
+        offsets = node_offsets(edge_ends(flanks.pair, corner, place), grid)
         if len(offsets):
             at = view.places(offsets, np.array([0, len(offsets)]))
-            found.append((place, offsets, *_distances(flanks, corner, place, at)))
-    if not found:
+            nodes.append((place, offsets, *_difference_and_gap(flanks, corner, place, at)))
+    if not nodes:
         return []
-    places, counts = [place for place, *_ in found], [len(offsets) for _, offsets, *_ in found]
-    offsets, x_1, x_2, lengths = (np.concatenate([each[at] for each in found]) for at in range(1, 5))
-    nodes = offsets, np.cumsum([0, *counts])
-    return nodes_on_flanks(flanks, grid, places, nodes, x_1 - x_2, lengths - x_1 - x_2)
+    places, offsets, difference, gap = zip(*nodes)
+    at = np.concatenate(offsets), np.cumsum([0, *map(len, offsets)])
+    return nodes_on_flanks(flanks, grid, list(places), at, np.concatenate(difference), np.concatenate(gap))
 
 
-def _distances(flanks: Flanks, corner: CornerContact, place: Place, offsets: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Distances (mm) of pinion's and wheel's surface from their foot on the place's line at offsets (n,), mm, and the
-    line's length (n,), mm."""
-    line, removals = place.line_in(flanks.pair), flanks.removal if place.flank == DRIVE else (None, None)
-    gears = flanks.pair.pinion, flanks.pair.wheel
-    x_1, x_2 = (
-        _surface(gear, edge, roll, arm + sense * offsets, removal)
-        for gear, edge, roll, arm, sense, removal in zip(
-            gears, corner.edges, place.contact_rolls, line.lever_arms, SENSES, removals
-        )
+def _difference_and_gap(
+    flanks: Flanks, corner: CornerContact, place: Place, offsets: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Of the distances of both surfaces from their feet on the place's line at offsets (n,), mm, the difference (n,),
+    and the gap (n,) that they leave, mm."""
+    line = place.line_in(flanks.pair)
+    removals = flanks.removal if place.flank == DRIVE else (None, None)
+    each = zip(flanks.pair.sides, corner.edges, place.contact_rolls, line.lever_arms, removals)
+    first, second = (
+        _surface(side.gear, edge, roll, arm - side.sense * offsets, removal) for side, edge, roll, arm, removal in each
     )
-    return x_1, x_2, np.full(len(offsets), line.length)
+    return first - second, line.length - first - second
 
 
 def edge_ends(pair: GearPair, corner: CornerContact, place: Place) -> Ends:
-    """Offsets (mm) where the flanks end, seen along the place's line, as of `window.flank_ends`; tips at the far end of
-    their edge."""
-    line, ends = place.line_in(pair), []
-    for gear, edge, roll, arm, sense in zip(
-        (pair.pinion, pair.wheel), corner.edges, place.contact_rolls, line.lever_arms, SENSES
-    ):
+    """Offsets (mm) from the place's line where the flanks end, as of `window.flank_ends`; tips at the far end of their
+    edge."""
+    ends = []
+    line = place.line_in(pair)
+    for side, edge, roll, arm in zip(pair.sides, corner.edges, place.contact_rolls, line.lever_arms):
         tip = edge_position(edge, roll, edge.centre + edge.radius * edge.tip_normal)[1]
-        form = flank_point(gear.base_radius, gear.form_roll_angle, roll)[1]
-        ends.append((sense * (tip - arm), sense * (form - arm)))
-    (pinion_tip, pinion_form), (wheel_tip, wheel_form) = ends
-    return (pinion_tip, wheel_form), (pinion_form, wheel_tip)
+        form = flank_point(side.gear.base_radius, side.gear.form_roll_angle, roll)[1]
+        # The first gear's tip is below the line, and the second one's above it.
+        ends.append((side.sense * (arm - tip), side.sense * (arm - form))[:: side.sense])
+    return tuple(zip(*ends))
 
 
 def _surface(gear, edge: TipEdge, contact_roll: float, height: np.ndarray, removal) -> np.ndarray:
@@ -178,9 +179,6 @@ def pair_reaches(pair: GearPair, grid: ContactGrid, corner: CornerContact, theor
     beyond = corner.edge_beyond(theoretical)
     if beyond is not None:
         gear, edge = beyond
-        if (
-            abs(theoretical.contact_rolls[gear] - edge.flank_roll) * (pair.pinion, pair.wheel)[gear].base_radius
-            > grid.length
-        ):
+        if abs(theoretical.contact_rolls[gear] - edge.flank_roll) * pair.base_radii[gear] > grid.length:
             return False
     return window(edge_ends(pair, corner, corner_place(pair, corner, theoretical)), grid) is not None

@@ -54,8 +54,3 @@ class Eccentricity(Section):
 
     pinion: Offset | None = None
     wheel: Offset | None = None
-
-    @property
-    def wobbles(self) -> bool:
-        """Whether the teeth of a gear lean against its axis."""
-        return any(own is not None and own.wobble for own in (self.pinion, self.wheel))

@@ -9,6 +9,8 @@ from math import sqrt
 
 import numpy as np
 
+from fenics_gears.geometry.gear import Side
+
 
 @dataclass(frozen=True, eq=False)
 class Face:
@@ -54,10 +56,9 @@ class Face:
         """Least and largest of the shifts; one where all are alike."""
         return tuple(sorted({float(self.shifts.min()), float(self.shifts.max())}))
 
-    def axial_share(self, gear: int, turn: float) -> float:
-        """Axial component of the contact normal of the pinion (0) or the wheel (1) in that gear's own tooth frame;
-        `turn`: as of a Place."""
-        return -turn * (1.0, -1.0)[gear] * self.slope * self.cosine
+    def axial_share(self, side: Side, turn: float) -> float:
+        """Axial component of the contact normal in the tooth frame of the gear of a side; `turn`: as of a Place."""
+        return -turn * side.sense * self.slope * self.cosine
 
 
 def one_slice(width: float) -> Face:
@@ -81,5 +82,6 @@ def finer_ends(positions: np.ndarray, widths: np.ndarray) -> tuple[np.ndarray, n
     >>> [values.tolist() for values in finer_ends(*even_slices(12.0, 3))]
     [[-5.0, -3.0, 0.0, 3.0, 5.0], [2.0, 2.0, 4.0, 2.0, 2.0]]
     """
-    ends, half = positions[[0, 0, -1, -1]] + 0.25 * widths[0] * np.array([-1.0, 1.0, -1.0, 1.0]), [0.5 * widths[0]] * 2
+    ends = positions[[0, 0, -1, -1]] + 0.25 * widths[0] * np.array([-1.0, 1.0, -1.0, 1.0])
+    half = [0.5 * widths[0]] * 2
     return np.concatenate([ends[:2], positions[1:-1], ends[2:]]), np.concatenate([half, widths[1:-1], half])

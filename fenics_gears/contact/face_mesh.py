@@ -34,23 +34,26 @@ def face_mesh(
 ) -> Mesh:
     """Elastic flanks in slices: compliance of the gears' three-dimensional `bodies`, and of fine plane sections near
     the contact; gaps are those of flanks that are not modified along the face."""
-    pair, coast = flanks.pair, flanks.compliance[0].flanks == 2
+    pair = flanks.pair
+    coast = flanks.compliance[0].flanks == 2
     pairing = FacePairing(flanks, bodies, face)
 
     def alike(place: Place) -> tuple[int, int, float]:
         return place.flank, place.index, face.shifts[place.slice]
 
     def nodes(phase: float) -> tuple[PairNodes, ...]:
-        places, first = face_places(pair, grid, face, phase, coast, corner), {}
+        places = face_places(pair, grid, face, phase, coast, corner)
+        first: dict[tuple[int, int, float], Place] = {}
         for place in places:
             # Slices of a spur pair are all alike.
             first.setdefault(alike(place), place)
         found = flank_nodes(flanks, grid, corner, list(first.values()))
         if not found:
             return ()
-        there, at = [each.place for each in found], (over_nodes(found, "offsets"), node_ends(found))
-        seen = interpolations(pairing.sections, grid, there, at, rolls_of(pair, there, at))
-        made = {alike(each.place): FacePair(**vars(each), coarse=coarse) for each, coarse in zip(found, seen)}
+        there = [each.place for each in found]
+        at = over_nodes(found, "offsets"), node_ends(found)
+        on_bodies = interpolations(pairing.sections, grid, there, at, rolls_of(pair, there, at))
+        made = {alike(each.place): FacePair(**vars(each), coarse=coarse) for each, coarse in zip(found, on_bodies)}
         return tuple(_in_slice(made[alike(place)], place) for place in places if alike(place) in made)
 
     return Mesh(
@@ -73,7 +76,8 @@ def _in_slice(pair: FacePair, place: Place) -> FacePair:
 def opening_over_face(cycle: Cycle, drive: OverFace, coast: OverFace | None = None) -> Opening:
     """What lead modifications and misalignment leave between the flanks of a cycle over a face; `coast`: None for no
     gap between the coast flanks."""
-    pair, face = cycle.pair, cycle.face
+    pair = cycle.pair
+    face = cycle.face
 
     def roll(place: Place, phase: float) -> float:
         """Roll angle (rad) of the theoretical contact on the pinion, also where a tip's edge touches."""
@@ -83,12 +87,14 @@ def opening_over_face(cycle: Cycle, drive: OverFace, coast: OverFace | None = No
         return (contact_roll_angles if place.flank == DRIVE else coast_roll_angles)(pair, xi)[0]
 
     def lines(position: Position) -> OnLines:
-        pairs, phase = position.operator.pairs, position.index / cycle.steps
-        places, counts = [each.place for each in pairs], [len(each.offsets) for each in pairs]
+        pairs = position.operator.pairs
+        phase = position.index / cycle.steps
+        places = [each.place for each in pairs]
         flanks, heights = (np.array([getattr(place, name) for place in places]) for name in ("flank", "height"))
-        return flanks, heights, pair.pinion.base_radius * np.array([roll(place, phase) for place in places]), counts
+        along = pair.base_radii[0] * np.array([roll(place, phase) for place in places])
+        return flanks, heights, along, [len(each.offsets) for each in pairs]
 
-    lines_of = PerPosition(lines, cycle.beside(LinesOfContact))
+    lines_of = PerPosition(lines, cycle.shared(LinesOfContact))
 
     def opening(position: Position) -> np.ndarray:
         flanks, heights, along, counts = lines_of(position)

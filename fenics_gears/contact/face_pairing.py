@@ -20,25 +20,23 @@ from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.slice_averages import oblique_averages, oblique_sections, slice_averages
 from fenics_gears.elasticity.slice_compliance import Addition, SliceCompliance, along_normals
 from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.gear import Side
 
 from .addresses import form_rows
 from .compliance_product import directions
 from .face import Face
-from .fine_sections import BEGIN, IN_SLICE, OF_SLICE, SECTION, SLICE, TOOTH, Fine, Side, by_nodes, stacked
+from .fine_sections import BEGIN, IN_SLICE, OF_SLICE, SECTION, SLICE, TOOTH, Fine, by_nodes, stacked
+from .fine_sections import Side as Nodes
 from .formed_rows import FormedRows, fine_section, uncertain_slices
 from .interpolation import FlankInterpolation
-from .kinematics import turned
 from .operator import Passage, Response
 from .pairing import LAYER, SMALLEST_PIVOT, dependent_rows
 from .tooth_pair import Flanks, Place, ToothPair
 
-GEARS = (0, 1)
-
 
 @dataclass(frozen=True)
 class FacePair(ToothPair):
-    """Contact nodes of a tooth pair in one slice, whose interpolation is that of the fine flanks, `coarse` that of the
-    body's."""
+    """Contact nodes of a tooth pair in one slice, with the interpolation of fine flanks and `coarse` ones of bodies."""
 
     coarse: tuple[FlankInterpolation, FlankInterpolation]
 
@@ -47,38 +45,42 @@ class FacePairing:
     """Compliance between the contact nodes of tooth pairs in the slices of a face."""
 
     def __init__(self, flanks: Flanks, bodies: tuple[FaceCompliance, FaceCompliance], face: Face):
-        self.face, self._nodes = face, tuple(len(body.roll_angle) for body in bodies)
+        self.face = face
+        self._nodes = tuple(len(body.roll_angle) for body in bodies)
         self._flanks = bodies[0].flanks
-        self.sections = Flanks(flanks.pair, (bodies[0].plane, bodies[1].plane), flanks.removal)
+        self.sections = Flanks(flanks.pair, tuple(body.plane for body in bodies), flanks.removal)
+        self._sides = flanks.pair.sides
         first, second = flanks.compliance
-        self._fine, self._shares = (stacked(first), stacked(second)), face.cosine / face.widths
+        self._fine = stacked(first), stacked(second)
+        self._shares = face.cosine / face.widths
         self._softest = np.array([_softest(section) for section in flanks.compliance])
         self._largest = sum(section.between(0, 0).diagonal().max() for section in flanks.compliance)
-        # Slices of one width see a section alike.
+        # The averages of a section are alike in slices of one width.
         self._widths, self._kinds = np.unique(face.widths, return_inverse=True)
-        self._bodies = tuple((self._on_slices(gear, body), self._plane(gear, body)) for gear, body in enumerate(bodies))
+        self._bodies = tuple((self._on_slices(*each), self._plane(*each)) for each in zip(self._sides, bodies))
 
-    def _rises(self, gear: int, body: FaceCompliance) -> list[float]:
+    def _rises(self, side: Side, body: FaceCompliance) -> list[float]:
         """By how much (rad/mm) the lines of contact of the body's flanks rise along the face; a coast flank's goes the
         other way along the profile."""
-        own = (self.sections.pair.pinion, self.sections.pair.wheel)[gear]
-        rise = (1.0, -1.0)[gear] * self.face.slope / own.base_radius
+        rise = side.sense * self.face.slope / side.gear.base_radius
         return [rise, -rise][: body.flanks]
 
-    def _plane(self, gear: int, body: FaceCompliance) -> np.ndarray:
-        """What slices see of the body's section in plane strain (k, n, n, 4), those of one width after the other."""
+    def _plane(self, side: Side, body: FaceCompliance) -> np.ndarray:
+        """Averages over slices of the body's section in plane strain (k, n, n, 4), for one width after the other."""
         offsets = range(-body.plane.offsets, body.plane.offsets + 1)
         blocks = np.stack([body.plane.block(offset) for offset in offsets])
         size = blocks.shape[1]
         found = np.zeros((len(blocks), *2 * (size * len(self._widths),)))
         for kind, width in enumerate(self._widths):
             own = slice(size * kind, size * (kind + 1))
-            found[:, own, own] = oblique_sections(blocks, body.roll_angle, self._rises(gear, body), width)
+            found[:, own, own] = oblique_sections(blocks, body.roll_angle, self._rises(side, body), width)
         return by_nodes(found, 2)
 
-    def _on_slices(self, gear: int, body: FaceCompliance) -> SliceCompliance:
-        face, rises = self.face, self._rises(gear, body)
-        positions, additions = face.positions - face.middles[gear], list[Addition]()
+    def _on_slices(self, side: Side, body: FaceCompliance) -> SliceCompliance:
+        face = self.face
+        rises = self._rises(side, body)
+        positions = face.positions - face.middles[side.number]
+        additions: list[Addition] = []
 
         def along(heights: np.ndarray) -> list[sparse.csr_matrix]:
             return [oblique_averages(heights, positions, face.widths, body.roll_angle, rise) for rise in rises]
@@ -91,39 +93,41 @@ class FacePairing:
             from .face_seat import seat_motions
 
             weights = slice_averages(body.heights, body.element_order, positions, face.widths)
-            own = (self.sections.pair.pinion, self.sections.pair.wheel)[gear]
-            additions.append(seat_motions(weights, body, own, rises[0]))
+            additions.append(seat_motions(weights, body, side.gear, rises[0]))
         return SliceCompliance(body.blocks, along(body.heights), face.slices, additions)
 
     def responses(self, passages: Sequence[Passage]) -> list[Response]:
         """How the contact nodes of passages yield; dependent rows have a thin layer each (`contact.pairing`)."""
-        sides = [self._side(passage.pairs, passage.previous is not None) for passage in passages]
-        before = [None if each.previous is None else self._side(each.previous, True) for each in passages]
-        together = [(one, now) for earlier, now in zip(before, sides) for one in (now, earlier) if one is not None]
+        now = [self._nodes_of(passage.pairs, passage.previous is not None) for passage in passages]
+        before = [None if each.previous is None else self._nodes_of(each.previous, True) for each in passages]
+        together = [(one, own) for earlier, own in zip(before, now) for one in (own, earlier) if one is not None]
         for gear, (body, sections) in enumerate(self._bodies):
             self._find(body, len(sections) // 2, [(one.on_gears[gear], two.on_gears[gear]) for one, two in together])
-        return [self._response(*each) for each in zip(passages, sides, before)]
+        return [self._response(*each) for each in zip(passages, now, before)]
 
     def _find(self, body: SliceCompliance, sections: int, sides: list[tuple[np.ndarray, np.ndarray]]) -> None:
         """Have the body's compliance between the groups of sides, each two of which are there together."""
-        offsets, teeth = len(body.values) // 2, []
+        offsets = len(body.values) // 2
+        teeth = []
         for own, other in sides:
             _check_known(min(offsets, sections), own[TOOTH], other[TOOTH])
-            ahead = own[TOOTH][:, None] - other[TOOTH]
-            pair = np.broadcast_arrays(ahead, own[SECTION][:, None], other[SECTION])
+            apart = own[TOOTH][:, None] - other[TOOTH]
+            pair = np.broadcast_arrays(apart, own[SECTION][:, None], other[SECTION])
             teeth.append(np.unique(np.ravel_multi_index((pair[0] + offsets, *pair[1:]), body.values.shape[:3])))
         asked = np.unique(np.concatenate(teeth)) if teeth else np.empty(0, dtype=np.int64)
-        ahead, own, other = np.unravel_index(asked, body.values.shape[:3])
-        body.find(ahead - offsets, own, other)
+        apart, own, other = np.unravel_index(asked, body.values.shape[:3])
+        body.find(apart - offsets, own, other)
 
-    def _response(self, passage: Passage, now: Side, before: Side | None) -> Response:
+    def _response(self, passage: Passage, now: Nodes, before: Nodes | None) -> Response:
         pairs: Sequence[FacePair] = passage.pairs
-        angles, layers = turned(self.sections.pair, passage.advance), np.zeros(self.face.slices)
-        compliance, earlier = self._rows(now, now, layers), None
+        layers = np.zeros(self.face.slices)
+        compliance = self._rows(now, now, layers)
+        earlier = None
         if before is not None:
-            # The tangents as they stood before. Reciprocal, so that rows are those of nodes before, as the march reads
+            # The tangents as they were before. Reciprocal, so that rows are those of nodes before, as the march reads
             # them.
-            tangents = now._replace(axes=np.stack([self._axes(gear, pairs, True, angles[gear]) for gear in GEARS]))
+            turned = [self._axes(side, pairs, True, side.turn * passage.advance) for side in self._sides]
+            tangents = now._replace(axes=np.stack(turned))
             earlier = self._rows(before, tangents, np.zeros_like(layers), by_columns=True)
         if not len(pairs):
             return Response(compliance, earlier)
@@ -132,54 +136,56 @@ class FacePairing:
         form_rows(compliance.address, np.zeros(1, dtype=np.int64))
         return Response(compliance, earlier, dependent)
 
-    def _rows(self, rows: Side, columns: Side, layers: np.ndarray, by_columns: bool = False) -> FormedRows:
+    def _rows(self, rows: Nodes, columns: Nodes, layers: np.ndarray, by_columns: bool = False) -> FormedRows:
         same = rows.groups[SLICE][:, None] == columns.groups[SLICE]
         for fine, own, other in zip(self._fine, rows.on_gears, columns.on_gears):
             _check_sections(fine, own[TOOTH][:, None] - other[TOOTH], (rows.flanks[:, None], columns.flanks), same)
-        fine = Fine(*self._fine, self._shares, layers)
         bodies = [(body.values, sections) for body, sections in self._bodies]
-        return FormedRows.of(bodies, rows, columns, fine, by_columns)
+        return FormedRows.of(bodies, rows, columns, Fine(*self._fine, self._shares, layers), by_columns)
 
-    def _side(self, pairs: Sequence[FacePair], tangential: bool) -> Side:
+    def _nodes_of(self, pairs: Sequence[FacePair], tangential: bool) -> Nodes:
         """The pairs' nodes, along normal and tangent."""
-        counts, places = np.array([len(pair.offsets) for pair in pairs], dtype=np.int64), [pair.place for pair in pairs]
-        slices, flanks = (np.array([getattr(place, name) for place in places], np.int64) for name in ("slice", "flank"))
-        begins, on_gears = np.cumsum(counts) - counts, np.empty((2, 6, len(pairs)), dtype=np.int64)
+        counts = np.array([len(pair.offsets) for pair in pairs], dtype=np.int64)
+        places = [pair.place for pair in pairs]
+        slices, flanks = (np.array([getattr(each, name) for each in places], np.int64) for name in ("slice", "flank"))
+        begins = np.cumsum(counts) - counts
+        on_gears = np.empty((2, 6, len(pairs)), dtype=np.int64)
         first, near, _ = _together([pair.coarse for pair in pairs])
         for gear, count in enumerate(self._nodes):
             widths = np.array([pair.coarse[gear].near.shape[1] for pair in pairs], dtype=np.int64)
             # Groups always have nodes.
             lowest = np.minimum.reduceat(first[gear], begins) if len(pairs) else counts
             under = np.maximum.reduceat(first[gear], begins) + widths - lowest if len(pairs) else counts
-            beside = np.cumsum(under) - under
-            first[gear] += np.repeat(beside - lowest, counts)
-            teeth = np.array([place.ahead(gear) for place in places], dtype=np.int64)
+            place = np.cumsum(under) - under
+            first[gear] += np.repeat(place - lowest, counts)
+            teeth = [each.teeth[gear] for each in places]
             section = flanks * self.face.slices + slices
-            kinds = self._flanks * self._kinds[slices]
-            on_gears[gear] = teeth, under, beside, section, lowest, count * (flanks + kinds) + lowest
-        axes, group = np.stack([self._axes(gear, pairs, tangential) for gear in GEARS]), np.arange(len(pairs))
+            plane_node = count * (flanks + self._flanks * self._kinds[slices]) + lowest
+            on_gears[gear] = teeth, under, place, section, lowest, plane_node
+        axes = np.stack([self._axes(side, pairs, tangential) for side in self._sides])
         fine = _together([pair.interpolation for pair in pairs], padded=False)
-        return Side(
-            np.repeat(group, counts), first, _groups(begins, counts, slices), on_gears, near, axes, flanks, fine[0],
-            fine[1], *fine[2],
+        return Nodes(
+            np.repeat(np.arange(len(pairs)), counts), first, _groups(begins, counts, slices), on_gears, near, axes,
+            flanks, *fine[:2], *fine[2],
         )  # fmt: skip
 
-    def _axes(self, gear: int, pairs: Sequence[FacePair], tangential: bool, turned: float | None = None) -> np.ndarray:
+    def _axes(self, side: Side, pairs: Sequence[FacePair], tangential: bool, turned: float | None = None) -> np.ndarray:
         """Directions (P, d, 5) of contact in the tooth's frame, in the body and in its section: of normal and tangent,
-        or with `turned` (rad) of the tangent as it stood before."""
+        or with `turned` (rad) of the tangent as it was before."""
         places = [pair.place for pair in pairs]
-        plane = _plane_directions(gear, places, tangential, turned)
+        plane = _plane_directions(side.number, places, tangential, turned)
         axes = np.concatenate([plane, np.zeros((*plane.shape[:2], 1)), plane], axis=2)
         if turned is None:
             axes[:, 0, :2] *= self.face.cosine
-            axes[:, 0, 2] = [self.face.axial_share(gear, place.turn) for place in places]
+            axes[:, 0, 2] = [self.face.axial_share(side, place.turn) for place in places]
         return axes
 
     def _dependent(self, compliance: FormedRows, layers: np.ndarray) -> int:
         """Dependent rows of all slices; sections that have some get a thin layer."""
         # Of weights that are never more than twice one together.
         least = MARGIN * SMALLEST_PIVOT * 4.0 * self._largest
-        dependent, known = 0, {}
+        dependent = 0
+        known = {}
         for number in np.flatnonzero(uncertain_slices(compliance.address, self._softest, least)).tolist():
             # Slices of a spur pair are all alike.
             shift = self.face.shifts[number]
@@ -194,8 +200,10 @@ class FacePairing:
 
 
 # A section is taken to have no smaller eigenvalue than this part of its largest entry, if its flanks by themselves have
-# not; where that is so, nodes are looked at by a margin for how flanks that touch together differ from one alone.
-SOFTEST, MARGIN = 1e-3, 1e3
+# not.
+SOFTEST = 1e-3
+# Where that is so, a margin for how flanks that touch together differ from one alone.
+MARGIN = 1e3
 
 
 def _softest(section: FlankCompliance) -> float:
@@ -211,21 +219,22 @@ def _softest(section: FlankCompliance) -> float:
 
 
 def _together(views: Sequence[tuple[FlankInterpolation, FlankInterpolation]], padded: bool = True):
-    """How all nodes see both gears: the first flank node (2, n); weights (2, n, w) with zeros behind the narrower ones,
-    or those of one group after the other; and where these begin and how many there are for a node (2, P)."""
-    widths = np.array([[view[gear].near.shape[1] for view in views] for gear in GEARS], dtype=np.int64)
-    sizes = np.array([[view[gear].near.size for view in views] for gear in GEARS], dtype=np.int64)
-    first = np.array([_joined([view[gear].first for view in views], np.int64) for gear in GEARS])
-    begins, flat = (
-        (np.cumsum(sizes) - sizes.ravel()).reshape(2, -1),
-        [_joined([view[gear].near.ravel() for view in views], float) for gear in GEARS],
-    )
+    """Interpolations of both gears together: the first flank node (2, n), weights, and where those of a group begin and
+    how many there are for a node (2, P).
+
+    `padded`: weights are (2, n, w), with zeros behind the narrower ones; else those of one group after the other.
+    """
+    of_gears = list(zip(*views)) or [(), ()]
+    widths = np.array([[view.near.shape[1] for view in own] for own in of_gears], dtype=np.int64)
+    sizes = np.array([[view.near.size for view in own] for own in of_gears], dtype=np.int64)
+    first = np.array([_joined([view.first for view in own], np.int64) for own in of_gears])
+    flat = [_joined([view.near.ravel() for view in own], float) for own in of_gears]
+    begins = (np.cumsum(sizes) - sizes.ravel()).reshape(2, -1)
     if not padded:
         return first, np.concatenate(flat), (begins, widths)
     near = np.zeros((2, first.shape[1], widths.max(initial=1)))
-    for gear in GEARS:
-        there = np.arange(near.shape[2]) < np.repeat(widths[gear], sizes[gear] // widths[gear])[:, None]
-        near[gear][there] = flat[gear]
+    for weights, width, size, values in zip(near, widths, sizes, flat):
+        weights[np.arange(near.shape[2]) < np.repeat(width, size // width)[:, None]] = values
     return first, near, (begins, widths)
 
 
@@ -236,7 +245,8 @@ def _joined(arrays: Sequence[np.ndarray], kind) -> np.ndarray:
 def _groups(begins: np.ndarray, counts: np.ndarray, slices: np.ndarray) -> np.ndarray:
     """Of groups of so many nodes that begin there among all: numbers (4, P) as of `fine_sections.Side`."""
     found = np.zeros((4, len(begins)), dtype=np.int64)
-    found[BEGIN], found[SLICE] = begins, slices
+    found[BEGIN] = begins
+    found[SLICE] = slices
     in_slice = np.zeros(slices.max(initial=-1) + 1, dtype=np.int64)
     for group, (number, count) in enumerate(zip(slices.tolist(), counts.tolist())):
         found[IN_SLICE, group] = in_slice[number]
@@ -245,13 +255,14 @@ def _groups(begins: np.ndarray, counts: np.ndarray, slices: np.ndarray) -> np.nd
     return found
 
 
-def _check_sections(fine: np.ndarray, ahead: np.ndarray, flanks: tuple[np.ndarray, np.ndarray], same: np.ndarray):
-    """Raise ComputationError where the sections' compliance is not known between teeth (P, Q) `ahead` that touch in the
-    same slice."""
-    reach, (flank, other) = len(fine) // 2, np.broadcast_arrays(*flanks)
+def _check_sections(fine: np.ndarray, apart: np.ndarray, flanks: tuple[np.ndarray, np.ndarray], same: np.ndarray):
+    """Raise ComputationError where the sections' compliance is not known between teeth so far `apart` (P, Q) that touch
+    in the same slice."""
+    reach = len(fine) // 2
+    flank, other = np.broadcast_arrays(*flanks)
     known = ~np.isnan(fine[:, :, :, 0, 0, 0])
-    near = np.clip(ahead[same], -reach, reach)
-    if np.any(near != ahead[same]) or not known[reach + near, flank[same], other[same]].all():
+    near = np.clip(apart[same], -reach, reach)
+    if np.any(near != apart[same]) or not known[reach + near, flank[same], other[same]].all():
         raise ComputationError(
             "compliance over the face: flanks touch that are further apart than the sections' compliance is known;"
             " ask flank_compliance for a larger reach"
@@ -271,21 +282,19 @@ def _check_known(offsets: int, responding: np.ndarray, loaded: np.ndarray) -> No
         )
 
 
-def directions_on_face(place: Place, face: Face, gear: int, tangential: bool) -> np.ndarray:
+def directions_on_face(place: Place, face: Face, side: Side, tangential: bool) -> np.ndarray:
     """Unit vectors (1 or 2, 3) of the contact normal and of the tangent, in the tooth's frame at the slice's height."""
-    axes = np.pad(directions(place.contact_rolls[gear], tangential), ((0, 0), (0, 1)))
+    axes = np.pad(directions(place.contact_rolls[side.number], tangential), ((0, 0), (0, 1)))
     axes[0] *= face.cosine
-    axes[0, 2] = face.axial_share(gear, place.turn)
+    axes[0, 2] = face.axial_share(side, place.turn)
     return axes
 
 
 def _plane_directions(gear: int, places: Sequence[Place], tangential: bool, turned: float | None) -> np.ndarray:
     """Unit vectors (P, d, 2) in the transverse section, in the tooth's frame; with `turned` (rad) the tangent as it
-    stood before."""
+    was before."""
     rolls = np.array([place.contact_rolls[gear] for place in places])
     if turned is not None:
         rolls = rolls - np.array([place.turn for place in places]) * turned
-    cosine, sine = np.cos(rolls), np.sin(rolls)
-    normal, tangent = np.stack([cosine, -sine], axis=1), np.stack([sine, cosine], axis=1)
-    kinds = [tangent] if turned is not None else [normal, tangent] if tangential else [normal]
-    return np.stack(kinds, axis=1)
+    axes = directions(rolls, tangential)
+    return axes if turned is None else axes[:, 1:]

@@ -36,7 +36,8 @@ def roll_angle_at_height(base_radius: float, contact_roll_angle: float, height) 
 
 @njit(cache=True)
 def _points(base_radius, contact, heights):
-    rolls, x = np.empty(len(heights)), np.empty(len(heights))
+    rolls = np.empty(len(heights))
+    x = np.empty(len(heights))
     for point in range(len(heights)):
         rolls[point], x[point] = _point(base_radius, contact, heights[point])
     return rolls, x
@@ -45,12 +46,15 @@ def _points(base_radius, contact, heights):
 @njit(cache=True)
 def points_of_pairs(base_radius, sense, contact_rolls, lever_arms, offsets, ends):
     """Roll angles (n,), rad, and x (n,), mm, of the flank points at offsets (n,), mm, from the lines of action of many
-    pairs, those of each from its place in `ends` (P + 1,) on; `contact_rolls` (P,), rad, and `lever_arms` (P,), mm, of
-    these lines; `sense`: of offsets, -1 on the pinion, +1 on the wheel."""
-    rolls, x = np.empty(len(offsets)), np.empty(len(offsets))
+    pairs, those of each from its place in `ends` (P + 1,) on.
+
+    `contact_rolls` (P,), rad, and `lever_arms` (P,), mm, of these lines; `sense` of the gear's side.
+    """
+    rolls = np.empty(len(offsets))
+    x = np.empty(len(offsets))
     for pair in range(len(contact_rolls)):
         for point in range(ends[pair], ends[pair + 1]):
-            height = lever_arms[pair] + sense * offsets[point]
+            height = lever_arms[pair] - sense * offsets[point]
             rolls[point], x[point] = _point(base_radius, contact_rolls[pair], height)
     return rolls, x
 
@@ -63,7 +67,8 @@ def _point(base_radius, contact, height):
     target = height / base_radius
     if not math.cos(contact) - ROUND_OFF <= target < contact + 0.5 * math.pi:
         return np.nan, np.nan
-    half_square, rise = 0.5 * contact**2, target - 1.0
+    half_square = 0.5 * contact**2
+    rise = target - 1.0
     if abs(rise) < NEAR * contact**2:
         # dh/ds is 1 - (vc - v)^2/2 there, and vc - v nearly (sc - s)/vc.
         half_square += rise + rise**3 / (6.0 * contact**2)

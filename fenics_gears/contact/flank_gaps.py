@@ -15,6 +15,7 @@ import numpy as np
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
 from fenics_gears.geometry.flank_errors import FlankErrors
+from fenics_gears.geometry.gear import Side
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS
 
@@ -26,22 +27,19 @@ from .mesh_cycle import PerPosition
 from .operator import Position
 from .tooth_pair import DRIVE, PairNodes, ToothPair, node_slices
 
-# A later tooth stands behind on the pinion, whose flank drives: the gap opens. On the wheel it stands nearer to the
-# pinion's.
-SENSES = (1.0, -1.0)
 FEWEST_STEPS_A_WAVE = 2
 
 
 @dataclass(frozen=True)
-class _Nodes:
-    """The contact nodes of one pair at a position: where they stand among all; for either gear the index of its tooth
-    and the gap (n, m) per unit of each deviation; of either gear the functions that give the measured excess (n,) of a
-    tooth."""
+class _OnSide:
+    """The contact nodes of one pair on one of its flanks: where they are among all, the tooth as of a Place, the gap
+    `shapes` (n, m) per unit of each deviation, and functions that give the measured excess (n,) of a tooth."""
 
     nodes: slice
-    teeth: tuple[int, int]
-    shapes: tuple[np.ndarray, np.ndarray]
-    measured: tuple[list[Callable[[int], np.ndarray]], list[Callable[[int], np.ndarray]]]
+    side: Side
+    tooth: int
+    shapes: np.ndarray
+    measured: list[Callable[[int], np.ndarray]]
 
 
 class FlankGaps:
@@ -51,76 +49,68 @@ class FlankGaps:
         self, pair: GearPair, deviations: tuple[FlankDeviations, FlankDeviations], steps: int, slope: float = 0.0
     ):
         """`slope`: of the lines of contact, mm along the path of contact per mm of height."""
-        self._pair, self._deviations, self._steps, self._slope = pair, deviations, steps, slope
-        gears = (pair.pinion, pair.wheel)
-        self._amounts = tuple(
-            _amounts(own, gear.angular_pitch, sense) for own, gear, sense in zip(deviations, gears, SENSES)
-        )
-        self._teeth = tuple(gear.teeth for gear in gears)
-        self._nodes = PerPosition(self._nodes_of)
+        self._pair = pair
+        self._deviations = deviations
+        self._steps = steps
+        self._slope = slope
+        self._amounts = [_amounts(own, side) for own, side in zip(deviations, pair.sides)]
+        self._sides = PerPosition(self._sides_of)
 
     def __call__(self, step: float, position: Position) -> np.ndarray:
         """The additional gaps (n,), mm, positive when they open."""
         cycle = step // self._steps
-        gap = np.empty(position.operator.nodes)
-        first, second = self._amounts
-        for each in self._nodes(position):
+        gap = np.zeros(position.operator.nodes)
+        for each in self._sides(position):
             # Tooth 0 is the one that reaches the start of contact at the beginning of cycle 0.
-            one, two = (int(cycle - tooth) % teeth for tooth, teeth in zip(each.teeth, self._teeth))
-            shapes_1, shapes_2 = each.shapes
-            gap[each.nodes] = shapes_1 @ first[one, : shapes_1.shape[1]] + shapes_2 @ second[two, : shapes_2.shape[1]]
-            for tooth, measured in zip((one, two), each.measured):
-                for excess in measured:
-                    gap[each.nodes] -= excess(tooth)
+            tooth = int(cycle - each.side.sense * each.tooth) % each.side.gear.teeth
+            gap[each.nodes] += each.shapes @ self._amounts[each.side.number][tooth, : each.shapes.shape[1]]
+            for excess in each.measured:
+                gap[each.nodes] -= excess(tooth)
         return gap
 
-    def _nodes_of(self, position: Position) -> list[_Nodes]:
+    def _sides_of(self, position: Position) -> list[_OnSide]:
         pairs = position.operator.pairs
         return [
-            _Nodes(
-                nodes,
-                pair.place.teeth,
-                (self._shapes(0, pair), self._shapes(1, pair)),
-                (self._measured(0, pair), self._measured(1, pair)),
-            )
+            _OnSide(nodes, side, tooth, self._shapes(side, pair), self._measured(side, pair))
             for nodes, pair in zip(node_slices(pairs), pairs)
+            for side, tooth in zip(self._pair.sides, pair.place.teeth)
         ]
 
-    def _shapes(self, gear: int, pair: PairNodes) -> np.ndarray:
+    def _shapes(self, side: Side, pair: PairNodes) -> np.ndarray:
         """The gap (n, m) that a unit of each deviation makes: index, and on drive flanks slope, form, both of the helix
         where there is one, and both parts of the waviness.
 
         Profiles and helices of coast flanks are true; an index deviation displaces both flanks of a tooth.
         """
-        own, body, arm = (
-            self._deviations[gear],
-            (self._pair.pinion, self._pair.wheel)[gear],
-            pair.place.line_in(self._pair).lever_arms[gear],
-        )
-        displaced = np.full(len(pair.offsets), pair.place.turn * SENSES[gear] * arm / body.reference_radius)
+        arm = pair.place.line_in(self._pair).lever_arms[side.number]
+        # A later tooth stands behind on the pinion, whose flank drives: the gap opens. On the wheel it stands nearer to
+        # the pinion's.
+        displaced = np.full(len(pair.offsets), pair.place.turn * side.sense * arm / side.gear.reference_radius)
         if pair.place.flank != DRIVE:
             return displaced[:, None]
         # Waves run along the lines of contact, as the periodic error of a generating machine leaves them.
-        turned = SENSES[gear] * self._slope * pair.place.height / body.base_radius
-        excess = profile_shapes(own, self._rolls(gear, pair), pair, turned)
+        turned = side.sense * self._slope * pair.place.height / side.gear.base_radius
+        excess = profile_shapes(self._deviations[side.number], self._rolls(side, pair), pair, turned)
         return np.stack([displaced, *(-each for each in excess)], axis=1)
 
-    def _rolls(self, gear: int, pair: PairNodes) -> np.ndarray:
+    def _rolls(self, side: Side, pair: PairNodes) -> np.ndarray:
         """Roll angles (rad) of a gear's flank at a pair's nodes, or where these average."""
-        body, arm = (self._pair.pinion, self._pair.wheel)[gear], pair.place.line_in(self._pair).lever_arms[gear]
+        arm = pair.place.line_in(self._pair).lever_arms[side.number]
         # Nodes that average displacements average the flank as well.
         offsets = quadrature_offsets(pair.offsets) if isinstance(pair, ToothPair) else pair.offsets
-        return roll_angle_at_height(body.base_radius, pair.place.contact_rolls[gear], arm - SENSES[gear] * offsets)
+        contact = pair.place.contact_rolls[side.number]
+        return roll_angle_at_height(side.gear.base_radius, contact, arm - side.sense * offsets)
 
-    def _measured(self, gear: int, pair: PairNodes) -> list[Callable[[int], np.ndarray]]:
+    def _measured(self, side: Side, pair: PairNodes) -> list[Callable[[int], np.ndarray]]:
         """Functions of the tooth that give the excess of material (n,), mm, by its measured profile and helix; none
         without curves and on coast flanks."""
-        own, functions = self._deviations[gear], []
+        own = self._deviations[side.number]
+        functions: list[Callable[[int], np.ndarray]] = []
         if pair.place.flank != DRIVE:
             return functions
         if own.curves is not None:
             start, end = own.active_profile
-            functions.append(_excess(own.curves, (self._rolls(gear, pair) - start) / (end - start), pair))
+            functions.append(_excess(own.curves, (self._rolls(side, pair) - start) / (end - start), pair))
         if own.helix is not None and own.helix.curves is not None:
             along = 0.5 + (pair.place.height - own.helix.middle) / own.helix.width
             functions.append(_excess(own.helix.curves, np.full(len(pair.offsets), along), pair, averaged=False))
@@ -158,19 +148,18 @@ def profile_shapes(
     return [node_average(pair.offsets, each) for each in shapes] if isinstance(pair, ToothPair) else shapes
 
 
-def _amounts(deviations: FlankDeviations, angular_pitch: float, sense: float) -> np.ndarray:
+def _amounts(deviations: FlankDeviations, side: Side) -> np.ndarray:
     """The deviations of each tooth (z, m), mm, in the order of the shapes.
 
-    Waves continue from tooth to tooth: roll angle v of the pinion's tooth i is on the line of action when the pinion
-    has turned by v + i times the angular pitch; on the wheel, where roll angles fall, by i times the angular pitch less
-    v.
+    Waves continue from tooth to tooth. Roll angle v of the pinion's tooth i is on the line of action when the pinion
+    has turned by i pitches and v. On the wheel, where roll angles fall, it is there after i pitches less v.
     """
     columns = [deviations.index, deviations.slope, deviations.form]
     if deviations.helix is not None:
         columns += [deviations.helix.slope, deviations.helix.form]
     if deviations.waviness is not None:
         waves = deviations.waviness
-        phase = waves.phase + sense * waves.waves * angular_pitch * np.arange(len(deviations.index))
+        phase = waves.phase + waves.waves * side.turn * np.arange(len(deviations.index))
         columns += [waves.amplitude * np.cos(phase), waves.amplitude * np.sin(phase)]
     return np.ascontiguousarray(np.stack(columns, axis=1))
 
@@ -188,7 +177,8 @@ def flank_gaps(errors: FlankErrors, pair: GearPair, steps: int, face: Face = IN_
 def check_waves(errors: FlankErrors, pair: GearPair, steps: int) -> None:
     """Raise SceneError for waves that so many steps a mesh cycle do not sample."""
     for name in GEARS:
-        waviness, teeth = getattr(errors, name).waviness, getattr(pair, name).teeth
+        waviness = getattr(errors, name).waviness
+        teeth = getattr(pair, name).teeth
         waves = 0 if waviness is None else waviness.waves
         if waves * FEWEST_STEPS_A_WAVE > steps * teeth:
             raise SceneError(

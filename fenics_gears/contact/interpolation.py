@@ -1,5 +1,5 @@
-"""How contact nodes see the flanks: displacements, gaps and positions averaged over functions of their own, or taken at
-their points.
+"""Interpolation of the flanks at contact nodes: displacements, gaps and positions averaged over functions of their own,
+or taken at their points.
 
 Contact force and gap use the same averages, so that energy and symmetry are kept: a nodal force acts as the line load
 `p_j psi_j / integral(psi_j)`, and a nodal displacement or gap is `integral(psi_j u) / integral(psi_j)` (model.md
@@ -7,8 +7,8 @@ section 2).
 
 On each cell `psi_j` is `2 hat_j - 1/2`, midway between the hat function and its dual `3 hat_j - 1` (B. I. Wohlmuth,
 SIAM J. Numer. Anal. 38, 2000). Its integrals are the hat's and its sum over the nodes is one, so that an even pressure
-is passed on exactly; but averages of parabolas over even cells are exact too, while hats see a gap too large by h^2/(12
-R) for cells of h and flanks of relative radius R.
+is passed on exactly. Averages of parabolas over even cells are exact too. Hats would give a gap too large by h^2/(12 R)
+for cells of h and flanks of relative radius R.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class FlankInterpolation:
     """Row `j` of `near` (n, w) takes the flank's dof nodes `first[j]` to `first[j] + w - 1` to the average of node `j`;
     `flank_nodes` of the flank."""
 
-    # A node sees a few flank nodes: whole rows would take several times what the compliance between contact nodes does.
+    # A node averages over a few flank nodes: whole rows would take several times the memory of the compliance.
     near: np.ndarray
     first: np.ndarray
     flank_nodes: int
@@ -81,19 +81,18 @@ def quadrature_offsets(offsets: np.ndarray) -> np.ndarray:
 @njit(cache=True)
 def offsets_of_cells(offsets: np.ndarray, ends: np.ndarray) -> np.ndarray:
     """The same of the nodes of many pairs, each from its place in `ends` (P + 1,) on, one after the other."""
-    found, last = np.empty(len(GAUSS_POINTS) * (len(offsets) - len(ends) + 1)), 0
+    found = np.empty((len(offsets) - len(ends) + 1, len(GAUSS_POINTS)))
     for pair in range(len(ends) - 1):
         for cell in range(ends[pair], ends[pair + 1] - 1):
-            for point in GAUSS_POINTS:
-                found[last] = offsets[cell] + (offsets[cell + 1] - offsets[cell]) * point
-                last += 1
-    return found
+            found[cell - pair] = offsets[cell] + (offsets[cell + 1] - offsets[cell]) * GAUSS_POINTS
+    return found.ravel()
 
 
 @njit(cache=True)
 def node_average(offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Average over each node's function (n,) of `values` given at `quadrature_offsets(offsets)`."""
-    sums, integrals = np.zeros(len(offsets)), np.zeros(len(offsets))
+    sums = np.zeros(len(offsets))
+    integrals = np.zeros(len(offsets))
     for cell in range(len(offsets) - 1):
         width = offsets[cell + 1] - offsets[cell]
         integrals[cell] += 0.5 * width
@@ -109,12 +108,12 @@ def node_average(offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
 def node_averages(offsets: np.ndarray, ends: np.ndarray, values: np.ndarray) -> np.ndarray:
     """The same (n,) of the nodes of many pairs, each from its place in `ends` (P + 1,) on, of values at the quadrature
     offsets of one pair after the other."""
-    found, first, points = np.empty(len(offsets)), 0, len(GAUSS_POINTS)
+    found = np.empty(len(offsets))
+    cells = values.reshape((-1, len(GAUSS_POINTS)))
     for pair in range(len(ends) - 1):
-        own = offsets[ends[pair] : ends[pair + 1]]
-        last = first + points * (len(own) - 1)
-        found[ends[pair] : ends[pair + 1]] = node_average(own, values[first:last].reshape((len(own) - 1, points)))
-        first = last
+        begin = ends[pair]
+        end = ends[pair + 1]
+        found[begin:end] = node_average(offsets[begin:end], cells[begin - pair : end - pair - 1])
     return found
 
 
@@ -130,31 +129,36 @@ def _averaging_weights(offsets, ends, rolls, contact_rolls, flank_rolls, flanks,
 
     Of the nodes of many pairs, from `ends` (P + 1,) on; `rolls`: roll angle of each contact node; `flank_rolls`: those
     of the nodes of one flank after the other, and `flanks` (2, P): where those of a pair's flank begin and their
-    number; `gear`: base radius and sense, -1 on the pinion, where y = rb - h, +1 on the wheel, y = h - rb. Returns
-    weights node by node, the first flank node of each, and the width (P,) of weights.
+    number; `gear`: base radius and sense of a `geometry.gear.Side`, with y = sense (rb - h). Returns weights node by
+    node, the first flank node of each, and the width (P,) of weights.
     """
-    base_radius, n, pairs = gear[0], len(offsets), len(contact_rolls)
-    vertex_arcs = 0.5 * base_radius * flank_rolls**2
-    arcs, lowest, widths, size = 0.5 * base_radius * rolls**2, np.empty(n, np.int64), np.empty(pairs, np.int64), 0
+    pairs = len(contact_rolls)
+    vertex_arcs = 0.5 * gear[0] * flank_rolls**2
+    arcs = 0.5 * gear[0] * rolls**2
+    lowest = np.empty(len(offsets), np.int64)
+    widths = np.empty(pairs, np.int64)
+    size = 0
     for pair in range(pairs):
         # In one piece: a search in an array with gaps copies it.
         vertices = vertex_arcs[flanks[0, pair] : flanks[0, pair] + flanks[1, pair] : order].copy()
-        first, last, most = ends[pair], ends[pair + 1], 0
-        for node in range(first, last):
-            beside = arcs[max(node - 1, first) : min(node + 2, last)]
-            lowest[node] = _element(vertices, beside.min(), "right")
-            most = max(most, _element(vertices, beside.max(), "left") - lowest[node] + 1)
+        most = 0
+        for node in range(ends[pair], ends[pair + 1]):
+            neighbours = arcs[max(node - 1, ends[pair]) : min(node + 2, ends[pair + 1])]
+            lowest[node] = _element(vertices, neighbours.min(), "right")
+            most = max(most, _element(vertices, neighbours.max(), "left") - lowest[node] + 1)
         widths[pair] = order * most + 1
-        size += (last - first) * widths[pair]
-    near, firsts, begin = np.zeros(size), order * lowest, 0
+        size += (ends[pair + 1] - ends[pair]) * widths[pair]
+    near = np.zeros(size)
+    firsts = order * lowest
+    begin = 0
     for pair in range(pairs):
         on_flank = vertex_arcs[flanks[0, pair] : flanks[0, pair] + flanks[1, pair]]
         own = slice(ends[pair], ends[pair + 1])
-        vertices, end = on_flank[::order].copy(), begin + (ends[pair + 1] - ends[pair]) * widths[pair]
+        end = begin + (ends[pair + 1] - ends[pair]) * widths[pair]
         firsts[own] = np.minimum(firsts[own], len(on_flank) - widths[pair])
-        found = near[begin:end].reshape((ends[pair + 1] - ends[pair], widths[pair]))
-        arrays, numbers = (offsets[own], arcs[own], vertices), (gear[0], gear[1], contact_rolls[pair])
-        _add_weights(found, firsts[own], arrays, numbers, order)
+        weights = near[begin:end].reshape((ends[pair + 1] - ends[pair], widths[pair]))
+        arrays = offsets[own], arcs[own], on_flank[::order].copy()
+        _add_weights(weights, firsts[own], arrays, (gear[0], gear[1], contact_rolls[pair]), order)
         begin = end
     return near, firsts, widths
 
@@ -162,10 +166,13 @@ def _averaging_weights(offsets, ends, rolls, contact_rolls, flank_rolls, flanks,
 @njit(cache=True)
 def _add_weights(near, first, arrays, numbers, order):
     """Those of one pair, into `near` (n, w)."""
-    (offsets, arcs, vertex_arc), (base_radius, sense, contact_roll), elements = arrays, numbers, len(arrays[2]) - 1
+    offsets, arcs, vertex_arc = arrays
+    base_radius, sense, contact_roll = numbers
+    elements = len(vertex_arc) - 1
     for cell in range(len(offsets) - 1):
         size_of_cell = offsets[cell + 1] - offsets[cell]
-        low, high = min(arcs[cell], arcs[cell + 1]), max(arcs[cell], arcs[cell + 1])
+        low = min(arcs[cell], arcs[cell + 1])
+        high = max(arcs[cell], arcs[cell + 1])
         element = _element(vertex_arc, low, "right")
         start = low
         while start < high:
@@ -174,10 +181,11 @@ def _add_weights(near, first, arrays, numbers, order):
             for point, share in zip(GAUSS_POINTS, GAUSS_WEIGHTS):
                 arc = start + point * (end - start)
                 roll = math.sqrt(2.0 * arc / base_radius)
-                sine, cosine = math.sin(0.5 * (contact_roll - roll)), math.cos(0.5 * (contact_roll - roll))
-                # Height above the line of action: rb cos(v_c - v) - rb v sin(v_c - v) - rb, without cancelling.
-                rise = -2.0 * base_radius * sine * (sine + roll * cosine)
-                right = (sense * rise - offsets[cell]) / size_of_cell
+                sine = math.sin(0.5 * (contact_roll - roll))
+                cosine = math.cos(0.5 * (contact_roll - roll))
+                # Depth below the line of action: rb - rb cos(v_c - v) + rb v sin(v_c - v), without cancelling.
+                depth = 2.0 * base_radius * sine * (sine + roll * cosine)
+                right = (sense * depth - offsets[cell]) / size_of_cell
                 # dy = cos(v_c - v) ds on an involute.
                 measure = share * (end - start) * (1.0 - 2.0 * sine**2)
                 local = (arc - vertex_arc[element]) / size
@@ -199,10 +207,12 @@ def _add_weights(near, first, arrays, numbers, order):
 
 
 @dataclass(frozen=True)
-class Seeing:
-    """Contact nodes (n,) of many pairs that see flanks of one gear: `offsets`, mm, from the place in `ends` (P + 1,) on
-    those of each pair; their roll angles `rolls` (n,), rad; of each pair the roll angle of contact `contact_rolls`
-    (P,), rad, and those of its flank's nodes `flank_rolls`; `sense` of offsets: -1 on the pinion, +1 on the wheel."""
+class GearContacts:
+    """Contact nodes (n,) of many pairs on the flanks of one gear, of each pair from the place in `ends` (P + 1,) on.
+
+    `offsets` (n,), mm; roll angles `rolls` (n,), rad, and of each pair that of contact, `contact_rolls` (P,), and those
+    of its flank's nodes, `flank_rolls`; `sense` of the gear's side.
+    """
 
     offsets: np.ndarray
     ends: np.ndarray
@@ -210,21 +220,24 @@ class Seeing:
     contact_rolls: np.ndarray
     flank_rolls: Sequence[np.ndarray]
     base_radius: float
-    sense: float
+    sense: int
     element_order: int
 
 
-def flank_interpolations(seeing: Seeing) -> list[FlankInterpolation]:
+def flank_interpolations(nodes: GearContacts) -> list[FlankInterpolation]:
     """Averaged trace of the flank's elements for the contact nodes of each pair."""
     # Most flanks are alike.
-    distinct = {id(rolls): rolls for rolls in seeing.flank_rolls}
+    distinct = {id(rolls): rolls for rolls in nodes.flank_rolls}
     begins = dict(zip(distinct, accumulate(map(len, distinct.values()), initial=0)))
-    firsts, sizes = [begins[id(rolls)] for rolls in seeing.flank_rolls], [len(rolls) for rolls in seeing.flank_rolls]
+    sizes = [len(rolls) for rolls in nodes.flank_rolls]
     near, first, widths = _averaging_weights(
-        seeing.offsets, seeing.ends, seeing.rolls, seeing.contact_rolls, np.concatenate(list(distinct.values())),
-        np.array([firsts, sizes]), np.array([seeing.base_radius, seeing.sense]), seeing.element_order,
+        nodes.offsets, nodes.ends, nodes.rolls, nodes.contact_rolls, np.concatenate(list(distinct.values())),
+        np.array([[begins[id(rolls)] for rolls in nodes.flank_rolls], sizes]),
+        np.array([nodes.base_radius, nodes.sense]), nodes.element_order,
     )  # fmt: skip
-    ends, found, begin = seeing.ends.tolist(), [], 0
+    ends = nodes.ends.tolist()
+    found = []
+    begin = 0
     for size, width, start, end in zip(sizes, widths.tolist(), ends, ends[1:]):
         last = begin + (end - start) * width
         found.append(FlankInterpolation(near[begin:last].reshape(-1, width), first[start:end], size))
@@ -232,31 +245,16 @@ def flank_interpolations(seeing: Seeing) -> list[FlankInterpolation]:
     return found
 
 
-def flank_interpolation(
-    offsets: np.ndarray,
-    rolls: np.ndarray,
-    base_radius: float,
-    contact_roll: float,
-    sense: float,
-    flank_rolls: np.ndarray,
-    element_order: int,
-) -> FlankInterpolation:
-    """The same for the nodes of one pair."""
-    ends, contact_rolls = np.array([0, len(offsets)]), np.array([contact_roll])
-    seeing = Seeing(offsets, ends, rolls, contact_rolls, [flank_rolls], base_radius, sense, element_order)
-    return flank_interpolations(seeing)[0]
-
-
 class Averages:
-    """A contact node sees averages over its function, so that nothing jumps as it passes nodes of the flank. Its nodes
-    are those of many pairs, each from its place in `ends` (P + 1,) on.
+    """Averages over the function of each contact node, so that nothing jumps as it passes nodes of the flank. The nodes
+    are those of many pairs, of each from its place in `ends` (P + 1,) on.
 
-    `places`: offsets at which nodes need the values that they see; `seen`: what they see of values there; `of_flank`:
-    the weights of the flank's nodes; `points`: where the places of each pair begin and end.
+    `places`: offsets at which nodes need values; `at_nodes`: values of the nodes from those there; `of_flank`: the
+    weights of the flank's nodes; `points`: where the places of each pair begin and end.
     """
 
     places = staticmethod(offsets_of_cells)
-    seen = staticmethod(node_averages)
+    at_nodes = staticmethod(node_averages)
     of_flank = staticmethod(flank_interpolations)
 
     def points(self, ends: np.ndarray) -> np.ndarray:
@@ -265,7 +263,7 @@ class Averages:
 
 
 class Points:
-    """Collocation: a contact node sees the values at its own point, of force, gap and displacement alike."""
+    """Collocation: force, gap and displacement of a contact node are those at its own point."""
 
     def places(self, offsets: np.ndarray, ends: np.ndarray) -> np.ndarray:
         """The nodes' own offsets (n,), mm."""
@@ -275,16 +273,17 @@ class Points:
         """Where they begin and end (P + 1,)."""
         return ends
 
-    def seen(self, offsets: np.ndarray, ends: np.ndarray, values: np.ndarray) -> np.ndarray:
+    def at_nodes(self, offsets: np.ndarray, ends: np.ndarray, values: np.ndarray) -> np.ndarray:
         """The values (n,) themselves."""
         return values
 
-    def of_flank(self, seeing: Seeing) -> list[FlankInterpolation]:
+    def of_flank(self, nodes: GearContacts) -> list[FlankInterpolation]:
         """The element's shape functions at the nodes' roll angles."""
-        ends, order, found = seeing.ends, seeing.element_order, []
-        for flank_rolls, start, end in zip(seeing.flank_rolls, ends[:-1], ends[1:]):
-            rolls = seeing.rolls[start:end], flank_rolls[::order]
-            arc, places = (0.5 * seeing.base_radius * each**2 for each in rolls)
+        order = nodes.element_order
+        found = []
+        for flank_rolls, start, end in zip(nodes.flank_rolls, nodes.ends[:-1], nodes.ends[1:]):
+            rolls = nodes.rolls[start:end], flank_rolls[::order]
+            arc, places = (0.5 * nodes.base_radius * each**2 for each in rolls)
             element = np.clip(np.searchsorted(places, arc, side="right") - 1, 0, len(places) - 2)
             local = np.clip((arc - places[element]) / np.diff(places)[element], 0.0, 1.0)
             if order == 1:
@@ -296,5 +295,6 @@ class Points:
 
 
 # By their names in a scene.
-AVERAGED, COLLOCATED = "averaged", "collocated"
+AVERAGED = "averaged"
+COLLOCATED = "collocated"
 INTERPOLATIONS: dict[str, Averages | Points] = {AVERAGED: Averages(), COLLOCATED: Points()}

@@ -1,16 +1,15 @@
-"""How the centre coordinates and the turning of rigid gears move contact nodes relative to each other, and which node
-each one was a step before."""
+"""How motions of the gears move contact nodes relative to each other, and which node each one was a step before."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numba import njit
 
-from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.gear import Side
 
 from .face import Face, one_slice
 from .tooth_pair import PairNodes, node_ends, over_nodes, per_node
@@ -29,119 +28,129 @@ FACE_COORDINATES = ("axial_1", "tilt_x1", "tilt_y1", "axial_2", "tilt_x2", "tilt
 COORDINATES = CENTRE_COORDINATES + FACE_COORDINATES
 
 
+# The six motions of a gear about its centre, along x, y and z and about them, and their places (2, 6) in COORDINATES.
+MOTIONS = ("centre_x{}", "centre_y{}", "axial_{}", "tilt_x{}", "tilt_y{}", "rotation_{}")
+COLUMNS = np.array([[COORDINATES.index(motion.format(gear)) for motion in MOTIONS] for gear in (1, 2)])
+
+
 IN_THE_PLANE = one_slice(1.0)
+
+
+def rigid_motions(points: np.ndarray, directions: np.ndarray) -> np.ndarray:
+    """Displacement (..., 6) of points (..., 3) of a rigid body along `directions` (..., 3), per unit of its motions
+    along x, y and z and about them.
+
+    A rotation theta moves the point at r by theta x r: along d by theta . (r x d).
+    """
+    turned = np.cross(points, directions)
+    return np.concatenate([np.broadcast_to(directions, turned.shape), turned], axis=-1)
 
 
 @dataclass(frozen=True)
 class Lines:
-    """Line of action of each contact node: its direction `normal` (n, 2) in space, from pinion to wheel, `tangent` (n,
-    2) across it, sign (n,) of rotations there, and `lever_arms` (n,), mm, of normal forces about the centres of pinion
-    and wheel.
+    """Lines of action of contact nodes (n,) between two `sides`, over a `face`.
 
-    Lever arms are the base radii, and at a tip's edge those of the mate's normal. An involute turned by phi moves by rb
-    phi along its own normal wherever it is touched, so that T1/rb1 = T2/rb2 holds exactly without friction.
+    `normal` (n, 2) and `tangent` (n, 2): directions in space along the line, from pinion to wheel, and across it.
+    `turn` (n,): sign of rotations there; `height` (n,), mm: along the axes. `lever_arms` (2, n), mm: of normal forces
+    about both centres. These are the base radii, and at a tip's edge those of the mate's normal. An involute turned by
+    phi moves by rb phi along its own normal wherever it is touched, so that T1/rb1 = T2/rb2 holds exactly without
+    friction.
     """
 
     pairs: Sequence[PairNodes]
+    sides: tuple[Side, Side]
+    face: Face
     normal: np.ndarray
     tangent: np.ndarray
     turn: np.ndarray
-    lever_arms: tuple[np.ndarray, np.ndarray]
+    height: np.ndarray
+    lever_arms: np.ndarray
 
     @cached_property
-    def friction_arms(self) -> tuple[np.ndarray, np.ndarray]:
-        """Lever arms (n,), mm, of friction about the centres of pinion and wheel."""
-        return over_nodes(self.pairs, "pinion_lever_arm"), over_nodes(self.pairs, "wheel_lever_arm")
+    def friction_arms(self) -> np.ndarray:
+        """Lever arms (2, n), mm, of friction about both centres."""
+        return over_nodes(self.pairs, "friction_arms").reshape(2, -1)
+
+    @cached_property
+    def senses(self) -> np.ndarray:
+        """The sense of each side, (2, 1)."""
+        return np.array([[side.sense] for side in self.sides])
+
+    @property
+    def at_nodes(self) -> Lines:
+        """The same with the heights of the contact nodes above the centres as lever arms."""
+        return replace(self, lever_arms=self.lever_arms - self.senses * over_nodes(self.pairs, "offsets"))
+
+    @property
+    def points(self) -> np.ndarray:
+        """Points of contact (2, n, 3), mm, from either gear's centre at its mid-width: along the line by the lever arm
+        of friction, and across it by that of normal forces."""
+        arms = (self.senses * each for each in (self.friction_arms, self.lever_arms))
+        along, across = (arm[..., None] for arm in arms)
+        middles = np.array(self.face.middles)[:, None, None]
+        return np.concatenate([along * self.normal - across * self.tangent, self.height[:, None] - middles], axis=-1)
+
+    @property
+    def directions(self) -> np.ndarray:
+        """Directions (2, n, 3) of the contact normal and of the tangent.
+
+        Over a face the normal leans along the axis: it is perpendicular to the line of contact.
+        """
+        cosine = self.face.cosine
+        leaning = -self.face.slope * self.turn[:, None]
+        normal = cosine * np.concatenate([self.normal, leaning], axis=1)
+        return np.stack([normal, np.concatenate([self.tangent, np.zeros_like(leaning)], axis=1)])
 
 
-def lines_of(pairs: Sequence[PairNodes], base_radii: tuple[float, float]) -> Lines:
+def lines_of(pairs: Sequence[PairNodes], sides: tuple[Side, Side], face: Face = IN_THE_PLANE) -> Lines:
     """The lines of action of the pairs' nodes."""
+    radii = [side.gear.base_radius for side in sides]
     places = [pair.place for pair in pairs]
     of_pairs = [
-        (*place.axes[0], *place.axes[1], place.turn, *(base_radii if place.line is None else place.line.lever_arms))
-        for place in places
+        (*each.axes[0], *each.axes[1], each.turn, each.height, *(each.line.lever_arms if each.line else radii))
+        for each in places
     ]
-    values = per_node(pairs, np.array(of_pairs).reshape(len(pairs), 7))
-    return Lines(pairs, values[:, :2], values[:, 2:4], values[:, 4], (values[:, 5].copy(), values[:, 6].copy()))
+    values = per_node(pairs, np.array(of_pairs).reshape(len(pairs), 8))
+    arms = np.ascontiguousarray(values[:, 6:].T)
+    return Lines(pairs, sides, face, values[:, :2], values[:, 2:4], values[:, 4], values[:, 5], arms)
 
 
-def normals(pairs: Sequence[PairNodes]) -> np.ndarray:
-    """Direction (n, 2) in space of each node's line of action, from pinion to wheel."""
-    return lines_of(pairs, (0.0, 0.0)).normal
+def approach(sides: tuple[Side, Side], points: np.ndarray, directions: np.ndarray) -> np.ndarray:
+    """Relative displacement (n, 13), mm per mm, along `directions` (n, 3) of flanks that touch at `points` (2, n, 3),
+    mm, from their gears' centres, per one of COORDINATES."""
+    rows = np.zeros((len(directions), len(COORDINATES)))
+    for side, columns, own in zip(sides, COLUMNS, points):
+        units = np.repeat([1.0, side.gear.base_radius], 3)
+        rows[:, columns] = side.sense * rigid_motions(own, directions) / units
+    return rows
 
 
-def displacement_jacobian(
-    pairs: tuple[PairNodes, ...],
-    base_radii: tuple[float, float],
-    normal_lever_arms: tuple[np.ndarray, np.ndarray],
-    tangential: bool,
-    lines: Lines | None = None,
-    face: Face = IN_THE_PLANE,
-) -> np.ndarray:
-    """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm;
-    over a `face` of many slices (m, 13).
-
-    `lines`: of the nodes, where they are known.
-    """
-    nodes, lines = len(normal_lever_arms[0]), lines or lines_of(pairs, base_radii)
-    normal, tangent, turn = lines.normal, lines.tangent, lines.turn
-    rows = np.zeros((2 * nodes if tangential else nodes, len(CENTRE_COORDINATES)))
-    rows[:nodes, 0:2], rows[:nodes, 2] = normal, turn * normal_lever_arms[0] / base_radii[0]
-    rows[:nodes, 3:5], rows[:nodes, 5] = -normal, turn * normal_lever_arms[1] / base_radii[1]
-    if tangential:
-        rows[nodes:, 0:2], rows[nodes:, 2] = tangent, turn * lines.friction_arms[0] / base_radii[0]
-        rows[nodes:, 3:5], rows[nodes:, 5] = -tangent, turn * lines.friction_arms[1] / base_radii[1]
-    if face.slices == 1:
-        return rows
-    from .face_jacobian import on_face
-
-    return on_face(rows, lines, face, base_radii)
+def displacement_jacobian(lines: Lines, tangential: bool) -> np.ndarray:
+    """Relative displacement of the contact nodes per one of COORDINATES: G (m, 13), mm per mm, of normals first, then
+    of tangents."""
+    points = lines.points
+    return np.concatenate([approach(lines.sides, points, each) for each in lines.directions[: 1 + tangential]])
 
 
-# By how much (rad) the roll angles of pinion and wheel rise, of all nodes or of each (n,).
-Turned = tuple[float, float] | tuple[np.ndarray, np.ndarray]
+def points_before(lines: Lines, advance: np.ndarray) -> np.ndarray:
+    """Points (2, n, 3), mm, from either gear's centre, at which the points that touch now were before the gears turned
+    by `advance` (n,), mesh cycles."""
+    x, y, z = np.moveaxis(lines.at_nodes.points, -1, 0)
+    turned = np.outer([side.turn for side in lines.sides], advance)
+    cosine = np.cos(turned)
+    sine = np.sin(turned)
+    return np.stack([cosine * x + sine * y, cosine * y - sine * x, z], axis=-1)
 
 
-def turned(gears: GearPair, advance: float) -> tuple[float, float]:
-    """By how much (rad) the roll angles of pinion and wheel rise while the pinion turns by `advance`; the wheel's
-    fall."""
-    return advance, -advance * gears.pinion.base_radius / gears.wheel.base_radius
-
-
-def slip_of_rigid_flanks(lines: Lines, turned: Turned) -> np.ndarray:
-    """Slip (n,), mm, of the points touching now while rigid gears turned to here: the exact integral of the sliding
-    speed [12].
+def slip_of_rigid_flanks(lines: Lines, before: np.ndarray) -> np.ndarray:
+    """Slip (n,), mm, of the points that touch now since they stood at `before`: the exact integral of the sliding speed
+    [12].
 
     The sliding speed times the step would be of first order only: the speed grows in proportion to the distance from
     the pitch point.
     """
-    lever_arms, offsets = lines.friction_arms, over_nodes(lines.pairs, "offsets")
-    straight = lines.turn * (lever_arms[0] * np.sin(turned[0]) + lever_arms[1] * np.sin(turned[1]))
-    return (
-        straight
-        - (lines.lever_arms[0] - offsets) * (1.0 - np.cos(turned[0]))
-        - (lines.lever_arms[1] + offsets) * (1.0 - np.cos(turned[1]))
-    )
-
-
-def earlier_tangential_jacobian(
-    lines: Lines, radii: tuple[float, float], turned: Turned, face: Face = IN_THE_PLANE
-) -> np.ndarray:
-    """Tangential rigid displacement (n, 7), over a `face` of many slices (n, 13), of the points touching now,
-    per centre coordinate one step before."""
-    offsets, (arm_1, arm_2) = over_nodes(lines.pairs, "offsets"), lines.friction_arms
-    height_1, height_2 = lines.lever_arms[0] - offsets, lines.lever_arms[1] + offsets
-    tangent, turn = lines.tangent, lines.turn
-    rows = np.zeros((len(offsets), len(CENTRE_COORDINATES)))
-    # A point (x, -h) of the pinion stood at (x cos a - h sin a, ...) before the pinion turned by a; likewise the wheel.
-    (sine_1, sine_2), (cosine_1, cosine_2) = (tuple(map(function, turned)) for function in (np.sin, np.cos))
-    rows[:, 0:2], rows[:, 2] = tangent, turn * (arm_1 * cosine_1 - turn * height_1 * sine_1) / radii[0]
-    rows[:, 3:5], rows[:, 5] = -tangent, turn * (arm_2 * cosine_2 - turn * height_2 * sine_2) / radii[1]
-    if face.slices == 1:
-        return rows
-    from .face_jacobian import earlier_tangents_on_face
-
-    return earlier_tangents_on_face(rows, lines, face, radii)
+    moved = lines.at_nodes.points - before
+    return lines.senses[:, 0] @ np.einsum("sni,ni->sn", moved[..., :2], lines.tangent)
 
 
 # The tooth pairs at a position, and those a step before.
@@ -151,11 +160,11 @@ Step = tuple[Sequence[PairNodes], Sequence[PairNodes]]
 def nodes_before(steps: Sequence[Step], spacing: float) -> list[np.ndarray]:
     """Of each of some steps, for each node the one of the same pair that it was a step before; -1 where there is none.
 
-    Beside an edge, with which nodes move, it is the one with as many nodes between it and the edge; else the one at the
-    same offset.
+    Near an edge, with which nodes move, it is the one with as many nodes between it and the edge. Elsewhere it is the
+    one at the same offset.
     """
     same: list[int] = []
-    every: tuple[list[PairNodes], list[PairNodes]] = [], []
+    every: tuple[list[PairNodes], ...] = ([], [])
     begins = []
     for step in steps:
         pairs, previous = step
@@ -165,8 +174,8 @@ def nodes_before(steps: Sequence[Step], spacing: float) -> list[np.ndarray]:
         for all_pairs, own in zip(every, step):
             all_pairs += own
     ends = [node_ends(each) for each in every]
-    (offsets, now), (offsets_before, before) = ((over_nodes(each, "offsets"), at) for each, at in zip(every, ends))
-    found = _nodes_before(offsets, now, offsets_before, before, np.array(same, dtype=np.int64), spacing)
+    (offsets, now), before = ((over_nodes(each, "offsets"), at) for each, at in zip(every, ends))
+    found = _nodes_before(offsets, now, *before, np.array(same, dtype=np.int64), spacing)
     # Counted from the first node of the step before.
     first, first_before = (at[list(begin)] for at, begin in zip(ends, zip(*begins)))
     found -= np.where(found >= 0, np.repeat(first_before, np.diff([*first, len(found)])), 0)
@@ -180,7 +189,8 @@ def _nodes_before(offsets, ends, offsets_before, ends_before, same, spacing):
     found = np.full(len(offsets), -1)
     for pair in range(len(same)):
         if same[pair] >= 0:
-            first, last = ends_before[same[pair]], ends_before[same[pair] + 1]
+            first = ends_before[same[pair]]
+            last = ends_before[same[pair] + 1]
             own = slice(ends[pair], ends[pair + 1])
             _same_nodes(found[own], offsets[own], offsets_before[first:last], spacing)
             for node in range(ends[pair], ends[pair + 1]):
@@ -191,8 +201,10 @@ def _nodes_before(offsets, ends, offsets_before, ends_before, same, spacing):
 @njit(cache=True)
 def _same_nodes(found, now, before, spacing):
     """For each node now, at offsets (n,), mm, the place of the same one among those before, -1 for none."""
-    (low, high), (low_before, high_before) = _closer(now, spacing), _closer(before, spacing)
-    low, high = low and low_before, high and high_before
+    low, high = _closer(now, spacing)
+    low_before, high_before = _closer(before, spacing)
+    low = low and low_before
+    high = high and high_before
     for node in range(len(now)):
         place = node
         if high and not low:

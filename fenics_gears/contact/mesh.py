@@ -4,7 +4,7 @@ many positions, all in one go."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
@@ -16,11 +16,11 @@ from .face import Face
 from .kinematics import (
     COORDINATES,
     IN_THE_PLANE,
+    approach,
     displacement_jacobian,
-    earlier_tangential_jacobian,
     lines_of,
+    points_before,
     slip_of_rigid_flanks,
-    turned,
 )
 from .operator import ContactOperator, Passage, Position, Response
 from .pairing import CompliancePairing
@@ -111,7 +111,7 @@ def elastic_mesh(
         places = [pair_places(flanks.pair, grid, phase, coast, corner) for phase in phases]
         if corner is not None:
             return [tuple(flank_nodes(flanks, grid, corner, each)) for each in places]
-        # All in one go: of a pair by itself Python takes several times what its nodes do.
+        # All in one go: for each pair by itself Python would take several times as long.
         found = {pair.place: pair for pair in flank_nodes(flanks, grid, None, list(chain(*places)))}
         return [nodes_at(each, found.get) for each in places]
 
@@ -129,37 +129,40 @@ def contact_operators(
     face: Face = IN_THE_PLANE,
 ) -> list[ContactOperator]:
     """The contact equations at the end of each of some passages, of nodes whose normal forces act along their pair's
-    line; those of friction too where the passages have previous nodes. All in one go: of a position by itself Python
-    takes several times what its numbers do.
+    line; those of friction too where the passages have previous nodes. All in one go: for each
+    position by itself Python would take several times as long.
 
     `coordinates`: which of COORDINATES are unknowns; those beyond, at the end, are of shafts, and move no contact.
     """
-    radii, frictional = (gears.pinion.base_radius, gears.wheel.base_radius), passages[0].previous is not None
+    frictional = passages[0].previous is not None
     counts = [count_of(passage.pairs) for passage in passages]
-    lines = lines_of([pair for passage in passages for pair in passage.pairs], radii)
-    arms, slip, before = lines.lever_arms, None, None
+    starts = np.cumsum(counts) - counts
+    lines = lines_of([pair for passage in passages for pair in passage.pairs], gears.sides, face)
+    arms = lines.lever_arms
     if responses[0].normal_lever_arms is not None:
-        arms = tuple(np.concatenate(each) for each in zip(*(response.normal_lever_arms for response in responses)))
-    rows = _of_unknowns(displacement_jacobian(lines.pairs, radii, arms, frictional, lines, face), coordinates)
+        arms = np.concatenate([response.normal_lever_arms for response in responses], axis=1)
+    rows = _of_unknowns(displacement_jacobian(replace(lines, lever_arms=arms), frictional), coordinates)
+    slip = before = None
     if frictional:
-        angles = np.repeat([turned(gears, passage.advance) for passage in passages], counts, axis=0).T
-        slip = slip_of_rigid_flanks(lines, angles)
+        stood = points_before(lines, np.repeat([passage.advance for passage in passages], counts))
+        slip = slip_of_rigid_flanks(lines, stood)
         if responses[0].previous_jacobian is None:
-            before = earlier_tangential_jacobian(lines, radii, angles, face)
+            before = approach(lines.sides, stood, lines.directions[1])
         else:
             before = np.concatenate([response.previous_jacobian for response in responses])
         before = _of_unknowns(before, coordinates)
-    gap, starts, found = over_nodes(lines.pairs, "gap") * face.cosine, np.cumsum(counts) - counts, []
-    if frictional:
         rows = _step_by_step(rows, starts, counts)
+    gap = over_nodes(lines.pairs, "gap") * face.cosine
     drive, pair_of_node = _pairs_of_nodes(passages)
+    found = []
     for passage, response, start, count in zip(passages, responses, starts.tolist(), counts):
-        own, kinds = slice(start, start + count), len(rows) // len(gap) if len(gap) else 1
+        own = slice(start, start + count)
+        kinds = len(rows) // len(gap) if len(gap) else 1
         earlier = response.previous_compliance
         found.append(ContactOperator(
             pairs=passage.pairs,
-            base_radii=radii,
-            normal_lever_arms=(arms[0][own], arms[1][own]),
+            sides=gears.sides,
+            normal_lever_arms=arms[:, own],
             compliance=response.compliance,  # type: ignore[arg-type]
             jacobian=rows[kinds * start : kinds * (start + count)],
             gap=gap[own],
@@ -191,7 +194,8 @@ def _step_by_step(rows: np.ndarray, starts: np.ndarray, counts: Sequence[int]) -
     n = len(rows) // 2
     normals = np.arange(n) + np.repeat(starts, counts)
     found = np.empty_like(rows)
-    found[normals], found[normals + np.repeat(counts, counts)] = rows[:n], rows[n:]
+    found[normals] = rows[:n]
+    found[normals + np.repeat(counts, counts)] = rows[n:]
     return found
 
 

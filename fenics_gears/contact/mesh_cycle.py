@@ -1,9 +1,9 @@
 """The contact operators of all positions that one mesh cycle passes, built once and used by every cycle.
 
-Steps are counted from phase 0, where a new tooth pair reaches the theoretical start of contact; step `i` stands at
-phase `i / steps`. Where all teeth are alike, the equations at a phase are the same in every cycle; only the pairs'
-numbers move on. What opens the nodes further is added to their gaps and changes nothing else. Runs that differ in
-gaps alone have all operators in common, also those of places between steps that are asked for again.
+Steps are counted from phase 0, where a new tooth pair reaches the theoretical start of contact; step `i` is at phase
+`i / steps`. Where all teeth are alike, the equations at a phase are the same in every cycle; only the pairs' numbers
+move on. Further gaps are added to those of the nodes and change nothing else. Runs that differ in gaps alone have all
+operators in common, also those of places between steps that are asked for again.
 """
 
 from __future__ import annotations
@@ -28,25 +28,25 @@ from .operator import Passage, Position, StepRows
 from .step_solver import StepProblem, StepSolution
 from .tooth_pair import Nodes, PairNodes, over_nodes
 
-# Of the memory that contact operators may take: what is kept for good, and what a march holds of a block of steps, the
-# one before it beside.
-SHARE_KEPT, SHARE_OF_A_BLOCK = 0.7, 0.12
+# Shares of the memory for contact operators: of those kept, and of a block of steps of a march, twice.
+SHARE_KEPT = 0.7
+SHARE_OF_A_BLOCK = 0.12
 # Places between steps that runs have in common divide a step by so many.
 COMMON_PLACES = 64
 
 
 @dataclass
 class Kept:
-    """How much memory (bytes) operators may take and the kept ones do, `beside` those of other cycles; what is beyond
-    is made again each time the cycle comes round."""
+    """Memory (bytes) that operators may take at `most`, that the kept ones have `taken`, and of `others`, those of
+    other cycles. Operators beyond are made again each time the cycle comes round."""
 
     most: float = inf
     taken: float = 0.0
-    beside: float = 0.0
+    others: float = 0.0
 
     def takes(self, size: float) -> bool:
         """Whether there is room for this many bytes more, which are then counted."""
-        if self.beside + self.taken + size > SHARE_KEPT * self.most:
+        if self.others + self.taken + size > SHARE_KEPT * self.most:
             return False
         self.taken += size
         return True
@@ -65,28 +65,31 @@ class PerPosition(Generic[Value]):
     far, which functions alike may share."""
 
     def __init__(self, function: Callable[[Position], Value], known: dict[float, Value] | None = None):
-        self._function, self._known = function, {} if known is None else known
+        self._function = function
+        self._known = {} if known is None else known
 
     def __call__(self, position: Position) -> Value:
-        found = self._known.get(position.index)
-        if found is None:
-            found = self._function(position)
+        value = self._known.get(position.index)
+        if value is None:
+            value = self._function(position)
             if in_common(position.index):
-                self._known[position.index] = found
-        return found
+                self._known[position.index] = value
+        return value
 
 
-# What opens contact nodes (n,), mm along the line of action, negative where material is in excess: at a position, in
-# every mesh cycle; and at a step, counted from the start of the run.
+# Gaps added at contact nodes (n,), mm along the line of action, negative where material is in excess: at a position, in
+# every mesh cycle; and at a step of the run.
 Opening = Callable[[Position], np.ndarray]
 Deviation = Callable[[float, Position], np.ndarray]
 
 
 @dataclass(frozen=True)
 class Gaps:
-    """What gaps are made of, mm along the line of action: the `profile` (n,) that the flanks themselves leave at a
-    position, that of the nodes where None; `openings` and `deviations` are added. `of_steps`: the profiles of all steps
-    of a mesh cycle one after the other, where they are known."""
+    """Parts of the gaps, mm along the line of action.
+
+    `profile` (n,): left by the flanks themselves at a position, that of the nodes where None. `openings`, `deviations`:
+    added. `of_steps`: the profiles of all steps of a mesh cycle one after the other, where they are known.
+    """
 
     profile: Callable[[Position], np.ndarray] | None = None
     openings: tuple[Opening, ...] = ()
@@ -101,17 +104,24 @@ class Cycle:
     """
 
     def __init__(self, mesh: Mesh, steps: int, coordinates: list[int], tangential: bool):
-        self.mesh, self.steps, self.coordinates, self.tangential = mesh, steps, coordinates, tangential
-        self.pair, self.grid, self.traits = mesh.pair, mesh.grid, mesh.traits
-        self.bodies, self.coast_flanks, self.corner = mesh.bodies, mesh.coast_flanks, mesh.corner
+        self.mesh = mesh
+        self.steps = steps
+        self.coordinates = coordinates
+        self.tangential = tangential
+        self.pair = mesh.pair
+        self.grid = mesh.grid
+        self.traits = mesh.traits
+        self.bodies = mesh.bodies
+        self.coast_flanks = mesh.coast_flanks
+        self.corner = mesh.corner
         self.face = mesh.face or one_slice(mesh.pair.face_width)
-        self.gaps, self.kept = Gaps(), Kept()
+        self.gaps = Gaps()
+        self.kept = Kept()
         self._pairs: dict[tuple, tuple[PairNodes, ...]] = {}
         self._built: dict[tuple[Mesh, float], Position] = {}
         self._held: dict[tuple[Mesh, float], Position] = {}
-        # Those with openings; the same ones without.
-        self._positions = self._built
-        self._beside: dict[type, Any] = {}
+        self._positions = self._built  # with openings, if there are any
+        self._shared: dict[type, Any] = {}
 
     def with_gaps(self, gaps: Gaps) -> Cycle:
         """The same contact nodes and operators, which both have in common, with other gaps."""
@@ -121,13 +131,14 @@ class Cycle:
         return other
 
     def _opened_steps(self, gaps: Gaps) -> dict[tuple[Mesh, float], Position]:
-        """All steps of a mesh cycle with these gaps, where their profiles are known and nothing else opens them; else
+        """All steps of a mesh cycle with these gaps, where their profiles are known and there are no openings; else
         none: each is then opened when it is asked for."""
         keys = [(self.mesh, step) for step in range(self.steps)]
         if gaps.of_steps is None or gaps.openings or not all(key in self._built for key in keys):
             return {}
-        true, gap = [self._built[key] for key in keys], self.face.cosine * gaps.of_steps
-        rows = self.beside(StepRows).of(true).copy()
+        true = [self._built[key] for key in keys]
+        gap = self.face.cosine * gaps.of_steps
+        rows = self.shared(StepRows).of(true).copy()
         ends = np.cumsum(rows[:, NODES])
         rows[:, GAP] = gap.ctypes.data + gap.itemsize * (ends - rows[:, NODES])
         own = [gap[first:end] for first, end in zip([0, *ends.tolist()], ends.tolist())]
@@ -138,9 +149,9 @@ class Cycle:
         """Whether positions of all mesh cycles have the same contact nodes."""
         return self.mesh.of_cycle is None
 
-    def beside(self, kind: type[Value]) -> Value:
-        """The one object of a kind that goes with the operators: what others know of them, whatever the gaps."""
-        return self._beside.setdefault(kind, kind())
+    def shared(self, kind: type[Value]) -> Value:
+        """The one object of a kind that runs on these operators share, whatever their gaps."""
+        return self._shared.setdefault(kind, kind())
 
     def position(self, step: int) -> Position:
         """The contact equations at `step` (any integer)."""
@@ -151,8 +162,8 @@ class Cycle:
         not kept are there until others are built so."""
         if self.alike:
             steps = steps[: self.steps]
-        missing = {(self._mesh_at(step), step % self.steps): step for step in steps}
-        missing = {key: step for key, step in missing.items() if key not in self._built}
+        keys = {(self._mesh_at(step), step % self.steps): step for step in steps}
+        missing = {key: keys[key] for key in keys if key not in self._built}
         if missing:
             self._held = dict(zip(missing, self._build([(step, step - 1) for step in missing.values()])))
             self._keep(self._held)
@@ -172,9 +183,10 @@ class Cycle:
         """Give up what is kept, and keep half as much from now on; whether there was anything."""
         if not self._built:
             return False
-        self.kept.most, self.kept.taken = 0.5 * self.kept.taken, 0.0
-        # What goes with them takes memory too, and has addresses of what is given up.
-        for known in (self._built, self._positions, self._held, self._pairs, self._beside):
+        self.kept.most = 0.5 * self.kept.taken
+        self.kept.taken = 0.0
+        # Shared objects take memory too, and have addresses of what is given up.
+        for known in (self._built, self._positions, self._held, self._pairs, self._shared):
             known.clear()
         give_back()
         return True
@@ -202,7 +214,8 @@ class Cycle:
 
     def _pairs_at(self, asked: Iterable[tuple[Nodes, float]]) -> dict[tuple[Nodes, float], tuple[PairNodes, ...]]:
         """The tooth pairs at positions that may lie between two steps; only those of whole steps are kept."""
-        found, missing = {}, defaultdict(list)
+        found = {}
+        missing = defaultdict(list)
         for key in dict.fromkeys(asked):
             if key in self._pairs:
                 found[key] = self._pairs[key]
@@ -225,10 +238,12 @@ class Cycle:
         """The same, all of one mesh."""
         indices = [(step % self.steps, before % self.steps) for step, before in steps]
         pairs_at = self._pairs_at((mesh.nodes, index) for both in indices for index in both)
-        pairs, previous = [], []
+        pairs = []
+        previous = []
         for (step, before), (index, index_before) in zip(steps, indices):
             pairs.append(pairs_at[mesh.nodes, index])
-            earlier, cycles = pairs_at[mesh.nodes, index_before], int(step // self.steps - before // self.steps)
+            earlier = pairs_at[mesh.nodes, index_before]
+            cycles = int(step // self.steps - before // self.steps)
             if cycles:
                 # Passing the end of a cycle every pair's index rises by one.
                 earlier = tuple(
@@ -236,11 +251,8 @@ class Cycle:
                 )
             previous.append(earlier)
         same = nodes_before(list(zip(pairs, previous)), self.grid.spacing)
-        pitch = self.pair.pinion.angular_pitch
         passages = [
-            Passage(
-                own, earlier if self.tangential else None, node_before, *index, pitch * (step - before) / self.steps
-            )
+            Passage(own, earlier if self.tangential else None, node_before, *index, (step - before) / self.steps)
             for own, earlier, node_before, index, (step, before) in zip(pairs, previous, same, indices, steps)
         ]
         operators = contact_operators(self.pair, passages, self.coordinates, mesh.responses(passages), self.face)
@@ -269,7 +281,7 @@ class Cycle:
         return found
 
     def _opened(self, position: Position) -> Position:
-        """The position with the profile of these gaps and all that opens it in every mesh cycle."""
+        """The position with the profile and the openings of these gaps."""
         if self.gaps.profile is None and not self.gaps.openings:
             return position
         profile = self.gaps.profile

@@ -11,33 +11,22 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.elasticity.remeshed_gear import LoadedTooth
+from fenics_gears.geometry.gear import Side
 from fenics_gears.geometry.pair import GearPair
 
 from .interpolation import hat_integrals
-from .kinematics import displacement_jacobian, earlier_tangential_jacobian, lines_of, turned
+from .kinematics import COLUMNS, Lines, approach, displacement_jacobian, lines_of, points_before
 from .operator import Response
-from .tooth_pair import PairNodes, Place, Removal, count_of, facing_points_at, node_slices, over_nodes
+from .tooth_pair import PairNodes, Place, Removal, count_of, facing_points_at, node_slices
 from .window import ContactGrid, flank_ends, node_offsets
 
-# A node this near to the end of a flank (in spacings) would leave an element too small for a mesh beside it.
+# A node this near to the end of a flank (in spacings) would leave an element too small for a mesh.
 SMALLEST_REST = 0.3
-
-
-@dataclass(frozen=True)
-class NodePairs(PairNodes):
-    """Contact nodes (n,) of a tooth pair that are nodes of both gears' meshes; `wheel_roll`: their roll angles there
-    (rad)."""
-
-    wheel_roll: np.ndarray
-
-    def rolls(self, gear: int) -> np.ndarray:
-        """Roll angles (n,), rad, on the pinion (0) or the wheel (1)."""
-        return self.wheel_roll if gear else self.pinion_roll
 
 
 def node_pairs(
     pair: GearPair, removal: tuple[Removal | None, Removal | None], grid: ContactGrid, order: int, place: Place
-) -> NodePairs | None:
+) -> PairNodes | None:
     """The contact nodes of the flanks at a place, or None where their window is empty.
 
     `grid` spaces the element vertices; elements of second `order` have a contact node midway between each two.
@@ -45,25 +34,17 @@ def node_pairs(
     vertices = _vertex_offsets(pair, place.contact_rolls, grid)
     if not len(vertices):
         return None
-    lengths, offsets = hat_integrals(vertices), vertices
+    lengths = hat_integrals(vertices)
+    offsets = vertices
     if order == 2:
-        middle, cells = 0.5 * (vertices[1:] + vertices[:-1]), np.diff(vertices)
+        offsets = _alternating(vertices, 0.5 * (vertices[1:] + vertices[:-1]))
         # The force of an even pressure on a second-order element: 1/6, 4/6, 1/6 (Simpson).
-        offsets, lengths = _alternating(vertices, middle), _alternating(lengths / 3.0, cells * 2.0 / 3.0)
+        lengths = _alternating(lengths / 3.0, np.diff(vertices) * 2.0 / 3.0)
     rolls, arms, gap = facing_points_at(pair, removal, place, offsets)
     if order == 2:
-        # Elements are straight-sided: their middle nodes stand on the chord.
-        arms = tuple(_alternating(arm[::2], 0.5 * (arm[2::2] + arm[:-2:2])) for arm in arms)
-    return NodePairs(
-        place=place,
-        offsets=offsets,
-        lengths=lengths,
-        gap=gap,
-        pinion_lever_arm=arms[0],
-        wheel_lever_arm=arms[1],
-        pinion_roll=rolls[0],
-        wheel_roll=rolls[1],
-    )
+        # Elements are straight-sided: their middle nodes are on the chord.
+        arms = np.array([_alternating(arm[::2], 0.5 * (arm[2::2] + arm[:-2:2])) for arm in arms])
+    return PairNodes(place, offsets, lengths, gap, arms, rolls)
 
 
 def _vertex_offsets(pair: GearPair, contact_rolls: tuple[float, float], grid: ContactGrid) -> np.ndarray:
@@ -72,7 +53,8 @@ def _vertex_offsets(pair: GearPair, contact_rolls: tuple[float, float], grid: Co
     offsets = node_offsets(ends, grid)
     if len(offsets) < 3:
         return offsets
-    near, exact = SMALLEST_REST * grid.spacing, 1e-9 * grid.spacing
+    near = SMALLEST_REST * grid.spacing
+    exact = 1e-9 * grid.spacing
     first = int(any(exact < offsets[0] - end < near for end in below))
     last = len(offsets) - int(any(exact < end - offsets[-1] < near for end in above))
     return offsets[first:last]
@@ -80,40 +62,27 @@ def _vertex_offsets(pair: GearPair, contact_rolls: tuple[float, float], grid: Co
 
 def _alternating(even: np.ndarray, odd: np.ndarray) -> np.ndarray:
     joined = np.empty(len(even) + len(odd))
-    joined[::2], joined[1::2] = even, odd
+    joined[::2] = even
+    joined[1::2] = odd
     return joined
 
 
-def loaded_teeth(pairs: tuple[NodePairs, ...], gear: int, order: int) -> tuple[LoadedTooth, ...]:
-    """The teeth of a gear that have contact nodes, by rising angle: the pairs' order on the pinion, its reverse on the
-    wheel."""
-    teeth = (LoadedTooth(pair.place.contact_rolls[gear], pair.rolls(gear)[::order]) for pair in pairs)
+def loaded_teeth(pairs: tuple[PairNodes, ...], gear: int, order: int) -> tuple[LoadedTooth, ...]:
+    """The teeth of a gear that have contact nodes, by rising angle: in the pairs' order on the gear that pushes, in
+    reverse on the other."""
+    teeth = (LoadedTooth(pair.place.contact_rolls[gear], pair.rolls[gear][::order]) for pair in pairs)
     return tuple(sorted(teeth, key=lambda tooth: tooth.angle))
 
 
-def by_direction(stiffness: np.ndarray, pairs: tuple[NodePairs, ...], gear: int) -> np.ndarray:
+def by_direction(stiffness: np.ndarray, pairs: tuple[PairNodes, ...], side: Side) -> np.ndarray:
     """A gear's stiffness over x, y of its loaded teeth's nodes and the centre, put in the order of `pairs`: normals,
     tangents, centre."""
     count = count_of(pairs)
-    nodes = np.arange(count)
-    if gear == 1:
-        # Teeth come by rising angle, on the wheel in the opposite order of the pairs.
-        slices = node_slices(pairs[::-1])[::-1]
-        nodes = np.concatenate([nodes[each] for each in slices])
+    # Teeth come by rising angle.
+    by_angle = node_slices(pairs[:: side.sense])[:: side.sense]
+    nodes = np.concatenate([np.arange(count)[each] for each in by_angle])
     rows = np.concatenate([2 * nodes, 2 * nodes + 1, 2 * count + np.arange(3)])
     return stiffness[np.ix_(rows, rows)]
-
-
-def height_lever_arms(pairs: tuple[NodePairs, ...], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """Lever arms (n,), mm, of forces along the line of action: the heights of the nodes above either centre.
-
-    The paper's kinematics of material points. A flank turned by phi also moves by x phi along itself; where it is
-    slanted, another of its points then stands at the node, and with that the lever arm would be rb. Without it contact
-    shifts by R (phi2 - phi1), R the relative radius, and T1/rb1 differs from T2/rb2 by that over rb: 0.04 mm and 0.2 %
-    on the paper's pair.
-    """
-    offsets = over_nodes(pairs, "offsets")
-    return base_radii[0] - offsets, base_radii[1] + offsets
 
 
 def roll_interpolation(rolls: np.ndarray, known: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -124,7 +93,8 @@ def roll_interpolation(rolls: np.ndarray, known: np.ndarray) -> tuple[np.ndarray
     reached = (rolls >= sorted_rolls[0]) & (rolls <= sorted_rolls[-1])
     left = np.clip(np.searchsorted(sorted_rolls, rolls, side="right") - 1, 0, len(known) - 2)
     part = (rolls - sorted_rolls[left]) / (sorted_rolls[left + 1] - sorted_rolls[left])
-    weights, rows = np.zeros((len(rolls), len(known))), np.flatnonzero(reached)
+    weights = np.zeros((len(rolls), len(known)))
+    rows = np.flatnonzero(reached)
     weights[rows, order[left[rows]]] = 1.0 - part[rows]
     weights[rows, order[left[rows] + 1]] += part[rows]
     return weights, reached
@@ -135,7 +105,7 @@ class NodeResponse:
     """Contact nodes of one position and how either gear responds: `compliance` (2n, 2n), mm/N, hub held, normals then
     tangents."""
 
-    pairs: tuple[NodePairs, ...]
+    pairs: tuple[PairNodes, ...]
     compliance: tuple[np.ndarray, np.ndarray]
 
 
@@ -143,34 +113,36 @@ def node_to_node_response(
     pair: GearPair, now: NodeResponse, before: NodeResponse | None = None, advance: float = 0.0
 ) -> Response:
     """How the nodes of a position yield; with `before`, the position one step earlier, under friction too. `advance`:
-    rotation of the pinion (rad) during the step."""
-    radii, rows = (pair.pinion.base_radius, pair.wheel.base_radius), count_of(now.pairs) * (1 if before is None else 2)
-    compliance = np.ascontiguousarray((now.compliance[0] + now.compliance[1])[:rows, :rows])
+    mesh cycles of the step.
+
+    Lever arms of forces along the line of action are the heights of the nodes above either centre: the paper's
+    kinematics of material points. A flank turned by phi also moves by x phi along itself. Where it is slanted, another
+    of its points is then at the node, and with that the lever arm would be rb. Without it contact shifts by R (phi2 -
+    phi1), R the relative radius. T1/rb1 differs from T2/rb2 by that over rb: 0.04 mm and 0.2 % on the paper's pair.
+    """
+    rows = count_of(now.pairs) * (1 if before is None else 2)
+    compliance = np.ascontiguousarray(sum(now.compliance)[:rows, :rows])
+    lines = lines_of(now.pairs, pair.sides)
     elastic = jacobian = None
     if before is not None:
-        elastic, jacobian = _last_displacement(radii, now.pairs, before, turned(pair, advance))
-    return Response(compliance, elastic, 0, height_lever_arms(now.pairs, radii), jacobian)
+        elastic, jacobian = _last_displacement(lines, before, np.full(len(lines.turn), advance))
+    return Response(compliance, elastic, 0, lines.at_nodes.lever_arms, jacobian)
 
 
-# Columns of CENTRE_COORDINATES that move the pinion and the wheel.
-GEAR_COLUMNS = ((0, 1, 2), (3, 4, 5))
-
-
-def _last_displacement(
-    radii, pairs, before: NodeResponse, angles: tuple[float, float]
-) -> tuple[np.ndarray, np.ndarray]:
-    """E (n, 2 n of the step before) and G (n, 7) with u_t(t_n) = G q - E p at the material points that are contact
+def _last_displacement(lines: Lines, before: NodeResponse, advance: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """E (n, 2 n of the step before) and G (n, 13) with u_t(t_n) = G q - E p at the material points that are contact
     nodes now.
 
-    `angles`: by which the roll angles of pinion and wheel have risen, rad. Between the last step's nodes displacements
-    are linear in the roll angle [A.2]; beyond them the gear moves rigidly [A.4].
+    Between the last step's nodes displacements are linear in the roll angle [A.2]; beyond them the gear moves rigidly
+    [A.4].
     """
     last = count_of(before.pairs)
-    tangential_last = displacement_jacobian(before.pairs, radii, height_lever_arms(before.pairs, radii), True)[last:]
-    outside = earlier_tangential_jacobian(lines_of(pairs, radii), radii, angles)
-    elastic, jacobian = np.zeros((len(outside), 2 * last)), np.zeros_like(outside)
-    for gear, columns in enumerate(GEAR_COLUMNS):
-        weights, reached = _pairwise(pairs, before.pairs, gear)
+    tangential_last = displacement_jacobian(lines_of(before.pairs, lines.sides), True)[last:]
+    outside = approach(lines.sides, points_before(lines, advance), lines.directions[1])
+    elastic = np.zeros((len(outside), 2 * last))
+    jacobian = np.zeros_like(outside)
+    for gear, columns in enumerate(COLUMNS):
+        weights, reached = _pairwise(lines.pairs, before.pairs, gear)
         elastic += weights @ before.compliance[gear][last:]
         moved = np.where(reached[:, None], weights @ tangential_last, outside)
         jacobian[:, columns] = moved[:, columns]
@@ -186,5 +158,5 @@ def _pairwise(pairs, previous, gear: int) -> tuple[np.ndarray, np.ndarray]:
     for rows, pair in zip(node_slices(pairs), pairs):
         if pair.place.index in earlier:
             columns, before = earlier[pair.place.index]
-            weights[rows, columns], reached[rows] = roll_interpolation(pair.rolls(gear), before.rolls(gear))
+            weights[rows, columns], reached[rows] = roll_interpolation(pair.rolls[gear], before.rolls[gear])
     return weights, reached

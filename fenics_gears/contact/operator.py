@@ -8,15 +8,17 @@ them.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from fenics_gears.geometry.gear import Side
+
 from .addresses import GAP, row_of
 from .face import Face
-from .kinematics import IN_THE_PLANE
+from .kinematics import IN_THE_PLANE, Lines, lines_of
 from .tooth_pair import DRIVE, Nodes, PairNodes, per_node
 
 if TYPE_CHECKING:
@@ -67,8 +69,8 @@ class Stored(NamedTuple):
 class ContactOperator:
     """Contact at one position: n nodes, m = n without friction, 2 n with it; k centre coordinates.
 
-    `base_radii` (mm) of pinion and wheel; `pairs`: the tooth pairs whose nodes these are, in order; `normal_lever_arms`
-    (n,), mm: of a normal force about the pinion's and the wheel's centre.
+    `pairs`: the tooth pairs whose nodes these are, in order; `sides` of the mesh; `normal_lever_arms` (2, n), mm: of a
+    normal force about either centre.
 
     `compliance` C (m, m), mm/N; `jacobian` G (m, k); `gap` (n,), mm; `rigid_slip` (n,), mm: slip of rigid flanks during
     the step that ends here; `previous_compliance` E (n, m of the step before) and `previous_jacobian` (n, k): the
@@ -81,8 +83,8 @@ class ContactOperator:
     """
 
     pairs: tuple[PairNodes, ...]
-    base_radii: tuple[float, float]
-    normal_lever_arms: tuple[np.ndarray, np.ndarray]
+    sides: tuple[Side, Side]
+    normal_lever_arms: np.ndarray
     compliance: np.ndarray = _ReadOtherwise(_with_all_rows)  # type: ignore[assignment]
     jacobian: np.ndarray = _ReadOtherwise(_with_all_columns)  # type: ignore[assignment]
     gap: np.ndarray
@@ -120,6 +122,11 @@ class ContactOperator:
         """G (m, c) and the previous jacobian (n, c) over the coordinates that contact moves, as they lie in memory."""
         return self.__dict__["jacobian"], self.__dict__["previous_jacobian"]
 
+    @property
+    def lines(self) -> Lines:
+        """The nodes' lines of action, with the lever arms of normal forces."""
+        return replace(lines_of(self.pairs, self.sides, self.face), lever_arms=self.normal_lever_arms)
+
     @cached_property
     def node_pair(self) -> np.ndarray:
         """Position in `pairs` of the pair that each node (n,) belongs to."""
@@ -134,7 +141,7 @@ class ContactOperator:
 class Passage(NamedTuple):
     """Contact nodes on their way from one position to the next: the `pairs` now and the `previous` ones, None without
     friction; the node before of each node now (`node_before`, as of a Position); the place of both in the mesh cycle,
-    in steps; and by how much (rad) the pinion turns (`advance`)."""
+    in steps; and by how many mesh cycles the gears turn (`advance`)."""
 
     pairs: tuple[PairNodes, ...]
     previous: tuple[PairNodes, ...] | None = None
@@ -152,7 +159,7 @@ class Response(NamedTuple):
     compliance: np.ndarray | FormedRows
     previous_compliance: np.ndarray | FormedRows | None = None
     dependent_rows: int = 0
-    normal_lever_arms: tuple[np.ndarray, np.ndarray] | None = None
+    normal_lever_arms: np.ndarray | None = None
     previous_jacobian: np.ndarray | None = None
     sliding: np.ndarray | None = None
 
@@ -180,7 +187,8 @@ class Position:
         The previous compliance lies there by columns: few nodes are loaded.
         """
         operator = self.operator
-        (rows, forms), (columns, forms_before) = operator.stored, operator.stored_before or (None, 0)
+        rows, forms = operator.stored
+        columns, forms_before = operator.stored_before or (None, 0)
         now, before = operator.stored_jacobians
         return row_of(operator.nodes, (
             rows, now, operator.gap, operator.on_drive_flanks, operator.node_pair,

@@ -9,7 +9,6 @@ import numpy as np
 from scipy.linalg.lapack import dpstrf
 
 from .compliance_product import NO_FLANK, OWN, compliance_products, directions
-from .kinematics import turned
 from .operator import Passage, Response
 from .tooth_pair import Flanks, ToothPair, count_of
 
@@ -48,7 +47,8 @@ class CompliancePairing:
 
     def __init__(self, flanks: Flanks, blocks: tuple[dict, dict] | None = None):
         """`blocks`: of either gear, by pairs of teeth, which pairings of the same bodies may share."""
-        self.flanks, self._gears, self._blocks = flanks, flanks.compliance, blocks or ({}, {})
+        self.flanks = flanks
+        self._blocks = blocks or ({}, {})
 
     def responses(self, passages: Sequence[Passage]) -> list[Response]:
         """How the contact nodes of some passages yield, all with previous pairs or all without."""
@@ -60,12 +60,9 @@ class CompliancePairing:
 
     def _block(self, gear: int, responding: _Flank, loaded: _Flank) -> tuple[int, int, int]:
         """Address, size and columns of the compliance of one flank under forces on another."""
-        body, blocks, teeth, sides = (
-            self._gears[gear],
-            self._blocks[gear],
-            (responding[0], loaded[0]),
-            (responding[1], loaded[1]),
-        )
+        body = self.flanks.compliance[gear]
+        blocks = self._blocks[gear]
+        teeth, sides = zip(responding, loaded)
         key = body.key(*teeth), sides
         if key not in blocks:
             block = np.ascontiguousarray(body.between(*teeth, sides))
@@ -80,31 +77,39 @@ class CompliancePairing:
         With previous pairs there are tangential rows, and E is the displacement along the tangent that the material
         points had a step before. E is None without.
         """
-        tangential, found, positions = passages[0].previous is not None, [], []
-        flanks, products, back, kinds = _FlankTable(), [], [], 2 if tangential else 1
+        tangential = passages[0].previous is not None
+        kinds = 2 if tangential else 1
+        flanks = _FlankTable()
+        found = []
+        positions = []
+        products = []
+        back = []
         for number, passage in enumerate(passages):
-            nodes, nodes_before = count_of(passage.pairs), count_of(passage.previous or ())
-            compliance, before = np.zeros((kinds * nodes, kinds * nodes)), np.zeros((2 * nodes_before, nodes))
+            nodes = count_of(passage.pairs)
+            nodes_before = count_of(passage.previous or ())
+            compliance = np.zeros((kinds * nodes, kinds * nodes))
+            before = np.zeros((2 * nodes_before, nodes))
             positions.append((compliance.ctypes.data, before.ctypes.data, nodes, nodes_before))
             found.append((compliance, before.T if tangential else None))
-            for gear, turn in enumerate(turned(self.flanks.pair, passage.advance)):
-                new = self._products(gear, flanks.of(passage.pairs, gear), flanks.of(passage.previous or (), gear))
+            for side in self.flanks.pair.sides:
+                new = self._products(side.number, *(flanks.of(each or (), side.number) for each in passage[:2]))
                 products += [(number, *each) for each in new]
-                back += [turn] * len(new)
+                back += [side.turn * passage.advance] * len(new)
         if products:
-            tables = np.array(positions), flanks.table, np.array(products)
-            responding = flanks.responding(tables[2][:, OWN], np.array(back), tangential)
+            table = np.array(products)
+            responding = flanks.responding(table[:, OWN], np.array(back), tangential)
             axes = flanks.axes(tangential)
             compliance_products(
-                tables, np.concatenate(flanks.near), np.concatenate(flanks.first), axes,
-                responding / self.flanks.pair.face_width,
+                (np.array(positions), flanks.table, table), np.concatenate(flanks.near), np.concatenate(flanks.first),
+                axes, responding / self.flanks.pair.face_width,
             )  # fmt: skip
         return found
 
-    def _products(self, gear: int, now: list[_Seen], before: list[_Seen]) -> list[tuple[int, ...]]:
+    def _products(self, gear: int, now: list[_Numbered], before: list[_Numbered]) -> list[tuple[int, ...]]:
         """What is to be multiplied of a gear at a position, as `compliance_products` takes it: responding flanks by the
         flanks that are loaded now or were a step before."""
-        loads, found = _matched(now, before), []
+        loads = _matched(now, before)
+        found = []
         for flank, own, place in now:
             for other, loaded, at, loaded_before, at_before in loads:
                 if at > place:
@@ -117,17 +122,18 @@ class CompliancePairing:
 
 
 # A flank, its number in a _FlankTable, and the place of its first contact node among all at a position.
-_Seen = tuple[_Flank, int, int]
+_Numbered = tuple[_Flank, int, int]
 
 
-def _matched(now: list[_Seen], before: list[_Seen]) -> list[tuple[_Flank, int, int, int, int]]:
-    """Flanks that are loaded now, with those that were a step before beside the same ones, or NO_FLANK; and those that
-    have none beside them."""
-    left, found = list(before), []
-    for flank, *seen in now:
+def _matched(now: list[_Numbered], before: list[_Numbered]) -> list[tuple[_Flank, int, int, int, int]]:
+    """Flanks that are loaded now, each with its number and place a step before, or NO_FLANK; and those loaded then
+    alone."""
+    left = list(before)
+    found = []
+    for flank, *numbers in now:
         same = next((place for place, (other, *_) in enumerate(left) if other == flank), None)
-        found.append((flank, *seen, *((NO_FLANK, 0) if same is None else left.pop(same)[1:])))
-    return found + [(flank, NO_FLANK, 0, *seen) for flank, *seen in left]
+        found.append((flank, *numbers, *((NO_FLANK, 0) if same is None else left.pop(same)[1:])))
+    return found + [(flank, NO_FLANK, 0, *numbers) for flank, *numbers in left]
 
 
 class _FlankTable:
@@ -138,24 +144,25 @@ class _FlankTable:
         self.near: list[np.ndarray] = []
         self.first: list[np.ndarray] = []
         self._numbers: dict[int, int] = {}
-        self._found: dict[tuple[int, int], list[_Seen]] = {}
+        self._known: dict[tuple[int, int], list[_Numbered]] = {}
         self._sizes: list[tuple[int, int, float, float]] = []
 
-    def of(self, pairs: Sequence[ToothPair], gear: int) -> list[_Seen]:
-        """Those of a gear at a position, whose pairs are held as long as this table is."""
-        found = self._found.setdefault((id(pairs), gear), [])
+    def of(self, pairs: Sequence[ToothPair], gear: int) -> list[_Numbered]:
+        """Flanks of a gear at a position, whose pairs are held as long as this table is."""
+        found = self._known.setdefault((id(pairs), gear), [])
         if found:
             return found
         start = 0
         for pair in pairs:
-            view, place = pair.interpolation[gear], pair.place
+            view = pair.interpolation[gear]
+            place = pair.place
             number = self._numbers.get(id(view))
             if number is None:
                 number = self._numbers[id(view)] = len(self.near)
                 self.near.append(view.near.ravel())
                 self.first.append(view.first)
                 self._sizes.append((*view.near.shape, place.contact_rolls[gear], place.turn))
-            found.append(((place.ahead(gear), place.flank), number, start))
+            found.append(((place.teeth[gear], place.flank), number, start))
             start += len(view.near)
         return found
 

@@ -45,19 +45,22 @@ def face_places(
     it; by pair, then slice."""
     # Off the line of action a tip can touch up to the window's length before and after the path of contact.
     reach = 2 + ceil(grid.length / pair.base_pitch)
-    candidates, ahead = np.arange(-reach, ceil(pair.contact_ratio) + reach), face.shifts / pair.base_pitch
-    passed = np.floor(phase + ahead)
-    xi = pair.path_start + ((phase + ahead - passed)[:, None] + candidates) * pair.base_pitch
+    candidates = np.arange(-reach, ceil(pair.contact_ratio) + reach)
+    phases = phase + face.shifts / pair.base_pitch
+    passed = np.floor(phases)
+    xi = pair.path_start + ((phases - passed)[:, None] + candidates) * pair.base_pitch
     # A slice that is a whole mesh cycle ahead has the next pair where the middle has this one.
-    indices, heights, found = (candidates - passed[:, None]).astype(int), face.positions.tolist(), []
-    for flank, side, rolls_of in ((DRIVE, drive_place, contact_roll_angles), (COAST, coast_place, coast_roll_angles)):
-        if flank == COAST and not coast_flanks:
-            continue
-        rolls, same = np.array(rolls_of(pair, xi)), side(pair, 0, pair.path_start)
+    indices = (candidates - passed[:, None]).astype(int)
+    heights = face.positions.tolist()
+    found = []
+    kinds = (DRIVE, drive_place, contact_roll_angles), (COAST, coast_place, coast_roll_angles)
+    for flank, place_of, rolls_of in kinds[: 1 + coast_flanks]:
+        rolls = np.array(rolls_of(pair, xi))
+        same = place_of(pair, 0, pair.path_start)
         if corner is None:
             touches = exists(*windows(ends_of(pair, rolls.reshape(2, -1)), grid), grid).reshape(xi.shape)
         else:
-            touches = _with_edges(pair, grid, corner, side, xi)
+            touches = _with_edges(pair, grid, corner, place_of, xi)
         slices, _ = np.nonzero(touches)
         # By pair, then slice.
         order = np.lexsort((slices, indices[touches]))
@@ -69,8 +72,8 @@ def face_places(
     return found
 
 
-def _with_edges(pair: GearPair, grid: ContactGrid, corner: CornerContact, side, xi: np.ndarray) -> np.ndarray:
+def _with_edges(pair: GearPair, grid: ContactGrid, corner: CornerContact, place_of, xi: np.ndarray) -> np.ndarray:
     """Whether flanks with their tip edges may touch where they stand on the path (mm)."""
     from .corner import pair_reaches
 
-    return np.reshape([pair_reaches(pair, grid, corner, side(pair, 0, at)) for at in xi.ravel().tolist()], xi.shape)
+    return np.reshape([pair_reaches(pair, grid, corner, place_of(pair, 0, at)) for at in xi.ravel().tolist()], xi.shape)

@@ -14,7 +14,8 @@ from .relative_stiffness import RelativeStiffness
 from .step_solver import PUBLISHED, StepProblem, StepSolution, solve_step
 
 MOST_ITERATIONS = 60
-NO_DIRECTION, TOO_MANY = "no search direction", "the merit function stays too large"
+NO_DIRECTION = "no search direction"
+TOO_MANY = "the merit function stays too large"
 # The laws are piecewise linear: with the right sets one iteration leaves nothing but round-off.
 SMALL = 1e-3
 
@@ -28,7 +29,8 @@ class PublishedSolver:
 
     def __init__(self, coordinates: list[int], stiffness: Callable[[int], tuple[np.ndarray, np.ndarray]]):
         """`stiffness(index)`: of either gear at a position, as of `RemeshedGears`."""
-        self._coordinates, self._stiffness = coordinates, stiffness
+        self._coordinates = coordinates
+        self._stiffness = stiffness
         self._reduced: dict[tuple[int, bytes], RelativeStiffness] = {}
 
     def __call__(
@@ -62,7 +64,7 @@ class PublishedSolver:
                 self._stiffness(position.index),
                 problem.stiffness,
                 self._coordinates,
-                position.operator.base_radii,
+                position.operator.sides,
                 tangential=len(problem.slip_before) > 0,
             )
         return self._reduced[key]
@@ -73,13 +75,17 @@ def _start(
 ) -> tuple[np.ndarray, np.ndarray]:
     """The last step's displacement and forces at the nodes that had the same place; at the very first, the closed nodes
     just touch."""
-    n, m = len(problem.gap), len(problem.compliance)
-    displacement, forces = np.zeros(m), np.zeros(m)
+    n = len(problem.gap)
+    m = len(problem.compliance)
+    displacement = np.zeros(m)
+    forces = np.zeros(m)
     if last is None:
         closed = np.flatnonzero(status != OPEN)
-        displacement[closed], forces[closed] = problem.gap[closed], problem.tolerance.force
+        displacement[closed] = problem.gap[closed]
+        forces[closed] = problem.tolerance.force
         return displacement, forces
-    node_before, before = position.node_before, len(last.status)
+    node_before = position.node_before
+    before = len(last.status)
     known = np.flatnonzero(node_before >= 0)
     for block in range(m // n):
         displacement[block * n + known] = last.displacement[block * before + node_before[known]]

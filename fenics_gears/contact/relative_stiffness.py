@@ -15,12 +15,12 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
-from .kinematics import CENTRE_COORDINATES
+from fenics_gears.geometry.gear import Side
 
-# Centre coordinates of pinion and wheel in CENTRE_COORDINATES, each with how it moves (dx, dy, rb phi) in the gear's
-# own frame.
-PINION = {"centre_x1": (0, 1.0), "centre_y1": (1, 1.0), "rotation_1": (2, 1.0)}
-WHEEL = {"centre_x2": (0, -1.0), "centre_y2": (1, -1.0), "rotation_2": (2, 1.0)}
+from .kinematics import COLUMNS
+
+# Of the motions of a gear those in the plane: along x and y, and about z.
+IN_PLANE = [0, 1, 5]
 
 
 class CentreEliminated:
@@ -48,19 +48,20 @@ class CentreEliminated:
 class RelativeStiffness:
     """`stiffness` (m, m), N/mm, in K u + p + f = 0 [C.1] over the contact nodes: normals, and tangents with friction.
 
-    `gears`: stiffness (2n + 3, 2n + 3) of pinion and wheel over their nodes' normals, tangents and (dx, dy, phi);
-    `effective` (k, k): effective stiffness of the drivetrain over `coordinates`, positions in CENTRE_COORDINATES;
-    `base_radii`, mm. Maps from drivetrain forces F and displacement u are kept as small matrices, since a run keeps
-    many of these objects.
+    `gears`: stiffness (2n + 3, 2n + 3) of both over their nodes' normals, tangents and (dx, dy, phi); `effective` (k,
+    k): effective stiffness of the drivetrain over `coordinates`, positions in CENTRE_COORDINATES; `sides` of the mesh.
+    Maps from drivetrain forces F and displacement u are kept as small matrices, since a run keeps many of these
+    objects.
     """
 
-    def __init__(self, gears, effective: np.ndarray, coordinates: list[int], base_radii, tangential: bool):
-        shafts = _Shafts(effective, [CENTRE_COORDINATES[index] for index in coordinates])
+    def __init__(
+        self, gears, effective: np.ndarray, coordinates: list[int], sides: tuple[Side, Side], tangential: bool
+    ):
+        shafts = _Shafts(effective, coordinates)
+        known = zip(gears, sides, shafts.places, shafts.stiffness)
         first, second = (
-            CentreEliminated(stiffness, _motion(names, known, radius), block)
-            for stiffness, names, known, radius, block in zip(
-                gears, shafts.names, (PINION, WHEEL), base_radii, shafts.stiffness
-            )
+            CentreEliminated(stiffness, _motion(side, [coordinates[place] for place in places]), block)
+            for stiffness, side, places, block in known
         )
         unit = np.eye(len(coordinates))
         force_1, force_2 = shafts.forces(unit)
@@ -83,13 +84,16 @@ class RelativeStiffness:
         if not tangential:
             n = len(relative) // 2
             free = cho_factor(relative[n:, n:])
-            by_normal, by_load = cho_solve(free, relative[n:, :n]), cho_solve(free, load[n:])
+            by_normal = cho_solve(free, relative[n:, :n])
+            by_load = cho_solve(free, load[n:])
             by_force = by_force - by_displacement[:, n:] @ by_load
             by_displacement = by_displacement[:, :n] - by_displacement[:, n:] @ by_normal
             load = load[:n] - by_normal.T @ load[n:]
             relative = relative[:n, :n] - relative[:n, n:] @ by_normal
         self.stiffness = np.ascontiguousarray(relative)
-        self._load, self._by_force, self._by_displacement = load, by_force, by_displacement
+        self._load = load
+        self._by_force = by_force
+        self._by_displacement = by_displacement
 
     def load(self, force: np.ndarray) -> np.ndarray:
         """f (m,), N, of [C.1] for drivetrain forces F (k,)."""
@@ -103,35 +107,32 @@ class RelativeStiffness:
 class _Shafts:
     """The drivetrain's effective stiffness split between the gears, phi3 eliminated [20], [21].
 
-    `names`, `stiffness`: of the coordinates of pinion and wheel.
+    `places`: of the gears' own coordinates among all; `stiffness` on them.
     """
 
-    def __init__(self, effective: np.ndarray, names: list[str]):
-        self._places = [[i for i, name in enumerate(names) if name in known] for known in (PINION, WHEEL)]
-        self._end = [i for i, name in enumerate(names) if name not in PINION and name not in WHEEL]
-        self.names = [[names[i] for i in places] for places in self._places]
+    def __init__(self, effective: np.ndarray, coordinates: list[int]):
+        self.places = [[i for i, each in enumerate(coordinates) if each in columns] for columns in COLUMNS]
+        self._end = [i for i in range(len(coordinates)) if i not in sum(self.places, [])]
         self._end_stiffness = effective[np.ix_(self._end, self._end)]
-        self._coupling = effective[np.ix_(self._end, self._places[1])]
+        self._coupling = effective[np.ix_(self._end, self.places[1])]
         self._from_end = np.linalg.solve(self._end_stiffness, self._coupling)
-        pinion, wheel = (effective[np.ix_(places, places)] for places in self._places)
-        self.stiffness = [pinion, wheel - self._coupling.T @ self._from_end]
+        self.stiffness = [effective[np.ix_(places, places)] for places in self.places]
+        self.stiffness[1] -= self._coupling.T @ self._from_end
 
     def forces(self, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """F^1 and F^2 from the drivetrain's forces (k, any)."""
-        return force[self._places[0]], force[self._places[1]] - self._from_end.T @ force[self._end]
+        return force[self.places[0]], force[self.places[1]] - self._from_end.T @ force[self._end]
 
-    def coordinates(self, force: np.ndarray, pinion: np.ndarray, wheel: np.ndarray) -> np.ndarray:
+    def coordinates(self, force: np.ndarray, *gears: np.ndarray) -> np.ndarray:
         """All coordinates (k, any) from those of the gears."""
-        result = np.empty((len(force), pinion.shape[1]))
-        result[self._places[0]], result[self._places[1]] = pinion, wheel
-        result[self._end] = np.linalg.solve(self._end_stiffness, force[self._end] - self._coupling @ wheel)
+        result = np.empty((len(force), gears[0].shape[1]))
+        for places, own in zip(self.places, gears):
+            result[places] = own
+        result[self._end] = np.linalg.solve(self._end_stiffness, force[self._end] - self._coupling @ gears[1])
         return result
 
 
-def _motion(names: list[str], known: dict[str, tuple[int, float]], base_radius: float) -> np.ndarray:
+def _motion(side: Side, coordinates: list[int]) -> np.ndarray:
     """(dx, dy, phi) in the gear's own frame per drivetrain coordinate (3, k); rotations are carried as rb phi."""
-    motion = np.zeros((3, len(names)))
-    for column, name in enumerate(names):
-        row, sign = known[name]
-        motion[row, column] = sign / base_radius if row == 2 else sign
-    return motion
+    own = COLUMNS[side.number][IN_PLANE]
+    return np.diag([side.sense, side.sense, 1.0 / side.gear.base_radius]) @ (own[:, None] == np.array(coordinates))

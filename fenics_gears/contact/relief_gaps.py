@@ -14,19 +14,19 @@ from fenics_gears.geometry.relief import side_by_side
 from .interpolation import INTERPOLATIONS, Averages, Points
 from .mesh_cycle import Cycle, Gaps, Opening, PerPosition
 from .operator import Position
-from .tooth_pair import DRIVE, Removal, apart, facing_points, node_ends, over_nodes, seen_gap
+from .tooth_pair import DRIVE, Removal, apart, facing_points, nodal_gap, node_ends, over_nodes
 
 
 @dataclass(frozen=True)
 class Facing:
-    """Where the contact nodes of a position look at the flanks: roll angles `rolls` (p,), rad, on pinion and wheel, and
-    the `gap` (p,), mm, of true involutes there, pair after pair, `drive` (p,) where these are modified.
+    """Facing points of both flanks at the places of the interpolation of a position's contact nodes, pair after pair:
+    roll angles `rolls` (2, p), rad, and the `gap` (p,), mm, of true involutes. `drive` (p,): where these are modified.
 
-    `ends` (pairs + 1,): where the points of each pair begin and end; `offsets` (n,), mm, and `node_ends` (pairs + 1,):
-    those of its nodes, whose flanks stand so far `apart` (n,), mm, beyond the gap.
+    `ends` (pairs + 1,): where the points of each pair begin and end. `offsets` (n,), mm, and `node_ends` (pairs + 1,):
+    those of its nodes, whose flanks are so far `apart` (n,), mm, beyond the gap.
     """
 
-    rolls: tuple[np.ndarray, np.ndarray]
+    rolls: np.ndarray
     gap: np.ndarray
     drive: np.ndarray
     ends: np.ndarray
@@ -56,14 +56,16 @@ def profile_of(
     """The gaps (n,), mm, at a position of a `cycle` of flanks along the line of action from which `removal` is taken;
     what the cycle's own flanks lack is not counted. And those of all steps, one after the other, where they are
     known."""
-    points, facing = cycle.beside(FacingPoints), _facing_points(cycle)
+    points = cycle.shared(FacingPoints)
+    facing = _facing_points(cycle)
     known: dict[float, np.ndarray] = {}
     of_steps = None if (together := points.of_steps(cycle.steps)) is None else _gaps(cycle, together, removal)
     if of_steps is not None:
         first = 0
         for step in range(cycle.steps):
             end = first + len(points.known[step].offsets)
-            known[step], first = of_steps[first:end], end
+            known[step] = of_steps[first:end]
+            first = end
     return PerPosition(lambda position: _gaps(cycle, facing(position), removal), known), of_steps
 
 
@@ -77,14 +79,16 @@ class Profiles:
         removals: Sequence[tuple[Removal | None, Removal | None]],
         openings: Sequence[tuple[Opening, ...]],
     ):
-        self._cycle, self._removals, self._openings = cycle, removals, openings
+        self._cycle = cycle
+        self._removals = removals
+        self._openings = openings
         self._facing = _facing_points(cycle)
 
     def of_steps(self, positions: Sequence[Position]) -> np.ndarray:
         """Gaps (runs, n), mm along the normal, at all steps of the mesh cycle, one after the other."""
         for position in positions:
             self._facing(position)
-        together = self._cycle.beside(FacingPoints).of_steps(self._cycle.steps)
+        together = self._cycle.shared(FacingPoints).of_steps(self._cycle.steps)
         assert together is not None
         # Samples of a design have its reliefs in common.
         profiles: dict[Any, np.ndarray] = {}
@@ -101,8 +105,9 @@ class Profiles:
         """Gaps (n,), mm along the normal, of runs at a position each, one after the other."""
         facing = [self._facing(position) for _, position in asked]
         counts = [len(each.gap) for each in facing]
-        pinion, wheel = (side_by_side([self._removals[run][gear] for run, _ in asked], counts) for gear in (0, 1))
-        gaps, first = _gaps(self._cycle, _joined(facing), (pinion, wheel)), 0
+        of_gears = zip(*(self._removals[run] for run, _ in asked))
+        gaps = _gaps(self._cycle, _joined(facing), tuple(side_by_side(own, counts) for own in of_gears))
+        first = 0
         for run, position in asked:
             end = first + position.operator.nodes
             for opening in self._openings[run]:
@@ -112,36 +117,38 @@ class Profiles:
 
     def of(self, run: int) -> Cycle:
         """The cycle with the gaps of a run."""
-        removal, openings = self._removals[run], self._openings[run]
+        removal = self._removals[run]
+        openings = self._openings[run]
         if removal == (None, None) and not openings:
             return self._cycle
-        profile, of_steps = (None, None) if removal == (None, None) else profile_of(self._cycle, removal)
+        profile, of_steps = profile_of(self._cycle, removal) if removal != (None, None) else (None, None)
         return self._cycle.with_gaps(Gaps(profile, openings, of_steps=of_steps))
 
 
 def _facing_points(cycle: Cycle) -> PerPosition[Facing]:
-    return PerPosition(lambda position: _facing(cycle, position), cycle.beside(FacingPoints).known)
+    return PerPosition(lambda position: _facing(cycle, position), cycle.shared(FacingPoints).known)
 
 
 def _gaps(cycle: Cycle, at: Facing, removal: tuple[Removal | None, Removal | None]) -> np.ndarray:
-    gap, everywhere = at.gap, at.drive.all()
+    gap = at.gap
+    everywhere = at.drive.all()
     for removed, rolls in zip(removal, at.rolls):
         if removed is not None:
             gap = gap + (removed(rolls) if everywhere else np.where(at.drive, removed(rolls), 0.0))
-    return seen_gap(INTERPOLATIONS[cycle.grid.interpolation], at.offsets, at.node_ends, gap) + at.apart
+    return nodal_gap(INTERPOLATIONS[cycle.grid.interpolation], at.offsets, at.node_ends, gap) + at.apart
 
 
 def _joined(parts: list[Facing]) -> Facing:
     """Facing points of several positions as if their pairs were those of one."""
 
     def whole(arrays: Iterable[np.ndarray]) -> np.ndarray:
-        return np.concatenate(list(arrays))
+        return np.concatenate(list(arrays), axis=-1)
 
     def ends(of: Iterable[np.ndarray]) -> np.ndarray:
         return np.concatenate([[0], np.cumsum(whole(map(np.diff, of)))])
 
     return Facing(
-        (whole(part.rolls[0] for part in parts), whole(part.rolls[1] for part in parts)),
+        whole(part.rolls for part in parts),
         whole(part.gap for part in parts),
         whole(part.drive for part in parts),
         ends(part.ends for part in parts),
@@ -154,7 +161,8 @@ def _joined(parts: list[Facing]) -> Facing:
 def _facing(cycle: Cycle, position: Position) -> Facing:
     view: Averages | Points = INTERPOLATIONS[cycle.grid.interpolation]
     pairs = position.operator.pairs
-    offsets, ends = over_nodes(pairs, "offsets"), node_ends(pairs)
+    offsets = over_nodes(pairs, "offsets")
+    ends = node_ends(pairs)
     points = view.points(ends)
     places = [pair.place for pair in pairs]
     rolls, _, gap = facing_points(cycle.pair, places, view.places(offsets, ends), points)

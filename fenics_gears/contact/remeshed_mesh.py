@@ -10,11 +10,11 @@ import numpy as np
 from fenics_gears.geometry.pair import GearPair
 
 from .mesh import Mesh, MeshTraits, nodes_at
-from .node_to_node import NodePairs, NodeResponse, by_direction, node_pairs, node_to_node_response
+from .node_to_node import NodeResponse, by_direction, node_pairs, node_to_node_response
 from .operator import Passage, Response
 from .places import pair_places
 from .published_solver import PublishedSolver
-from .tooth_pair import Removal
+from .tooth_pair import PairNodes, Removal
 from .window import ContactGrid
 
 # A position needs its own compliance and that of the position before; positions are built in the order of time.
@@ -23,7 +23,7 @@ KEPT_COMPLIANCES = 3
 
 def paired_nodes(
     pair: GearPair, removal: tuple[Removal | None, Removal | None], grid: ContactGrid, order: int, steps: int
-) -> list[tuple[NodePairs, ...]]:
+) -> list[tuple[PairNodes, ...]]:
     """The contact nodes of every tooth pair at each position of a mesh cycle; `order`: of the finite element; `grid`
     spaces its vertices."""
     places = (pair_places(pair, grid, step / steps) for step in range(steps))
@@ -32,7 +32,7 @@ def paired_nodes(
 
 def remeshed_mesh(
     pair: GearPair,
-    pairs: Sequence[tuple[NodePairs, ...]],
+    pairs: Sequence[tuple[PairNodes, ...]],
     stiffness: Sequence[tuple[np.ndarray, np.ndarray]],
     grid: ContactGrid,
     order: int,
@@ -60,14 +60,17 @@ class RemeshedGears:
     """How both gears respond at each position of a mesh cycle; arguments as of `remeshed_mesh`."""
 
     def __init__(self, pair: GearPair, pairs, stiffness):
-        self._pair, self._pairs, self._stiffness = pair, pairs, stiffness
+        self._pair = pair
+        self._pairs = pairs
+        self._stiffness = stiffness
         self._compliances: dict[int, tuple[np.ndarray, np.ndarray]] = {}
 
     def stiffness(self, index: int) -> tuple[np.ndarray, np.ndarray]:
         """Stiffness of either gear, N/mm, (2n + 3, 2n + 3) over the contact nodes' normals and tangents and the centre
         (dx, dy, phi), in the gear's own frame."""
-        pairs, width = self._pairs[index], self._pair.face_width
-        return tuple(by_direction(width * self._stiffness[index][gear], pairs, gear) for gear in range(2))
+        pairs = self._pairs[index]
+        each = zip(self._stiffness[index], self._pair.sides)
+        return tuple(by_direction(self._pair.face_width * stiffness, pairs, side) for stiffness, side in each)
 
     def response(self, passage: Passage) -> Response:
         """How the contact nodes of a passage yield."""

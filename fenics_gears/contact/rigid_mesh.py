@@ -48,10 +48,9 @@ def _nodes(pair: GearPair, removal, grid: ContactGrid, place: Place) -> PairNode
     if offsets[0] < 0.0 < offsets[-1]:
         # True involutes touch on the line of action itself.
         offsets = np.unique(np.append(offsets, 0.0))
-    (pinion_roll, _), (x_1, x_2), gap = facing_points_at(
-        pair, removal if place.flank == DRIVE else (None, None), place, offsets
-    )
-    return PairNodes(place, offsets, hat_integrals(offsets), gap, x_1, x_2, pinion_roll)
+    removal = removal if place.flank == DRIVE else (None, None)
+    rolls, arms, gap = facing_points_at(pair, removal, place, offsets)
+    return PairNodes(place, offsets, hat_integrals(offsets), gap, arms, rolls)
 
 
 def _response(pair: GearPair, passage: Passage) -> Response:
@@ -59,7 +58,7 @@ def _response(pair: GearPair, passage: Passage) -> Response:
     nodes = count_of(passage.pairs)
     if passage.previous is None:
         return Response(np.zeros((nodes, nodes)))
-    lines = lines_of(passage.pairs, (pair.pinion.base_radius, pair.wheel.base_radius))
+    lines = lines_of(passage.pairs, pair.sides)
     sliding = np.sign(lines.turn * sliding_per_rotation(pair, lines.friction_arms[0]))
     # By columns, as it is stored.
     before = np.zeros((2 * count_of(passage.previous), nodes)).T
@@ -71,7 +70,8 @@ def solve_rigid(
 ) -> StepSolution:
     """A step between rigid flanks, as `mesh.Mesh` solves one. Raises NoStaticEquilibrium where nothing holds the
     load."""
-    operator, tolerance = position.operator, problem.tolerance
+    operator = position.operator
+    tolerance = problem.tolerance
     sliding = np.empty(0) if operator.sliding is None else operator.sliding
     sides = Sides(operator.on_drive_flanks, operator.node_pair, sliding)
     method = Method(1.0, ALL_AT_ONCE, tolerance.length, tolerance.force)
@@ -85,7 +85,8 @@ def solve_rigid(
 
 def _no_equilibrium(operator: ContactOperator, problem: StepProblem) -> NoStaticEquilibrium:
     """The error of a load that no set of nodes holds."""
-    drive, words = operator.on_drive_flanks, problem.free_words or "the load moves the drivetrain freely"
+    drive = operator.on_drive_flanks
+    words = problem.free_words or "the load moves the drivetrain freely"
     reason = f"no equilibrium: neither the drive flanks nor the coast flanks hold the load: {words}"
     leaders = [nodes[np.argmin(problem.gap[nodes])] for nodes in map(np.flatnonzero, (drive, ~drive)) if len(nodes)]
     play = float(problem.gap[leaders].sum())
@@ -95,5 +96,5 @@ def _no_equilibrium(operator: ContactOperator, problem: StepProblem) -> NoStatic
             " there is backlash: raise gears.centre_distance, lower the flank deviations, or make teeth or bearings"
             " elastic ([gears.material], [bearings])"
         )
-    history, sets = np.zeros((1, 5)), np.full((1, len(problem.gap)), OPEN, dtype=np.int8)
-    return NoStaticEquilibrium([("rigid flanks", "no solution", history, sets)], reason)
+    sets = np.full((1, len(problem.gap)), OPEN, dtype=np.int8)
+    return NoStaticEquilibrium([("rigid flanks", "no solution", np.zeros((1, 5)), sets)], reason)

@@ -1,52 +1,57 @@
-"""Gaps of eccentric gears: their base circles are carried around their axes.
+"""Gaps of gears that run out: their base circles are eccentric, or the axis of their teeth wobbles.
 
 A gear whose base circle is displaced by c stays an involute gear: to first order in c its flanks move by c along their
 normal, the direction of the line of action on which they touch. Coast flanks have their own line of action: they
 lose what drive flanks gain only where both directions are opposite. The change of the pressure angle is of second order
-and left out.
+and left out. Likewise flanks move with the tilt of the axis of their teeth.
 """
 
 from __future__ import annotations
 
-from math import cos, pi, sin
+from math import cos, sin
 
 import numpy as np
 
+from fenics_gears.geometry.gear import Side
 from fenics_gears.geometry.pair import GearPair
 
 from .eccentricity import Eccentricity, Offset
-from .kinematics import normals
+from .kinematics import COLUMNS, COORDINATES, displacement_jacobian
 from .mesh_cycle import PerPosition
 from .operator import Position
 
 
 class RunOut:
-    """Gaps (n,), mm, that eccentricity adds at a step and its position; `steps` of a mesh cycle."""
+    """Gaps (n,), mm along the line of action, that eccentricity and wobble add at a step and its position; `steps` of a
+    mesh cycle."""
 
     def __init__(self, pair: GearPair, eccentricity: Eccentricity, steps: int):
         self._steps = steps
-        # The pinion turns counter-clockwise, the wheel clockwise.
-        self._offsets = [
-            (offset, sense, gear.teeth)
-            for offset, sense, gear in ((eccentricity.pinion, 1.0, pair.pinion), (eccentricity.wheel, -1.0, pair.wheel))
-            if offset is not None
-        ]
-        # Direction (n, 2) of each node's line of action in space, from pinion to wheel.
-        self._normals = PerPosition(lambda position: normals(position.operator.pairs))
+        each = zip(pair.sides, (eccentricity.pinion, eccentricity.wheel), pair.face_widths)
+        self._gears = [(side, offset, width) for side, offset, width in each if offset is not None]
+        self._rows = PerPosition(_rows)
 
     def __call__(self, step: float, position: Position) -> np.ndarray:
         """The additional gaps (n,), mm, positive when they open."""
-        across, along = 0.0, 0.0
-        for offset, sense, teeth in self._offsets:
-            x, y = displacement(offset, sense, 2.0 * pi * step / (self._steps * teeth))
-            # What brings the pinion nearer along the normal closes, what takes the wheel away opens.
-            along, across = along - sense * x, across - sense * y
-        normal_x, normal_y = self._normals(position).T
-        return normal_x * along + normal_y * across
+        motion = np.zeros(len(COORDINATES))
+        for side, offset, width in self._gears:
+            motion[COLUMNS[side.number]] = run_out(side, offset, width, step / self._steps)
+        return -self._rows(position) @ motion
 
 
-def displacement(offset: Offset, sense: float, turned: float) -> tuple[float, float]:
-    """Centre of a base circle from its axis (x along the line of action, y across it), mm, when the gear has turned by
-    `turned` (rad)."""
-    angle = sense * (turned + offset.phase)
-    return offset.distance * cos(angle), offset.distance * sin(angle)
+def run_out(side: Side, offset: Offset, width: float, cycles: float) -> list[float]:
+    """Displacement, mm, and tilt, mm as arc lengths, of a gear's teeth on its axis after some mesh cycles, along x (the
+    line of action), y and z and about them; `width` (mm): of its face."""
+    turned = side.turn * cycles
+    angle = turned + side.sense * offset.phase
+    leaning = turned + side.sense * offset.wobble_phase
+    # The axis leans by (cos, sin) towards the right end: it is tilted about (-sin, cos).
+    tilt = offset.wobble / width * side.gear.base_radius
+    centre = [offset.distance * cos(angle), offset.distance * sin(angle), 0.0]
+    return [*centre, -tilt * sin(leaning), tilt * cos(leaning), 0.0]
+
+
+def _rows(position: Position) -> np.ndarray:
+    """How each node's flanks approach along the line of action by each coordinate (n, 13)."""
+    operator = position.operator
+    return displacement_jacobian(operator.lines, False) / operator.face.cosine

@@ -61,18 +61,19 @@ def spring_mesh(pair: GearPair, springs: Springs, levels: int, coast_flanks: boo
 
 
 def _nodes(pair: GearPair, springs: PairSprings, phase: float) -> SpringNodes:
-    count, xi = len(springs.gap), pair.path_start + (phase + springs.index) * pair.base_pitch
+    xi = pair.path_start + (phase + springs.index) * pair.base_pitch
     place = (drive_place if springs.flank == DRIVE else coast_place)(pair, springs.index, xi)
-    arm = place.contact_rolls[0] * pair.pinion.base_radius
-    roll = float(np.clip(place.contact_rolls[0], pair.pinion.form_roll_angle, pair.pinion.tip_roll_angle))
+    ones = np.ones(len(springs.gap))
+    gears = [side.gear for side in pair.sides]
+    arms = [gear.base_radius * roll for gear, roll in zip(gears, place.contact_rolls)]
+    rolls = [np.clip(roll, gear.form_roll_angle, gear.tip_roll_angle) for gear, roll in zip(gears, place.contact_rolls)]
     return SpringNodes(
         place=place,
         offsets=APART * springs.level,
-        lengths=np.ones(count),
+        lengths=ones,
         gap=springs.gap,
-        pinion_lever_arm=np.full(count, arm),
-        wheel_lever_arm=np.full(count, pair.line_of_action_length - arm),
-        pinion_roll=np.full(count, roll),
+        friction_arms=np.outer(arms, ones),
+        rolls=np.outer(rolls, ones),
         stiffness=springs.stiffness,
     )
 
@@ -81,8 +82,10 @@ def _response(passage: Passage) -> Response:
     softness = 1.0 / over_nodes(passage.pairs, "stiffness")
     if passage.previous is None:
         return Response(np.diag(softness))
-    earlier, before = 1.0 / over_nodes(passage.previous, "stiffness"), passage.node_before
+    earlier = 1.0 / over_nodes(passage.previous, "stiffness")
+    before = passage.node_before
     # Tangential displacement of the springs that were there a step before, per force on them then.
-    displacement, known = np.zeros((len(before), 2 * len(earlier))), np.flatnonzero(before >= 0)
+    displacement = np.zeros((len(before), 2 * len(earlier)))
+    known = np.flatnonzero(before >= 0)
     displacement[known, len(earlier) + before[known]] = earlier[before[known]]
     return Response(np.diag(np.tile(softness, 2)), displacement)

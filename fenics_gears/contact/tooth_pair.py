@@ -13,7 +13,7 @@ from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.geometry.pair import GearPair
 
 from .flank_at_height import points_of_pairs
-from .interpolation import INTERPOLATIONS, Averages, FlankInterpolation, Points, Seeing, hats_of
+from .interpolation import INTERPOLATIONS, Averages, FlankInterpolation, GearContacts, Points, hats_of
 from .window import ContactGrid, coast_roll_angles, contact_roll_angles, ends_of, offsets_of
 
 Removal = Callable[[np.ndarray], np.ndarray]
@@ -21,9 +21,9 @@ Removal = Callable[[np.ndarray], np.ndarray]
 
 @dataclass(frozen=True)
 class Flanks:
-    """The two gears as contact sees them: geometry, compliance, and material removed from either flank.
+    """The flanks of a pair: geometry of the gears, and of either gear its compliance and the material removed.
 
-    `removal`: functions of the roll angle (rad) giving mm along the flank normal, or None for a true involute.
+    `removal`: functions of the roll angle (rad) that give mm along the flank normal, or None for a true involute.
     """
 
     pair: GearPair
@@ -32,7 +32,6 @@ class Flanks:
 
 
 DRIVE, COAST = 0, 1
-SENSES = (-1.0, 1.0)  # of offsets: towards the pinion's centre, away from the wheel's
 
 
 @dataclass(frozen=True)
@@ -46,13 +45,13 @@ class Line:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a pair of flanks stands: `index` of the pinion's tooth, `flank` DRIVE or COAST, `contact_rolls` (rad) of
-    either gear.
+    """Where a pair of flanks stands: its `index`, `flank` DRIVE or COAST, `contact_rolls` (rad) of either gear.
 
-    Coast flanks are seen in the mirror, the line of centres being the mirror's line: `axes` (2, 2) are the line of
-    action's direction and the one across it in space, `turn` the sign of rotations. `line`: another line than the
-    theoretical line of action, of a tip edge (`contact.corner`); its direction is in `axes`, and `contact_rolls` are
-    measured from it. `slice`, `height` (mm): of the face, and where its middle is along the axes; both 0 in the plane.
+    Coast flanks are described in the mirror, the line of centres being the mirror's line. `axes` (2, 2) are the
+    directions in space of the line of action and across it, `turn` is the sign of rotations. `line`: another line than
+    the theoretical line of action, of a tip edge (`contact.corner`); its direction is in `axes`, and `contact_rolls`
+    are measured from it. `slice`, `height` (mm): of the face, and where its middle is along the axes; both 0 in the
+    plane.
     """
 
     index: int
@@ -66,18 +65,13 @@ class Place:
 
     def line_in(self, pair: GearPair) -> Line:
         """The line of action of the flanks: the theoretical one but for tip edges."""
-        return self.line or Line((pair.pinion.base_radius, pair.wheel.base_radius), pair.line_of_action_length)
+        return self.line or Line(pair.base_radii, pair.line_of_action_length)
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """Index of the pinion's and of the wheel's tooth, by the drive pairs they belong to."""
-        return self.index, self.index - self.flank
-
-    def ahead(self, gear: int) -> int:
-        """Pitches by which the pinion's (0) or the wheel's (1) tooth stands counter-clockwise of that of drive pair
-        0."""
-        # A later pair index means a tooth ahead on the pinion, and behind on the wheel.
-        return self.teeth[gear] if gear == 0 else -self.teeth[gear]
+        """Pitches by which the tooth of either gear stands counter-clockwise of that of drive pair 0."""
+        # A later pair has a tooth ahead on the pinion, and behind on the wheel.
+        return self.index, self.flank - self.index
 
 
 def drive_place(pair: GearPair, index: int, xi: float) -> Place:
@@ -88,7 +82,9 @@ def drive_place(pair: GearPair, index: int, xi: float) -> Place:
 def coast_place(pair: GearPair, index: int, xi: float) -> Place:
     """The coast flank of the pinion's tooth in pair `index`, whose drive flank touches at `xi` (mm), and the one that
     faces it."""
-    cosine, sine = np.cos(2.0 * pair.operating_pressure_angle), np.sin(2.0 * pair.operating_pressure_angle)
+    double = 2.0 * pair.operating_pressure_angle
+    cosine = np.cos(double)
+    sine = np.sin(double)
     return Place(index, COAST, coast_roll_angles(pair, xi), ((-cosine, -sine), (-sine, cosine)), -1.0)
 
 
@@ -97,17 +93,16 @@ class PairNodes:
     """Contact nodes (n,) of the flanks at `place`.
 
     `offsets` (mm, from the line of action), `lengths` (mm of flank a node stands for), `gap` [9] (mm, positive when
-    open), `pinion_lever_arm` and `wheel_lever_arm` (mm, of friction: distance of the point of contact from T1 and T2
-    along the line of action), `pinion_roll` (rad).
+    open). Of both gears: `friction_arms` (2, n), mm, the lever arms of friction, distances of the point of contact from
+    T1 and T2 along the line of action; and roll angles `rolls` (2, n), rad.
     """
 
     place: Place
     offsets: np.ndarray
     lengths: np.ndarray
     gap: np.ndarray
-    pinion_lever_arm: np.ndarray
-    wheel_lever_arm: np.ndarray
-    pinion_roll: np.ndarray
+    friction_arms: np.ndarray
+    rolls: np.ndarray
 
 
 # Contact nodes of the tooth pairs that can touch at each of some phases (0 <= phase < 1).
@@ -116,51 +111,50 @@ Nodes = Callable[[Sequence[float]], list[tuple[PairNodes, ...]]]
 
 @dataclass(frozen=True)
 class ToothPair(PairNodes):
-    """Contact nodes that see the flanks through the `interpolation` of either one."""
+    """Contact nodes with the `interpolation` of either flank there."""
 
     interpolation: tuple[FlankInterpolation, FlankInterpolation]
 
 
-# Of pinion and wheel.
-Both = tuple[np.ndarray, np.ndarray]
-
-
 def flank_points(
     pair: GearPair, contact_rolls: np.ndarray, lever_arms: np.ndarray, offsets: np.ndarray, ends: np.ndarray
-) -> tuple[Both, Both]:
-    """Roll angles (rad) and x (mm, of `flank_at_height`), of pinion and wheel, at offsets (n,), mm, from the lines of
-    action of many pairs, of each from its place in `ends` (P + 1,) on; contact roll angles (2, P), rad, and lever arms
-    (2, P), mm, of these lines."""
-    radii = pair.pinion.base_radius, pair.wheel.base_radius
-    (rolls_1, x_1), (rolls_2, x_2) = (
-        points_of_pairs(radius, sense, rolls, arms, offsets, ends)
-        for radius, sense, rolls, arms in zip(radii, SENSES, contact_rolls, lever_arms)
-    )
-    return (rolls_1, rolls_2), (x_1, x_2)
+) -> np.ndarray:
+    """Roll angles (rad) and x (mm, of `flank_at_height`) of points of both flanks, (2, 2 gears, n).
+
+    They stand at offsets (n,), mm, from the lines of action of many pairs, from the place in `ends` (P + 1,) on those
+    of each. These lines have contact roll angles (2, P), rad, and lever arms (2, P), mm.
+    """
+    lines = zip(pair.sides, contact_rolls, lever_arms)
+    both = [points_of_pairs(side.gear.base_radius, side.sense, *line, offsets, ends) for side, *line in lines]
+    return np.array(both).swapaxes(0, 1)
+
+
+def contact_rolls_of(places: Sequence[Place]) -> np.ndarray:
+    """Contact roll angles (2, P), rad, of both gears at places."""
+    return np.ascontiguousarray(np.array([place.contact_rolls for place in places]).reshape(-1, 2).T)
 
 
 def apart(pair: GearPair, places: Sequence[Place]) -> np.ndarray:
     """How far (P,), mm along their lines, points that meet stand apart: on coast flanks until the wheel has turned."""
-    turned = pair.backlash / pair.wheel.base_radius
+    turned = pair.backlash / pair.base_radii[1]
     return np.array([turned * place.line_in(pair).lever_arms[1] * (place.flank == COAST) for place in places])
 
 
 def facing_points(
     pair: GearPair, places: Sequence[Place], offsets: np.ndarray, ends: np.ndarray
-) -> tuple[Both, Both, np.ndarray]:
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Points of involutes that face each other along the line of action at places; nodes as of `flank_points`.
 
-    Their roll angles (rad) and distances from T1, T2 (mm), each of pinion and wheel, and the gap (mm) beyond `apart`.
+    Their roll angles (2, n), rad, and distances from T1 and T2 (2, n), mm, and the gap (n,), mm, beyond `apart`.
     """
-    contact_rolls = np.ascontiguousarray(np.array([place.contact_rolls for place in places]).reshape(-1, 2).T)
-    radii = np.array([[gear.base_radius] * (len(ends) - 1) for gear in (pair.pinion, pair.wheel)])
-    rolls, distances = flank_points(pair, contact_rolls, radii, offsets, ends)
+    radii = np.array(pair.base_radii)[:, None].repeat(len(places), axis=1)
+    rolls, distances = flank_points(pair, contact_rolls_of(places), radii, offsets, ends)
     return rolls, distances, pair.line_of_action_length - distances[1] - distances[0]
 
 
 def facing_points_at(
     pair: GearPair, removal: tuple[Removal | None, Removal | None], place: Place, offsets: np.ndarray
-) -> tuple[Both, Both, np.ndarray]:
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The same at one place, with the whole gap and with material removed from either flank."""
     rolls, distances, gap = facing_points(pair, [place], offsets, np.array([0, len(offsets)]))
     gap = gap + apart(pair, [place])
@@ -172,14 +166,15 @@ def facing_points_at(
 
 def tooth_pairs(flanks: Flanks, grid: ContactGrid, places: Sequence[Place]) -> list[ToothPair]:
     """The contact nodes of the flanks at those places whose window is not empty."""
-    every = np.array([place.contact_rolls for place in places]).reshape(len(places), 2).T
-    offsets, counts = offsets_of(ends_of(flanks.pair, every), grid)
+    offsets, counts = offsets_of(ends_of(flanks.pair, contact_rolls_of(places)), grid)
     there = np.flatnonzero(counts)
     if not len(there):
         return []
-    places, ends, view = [places[at] for at in there], _ends(counts[there]), INTERPOLATIONS[grid.interpolation]
-    at, points = view.places(offsets, ends), view.points(ends)
-    rolls, distances, gap = facing_points(flanks.pair, places, at, points)
+    places = [places[at] for at in there]
+    ends = _ends(counts[there])
+    view = INTERPOLATIONS[grid.interpolation]
+    points = view.points(ends)
+    rolls, distances, gap = facing_points(flanks.pair, places, view.places(offsets, ends), points)
     if flanks.removal != (None, None):
         drive = np.repeat([place.flank == DRIVE for place in places], np.diff(points))
         for removed, roll in zip(flanks.removal, rolls):
@@ -194,23 +189,23 @@ def _ends(counts: np.ndarray) -> np.ndarray:
 
 
 @njit(cache=True)
-def _not_below(seen, ends, gap, points):
-    """Raise what the nodes of each pair see (n,) to the smallest gap there."""
+def _not_below(nodal, ends, gap, points):
+    """Raise the values of the nodes of each pair (n,) to the smallest gap there."""
     for pair in range(len(ends) - 1):
         least = min(0.0, gap[points[pair] : points[pair + 1]].min())
         for node in range(ends[pair], ends[pair + 1]):
-            seen[node] = max(seen[node], least)
+            nodal[node] = max(nodal[node], least)
 
 
-def seen_gap(view: Averages | Points, offsets: np.ndarray, ends: np.ndarray, gap: np.ndarray) -> np.ndarray:
+def nodal_gap(view: Averages | Points, offsets: np.ndarray, ends: np.ndarray, gap: np.ndarray) -> np.ndarray:
     """Gaps (n,), mm, of contact nodes at `offsets` (n,), mm, of many pairs from `ends` (P + 1,) on, from gaps at the
-    points that they see.
+    places of their interpolation.
 
     Averages of flanks that are nowhere one inside the other may not say that they are: they would press without load.
     """
-    seen = view.seen(offsets, ends, gap).copy()
-    _not_below(seen, ends, gap, view.points(ends))
-    return seen
+    nodal = view.at_nodes(offsets, ends, gap).copy()
+    _not_below(nodal, ends, gap, view.points(ends))
+    return nodal
 
 
 def nodes_on_flanks(
@@ -221,56 +216,53 @@ def nodes_on_flanks(
     difference: np.ndarray,
     gap: np.ndarray,
 ) -> list[ToothPair]:
-    """Contact nodes that see the flanks by the grid's interpolation, at `nodes`: offsets (n,), mm, of one place after
-    the other, and where each begins and the last one ends (P + 1,).
+    """Contact nodes with the grid's interpolation, at `nodes`: offsets (n,), mm, of one place after the other, and
+    where each begins and the last one ends (P + 1,).
 
-    `difference`: of the distances of pinion's and wheel's surface from their foot on the place's line, mm, and `gap`,
-    mm, where the interpolation wants them.
+    `difference`, mm: of the distances of both surfaces from their feet on the place's line, and `gap`, mm, at the
+    places of the interpolation.
     """
-    view, (offsets, ends) = INTERPOLATIONS[grid.interpolation], nodes
-    rolls, length = rolls_of(flanks.pair, places, nodes), flanks.pair.line_of_action_length
-    lengths = np.repeat([length if place.line is None else place.line.length for place in places], np.diff(ends))
+    offsets, ends = nodes
+    view = INTERPOLATIONS[grid.interpolation]
+    rolls = rolls_of(flanks.pair, places, nodes)
+    lengths = np.repeat([place.line_in(flanks.pair).length for place in places], np.diff(ends))
     # Flanks that deform to touch meet midway between where they stand undeformed. Friction acts there on both, so that
     # action and reaction leave no torque. Averaged gaps are those of closed flanks.
-    meeting = 0.5 * (view.seen(offsets, ends, difference) + lengths)
-    gap = seen_gap(view, offsets, ends, gap) + np.repeat(apart(flanks.pair, places), np.diff(ends))
-    arrays = offsets, hats_of(offsets, ends), gap, meeting, lengths - meeting, rolls[0]
-    parts = [tuple(array[start:end] for array in arrays) for start, end in zip(ends[:-1].tolist(), ends[1:].tolist())]
-    seen = interpolations(flanks, grid, places, nodes, rolls)
-    return [ToothPair(place, *part, views) for place, part, views in zip(places, parts, seen)]
+    meeting = 0.5 * (view.at_nodes(offsets, ends, difference) + lengths)
+    gap = nodal_gap(view, offsets, ends, gap) + np.repeat(apart(flanks.pair, places), np.diff(ends))
+    arrays = offsets, hats_of(offsets, ends), gap, np.stack([meeting, lengths - meeting]), rolls
+    each = interpolations(flanks, grid, places, nodes, rolls)
+    parts = zip(places, ends[:-1].tolist(), ends[1:].tolist(), each)
+    return [ToothPair(place, *[array[..., start:end] for array in arrays], own) for place, start, end, own in parts]
 
 
 def _lever_arms(pair: GearPair, places: Sequence[Place]) -> np.ndarray:
-    """Lever arms (2, P), mm, of the places' lines of action about the centres of pinion and wheel."""
-    radii = pair.pinion.base_radius, pair.wheel.base_radius
-    arms = np.array([radii if place.line is None else place.line.lever_arms for place in places])
+    """Lever arms (2, P), mm, of the places' lines of action about the centres of both gears."""
+    arms = np.array([pair.base_radii if place.line is None else place.line.lever_arms for place in places])
     return np.ascontiguousarray(arms.T)
 
 
-def rolls_of(pair: GearPair, places: Sequence[Place], nodes: tuple[np.ndarray, np.ndarray]) -> Both:
-    """Roll angles (n,), rad, of contact nodes, as of `nodes_on_flanks`, on pinion and wheel."""
-    contact_rolls = np.ascontiguousarray(np.array([place.contact_rolls for place in places]).T)
-    return flank_points(pair, contact_rolls, _lever_arms(pair, places), *nodes)[0]
+def rolls_of(pair: GearPair, places: Sequence[Place], nodes: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+    """Roll angles (2, n), rad, of contact nodes, as of `nodes_on_flanks`, on both gears."""
+    return flank_points(pair, contact_rolls_of(places), _lever_arms(pair, places), *nodes)[0]
 
 
 def interpolations(
-    flanks: Flanks, grid: ContactGrid, places: Sequence[Place], nodes: tuple[np.ndarray, np.ndarray], rolls: Both
+    flanks: Flanks, grid: ContactGrid, places: Sequence[Place], nodes: tuple[np.ndarray, np.ndarray], rolls: np.ndarray
 ) -> list[tuple[FlankInterpolation, FlankInterpolation]]:
-    """How contact nodes, as of `nodes_on_flanks`, see the nodes of either flank at each place; `rolls` (n,), rad: their
-    roll angles on pinion and wheel."""
-    (offsets, ends), gears, found = nodes, (flanks.pair.pinion, flanks.pair.wheel), []
-    apart = np.zeros((2, 1))
-    if any(place.line is not None for place in places):
+    """Interpolation of either flank at contact nodes, as of `nodes_on_flanks`, of each place; `rolls` (2, n), rad:
+    their roll angles."""
+    offsets, ends = nodes
+    found = []
+    of_sides = flanks.pair.sides, rolls, contact_rolls_of(places), _lever_arms(flanks.pair, places), flanks.compliance
+    for side, own, contact, arms, flank in zip(*of_sides):
         # Offsets from the line at the gear's own base radius.
-        arms = _lever_arms(flanks.pair, places) - np.array([[gear.base_radius] for gear in gears])
-        apart = np.repeat(arms, np.diff(ends), axis=1)
-    for number, (gear, own, sense, flank) in enumerate(zip(gears, rolls, SENSES, flanks.compliance)):
-        seeing = Seeing(
-            offsets + sense * apart[number], ends, own,
-            np.array([place.contact_rolls[number] for place in places]),
-            [flank.rolls_of(place.ahead(number)) for place in places], gear.base_radius, sense, flank.element_order,
-        )  # fmt: skip
-        found.append(INTERPOLATIONS[grid.interpolation].of_flank(seeing))
+        own_offsets = offsets - side.sense * np.repeat(arms - side.gear.base_radius, np.diff(ends))
+        teeth = [flank.rolls_of(place.teeth[side.number]) for place in places]
+        on_flank = GearContacts(
+            own_offsets, ends, own, contact, teeth, side.gear.base_radius, side.sense, flank.element_order
+        )
+        found.append(INTERPOLATIONS[grid.interpolation].of_flank(on_flank))
     return list(zip(*found))
 
 
@@ -291,8 +283,8 @@ def count_of(pairs: Sequence[PairNodes]) -> int:
 
 
 def over_nodes(pairs: Sequence[PairNodes], name: str) -> np.ndarray:
-    """An array of every pair's contact nodes, one pair after the other."""
-    return np.concatenate([getattr(pair, name) for pair in pairs]) if pairs else np.empty(0)
+    """An array (n,), or (2, n) over both gears, of every pair's contact nodes, one pair after the other."""
+    return np.concatenate([getattr(pair, name) for pair in pairs], axis=-1) if pairs else np.empty(0)
 
 
 def per_node(pairs: Sequence[PairNodes], values: np.ndarray) -> np.ndarray:

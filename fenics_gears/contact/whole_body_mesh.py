@@ -14,6 +14,7 @@ import numpy as np
 
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
+from fenics_gears.geometry.gear import Side
 
 from .mesh import Mesh, elastic_mesh
 from .pairing import CompliancePairing
@@ -28,13 +29,11 @@ if TYPE_CHECKING:
 # The effect of a crack on the next teeth falls by about half from tooth to tooth.
 ALIKE = 1e-4
 SAME_ROLL = 1e-9
-GEARS = (0, 1)
 
 
 @dataclass(frozen=True)
 class TeethInMesh:
-    """A body as a mesh cycle sees it: teeth counted counter-clockwise from `first`, the body's tooth in drive pair
-    0."""
+    """A body in a mesh cycle: teeth are counted counter-clockwise from `first`, the body's tooth in drive pair 0."""
 
     body: WholeBodyCompliance
     first: int
@@ -83,25 +82,26 @@ class MeshesAlike:
 
     def of_cycle(self, number: int) -> Mesh:
         """The mesh in the mesh cycle of that number, counted from the start of the run."""
-        key = tuple(self._like(gear, number) for gear in GEARS)
+        key = tuple(self._like(side, number) for side in self._flanks.pair.sides)
         if key not in self.meshes:
             self.meshes[key] = self._made(key)
         return self.meshes[key][1]
 
-    def _like(self, gear: int, number: int) -> int:
+    def _like(self, side: Side, number: int) -> int:
         """The first tooth of a gear's earlier cycle whose teeth in mesh respond as those of cycle `number` do."""
-        body = self._flanks.compliance[gear]
+        body = self._flanks.compliance[side.number]
         if body.alike:
             return 0
-        first = first_tooth(gear, number) % body.teeth
-        known = self._first_alike[gear]
+        first = first_tooth(side, number) % body.teeth
+        known = self._first_alike[side.number]
         if first not in known:
             distinct = sorted(set(known.values()))
-            known[first] = next((each for each in distinct if self._respond_alike(gear, first, each)), first)
+            known[first] = next((each for each in distinct if self._respond_alike(side.number, first, each)), first)
         return known[first]
 
     def _respond_alike(self, gear: int, one: int, other: int) -> bool:
-        body, teeth = self._flanks.compliance[gear], self._teeth[gear]
+        body = self._flanks.compliance[gear]
+        teeth = self._teeth[gear]
         if not all(same_rolls(body.rolls_of(one + tooth), body.rolls_of(other + tooth)) for tooth in teeth):
             return False
         largest = np.abs(body.between(one, one).diagonal()).max()
@@ -120,11 +120,11 @@ class MeshesAlike:
             for place in pair_places(self._flanks.pair, self._grid, step / self._steps, corner=self._corner)
         ]
         found = []
-        for gear in GEARS:
-            ahead = [place.ahead(gear) for place in places]
+        for side in self._flanks.pair.sides:
+            teeth = [place.teeth[side.number] for place in places]
             # At the start of a cycle the pairs of the step before it have indices higher by one.
-            before = [each + (1 if gear == 0 else -1) for each in ahead]
-            found.append(range(min(ahead + before), max(ahead + before) + 1))
+            teeth += [tooth + side.sense for tooth in teeth]
+            found.append(range(min(teeth), max(teeth) + 1))
         return tuple(found)
 
     def _made(self, first: tuple[int, int]) -> tuple[tuple, Mesh]:
@@ -140,13 +140,9 @@ class MeshesAlike:
         return bodies, made
 
     def _same_nodes(self, one: tuple[FlankCompliance, ...], other: tuple[FlankCompliance, ...]) -> bool:
-        """Whether the flank nodes of all teeth in mesh stand at the same roll angles, so that contact nodes see them
-        alike."""
-        return all(
-            same_rolls(one[gear].rolls_of(tooth), other[gear].rolls_of(tooth))
-            for gear in GEARS
-            for tooth in self._teeth[gear]
-        )
+        """Whether flank nodes of all teeth in mesh are at the same roll angles, so that interpolations are alike."""
+        bodies = zip(one, other, self._teeth)
+        return all(same_rolls(a.rolls_of(tooth), b.rolls_of(tooth)) for a, b, teeth in bodies for tooth in teeth)
 
 
 def same_rolls(one: np.ndarray, other: np.ndarray) -> bool:
@@ -154,11 +150,9 @@ def same_rolls(one: np.ndarray, other: np.ndarray) -> bool:
     return one.shape == other.shape and bool(np.abs(one - other).max() <= SAME_ROLL)
 
 
-def first_tooth(gear: int, cycle: int) -> int:
-    """Tooth of the pinion (0) or the wheel (1), counted counter-clockwise, that reaches the start of contact with a
-    mesh cycle.
+def first_tooth(side: Side, cycle: int) -> int:
+    """Tooth of a gear, counted counter-clockwise, that reaches the start of contact with a mesh cycle.
 
-    The pinion turns counter-clockwise, so that its teeth come into mesh clockwise, one after the other; the wheel's the
-    other way.
+    Teeth come into mesh against the sense of rotation, one after the other.
     """
-    return -cycle if gear == 0 else cycle
+    return -side.sense * cycle

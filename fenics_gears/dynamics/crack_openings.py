@@ -9,7 +9,8 @@ import numpy as np
 
 from fenics_gears.contact.flank_forces import flank_rows
 from fenics_gears.contact.tooth_pair import node_slices
-from fenics_gears.contact.whole_body_mesh import GEARS, first_tooth
+from fenics_gears.contact.whole_body_mesh import first_tooth
+from fenics_gears.geometry.gear import Side
 
 from .steps import Record
 
@@ -18,20 +19,21 @@ NAMES = ("pinion", "wheel")
 LEAST_OVERLAP = 1e-6
 
 
-def openings_of(cycle, gear: int, record: Record) -> np.ndarray:
-    """Distances (k,), mm, of facing points of the cracks of the pinion (0) or the wheel (1); negative where they would
-    overlap.
+def openings_of(cycle, side: Side, record: Record) -> np.ndarray:
+    """Distances (k,), mm, of facing points of the cracks of a gear; negative where they would overlap.
 
     From forces on teeth within the reach of the body's compliance; others hardly move a crack.
     """
-    body, operator, forces = cycle.bodies[gear], record.position.operator, record.solution.forces
+    body = cycle.bodies[side.number]
+    operator = record.position.operator
+    forces = record.solution.forces
     by_kind = forces.reshape(-1, operator.nodes)
     total = np.zeros(len(next(iter(body.openings.values()))))
-    first = first_tooth(gear, int(record.step // cycle.steps))
+    first = first_tooth(side, int(record.step // cycle.steps))
     for nodes, pair in zip(node_slices(operator.pairs), operator.pairs):
-        rows = body.openings.get((first + pair.place.ahead(gear)) % body.teeth)
+        rows = body.openings.get((first + pair.place.teeth[side.number]) % body.teeth)
         if rows is not None and forces[nodes].any():
-            line = flank_rows(gear, pair, len(by_kind) > 1) @ by_kind[:, nodes].ravel() / cycle.pair.face_width
+            line = flank_rows(side, pair, len(by_kind) > 1) @ by_kind[:, nodes].ravel() / cycle.pair.face_width
             total += rows @ line
     return total
 
@@ -40,12 +42,11 @@ def crack_openings(cycle, records: Sequence[Record]) -> dict[str, np.ndarray]:
     """Smallest and largest opening at each record, (records,), mm, by the gear's name; only of gears that have
     cracks."""
     found = {}
-    for gear in GEARS:
-        if not cycle.bodies[gear].alike and cycle.bodies[gear].openings:
-            ends = np.array(
-                [(each.min(), each.max()) for each in (openings_of(cycle, gear, record) for record in records)]
-            )
-            found[f"least opening, {NAMES[gear]}"], found[f"largest opening, {NAMES[gear]}"] = ends.T
+    for side, body, name in zip(cycle.pair.sides, cycle.bodies, NAMES):
+        if not body.alike and body.openings:
+            openings = [openings_of(cycle, side, record) for record in records]
+            ends = np.array([(each.min(), each.max()) for each in openings])
+            found[f"least opening, {name}"], found[f"largest opening, {name}"] = ends.T
     return found
 
 

@@ -83,7 +83,7 @@ class Stepper:
         # By step, those of the last mesh cycle and a little more; see `remember`.
         self._sets: dict[float, np.ndarray] = {}
         # Without friction there is one solution, whatever the sets to begin with: those of runs before do as well.
-        self._shared = cycle.beside(KnownSets) if not friction and cycle.alike else KnownSets()
+        self._shared = cycle.shared(KnownSets) if not friction and cycle.alike else KnownSets()
         self._others = dict(self._shared)
         self.remembers = cycle.traits.repeats or not friction
         # Over a face a position at rest is nearer to itself in another run than to the step before.

@@ -1,10 +1,9 @@
-"""``[eccentricity]``: run-out of either gear (``contact.run_out``), and wobble of its teeth (``contact.wobble``)."""
+"""``[eccentricity]``: run-out of either gear and wobble of its teeth (``contact.run_out``)."""
 
 from math import lcm
 
 from fenics_gears.contact.eccentricity import Eccentricity
 from fenics_gears.contact.run_out import RunOut
-from fenics_gears.contact.wobble import WobblingRunOut
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.tree import GEARS, Tree, table
 
@@ -20,8 +19,7 @@ def offsets_are_given(tree: Tree) -> Broken:
 
 
 def gaps(eccentricity: Eccentricity, model):
-    kind = WobblingRunOut if eccentricity.wobbles else RunOut
-    return kind(model.pair, eccentricity, model.resolution.steps_per_mesh_cycle)
+    return RunOut(model.pair, eccentricity, model.resolution.steps_per_mesh_cycle)
 
 
 def period(eccentricity: Eccentricity, scene) -> int:

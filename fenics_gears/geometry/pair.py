@@ -11,7 +11,7 @@ from math import acos, cos, exp, floor, pi, sin, sqrt, tan
 
 from fenics_gears.errors import GeometryError
 
-from .gear import Gear, transverse_gear
+from .gear import Gear, Side, transverse_gear
 from .gear_checks import Impossible, check_gear
 from .gear_data import GearPairData
 from .involute import inverse_involute, involute_function
@@ -51,6 +51,16 @@ class GearPair:
     own_face_widths: tuple[float, float] | None = None
     helix: Helix | None = None
     axial_offsets: tuple[float, float] = (0.0, 0.0)
+
+    @cached_property
+    def sides(self) -> tuple[Side, Side]:
+        """Both gears as sides of the mesh."""
+        return Side(0, 1, self.pinion, 0.0), Side(1, -1, self.wheel, self.line_of_action_length)
+
+    @cached_property
+    def base_radii(self) -> tuple[float, float]:
+        """Base radii (mm) of pinion and wheel."""
+        return self.pinion.base_radius, self.wheel.base_radius
 
     @property
     def face_widths(self) -> tuple[float, float]:
@@ -128,12 +138,12 @@ class GearPair:
     @cached_property
     def operating_pressure_angle(self) -> float:
         """Angle (rad) between the line of action and the perpendicular to the line of centres."""
-        return acos((self.pinion.base_radius + self.wheel.base_radius) / self.centre_distance)
+        return acos(sum(self.base_radii) / self.centre_distance)
 
     @cached_property
     def line_of_action_length(self) -> float:
         """Distance (mm) from T1 to T2, where the line of action touches the base circles."""
-        return sqrt(self.centre_distance**2 - (self.pinion.base_radius + self.wheel.base_radius) ** 2)
+        return sqrt(self.centre_distance**2 - sum(self.base_radii) ** 2)
 
     @property
     def pitch_point(self) -> float:
@@ -148,11 +158,8 @@ class GearPair:
     @property
     def tip_positions(self) -> tuple[float, float]:
         """Positions (mm) where the wheel's tip and the pinion's tip cross the line of action."""
-        wheel, pinion = self.wheel, self.pinion
-        return (
-            self.line_of_action_length - wheel.base_radius * wheel.tip_roll_angle,
-            pinion.base_radius * pinion.tip_roll_angle,
-        )
+        of_pinion, of_wheel = (side.position(side.gear.tip_roll_angle) for side in self.sides)
+        return of_wheel, of_pinion
 
     @cached_property
     def path_start(self) -> float:
@@ -222,10 +229,8 @@ class GearPair:
         """Gap (mm) along the line of action between the coast flanks while the drive flanks touch: base pitch less both
         base-circle thicknesses at the operating pressure angle; negative when teeth overlap."""
         swept = involute_function(tan(self.operating_pressure_angle))
-        pinion, wheel = self.pinion, self.wheel
-        pinion_tooth = pinion.base_radius * (pinion.tooth_half_angle_at_base - swept)
-        wheel_tooth = wheel.base_radius * (wheel.tooth_half_angle_at_base - swept)
-        return self.base_pitch - 2.0 * (pinion_tooth + wheel_tooth)
+        halves = (gear.base_radius * (gear.tooth_half_angle_at_base - swept) for gear in (self.pinion, self.wheel))
+        return self.base_pitch - 2.0 * sum(halves)
 
     @property
     def circumferential_backlash(self) -> float:
@@ -235,11 +240,8 @@ class GearPair:
     @property
     def centre_distance_without_backlash(self) -> float:
         """Centre distance (mm) at which both flanks of a tooth touch."""
-        pinion, wheel = self.pinion, self.wheel
-        bases = pinion.base_radius + wheel.base_radius
-        both_teeth = (
-            pinion.base_radius * pinion.tooth_half_angle_at_base + wheel.base_radius * wheel.tooth_half_angle_at_base
-        )
+        bases = sum(self.base_radii)
+        both_teeth = sum(gear.base_radius * gear.tooth_half_angle_at_base for gear in (self.pinion, self.wheel))
         return bases * sqrt(1.0 + inverse_involute((both_teeth - 0.5 * self.base_pitch) / bases) ** 2)
 
     @property

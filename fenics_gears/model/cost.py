@@ -13,6 +13,7 @@ import numpy as np
 
 from fenics_gears.contact.face import Face
 from fenics_gears.contact.places import face_places
+from fenics_gears.contact.tooth_pair import contact_rolls_of
 from fenics_gears.contact.window import ends_of, offsets_of
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.sector_boundary import flank_roll_angles
@@ -110,8 +111,8 @@ def _counted(pair, grid, along, coast, corner) -> tuple[float, float, float]:
     face, counts = Face(np.array(positions), np.array(widths), slope), []
     for phase in range(PHASES):
         places = face_places(pair, grid, face, (phase + 0.5) / PHASES, coast, corner)
-        rolls = np.array([place.contact_rolls for place in places]).reshape(-1, 2).T
-        counts.append((len(places), len(offsets_of(ends_of(pair, rolls), grid)[0])))
+        ends = ends_of(pair, contact_rolls_of(places))
+        counts.append((len(places), len(offsets_of(ends, grid)[0])))
     pairs, nodes = np.mean(counts, axis=0)
     return float(pairs), float(nodes), float(np.mean([own**2 for _, own in counts]))
 

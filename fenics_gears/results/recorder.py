@@ -53,7 +53,7 @@ def _along_face(model: Model, cycle: Cycle) -> tuple[AlongTheFace, ...]:
 
 
 class KnownTouching:
-    """Where pairs touch over a mesh cycle, which runs on the same operators have in common (`Cycle.beside`)."""
+    """Where pairs touch over a mesh cycle, which runs on the same operators have in common (`Cycle.shared`)."""
 
     found: Touching | None = None
 
@@ -84,7 +84,7 @@ class Recorder:
         self.cycle = cycle
         self.stress = stress
         self.loads = model.loads if loads is None else loads
-        ways = cycle.beside(KnownTouching).of(cycle)
+        ways = cycle.shared(KnownTouching).of(cycle)
         self.first_number = 1 + ways.latest
         self.slots = ways.slots
         nodes = cycle.grid.most_nodes
@@ -105,7 +105,7 @@ class Recorder:
         self._worked: dict[str, float] = {}
         self.along_face = _along_face(model, cycle)
         self._singular = EdgesAndKinks(model)
-        cycle.beside(KnownLayouts).forget_beyond(cycle.steps)
+        cycle.shared(KnownLayouts).forget_beyond(cycle.steps)
 
     def _room_for(self, journal: Place | None) -> InMemory:
         room = self.stored, self.model.steps + 1, self.model.contact_steps
@@ -144,7 +144,7 @@ class Recorder:
     def _evaluate_block(self, block: Steps, march: March | None) -> None:
         scene = self.model.scene
         cycle = self.cycle
-        nodes = SideBySide(cycle.beside(KnownLayouts), cycle, block, self.slots, self.first_number)
+        nodes = SideBySide(cycle.shared(KnownLayouts), cycle, block, self.slots, self.first_number)
         numbers = block.numbers
         times = self.model.clock.times(block.numbers)
         values = {"time": times, "mesh_phase": numbers / cycle.steps, "pair_number": nodes.pair_number}

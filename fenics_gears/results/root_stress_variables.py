@@ -7,12 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 from scipy import sparse
 
-from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, rows_in_slice, sector_of
+from fenics_gears.contact.flank_forces import rows_in_slice
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import Position
-from fenics_gears.contact.tooth_pair import ToothPair, node_slices
+from fenics_gears.contact.tooth_pair import ToothPair, count_of, node_slices
 from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.gear import Side
 from fenics_gears.geometry.pair import GearPair
 
 from .side_by_side import SideBySide
@@ -24,7 +25,7 @@ SIDES = ("drive", "coast")
 OF_BENDING = 0.5
 
 
-# Of a gear: the teeth loaded at a position, by `sector_of`, and the forces on the nodes of their flanks per contact
+# Of a gear: the teeth loaded at a position, as of a Place, and the forces on the nodes of their flanks per contact
 # force (teeth f, n or 2 n). A contact node loads a few of hundreds of flank nodes.
 OnFlanks = tuple[list[int], sparse.csc_array]
 
@@ -46,18 +47,21 @@ class RootStress:
         if key not in self._on_flanks:
             pairs, tangential = position.operator.pairs, position.operator.rigid_slip is not None
             teeth = np.array(sorted({pair.place.index for pair in pairs}, reverse=True), dtype=int)
-            self._on_flanks[key] = teeth, tuple(self._of_gear(gear, pairs, tangential) for gear in (0, 1))
+            self._on_flanks[key] = teeth, tuple(self._of_gear(side, pairs, tangential) for side in self.pair.sides)
         return self._on_flanks[key]
 
-    def _of_gear(self, gear: int, pairs: Sequence[ToothPair], tangential: bool) -> OnFlanks:
-        sectors, dofs = sorted({sector_of(gear, pair) for pair in pairs}), self.rows[gear].rows.shape[-1]
-        data, count = (self.pair.pinion, self.pair.wheel)[gear], sum(len(pair.offsets) for pair in pairs)
-        slices, blocks = self.rows[gear].rows.shape[1], []
-        for nodes, pair in zip(node_slices(pairs), pairs):
-            forces = rows_in_slice(gear, data, self.cycle.face, pair, tangential)
+    def _of_gear(self, side: Side, pairs: Sequence[ToothPair], tangential: bool) -> OnFlanks:
+        teeth = [pair.place.teeth[side.number] for pair in pairs]
+        sectors = sorted(set(teeth))
+        count = count_of(pairs)
+        rows = self.rows[side.number].rows
+        _, slices, *_, dofs = rows.shape
+        blocks = []
+        for nodes, pair, tooth in zip(node_slices(pairs), pairs, teeth):
+            forces = rows_in_slice(side, self.cycle.face, pair, tangential)
             columns = np.r_[nodes, count + nodes.start : count + nodes.stop] if tangential else np.r_[nodes]
             in_slice = forces.shape[0] * (slices * pair.place.flank + pair.place.slice)
-            first = dofs * sectors.index(sector_of(gear, pair)) + in_slice
+            first = dofs * sectors.index(tooth) + in_slice
             blocks.append((forces.data, columns[forces.col], first + forces.row))
         values, from_contact, on_flanks = (np.concatenate(each) for each in zip(*blocks))
         shape = len(sectors) * dofs, (2 if tangential else 1) * count
@@ -86,14 +90,14 @@ class RootStress:
             slots = nodes.slot_of(steps[:, None], teeth)
             values[steps[:, None], :, slots] = at_rest
             contact = all_forces[starts[steps] + np.arange(starts[steps[0] + 1] - starts[steps[0]])[:, None]]
-            for gear, (sectors, per_force) in enumerate(gears):
+            for side, (sectors, per_force) in zip(self.pair.sides, gears):
                 on_teeth = (per_force @ contact).reshape(len(sectors), -1, len(steps))
                 for sector, loaded, own in zip(sectors, on_teeth.any(axis=1), on_teeth):
                     some = loaded.nonzero()[0]
                     if len(some):
                         own, these, places = own[:, some].T, steps[some], slots[some]
                         for index, slot in zip(teeth.tolist(), places.T):
-                            asked[gear, SENSE_OF_TEETH[gear] * index - sector].append((these, slot, own))
+                            asked[side.number, side.sense * index - sector].append((these, slot, own))
         for (gear, ahead), found in asked.items():
             steps, slots, forces = (np.concatenate(each) for each in zip(*found))
             stress = forces @ self._known(gear, ahead).reshape(slices * points, -1).T

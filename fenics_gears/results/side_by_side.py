@@ -4,15 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import copy
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
-from fenics_gears.contact.kinematics import CENTRE_COORDINATES, COORDINATES, displacement_jacobian
+from fenics_gears.contact.kinematics import CENTRE_COORDINATES, COLUMNS, COORDINATES, displacement_jacobian, lines_of
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import ContactOperator, Position
-from fenics_gears.contact.tooth_pair import DRIVE, Nodes, flank_points, node_ends, over_nodes, per_node
+from fenics_gears.contact.tooth_pair import (
+    DRIVE,
+    Nodes,
+    contact_rolls_of,
+    flank_points,
+    node_ends,
+    over_nodes,
+    per_node,
+)
 from fenics_gears.contact.window import ends_of
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.geometry.pair import GearPair
@@ -36,7 +45,7 @@ def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool)
     offsets = over_nodes(pairs, "offsets")
     places = np.array([(pair.place.index, pair.place.flank, pair.place.slice) for pair in pairs], dtype=int)
     index, flank, number = per_node(pairs, places.reshape(-1, 3)).T
-    rolls = np.array([pair.place.contact_rolls for pair in pairs]).reshape(-1, 2).T
+    rolls = contact_rolls_of([pair.place for pair in pairs])
     of_flanks = ends_of(cycle.pair, rolls)
     at_end = np.abs(offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
     if cycle.grid.inner_length is not None:
@@ -47,13 +56,13 @@ def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool)
         "drive": flank == DRIVE,
         "slice": number,
         "offsets": offsets,
-        "rolls": over_nodes(pairs, "pinion_roll"),
+        "rolls": over_nodes(pairs, "rolls").reshape(2, -1)[0],
         "area": over_nodes(pairs, "lengths") * face.contact_widths[number],
         "at_end": at_end,
     }
     if cycle.traits.has_pressure:
         found["on_edge"] = _on_edges(cycle, pairs, ends, of_flanks)
-        found["arcs"] = _arcs(cycle.pair, pairs, np.ascontiguousarray(rolls), offsets, ends)
+        found["arcs"] = _arcs(cycle.pair, pairs, rolls, offsets, ends)
     rows = _reaction_rows(operators, pairs, tangential)
     normals, tangents = (np.ascontiguousarray(part) for part in np.split(rows, [len(offsets)], axis=1))
     return found | {"rows_of_normals": normals, "rows_of_tangents": tangents}
@@ -100,23 +109,21 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
 
 def _arcs(gears: GearPair, pairs, contact_rolls: np.ndarray, offsets: np.ndarray, ends: np.ndarray) -> np.ndarray:
     """Arcs (2, n) of contact nodes along both flanks; not a number off the line of action, where corners touch."""
-    radii = np.array([[gears.pinion.base_radius], [gears.wheel.base_radius]])
+    radii = np.array(gears.base_radii)[:, None]
     rolls, _ = flank_points(gears, contact_rolls, radii.repeat(len(pairs), axis=1), offsets, ends)
     by_line = per_node(pairs, np.array([pair.place.line is None for pair in pairs], dtype=bool))
-    return np.where(by_line, 0.5 * radii * np.array(rolls) ** 2, np.nan)
+    return np.where(by_line, 0.5 * radii * rolls**2, np.nan)
 
 
 def _reaction_rows(operators: Sequence[ContactOperator], pairs, tangential: bool) -> np.ndarray:
     """-G^T of all coordinates of both centres, rotations as torques."""
-    radii = operators[0].base_radii
-    face = operators[0].face
-    first, second = (np.concatenate([each.normal_lever_arms[gear] for each in operators]) for gear in (0, 1))
-    rows = displacement_jacobian(pairs, radii, (first, second), tangential, face=face).T
-    units = np.concatenate([[1.0, 1.0, radius] for radius in radii])
-    if len(rows) > len(CENTRE_COORDINATES):
-        rows = rows[[name != "shaft_twist" for name in COORDINATES]]
-        units = np.concatenate([units, *([1.0, radius, radius] for radius in radii)])
-    return -rows[: len(units)] * units[:, None]
+    sides, face = operators[0].sides, operators[0].face
+    arms = np.concatenate([each.normal_lever_arms for each in operators], axis=1)
+    rows = displacement_jacobian(replace(lines_of(pairs, sides, face), lever_arms=arms), tangential)
+    for side, columns in zip(sides, COLUMNS):
+        rows[:, columns] *= -np.repeat([1.0, side.gear.base_radius], 3)
+    reached = COORDINATES if face.slices > 1 else CENTRE_COORDINATES
+    return rows.T[[place for place, name in enumerate(reached) if name != "shaft_twist"]]
 
 
 MOST_TIMES_JOINED = 8
@@ -163,7 +170,7 @@ _Key = tuple[Nodes | None, float]
 
 class KnownLayouts:
     """Layouts of the positions of a cycle, made when first met; runs on the same operators have them in common
-    (`Cycle.beside`)."""
+    (`Cycle.shared`)."""
 
     def __init__(self):
         # A layout for each time that positions were met: one of all would be copied with every block of a long cycle.

@@ -172,8 +172,8 @@ def _load_factors(model: Model, nodes: SideBySide, curves: Curves, first: int) -
 
 
 def _nodes(cycle: Cycle, steps: Steps) -> SideBySide:
-    ways = cycle.beside(KnownTouching).of(cycle)
-    return SideBySide(cycle.beside(KnownLayouts), cycle, steps, ways.slots, 1 + ways.latest)
+    ways = cycle.shared(KnownTouching).of(cycle)
+    return SideBySide(cycle.shared(KnownLayouts), cycle, steps, ways.slots, 1 + ways.latest)
 
 
 def _of_nodes(model: Model, cycle: Cycle, nodes: SideBySide, asked: Collection[str]) -> Curves:

@@ -57,7 +57,7 @@ class GearStore:
         # Last in the dictionary, last to be given up.
         self._operators[key] = found
         bodies, cycle = found
-        cycle.kept.beside = self._taken - cycle.kept.taken - _bytes_of(bodies)
+        cycle.kept.others = self._taken - cycle.kept.taken - _bytes_of(bodies)
         if of_cycle != self._cycle_key:
             self._cycle = cycle.with_gaps(gaps_of(model, cycle)) if shared else cycle
             self._cycle_key = of_cycle

@@ -89,7 +89,7 @@ def _gaps_on_path(model: Model, flank: int, phase: float) -> dict[int, float]:
     for index in range(-reach, reach + 1):
         xi = pair.path_start + (phase + index) * pair.base_pitch
         place = (drive_place if flank == DRIVE else coast_place)(pair, index, xi)
-        ends = [gear.tip_roll_angle * (1.0 + 1e-12) for gear in (pair.pinion, pair.wheel)]
+        ends = [side.gear.tip_roll_angle * (1.0 + 1e-12) for side in pair.sides]
         if all(0.0 < roll <= end for roll, end in zip(place.contact_rolls, ends)):
             found[index] = float(facing_points_at(pair, removal, place, np.zeros(1))[2][0])
     return found

@@ -38,9 +38,8 @@ class StoredForces:
     def on_flanks(self, model: Model, gear: int, heights: np.ndarray = MID_WIDTH) -> dict[int, np.ndarray]:
         """Forces on the flank nodes of a gear's loaded teeth, as of `contact.flank_forces`, at `heights` (h,), mm from
         its mid-width."""
-        data = (model.pair.pinion, model.pair.wheel)[gear]
         averages = slice_averages(heights, 2, model.face.positions - model.face.middles[gear], model.face.widths)
-        return flank_forces(gear, data, model.face, averages, self.pairs, self.forces)
+        return flank_forces(model.pair.sides[gear], model.face, averages, self.pairs, self.forces)
 
 
 def stored_index(result: xr.Dataset, mesh_phase: float) -> int:
@@ -82,7 +81,7 @@ def _forces_of(result: xr.Dataset, model: Model, pair: ToothPair, index: int, sl
     rolls = np.empty(0) if slot is None else stored("roll_angle")
     if (
         np.count_nonzero(~np.isnan(rolls)) != count
-        or np.abs(rolls[:count] - pair.pinion_roll).max(initial=0.0) > SAME_OFFSETS
+        or np.abs(rolls[:count] - pair.rolls[0]).max(initial=0.0) > SAME_OFFSETS
     ):
         raise ComputationError(
             "the stored contact nodes are not those of the scene that the result carries. Run the scene again."

@@ -62,7 +62,7 @@ def solved_together(
 def _most_at_once(model: Model, cycle: Cycle) -> int:
     """How many runs on the operators of a cycle may be marched together; none where these cannot all be held."""
     kept, position = cycle.kept, cycle.position(0)
-    if position.bytes * cycle.steps > SHARE_KEPT * kept.most - kept.beside:
+    if position.bytes * cycle.steps > SHARE_KEPT * kept.most - kept.others:
         return 0
     kinds = 2 if model.scene.friction is not None else 1
     # Forces and displacements, gaps, and sets before and after.

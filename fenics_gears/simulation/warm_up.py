@@ -17,7 +17,8 @@ from fenics_gears.contact.flank_at_height import points_of_pairs, roll_angle_at_
 from fenics_gears.contact.interpolation import (
     AVERAGED,
     INTERPOLATIONS,
-    flank_interpolation,
+    GearContacts,
+    flank_interpolations,
     node_average,
     quadrature_offsets,
 )
@@ -25,7 +26,7 @@ from fenics_gears.contact.kinematics import nodes_before
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
 from fenics_gears.contact.operator import ContactOperator, Position
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, solve_step
-from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, seen_gap
+from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, nodal_gap
 from fenics_gears.contact.window import ContactGrid, node_offsets
 from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, Course, Motion, solve_steps
 from fenics_gears.dynamics.contact_work import contact_work
@@ -68,11 +69,14 @@ def _place_nodes(tangential: bool) -> None:
     """Contact nodes on flanks and how these yield."""
     offsets = np.array([-0.1, 0.1])
     rolls = roll_angle_at_height(40.0, 0.5, 40.0 + offsets)
-    interpolation = flank_interpolation(offsets, rolls, 40.0, 0.5, 1.0, np.linspace(0.4, 0.6, 5), 1)
+    ends = np.array([0, 2])
+    contact = np.array([0.5])
+    nodes = GearContacts(offsets, ends, rolls, contact, [np.linspace(0.4, 0.6, 5)], 40.0, -1, 1)
+    (interpolation,) = flank_interpolations(nodes)
     node_average(offsets, roll_angle_at_height(40.0, 0.5, 40.0 + quadrature_offsets(offsets)))
-    view, ends = INTERPOLATIONS[AVERAGED], np.array([0, 2])
-    seen_gap(view, offsets, ends, view.places(offsets, ends))
-    points_of_pairs(40.0, 1.0, np.array([0.5]), np.array([40.0]), offsets, ends)
+    view = INTERPOLATIONS[AVERAGED]
+    nodal_gap(view, offsets, ends, view.places(offsets, ends))
+    points_of_pairs(40.0, -1, contact, np.array([40.0]), offsets, ends)
     node_offsets(((-0.1, -0.2), (0.1, 0.2)), ContactGrid(1.0, 5))
     kinds, near = 2 if tangential else 1, np.ravel(interpolation.near)
     # With friction also along the tangent as it stood before.
@@ -91,9 +95,10 @@ def _steps(tangential: bool) -> tuple[Steps, StepProblem]:
     slip = np.ones(1) if tangential else np.empty(0)
     problem = StepProblem(np.eye(1), np.ones(1), np.eye(kinds), row, node, slip, 0.1, np.empty(0), tolerance)
     place = Place(0, DRIVE, (0.5, 0.5))
-    pair = PairNodes(place, node, node, node, node, node, node)
+    both = np.zeros((2, 1))
+    pair = PairNodes(place, node, node, node, both, both)
     earlier = (node, np.zeros((1, kinds)), np.zeros((1, 1))) if tangential else (None, None, None)
-    operator = ContactOperator((pair,), (1.0, 1.0), (node, node), np.eye(kinds), row, node, *earlier)
+    operator = ContactOperator((pair,), (), both, np.eye(kinds), row, node, *earlier)
     position = Position(operator, nodes_before([((pair,), (pair,))], 0.1)[0])
     return Steps.to_solve(range(2), [position] * 2, 1, NEWTON), problem
 

@@ -55,16 +55,14 @@ def test_normals_are_the_helicoids(hand):
     model, cycle = coasting(hand)
     pair, step = model.pair, 1e-5
     operator = cycle.position(5).operator
-    rows = displacement_jacobian(
-        operator.pairs, operator.base_radii, operator.normal_lever_arms, False, face=operator.face
-    )
+    rows = displacement_jacobian(operator.lines, False)
     centre, node, seen = (
         np.array([pair.line_of_action_length, -pair.pinion.base_radius - pair.wheel.base_radius, 0.0]),
         0,
         0,
     )
     for nodes in operator.pairs:
-        for arm in nodes.pinion_lever_arm:
+        for arm in nodes.friction_arms[0]:
             # A few suffice.
             if nodes.place.flank == COAST and node % 5 == 0:
                 height = nodes.place.height
@@ -75,7 +73,7 @@ def test_normals_are_the_helicoids(hand):
                 normal /= np.linalg.norm(normal)
                 normal *= np.sign(normal @ rotated(np.array([-1.0, 0.0, 0.0]), 2.0 * pair.operating_pressure_angle))
                 expected = []
-                for sense, middle, radius in zip((1.0, -1.0), (0.0, 1.0), operator.base_radii):
+                for sense, middle, radius in zip((1.0, -1.0), (0.0, 1.0), pair.base_radii):
                     arms = touched - middle * centre - np.array([0.0, 0.0, operator.face.middles[int(middle)]])
                     moment = np.cross(arms, normal)
                     expected.append(

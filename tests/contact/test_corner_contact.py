@@ -87,7 +87,7 @@ def test_on_the_path_of_contact_nothing_changes(stand_in_flanks, paper_pair):
         (with_corner,) = corner_pairs(stand_in_flanks, GRID, corner, [place])
         (plain,) = tooth_pairs(stand_in_flanks, GRID, [place])
         assert with_corner.place == plain.place
-        for name in ("offsets", "lengths", "gap", "pinion_lever_arm", "wheel_lever_arm", "pinion_roll"):
+        for name in ("offsets", "lengths", "gap", "friction_arms", "rolls"):
             assert getattr(with_corner, name) == pytest.approx(getattr(plain, name), rel=1e-11, abs=1e-11)
         for ours, theirs in zip(with_corner.interpolation, plain.interpolation):
             assert ours.weights == pytest.approx(theirs.weights, abs=1e-11)
@@ -106,7 +106,7 @@ def test_nothing_jumps_where_the_edge_leaves_the_path(tip, radius, stand_in_flan
     )
     assert (before.place.line is None) != (after.place.line is None)
     assert len(before.offsets) == len(after.offsets)
-    for name in ("offsets", "gap", "pinion_lever_arm", "wheel_lever_arm"):
+    for name in ("offsets", "gap", "friction_arms"):
         assert getattr(before, name) == pytest.approx(getattr(after, name), abs=1e-5)
     assert np.array(before.place.axes) == pytest.approx(np.array(after.place.axes), abs=1e-6)
     for line in (before.place.line_in(paper_pair), after.place.line_in(paper_pair)):

@@ -15,7 +15,6 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.run_out import RunOut
 from fenics_gears.contact.tooth_pair import node_slices
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.contact.wobble import WobblingRunOut
 from fenics_gears.geometry.flank_errors import FlankErrors, GearErrors, Waviness
 from fenics_gears.geometry.pair import Helix
 
@@ -50,7 +49,7 @@ def test_a_spur_gear_that_wobbles_is_eccentric_in_each_slice(spur, gear):
     """Exact: a section at the height h is off its axis by wobble h/width."""
     pair, offsets = spur.pair, [None, None]
     offsets[gear] = Offset(wobble=WOBBLE, wobble_phase=PHASE)
-    wobbling = WobblingRunOut(pair, Eccentricity(*offsets), STEPS)
+    wobbling = RunOut(pair, Eccentricity(*offsets), STEPS)
     for step in (0, 3, 47, 151):
         position = spur.position(step)
         found = wobbling(step, position)
@@ -73,7 +72,7 @@ def test_flanks_of_a_helical_gear_move_with_its_leaning_axis(helical, gear):
     lean = WOBBLE / width * np.array([np.cos(angle), np.sin(angle), 0.0])
     expected = []
     for nodes in position.operator.pairs:
-        for arm_1, arm_2 in zip(nodes.pinion_lever_arm, nodes.wheel_lever_arm):
+        for arm_1, arm_2 in nodes.friction_arms.T:
             x, y = ((arm_1, -pair.pinion.base_radius), (-arm_2, pair.wheel.base_radius))[gear]
             z = nodes.place.height - pair.gear_middles[gear]
             # The axis at z is off by lean z; the end faces tilt against it, so that points ahead in the lean's
@@ -81,7 +80,7 @@ def test_flanks_of_a_helical_gear_move_with_its_leaning_axis(helical, gear):
             motion = lean * z - np.array([0.0, 0.0, lean[0] * x + lean[1] * y])
             along = motion @ np.array([1.0, 0.0, -pair.slope])
             expected.append(-sense * along)
-    found = WobblingRunOut(pair, Eccentricity(*offsets), STEPS)(step, position)
+    found = RunOut(pair, Eccentricity(*offsets), STEPS)(step, position)
     assert np.abs(found).max() > 0.2 * WOBBLE and found == pytest.approx(expected, rel=1e-9, abs=1e-12)
 
 

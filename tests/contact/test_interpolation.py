@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
-from fenics_gears.contact.interpolation import flank_interpolation, hat_integrals, node_average, quadrature_offsets
+from fenics_gears.contact.interpolation import (
+    GearContacts,
+    flank_interpolations,
+    hat_integrals,
+    node_average,
+    quadrature_offsets,
+)
 from fenics_gears.contact.window import ContactGrid, contact_roll_angles, flank_ends, node_offsets
 
 
@@ -14,8 +20,9 @@ def interpolation_at(pair, xi, order, grid=ContactGrid(2.0, 21), elements=50):
     rolls = roll_angle_at_height(pinion.base_radius, contact_roll, pinion.base_radius - offsets)
     arc = np.linspace(pinion.form_roll_angle**2, pinion.tip_roll_angle**2, order * elements + 1)
     flank_rolls = np.sqrt(arc)
-    result = flank_interpolation(offsets, rolls, pinion.base_radius, contact_roll, -1.0, flank_rolls, order)
-    return offsets, contact_roll, flank_rolls, result
+    ends, contact = np.array([0, len(offsets)]), np.array([contact_roll])
+    nodes = GearContacts(offsets, ends, rolls, contact, [flank_rolls], pinion.base_radius, 1, order)
+    return offsets, contact_roll, flank_rolls, flank_interpolations(nodes)[0]
 
 
 @pytest.mark.parametrize("order", [1, 2])

@@ -42,8 +42,8 @@ def test_nodes_of_both_gears_lie_on_one_line_along_the_line_of_action(order, pap
     pair, nodes = paper_pair, pairs_at(paper_pair, 0.2, order=order)[0]
     points, sagitta = [], 1e-9
     for gear, rolls, contact in (
-        (pair.pinion, nodes.pinion_roll, nodes.place.contact_rolls[0]),
-        (pair.wheel, nodes.wheel_roll, nodes.place.contact_rolls[1]),
+        (pair.pinion, nodes.rolls[0], nodes.place.contact_rolls[0]),
+        (pair.wheel, nodes.rolls[1], nodes.place.contact_rolls[1]),
     ):
         vertices = canonical_point(gear.base_radius, rolls[::order]) @ rotation(contact).T
         placed = np.empty((len(rolls), 2))
@@ -58,7 +58,7 @@ def test_nodes_of_both_gears_lie_on_one_line_along_the_line_of_action(order, pap
     assert pinion[:, 1] == pytest.approx(nodes.offsets, abs=1e-9)
     assert wheel[:, 1] == pytest.approx(nodes.offsets, abs=1e-9)
     assert (wheel - pinion)[:, 0] == pytest.approx(nodes.gap, abs=sagitta)
-    assert pinion[:, 0] == pytest.approx(nodes.pinion_lever_arm, abs=1e-9)
+    assert pinion[:, 0] == pytest.approx(nodes.friction_arms[0], abs=1e-9)
 
 
 @pytest.mark.parametrize("order", [1, 2])
@@ -77,9 +77,9 @@ def last_displacement(pair, spacing_cells, steps=40):
     now, before = (pairs_at(pair, phase, grid) for phase in (0.5, 0.5 - 1.0 / steps))
     nodes = [sum(len(p.offsets) for p in pairs) for pairs in (now, before)]
     soft = [tuple(np.zeros((2 * n, 2 * n)) for _ in range(2)) for n in nodes]
-    advance, was = pair.pinion.angular_pitch / steps, NodeResponse(before, soft[1])
-    response = node_to_node_response(pair, NodeResponse(now, soft[0]), was, advance)
-    passage = Passage(now, before, advance=advance)
+    was = NodeResponse(before, soft[1])
+    response = node_to_node_response(pair, NodeResponse(now, soft[0]), was, 1.0 / steps)
+    passage = Passage(now, before, advance=1.0 / steps)
     (operator,) = contact_operators(pair, [passage], list(range(len(CENTRE_COORDINATES))), [response])
     return operator, now, before
 
@@ -91,11 +91,11 @@ def test_last_rigid_displacement_of_the_same_material_points(paper_pair):
         operator, now, before = last_displacement(paper_pair, cells)
         turned = paper_pair.pinion.angular_pitch / 40
         place = (
-            canonical_point(paper_pair.pinion.base_radius, now[0].pinion_roll)
+            canonical_point(paper_pair.pinion.base_radius, now[0].rolls[0])
             @ rotation(now[0].place.contact_rolls[0] - turned).T
         )
         exact = place[:, 0] / paper_pair.pinion.base_radius
-        bound = np.abs(np.diff(before[0].pinion_roll)).max() ** 2 / 8.0 * (now[0].pinion_roll.max() + 0.05)
+        bound = np.abs(np.diff(before[0].rolls[0])).max() ** 2 / 8.0 * (now[0].rolls[0].max() + 0.05)
         assert 0.1 * bound < np.abs(operator.previous_jacobian[:, 2] - exact).max() < bound
         translation = operator.previous_jacobian[:, [1, 4]]
         assert translation == pytest.approx(np.tile([1.0, -1.0], (len(exact), 1)), abs=1e-13)

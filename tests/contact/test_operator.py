@@ -58,7 +58,7 @@ def test_earlier_rigid_motion_is_that_of_the_same_material_points(cycle, paper_p
         (paper_pair.wheel, 1, paper_pair.wheel.base_radius, 1.0, 5, -advance * paper_pair.rotation_ratio),
     ):
         offsets = np.concatenate([p.offsets for p in operator.pairs])
-        now = over_nodes(operator.pairs, ("pinion_lever_arm", "wheel_lever_arm")[arm]) - 1j * (radius + sign * offsets)
+        now = over_nodes(operator.pairs, "friction_arms")[arm] - 1j * (radius + sign * offsets)
         earlier = now * np.exp(-1j * turn)
         assert operator.previous_jacobian[:, column] * radius == pytest.approx(earlier.real, rel=1e-12)
 
@@ -91,10 +91,9 @@ def test_rigid_slip_over_a_step_is_exact(cycle, paper_pair):
     back, weights = 0.5 * advance * (back + 1.0), 0.5 * advance * weights
     for step in range(0, STEPS, 3):
         operator = cycle.position(step).operator
-        arm_1, arm_2, offset = (
-            over_nodes(operator.pairs, name) for name in ("pinion_lever_arm", "wheel_lever_arm", "offsets")
-        )
-        height_1, height_2 = operator.base_radii[0] - offset, operator.base_radii[1] + offset
+        arm_1, arm_2 = over_nodes(operator.pairs, "friction_arms")
+        offset = over_nodes(operator.pairs, "offsets")
+        height_1, height_2 = paper_pair.base_radii[0] - offset, paper_pair.base_radii[1] + offset
         slip, ratio = 0.0, paper_pair.rotation_ratio
         for angle, weight in zip(back, weights):
             # Speed across the line of action is the distance along it from the centre, a rotation earlier.
@@ -117,7 +116,7 @@ def test_reach_holds_between_steps_too(paper_pair, coast, corner):
             for one in places[i]:
                 for other in (*places[i], *(replace(place, index=place.index + passed) for place in places[j])):
                     for gear in range(2):
-                        found.setdefault((one.flank, other.flank), set()).add(one.ahead(gear) - other.ahead(gear))
+                        found.setdefault((one.flank, other.flank), set()).add(one.teeth[gear] - other.teeth[gear])
     ways = touching(paper_pair, GRID, steps, coast, corner)
     reach = ways.reach
     at_steps = [[place.index for place in places[i]] for i in range(0, steps * parts, parts)]

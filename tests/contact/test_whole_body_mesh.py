@@ -74,7 +74,7 @@ def test_a_softer_tooth_is_met_in_its_turn(paper_pair, rings, gear):
     """The pinion's teeth come clockwise, the wheel's counter-clockwise, tooth 0 first: the operator has the softer
     tooth in cycle `number` and a turn later, and in no other."""
     teeth, number, factor = (16, 24)[gear], 5, 2.0
-    tooth = first_tooth(gear, number) % teeth
+    tooth = first_tooth(paper_pair.sides[gear], number) % teeth
     assert tooth == ((11, 5)[gear])
     bodies = list(rings)
     bodies[gear] = whole(rings[gear], teeth, {tooth: factor})

@@ -48,7 +48,7 @@ SCENES = {
 def marched(model: Model, cycle, plain: bool):
     recorder = Recorder(model, cycle)
     # Both begin with what neither has found.
-    cycle.beside(KnownSets).clear()
+    cycle.shared(KnownSets).clear()
     try:
         march, failure = Marcher(cycle, model.equations_of_motion, plain).run(model.steps, 1, observe=recorder.take), ""
     except ContactNotConverged as failed:

@@ -9,9 +9,10 @@ from tests.coarse import rigid_pair
 
 from fenics_gears import simulate
 from fenics_gears.contact.eccentricity import Eccentricity, Offset
+from fenics_gears.contact.kinematics import IN_THE_PLANE, lines_of
 from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.run_out import RunOut
-from fenics_gears.contact.tooth_pair import COAST, DRIVE
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, PairNodes
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.scene.data import Accuracy, Motion
 
@@ -45,20 +46,15 @@ def test_rigid_gears_have_one_harmonic_once_a_turn(rigid, paper_pair, gear, turn
     assert np.abs(spectrum[1:]).max() <= 1e-12
 
 
-class _Operator:
-    def __init__(self, pairs):
-        self.pairs = pairs
-
-
-class _Pair:
-    def __init__(self, place):
-        self.place, self.offsets = place, np.zeros(2)
-
-
 class _Position:
+    """A node on the line of action of each pair at a position."""
+
     def __init__(self, pair, index, steps):
         places = pair_places(pair, ContactGrid(1.5, 20), index / steps, coast_flanks=True)
-        self.operator, self.index = _Operator([_Pair(place) for place in places]), index
+        nothing, both = np.zeros(1), np.zeros((2, 1))
+        self.pairs = [PairNodes(place, nothing, nothing, nothing, both, both) for place in places]
+        self.operator, self.index = self, index
+        self.lines, self.face = lines_of(self.pairs, pair.sides), IN_THE_PLANE
 
 
 @pytest.mark.parametrize("gear", [0, 1])
@@ -71,11 +67,11 @@ def test_gaps_of_both_flanks_are_displacements_along_their_own_normals(paper_pai
     teeth, sense = (paper_pair.pinion.teeth, paper_pair.wheel.teeth)[gear], (1.0, -1.0)[gear]
     for step in (0, 7, 33, 191):
         position = _Position(paper_pair, step % steps, steps)
-        gaps = run_out(step, position).reshape(-1, 2)[:, 0]
+        gaps = run_out(step, position)
         turned = sense * 2.0 * np.pi * step / (steps * teeth)
         # Angles of the displacement from either line of action's direction, pinion to wheel; the coast flanks' is (-cos
         # 2a, -sin 2a).
         expected = {DRIVE: -sense * DISTANCE * cos(turned), COAST: sense * DISTANCE * cos(turned - 2.0 * angle)}
-        flanks = [pair.place.flank for pair in position.operator.pairs]
+        flanks = [pair.place.flank for pair in position.pairs]
         assert set(flanks) == {DRIVE, COAST}
         assert gaps == pytest.approx([expected[flank] for flank in flanks], abs=1e-15)

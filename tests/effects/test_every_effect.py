@@ -30,13 +30,9 @@ METHODS = {
     "misalignment": {"fenics_gears.geometry.face", "fenics_gears.contact.face_mesh"},
     TEETH: {"fenics_gears.elasticity.gear_compliance"},
 }
-# What only some cases of them load: teeth that lean, the start of a fast mesh, the stepping of unsampled vibrations,
+# What only some cases of them load: the start of a fast mesh, the stepping of unsampled vibrations,
 # the last of the fallbacks.
-RARE = {
-    "eccentricity": {"fenics_gears.contact.wobble"},
-    "inertia": {"fenics_gears.dynamics.mean_equilibrium"},
-    "friction": {"fenics_gears.contact.tresca"},
-}
+RARE = {"inertia": {"fenics_gears.dynamics.mean_equilibrium"}, "friction": {"fenics_gears.contact.tresca"}}
 
 
 def may_stand_together(sections):

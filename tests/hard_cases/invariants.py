@@ -116,10 +116,8 @@ def _slip_before(operator, before) -> np.ndarray | None:
 def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, float]:
     """Forces of the contact on the two gears and their moments about the pinion's centre, summed: zero."""
     pair = run.model.pair
-    (radius_1, radius_2), frictional = operator.base_radii, len(forces) > operator.nodes
-    rows = displacement_jacobian(
-        operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential=frictional, face=operator.face
-    )
+    (radius_1, radius_2), frictional = pair.base_radii, len(forces) > operator.nodes
+    rows = displacement_jacobian(operator.lines, frictional)
     on_pinion, on_wheel = -(rows.T @ forces)[:3], -(rows.T @ forces)[3:6]
     total = float(np.abs(forces).sum()) or 1.0
     # In the frame of the drive flanks' line of action, the wheel's centre seen from the pinion's.
@@ -145,7 +143,7 @@ def _along_the_axes(
     operator, on_gears: np.ndarray, on_wheel: np.ndarray, centre: tuple[float, float]
 ) -> tuple[float, float]:
     """Sum of the axial forces, N, and of the moments about x and y through the pinion's mid-width, N mm."""
-    (radius_1, radius_2), (along, across) = operator.base_radii, centre
+    (radius_1, radius_2), (along, across) = [side.gear.base_radius for side in operator.sides], centre
     (axial_1, x_1, y_1), (axial_2, x_2, y_2) = on_gears.reshape(2, 3)
     beside = operator.face.middles[1] - operator.face.middles[0]
     about_x = radius_1 * x_1 + radius_2 * x_2 + across * axial_2 - beside * on_wheel[1]

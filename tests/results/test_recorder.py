@@ -57,7 +57,7 @@ def by_pair_number(model, cycle, records) -> xr.Dataset:
             start, row = nodes.stop, numbers.index(int(cycle.pair_number(record.step, pair.place.index)))
             normal, tangential = record.solution.forces[:count][nodes], record.solution.forces[count:][nodes]
             coast, area = bool(pair.place.flank), pair.lengths * model.pair.face_width
-            values = (normal / area, tangential / area, pair.offsets, pair.pinion_roll)
+            values = (normal / area, tangential / area, pair.offsets, pair.rolls[0])
             for name, each in zip(FIELDS, values):
                 fields[f"coast_{name}" if coast else name][i, row, : len(each)] = each
             for name, force in zip(

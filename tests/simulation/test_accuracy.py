@@ -7,7 +7,7 @@ import pytest
 from tests.coarse import coarse_scene, frictionless, teeth_alone
 
 from fenics_gears import SceneError, model_of, scene_from_text, simulate
-from fenics_gears.contact.interpolation import AVERAGED, COLLOCATED, INTERPOLATIONS, Seeing
+from fenics_gears.contact.interpolation import AVERAGED, COLLOCATED, INTERPOLATIONS, GearContacts
 from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES
 from fenics_gears.runs.gear_store import cycle_key
 from fenics_gears.scene.data import Accuracy, GearData, Motion
@@ -119,7 +119,7 @@ def test_collocation_takes_values_at_points(order):
     rolls = np.sqrt(np.linspace(0.011, 0.35, 37))
     ends = np.array([0, len(rolls)])
     (view,) = INTERPOLATIONS[COLLOCATED].of_flank(
-        Seeing(rolls, ends, rolls, np.array([0.4]), [flank], 30.0, -1.0, order)
+        GearContacts(rolls, ends, rolls, np.array([0.4]), [flank], 30.0, 1, order)
     )
     for power in range(order + 1):
         assert view.weights @ flank ** (2 * power) == pytest.approx(rolls ** (2 * power), abs=1e-13)

@@ -5,7 +5,6 @@ import pytest
 from tests.over_face import root_stress_run
 
 from fenics_gears import gear_pair
-from fenics_gears.contact.flank_forces import SENSE_OF_TEETH
 from fenics_gears.elasticity.face.fine_fillet import fine_over_swept
 from fenics_gears.elasticity.fillet_points import POINTS_OVER_FACE, fillet_curve, fillet_weights, section_angle
 from fenics_gears.elasticity.slice_averages import slice_averages
@@ -44,7 +43,7 @@ def test_rows_give_what_the_recovered_sectors_have(coast):
             )
             factors = factors.reshape(2, -1)
             for tooth in teeth:
-                found = recovery.recovered(forces, [SENSE_OF_TEETH[gear] * tooth]).stress[0]
+                found = recovery.recovered(forces, [(1, -1)[gear] * tooth]).stress[0]
                 expected = _at_fillets(recovery, data, np.einsum("sh,hnij->snij", averages, found)) * factors
                 number = int(stresses.cycle.pair_number(step, tooth)) + result["pair_number"].attrs["number_at_phase_0"]
                 slot = int(np.flatnonzero(result["pair_number"].values[STEP] == number)[0])

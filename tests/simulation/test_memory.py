@@ -168,7 +168,7 @@ def test_layouts_of_a_long_mesh_cycle_are_held_once(paper_scene, monkeypatch):
         return gears, cycle
 
     simulate(scene, preparation=preparation, cache=user_cache())
-    layouts = found[0].beside(KnownLayouts)
+    layouts = found[0].shared(KnownLayouts)
     assert len(layouts._joined) >= scene.accuracy.steps_per_mesh_cycle / 5
     held = {id(known): known for joined in layouts._joined.values() for known in joined._known}
     nodes = sum(end - first for _, first, end, _ in layouts._parts.values())

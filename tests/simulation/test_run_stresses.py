@@ -13,8 +13,7 @@ from tests.iso_tooth_root import nominal_root_stress, standard_gear
 
 from fenics_gears import Load, SceneError, scene_from_text, simulate
 from fenics_gears.contact.compliance_product import directions
-from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, sector_of
-from fenics_gears.contact.kinematics import displacement_jacobian
+from fenics_gears.contact.kinematics import COLUMNS, displacement_jacobian, lines_of
 from fenics_gears.contact.tooth_pair import COAST
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
@@ -63,11 +62,10 @@ def test_flanks_touch_where_the_pressure_is(of_run, request):
         stored = stored_forces(result, stresses.model, stresses.cycle, index)
         assert any(np.any(force) for force in stored.forces)
         pair = stresses.model.pair
-        radii = (pair.pinion.base_radius, pair.wheel.base_radius)
-        arms = tuple(np.full(sum(len(each.offsets) for each in stored.pairs), radius) for radius in radii)
         motion = hub_motion(result, index)
-        motion[:, 2] *= radii
-        approach = (displacement_jacobian(stored.pairs, radii, arms, tangential=False)[:, :6] @ motion.ravel()).copy()
+        motion[:, 2] *= pair.base_radii
+        rows = displacement_jacobian(lines_of(stored.pairs, pair.sides), tangential=False)
+        approach = rows[:, COLUMNS[:, [0, 1, 5]].ravel()] @ motion.ravel()
         start = 0
         for touching, force in zip(stored.pairs, stored.forces):
             nodes = slice(start, start + len(touching.offsets))
@@ -75,7 +73,7 @@ def test_flanks_touch_where_the_pressure_is(of_run, request):
             for gear, recovery in enumerate(stresses.recoveries):
                 body = recovery.recovered(stored.on_flanks(stresses.model, gear))
                 side = "coast" if touching.place.flank == COAST else "flank"
-                moved = body.displacement[sector_of(gear, touching) % len(body.displacement), 0][
+                moved = body.displacement[touching.place.teeth[gear] % len(body.displacement), 0][
                     recovery.sector.flank_nodes(side)
                 ]
                 if side == "coast":
@@ -161,7 +159,7 @@ def test_rows_give_what_the_full_recovery_gives(run):
                     pair = (
                         int(stresses.cycle.pair_number(step, tooth)) + result["pair_number"].attrs["number_at_phase_0"]
                     )
-                    at = moved[SENSE_OF_TEETH[gear] * tooth % len(moved)].ravel()
+                    at = moved[(1, -1)[gear] * tooth % len(moved)].ravel()
                     expected = (rows @ at * scene.gears.material.youngs_modulus / recovery.gear.module).reshape(2, -1)
                     slot = int(np.flatnonzero(result["pair_number"].values[index] == pair)[0])
                     here = result.isel(time=index, contact_time=index, gear=gear, slot=slot)

@@ -109,7 +109,7 @@ def test_cycles_of_the_same_bodies_stay_while_there_is_room():
 
     found = [asked_for(model) for model in models[:4]]
     assert len(built) == 2 and found[2][1] == found[0][1] and found[3][1] == found[1][1]
-    assert found[3][0].kept.beside == found[2][0].kept.taken > 0.0
+    assert found[3][0].kept.others == found[2][0].kept.taken > 0.0
     for model in (*models[:2], models[4], models[0]):
         asked_for(model, most=2.0 * found[0][0].kept.taken)
     assert len(built) == 4

@@ -20,13 +20,10 @@ class InvoluteArms(Cycle):
     def position(self, step: int):
         position = super().position(step)
         operator = position.operator
-        arms = lines_of(operator.pairs, operator.base_radii).lever_arms
-        rigid = displacement_jacobian(operator.pairs, operator.base_radii, arms, operator.rigid_slip is not None)[
-            :, self.coordinates
-        ]
-        return replace(
-            position, operator=replace(operator, jacobian=np.ascontiguousarray(rigid), normal_lever_arms=arms)
-        )
+        lines = lines_of(operator.pairs, operator.sides)
+        rigid = displacement_jacobian(lines, operator.rigid_slip is not None)[:, self.coordinates]
+        changed = replace(operator, jacobian=np.ascontiguousarray(rigid), normal_lever_arms=lines.lever_arms)
+        return replace(position, operator=changed)
 
 
 def with_involute_arms(model, progress, cache):
