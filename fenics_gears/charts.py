@@ -6,7 +6,7 @@ A `Chart` is data: curves over one axis, with titles and units. `draw_charts` wr
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from fenics_gears.commands.shared import plots
+from fenics_gears.commands.work.shared import plots
 from fenics_gears.show.chart import BAND, BARS, LINES, MARKED_LINES, MARKERS, WORDS, Chart, Curve, span, stems
 from fenics_gears.show.harris_map import harris_map, words_apart
 from fenics_gears.show.panels import DARK, GREY, PALETTE, shades

@@ -30,6 +30,8 @@ the end, where they wait, is that much shorter."""
 
 
 class Alone:
+    """One process, which computes all runs itself."""
+
     size = 1
 
     def run(self, function: Task, tasks: Sequence[Any], finished: Finished, tick: Callable[[], None]) -> None:

@@ -31,6 +31,7 @@ def wanted(scene: Scene) -> bool:
 
 
 def quasi_static(scene: Scene) -> Scene:
+    """The scene without inertia and without the effects that need it."""
     sections = [effect.section for effect in effects_on(scene)]
     left = [name for name in sections if name != "inertia"]
     while needing := {effect.section for effect, _ in missing_needs(left)}:

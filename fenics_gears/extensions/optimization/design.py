@@ -8,10 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from fenics_gears.inputs.allowed import AllowedNumber
-from fenics_gears.inputs.fields import choice, declared, whole_number
-from fenics_gears.inputs.section import Section
-from fenics_gears.studies import fields
+from fenics_gears.scene_text import AllowedNumber, Section, choice, declared, fields, whole_number
 
 MEAN = "mean"
 WORST = "worst"
