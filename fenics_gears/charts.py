@@ -26,9 +26,8 @@ def draw_charts(
     pictures: by file name the subject and the charts, which are drawn below each other. The heading is the subject and
     the title, then `more` in lines of its own. Raises ComputationError where the directory cannot be written.
     """
-    from fenics_gears.show.drawing import picture
-
     drawing = plots()
+    picture = plots("drawing").picture
     figures = {
         name: picture(drawing.heading(subject, title, *more), charts) for name, (subject, charts) in pictures.items()
     }

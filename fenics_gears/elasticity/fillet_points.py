@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import sparse
-from scipy.spatial import cKDTree
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import ToothOutline, tooth_outline
@@ -110,6 +109,9 @@ def _root_nodes(curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side:
     radius = np.linalg.norm(nodes.points[free], axis=1)
     free = free[(radius < gear.form_radius * (1.0 + 1e-9)) & (radius > 0.5 * (gear.bore_radius + gear.root_radius))]
     points = nodes.points[free] if side == 0 else curve.outline.coast(nodes.points[free])
+    # 50 ms that a run with gears from the cache does not take.
+    from scipy.spatial import cKDTree
+
     distance, nearest = cKDTree(curve.samples).query(points)
     # Nodes of the other side are far away; the middles of sides lie a little off the curve, on its chords.
     own = distance < 0.02 * gear.module

@@ -1,7 +1,6 @@
 """Flank compliance of a gear from its data: mesh one sector, condense it, join the ring; or read it from the cache."""
 
 from dataclasses import asdict, replace
-from time import perf_counter
 
 import numpy as np
 
@@ -95,25 +94,7 @@ def _computed(
     gear: Gear, element: Element, sizes: ElementSizes, poissons_ratio: float, reach: Reach
 ) -> tuple[dict, dict]:
     """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
-    # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
-    from . import mirrored_ring, ring
-    from .condensation import by_radius
-    from .element_nodes import node_roll_angles
-    from .half_sector import centreline_direction
-    from .sector_mesh import half_sector_mesh, sector_mesh
+    # A run whose gears are all in the cache needs neither gmsh nor DOLFINx.
+    from .computed_ring import computed_ring
 
-    clock = perf_counter()
-    mesh = (half_sector_mesh if sizes.both_flanks else sector_mesh)(gear, sizes, element.quadrilateral)
-    meshed = perf_counter()
-    if sizes.both_flanks:
-        sector = mirrored_ring.condensed_half(mesh, element, poissons_ratio)
-        axis = centreline_direction(mesh)
-        blocks, across = mirrored_ring.both_flanks_compliance(sector, axis, gear.teeth, reach)
-        arrays = {"blocks": blocks, "across": across, "first_across": np.array(reach.across[0])}
-    else:
-        sector = ring.condensed_sector(mesh, element, poissons_ratio)
-        arrays = {"blocks": ring.ring_compliance(sector, gear.teeth, reach.same)}
-    arrays["roll_angle"] = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), element.order)
-    compiling = sector.timings["time_compile"]
-    timings = {"time_mesh": meshed - clock, "time_condense": perf_counter() - meshed - compiling}
-    return arrays, {**sector.timings, **timings}
+    return computed_ring(gear, element, sizes, poissons_ratio, reach)

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear_data import Web
@@ -87,6 +86,8 @@ def boundary_sides(cells: np.ndarray) -> np.ndarray:
 
 def joined_cells(cells: np.ndarray) -> np.ndarray:
     """Number of the connected piece of each cell (cells,); cells hold together along whole sides."""
+    from scipy.sparse.csgraph import connected_components
+
     sides, of_cells = distinct(sides_of(cells))
     owner = np.repeat(np.arange(len(cells)), cells.shape[1])
     incidence = coo_matrix((np.ones(len(owner)), (owner, of_cells)), shape=(len(cells), len(sides))).tocsr()

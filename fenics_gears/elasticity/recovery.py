@@ -16,6 +16,7 @@ from fenics_gears.geometry.gear_data import Material
 
 from .element_sizes import Discretisation
 from .elements import element_named
+from .face.compliance import swept_section
 from .face.cut_motions import cut_motions, loads_over_motions, over_motions
 from .face.discretisation import FaceDiscretisation
 from .nodal_stress import NodalStress
@@ -162,9 +163,6 @@ def gear_recovery(
 ) -> GearRecovery:
     """A gear's recovery on the very mesh that `flank_compliance` or `face_compliance` has with the same settings."""
     if isinstance(discretisation, FaceDiscretisation):
-        # Imported here: plane gears have none.
-        from .face.compliance import swept_section
-
         scaled = discretisation.in_modules_of(gear)
         sector = swept_sector(swept_section(gear.of_module_one, scaled.sizes), scaled.sweep, material.poissons_ratio)
     else:

@@ -7,6 +7,7 @@ from .condensation import by_radius, dofs_of
 from .element_nodes import ElementNodes, element_nodes
 from .elements import Element
 from .face.layers import Sweep, swept_nodes
+from .face.swept_stiffness import SectionForms, swept_stiffness
 from .mesh_data import BodyMesh
 from .mumps import Factor
 from .stiffness import assembled, compile_ahead, displacement_space, nodes_at, stiffness_matrix
@@ -100,8 +101,5 @@ def plane_sector(mesh: BodyMesh, element: Element, poissons_ratio: float) -> Sec
 
 def swept_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float) -> Sector:
     """A sector in three dimensions."""
-    # Imported here: plane gears have none.
-    from .face.swept_stiffness import SectionForms, swept_stiffness
-
     forms = SectionForms(mesh, poissons_ratio, sweep.web)
     return Sector(mesh, forms.nodes, swept_stiffness(forms, sweep), sweep, forms.material(sweep).ravel())

@@ -13,6 +13,7 @@ from fenics_gears.geometry.gear_data import Web
 from . import dolfinx_adapter as adapter
 from .element_nodes import numbers_at
 from .elements import Element
+from .incompatible_modes import condensed_stiffness
 from .mesh_data import BodyMesh
 
 WEB_QUADRATURE = 8
@@ -37,8 +38,6 @@ def stiffness_matrix(space, element: Element, poissons_ratio: float, web: Web | 
     A web less wide than the face is in plane strain too, and stiff by its share of the face width.
     """
     if element.incompatible_modes:
-        from .incompatible_modes import condensed_stiffness
-
         poisson = adapter.constant(space.mesh, poissons_ratio)
         return condensed_stiffness(
             space, lambda strain: _of_width(web, space.mesh, stress_of_strain(strain, poisson)), _cells(element, web)

@@ -7,7 +7,7 @@ from fenics_gears.elasticity.face.cost import BYTES_OF_AN_UNKNOWN, expected_cond
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.system.memory import allowed_memory
 
-from .cost import (
+from .cost_parts import (
     BYTES_OF_A_NUMBER,
     CONDENSING_PROGRAM,
     NUMBERS_OF_A_NODE,

@@ -16,6 +16,7 @@ import numpy as np
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.geometry.gear_data import PAIR_STIFFNESS, mean_youngs_modulus
 from fenics_gears.geometry.involute import arc_length, roll_angle_at_arc_length
@@ -32,6 +33,7 @@ from fenics_gears.scene.accuracy import (
 from fenics_gears.scene.data import ISO_6336, Material, Scene
 
 from .drivetrain import line_load, mesh_stiffness
+from .face_resolution import in_steps, inner_length
 
 DEFAULT_ELEMENT = "P2"
 # Half of the rough stiffness of a pair bounds its deflection from above.
@@ -133,8 +135,6 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     condensation = asked.condensation or ONCE
     inner = None
     if scene.three_dimensional:
-        from .face_resolution import in_steps, inner_length
-
         modulus = plane_contact_modulus(scene)
         half_width_of = partial(hertz_half_width, relative_radius=_widest(pair), plane_modulus=modulus)
         inner = in_steps(inner_length(scene, pair, load, half_width_of) + 2.0 * spacing, length)
@@ -206,8 +206,6 @@ def _steps_per_mesh_cycle(scene: Scene, pair: GearPair, drivetrain: Drivetrain) 
     fewest = scene.fineness.steps_per_mesh_cycle
     if drivetrain.mass is None:
         return fewest
-    from fenics_gears.dynamics.frequencies import natural_frequencies
-
     frequencies = natural_frequencies(drivetrain, mesh_stiffness(scene, pair))
     highest = frequencies[frequencies <= drivetrain.right_up_to].max(initial=0.0)
     wanted = ceil(STEPS_PER_PERIOD * highest / scene.mesh_frequencies[0])

@@ -23,6 +23,7 @@ from fenics_gears.dynamics.steps import Steps, forces_at, in_block, nodes_at, op
 from fenics_gears.model.model import Model
 from fenics_gears.model.modification import kinks
 
+from .face_ends import in_end_zone
 from .side_by_side import Layouts, SideBySide
 
 
@@ -195,8 +196,6 @@ class EdgesAndKinks:
         self.half_width = model.resolution.half_width
         self._end_slices = None
         if model.face.slices > 1:
-            from .face_ends import in_end_zone
-
             self._end_slices = in_end_zone(model.pair, model.face.positions)
         self._places: list[_Place] = []
         gears = model.pair.pinion, model.pair.wheel

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from fenics_gears.contact.corner import edge_ends
 from fenics_gears.contact.kinematics import CENTRE_COORDINATES, COORDINATES, displacement_jacobian
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -83,8 +84,6 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
     of_flanks = of_flanks.copy()
     by_line = np.array([pair.place.line is None for pair in pairs], dtype=bool)
     if any(cut):
-        from fenics_gears.contact.corner import edge_ends
-
         for pair in np.flatnonzero(~by_line):
             of_flanks[pair] = edge_ends(cycle.pair, cycle.corner, pairs[pair].place)
     first = ends[:-1]

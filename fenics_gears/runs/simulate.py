@@ -112,7 +112,6 @@ def settled(scene: Scene | Model, progress: Progress) -> Settled:
     target = known.accuracy.target
     if target is None:
         return Settled(scene)
-    # Imported here: the search for settings takes scipy.optimize, and few scenes name a target.
     from .settings.target import choose
 
     begun = time.perf_counter()

@@ -26,6 +26,7 @@ from .schema import LOAD_WORDS as LOAD_WORDS
 from .schema import Derived as Derived
 from .schema import Load as Load
 from .schema import Motion as Motion
+from .write import html, text_of
 
 if TYPE_CHECKING:
     from fenics_gears.contact.eccentricity import Eccentricity
@@ -90,8 +91,6 @@ class Scene:
     @cached_property
     def text(self) -> str:
         """The scene file that gives these data: as it was read where nothing was changed since, else written anew."""
-        from .write import text_of
-
         return text_of(self)
 
     def __str__(self) -> str:
@@ -99,8 +98,6 @@ class Scene:
 
     def _repr_html_(self) -> str:
         """The table that notebooks show."""
-        from .write import html
-
         return html(self)
 
     @property

@@ -4,14 +4,18 @@ these, on the contact operators that models which differ in nothing else share."
 from __future__ import annotations
 
 from dataclasses import replace
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from fenics_gears.contact.mesh import Mesh, elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps, Opening
 from fenics_gears.contact.tooth_pair import Flanks, Removal
+from fenics_gears.contact.whole_body_mesh import whole_body_mesh
+from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
 from fenics_gears.effects import ALONG_THE_FACE, effects_on, from_effects
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies
+from fenics_gears.elasticity.overhang import with_overhang
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.system.job import Job
@@ -38,23 +42,23 @@ def mesh_cycle(model: Model, bodies: Bodies) -> Cycle:
     flanks, grid, corner = flanks_of(model, bodies), model.resolution.contact_grid, model.corner
     first, second = (body.solid for body in bodies)
     if first is not None and second is not None:
-        from fenics_gears.contact.face_mesh import face_mesh
-
-        return cycle_of(model, face_mesh(flanks, _seated(model, first, second), model.face, grid, corner))
+        return cycle_of(model, _over_face().face_mesh(flanks, _seated(model, first, second), model.face, grid, corner))
     if all(each.alike for each in flanks.compliance):
         return cycle_of(model, elastic_mesh(flanks, grid, corner))
-    from fenics_gears.contact.whole_body_mesh import whole_body_mesh
-
     return cycle_of(model, whole_body_mesh(flanks, grid, model.resolution.steps_per_mesh_cycle, corner))
+
+
+def _over_face() -> ModuleType:
+    """Contact over the face, whose compiled functions take 30 ms to load."""
+    from fenics_gears.contact import face_mesh
+
+    return face_mesh
 
 
 def _seated(model: Model, *bodies: FaceCompliance) -> tuple[FaceCompliance, FaceCompliance]:
     """Both bodies, those on a seat that gives way with what it does so within the face."""
     by_gear = dict(zip(GEARS, bodies))
     for shaft in yielding_seats(model):
-        # Imported here: few seats give way.
-        from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
-
         body = by_gear[shaft.gear]
         by_gear[shaft.gear] = replace(body, seat=seat_compliance(shaft, body.heights))
     return by_gear[GEARS[0]], by_gear[GEARS[1]]
@@ -78,8 +82,6 @@ def flanks_of(model: Model, bodies: Bodies) -> Flanks:
     within = pair.effective_face_widths == (pair.face_width, pair.face_width)
     if within or any(body.solid is not None for body in bodies):
         return Flanks(pair, (first, second), removal)
-    from fenics_gears.elasticity.overhang import with_overhang
-
     gears, materials = (pair.pinion, pair.wheel), model.scene.gears.materials
     pinion, wheel = (
         with_overhang(body.section, gear, material, pair.face_width / width)
@@ -115,6 +117,7 @@ def gaps_of(model: Model, cycle: Cycle) -> Gaps:
     """What opens the contact nodes of a cycle of the model, or of one that shares its contact operators."""
     profile, of_steps = None, None
     if model.removal != (None, None) and reliefs_apart(model):
+        # With the fields of a relief, 10 ms.
         from fenics_gears.contact.relief_gaps import profile_of
 
         profile, of_steps = profile_of(cycle, model.removal)
@@ -125,6 +128,4 @@ def openings_of(model: Model, cycle: Cycle) -> tuple[Opening, ...]:
     """What opens the contact nodes of such a cycle along the face."""
     if cycle.face.slices == 1:
         return ()
-    from fenics_gears.contact.face_mesh import opening_over_face
-
-    return (opening_over_face(cycle, model.face_opening, model.coast_face_opening),)
+    return (_over_face().opening_over_face(cycle, model.face_opening, model.coast_face_opening),)

@@ -24,15 +24,19 @@ from fenics_gears.contact.interpolation import (
 from fenics_gears.contact.kinematics import nodes_before
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
 from fenics_gears.contact.operator import ContactOperator, Position
+from fenics_gears.contact.rigid_mesh import solve_rigid
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, solve_step
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, seen_gap
+from fenics_gears.contact.uniqueness import between_closed
 from fenics_gears.contact.window import ContactGrid, node_offsets
 from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, Course, Motion, solve_steps
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.steps import Steps, drive_flanks_touch, smallest_openings
 from fenics_gears.results.contact_variables import energy_of_teeth
+from fenics_gears.results.crests import Searches
 from fenics_gears.results.mesh_curves import stiffness_curves
+from fenics_gears.results.numbers import largest_of_cubics
 from fenics_gears.system.progress import LineProgress, Progress, SilentProgress
 
 from .compiled_ahead import MARCH, compile_loops, end_at_once_by_ctrl_c
@@ -57,8 +61,6 @@ def _run_once(tangential: bool, rigid: bool, evaluated: bool = True) -> None:
     motion = Motion.of(drivetrain, AVERAGE_ACCELERATION, 0.1, problem.tolerance)
     solve_steps(steps, 1, 2, motion, Course(np.ones(2), np.ones((2, 1))))
     if rigid:
-        from fenics_gears.contact.rigid_mesh import solve_rigid
-
         solve_rigid(steps.positions[0], problem, status, None)
     if evaluated:
         _evaluate(steps, tangential)
@@ -103,16 +105,11 @@ def _evaluate(steps: Steps, tangential: bool) -> None:
     for evaluated in (contact_work, stiffness_curves, energy_of_teeth, smallest_openings, drive_flanks_touch):
         evaluated(steps)
     if tangential:
-        from fenics_gears.contact.uniqueness import between_closed
-
         between_closed(np.zeros((1, 1)), np.eye(2), np.array([0]), np.ones(1))
 
 
 def _look_for_extremes() -> None:
     """Not with every run: each is loaded where a run looks for its extremes."""
-    from fenics_gears.results.crests import Searches
-    from fenics_gears.results.numbers import largest_of_cubics
-
     largest_of_cubics(np.arange(4.0), np.zeros(4))
     Searches(np.arange(4.0), np.zeros((1, 4)), np.ones(1), 0.125)
 
@@ -127,14 +124,13 @@ def _compile_part(name: str) -> None:
         return
     for with_friction in (True, False):
         _evaluate(_steps(with_friction)[0], with_friction)
-    # A plane run does without.
-    from fenics_gears.contact.factored_compliance import factored_solver
-    from fenics_gears.contact.formed_rows import fine_section, row_former, uncertain_slices
+    # What is compiled already, a run in the plane does not load.
+    from fenics_gears.contact import factored_compliance, formed_rows
 
-    row_former()
-    factored_solver()
-    uncertain_slices.compile("(int64, float64[::1], float64)")
-    fine_section.compile("(int64, int64)")
+    formed_rows.row_former()
+    factored_compliance.factored_solver()
+    formed_rows.uncertain_slices.compile("(int64, float64[::1], float64)")
+    formed_rows.fine_section.compile("(int64, int64)")
 
 
 if __name__ == "__main__":
