@@ -17,8 +17,11 @@ from fenics_gears.inputs.section import own_or_shared as own_or_shared
 
 # Over the tooth pairs that can touch at once, and over the contact nodes of each at the steps whose contact fields are
 # stored.
-OF_PAIRS, OF_NODES, OF_POINTS = ("time", "slot"), ("contact_time", "slot", "contact_node"), ("path_point",)
-OF_TIME, OF_GEARS = ("time",), ("time", "gear")
+OF_PAIRS = ("time", "slot")
+OF_NODES = ("contact_time", "slot", "contact_node")
+OF_POINTS = ("path_point",)
+OF_TIME = ("time",)
+OF_GEARS = ("time", "gear")
 # The same over the slices of a face.
 OF_SLICES = ("contact_time", "slot", "face_position")
 

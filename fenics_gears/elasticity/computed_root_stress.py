@@ -37,7 +37,8 @@ def computed_rows(
 
 def _slice_loads(sector, averages: np.ndarray, coast_flank: bool) -> sparse.csr_matrix:
     """Loads (dofs, d) of unit forces on the nodes of the flanks in the slices."""
-    parts, components = [], sector.components
+    parts = []
+    components = sector.components
     for side in ("flank", "coast") if coast_flank else ("flank",):
         at = sector.flank_nodes(side).reshape(averages.shape[1], -1)
         spread = sparse.kron(averages.T, sparse.eye(components * at.shape[1]), format="csr")
@@ -50,7 +51,9 @@ def _slice_loads(sector, averages: np.ndarray, coast_flank: bool) -> sparse.csr_
 def _moved(sector, loads: sparse.csc_matrix, averaged: sparse.csr_matrix) -> tuple[np.ndarray, np.ndarray]:
     """Of loads (dofs, k) on a sector with free cuts: the displacement (d, k) on average over `averaged` (dofs, d), and
     that of the cuts (2 c, k)."""
-    found, at_cuts, columns = np.empty((averaged.shape[1], loads.shape[1])), [], averaged.T.tocsr()
+    found = np.empty((averaged.shape[1], loads.shape[1]))
+    at_cuts = []
+    columns = averaged.T.tocsr()
     for first in range(0, loads.shape[1], COLUMNS):
         part = slice(first, first + COLUMNS)
         moved = sector.free_motion(loads[:, part].toarray())

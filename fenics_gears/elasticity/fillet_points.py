@@ -74,7 +74,8 @@ def fillet_rows(recovery: GearRecovery, curve: FilletCurve, averages: np.ndarray
     Along the fillet's profile and across the tooth's trace, as in a section normal to the tooth. averages: (S, h), of
     slices over the sector's heights.
     """
-    sector, parts = recovery.sector, []
+    sector = recovery.sector
+    parts = []
     twist = 0.0 if sector.sweep is None else sector.sweep.twist
     for side in (0, 1):
         nodes, *found = fillet_weights(curve, sector.section, sector.held, side)
@@ -126,7 +127,8 @@ def _interpolation(nodes: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     part = np.clip((wanted - nodes[ahead - 1]) / (nodes[ahead] - nodes[ahead - 1]), 0.0, 1.0)
     weights = np.zeros((len(wanted), len(nodes)))
     rows = np.arange(len(wanted))
-    weights[rows, ahead - 1], weights[rows, ahead] = 1.0 - part, part
+    weights[rows, ahead - 1] = 1.0 - part
+    weights[rows, ahead] = part
     return weights
 
 

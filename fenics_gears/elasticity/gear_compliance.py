@@ -27,7 +27,8 @@ def flank_compliance(
     chosen = element_named(discretisation.element)
     sizes = discretisation.sizes(gear, both_flanks=reach.across is not None)
     check_inputs(gear, material, reach)
-    similar, sizes = gear.of_module_one, sizes.in_modules_of(gear)
+    similar = gear.of_module_one
+    sizes = sizes.in_modules_of(gear)
     coupled = _coupled(reach, discretisation.elastic_teeth)
     inputs = similar_inputs("plane strain", gear, material, discretisation, reach.across is not None)
     inputs["reach"] = asdict(coupled)
@@ -64,7 +65,8 @@ def _coupled(reach: Reach, elastic_teeth: int | None) -> Reach:
 def _with_uncoupled_teeth(body: FlankCompliance, offsets: int) -> FlankCompliance:
     """The compliance over more offsets, zero for teeth farther away than those that are known. Raises SceneError where
     it is not positive definite: loads on the teeth would then do negative work."""
-    known, zeros = body.offsets, np.zeros((offsets - body.offsets, *body.blocks.shape[1:]))
+    known = body.offsets
+    zeros = np.zeros((offsets - body.offsets, *body.blocks.shape[1:]))
     padded = replace(body, blocks=np.concatenate([body.blocks, zeros]))
     if isinstance(body, BothFlanksCompliance):
         padded = replace(padded, across=np.concatenate([zeros, body.across, zeros]), first_across=-offsets)

@@ -107,7 +107,9 @@ def split_to_quadrilaterals(
     middle_index = {tuple(side): len(points) + i for i, side in enumerate(unique_sides.tolist())}
     for side, position in exact.items():
         middle[middle_index[side] - len(points)] = position
-    all_points, quadrilaterals, used = [points, middle], [], 0
+    all_points = [points, middle]
+    quadrilaterals = []
+    used = 0
     count = len(points) + len(middle)
     for cells in polygons:
         corners = cells.shape[1]

@@ -26,9 +26,13 @@ class SliceCompliance:
     def __init__(
         self, blocks: np.ndarray, averages: Sequence[sparse.csr_matrix], slices: int, additions: Sequence[Addition] = ()
     ):
-        flanks, nodes, size = len(averages), averages[0].shape[1], averages[0].shape[0] // slices
-        self._blocks, self._additions = blocks.reshape(len(blocks), flanks, nodes, 3, flanks, 3 * nodes), additions
-        self._slices, shape = slices, (2 * len(blocks) - 1, flanks * slices, flanks * slices)
+        flanks = len(averages)
+        nodes = averages[0].shape[1]
+        size = averages[0].shape[0] // slices
+        self._blocks = blocks.reshape(len(blocks), flanks, nodes, 3, flanks, 3 * nodes)
+        self._additions = additions
+        self._slices = slices
+        shape = (2 * len(blocks) - 1, flanks * slices, flanks * slices)
         self._there = np.zeros(shape, dtype=bool)
         self.values = pages(int(np.prod(shape)), 9 * size**2).reshape(*shape, size, size, 9)
         sections = (flank[size * number : size * (number + 1)] for flank in averages for number in range(slices))
@@ -46,7 +50,9 @@ class SliceCompliance:
 
     def _put(self, ahead: int, section: int, others: list[int]) -> None:
         """Put values of one section under forces on others, and the other way round, into place."""
-        number, (nodes, weights), size = len(self.values) // 2, self._seen[section], self.values.shape[3]
+        number = len(self.values) // 2
+        nodes, weights = self._seen[section]
+        size = self.values.shape[3]
         for flank, loaded in groupby(others, lambda other: other // self._slices):
             of_layers = self._blocks[ahead, section // self._slices, nodes, :, flank]
             displaced = (weights @ of_layers.reshape(weights.shape[1], -1)).reshape(3 * size, -1, 3)

@@ -47,7 +47,8 @@ def stiffness_matrix(space, element: Element, poissons_ratio: float, web: Web | 
 
 def stiffness_form(space, element: Element, poissons_ratio: float, web: Web | None = None):
     """Compiled bilinear form of the strain energy of a displacement alone, without modes within the cells."""
-    trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
+    trial = ufl.TrialFunction(space)
+    test = ufl.TestFunction(space)
     poisson = adapter.constant(space.mesh, poissons_ratio)
     return adapter.compile_form(
         ufl.inner(_of_width(web, space.mesh, stress(trial, poisson)), ufl.sym(ufl.grad(test))) * _cells(element, web)
@@ -101,7 +102,8 @@ def nodes_in_cells(space, coordinates: np.ndarray, centres: np.ndarray) -> np.nd
     in one place. Raises ComputationError where there is no such cell or node."""
     if not len(coordinates):
         return np.empty(0, dtype=np.int64)
-    nodes, cells = adapter.node_coordinates(space), adapter.cell_nodes(space)
+    nodes = adapter.node_coordinates(space)
+    cells = adapter.cell_nodes(space)
     tolerance = 1e-9 * np.abs(nodes).max()
     distance, cell = cKDTree(nodes[cells].mean(axis=1)).query(centres)
     apart = np.linalg.norm(nodes[cells[cell]] - coordinates[:, None], axis=-1)

@@ -21,7 +21,9 @@ from .remedies import advice
 WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
 # Reach, in normal modules, into a face that stands out beyond the mate: of teeth on a thin rim, what a solid body has
 # more, and the depth over which this grows; found against three dimensions (docs/third_dimension.md).
-REACH_OF_TEETH, REACH_OF_BODY, DEPTH_OF_BODY = 1.1, 1.6, 7.0
+REACH_OF_TEETH = 1.1
+REACH_OF_BODY = 1.6
+DEPTH_OF_BODY = 7.0
 
 
 @dataclass(frozen=True)
@@ -87,7 +89,8 @@ class GearPair:
         """Width (mm) of pinion and wheel that counts in the plane: the common one, and of an overhang o at either end
         as much as helps to carry, r (1 - exp(-o/r)), with a reach r that grows with the depth of the gear's body.
         """
-        module, found = self.pinion.normal_module, []
+        module = self.pinion.normal_module
+        found = []
         for gear, overhangs in zip((self.pinion, self.wheel), self.overhangs):
             reach = module * (REACH_OF_TEETH + REACH_OF_BODY * (1.0 - exp(-gear.body_depth / (DEPTH_OF_BODY * module))))
             found.append(self.face_width + sum(reach * (1.0 - exp(-each / reach)) for each in overhangs))
@@ -149,22 +152,23 @@ class GearPair:
     @property
     def tip_positions(self) -> tuple[float, float]:
         """Positions (mm) where the wheel's tip and the pinion's tip cross the line of action."""
-        wheel, pinion = self.wheel, self.pinion
         return (
-            self.line_of_action_length - wheel.base_radius * wheel.tip_roll_angle,
-            pinion.base_radius * pinion.tip_roll_angle,
+            self.line_of_action_length - self.wheel.base_radius * self.wheel.tip_roll_angle,
+            self.pinion.base_radius * self.pinion.tip_roll_angle,
         )
 
     @cached_property
     def path_start(self) -> float:
         """Position (mm) where contact begins: at the wheel's tip, or later, at an undercut pinion's form circle."""
-        tip, pinion = self.tip_positions[0], self.pinion
+        tip = self.tip_positions[0]
+        pinion = self.pinion
         return max(tip, pinion.base_radius * pinion.form_roll_angle) if pinion.undercut else tip
 
     @cached_property
     def path_end(self) -> float:
         """Position (mm) where contact ends: at the pinion's tip, or earlier, at an undercut wheel's form circle."""
-        tip, wheel = self.tip_positions[1], self.wheel
+        tip = self.tip_positions[1]
+        wheel = self.wheel
         return (
             min(tip, self.line_of_action_length - wheel.base_radius * wheel.form_roll_angle) if wheel.undercut else tip
         )
@@ -223,9 +227,8 @@ class GearPair:
         """Gap (mm) along the line of action between the coast flanks while the drive flanks touch: base pitch less both
         base-circle thicknesses at the operating pressure angle; negative when teeth overlap."""
         swept = involute_function(tan(self.operating_pressure_angle))
-        pinion, wheel = self.pinion, self.wheel
-        pinion_tooth = pinion.base_radius * (pinion.tooth_half_angle_at_base - swept)
-        wheel_tooth = wheel.base_radius * (wheel.tooth_half_angle_at_base - swept)
+        pinion_tooth = self.pinion.base_radius * (self.pinion.tooth_half_angle_at_base - swept)
+        wheel_tooth = self.wheel.base_radius * (self.wheel.tooth_half_angle_at_base - swept)
         return self.base_pitch - 2.0 * (pinion_tooth + wheel_tooth)
 
     @property
@@ -236,7 +239,8 @@ class GearPair:
     @property
     def centre_distance_without_backlash(self) -> float:
         """Centre distance (mm) at which both flanks of a tooth touch."""
-        pinion, wheel = self.pinion, self.wheel
+        pinion = self.pinion
+        wheel = self.wheel
         bases = pinion.base_radius + wheel.base_radius
         both_teeth = (
             pinion.base_radius * pinion.tooth_half_angle_at_base + wheel.base_radius * wheel.tooth_half_angle_at_base
@@ -246,7 +250,8 @@ class GearPair:
     @property
     def tip_clearances(self) -> tuple[float, float]:
         """Distances (mm) from the tip circles of pinion and wheel to the mate's root circle."""
-        pinion, wheel = self.pinion, self.wheel
+        pinion = self.pinion
+        wheel = self.wheel
         return (
             self.centre_distance - pinion.tip_radius - wheel.root_radius,
             self.centre_distance - wheel.tip_radius - pinion.root_radius,

@@ -36,11 +36,17 @@ SECTOR_UNKNOWNS["Q1 incompatible"] = SECTOR_UNKNOWNS["Q1"]
 # Seconds of meshing and condensing: an unknown (elements of first order are more, and longer to mesh) or one of
 # a mesh that is given, a gear, the cube of a flank's dofs (a dense inverse), their square for each block of compliance.
 MESHED_UNKNOWN = {"P1": 3.4e-5, "P2": 1.2e-5, "Q1": 2.2e-5, "Q1 incompatible": 2.8e-5, "Q2": 1.1e-5}
-GIVEN_UNKNOWN, GEAR, FLANK_CUBE, FLANK_SQUARE = 5e-6, 0.04, 7e-11, 2.8e-8
+GIVEN_UNKNOWN = 5e-6
+GEAR = 0.04
+FLANK_CUBE = 7e-11
+FLANK_SQUARE = 2.8e-8
 # Two inverses of symmetric matrices by Cholesky, in those of a general one.
 BOTH_FLANKS_INVERSES = 0.75
 # Seconds of marching: at a position each pair of flanks and the square of contact rows, a step and each of its rows.
-PAIR, ROWS_SQUARE, STEP, ROW = 2.5e-4, 8e-8, 8e-6, 1e-6
+PAIR = 2.5e-4
+ROWS_SQUARE = 8e-8
+STEP = 8e-6
+ROW = 1e-6
 # Seconds that an effect adds to a step: gaps that differ, a torque that varies, openings of both flanks, time steps of
 # unequal length.
 STEP_OF_EFFECT = {
@@ -48,14 +54,18 @@ STEP_OF_EFFECT = {
 }  # fmt: skip
 # For the reference route, seconds: an unknown of a remeshed sector, a step, the cube of its contact rows; matrices of a
 # position.
-REMESHED_UNKNOWN, REMESHED_STEP, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 4e-4, 1.5e-10, 7.0
+REMESHED_UNKNOWN = 1.2e-5
+REMESHED_STEP = 4e-4
+ROW_CUBE = 1.5e-10
+MATRICES_OF_A_POSITION = 7.0
 # Matrices of a flank's size that are held while its teeth are joined (measured).
 MATRICES_OF_A_FLANK = 6.0
 
 
 def flank_unknowns(model: Model, name: str) -> int:
     """Displacements of the nodes of a gear's flank."""
-    resolution, gear = model.resolution, getattr(model.pair, name)
+    resolution = model.resolution
+    gear = getattr(model.pair, name)
     tip = resolution.mate_tips[GEARS.index(name)]
     elements = len(flank_roll_angles(gear, resolution.flank_element_size, tip)) - 1
     return 2 * (resolution.order * elements + 1)
@@ -68,7 +78,8 @@ def expected_cost(model: Model) -> ExpectedCost:
     >>> expected_cost(model_of(load_scene("demos/lundvall2004.toml"))).marching < 60.0  # s
     True
     """
-    resolution, scene = model.resolution, model.scene
+    resolution = model.resolution
+    scene = model.scene
     if scene.tooth_elasticity is None or resolution.element not in SECTOR_UNKNOWNS:
         contact = contact_of(model)
         held = PROGRAM + model.stored_bytes + BYTES_OF_A_NUMBER * NUMBERS_OF_A_NODE * contact.positions * contact.nodes
@@ -80,7 +91,8 @@ def expected_cost(model: Model) -> ExpectedCost:
     if model.face.slices == 1:
         return _with_root_stress(model, gears, sections)
     # Of teeth ahead and behind, between all flanks.
-    reach, flanks = 2 * model.touching.reach.farthest + 1, 2 if scene.coast_flanks is not None else 1
+    reach = 2 * model.touching.reach.farthest + 1
+    flanks = 2 if scene.coast_flanks is not None else 1
     read = sum(reach * (flanks * gear.flank_dofs) ** 2 for gear in gears)
     return face_cost(model, sections, (_numbers(gears), read))
 
@@ -106,9 +118,12 @@ class _Gear:
 
 
 def _condensed(model: Model, name: str) -> _Gear:
-    resolution, reach, gear = model.resolution, model.touching.reach, getattr(model.pair, name)
+    resolution = model.resolution
+    reach = model.touching.reach
+    gear = getattr(model.pair, name)
     body, per_node = SECTOR_UNKNOWNS[resolution.element]
-    dofs, meshed = flank_unknowns(model, name), meshed_unknowns(model, name)
+    dofs = flank_unknowns(model, name)
+    meshed = meshed_unknowns(model, name)
     if meshed is not None:
         # Of all teeth, where each has a compliance of its own.
         inverses = 0.5 * BOTH_FLANKS_INVERSES * gear.teeth
@@ -117,7 +132,8 @@ def _condensed(model: Model, name: str) -> _Gear:
     if reach.across is None:
         return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, unknown, dofs, reach.same + 1, reach.same)
     # Half a symmetric sector, for motions of either symmetry.
-    half, across = 0.5 * body + per_node * 0.5 * dofs, reach.across[1] - reach.across[0] + 1
+    half = 0.5 * body + per_node * 0.5 * dofs
+    across = reach.across[1] - reach.across[0] + 1
     blocks = reach.same + 1 + across
     return _Gear(f"half a {name} sector", half, unknown, dofs, blocks, 2 * reach.same, BOTH_FLANKS_INVERSES)
 
@@ -173,10 +189,14 @@ def _with_root_stress(model: Model, gears: list[_Gear], sections: ExpectedCost) 
     if not model.scene.output.root_stress:
         return sections
     contact = contact_of(model)
-    held, seconds, step = ON_FLANKS * contact.positions * _rows(model, contact), 0.0, 0.0
+    held = ON_FLANKS * contact.positions * _rows(model, contact)
+    seconds = 0.0
+    step = 0.0
     for gear in gears:
         own = root_stress_cost(model, gear.unknowns, (UNKNOWN, SOLVED_UNKNOWN), gear.flank_dofs)
-        seconds, held, step = seconds + own[0], held + own[1], step + own[2]
+        seconds = seconds + own[0]
+        held = held + own[1]
+        step = step + own[2]
     return replace(
         sections,
         condensing=sections.condensing + seconds,
@@ -187,7 +207,8 @@ def _with_root_stress(model: Model, gears: list[_Gear], sections: ExpectedCost) 
 
 def _remeshed_cost(model: Model, gears: list[_Gear]) -> ExpectedCost:
     """Of a run where every loaded sector is meshed anew at every position."""
-    resolution, pairs = model.resolution, contact_of(model).pairs
+    resolution = model.resolution
+    pairs = contact_of(model).pairs
     positions = resolution.steps_per_mesh_cycle
     rows = 2.0 * pairs * (resolution.order * (resolution.contact_grid.nodes - 1) + 1)
     return ExpectedCost(

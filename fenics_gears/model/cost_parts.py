@@ -71,7 +71,8 @@ class Contact:
 
 def contact_of(model: Model) -> Contact:
     """Counted at a few phases, as flanks end within their windows."""
-    face, coast = model.face, model.scene.coast_flanks is not None
+    face = model.face
+    coast = model.scene.coast_flanks is not None
     along = tuple(face.positions.tolist()), tuple(face.widths.tolist()), face.slope
     return Contact(_positions(model), *_counted(model.pair, model.resolution.contact_grid, along, coast, model.corner))
 
@@ -80,7 +81,8 @@ def contact_of(model: Model) -> Contact:
 @lru_cache(maxsize=64)
 def _counted(pair, grid, along, coast, corner) -> tuple[float, float, float]:
     positions, widths, slope = along
-    face, counts = Face(np.array(positions), np.array(widths), slope), []
+    face = Face(np.array(positions), np.array(widths), slope)
+    counts = []
     for phase in range(PHASES):
         places = face_places(pair, grid, face, (phase + 0.5) / PHASES, coast, corner)
         rolls = np.array([place.contact_rolls for place in places]).reshape(-1, 2).T

@@ -34,7 +34,9 @@ class RootStress:
     a flank."""
 
     def __init__(self, pair: GearPair, cycle: Cycle, rows: Rows):
-        self.pair, self.cycle, self.rows = pair, cycle, rows
+        self.pair = pair
+        self.cycle = cycle
+        self.rows = rows
         angles, at_section = np.split(np.array([each.tangent_angle for each in rows]), [-1], axis=1)
         self._angles = np.tile(angles, 2)
         self._of_bending = self._angles >= OF_BENDING * at_section
@@ -44,15 +46,19 @@ class RootStress:
         """Indices (t,) of the tooth pairs in reach, and what contact forces are on both gears' flanks."""
         key = position.nodes, position.index
         if key not in self._on_flanks:
-            pairs, tangential = position.operator.pairs, position.operator.rigid_slip is not None
+            pairs = position.operator.pairs
+            tangential = position.operator.rigid_slip is not None
             teeth = np.array(sorted({pair.place.index for pair in pairs}, reverse=True), dtype=int)
             self._on_flanks[key] = teeth, tuple(self._of_gear(gear, pairs, tangential) for gear in (0, 1))
         return self._on_flanks[key]
 
     def _of_gear(self, gear: int, pairs: Sequence[ToothPair], tangential: bool) -> OnFlanks:
-        sectors, dofs = sorted({sector_of(gear, pair) for pair in pairs}), self.rows[gear].rows.shape[-1]
-        data, count = (self.pair.pinion, self.pair.wheel)[gear], sum(len(pair.offsets) for pair in pairs)
-        slices, blocks = self.rows[gear].rows.shape[1], []
+        sectors = sorted({sector_of(gear, pair) for pair in pairs})
+        dofs = self.rows[gear].rows.shape[-1]
+        data = (self.pair.pinion, self.pair.wheel)[gear]
+        count = sum(len(pair.offsets) for pair in pairs)
+        slices = self.rows[gear].rows.shape[1]
+        blocks = []
         for nodes, pair in zip(node_slices(pairs), pairs):
             forces = rows_in_slice(gear, data, self.cycle.face, pair, tangential)
             columns = np.r_[nodes, count + nodes.start : count + nodes.stop] if tangential else np.r_[nodes]
@@ -80,7 +86,8 @@ class RootStress:
         for i, position in enumerate(nodes.steps.positions):
             alike[position.nodes, position.index].append(i)
         asked: dict[tuple[int, int], list[tuple[np.ndarray, np.ndarray, np.ndarray]]] = defaultdict(list)
-        starts, all_forces = nodes.steps.kinds * nodes.steps.starts, nodes.steps.forces
+        starts = nodes.steps.kinds * nodes.steps.starts
+        all_forces = nodes.steps.forces
         for steps in map(np.array, alike.values()):
             teeth, gears = self.on_flanks(nodes.steps.positions[steps[0]])
             slots = nodes.slot_of(steps[:, None], teeth)
@@ -91,7 +98,9 @@ class RootStress:
                 for sector, loaded, own in zip(sectors, on_teeth.any(axis=1), on_teeth):
                     some = loaded.nonzero()[0]
                     if len(some):
-                        own, these, places = own[:, some].T, steps[some], slots[some]
+                        own = own[:, some].T
+                        these = steps[some]
+                        places = slots[some]
                         for index, slot in zip(teeth.tolist(), places.T):
                             asked[gear, SENSE_OF_TEETH[gear] * index - sector].append((these, slot, own))
         for (gear, ahead), found in asked.items():

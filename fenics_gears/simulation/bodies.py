@@ -70,7 +70,8 @@ def _section(model: Model, name: str, cache: Cache | None):
     for own in from_effects(model.scene, "elasticity", model, name, reach, cache):
         if own is not None:
             return own
-    material, division = model.scene.gears.material_of(name), model.resolution.discretisation(GEARS.index(name))
+    material = model.scene.gears.material_of(name)
+    division = model.resolution.discretisation(GEARS.index(name))
     gear = getattr(model.pair, name)
     if gear.web is not None and model.scene.three_dimensional:
         # The web is in the body; here it would be in both sections of which one corrects the other.
@@ -110,6 +111,7 @@ def _begun(model: Model, progress: Progress, cache: Cache | None) -> Iterator[Ca
 
 def solid_of(model: Model, name: str, cache: Cache | None, process: SecondProcess | None = None) -> FaceCompliance:
     """The body of the "pinion" or the "wheel" in three dimensions, from the cache or condensed."""
-    gear, material = getattr(model.pair, name), model.scene.gears.material_of(name)
+    gear = getattr(model.pair, name)
+    material = model.scene.gears.material_of(name)
     division = face_discretisation(model, GEARS.index(name))
     return face_compliance(gear, material, division, model.touching.reach, cache, process)

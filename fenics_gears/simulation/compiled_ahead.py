@@ -41,7 +41,8 @@ def compile_loops(progress: Progress) -> None:
     """Compile all loops that are not compiled yet, in a minute or less, and say so; where that fails, a run compiles
     what it needs."""
     _save_in_turn()
-    places, name = _places(), f"compiled-{_machine()}"
+    places = _places()
+    name = f"compiled-{_machine()}"
     beside, kept = next(iter(places.items()))
     if _is_of_these_sources(kept / name):
         return

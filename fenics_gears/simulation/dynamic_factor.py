@@ -26,7 +26,8 @@ DIFFERENT_CYCLES = "mesh cycles differ: [output] root_stress = true runs the sce
 
 def wanted(scene: Scene) -> bool:
     """Whether a scene has dynamic factors: of elastic teeth with inertia, condensed once."""
-    elastic, condensed_once = scene.tooth_elasticity is not None, scene.accuracy.condensation != EVERY_STEP
+    elastic = scene.tooth_elasticity is not None
+    condensed_once = scene.accuracy.condensation != EVERY_STEP
     return scene.inertia is not None and elastic and condensed_once
 
 
@@ -43,7 +44,8 @@ def dynamic_factors(recorder: Recorder, result: RunResult) -> dict[str, float | 
     """Largest force of a tooth pair and, if taken, largest root stress of a run's settled steps over those of the same
     scene without inertia; a reason in their place where that has no solution, or where mesh cycles differ, so that a
     second march as long as the run's own were needed, and root stress is not asked for."""
-    model, cycle = recorder.model, recorder.cycle
+    model = recorder.model
+    cycle = recorder.cycle
     scene = quasi_static(model.scene)
     if common_period(scene) != 1 and recorder.stress is None:
         return {"dynamic_factor_unknown": DIFFERENT_CYCLES}
@@ -82,7 +84,9 @@ _PEAKS_OF_CYCLES: WeakKeyDictionary[Cycle, dict[tuple, Peaks]] = WeakKeyDictiona
 
 def _peaks_still(still: Model, recorder: Recorder) -> Peaks | str:
     """The peaks of the quasi-static model, or why there are none."""
-    cycle, drivetrain, equations = recorder.cycle, still.drivetrain, still.equations_of_motion
+    cycle = recorder.cycle
+    drivetrain = still.drivetrain
+    equations = still.equations_of_motion
     # Without mass and loads that vary nothing depends on time, nor on the mesh frequency.
     numbers = [each.tobytes() for each in (drivetrain.radii, drivetrain.stiffness, drivetrain.load)]
     key = (drivetrain.coordinates, *numbers, equations.friction, still.steps)

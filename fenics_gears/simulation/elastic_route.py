@@ -39,7 +39,9 @@ def elastic_route(
 
 def mesh_cycle(model: Model, bodies: Bodies) -> Cycle:
     """The contact operators of one mesh cycle, for the centre coordinates and the friction that the scene has."""
-    flanks, grid, corner = flanks_of(model, bodies), model.resolution.contact_grid, model.corner
+    flanks = flanks_of(model, bodies)
+    grid = model.resolution.contact_grid
+    corner = model.corner
     first, second = (body.solid for body in bodies)
     if first is not None and second is not None:
         return cycle_of(model, _over_face().face_mesh(flanks, _seated(model, first, second), model.face, grid, corner))
@@ -71,18 +73,23 @@ def yielding_seats(model: Model) -> tuple[ElasticShaft, ...]:
 
 def cycle_of(model: Model, mesh: Mesh) -> Cycle:
     """The contact equations of a mesh over the steps of the model, with what opens its nodes."""
-    steps, friction = model.resolution.steps_per_mesh_cycle, model.scene.friction is not None
+    steps = model.resolution.steps_per_mesh_cycle
+    friction = model.scene.friction is not None
     cycle = Cycle(mesh, steps, model.drivetrain.indices, friction)
     return cycle.with_gaps(gaps_of(model, cycle))
 
 
 def flanks_of(model: Model, bodies: Bodies) -> Flanks:
     """Both gears as contact sees them: in the plane a load over the common face spreads in a gear that is wider."""
-    pair, removal, first, second = model.pair, removal_of_nodes(model), bodies[0].section, bodies[1].section
+    pair = model.pair
+    removal = removal_of_nodes(model)
+    first = bodies[0].section
+    second = bodies[1].section
     within = pair.effective_face_widths == (pair.face_width, pair.face_width)
     if within or any(body.solid is not None for body in bodies):
         return Flanks(pair, (first, second), removal)
-    gears, materials = (pair.pinion, pair.wheel), model.scene.gears.materials
+    gears = (pair.pinion, pair.wheel)
+    materials = model.scene.gears.materials
     pinion, wheel = (
         with_overhang(body.section, gear, material, pair.face_width / width)
         for body, gear, material, width in zip(bodies, gears, materials, pair.effective_face_widths)
@@ -109,13 +116,15 @@ def sections_of_gaps(model: Model) -> tuple[str, ...]:
     """The sections of a scene in which models may differ that share contact operators."""
     if not gaps_apart(model):
         return ()
-    reliefs, named = reliefs_apart(model), effects_on(model.scene)
+    reliefs = reliefs_apart(model)
+    named = effects_on(model.scene)
     return *ALONG_THE_FACE, *(each.section for each in named if each.gaps or each.removal and reliefs)
 
 
 def gaps_of(model: Model, cycle: Cycle) -> Gaps:
     """What opens the contact nodes of a cycle of the model, or of one that shares its contact operators."""
-    profile, of_steps = None, None
+    profile = None
+    of_steps = None
     if model.removal != (None, None) and reliefs_apart(model):
         # With the fields of a relief, 10 ms.
         from fenics_gears.contact.relief_gaps import profile_of

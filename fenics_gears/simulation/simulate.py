@@ -96,7 +96,8 @@ def _simulated(
 def memory_for_operators(model: Model) -> float:
     """Bytes that contact operators may take beside all else; raises ComputationError where a run does not fit without
     any."""
-    allowed, cost = allowed_memory(), expected_cost(model)
+    allowed = allowed_memory()
+    cost = expected_cost(model)
     if cost.held > allowed:
         raise ComputationError(too_large(model, cost, allowed))
     return allowed - cost.held
@@ -111,7 +112,8 @@ def root_stress_of(model: Model, cycle, progress: Progress, cache: Cache):
 
 def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> March:
     """The march through time, recorded as it goes; a failure carries the result so far."""
-    model, cycle = recorder.model, recorder.cycle
+    model = recorder.model
+    cycle = recorder.cycle
     scene = model.scene
     try:
         judged = 0 if cycle.traits.rigid else min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1
@@ -162,7 +164,8 @@ def _add_dynamic_factors(result: RunResult, progress: Progress) -> None:
 
 def with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
     """The result's dataset with the lead modifications that are proposed for its pinion, where there are any."""
-    model, dataset = result.recorder.model, result.dataset
+    model = result.recorder.model
+    dataset = result.dataset
     if not model.scene.three_dimensional or not result.attrs["complete"]:
         return dataset
     if lead_correction.wanted(model):
@@ -174,7 +177,9 @@ def with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
 
 def result_of(recorder: Recorder, march: March, gears, compiled: float, stopped: str) -> RunResult:
     """The result of a recorded march; `stopped`: why it did not come to its end, empty where it did."""
-    model, cycle, result = recorder.model, recorder.cycle, None
+    model = recorder.model
+    cycle = recorder.cycle
+    result = None
     resolution = model.resolution
     with suppress(MemoryError):
         result = RunResult(recorder, march)

@@ -72,24 +72,30 @@ def _place_nodes(tangential: bool) -> None:
     rolls = roll_angle_at_height(40.0, 0.5, 40.0 + offsets)
     interpolation = flank_interpolation(offsets, rolls, 40.0, 0.5, 1.0, np.linspace(0.4, 0.6, 5), 1)
     node_average(offsets, roll_angle_at_height(40.0, 0.5, 40.0 + quadrature_offsets(offsets)))
-    view, ends = INTERPOLATIONS[AVERAGED], np.array([0, 2])
+    view = INTERPOLATIONS[AVERAGED]
+    ends = np.array([0, 2])
     seen_gap(view, offsets, ends, view.places(offsets, ends))
     points_of_pairs(40.0, 1.0, np.array([0.5]), np.array([40.0]), offsets, ends)
     node_offsets(((-0.1, -0.2), (0.1, 0.2)), ContactGrid(1.0, 5))
-    kinds, near = 2 if tangential else 1, np.ravel(interpolation.near)
+    kinds = 2 if tangential else 1
+    near = np.ravel(interpolation.near)
     # With friction also along the tangent as it stood before.
-    block, results = np.eye(10), np.zeros((2, 2 * kinds, 2 * kinds))
+    block = np.eye(10)
+    results = np.zeros((2, 2 * kinds, 2 * kinds))
     positions = np.array([[results[0].ctypes.data, results[1].ctypes.data, 2, 2]])
     flanks = np.array([[0, interpolation.near.shape[1], 0, 2]])
     products = np.array([[0, block.ctypes.data, block.size, 10, 0, 0, 0 if tangential else NO_FLANK, 0, 0, 0]])
-    axes, responding = np.ones((1, kinds, 2)), np.ones((1, 2 * kinds - 1, 2))
+    axes = np.ones((1, kinds, 2))
+    responding = np.ones((1, 2 * kinds - 1, 2))
     compliance_products((positions, flanks, products), near, interpolation.first, axes, responding)
 
 
 def _steps(tangential: bool) -> tuple[Steps, StepProblem]:
     """Room for two steps of one contact node, and the problem of such a step."""
     kinds = 2 if tangential else 1
-    node, row, tolerance = np.zeros(1), np.eye(kinds, 1), Tolerance.of_load(1.0)
+    node = np.zeros(1)
+    row = np.eye(kinds, 1)
+    tolerance = Tolerance.of_load(1.0)
     slip = np.ones(1) if tangential else np.empty(0)
     problem = StepProblem(np.eye(1), np.ones(1), np.eye(kinds), row, node, slip, 0.1, np.empty(0), tolerance)
     place = Place(0, DRIVE, (0.5, 0.5))

@@ -79,7 +79,8 @@ def _largest(environment, names):
 
 Environment = MutableMapping[str, str]
 # Where temporary files go unless TMPDIR says where, and how many bytes of room they need.
-TEMPORARY, ROOM = ("/tmp", "/var/tmp"), 10e6
+TEMPORARY = ("/tmp", "/var/tmp")
+ROOM = 10e6
 # Folders within the user's folder for caches.
 CACHES = ("numba", "fenics", "matplotlib", "fenics_gears")
 

@@ -181,7 +181,8 @@ def seal(content: bytes | memoryview) -> bytes:
 
 def seal_of(file: BinaryIO, length: int) -> bytes:
     """The same of the first `length` bytes of an open file."""
-    digest, left = hashlib.sha256(), length
+    digest = hashlib.sha256()
+    left = length
     file.seek(0)
     while left and (part := file.read(min(left, _PART))):
         digest.update(part)
