@@ -28,8 +28,8 @@ OF_SLICES = ("contact_time", "slot", "face_position")
 
 @dataclass(frozen=True)
 class ResultVariable:
-    """One variable of the result; ``needs``: another effect without which it is not there; ``field``: the field of the
-    effect's own section without which it is not there, or several, "places or each", of which one is enough;
+    """One variable of the result. ``needs``: another effect without which it is not there. ``field``: the field of the
+    effect's own section without which it is not there, or several, "places or each", of which one is enough.
     ``over_face``: in three-dimensional scenes only."""
 
     name: str
@@ -56,7 +56,7 @@ def variables(
 class Effect:
     """One effect: the section that switches it on, what it adds, and the sections it needs or excludes.
 
-    ``needs`` and ``excludes``: section names; ``absent``: what the model is without it; ``unknowns``, ``terms`` and
+    ``needs`` and ``excludes``: section names. ``absent``: what the model is without it; ``unknowns``, ``terms`` and
     ``variables``: what it adds. ``fields``, a class of this module or of the physics that takes it, declares the
     section and is its data; where the data are something else, ``read`` makes them of the section, and ``write`` a
     section (a dictionary) of them. ``rules`` finds what is wrong between fields: each place, and what to do about it.

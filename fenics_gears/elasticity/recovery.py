@@ -1,7 +1,8 @@
 """Displacement and stress of a gear's body, plane or swept along the face, from the forces on its flanks.
 
-Loads inside a sector move its free cuts by the factored sector; the ring's cyclic system (`elasticity.ring`) joins the
-cuts of all sectors; forces that make a sector's cuts move so give its inside by the factored sector again.
+Loads inside a sector move its free cuts by the factored sector. The ring's cyclic system (`elasticity.ring`) joins the
+cuts of all sectors. Forces on the cuts that make them move so give the inside of a sector, again by the factored
+sector.
 """
 
 from collections.abc import Iterable, Sequence
@@ -117,8 +118,8 @@ class GearRecovery:
 
     def between_teeth(self, responding: np.ndarray, loaded: np.ndarray, reach: int) -> np.ndarray:
         """Reciprocal work (2 reach + 1, k, j) that the ring adds to that within a sector with free cuts, Young's
-        modulus 1 MPa, lengths in modules: of loads on the tooth m pitches ahead, m from -reach to reach, and on the
-        loaded one, given by what they move the free cuts, (2 d, k) and (2 d, j)."""
+        modulus 1 MPa, lengths in modules. It is of loads on the tooth m pitches ahead, m from -reach to reach, and of
+        loads on the loaded tooth. Both are given by the motions of the free cuts, (2 d, k) and (2 d, j)."""
         responding, loaded = (
             np.vstack([each[: self._half], self._pitch.T @ each[self._half :]]) for each in (responding, loaded)
         )

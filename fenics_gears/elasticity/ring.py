@@ -142,7 +142,7 @@ def harmonic_of(number: int, teeth: int) -> tuple[float, float]:
 
 def ring_work(link: np.ndarray, teeth: int, reach: int, responding: np.ndarray, loaded: np.ndarray) -> np.ndarray:
     """Reciprocal work (2 reach + 1, k, j) in a ring of forces (2 c, k) on the cuts of the sector m pitches ahead, m
-    from -reach to reach, and of forces (2 c, j) on those of a sector; `link`: a sector between its cuts. By harmonics,
+    from -reach to reach, and of forces (2 c, j) on those of a sector. `link`: a sector between its cuts. By harmonics,
     whose inverses need not be made: with ``U^H U`` the stiffness of one, its forces f enter by ``U^-H f``."""
     same, ahead = cyclic(link)
     offsets = np.arange(-reach, reach + 1)

@@ -66,7 +66,7 @@ def oblique_averages(
 
 def oblique_sections(blocks: np.ndarray, rolls: np.ndarray, rises: Sequence[float], width: float) -> np.ndarray:
     """Compliance blocks (k, d, d) of a section in plane strain, x and y of the nodes of one flank after the other, as
-    the averages of `oblique_averages` over a slice of a `width` (mm) see a load that goes on along its line; `rises`:
+    the averages of `oblique_averages` over a slice of a `width` (mm) see a load that goes on along its line. `rises`:
     of each flank."""
     places = _pieces(any(rises))
     found = np.zeros_like(blocks)

@@ -86,8 +86,8 @@ class GearPair:
 
     @property
     def effective_face_widths(self) -> tuple[float, float]:
-        """Width (mm) of pinion and wheel that counts in the plane: the common one, and of an overhang o at either end
-        as much as helps to carry, r (1 - exp(-o/r)), with a reach r that grows with the depth of the gear's body.
+        """Width (mm) of pinion and wheel that counts in the plane. It is the common one and, of an overhang o at either
+        end, as much as helps to carry: r (1 - exp(-o/r)), with a reach r that grows with the depth of the gear's body.
         """
         module = self.pinion.normal_module
         found = []

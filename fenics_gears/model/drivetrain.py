@@ -63,8 +63,8 @@ def _elastic(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]) -> t
 
 
 def highest_of_interest(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]) -> float:
-    """Frequency (Hz) up to which shafts vibrate as they would with all of their modes: the highest of so many harmonics
-    of the mesh, or the resonance of both gears on it, roughly."""
+    """Frequency (Hz) up to which shafts need their own modes: that of the highest mesh harmonic of interest, or roughly
+    the resonance of both gears on the mesh, whichever is higher."""
     along = sum(getattr(pair, name).base_radius ** 2 / each.moment_of_inertia for name, each in gears.items())
     stiffness = mesh_stiffness(scene, pair)
     resonance = sqrt(stiffness * along) / (2.0 * pi) if isfinite(stiffness) else 0.0

@@ -2,8 +2,8 @@
 scene.
 
 Flank elements and contact nodes come from the Hertz half-width at the whole load on one tooth pair and the smallest
-relative radius on the path of contact; the contact window from the deflection that lets teeth touch off the line of
-action; the time step from the mesh cycle and the drivetrain's frequencies.
+relative radius on the path of contact. The contact window comes from the deflection that lets teeth touch off the line
+of action, the time step from the mesh cycle and the drivetrain's frequencies.
 """
 
 from collections.abc import Sequence
@@ -71,8 +71,8 @@ class Resolution:
     """All of `[accuracy]`, decided: element name, element size (mm), contact grid, steps in a mesh cycle, condensation.
 
     `half_width`: the Hertz half-width (mm) that the defaults go by; zero without load. `body_element_size` (mm):
-    largest in tooth and rim, None for the element's default; `elastic_teeth`: how far apart teeth feel each other (1:
-    not at all), None for all; `mate_tips`: roll angles (rad) of pinion and wheel between which the mate's tip edge may
+    largest in tooth and rim, None for the element's default. `elastic_teeth`: how far apart teeth feel each other (1:
+    not at all), None for all. `mate_tips`: roll angles (rad) of pinion and wheel between which the mate's tip edge may
     press.
     """
 

@@ -36,7 +36,7 @@ def key_numbers(
     counted: Mapping[str, np.ndarray], pair: GearPair, friction_loss: float | None, timed: bool
 ) -> dict[str, float | str]:
     """All numbers of the settled steps of a result but those of root stress, as far as their curves are among those
-    `counted`; `friction_loss`: its attribute; `timed`: the scene has a speed, without which there is no power."""
+    `counted`. `friction_loss`: its attribute. `timed`: the scene has a speed, without which there is no power."""
     # The last step begins the next cycle.
     last = max(len(counted["time"]) - 1, 1)
     settled = {name: values[:last] for name, values in counted.items()}

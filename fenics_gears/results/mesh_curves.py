@@ -30,7 +30,7 @@ from .side_by_side import Layouts, SideBySide
 @njit(cache=True)
 def mesh_stiffness(contact, status, forces, coordinates):
     """Secant and tangent stiffness, N/mm, of the drive or coast flanks, whichever carry more, and how many tooth pairs
-    carry there; all zero where nothing touches, the secant not a number where they do not approach.
+    carry there. All are zero where nothing touches; the secant is not a number where the flanks do not approach.
 
     `contact`: the `addresses.Arrays` of elastic flanks; others as of StepSolution.
     """
@@ -74,9 +74,9 @@ def mesh_stiffness(contact, status, forces, coordinates):
 
 @njit(cache=True)
 def _highest(overlap, node_pair):
-    """Largest overlap (mm) of flanks with overlaps (n,) at evenly spaced nodes: the highest vertex of the parabolas
-    through a node and its neighbours, of all nodes that are no lower than these. At nodes alone it would be too small
-    by up to spacing^2/(8 rho). Of slices whose highest nodes are alike no one is taken before the others."""
+    """Largest overlap (mm) of flanks with overlaps (n,) at evenly spaced nodes. Of all nodes that are no lower than
+    their neighbours, it is the highest vertex of the parabolas through the node and these. At nodes alone it would be
+    too small by up to spacing^2/(8 rho). Of slices whose highest nodes are alike no one is taken before the others."""
     highest = -np.inf
     last = len(overlap) - 1
     for node in range(last + 1):

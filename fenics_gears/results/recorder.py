@@ -65,8 +65,8 @@ class KnownTouching:
 
 
 class Recorder:
-    """Takes the steps of a march, block by block; `loads`: the varying ones, the model's unless given; `stress`: root
-    stress, if asked for; `journal`: where a long march is written down, in memory only where None.
+    """Takes the steps of a march, block by block. `loads`: the varying ones, the model's unless given. `stress`: root
+    stress, if asked for. `journal`: where a long march is written down, in memory only where None.
 
     `steps`: how many are recorded. `first_number`: of the pair that reaches the start of contact as the run begins.
     """

@@ -53,9 +53,9 @@ class Scene:
     """All input of a run. Its `text` always says what its data are, also of a scene that ``dataclasses.replace``
     changed.
 
-    One field for each effect of `effects.AT_THE_TOP`, in the same order, None where the scene does not name it;
-    `derived`: what the scene leaves out of gears and load; `measured_over`: spanned teeth and ball diameter of
-    pinion and wheel, where it names them; `written`: the text that it was read from; `folder`: from which its files are
+    One field for each effect of `effects.AT_THE_TOP`, in the same order, None where the scene does not name it.
+    `derived`: what the scene leaves out of gears and load. `measured_over`: spanned teeth and ball diameter of
+    pinion and wheel, where it names them. `written`: the text that it was read from. `folder`: from which its files are
     looked for. (Elastic teeth are an effect too: they are there where `gears` have a material.)
     """
 

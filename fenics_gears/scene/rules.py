@@ -1,5 +1,5 @@
-"""Rules between the fields of a scene, and of what a drawing may leave out; those of one effect are in its own module,
-those of speed and accuracy in ``accuracy_rules``.
+"""Rules between the fields of a scene, and of what a drawing may leave out. Rules of one effect are in its own module,
+rules of speed and accuracy in ``accuracy_rules``.
 
 They read the parsed TOML file, so that they apply even where some field is wrong; a value that they cannot read is
 reported elsewhere.

@@ -136,7 +136,7 @@ def end_at_once_by_ctrl_c() -> None:
 
 @cache
 def _save_in_turn() -> None:
-    """Let one process at a time add to numba's files on a loop: two that compile it for different types at once would
+    """Let one process at a time add to numba's files of a loop. Two that compile it for different types at once would
     both take the same free name for their code."""
     save = IndexDataCacheFile.save
 

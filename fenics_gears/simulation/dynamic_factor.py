@@ -41,9 +41,9 @@ def quasi_static(scene: Scene) -> Scene:
 
 
 def dynamic_factors(recorder: Recorder, result: RunResult) -> dict[str, float | str]:
-    """Largest force of a tooth pair and, if taken, largest root stress of a run's settled steps over those of the same
-    scene without inertia; a reason in their place where that has no solution, or where mesh cycles differ, so that a
-    second march as long as the run's own were needed, and root stress is not asked for."""
+    """Largest force of a tooth pair and, if taken, largest root stress of a run's settled steps, over those of the same
+    scene without inertia. A reason stands in their place where that scene has no solution. So it does without root
+    stress where mesh cycles differ: a second march as long as the run's own would be needed."""
     model = recorder.model
     cycle = recorder.cycle
     scene = quasi_static(model.scene)

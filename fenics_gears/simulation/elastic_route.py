@@ -1,5 +1,5 @@
-"""The fast route: each gear condensed once, its compliance seen by the contact nodes of every position, and what opens
-these, on the contact operators that models which differ in nothing else share."""
+"""The fast route: each gear is condensed once, and the contact nodes of every position take their compliance from it.
+Models that differ only in their gaps share the contact operators."""
 
 from __future__ import annotations
 

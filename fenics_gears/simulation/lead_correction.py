@@ -1,5 +1,5 @@
-"""Lead modifications that make the line load along the face as even as two numbers can: helix slope and crowning of the
-pinion for the least face load factor of the run's own mesh.
+"""Lead modifications that make the line load along the face as even as two numbers can. They are the helix slope and
+crowning of the pinion that give the mesh its least face load factor.
 
 Static positions of a mesh cycle are solved by the run's contact operators with other gaps, without friction; everything
 else that opens the flanks along the face counts as in the run. While the closed nodes stay closed, line load w (S,) is
@@ -124,8 +124,8 @@ def proposed(recorder: Recorder) -> Proposal | None:
 
 
 class _Along(NamedTuple):
-    """Mean over the mesh cycle: line load (S,), N/mm, of all tooth pairs, and what is left open (S,), mm, where the
-    flanks are nearest; the face load factor, infinite where the ends of the face alone carry, and the share of the load
+    """Means over the mesh cycle: the line load (S,), N/mm, of all tooth pairs, and the gap (S,), mm, where the flanks
+    are nearest. Then the face load factor, infinite where the ends of the face alone carry, and the share of the load
     between them."""
 
     load: np.ndarray

@@ -91,7 +91,7 @@ class GearInSpace:
 
 @dataclass(frozen=True)
 class GearsInMesh:
-    """Pinion and wheel at a stored time; `coast`: whether the coast flanks carry more than the drive flanks;
+    """Pinion and wheel at a stored time. `coast`: whether the coast flanks carry more than the drive flanks.
     `approach`: mm along their line of action that the hubs' motion brings the flanks together that carry more (coast
     flanks stand apart by the backlash before it)."""
 
@@ -109,8 +109,8 @@ class GearsInMesh:
 
 
 class RunStresses:
-    """Displacement and stress of both gears at any step of a result whose contact fields are stored: of whole gears in
-    the plane, over the face of the teeth in mesh. Use it in a `with`, or `close` it.
+    """Displacement and stress of both gears at any step of a result whose contact fields are stored. In the plane they
+    are of whole gears, over the face of the teeth in mesh. Use it in a `with`, or `close` it.
 
     scene: the one that was run. Raises SceneError where the run has no elastic teeth, or met its contact by remeshing.
     """

@@ -1,8 +1,8 @@
 """Compile the hot kernels, or load them from disk, before the clock of the march starts.
 
-`python -m fenics_gears.simulation.warm_up` compiles all of them into numba's files on disk, where they are not compiled
-yet (`compiled_ahead`): the launcher calls it after the set-up and after each change of the sources. With the name of a
-part it compiles that part in this process.
+`python -m fenics_gears.simulation.warm_up` compiles all of them that are not compiled yet into numba's files on disk
+(`compiled_ahead`). The launcher calls it after the set-up and after each change of the sources. With the name of a part
+it compiles that part in this process.
 """
 
 import gc

@@ -1,7 +1,7 @@
 """What MPI, PETSc and BLAS read from the process environment, set before they are loaded.
 
-What the user has set is never changed, unless it names a folder for temporary files or caches that cannot be written:
-numba and DOLFINx keep compiled code there, matplotlib its list of fonts, and MPI ends the process where temporary files
+What the user has set is never changed, unless it names a folder for temporary files or caches that cannot be written.
+Numba and DOLFINx keep compiled code there, matplotlib its list of fonts. MPI ends the process where temporary files
 have no room.
 """
 

@@ -185,8 +185,8 @@ class Interruption(Progress):
     """A ``Progress`` that passes everything on and decides, as a context manager, when Ctrl-C becomes a
     KeyboardInterrupt.
 
-    Within a counted stage it waits for the next ``update``: compiled code that it hit in the middle would end in a
-    SystemError, a step in the middle would be half done. A second Ctrl-C does not wait.
+    Within a counted stage it waits for the next ``update``. In the middle of compiled code it would end in a
+    SystemError, and a step would be half done. A second Ctrl-C does not wait.
     """
 
     def __init__(self, progress: Progress):

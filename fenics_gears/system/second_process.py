@@ -1,5 +1,5 @@
-"""A second process that computes one thing while this one computes another: libraries under MPI and gmsh hold no two
-threads, and two gears on half of the cores each are quicker than one after the other on all.
+"""A second process that computes one thing while this one computes another. Libraries under MPI and gmsh allow no two
+threads. Two gears on half of the cores each are quicker than one after the other on all cores.
 
 It is started anew: a copy of a process that has loaded MPI, or that has threads, may hang.
 """

@@ -136,8 +136,8 @@ class Search(Section):
 class Design:
     """A validated optimisation.
 
-    `tree`: the parsed scene that designs are changes of; `before`: the one they are compared with; `directory`: from
-    which files are found that the scene names; `text`: of the design file.
+    `tree`: the parsed scene that designs are changes of. `before`: the one they are compared with. `directory`: from
+    which files are found that the scene names. `text`: of the design file.
     """
 
     name: str

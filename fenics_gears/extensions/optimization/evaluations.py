@@ -39,9 +39,9 @@ and more."""
 class Evaluation:
     """What a design amounts to.
 
-    `values`: of its variables; `goals`: by name, as the design file judges; `of_samples`: by name, the values
-    (samples,) behind it; `at_points`: by name, the mean over the samples at each operating point; `violation`: of the
-    constraints, 0 where all hold; `failure`: why it has no numbers, empty where it has.
+    `values`: of its variables. `goals`: by name, as the design file judges. `of_samples`: by name, the values
+    (samples,) behind it. `at_points`: by name, the mean over the samples at each operating point. `violation`: of the
+    constraints, 0 where all hold. `failure`: why it has no numbers, empty where it has.
     """
 
     values: dict[str, float | str]

@@ -34,7 +34,7 @@ class Outcome:
     `before`: the scene before, `tried`: all designs in their order, `best`: the place of the chosen one, `front`:
     places of the Pareto front. `fresh`: the scene before and the chosen design under samples that the search did not
     know, where there are tolerances. `along`: by variable its values and the chosen design's evaluations there, without
-    scatter; `limits`: by scatter the evaluations of the chosen design at the lower limit, without scatter and at the
+    scatter. `limits`: by scatter the evaluations of the chosen design at the lower limit, without scatter and at the
     upper limit; nothing where one failed. `harris`: torques (loads,), N m, and of the scene before and the chosen one
     curves (2, steps) of mesh phase and transmission error, rad. `spent`: on the runs that were not `kept` from before.
     """
