@@ -1,9 +1,8 @@
 """Spur and helical gear pairs as flexible multi-body systems with frictional contact.
 
 ``load_scene`` reads a scene file and ``build_scene`` takes its sections as dictionaries; ``simulate`` runs a scene and
-returns an ``xarray.Dataset``. ``__all__`` is all that programs and extensions may rely on: these names, and the modules
-``units``, ``user_file``, ``spectrum``, ``charts`` and ``command_line``. Everything is in N, mm, s and rad unless it
-says otherwise.
+returns an ``xarray.Dataset``. ``__all__`` is all that programs and extensions may rely on: these names and, among them,
+the names of its modules. Everything is in N, mm, s and rad unless it says otherwise.
 """
 
 import importlib

@@ -23,7 +23,8 @@ def command() -> None:
 
 def _leave_job() -> None:
     """End PETSc and MPI where they are loaded: a job's launcher takes a process that leaves without for a failure."""
-    petsc, mpi = sys.modules.get("petsc4py.PETSc"), sys.modules.get("mpi4py.MPI")
+    petsc = sys.modules.get("petsc4py.PETSc")
+    mpi = sys.modules.get("mpi4py.MPI")
     if petsc is not None:
         # What Python would call at the end of the interpreter.
         petsc._finalize()

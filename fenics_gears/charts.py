@@ -6,7 +6,7 @@ A `Chart` is data: curves over one axis, with titles and units. `draw_charts` wr
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from fenics_gears.commands.shared import plots
+from fenics_gears.commands.work.shared import plots
 from fenics_gears.show.chart import BAND, BARS, LINES, MARKED_LINES, MARKERS, WORDS, Chart, Curve, span, stems
 from fenics_gears.show.harris_map import harris_map, words_apart
 from fenics_gears.show.panels import DARK, GREY, PALETTE, shades
@@ -26,9 +26,8 @@ def draw_charts(
     pictures: by file name the subject and the charts, which are drawn below each other. The heading is the subject and
     the title, then `more` in lines of its own. Raises ComputationError where the directory cannot be written.
     """
-    from fenics_gears.show.drawing import picture
-
     drawing = plots()
+    picture = plots("drawing").picture
     figures = {
         name: picture(drawing.heading(subject, title, *more), charts) for name, (subject, charts) in pictures.items()
     }

@@ -4,6 +4,8 @@ name, progress, and files that are written whole or not at all.
 docs/adding_an_extension.md shows a command.
 """
 
+from importlib import import_module
+
 from fenics_gears.commands.shared import (
     INTERRUPTED,
     WITHOUT_SOMETHING,
@@ -12,14 +14,14 @@ from fenics_gears.commands.shared import (
     add_processes_argument,
     add_run_argument,
     add_scene_argument,
-    after_result,
-    checked_model,
-    file_to_write,
-    loaded_run,
-    number_of_option,
+    later,
     positive_count,
+)
+from fenics_gears.commands.work.shared import (
+    after_result,
+    file_to_write,
+    number_of_option,
     print_files,
-    run_file,
     shown_progress,
     under_mpirun,
 )
@@ -27,9 +29,19 @@ from fenics_gears.system.console import print_rows
 from fenics_gears.system.output import check_writable, write_whole
 from fenics_gears.system.progress import seconds_in_words
 
+# Loaded when first asked for: to read scenes and runs takes libraries that `--help` shall not wait for.
+_READERS = {"checked_model": "scenes", "loaded_run": "runs", "run_file": "runs"}
+
 __all__ = [
     "INTERRUPTED", "WITHOUT_SOMETHING", "add_memory_argument", "add_output_argument", "add_processes_argument",
-    "add_run_argument", "add_scene_argument", "after_result", "check_writable", "checked_model", "file_to_write",
-    "loaded_run", "number_of_option", "positive_count", "print_files", "print_rows", "run_file", "seconds_in_words",
-    "shown_progress", "under_mpirun", "write_whole",
+    "add_run_argument", "add_scene_argument", "after_result", "check_writable", "file_to_write", "later",
+    "number_of_option", "positive_count", "print_files", "print_rows", "seconds_in_words", "shown_progress",
+    "under_mpirun", "write_whole", *_READERS,
 ]  # fmt: skip
+
+
+def __getattr__(name: str):
+    """Load a function that reads scenes or runs."""
+    if name not in _READERS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"fenics_gears.commands.work.{_READERS[name]}"), name)

@@ -1,9 +1,8 @@
 """``gears cache``: show what the cache of condensed gears holds, or empty it."""
 
 import argparse
-from datetime import datetime
 
-from fenics_gears.system.console import print_rows
+from .shared import later
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -11,34 +10,4 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--clear", action="store_true", help="remove all entries; gears are condensed again when they are needed"
     )
-    command.set_defaults(command=cache)
-
-
-def cache(options: argparse.Namespace) -> int:
-    from fenics_gears.elasticity.cache import user_cache
-
-    kept = user_cache()
-    if options.clear:
-        removed = kept.clear()
-        if not options.quiet:
-            print(f"{len(removed)} entries, {_megabytes(removed):.3g} MB, removed from {kept.directory}")
-        return 0
-    entries = kept.entries()
-    rows = [
-        ("directory", str(kept.directory), ""),
-        ("entries", len(entries), ""),
-        ("size", _megabytes(entries), "MB"),
-        ("limit", kept.limit / 1e6, "MB: beyond it entries go that were not used for the longest time"),
-    ]
-    if entries:
-        rows += [("longest not used", _time(entries[0].used), ""), ("last used", _time(entries[-1].used), "")]
-    print_rows("Cache of condensed gears", rows)
-    return 0
-
-
-def _megabytes(entries) -> float:
-    return sum(entry.size for entry in entries) / 1e6
-
-
-def _time(seconds: float) -> str:
-    return datetime.fromtimestamp(seconds).isoformat(" ", "seconds")
+    command.set_defaults(command=later("fenics_gears.commands.work.cache:cache"))

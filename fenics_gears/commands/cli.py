@@ -25,6 +25,7 @@ from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.output import check_working_folder
 
 from . import found
+from .misspelt import in_words
 from .shared import INTERRUPTED, NOBODY_READS
 
 
@@ -67,7 +68,7 @@ def _settings_of_a_command() -> Iterator[None]:
 
 def _carried_out(arguments: Sequence[str]) -> int:
     if set(arguments) in ({"--version", "-v"}, {"--version", "--verbose"}):
-        return _print_versions()
+        return import_module(f"{__package__}.work.versions").print_versions()
     if arguments[:1] == ["help"]:
         arguments = [*arguments[1:2], "--help"]
     called = next((word for word in arguments if not word.startswith("-")), "")
@@ -83,19 +84,6 @@ def _carried_out(arguments: Sequence[str]) -> int:
     os.environ["MPLBACKEND"] = "agg"
     check_working_folder()
     return options.command(options)
-
-
-def _print_versions() -> int:
-    from fenics_gears.studies.machine import processor, versions
-    from fenics_gears.system import blas
-
-    print(versions().removeprefix("fenics_"), processor(), sep="\n")
-    for each in blas.libraries():
-        wrong = "" if each["exact"] else ", WRONG: products of integers are not exact"
-        words = f"kernels for {each['kernels']}, threads {each['threads']}{wrong}"
-        print(f"OpenBLAS {each['version']} ({each['file']}): {words}")
-    print(f"kernels: {blas.said()}")
-    return 0
 
 
 def _in_words(command: Callable[[], int]) -> int:
@@ -154,9 +142,6 @@ class Parser(argparse.ArgumentParser):
     """Of the command line, and of each command: argparse makes those of the same class."""
 
     def error(self, message: str) -> NoReturn:
-        # A right call does not load it.
-        from .misspelt import in_words
-
         super().error(in_words(message, self))
 
 

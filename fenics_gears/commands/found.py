@@ -1,10 +1,10 @@
-"""Finds the commands: those of this folder, then extensions, which are in the folder ``fenics_gears/extensions`` or in
-installed packages that name themselves in the entry point group of the same name.
+"""Finds the commands: those of this folder, then those of extensions. These are in the folder
+``fenics_gears/extensions``, or in installed packages that name themselves in the entry point group of the same name.
 
 Each is a module with a function ``add(commands, shared)``: `commands` takes parsers of commands by
 `commands.add_parser`, `shared` is the parser of -v and -q (docs/adding_an_extension.md). Its docstring begins with
-"``gears NAME ...``: summary." and names all commands that the module adds or changes, its own first; so a call imports
-only what has the command that is called, and modules whose docstrings name none.
+"``gears NAME ...``: summary." and names all commands that the module adds or changes, its own first. So a call imports
+only the modules that have its command, and those whose docstrings name none.
 """
 
 import argparse

@@ -1,17 +1,9 @@
 """``gears picture RUN``: draw the gears of a run in mesh with their stresses; write them for ParaView."""
 
 import argparse
-from contextlib import closing
 from pathlib import Path
 
-from fenics_gears.errors import SceneError
-from fenics_gears.system.console import printable
-from fenics_gears.system.output import check_writable, write_whole
-
-from .shared import add_output_argument, add_run_argument, loaded_run, print_files, run_file, shown_progress
-
-PICTURE_FILE = "stress.png"
-ANIMATION_FILE = "stress.gif"
+from .shared import ANIMATION_FILE, PICTURE_FILE, add_output_argument, add_run_argument, later
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -38,81 +30,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="also write the mesh cycles with contact fields for ParaView: FILE, and a .vtu file for each step",
     )
-    command.set_defaults(command=picture)
-
-
-def picture(options: argparse.Namespace) -> int:
-    """Draw and export what is asked for; without --output and --animate, --vtu or --pvd alone writes no picture."""
-    file = run_file(options.run)
-    output = options.output or file.parent / (ANIMATION_FILE if options.animate else PICTURE_FILE)
-    drawn = options.animate or options.output is not None or options.vtu is None and options.pvd is None
-    _check_outputs(options, output if drawn else None)
-    dataset, scene = _loaded(file)
-    from fenics_gears.simulation.stored_forces import stored_index
-
-    index = stored_index(dataset, options.at)
-    with closing(shown_progress(options.quiet)) as progress:
-        progress.stage("factorise sectors")
-        written = _written(options, dataset, scene, index, output if drawn else None, progress)
-    print_files(written, options.quiet)
-    return 0
-
-
-def _written(options, dataset, scene, index: int, output: Path | None, progress) -> list[Path]:
-    from fenics_gears.show.stress_animation import animate, save_series
-    from fenics_gears.show.stress_grid import save_vtu
-    from fenics_gears.show.stress_picture import save_picture, still
-    from fenics_gears.simulation.run_stresses import RunStresses
-
-    written: list[Path] = []
-    with RunStresses(dataset, scene) as runs:
-        if options.vtu is not None:
-            written.append(write_whole(options.vtu, lambda path: save_vtu(runs.at(index), path)))
-        if options.pvd is not None:
-            progress.stage("recover stresses")
-            written.append(write_whole(options.pvd, lambda path: save_series(runs, dataset, path, progress.update)))
-        if output is not None:
-            progress.stage("draw")
-            scale = options.scale
-            if options.animate:
-                written.append(write_whole(output, lambda path: animate(runs, dataset, path, scale, progress.update)))
-            else:
-                drawn = still(runs.at(index), dataset, scale)
-                written.append(write_whole(output, lambda path: save_picture(drawn, path)))
-    return written
-
-
-def _loaded(file: Path):
-    from fenics_gears.show.run import scene_of
-
-    dataset = loaded_run(file)
-    scene = scene_of(dataset)
-    if scene is None:
-        raise SceneError(f"{file}: the scene in it is none of this version. Run the scene again.")
-    if not dataset.sizes["time"]:
-        raise SceneError(f"{file}: no step is stored; there is nothing to draw")
-    return dataset, scene
-
-
-def _check_outputs(options, output: Path | None) -> None:
-    for path in (output, options.vtu, options.pvd):
-        if path is not None:
-            check_writable(path.parent, path.name)
-    for path, suffix in ((options.vtu, ".vtu"), (options.pvd, ".pvd")):
-        if path is not None and path.suffix != suffix:
-            raise SceneError(f"{path}: --{suffix[1:]} writes a {suffix} file; give it such a name")
-        if path is not None and printable(str(path)) != str(path):
-            raise SceneError(f"{path}: VTK writes only names in UTF-8; give it such a name")
-    if output is None:
-        return
-    if options.animate:
-        from fenics_gears.show.stress_animation import check_suffix
-
-        check_suffix(output)
-    elif output.suffix != ".png":
-        raise SceneError(
-            f"{output}: a picture is a .png file; give --output such a name, or --animate for a moving one"
-        )
+    command.set_defaults(command=later("fenics_gears.commands.work.picture:picture"))
 
 
 def _scale(text: str) -> float:

@@ -1,30 +1,9 @@
 """``gears report RUN``: write one HTML page on a run or a study, readable without a network."""
 
 import argparse
-from contextlib import closing
-from os.path import exists, isdir
 from pathlib import Path
 
-from fenics_gears.errors import SceneError
-from fenics_gears.system.job import communicator
-from fenics_gears.system.output import check_writable, write_whole
-
-from .measuring import NO_TIMES, write_report
-from .shared import (
-    CASES,
-    JOURNAL,
-    RUN_FILE,
-    STUDY_FILE,
-    add_output_argument,
-    loaded_run,
-    print_files,
-    run_or_journal,
-    shown_progress,
-)
-
-REPORT_FILE = "report.html"
-EFFECTS_FILES = "effects.csv", "effects.png"
-ENDINGS = (".html", ".htm")
+from .shared import REPORT_FILE, RUN_FILE, add_output_argument, later
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -46,93 +25,4 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
         "--no-stress", action="store_true", help="leave out the stress picture, which takes some seconds"
     )
     command.add_argument("--effects", action="store_true", help="measure its effects first, as `gears effects` does")
-    command.set_defaults(command=report)
-
-
-def report(options: argparse.Namespace) -> int:
-    file, is_study = found_file(options.run)
-    output = output_file(options.output, file, is_study)
-    _check(options, file, output, is_study)
-    with closing(shown_progress(options.quiet)) as progress:
-        written = (_study if is_study else _run)(options, file, output, progress)
-    print_files(written, options.quiet)
-    return 0
-
-
-def found_file(path: Path) -> tuple[Path, bool]:
-    """The result's file that is meant, and whether it is a study's. Raises SceneError where there is none."""
-    run = run_or_journal(path)
-    if exists(run):
-        return run, run.name == STUDY_FILE
-    if isdir(path):
-        if (path / STUDY_FILE).is_file():
-            return path / STUDY_FILE, True
-        if (path / CASES).is_dir():
-            raise SceneError(f"{path}: there is no {STUDY_FILE} yet beside its cases; run the study again.")
-        missing = f"there is neither {RUN_FILE} nor {STUDY_FILE} in it"
-    else:
-        missing = "there is no such file or directory"
-    raise SceneError(f"{path}: {missing}. A report is on what `gears run` or `gears study` wrote.")
-
-
-def output_file(asked: Path | None, file: Path, is_study: bool) -> Path:
-    """The page's file: as asked for, in the directory asked for, or beside the result; a study's case has its own
-    name."""
-    own = file.name in (RUN_FILE, STUDY_FILE, JOURNAL)
-    name = REPORT_FILE if own else f"{file.stem}.html"
-    if asked is None:
-        return file.parent / name
-    if isdir(asked) or not asked.suffix:
-        return asked / name
-    if asked.suffix.lower() not in ENDINGS:
-        raise SceneError(f"{asked}: the report is an .html file; give --output such a name, or a directory")
-    return asked
-
-
-def _check(options: argparse.Namespace, file: Path, output: Path, is_study: bool) -> None:
-    check_writable(output.parent, output.name)
-    if options.effects and not is_study:
-        check_writable(file.parent, *EFFECTS_FILES)
-    if is_study and (options.effects or options.at is not None):
-        raise SceneError("--effects and --at are for a run; this is a study. Leave them out, or name one of its cases.")
-
-
-def _run(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
-    from fenics_gears.show.report.run_page import run_page
-    from fenics_gears.show.run import Run
-
-    run = Run(loaded_run(file), file, at=options.at, stress=not options.no_stress)
-    written = []
-    if options.at is not None and run.steps:
-        from fenics_gears.simulation.stored_forces import stored_index
-
-        stored_index(run.dataset, options.at)
-    if options.effects:
-        written = _measure_effects(run, progress)
-    return [*written, _write(run_page(run, progress), output)]
-
-
-def _study(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
-    from fenics_gears.show.report.study_page import study_page
-    from fenics_gears.studies.combine import load_combined
-
-    return [_write(study_page(loaded_run(file, load_combined), file, output, progress), output)]
-
-
-def _measure_effects(run, progress) -> list[Path]:
-    from fenics_gears.show.effect_costs import effect_costs
-    from fenics_gears.studies.effect_costs.measured import measure
-    from fenics_gears.studies.effect_costs.table import write_csv
-
-    if run.scene is None:
-        raise SceneError(f"{run.file}: the scene in it is none of this version. Run the scene again.")
-    if communicator() is not None:
-        raise SceneError(f"--effects {NO_TIMES}")
-    return write_report(measure(run.scene, progress), run.file.parent, "effects", write_csv, effect_costs)
-
-
-def _write(page, output: Path) -> Path:
-    from fenics_gears.show.report.rendering import rendered
-
-    text = rendered(page)
-    return write_whole(output, lambda path: path.write_text(text, encoding="utf-8"))
+    command.set_defaults(command=later("fenics_gears.commands.work.report:report"))

@@ -58,7 +58,13 @@ def natural_frequencies(drivetrain: Drivetrain, mesh_stiffness: float) -> np.nda
 
 def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = False) -> list[Vibration]:
     """The elastic modes by frequency, as far as they are right; `friction`: whether contact forces also act across the
-    line of action."""
+    line of action.
+
+    >>> from fenics_gears import load_scene, model_of
+    >>> drivetrain = model_of(load_scene("demos/lundvall2004.toml")).drivetrain
+    >>> [round(each.frequency) for each in vibrations(drivetrain, 1e6) if each.excited]
+    [227, 510, 688, 3851]
+    """
     frequencies, shapes = modes(drivetrain, mesh_stiffness)
     directions = np.concatenate([_along(drivetrain), _across(drivetrain)]) if friction else _along(drivetrain)
     moved = np.abs(directions @ shapes).max(axis=0)

@@ -47,6 +47,20 @@ class BodyMeshes(Section):
         ".msh", "wheel.msh", meaning="mesh file of the whole wheel", otherwise="a ring of equal sectors", made=MeshFile
     )
 
+    def body_of(self, name: str, pair, element: str):
+        """The checked mesh of a gear with its flanks."""
+        from fenics_gears.elasticity.whole_body.given import given_body
+
+        file = getattr(self, name)
+        written = f"body_meshes.{name} = {as_written(file.path)}"
+        return given_body(file.path, file.digest, getattr(pair, name), element, written)
+
+    def unknowns_of(self, name: str, pair, element: str) -> int | None:
+        """Unknowns of a gear with a mesh of its own; None for the other."""
+        if getattr(self, name) is None:
+            return None
+        return 2 * len(element_nodes(self.body_of(name, pair, element).mesh, element_named(element)).points)
+
 
 def located(meshes: BodyMeshes, directory: Path) -> BodyMeshes:
     return BodyMeshes(*(each and _located(each, directory) for each in (meshes.pinion, meshes.wheel)))
@@ -91,7 +105,7 @@ def meshes_are_given_and_used(tree: Tree) -> Broken:
 def check(meshes: BodyMeshes, scene, pair) -> None:
     for name in GEARS:
         if getattr(meshes, name) is not None:
-            _body(meshes, name, pair, scene.accuracy.element or "P2")
+            meshes.body_of(name, pair, scene.accuracy.element or "P2")
 
 
 def warnings(meshes: BodyMeshes, model) -> list[str]:
@@ -100,7 +114,7 @@ def warnings(meshes: BodyMeshes, model) -> list[str]:
     for name in GEARS:
         if getattr(meshes, name) is None:
             continue
-        size = _body(meshes, name, model.pair, model.resolution.element).coarsest_flank
+        size = meshes.body_of(name, model.pair, model.resolution.element).coarsest_flank
         if size > COARSE * wanted:
             found.append(
                 f"body_meshes.{name}: elements along its flanks are up to {size:.3g} mm long, the contact asks for"
@@ -118,18 +132,10 @@ def elasticity(meshes: BodyMeshes, model, name: str, reach, cache):
     gear = getattr(model.pair, name)
     material = model.scene.gears.material_of(name)
     element = model.resolution.element
-    mesh = given_mesh(meshes, name, model.pair, element)
+    mesh = meshes.body_of(name, model.pair, element).mesh
     # Forces one tooth beyond those that interact still open or close a crack.
     offsets = reach.same + 1
     return whole_body_compliance(mesh, gear, material, element=element, tooth_offsets=offsets, cache=cache)
-
-
-def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
-    """Unknowns of a gear with a mesh of its own; None for the other."""
-    if getattr(meshes, name) is None:
-        return None
-    element = model.resolution.element
-    return 2 * len(element_nodes(given_mesh(meshes, name, model.pair, element), element_named(element)).points)
 
 
 def watched(meshes: BodyMeshes, cycle, steps) -> dict:
@@ -144,18 +150,6 @@ def findings(meshes: BodyMeshes, watched) -> list[str]:
 def period(meshes: BodyMeshes, scene) -> int:
     """Mesh cycles of whole turns of the gears meshed as a whole."""
     return lcm(*(getattr(scene.gears, name).teeth for name in GEARS if getattr(meshes, name) is not None))
-
-
-def given_mesh(meshes: BodyMeshes, name: str, pair, element: str):
-    return _body(meshes, name, pair, element).mesh
-
-
-def _body(meshes: BodyMeshes, name: str, pair, element: str):
-    from fenics_gears.elasticity.whole_body.given import given_body
-
-    file = getattr(meshes, name)
-    written = f"body_meshes.{name} = {as_written(file.path)}"
-    return given_body(file.path, file.digest, getattr(pair, name), element, written)
 
 
 EFFECT = Effect(

@@ -17,16 +17,19 @@ from fenics_gears.inputs.section import own_or_shared as own_or_shared
 
 # Over the tooth pairs that can touch at once, and over the contact nodes of each at the steps whose contact fields are
 # stored.
-OF_PAIRS, OF_NODES, OF_POINTS = ("time", "slot"), ("contact_time", "slot", "contact_node"), ("path_point",)
-OF_TIME, OF_GEARS = ("time",), ("time", "gear")
+OF_PAIRS = ("time", "slot")
+OF_NODES = ("contact_time", "slot", "contact_node")
+OF_POINTS = ("path_point",)
+OF_TIME = ("time",)
+OF_GEARS = ("time", "gear")
 # The same over the slices of a face.
 OF_SLICES = ("contact_time", "slot", "face_position")
 
 
 @dataclass(frozen=True)
 class ResultVariable:
-    """One variable of the result; ``needs``: another effect without which it is not there; ``field``: the field of the
-    effect's own section without which it is not there, or several, "places or each", of which one is enough;
+    """One variable of the result. ``needs``: another effect without which it is not there. ``field``: the field of the
+    effect's own section without which it is not there, or several, "places or each", of which one is enough.
     ``over_face``: in three-dimensional scenes only."""
 
     name: str
@@ -53,7 +56,7 @@ def variables(
 class Effect:
     """One effect: the section that switches it on, what it adds, and the sections it needs or excludes.
 
-    ``needs`` and ``excludes``: section names; ``absent``: what the model is without it; ``unknowns``, ``terms`` and
+    ``needs`` and ``excludes``: section names. ``absent``: what the model is without it; ``unknowns``, ``terms`` and
     ``variables``: what it adds. ``fields``, a class of this module or of the physics that takes it, declares the
     section and is its data; where the data are something else, ``read`` makes them of the section, and ``write`` a
     section (a dictionary) of them. ``rules`` finds what is wrong between fields: each place, and what to do about it.

@@ -4,6 +4,7 @@ formula."""
 from dataclasses import dataclass
 
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.friction_formulas import FORMULAS, OutOfRange
 from fenics_gears.inputs.fields import choice, number, quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section, allowed_in
@@ -51,6 +52,19 @@ class Friction(Section):
         otherwise="required with `formula`",
     )
 
+    def coefficient_of(self, scene, pair) -> float:
+        """The coefficient in a scene. Raises SceneError for a formula that is not for its load and speed."""
+        if self.formula is None:
+            return self.coefficient
+        force = abs(scene.load.wheel_torque) / pair.wheel.base_radius
+        speed = 60.0 * scene.motion.mesh_frequency / pair.pinion.teeth
+        try:
+            return FORMULAS[self.formula](pair, force, speed, self.viscosity * 1e9, self.roughness * 1e3)
+        except OutOfRange as error:
+            raise SceneError(
+                f"friction.formula = {as_written(self.formula)}: {error}\nNothing was computed or written."
+            ) from None
+
 
 def coefficient_or_formula(tree: Tree) -> Broken:
     """There is one of the two, and a formula has what it needs, a speed among it."""
@@ -76,22 +90,6 @@ def coefficient_or_formula(tree: Tree) -> Broken:
         yield ("friction", "formula"), message
 
 
-def coefficient_of(friction: Friction, scene, pair) -> float:
-    """The coefficient of a scene's friction. Raises SceneError for a formula that is not for its load and speed."""
-    if friction.formula is None:
-        return friction.coefficient
-    from fenics_gears.geometry.friction_formulas import FORMULAS, OutOfRange
-
-    force = abs(scene.load.wheel_torque) / pair.wheel.base_radius
-    speed = 60.0 * scene.motion.mesh_frequency / pair.pinion.teeth
-    try:
-        return FORMULAS[friction.formula](pair, force, speed, friction.viscosity * 1e9, friction.roughness * 1e3)
-    except OutOfRange as error:
-        raise SceneError(
-            f"friction.formula = {as_written(friction.formula)}: {error}\nNothing was computed or written."
-        ) from None
-
-
 EFFECT = Effect(
     section="friction",
     description="Coulomb friction between the flanks",
@@ -109,7 +107,7 @@ EFFECT = Effect(
         *variables(OF_NODES, contact_traction=("MPa", "friction traction on the flank")),
     ),
     rules=coefficient_or_formula,
-    check=coefficient_of,
+    check=Friction.coefficient_of,
     # Between rigid flanks the pairs' shares of the force, and with them the friction, are not determined.
     needs=("tooth_elasticity",),
 )

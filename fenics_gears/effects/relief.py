@@ -3,6 +3,7 @@
 from math import degrees
 from typing import Any
 
+from fenics_gears.geometry.characteristics import contact_by_fewest
 from fenics_gears.geometry.relief import GROWTH, STARTS, Relief, Reliefs
 from fenics_gears.inputs import units
 from fenics_gears.inputs.problem import Broken
@@ -24,9 +25,6 @@ def starts_without_single_contact(section: str, word: str, reliefs: Reliefs, mod
     pair = model.pair
     if pair.fewest_pairs < 2:
         return []
-    # Imported here: few pairs of gears that are relieved have none.
-    from fenics_gears.geometry.characteristics import contact_by_fewest
-
     contact, letters = contact_by_fewest(pair)
     rolls = pair.hpstc_roll_angles if word == "HPSTC" else pair.lpstc_roll_angles
     own = [(roll, relief) for roll, relief in zip(rolls, (reliefs.pinion, reliefs.wheel)) if relief is not None]

@@ -31,7 +31,8 @@ def read_body_mesh(path) -> BodyMesh:
             "all 4-node quadrilaterals (in gmsh Mesh.ElementOrder = 1)"
         )
     cells = found.cells.astype(int).reshape(-1, CORNERS_BY_TYPE[found.kinds[0]])
-    used, tags = np.unique(cells), found.tags.astype(int)
+    used = np.unique(cells)
+    tags = found.tags.astype(int)
     order = np.argsort(tags, kind="stable")
     points = found.points[order][np.minimum(np.searchsorted(tags[order], used), len(tags) - 1)]
     if not np.isin(used, tags).all() or not np.isfinite(points).all():

@@ -22,7 +22,8 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(3)
 # Simpson's rule, exact for what nodes of second order interpolate.
 SIMPSON = np.array([1.0, 4.0, 1.0]) / 6.0
 # Elements across the thinnest part; mm between nodes that are one but for round-off.
-FEWEST, ROUND_OFF = 2, 1e-9
+FEWEST = 2
+ROUND_OFF = 1e-9
 
 
 class Ring(NamedTuple):
@@ -42,7 +43,8 @@ class BodyOfRevolution:
     def __init__(self, rings: Sequence[Ring], size: float):
         edges = np.array(rings)
         radii, heights = (_divided(np.unique(edges[:, columns]), size) for columns in ([0, 1], [2, 3]))
-        (r, z), which = (0.5 * (each[1:] + each[:-1]) for each in (radii, heights)), None
+        which = None
+        r, z = (0.5 * (each[1:] + each[:-1]) for each in (radii, heights))
         which = np.full((len(r), len(z)), -1)
         for number, ring in enumerate(rings):
             within = (r > ring.inner) & (r < ring.outer), (z > ring.low) & (z < ring.high)
@@ -68,15 +70,23 @@ class BodyOfRevolution:
         law[:, range(6), range(6)] += self.shear[:, None] * np.array([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
         across, along = (half[:, None] for half in self.halves)
         for (x, of_x), (y, of_y) in product(zip(POINTS, WEIGHTS), repeat=2):
-            (in_x, by_x), (in_y, by_y) = shapes(x), shapes(y)
+            in_x, by_x = shapes(x)
+            in_y, by_y = shapes(y)
             radius = self.middles[:, None] + across * x
             around = np.outer(in_x, in_y).ravel() / radius
-            by_r, by_z = np.outer(by_x, in_y).ravel() / across, np.outer(in_x, by_y).ravel() / along
+            by_r = np.outer(by_x, in_y).ravel() / across
+            by_z = np.outer(in_x, by_y).ravel() / along
             strains = np.zeros((len(self.cells), 6, 9, 3))
-            strains[:, 0, :, 0], strains[:, 1, :, 0], strains[:, 1, :, 1] = by_r, around, order * around
-            strains[:, 2, :, 2], strains[:, 3, :, 0], strains[:, 3, :, 1] = by_z, -order * around, by_r - around
-            strains[:, 4, :, 1], strains[:, 4, :, 2] = by_z, -order * around
-            strains[:, 5, :, 0], strains[:, 5, :, 2] = by_z, by_r
+            strains[:, 0, :, 0] = by_r
+            strains[:, 1, :, 0] = around
+            strains[:, 1, :, 1] = order * around
+            strains[:, 2, :, 2] = by_z
+            strains[:, 3, :, 0] = -order * around
+            strains[:, 3, :, 1] = by_r - around
+            strains[:, 4, :, 1] = by_z
+            strains[:, 4, :, 2] = -order * around
+            strains[:, 5, :, 0] = by_z
+            strains[:, 5, :, 2] = by_r
             strains = strains.reshape(-1, 6, 27)
             volume = (pi if order else 2.0 * pi) * of_x * of_y * (across * along * radius)[:, :, None]
             found += np.swapaxes(strains, 1, 2) @ (law * volume) @ strains
@@ -88,12 +98,14 @@ class BodyOfRevolution:
         """Rows (2, d) of the mean motions of a cross section as far out as a radius: of harmonic 1 displacement along x
         and tilt about y, of harmonic 0 displacement along the axis and twist."""
         radii, heights = self.nodes.T
-        within, found = radii < outer + ROUND_OFF, np.zeros((2, 3 * len(self.nodes)))
+        within = radii < outer + ROUND_OFF
+        found = np.zeros((2, 3 * len(self.nodes)))
         z = np.unique(heights[within])
         for place, share in zip(*_shares(z, height)):
             nodes = np.flatnonzero((heights == z[place]) & within)
             nodes = nodes[np.argsort(radii[nodes])]
-            r, weights = radii[nodes], np.zeros(len(nodes))
+            r = radii[nodes]
+            weights = np.zeros(len(nodes))
             for first in range(0, len(nodes) - 2, 2):
                 weights[first : first + 3] += (r[first + 2] - r[first]) * SIMPSON
             moved = weights * r / (weights @ r), weights * r**2 / (weights @ r**3)
@@ -104,7 +116,8 @@ class BodyOfRevolution:
         """The same (2 h, d) of circles at heights (h,) on the cylinder of a radius."""
         nodes = np.flatnonzero(abs(self.nodes[:, 0] - radius) < ROUND_OFF)
         nodes = nodes[np.argsort(self.nodes[nodes, 1])]
-        z, found = self.nodes[nodes, 1], []
+        z = self.nodes[nodes, 1]
+        found = []
         for height in heights:
             places, shares = _shares(z, height)
             found.append(self._rows(nodes[places], shares, shares / radius, order))
@@ -113,15 +126,19 @@ class BodyOfRevolution:
     def _rows(self, nodes: np.ndarray, along: np.ndarray, turned: np.ndarray, order: int) -> np.ndarray:
         found = np.zeros((2, 3 * len(self.nodes)))
         if order:
-            found[0, 3 * nodes], found[0, 3 * nodes + 1], found[1, 3 * nodes + 2] = 0.5 * along, -0.5 * along, -turned
+            found[0, 3 * nodes] = 0.5 * along
+            found[0, 3 * nodes + 1] = -0.5 * along
+            found[1, 3 * nodes + 2] = -turned
         else:
-            found[0, 3 * nodes + 2], found[1, 3 * nodes + 1] = along, turned
+            found[0, 3 * nodes + 2] = along
+            found[1, 3 * nodes + 1] = turned
         return found
 
 
 def flexibility(stiffness: sparse.csc_matrix, held: np.ndarray, loaded: np.ndarray) -> np.ndarray:
     """Motions (l, l) of rows `loaded` (l, d) per load there, of a body in which rows `held` (h, d) do not move."""
-    rows, size = sparse.csc_matrix(held), len(held)
+    rows = sparse.csc_matrix(held)
+    size = len(held)
     factor = splu(sparse.bmat([[stiffness, rows.T], [rows, None]], format="csc"))
     found = loaded @ factor.solve(np.vstack([loaded.T, np.zeros((size, len(loaded)))]))[:-size]
     return 0.5 * (found + found.T)

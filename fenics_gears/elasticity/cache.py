@@ -27,7 +27,8 @@ from fenics_gears.system.output import remove_left_over, seal, unsealed, whole_f
 LOGGER = logging.getLogger(__name__)
 DIRECTORY_VARIABLE = "FENICS_GEARS_CACHE"
 FORMAT = "fenics_gears cache 2"
-SIZE_VARIABLE, DEFAULT_SIZE = "FENICS_GEARS_CACHE_SIZE", "2 GB"
+SIZE_VARIABLE = "FENICS_GEARS_CACHE_SIZE"
+DEFAULT_SIZE = "2 GB"
 
 
 def content_key(inputs: dict) -> str:

@@ -123,7 +123,7 @@ def quiet_compiler():
 
 
 def with_compiled(build):
-    """Call ``build()``, which compiles; where a compile was once killed halfway, remove what it left and call it again:
+    """Call ``build()``, which compiles. Where a compile was once killed halfway, remove what it left and call it again:
     the form compiler takes it for under way, waits 10 s and names the source file in its error."""
     try:
         return build()
@@ -136,8 +136,8 @@ def with_compiled(build):
 
 
 def in_turn(compiler):
-    """DOLFINx's compiler of forms, elements and coordinate maps, quiet and in one process at a time: while one
-    compiles, others that need the same would wait 10 s and then fail, as of many first runs on few cores."""
+    """DOLFINx's compiler of forms, elements and coordinate maps, quiet and in one process at a time. While one process
+    compiles, others that need the same form would wait 10 s and then fail."""
 
     @functools.wraps(compiler)
     def compiled(*arguments, **options):

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear import Gear
@@ -73,6 +72,9 @@ def element_nodes(mesh: BodyMesh, element: Element) -> ElementNodes:
 
 def numbers_at(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
     """Numbers (k,) of the nodes (n, 2) at places (k, 2); ComputationError where there is none, or more than one."""
+    # 50 ms that a run with gears from the cache does not take.
+    from scipy.spatial import cKDTree
+
     distance, found = cKDTree(nodes).query(places, k=2)
     tolerance = 1e-9 * np.abs(nodes).max()
     for wrong, what in ((distance[:, 0] > tolerance, "no node"), (distance[:, 1] <= tolerance, "more than one node")):

@@ -123,7 +123,8 @@ class SizeField:
 
     def at(self, points) -> np.ndarray:
         """Element size (n,) at points (n, 2), mm."""
-        size, distances = np.full(len(points), self.largest), {}
+        size = np.full(len(points), self.largest)
+        distances = {}
         for source in self.sources:
             for curve in source.curves:
                 # Sources share curves, and the search takes most of the time.
@@ -136,7 +137,8 @@ class SizeField:
     def set_background(self, gmsh, points, tags, scale: float) -> None:
         """Make ``scale`` times this field the mesh size of the current gmsh model with points (n, 2) and their tags
         (n,); other points of the sources are ignored."""
-        lookup, fields = _tree(points), []
+        lookup = _tree(points)
+        fields = []
         for source in self.sources:
             distance, nearest = lookup.query(np.vstack(source.curves))
             own = np.unique(nearest[distance < 1e-9 * self.largest])
@@ -167,7 +169,8 @@ def arc_lengths(curve: np.ndarray) -> np.ndarray:
 def divided(curve: np.ndarray, size: np.ndarray, fewest: int, multiple: int = 2) -> np.ndarray:
     """Fractions of the arc length of a curve (m, 2) at which nodes of the wanted size (m,) stand, both ends included: a
     multiple of ``multiple`` divisions, at least ``fewest``."""
-    length, steps = arc_lengths(curve), np.linalg.norm(np.diff(curve, axis=0), axis=1)
+    length = arc_lengths(curve)
+    steps = np.linalg.norm(np.diff(curve, axis=0), axis=1)
     density = np.concatenate([[0.0], np.cumsum(steps * 0.5 * (1.0 / size[1:] + 1.0 / size[:-1]))])
     count = multiple * int(np.ceil(max(density[-1], fewest) / multiple - 1e-9))
     return np.interp(np.linspace(0.0, density[-1], count + 1), density, length) / length[-1]

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import sparse
-from scipy.spatial import cKDTree
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import ToothOutline, tooth_outline
@@ -75,7 +74,8 @@ def fillet_rows(recovery: GearRecovery, curve: FilletCurve, averages: np.ndarray
     Along the fillet's profile and across the tooth's trace, as in a section normal to the tooth. averages: (S, h), of
     slices over the sector's heights.
     """
-    sector, parts = recovery.sector, []
+    sector = recovery.sector
+    parts = []
     twist = 0.0 if sector.sweep is None else sector.sweep.twist
     for side in (0, 1):
         nodes, *found = fillet_weights(curve, sector.section, sector.held, side)
@@ -110,6 +110,9 @@ def _root_nodes(curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side:
     radius = np.linalg.norm(nodes.points[free], axis=1)
     free = free[(radius < gear.form_radius * (1.0 + 1e-9)) & (radius > 0.5 * (gear.bore_radius + gear.root_radius))]
     points = nodes.points[free] if side == 0 else curve.outline.coast(nodes.points[free])
+    # 50 ms that a run with gears from the cache does not take.
+    from scipy.spatial import cKDTree
+
     distance, nearest = cKDTree(curve.samples).query(points)
     # Nodes of the other side are far away; the middles of sides lie a little off the curve, on its chords.
     own = distance < 0.02 * gear.module
@@ -124,7 +127,8 @@ def _interpolation(nodes: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     part = np.clip((wanted - nodes[ahead - 1]) / (nodes[ahead] - nodes[ahead - 1]), 0.0, 1.0)
     weights = np.zeros((len(wanted), len(nodes)))
     rows = np.arange(len(wanted))
-    weights[rows, ahead - 1], weights[rows, ahead] = 1.0 - part, part
+    weights[rows, ahead - 1] = 1.0 - part
+    weights[rows, ahead] = part
     return weights
 
 

@@ -1,7 +1,6 @@
 """Flank compliance of a gear from its data: mesh one sector, condense it, join the ring; or read it from the cache."""
 
 from dataclasses import asdict, replace
-from time import perf_counter
 
 import numpy as np
 
@@ -28,7 +27,8 @@ def flank_compliance(
     chosen = element_named(discretisation.element)
     sizes = discretisation.sizes(gear, both_flanks=reach.across is not None)
     check_inputs(gear, material, reach)
-    similar, sizes = gear.of_module_one, sizes.in_modules_of(gear)
+    similar = gear.of_module_one
+    sizes = sizes.in_modules_of(gear)
     coupled = _coupled(reach, discretisation.elastic_teeth)
     inputs = similar_inputs("plane strain", gear, material, discretisation, reach.across is not None)
     inputs["reach"] = asdict(coupled)
@@ -65,7 +65,8 @@ def _coupled(reach: Reach, elastic_teeth: int | None) -> Reach:
 def _with_uncoupled_teeth(body: FlankCompliance, offsets: int) -> FlankCompliance:
     """The compliance over more offsets, zero for teeth farther away than those that are known. Raises SceneError where
     it is not positive definite: loads on the teeth would then do negative work."""
-    known, zeros = body.offsets, np.zeros((offsets - body.offsets, *body.blocks.shape[1:]))
+    known = body.offsets
+    zeros = np.zeros((offsets - body.offsets, *body.blocks.shape[1:]))
     padded = replace(body, blocks=np.concatenate([body.blocks, zeros]))
     if isinstance(body, BothFlanksCompliance):
         padded = replace(padded, across=np.concatenate([zeros, body.across, zeros]), first_across=-offsets)
@@ -95,25 +96,7 @@ def _computed(
     gear: Gear, element: Element, sizes: ElementSizes, poissons_ratio: float, reach: Reach
 ) -> tuple[dict, dict]:
     """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
-    # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
-    from . import mirrored_ring, ring
-    from .condensation import by_radius
-    from .element_nodes import node_roll_angles
-    from .half_sector import centreline_direction
-    from .sector_mesh import half_sector_mesh, sector_mesh
+    # A run whose gears are all in the cache needs neither gmsh nor DOLFINx.
+    from .computed_ring import computed_ring
 
-    clock = perf_counter()
-    mesh = (half_sector_mesh if sizes.both_flanks else sector_mesh)(gear, sizes, element.quadrilateral)
-    meshed = perf_counter()
-    if sizes.both_flanks:
-        sector = mirrored_ring.condensed_half(mesh, element, poissons_ratio)
-        axis = centreline_direction(mesh)
-        blocks, across = mirrored_ring.both_flanks_compliance(sector, axis, gear.teeth, reach)
-        arrays = {"blocks": blocks, "across": across, "first_across": np.array(reach.across[0])}
-    else:
-        sector = ring.condensed_sector(mesh, element, poissons_ratio)
-        arrays = {"blocks": ring.ring_compliance(sector, gear.teeth, reach.same)}
-    arrays["roll_angle"] = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), element.order)
-    compiling = sector.timings["time_compile"]
-    timings = {"time_mesh": meshed - clock, "time_condense": perf_counter() - meshed - compiling}
-    return arrays, {**sector.timings, **timings}
+    return computed_ring(gear, element, sizes, poissons_ratio, reach)

@@ -23,7 +23,8 @@ def drive_half(
     """
     half = _half(boundary, field)
     mesh = fill(half, field, (*IMAGES, "centreline"))
-    axis, shared = centreline_direction(mesh), mesh.edge_points("centreline")
+    axis = centreline_direction(mesh)
+    shared = mesh.edge_points("centreline")
     # They lie on the line but for round-off.
     points = mesh.points.copy()
     points[shared] = (points[shared] @ axis)[:, None] * axis
@@ -39,7 +40,8 @@ def centreline_direction(half: BodyMesh) -> np.ndarray:
 
 def with_image(half: BodyMesh) -> BodyMesh:
     """Mesh of the whole sector: the half and its mirror image, joined along the centreline."""
-    axis, shared = centreline_direction(half), half.edge_points("centreline")
+    axis = centreline_direction(half)
+    shared = half.edge_points("centreline")
     image = 2.0 * (half.points @ axis)[:, None] * axis - half.points
     own = np.setdiff1d(np.arange(len(half.points)), shared)
     index = np.arange(len(half.points))
@@ -56,8 +58,10 @@ def with_image(half: BodyMesh) -> BodyMesh:
 def _half(boundary: SectorBoundary, field: SizeField) -> SectorBoundary:
     """The drive flank's side: from the bore up the cut, root, flank and half the tip, down the centreline, half the
     bore back."""
-    (tip_first, tip_last), (hub_first, hub_last) = boundary.parts["tip"], boundary.parts["hub"]
-    top, bottom = (tip_first + tip_last) // 2, (hub_first + hub_last) // 2
+    tip_first, tip_last = boundary.parts["tip"]
+    hub_first, hub_last = boundary.parts["hub"]
+    top = (tip_first + tip_last) // 2
+    bottom = (hub_first + hub_last) // 2
     line = np.linspace(boundary.points[top], boundary.points[bottom], CENTRELINE_SAMPLES)
     inner = along(line, divided(line, field.at(line), 4))
     points = np.vstack([boundary.points[: top + 1], inner[1:-1], boundary.points[bottom:]])

@@ -14,7 +14,8 @@ from . import dolfinx_adapter as adapter
 
 MODES = 4  # amplitudes of a cell: two modes, two directions
 # Reference coordinates of a cell's corners, row by row as DOLFINx numbers them.
-XI, ETA = np.array([-1.0, 1.0, -1.0, 1.0]), np.array([-1.0, -1.0, 1.0, 1.0])
+XI = np.array([-1.0, 1.0, -1.0, 1.0])
+ETA = np.array([-1.0, -1.0, 1.0, 1.0])
 
 
 def condensed_stiffness(space, stress_of_strain, measure):
@@ -39,8 +40,10 @@ def mode_forms(space, stress_of_strain, measure) -> tuple:
     """Compiled forms of K_uu, K_au (a row for each amplitude) and K_aa."""
     amplitudes = adapter.cell_space(space.mesh, 0, MODES)
     mode_strain = _mode_strain(space.mesh)
-    trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
-    mode_trial, mode_test = ufl.TrialFunction(amplitudes), ufl.TestFunction(amplitudes)
+    trial = ufl.TrialFunction(space)
+    test = ufl.TestFunction(space)
+    mode_trial = ufl.TrialFunction(amplitudes)
+    mode_test = ufl.TestFunction(amplitudes)
 
     def strain(displacement):
         return ufl.sym(ufl.grad(displacement))
@@ -67,7 +70,8 @@ def _mode_strain(mesh):
     of_eta = -2.0 * eta / determinant * ufl.as_vector([at_centre[2], at_centre[3]])
 
     def strain(amplitude):
-        first, second = ufl.as_vector([amplitude[0], amplitude[1]]), ufl.as_vector([amplitude[2], amplitude[3]])
+        first = ufl.as_vector([amplitude[0], amplitude[1]])
+        second = ufl.as_vector([amplitude[2], amplitude[3]])
         return ufl.sym(ufl.outer(first, of_xi) + ufl.outer(second, of_eta))
 
     return strain

@@ -20,8 +20,10 @@ from .gmsh_session import gmsh_model
 
 LINE = 1  # gmsh's number of a straight line
 # What reading may take, in bytes and seconds, for gmsh itself and for each byte of the file: many times what it takes.
-MEMORY, MEMORY_PER_BYTE = 8e9, 100.0
-SECONDS, SECONDS_PER_BYTE = 60.0, 1e-6
+MEMORY = 8e9
+MEMORY_PER_BYTE = 100.0
+SECONDS = 60.0
+SECONDS_PER_BYTE = 1e-6
 DAMAGED = "the file is damaged; write it again"
 
 
@@ -47,10 +49,13 @@ class MeshContent:
 
 def mesh_content(path: Path) -> MeshContent:
     """The content of a gmsh file. Raises SceneError where gmsh cannot read it."""
-    path, size = Path(os.path.abspath(path)), os.path.getsize(path)
-    program, others = Path(__file__).parents[2], os.environ.get("PYTHONPATH")
+    size = os.path.getsize(path)
+    path = Path(os.path.abspath(path))
+    program = Path(__file__).parents[2]
+    others = os.environ.get("PYTHONPATH")
     environment = {**os.environ, "PYTHONPATH": f"{program}{os.pathsep}{others}" if others else str(program)}
-    memory, seconds = int(MEMORY + MEMORY_PER_BYTE * size), SECONDS + SECONDS_PER_BYTE * size
+    memory = int(MEMORY + MEMORY_PER_BYTE * size)
+    seconds = SECONDS + SECONDS_PER_BYTE * size
     call = [sys.executable, "-P", "-m", "fenics_gears.elasticity.mesh_content", path.name, str(memory)]
     try:
         # gmsh takes names in UTF-8 only: the folder's may be another.
@@ -76,7 +81,8 @@ def _read(name: str) -> MeshContent:
         tags, points, _ = mesh.getNodes()
         kinds = mesh.getElementTypes(2)
         cells = mesh.getElementsByType(kinds[0])[1] if len(kinds) else []
-        lines, curves = [np.empty((0, 2), dtype=int)], []
+        lines = [np.empty((0, 2), dtype=int)]
+        curves = []
         for dimension, group in gmsh.model.getPhysicalGroups(1):
             for entity in gmsh.model.getEntitiesForPhysicalGroup(dimension, group):
                 own = np.asarray(mesh.getElementsByType(LINE, entity)[1], dtype=int).reshape(-1, 2)
@@ -98,7 +104,8 @@ def _packed(content: MeshContent) -> bytes:
 
 def _unpacked(packed: bytes) -> MeshContent:
     kinds, _, content = packed.partition(b"\n")
-    arrays, place = [], 0
+    arrays = []
+    place = 0
     for kind, shape in json.loads(kinds):
         arrays.append(np.ndarray(shape, kind, content, place))
         place += arrays[-1].nbytes

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear_data import Web
@@ -87,6 +86,8 @@ def boundary_sides(cells: np.ndarray) -> np.ndarray:
 
 def joined_cells(cells: np.ndarray) -> np.ndarray:
     """Number of the connected piece of each cell (cells,); cells hold together along whole sides."""
+    from scipy.sparse.csgraph import connected_components
+
     sides, of_cells = distinct(sides_of(cells))
     owner = np.repeat(np.arange(len(cells)), cells.shape[1])
     incidence = coo_matrix((np.ones(len(owner)), (owner, of_cells)), shape=(len(cells), len(sides))).tocsr()
@@ -106,7 +107,9 @@ def split_to_quadrilaterals(
     middle_index = {tuple(side): len(points) + i for i, side in enumerate(unique_sides.tolist())}
     for side, position in exact.items():
         middle[middle_index[side] - len(points)] = position
-    all_points, quadrilaterals, used = [points, middle], [], 0
+    all_points = [points, middle]
+    quadrilaterals = []
+    used = 0
     count = len(points) + len(middle)
     for cells in polygons:
         corners = cells.shape[1]

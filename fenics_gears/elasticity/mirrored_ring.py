@@ -46,9 +46,11 @@ def both_flanks_compliance(
     ]
     (held, to_cut, cut), (held_cross, to_cut_cross, cut_cross) = within_and_across(*parts)
     nodes = len(half.points["cut"])
-    turn, mirror = turned_nodes(teeth, nodes), np.kron(np.eye(nodes), 2.0 * np.outer(along, along) - np.eye(2))
+    turn = turned_nodes(teeth, nodes)
+    mirror = np.kron(np.eye(nodes), 2.0 * np.outer(along, along) - np.eye(2))
     joint = cut_response(unfolded_link(cut, cut_cross, mirror, turn), teeth, reach.farthest + 1)
-    drive, coast = unfolded(to_cut, to_cut_cross, mirror, turn), unfolded(to_cut_cross, to_cut, mirror, turn)
+    drive = unfolded(to_cut, to_cut_cross, mirror, turn)
+    coast = unfolded(to_cut_cross, to_cut, mirror, turn)
 
     first, last = reach.across
     blocks, across = (np.empty((count, *held.shape)) for count in (reach.same + 1, last - first + 1))

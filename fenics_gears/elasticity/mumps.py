@@ -26,7 +26,8 @@ class Factor:
     """
 
     def __init__(self, matrix: sparse.csr_matrix | PETSc.Mat, what: str, schur_dofs: np.ndarray | None = None):
-        self._schur_size, self._what = 0 if schur_dofs is None else len(schur_dofs), what
+        self._schur_size = 0 if schur_dofs is None else len(schur_dofs)
+        self._what = what
         if sparse.issparse(matrix):
             matrix = _petsc_matrix(matrix)
         matrix.setOption(PETSc.Mat.Option.SPD, True)
@@ -60,7 +61,8 @@ class Factor:
         result = np.empty_like(loads)
         for first in range(0, loads.shape[1], COLUMNS_AT_ONCE):
             part = slice(first, first + COLUMNS_AT_ONCE)
-            solution, right = np.zeros_like(loads[:, part], order="F"), np.asfortranarray(loads[:, part])
+            solution = np.zeros_like(loads[:, part], order="F")
+            right = np.asfortranarray(loads[:, part])
             left, dense = (
                 PETSc.Mat().createDense(each.shape, array=each, comm=PETSc.COMM_SELF) for each in (solution, right)
             )
@@ -82,7 +84,9 @@ class Factor:
 
     def schur(self) -> np.ndarray:
         """Dense stiffness (k, k) on the Schur dofs, all others in equilibrium without load."""
-        schur, entries, status = ctypes.c_void_p(), ctypes.c_void_p(), ctypes.c_int()
+        schur = ctypes.c_void_p()
+        entries = ctypes.c_void_p()
+        status = ctypes.c_int()
         _call("MatFactorGetSchurComplement", _handle(self._factor), ctypes.byref(schur), ctypes.byref(status))
         _call("MatDenseGetArrayRead", schur, ctypes.byref(entries))
         size = self._schur_size

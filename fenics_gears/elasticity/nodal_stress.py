@@ -35,11 +35,13 @@ class NodalStress:
     """
 
     def __init__(self, nodes: ElementNodes, poissons_ratio: float, sweep: Sweep | None = None):
-        self.nodes, self.sweep = nodes, sweep
+        self.nodes = nodes
+        self.sweep = sweep
         self.components, self._heights = (2, 1) if sweep is None else (3, len(sweep.heights))
         whole, self.weight = _averaged_slopes(nodes)
         # Of layers in a web, or of all of a body without one, and of those beside.
-        self._slopes, self._there = {True: whole}, {True: np.ones(len(nodes.points))}
+        self._slopes = {True: whole}
+        self._there = {True: np.ones(len(nodes.points))}
         if sweep is not None and sweep.web is not None:
             beside = replace(nodes, cells=nodes.cells[sweep.web.beside(nodes.middles)])
             self._slopes[False], area = _averaged_slopes(beside)
@@ -72,7 +74,8 @@ class NodalStress:
         # t . sigma t over the nine entries of a gradient.
         normal = 2.0 * self._shear * np.einsum("pi,pj->pij", directions, directions) + self._lame * np.eye(3)
         between = sparse.csr_matrix((weights[:, :, None] * normal.reshape(-1, 1, 9)).reshape(len(weights), -1))
-        chosen, of_height = dofs_of(nodes, 9), self.components * len(self.nodes.points)
+        chosen = dofs_of(nodes, 9)
+        of_height = self.components * len(self.nodes.points)
         found = sparse.csr_matrix((len(averages) * len(weights), of_height * self._heights))
         # The same at all these nodes, none of which is of a web.
         meeting = self._layers_at[:, nodes].max(axis=1)
@@ -104,9 +107,13 @@ class NodalStress:
 
     def _of_layer(self, thickness: float, within: bool) -> Iterator[sparse.csr_matrix]:
         """The gradient at a layer's three heights, taken in the frame of its middle."""
-        slopes, there = self._slopes[within], sparse.diags(self._there[within])
-        points, angles = self.nodes.points, 0.5 * self.sweep.twist * thickness * np.array([-1.0, 0.0, 1.0])
-        frames, turns, axial = [rotation(angle, 3) for angle in angles], np.exp(1j * angles), np.eye(3)[2:]
+        slopes = self._slopes[within]
+        there = sparse.diags(self._there[within])
+        points = self.nodes.points
+        angles = 0.5 * self.sweep.twist * thickness * np.array([-1.0, 0.0, 1.0])
+        frames = [rotation(angle, 3) for angle in angles]
+        turns = np.exp(1j * angles)
+        axial = np.eye(3)[2:]
         for place, frame in enumerate(frames):
             change = shapes(place - 1.0)[1] / (0.5 * thickness)
             swept = points @ _as_matrix(change @ turns / turns[place]).T
@@ -138,7 +145,8 @@ def _averaged_slopes(nodes: ElementNodes) -> tuple[list[sparse.csr_matrix], np.n
     """Operators (n, n) from values at the nodes to their derivatives by x and y there, averaged by area over the
     elements that meet, and those areas' sums (n,)."""
     gradients, areas = _gradients_in_cells(nodes)
-    cells, count = nodes.cells, len(nodes.points)
+    cells = nodes.cells
+    count = len(nodes.points)
     weight = np.bincount(cells.ravel(), np.repeat(areas, cells.shape[1]), count)
     rows = np.broadcast_to(cells[:, :, None], gradients.shape[:3]).ravel()
     columns = np.broadcast_to(cells[:, None, :], gradients.shape[:3]).ravel()
@@ -152,16 +160,19 @@ def _gradients_in_cells(nodes: ElementNodes) -> tuple[np.ndarray, np.ndarray]:
     kind = nodes.corners
     vertices, own = (REFERENCE[kind][:count] for count in (kind, nodes.cells.shape[1]))
     if nodes.order == 1:
-        samples, to_nodes = own.mean(axis=0, keepdims=True), np.ones((len(own), 1))
+        samples = own.mean(axis=0, keepdims=True)
+        to_nodes = np.ones((len(own), 1))
     elif kind == 4:
         samples = 0.5 + GAUSS * (vertices - 0.5)
         # Bilinear between the Gauss points.
         to_nodes = adapter.lagrange(vertices, 1, 0.5 + (own - 0.5) / GAUSS)[0]
     else:
-        samples, to_nodes = own, np.eye(len(own))
+        samples = own
+        to_nodes = np.eye(len(own))
     corners = nodes.points[nodes.cells[:, :kind]]
     jacobian = np.einsum("sad,cax->csxd", adapter.lagrange(vertices, 1, samples)[1], corners)
     gradients = np.einsum("sad,csdx->csax", adapter.lagrange(own, nodes.order, samples)[1], np.linalg.inv(jacobian))
-    along, across = corners[:, 1:-1] - corners[:, :1], corners[:, 2:] - corners[:, :1]
+    along = corners[:, 1:-1] - corners[:, :1]
+    across = corners[:, 2:] - corners[:, :1]
     areas = 0.5 * (along[..., 0] * across[..., 1] - along[..., 1] * across[..., 0]).sum(axis=1)
     return np.einsum("ns,csax->cnax", to_nodes, gradients), areas

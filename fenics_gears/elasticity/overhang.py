@@ -34,7 +34,8 @@ def with_overhang(body: Section, gear: Gear, material: Material, share: float) -
             body, blocks=blocks, openings={tooth: share * opening for tooth, opening in body.openings.items()}
         )
     blocks = share * body.blocks
-    near, dofs = (1.0 - share) * near_field(gear, material, body.roll_angle), 2 * body.nodes
+    near = (1.0 - share) * near_field(gear, material, body.roll_angle)
+    dofs = 2 * body.nodes
     for first in range(0, blocks.shape[1], dofs):
         blocks[0, first : first + dofs, first : first + dofs] += near
     return replace(body, blocks=blocks, **({"across": share * body.across} if hasattr(body, "across") else {}))
@@ -47,9 +48,11 @@ def near_field(gear: Gear, material: Material, roll_angle: np.ndarray) -> np.nda
     As a convex function that falls to zero the logarithm, cut off at that depth, is positive definite (Polya's
     criterion).
     """
-    depth, arc = NEAR_DEPTH * gear.normal_module, arc_length(gear.base_radius, roll_angle)
+    depth = NEAR_DEPTH * gear.normal_module
+    arc = arc_length(gear.base_radius, roll_angle)
     edges = np.concatenate([arc[:1], 0.5 * (arc[1:] + arc[:-1]), arc[-1:]])
-    low, high = edges[:-1], edges[1:]
+    low = edges[:-1]
+    high = edges[1:]
 
     def twice_integrated(distance: np.ndarray) -> np.ndarray:
         distance = np.abs(distance)

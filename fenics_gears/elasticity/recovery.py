@@ -1,7 +1,8 @@
 """Displacement and stress of a gear's body, plane or swept along the face, from the forces on its flanks.
 
-Loads inside a sector move its free cuts by the factored sector; the ring's cyclic system (`elasticity.ring`) joins the
-cuts of all sectors; forces that make a sector's cuts move so give its inside by the factored sector again.
+Loads inside a sector move its free cuts by the factored sector. The ring's cyclic system (`elasticity.ring`) joins the
+cuts of all sectors. Forces on the cuts that make them move so give the inside of a sector, again by the factored
+sector.
 """
 
 from collections.abc import Iterable, Sequence
@@ -16,6 +17,7 @@ from fenics_gears.geometry.gear_data import Material
 
 from .element_sizes import Discretisation
 from .elements import element_named
+from .face.compliance import swept_section
 from .face.cut_motions import cut_motions, loads_over_motions, over_motions
 from .face.discretisation import FaceDiscretisation
 from .nodal_stress import NodalStress
@@ -46,12 +48,16 @@ class GearRecovery:
     """
 
     def __init__(self, gear: Gear, material: Material, sector: Sector):
-        self.gear, self.material, self.sector = gear, material, sector
+        self.gear = gear
+        self.material = material
+        self.sector = sector
         self.stress = NodalStress(sector.section, material.poissons_ratio, sector.sweep)
-        self._half, turn = len(sector.link) // 2, rotation(gear.angular_pitch, sector.components)
+        self._half = len(sector.link) // 2
+        turn = rotation(gear.angular_pitch, sector.components)
         self._pitch = kron(identity(self._half // sector.components), turn, format="csr")
         # The upper cut's dofs in the frame of the next sector.
-        link, half = sector.link.copy(), self._half
+        link = sector.link.copy()
+        half = self._half
         link[half:] = self._pitch.T @ link[half:]
         link[:, half:] = link[:, half:] @ self._pitch
         self._link = 0.5 * (link + link.T)
@@ -90,13 +96,15 @@ class GearRecovery:
     def recovered(self, forces: dict[int, np.ndarray], sectors: Iterable[int] | None = None) -> RecoveredSectors:
         """Some sectors, or all, under forces on the flanks of some teeth as in `loads`, in each tooth's own frame: N/mm
         in the plane, N over the face."""
-        sector, teeth = self.sector, self.gear.teeth
+        sector = self.sector
+        teeth = self.gear.teeth
         wanted = tuple(range(teeth) if sectors is None else sectors)
         loads: dict[int, np.ndarray] = {}
         for tooth, force in forces.items():
             loads[tooth % teeth] = loads.get(tooth % teeth, 0.0) + self.loads(force)
         free = {tooth: sector.free_motion(load[:, None]) for tooth, load in loads.items()}
-        motion, rest = self._cut_motion(free), np.zeros((sector.components * sector.nodes, 1))
+        motion = self._cut_motion(free)
+        rest = np.zeros((sector.components * sector.nodes, 1))
         both = [(motion[tooth % teeth], self._pitch @ motion[(tooth + 1) % teeth]) for tooth in wanted]
         at_cuts = np.hstack([np.vstack(each) for each in both])
         inside = np.hstack([free.get(tooth % teeth, rest) for tooth in wanted])
@@ -110,14 +118,16 @@ class GearRecovery:
 
     def between_teeth(self, responding: np.ndarray, loaded: np.ndarray, reach: int) -> np.ndarray:
         """Reciprocal work (2 reach + 1, k, j) that the ring adds to that within a sector with free cuts, Young's
-        modulus 1 MPa, lengths in modules: of loads on the tooth m pitches ahead, m from -reach to reach, and on the
-        loaded one, given by what they move the free cuts, (2 d, k) and (2 d, j)."""
+        modulus 1 MPa, lengths in modules. It is of loads on the tooth m pitches ahead, m from -reach to reach, and of
+        loads on the loaded tooth. Both are given by the motions of the free cuts, (2 d, k) and (2 d, j)."""
         responding, loaded = (
             np.vstack([each[: self._half], self._pitch.T @ each[self._half :]]) for each in (responding, loaded)
         )
-        held, forces = self._link @ responding, self._link @ loaded
+        held = self._link @ responding
+        forces = self._link @ loaded
         # Many loads move the cuts in few ways.
-        (shapes, of_held), (others, of_forces) = spanned(held.T), spanned(forces.T)
+        shapes, of_held = spanned(held.T)
+        others, of_forces = spanned(forces.T)
         work = self._ring_work(of_held.T, of_forces.T, reach)
         found = shapes @ work @ others.T
         found[reach] -= held.T @ loaded
@@ -145,8 +155,10 @@ class GearRecovery:
 
     def _average_at_cuts(self, sectors: Sequence[int], stress: np.ndarray) -> None:
         """Average, in place, what two neighbouring sectors have at their common cut, by the areas of its elements."""
-        (lower, upper), turn = self.sector.cuts, rotation(self.gear.angular_pitch, 3)
-        area, flat = self.stress.weight, stress.reshape(len(stress), -1, 3, 3)
+        turn = rotation(self.gear.angular_pitch, 3)
+        lower, upper = self.sector.cuts
+        area = self.stress.weight
+        flat = stress.reshape(len(stress), -1, 3, 3)
         below, above = (area[cut % len(area)] for cut in (upper, lower))
         share = (below / (below + above))[:, None, None]
         place = {sector % self.gear.teeth: number for number, sector in enumerate(sectors)}
@@ -154,7 +166,8 @@ class GearRecovery:
             ahead = place.get((sector + 1) % self.gear.teeth)
             if ahead is not None:
                 mean = share * flat[number, upper] + (1.0 - share) * (turn @ flat[ahead, lower] @ turn.T)
-                flat[number, upper], flat[ahead, lower] = mean, turn.T @ mean @ turn
+                flat[number, upper] = mean
+                flat[ahead, lower] = turn.T @ mean @ turn
 
 
 def gear_recovery(
@@ -162,9 +175,6 @@ def gear_recovery(
 ) -> GearRecovery:
     """A gear's recovery on the very mesh that `flank_compliance` or `face_compliance` has with the same settings."""
     if isinstance(discretisation, FaceDiscretisation):
-        # Imported here: plane gears have none.
-        from .face.compliance import swept_section
-
         scaled = discretisation.in_modules_of(gear)
         sector = swept_sector(swept_section(gear.of_module_one, scaled.sizes), scaled.sweep, material.poissons_ratio)
     else:

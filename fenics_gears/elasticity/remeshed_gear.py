@@ -37,7 +37,10 @@ class RemeshedGear:
     """Stiffness of a gear on the flank nodes of each position; `timings` (s): sums over all positions so far."""
 
     def __init__(self, gear: Gear, material: Material, element: Element, sizes: ElementSizes):
-        self.gear, self.material, self.element, self.sizes = gear, material, element, sizes
+        self.gear = gear
+        self.material = material
+        self.element = element
+        self.sizes = sizes
         self.timings = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
         self._unloaded = self._sector(None, NO_NODES)
         self._cut = len(self._unloaded) // 2
@@ -73,7 +76,8 @@ class RemeshedGear:
         if self.element.order == 1:
             return vertices
         points = np.empty((2 * len(vertices) - 1, 2))
-        points[::2], points[1::2] = vertices, 0.5 * (vertices[1:] + vertices[:-1])
+        points[::2] = vertices
+        points[1::2] = 0.5 * (vertices[1:] + vertices[:-1])
         return points
 
     def _loaded(self, tooth: LoadedTooth) -> np.ndarray:
@@ -96,7 +100,8 @@ class RemeshedGear:
         meshed = perf_counter()
         sector = condensed_sector(mesh, self.element, self.material.poissons_ratio, points)
         cuts, turn = sector_cuts(sector, self.gear.teeth)
-        dofs, turn = np.concatenate([cuts, sector.dofs("flank")]), block_diag(turn, np.eye(2 * len(points)))
+        dofs = np.concatenate([cuts, sector.dofs("flank")])
+        turn = block_diag(turn, np.eye(2 * len(points)))
         result = turn.T @ sector.stiffness[np.ix_(dofs, dofs)] @ turn
         compiling = sector.timings["time_compile"]
         self.timings["time_mesh"] += meshed - clock

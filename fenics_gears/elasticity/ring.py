@@ -37,7 +37,8 @@ def condensed_sector(
 
 def check_congruent(lower: np.ndarray, upper: np.ndarray, teeth: int) -> None:
     """Raise ComputationError unless the upper cut's nodes (k, 2) or (k, 3) are the lower cut's turned by one pitch."""
-    turn, slack = rotation(2.0 * np.pi / teeth, lower.shape[1]), 1e-9 * np.abs(lower).max()
+    turn = rotation(2.0 * np.pi / teeth, lower.shape[1])
+    slack = 1e-9 * np.abs(lower).max()
     if lower.shape != upper.shape or np.abs(lower @ turn.T - upper).max() > slack:
         raise ComputationError("ring of sectors: the two radial cuts of the sector do not match node for node")
 
@@ -77,7 +78,8 @@ def sector_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarr
     """Dofs (2 c,) of a sector's lower and upper cut, and what turns them (2 c, 2 c): the upper cut's are in the
     frame of the next sector. Raises ComputationError for cuts that are not congruent."""
     check_congruent(sector.points["lower"], sector.points["upper"], teeth)
-    lower, upper = sector.dofs("lower"), sector.dofs("upper")
+    lower = sector.dofs("lower")
+    upper = sector.dofs("upper")
     turn = block_diag(np.eye(len(lower)), turned_nodes(teeth, len(sector.points["upper"])))
     return np.concatenate([lower, upper]), turn
 
@@ -140,7 +142,7 @@ def harmonic_of(number: int, teeth: int) -> tuple[float, float]:
 
 def ring_work(link: np.ndarray, teeth: int, reach: int, responding: np.ndarray, loaded: np.ndarray) -> np.ndarray:
     """Reciprocal work (2 reach + 1, k, j) in a ring of forces (2 c, k) on the cuts of the sector m pitches ahead, m
-    from -reach to reach, and of forces (2 c, j) on those of a sector; `link`: a sector between its cuts. By harmonics,
+    from -reach to reach, and of forces (2 c, j) on those of a sector. `link`: a sector between its cuts. By harmonics,
     whose inverses need not be made: with ``U^H U`` the stiffness of one, its forces f enter by ``U^-H f``."""
     same, ahead = cyclic(link)
     offsets = np.arange(-reach, reach + 1)
@@ -192,7 +194,8 @@ def centre_motion(points: np.ndarray) -> np.ndarray:
     """Displacement (2n, 3) of points (n, 2) per unit rigid motion (dx, dy, phi) of the gear."""
     motion = np.empty((len(points), 2, 3))
     motion[:, :, :2] = np.eye(2)
-    motion[:, 0, 2], motion[:, 1, 2] = -points[:, 1], points[:, 0]
+    motion[:, 0, 2] = -points[:, 1]
+    motion[:, 1, 2] = points[:, 0]
     return motion.reshape(-1, 3)
 
 

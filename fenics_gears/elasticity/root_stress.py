@@ -9,13 +9,13 @@ plane strain corrects it.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 
 from .cache import Cache, kept
 from .gear_compliance import similar_inputs
+from .slice_averages import slice_averages
 
 # Right-hand sides in memory at once.
 COLUMNS = 64
@@ -64,9 +64,6 @@ def root_stress_rows(
     inputs |= {"reach": reach, "both flanks": coast_flank}
     averages = np.ones((1, 1))
     if over_face:
-        # Imported here: plane scenes have none.
-        from .slice_averages import slice_averages
-
         averages = slice_averages(gear.module * discretisation.in_modules_of(gear).sweep.heights, 2, *slices)
 
     def compute() -> tuple[dict, dict]:
@@ -82,48 +79,7 @@ def _computed(
     gear: Gear, discretisation, poissons_ratio: float, averages: np.ndarray, reach: int, coast_flank: bool
 ) -> dict[str, np.ndarray]:
     """Rows for lengths in modules, and the points' angles."""
-    # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
-    from .fillet_points import POINTS, POINTS_OVER_FACE, fillet_curve, fillet_rows
-    from .recovery import gear_recovery
+    # A run whose gears are all in the cache needs neither gmsh nor DOLFINx.
+    from .computed_root_stress import computed_rows
 
-    over_face = averages.shape[1] > 1
-    curve = fillet_curve(gear.of_module_one, POINTS_OVER_FACE if over_face else POINTS)
-    with gear_recovery(gear, Material(1.0, poissons_ratio), discretisation, coast_flank) as recovery:
-        stress = fillet_rows(recovery, curve, averages)
-        flanks = _slice_loads(recovery.sector, averages, coast_flank)
-        at_flanks, from_points = _moved(recovery.sector, stress.T.tocsc(), flanks)
-        _, from_flanks = _moved(recovery.sector, flanks.tocsc(), flanks[:, :0])
-        rows = recovery.between_teeth(from_points, from_flanks, reach)
-    rows[reach] += at_flanks.T
-    rows = rows.reshape(len(rows), len(averages), 2 * len(curve.length), -1)
-    if over_face:
-        from .face.fine_fillet import fine_over_swept
-
-        sizes = discretisation.in_modules_of(gear).sizes
-        rows *= fine_over_swept(gear.of_module_one, sizes, poissons_ratio, curve)[:, None]
-    rows[:, :, np.tile(~np.isfinite(curve.length), 2)] = np.nan
-    return {"unit_rows": rows, "tangent_angle": curve.tangent_angle}
-
-
-def _slice_loads(sector, averages: np.ndarray, coast_flank: bool) -> sparse.csr_matrix:
-    """Loads (dofs, d) of unit forces on the nodes of the flanks in the slices."""
-    parts, components = [], sector.components
-    for side in ("flank", "coast") if coast_flank else ("flank",):
-        at = sector.flank_nodes(side).reshape(averages.shape[1], -1)
-        spread = sparse.kron(averages.T, sparse.eye(components * at.shape[1]), format="csr")
-        dofs = (components * at[:, :, None] + np.arange(components)).ravel()
-        placed = (np.ones(len(dofs)), (dofs, np.arange(len(dofs))))
-        parts.append(sparse.csr_matrix(placed, shape=(components * sector.nodes, len(dofs))) @ spread)
-    return sparse.hstack(parts, format="csr")
-
-
-def _moved(sector, loads: sparse.csc_matrix, averaged: sparse.csr_matrix) -> tuple[np.ndarray, np.ndarray]:
-    """Of loads (dofs, k) on a sector with free cuts: the displacement (d, k) on average over `averaged` (dofs, d), and
-    that of the cuts (2 c, k)."""
-    found, at_cuts, columns = np.empty((averaged.shape[1], loads.shape[1])), [], averaged.T.tocsr()
-    for first in range(0, loads.shape[1], COLUMNS):
-        part = slice(first, first + COLUMNS)
-        moved = sector.free_motion(loads[:, part].toarray())
-        found[:, part] = columns @ moved
-        at_cuts.append(sector.at_cuts(moved))
-    return found, np.hstack(at_cuts)
+    return computed_rows(gear, discretisation, poissons_ratio, averages, reach, coast_flank)

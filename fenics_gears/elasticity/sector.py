@@ -7,6 +7,7 @@ from .condensation import by_radius, dofs_of
 from .element_nodes import ElementNodes, element_nodes
 from .elements import Element
 from .face.layers import Sweep, swept_nodes
+from .face.swept_stiffness import SectionForms, swept_stiffness
 from .mesh_data import BodyMesh
 from .mumps import Factor
 from .stiffness import assembled, compile_ahead, displacement_space, nodes_at, stiffness_matrix
@@ -30,14 +31,17 @@ class Sector:
         sweep: Sweep | None = None,
         there: np.ndarray | None = None,
     ):
-        self.mesh, self.section, self.sweep = mesh, section, sweep
+        self.mesh = mesh
+        self.section = section
+        self.sweep = sweep
         self.components, self.heights = (2, np.zeros(1)) if sweep is None else (3, sweep.heights)
         self.hub = self._swept("hub")
         self.cuts = tuple(self._swept(f"{name} cut") for name in ("lower", "upper"))
         moves = np.ones(self.nodes, dtype=bool) if there is None else there.copy()
         moves[self.hub] = False
         free = np.repeat(moves, self.components)
-        self._free, number = np.flatnonzero(free), np.cumsum(free) - 1
+        self._free = np.flatnonzero(free)
+        number = np.cumsum(free) - 1
         self.lower, self.upper = (cut[moves[cut]] for cut in self.cuts)
         self._between = dofs_of(np.concatenate([self.lower, self.upper]), self.components)
         self._factor = Factor(stiffness[free][:, free], "a tooth sector for its stresses", number[self._between])
@@ -92,7 +96,8 @@ class Sector:
 def plane_sector(mesh: BodyMesh, element: Element, poissons_ratio: float) -> Sector:
     """A sector in plane strain."""
     compile_ahead(element)
-    space, nodes = displacement_space(mesh, element), element_nodes(mesh, element)
+    space = displacement_space(mesh, element)
+    nodes = element_nodes(mesh, element)
     stiffness = assembled(stiffness_matrix(space, element, poissons_ratio, mesh.web))
     order = dofs_of(nodes_at(space, nodes.points))
     return Sector(mesh, nodes, stiffness[order][:, order])
@@ -100,8 +105,5 @@ def plane_sector(mesh: BodyMesh, element: Element, poissons_ratio: float) -> Sec
 
 def swept_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float) -> Sector:
     """A sector in three dimensions."""
-    # Imported here: plane gears have none.
-    from .face.swept_stiffness import SectionForms, swept_stiffness
-
     forms = SectionForms(mesh, poissons_ratio, sweep.web)
     return Sector(mesh, forms.nodes, swept_stiffness(forms, sweep), sweep, forms.material(sweep).ravel())

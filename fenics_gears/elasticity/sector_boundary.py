@@ -16,7 +16,10 @@ CURVE_SAMPLES = 400
 BODY_REACH = 2.0
 # Size of flank elements, in the flank's, at its own sharp edge and where the mate's edge presses; beyond, it grows by
 # so much per distance. The pressure rises towards an edge as the power -1/2 to -1/3 of the distance.
-AT_TIP, AT_MATE_TIP, EDGE_GROWTH, EDGE_SAMPLES = 0.125, 0.25, 0.5, 20001
+AT_TIP = 0.125
+AT_MATE_TIP = 0.25
+EDGE_GROWTH = 0.5
+EDGE_SAMPLES = 20001
 # A prescribed vertex this near to an end of the flank (in element sizes) is that end.
 SNAP = 1e-6
 
@@ -65,7 +68,8 @@ def flank_through(gear: Gear, size: float, prescribed: np.ndarray) -> np.ndarray
     (mm) apart. The number of elements is even, unless the prescribed vertices span the whole flank."""
     form, tip = arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle]))
     inner = np.sort(arc_length(gear.base_radius, prescribed))
-    inner[inner < form + SNAP * size], inner[inner > tip - SNAP * size] = form, tip
+    inner[inner < form + SNAP * size] = form
+    inner[inner > tip - SNAP * size] = tip
     beyond = np.array([inner[0] - form, tip - inner[-1]])
     elements = np.ceil(beyond / size - 1e-9).astype(int)
     if (elements.sum() + len(inner) - 1) % 2 and elements.any():
@@ -127,7 +131,8 @@ def _size_field(gear, sizes, outline, flank, root, coast, hub) -> SizeField:
     hub_size = gear.bore_radius * min(gear.angular_pitch, sizes.hub_angle)
     largest = 0.5 * (gear.root_radius - gear.bore_radius)
     body, fillet, coast_size = (min(size, largest) for size in (sizes.body, sizes.fillet, sizes.coast))
-    roots, sides = np.vstack([root, outline.coast(root)]), (flank, coast) if sizes.both_flanks else (flank,)
+    roots = np.vstack([root, outline.coast(root)])
+    sides = (flank, coast) if sizes.both_flanks else (flank,)
 
     def working(curves, part: float = 1.0) -> SizeSource:
         size = part * sizes.flank
@@ -154,7 +159,8 @@ def _size_field(gear, sizes, outline, flank, root, coast, hub) -> SizeField:
 def _near_edges(gear: Gear, side: np.ndarray, mate_tip: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
     """The points of a flank (n, 2) on which the mate's tip may press, its ends among them, and the flank's tip (1,
     2)."""
-    radii, (lowest, highest) = np.linalg.norm(side, axis=1), gear.base_radius * np.hypot(1.0, mate_tip)
+    radii = np.linalg.norm(side, axis=1)
+    lowest, highest = gear.base_radius * np.hypot(1.0, mate_tip)
     inside = np.flatnonzero((radii > lowest) & (radii < highest))
     return side[max(inside[0] - 1, 0) : inside[-1] + 2], side[[np.argmax(radii)]]
 
@@ -181,7 +187,8 @@ def _arc(radius: float, start, end) -> np.ndarray:
     turn = np.angle(complex(*end) / complex(*start))
     angles = np.angle(complex(*start)) + np.linspace(0.0, turn, CURVE_SAMPLES)
     arc = radius * _directions(angles)
-    arc[0], arc[-1] = start, end
+    arc[0] = start
+    arc[-1] = end
     return arc
 
 
@@ -199,7 +206,9 @@ def _directions(angles) -> np.ndarray:
 
 
 def _joined(pieces: dict[str, np.ndarray]) -> SectorBoundary:
-    parts, points, first = {}, [], 0
+    parts = {}
+    points = []
+    first = 0
     for name, piece in pieces.items():
         points.append(piece[:-1])
         parts[name] = (first, first + len(piece) - 1)

@@ -13,7 +13,9 @@ from .mesh_data import BodyMesh, oriented, split_to_quadrilaterals
 from .sector_boundary import SectorBoundary, sector_boundary
 
 NAMED_PARTS = ("flank", "coast", "hub", "lower cut", "upper cut")
-TRIANGLE, QUADRILATERAL = 2, 3  # gmsh's numbers of cell types
+# gmsh's numbers of cell types
+TRIANGLE = 2
+QUADRILATERAL = 3
 # Outlines that differ in their last bit get different meshes from gmsh, and their compliances differ by up to 1 %.
 # Outlines are rounded to so many decimals (modules): far coarser than round-off, far finer than any element.
 DECIMALS = 9

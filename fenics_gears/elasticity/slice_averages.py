@@ -25,7 +25,8 @@ def slice_averages(heights: np.ndarray, order: int, positions: np.ndarray, width
         return np.ones((len(positions), 1))
     ends = heights[::order]
     slack = 1e-9 * (ends[-1] - ends[0])
-    low, high = positions - 0.5 * widths, positions + 0.5 * widths
+    low = positions - 0.5 * widths
+    high = positions + 0.5 * widths
     if low.min() < ends[0] - slack or high.max() > ends[-1] + slack:
         raise ValueError(
             f"slices from {low.min():g} to {high.max():g} mm reach beyond the layers, {ends[0]:g} to {ends[-1]:g} mm"
@@ -33,7 +34,8 @@ def slice_averages(heights: np.ndarray, order: int, positions: np.ndarray, width
     weights = np.zeros((len(positions), len(heights)))
     for number, (start, end, width) in enumerate(zip(low, high, widths)):
         for layer in range(len(ends) - 1):
-            bottom, top = max(start, ends[layer]), min(end, ends[layer + 1])
+            bottom = max(start, ends[layer])
+            top = min(end, ends[layer + 1])
             if top <= bottom:
                 continue
             points = 0.5 * (top + bottom) + 0.5 * (top - bottom) * GAUSS_POINTS
@@ -52,7 +54,8 @@ def oblique_averages(
     The line through the flank node at `rolls` (n,), rad, in the middle of a slice rises along the profile by `rise` rad
     per mm along the face. Beyond the flank's ends it stays there.
     """
-    found, places = 0.0, _pieces(rise)
+    found = 0.0
+    places = _pieces(rise)
     for place in places:
         along = slice_averages(heights, 2, positions + place * widths, widths / len(places))
         for width in np.unique(widths):
@@ -63,7 +66,7 @@ def oblique_averages(
 
 def oblique_sections(blocks: np.ndarray, rolls: np.ndarray, rises: Sequence[float], width: float) -> np.ndarray:
     """Compliance blocks (k, d, d) of a section in plane strain, x and y of the nodes of one flank after the other, as
-    the averages of `oblique_averages` over a slice of a `width` (mm) see a load that goes on along its line; `rises`:
+    the averages of `oblique_averages` over a slice of a `width` (mm) see a load that goes on along its line. `rises`:
     of each flank."""
     places = _pieces(any(rises))
     found = np.zeros_like(blocks)

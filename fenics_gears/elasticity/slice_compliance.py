@@ -19,16 +19,20 @@ class SliceCompliance:
     """Compliance between flank nodes in sections, each a flank in a slice: `values` (2 k - 1, F S, F S, n, n, 9), mm/N,
     of every tooth from k - 1 behind to k - 1 ahead, by components of either node; zero where nobody asked.
 
-    `blocks` (k, D, D): of teeth on the nodes of layers, dofs by flank, then height, node, x, y, z; `averages`: of each
-    flank (S n, h n), of `slice_averages.oblique_averages`; `additions`: to what these give.
+    `blocks` (k, D, D): of teeth on the nodes of layers, dofs by flank, then height, node, x, y, z. `averages`: of each
+    flank (S n, h n), of `slice_averages.oblique_averages`. `additions`: to what these give.
     """
 
     def __init__(
         self, blocks: np.ndarray, averages: Sequence[sparse.csr_matrix], slices: int, additions: Sequence[Addition] = ()
     ):
-        flanks, nodes, size = len(averages), averages[0].shape[1], averages[0].shape[0] // slices
-        self._blocks, self._additions = blocks.reshape(len(blocks), flanks, nodes, 3, flanks, 3 * nodes), additions
-        self._slices, shape = slices, (2 * len(blocks) - 1, flanks * slices, flanks * slices)
+        flanks = len(averages)
+        nodes = averages[0].shape[1]
+        size = averages[0].shape[0] // slices
+        self._blocks = blocks.reshape(len(blocks), flanks, nodes, 3, flanks, 3 * nodes)
+        self._additions = additions
+        self._slices = slices
+        shape = (2 * len(blocks) - 1, flanks * slices, flanks * slices)
         self._there = np.zeros(shape, dtype=bool)
         self.values = pages(int(np.prod(shape)), 9 * size**2).reshape(*shape, size, size, 9)
         sections = (flank[size * number : size * (number + 1)] for flank in averages for number in range(slices))
@@ -46,7 +50,9 @@ class SliceCompliance:
 
     def _put(self, ahead: int, section: int, others: list[int]) -> None:
         """Put values of one section under forces on others, and the other way round, into place."""
-        number, (nodes, weights), size = len(self.values) // 2, self._seen[section], self.values.shape[3]
+        number = len(self.values) // 2
+        nodes, weights = self._seen[section]
+        size = self.values.shape[3]
         for flank, loaded in groupby(others, lambda other: other // self._slices):
             of_layers = self._blocks[ahead, section // self._slices, nodes, :, flank]
             displaced = (weights @ of_layers.reshape(weights.shape[1], -1)).reshape(3 * size, -1, 3)
@@ -72,7 +78,7 @@ def along_normals(
     averages: sparse.csr_matrix, compliance: sparse.csr_matrix, normals: np.ndarray, first: int
 ) -> Addition:
     """Adds, to a tooth under its own load, a compliance (H n, H n) of one of its flanks along `normals` (n, 3), as
-    averages (S n, H n) of slices see it; `first`: section of the flank."""
+    averages (S n, H n) of slices see it. `first`: section of the flank."""
     nodes = len(normals)
     entries = (averages @ compliance @ averages.T).tobsr((nodes, nodes))
     rows = np.repeat(np.arange(len(entries.indptr) - 1), np.diff(entries.indptr))

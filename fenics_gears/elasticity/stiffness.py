@@ -13,6 +13,7 @@ from fenics_gears.geometry.gear_data import Web
 from . import dolfinx_adapter as adapter
 from .element_nodes import numbers_at
 from .elements import Element
+from .incompatible_modes import condensed_stiffness
 from .mesh_data import BodyMesh
 
 WEB_QUADRATURE = 8
@@ -37,8 +38,6 @@ def stiffness_matrix(space, element: Element, poissons_ratio: float, web: Web | 
     A web less wide than the face is in plane strain too, and stiff by its share of the face width.
     """
     if element.incompatible_modes:
-        from .incompatible_modes import condensed_stiffness
-
         poisson = adapter.constant(space.mesh, poissons_ratio)
         return condensed_stiffness(
             space, lambda strain: _of_width(web, space.mesh, stress_of_strain(strain, poisson)), _cells(element, web)
@@ -48,7 +47,8 @@ def stiffness_matrix(space, element: Element, poissons_ratio: float, web: Web | 
 
 def stiffness_form(space, element: Element, poissons_ratio: float, web: Web | None = None):
     """Compiled bilinear form of the strain energy of a displacement alone, without modes within the cells."""
-    trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
+    trial = ufl.TrialFunction(space)
+    test = ufl.TestFunction(space)
     poisson = adapter.constant(space.mesh, poissons_ratio)
     return adapter.compile_form(
         ufl.inner(_of_width(web, space.mesh, stress(trial, poisson)), ufl.sym(ufl.grad(test))) * _cells(element, web)
@@ -102,7 +102,8 @@ def nodes_in_cells(space, coordinates: np.ndarray, centres: np.ndarray) -> np.nd
     in one place. Raises ComputationError where there is no such cell or node."""
     if not len(coordinates):
         return np.empty(0, dtype=np.int64)
-    nodes, cells = adapter.node_coordinates(space), adapter.cell_nodes(space)
+    nodes = adapter.node_coordinates(space)
+    cells = adapter.cell_nodes(space)
     tolerance = 1e-9 * np.abs(nodes).max()
     distance, cell = cKDTree(nodes[cells].mean(axis=1)).query(centres)
     apart = np.linalg.norm(nodes[cells[cell]] - coordinates[:, None], axis=-1)

@@ -74,10 +74,10 @@ def misalignment_opening(
     T1) of the contact. `slope`: of the lines of contact, the pair's unless given.
 
     The wheel turns by small angles, the scene's amounts over the common face width, about the pitch point in the middle
-    of the common face: about another point, all gaps of a helical pair would open or close alike besides, which only
-    turns the wheel. The point of contact, (position - pitch point, 0, z) from there, moves along the contact normal (c,
-    0, -c tau) by c (z + tau (position - pitch point)) for an angle of 1 in the plane of action, and by nothing for an
-    angle out of it. Terms of second order are left out.
+    of the common face. About another point all gaps of a helical pair would also open or close alike, which only turns
+    the wheel. The point of contact, (position - pitch point, 0, z) from there, moves along the contact normal (c, 0, -c
+    tau) by c (z + tau (position - pitch point)) for an angle of 1 in the plane of action, and by nothing for an angle
+    out of it. Terms of second order are left out.
     """
     slope = pair.slope if slope is None else slope
     leaning = slope * (np.asarray(position, dtype=float) - pair.pitch_point)

@@ -16,11 +16,14 @@ from .gear_checks import Impossible, check_gear
 from .gear_data import GearPairData
 from .involute import inverse_involute, involute_function
 from .pair_checks import check_pair
+from .remedies import advice
 
 WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
 # Reach, in normal modules, into a face that stands out beyond the mate: of teeth on a thin rim, what a solid body has
 # more, and the depth over which this grows; found against three dimensions (docs/third_dimension.md).
-REACH_OF_TEETH, REACH_OF_BODY, DEPTH_OF_BODY = 1.1, 1.6, 7.0
+REACH_OF_TEETH = 1.1
+REACH_OF_BODY = 1.6
+DEPTH_OF_BODY = 7.0
 
 
 @dataclass(frozen=True)
@@ -93,10 +96,11 @@ class GearPair:
 
     @property
     def effective_face_widths(self) -> tuple[float, float]:
-        """Width (mm) of pinion and wheel that counts in the plane: the common one, and of an overhang o at either end
-        as much as helps to carry, r (1 - exp(-o/r)), with a reach r that grows with the depth of the gear's body.
+        """Width (mm) of pinion and wheel that counts in the plane. It is the common one and, of an overhang o at either
+        end, as much as helps to carry: r (1 - exp(-o/r)), with a reach r that grows with the depth of the gear's body.
         """
-        module, found = self.pinion.normal_module, []
+        module = self.pinion.normal_module
+        found = []
         for gear, overhangs in zip((self.pinion, self.wheel), self.overhangs):
             reach = module * (REACH_OF_TEETH + REACH_OF_BODY * (1.0 - exp(-gear.body_depth / (DEPTH_OF_BODY * module))))
             found.append(self.face_width + sum(reach * (1.0 - exp(-each / reach)) for each in overhangs))
@@ -164,13 +168,15 @@ class GearPair:
     @cached_property
     def path_start(self) -> float:
         """Position (mm) where contact begins: at the wheel's tip, or later, at an undercut pinion's form circle."""
-        tip, pinion = self.tip_positions[0], self.pinion
+        tip = self.tip_positions[0]
+        pinion = self.pinion
         return max(tip, pinion.base_radius * pinion.form_roll_angle) if pinion.undercut else tip
 
     @cached_property
     def path_end(self) -> float:
         """Position (mm) where contact ends: at the pinion's tip, or earlier, at an undercut wheel's form circle."""
-        tip, wheel = self.tip_positions[1], self.wheel
+        tip = self.tip_positions[1]
+        wheel = self.wheel
         return (
             min(tip, self.line_of_action_length - wheel.base_radius * wheel.form_roll_angle) if wheel.undercut else tip
         )
@@ -247,7 +253,8 @@ class GearPair:
     @property
     def tip_clearances(self) -> tuple[float, float]:
         """Distances (mm) from the tip circles of pinion and wheel to the mate's root circle."""
-        pinion, wheel = self.pinion, self.wheel
+        pinion = self.pinion
+        wheel = self.wheel
         return (
             self.centre_distance - pinion.tip_radius - wheel.root_radius,
             self.centre_distance - wheel.tip_radius - pinion.root_radius,
@@ -267,9 +274,6 @@ def gear_pair(data: GearPairData) -> GearPair:
     try:
         return _built(data)
     except Impossible as problem:
-        # Imported here: gears that run need no advice.
-        from .remedies import advice
-
         raise GeometryError(f"{problem}{advice(data, problem.remedies, _built)}") from None
 
 

@@ -1,6 +1,6 @@
 """Sliding of the flanks along the path of contact, from the rigid pair's nominal motion (ISO 21771, Niemann/Winter).
 
-At xi (mm, any shape) from T1 the flanks' radii of curvature are rho1 = xi and rho2 = T1T2 - xi, and their points move
+At xi (mm, any shape) from T1 the flanks' radii of curvature are rho1 = xi and rho2 = T1T2 - xi. Their points move
 across the line of action with omega1 rho1 and omega2 rho2.
 """
 

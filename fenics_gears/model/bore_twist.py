@@ -15,8 +15,8 @@ from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, Scene
 
 
 def bore_twist_stiffness(scene: Scene, pair: GearPair) -> float:
-    """Stiffness (N/mm), about, along the line of action of both bodies that twist between their roots and the bores
-    where they are held; infinite where none does, as on shafts that bend or with given meshes."""
+    """Approximate stiffness (N/mm) along the line of action of both bodies, which twist between their roots and the
+    bores where they are held. Infinite where none twists, as on shafts that bend or with given meshes."""
     if scene.tooth_elasticity is None or scene.accuracy.model in (ISO_6336, RIGID_TEETH):
         return inf
     flexibility = 0.0

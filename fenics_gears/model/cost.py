@@ -6,22 +6,28 @@ measured.
 """
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from math import lcm
 
-import numpy as np
-
-from fenics_gears.contact.face import Face
-from fenics_gears.contact.places import face_places
-from fenics_gears.contact.tooth_pair import contact_rolls_of
-from fenics_gears.contact.window import ends_of, offsets_of
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.sector_boundary import flank_roll_angles
 from fenics_gears.inputs.tree import GEARS
 
+from .cost_parts import (
+    BYTES_OF_A_NUMBER,
+    CONDENSING_PROGRAM,
+    NUMBERS_OF_A_NODE,
+    ON_FLANKS,
+    PAIR_ON_FLANKS,
+    PROGRAM,
+    Contact,
+    ExpectedCost,
+    contact_of,
+    meshed_unknowns,
+    operator_bytes,
+    root_stress_cost,
+)
+from .face_cost import face_cost
 from .model import Model
 from .resolution import EVERY_STEP
-from .storage import fillet_points
 
 # Unknowns of a sector mesh: a body part and one part per flank node; fitted to meshes from 0.16 to 0.01 mm of the
 # paper's pair.
@@ -30,103 +36,36 @@ SECTOR_UNKNOWNS["Q1 incompatible"] = SECTOR_UNKNOWNS["Q1"]
 # Seconds of meshing and condensing: an unknown (elements of first order are more, and longer to mesh) or one of
 # a mesh that is given, a gear, the cube of a flank's dofs (a dense inverse), their square for each block of compliance.
 MESHED_UNKNOWN = {"P1": 3.4e-5, "P2": 1.2e-5, "Q1": 2.2e-5, "Q1 incompatible": 2.8e-5, "Q2": 1.1e-5}
-GIVEN_UNKNOWN, GEAR, FLANK_CUBE, FLANK_SQUARE = 5e-6, 0.04, 7e-11, 2.8e-8
+GIVEN_UNKNOWN = 5e-6
+GEAR = 0.04
+FLANK_CUBE = 7e-11
+FLANK_SQUARE = 2.8e-8
 # Two inverses of symmetric matrices by Cholesky, in those of a general one.
 BOTH_FLANKS_INVERSES = 0.75
 # Seconds of marching: at a position each pair of flanks and the square of contact rows, a step and each of its rows.
-PAIR, ROWS_SQUARE, STEP, ROW = 2.5e-4, 8e-8, 8e-6, 1e-6
+PAIR = 2.5e-4
+ROWS_SQUARE = 8e-8
+STEP = 8e-6
+ROW = 1e-6
 # Seconds that an effect adds to a step: gaps that differ, a torque that varies, openings of both flanks, time steps of
 # unequal length.
 STEP_OF_EFFECT = {
     "flank_errors": 4e-5, "eccentricity": 2e-5, "torque_ripple": 1e-5, "coast_flanks": 5e-6, "speed_ramp": 1e-5,
 }  # fmt: skip
-# Mesh cycles that are unlike where a gear is meshed as a whole: those in which a cracked tooth or its neighbours are in
-# mesh (measured).
-UNLIKE_CYCLES = 5
 # For the reference route, seconds: an unknown of a remeshed sector, a step, the cube of its contact rows; matrices of a
 # position.
-REMESHED_UNKNOWN, REMESHED_STEP, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 4e-4, 1.5e-10, 7.0
-# Of root stress, seconds: an unknown, and one for each column solved, a step for each stress of a tooth per force on
-# one (measured; several loaded teeth), each pair of flanks at a position. Bytes for each contact row of a position:
-# what its force is on the flank nodes of both gears (measured).
-UNKNOWN, SOLVED_UNKNOWN, STEP_STRESS, PAIR_ON_FLANKS, ON_FLANKS = 1.2e-5, 1.4e-7, 5e-9, 5e-4, 450.0
-# Bytes: the program with its libraries; the same with those that mesh and condense; one number.
-PROGRAM, CONDENSING_PROGRAM, BYTES_OF_A_NUMBER = 230e6, 335e6, 8.0
-# What a result needs to know of a contact node at a position, numbers, and their copies side by side; with what its
-# place on the flanks takes (measured).
-NUMBERS_OF_A_NODE = 80
+REMESHED_UNKNOWN = 1.2e-5
+REMESHED_STEP = 4e-4
+ROW_CUBE = 1.5e-10
+MATRICES_OF_A_POSITION = 7.0
 # Matrices of a flank's size that are held while its teeth are joined (measured).
 MATRICES_OF_A_FLANK = 6.0
 
 
-@dataclass(frozen=True)
-class ExpectedCost:
-    """Seconds of condensing (None where nothing is condensed) and of marching, of which `building` make the contact
-    operators; unknowns (words, number) of the gears; how bodies over the face are condensed (words, way).
-
-    Bytes: `memory` of all, of which `operators` need not be kept: they are made again each time the mesh cycle comes
-    round.
-    """
-
-    condensing: float | None
-    marching: float
-    memory: float
-    operators: float = 0.0
-    unknowns: tuple[tuple[str, float], ...] = ()
-    ways: tuple[tuple[str, str], ...] = ()
-    building: float = 0.0
-
-    @property
-    def held(self) -> float:
-        """Bytes that a run takes at least."""
-        return self.memory - self.operators
-
-
-@dataclass(frozen=True)
-class Contact:
-    """Contact of a run: `positions` with operators of their own; at one of them, on the average over the mesh cycle,
-    `pairs` of flanks (in each slice of a face), their contact `nodes`, and the square of these."""
-
-    positions: int
-    pairs: float
-    nodes: float
-    squares: float
-
-
-def contact_of(model: Model) -> Contact:
-    """Counted at a few phases, as flanks end within their windows."""
-    face, coast = model.face, model.scene.coast_flanks is not None
-    along = tuple(face.positions.tolist()), tuple(face.widths.tolist()), face.slope
-    return Contact(_positions(model), *_counted(model.pair, model.resolution.contact_grid, along, coast, model.corner))
-
-
-# At how many phases of the mesh cycle contact nodes are counted.
-PHASES = 4
-
-
-# The designs of a search have the same; to count them takes as long as three steps.
-@lru_cache(maxsize=64)
-def _counted(pair, grid, along, coast, corner) -> tuple[float, float, float]:
-    positions, widths, slope = along
-    face, counts = Face(np.array(positions), np.array(widths), slope), []
-    for phase in range(PHASES):
-        places = face_places(pair, grid, face, (phase + 0.5) / PHASES, coast, corner)
-        ends = ends_of(pair, contact_rolls_of(places))
-        counts.append((len(places), len(offsets_of(ends, grid)[0])))
-    pairs, nodes = np.mean(counts, axis=0)
-    return float(pairs), float(nodes), float(np.mean([own**2 for _, own in counts]))
-
-
-def operator_bytes(model: Model, contact: Contact) -> float:
-    """Of the contact operators: between normal forces, or with friction between forces of both kinds and those of the
-    step before."""
-    kinds = 6.0 if model.scene.friction is not None else 1.0
-    return BYTES_OF_A_NUMBER * contact.positions * contact.squares * kinds
-
-
 def flank_unknowns(model: Model, name: str) -> int:
     """Displacements of the nodes of a gear's flank."""
-    resolution, gear = model.resolution, getattr(model.pair, name)
+    resolution = model.resolution
+    gear = getattr(model.pair, name)
     tip = resolution.mate_tips[GEARS.index(name)]
     elements = len(flank_roll_angles(gear, resolution.flank_element_size, tip)) - 1
     return 2 * (resolution.order * elements + 1)
@@ -139,7 +78,8 @@ def expected_cost(model: Model) -> ExpectedCost:
     >>> expected_cost(model_of(load_scene("demos/lundvall2004.toml"))).marching < 60.0  # s
     True
     """
-    resolution, scene = model.resolution, model.scene
+    resolution = model.resolution
+    scene = model.scene
     if scene.tooth_elasticity is None or resolution.element not in SECTOR_UNKNOWNS:
         contact = contact_of(model)
         held = PROGRAM + model.stored_bytes + BYTES_OF_A_NUMBER * NUMBERS_OF_A_NODE * contact.positions * contact.nodes
@@ -150,12 +90,16 @@ def expected_cost(model: Model) -> ExpectedCost:
     sections = _sections(model, gears)
     if model.face.slices == 1:
         return _with_root_stress(model, gears, sections)
-    from .face_cost import face_cost
-
     # Of teeth ahead and behind, between all flanks.
-    reach, flanks = 2 * model.touching.reach.farthest + 1, 2 if scene.coast_flanks is not None else 1
+    reach = 2 * model.touching.reach.farthest + 1
+    flanks = 2 if scene.coast_flanks is not None else 1
     read = sum(reach * (flanks * gear.flank_dofs) ** 2 for gear in gears)
     return face_cost(model, sections, (_numbers(gears), read))
+
+
+# Of root stress, seconds: an unknown, and one for each column solved.
+UNKNOWN = 1.2e-5
+SOLVED_UNKNOWN = 1.4e-7
 
 
 @dataclass(frozen=True)
@@ -174,9 +118,12 @@ class _Gear:
 
 
 def _condensed(model: Model, name: str) -> _Gear:
-    resolution, reach, gear = model.resolution, model.touching.reach, getattr(model.pair, name)
+    resolution = model.resolution
+    reach = model.touching.reach
+    gear = getattr(model.pair, name)
     body, per_node = SECTOR_UNKNOWNS[resolution.element]
-    dofs, meshed = flank_unknowns(model, name), _meshed(model, name)
+    dofs = flank_unknowns(model, name)
+    meshed = meshed_unknowns(model, name)
     if meshed is not None:
         # Of all teeth, where each has a compliance of its own.
         inverses = 0.5 * BOTH_FLANKS_INVERSES * gear.teeth
@@ -185,26 +132,10 @@ def _condensed(model: Model, name: str) -> _Gear:
     if reach.across is None:
         return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, unknown, dofs, reach.same + 1, reach.same)
     # Half a symmetric sector, for motions of either symmetry.
-    half, across = 0.5 * body + per_node * 0.5 * dofs, reach.across[1] - reach.across[0] + 1
+    half = 0.5 * body + per_node * 0.5 * dofs
+    across = reach.across[1] - reach.across[0] + 1
     blocks = reach.same + 1 + across
     return _Gear(f"half a {name} sector", half, unknown, dofs, blocks, 2 * reach.same, BOTH_FLANKS_INVERSES)
-
-
-def _meshed(model: Model, name: str) -> int | None:
-    """Unknowns of a gear with a mesh of its own; None for a ring of sectors."""
-    given = model.scene.body_meshes
-    if given is None:
-        return None
-    from fenics_gears.effects.body_meshes import unknowns_of
-
-    return unknowns_of(given, model, name)
-
-
-def _positions(model: Model) -> int:
-    """Positions of the run that have contact operators of their own."""
-    teeth = [getattr(model.pair, name).teeth for name in GEARS if _meshed(model, name) is not None]
-    unlike = min(lcm(*teeth), UNLIKE_CYCLES ** len(teeth))
-    return min(unlike * model.resolution.steps_per_mesh_cycle, model.steps + 2)
 
 
 def _marching(model: Model, contact: Contact) -> float:
@@ -258,10 +189,14 @@ def _with_root_stress(model: Model, gears: list[_Gear], sections: ExpectedCost) 
     if not model.scene.output.root_stress:
         return sections
     contact = contact_of(model)
-    held, seconds, step = ON_FLANKS * contact.positions * _rows(model, contact), 0.0, 0.0
+    held = ON_FLANKS * contact.positions * _rows(model, contact)
+    seconds = 0.0
+    step = 0.0
     for gear in gears:
         own = root_stress_cost(model, gear.unknowns, (UNKNOWN, SOLVED_UNKNOWN), gear.flank_dofs)
-        seconds, held, step = seconds + own[0], held + own[1], step + own[2]
+        seconds = seconds + own[0]
+        held = held + own[1]
+        step = step + own[2]
     return replace(
         sections,
         condensing=sections.condensing + seconds,
@@ -270,21 +205,10 @@ def _with_root_stress(model: Model, gears: list[_Gear], sections: ExpectedCost) 
     )
 
 
-def root_stress_cost(
-    model: Model, unknowns: float, seconds: tuple[float, float], flank: float
-) -> tuple[float, float, float]:
-    """Of the root stress of a gear, in the plane or in slices: seconds of condensing, bytes of its rows, seconds of a
-    step. `seconds`: of an unknown, factorised and solved for once; `flank`: dofs of the flank or flanks."""
-    factorised, solved = seconds
-    points = 2.0 * (fillet_points(model.face.slices) + 1) * model.face.slices
-    teeth = 2 * model.touching.reach.farthest + (3 if model.scene.coast_flanks is not None else 1)
-    condensing = unknowns * (factorised + solved * (points + flank))
-    return condensing, BYTES_OF_A_NUMBER * teeth * points * flank, STEP_STRESS * points * flank
-
-
 def _remeshed_cost(model: Model, gears: list[_Gear]) -> ExpectedCost:
     """Of a run where every loaded sector is meshed anew at every position."""
-    resolution, pairs = model.resolution, contact_of(model).pairs
+    resolution = model.resolution
+    pairs = contact_of(model).pairs
     positions = resolution.steps_per_mesh_cycle
     rows = 2.0 * pairs * (resolution.order * (resolution.contact_grid.nodes - 1) + 1)
     return ExpectedCost(

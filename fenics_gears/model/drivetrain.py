@@ -7,10 +7,15 @@ from math import inf, isfinite, pi, sqrt
 from typing import TYPE_CHECKING
 
 from fenics_gears.dynamics.drivetrain import Drivetrain, Supports, assembled
-from fenics_gears.geometry.gear_data import rough_pair_stiffness
+from fenics_gears.dynamics.elastic_shaft_modes import vibrating
+from fenics_gears.geometry.gear_data import LumpedGear, rough_pair_stiffness
+from fenics_gears.geometry.iso_6336 import pair_stiffness, theoretical_stiffness
 from fenics_gears.geometry.pair import GearPair, gear_pair
+from fenics_gears.geometry.section import cells_section, gear_section
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import ISO_6336, Scene
+
+from .bore_twist import bore_twist_stiffness
 
 if TYPE_CHECKING:
     import numpy as np
@@ -52,16 +57,14 @@ def _elastic(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]) -> t
     shafts = tuple(shaft_at_work(scene, pair, gear) for gear in scene.shafts.sections)
     if scene.inertia is None:
         return shafts
-    from fenics_gears.dynamics.elastic_shaft_modes import vibrating
-
     up_to = 2.0 * highest_of_interest(scene, pair, gears)
     given = {gear: shaft.material.density for gear, shaft in scene.shafts.sections.items()}
     return tuple(vibrating(each, given[each.gear] or scene.inertia.of(each.gear).density, up_to) for each in shafts)
 
 
 def highest_of_interest(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]) -> float:
-    """Frequency (Hz) up to which shafts vibrate as they would with all of their modes: the highest of so many harmonics
-    of the mesh, or the resonance of both gears on it, roughly."""
+    """Frequency (Hz) up to which shafts need their own modes: that of the highest mesh harmonic of interest, or roughly
+    the resonance of both gears on the mesh, whichever is higher."""
     along = sum(getattr(pair, name).base_radius ** 2 / each.moment_of_inertia for name, each in gears.items())
     stiffness = mesh_stiffness(scene, pair)
     resonance = sqrt(stiffness * along) / (2.0 * pi) if isfinite(stiffness) else 0.0
@@ -81,10 +84,6 @@ def mesh_stiffness(scene: Scene, pair: GearPair | None = None) -> float:
     """
     if scene.tooth_elasticity is None:
         return inf
-    from fenics_gears.geometry.iso_6336 import pair_stiffness, theoretical_stiffness
-
-    from .bore_twist import bore_twist_stiffness
-
     pair = pair or gear_pair(scene.gears)
     if scene.accuracy.model == ISO_6336:
         return pair_stiffness(scene.gears, line_load(scene, pair))
@@ -106,14 +105,14 @@ def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:
     >>> lumped_gears(scene, gear_pair(scene.gears))["wheel"].moment_of_inertia  # N mm s^2
     24.5
     """
-    from fenics_gears.geometry.gear_data import LumpedGear
-
     found = {}
     for name, width in zip(GEARS, pair.face_widths):
         given = scene.inertia.of(name)
-        mass, moment = given.mass, given.moment_of_inertia
+        mass = given.mass
+        moment = given.moment_of_inertia
         if mass is None or moment is None:
-            body, per_area = _section(scene, pair, name), given.density * width
+            body = _section(scene, pair, name)
+            per_area = given.density * width
             mass = per_area * body.area if mass is None else mass
             moment = per_area * body.polar_moment if moment is None else moment
         found[name] = LumpedGear(mass, moment, width, given.tilting_moment_of_inertia)
@@ -122,11 +121,7 @@ def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:
 
 def _section(scene: Scene, pair: GearPair, name: str) -> CrossSection:
     """The gear's cross-section: that of its outline, or of its own mesh with all its holes."""
-    from fenics_gears.geometry.section import cells_section, gear_section
-
     if scene.body_meshes is None or getattr(scene.body_meshes, name) is None:
         return gear_section(getattr(pair, name))
-    from fenics_gears.effects.body_meshes import given_mesh
-
-    mesh = given_mesh(scene.body_meshes, name, pair, scene.accuracy.element or "P2")
+    mesh = scene.body_meshes.body_of(name, pair, scene.accuracy.element or "P2").mesh
     return cells_section(mesh.points, mesh.cells)

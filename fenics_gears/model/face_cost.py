@@ -7,7 +7,7 @@ from fenics_gears.elasticity.face.cost import BYTES_OF_AN_UNKNOWN, expected_cond
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.system.memory import allowed_memory
 
-from .cost import (
+from .cost_parts import (
     BYTES_OF_A_NUMBER,
     CONDENSING_PROGRAM,
     NUMBERS_OF_A_NODE,
@@ -24,15 +24,22 @@ from .model import Model
 
 # Seconds of an unknown of a body, of a held tooth's (measured of eight gears, 7.4e-5 to 1.2e-4), and of a
 # multiplication of dense matrices.
-UNKNOWN, NEAR_UNKNOWN, MULTIPLICATION = 4e-5, 9e-5, 5e-11
+UNKNOWN = 4e-5
+NEAR_UNKNOWN = 9e-5
+MULTIPLICATION = 5e-11
 # Of the root stress, an unknown, factorised and solved for one load; of the cube of a cut's dofs.
-FACTORISED_UNKNOWN, SOLVED_UNKNOWN = 6e-5, 4e-7
+FACTORISED_UNKNOWN = 6e-5
+SOLVED_UNKNOWN = 4e-7
 RECOVERED_CUT = 2.2e-9
 # For each entry of the stiffness between the cuts that stresses are recovered by.
 BYTES_OF_A_LINK = 40.0
 # Seconds of a run; at a position of each tooth pair in a slice and of the square of contact nodes, whose rows are
 # formed when they close; of a step, of their square and their cube (elimination).
-RUN, PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE, STEP_NODES_CUBE = 0.08, 2.5e-4, 9e-9, 3e-10, 2e-13
+RUN = 0.08
+PAIR_IN_SLICE = 2.5e-4
+NODES_SQUARE = 9e-9
+STEP_NODES_SQUARE = 3e-10
+STEP_NODES_CUBE = 2e-13
 # With friction, in those without.
 WITH_FRICTION = 3.0
 
@@ -45,7 +52,8 @@ def _size(model: Model, number: int):
 
 def _condensing(model: Model, number: int):
     """What it takes to condense a gear's body."""
-    gear, division = (model.pair.pinion, model.pair.wheel)[number], face_discretisation(model, number)
+    gear = (model.pair.pinion, model.pair.wheel)[number]
+    division = face_discretisation(model, number)
     both = model.scene.coast_flanks is not None
     return expected_condensing(gear, division, model.touching.reach.farthest, both)
 
@@ -62,18 +70,25 @@ def both_at_once(model: Model) -> bool:
 def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -> ExpectedCost:
     """Of the whole run, beside what its plane `sections` take; `fine`: numbers in the compliance of these, and as
     contact reads it."""
-    bodies, ways, condensing, largest = [], [], sections.condensing, 0.0
+    bodies = []
+    ways = []
+    condensing = sections.condensing
+    largest = 0.0
     recovering = 0.0
-    contact, friction = contact_of(model), model.scene.friction is not None
+    contact = contact_of(model)
+    friction = model.scene.friction is not None
     condensed = CONDENSING_PROGRAM + model.stored_bytes + BYTES_OF_A_NUMBER * fine[0]
-    pushing, stress_step = 0.0, 0.0
+    pushing = 0.0
+    stress_step = 0.0
     held = condensed + BYTES_OF_A_NUMBER * (fine[1] + NUMBERS_OF_A_NODE * contact.positions * contact.nodes)
     for number, name in enumerate(GEARS):
-        size, own = _size(model, number), _condensing(model, number)
+        size = _size(model, number)
+        own = _condensing(model, number)
         bodies.append((f"the {name}'s body", size.unknowns))
         ways.append((f"the {name}'s body", f"{own.memory / 1e9:.3g} GB"))
         condensing += UNKNOWN * size.unknowns + MULTIPLICATION * own.operations
-        gear, division = (model.pair.pinion, model.pair.wheel)[number], face_discretisation(model, number)
+        gear = (model.pair.pinion, model.pair.wheel)[number]
+        division = face_discretisation(model, number)
         condensing += NEAR_UNKNOWN * near_unknowns(gear, division, model.scene.coast_flanks is not None)
         # The flanks' compliance by heights, and by slices for teeth ahead and behind.
         on_slices = size.flanks * model.face.slices / len(face_discretisation(model, number).sweep.heights)

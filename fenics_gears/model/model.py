@@ -10,19 +10,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.contact.corner import edge_warnings
 from fenics_gears.contact.face import Face, one_slice
 from fenics_gears.contact.touching import Touching, touching
 from fenics_gears.dynamics.clock import FOLLOWING, Clock, SteadyClock, TimeScales, time_scales
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.frequencies import vibrations
+from fenics_gears.dynamics.guidance import judged_frequency, time_step_warnings
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.effects import check_files, common_period, from_effects
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.face import coast_face_opening, face_opening
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 from fenics_gears.scene.schema import WORDS
 
 from .drivetrain import drivetrain, mesh_stiffness
+from .face_resolution import check_layers, face_discretisation, face_of, face_warnings, layers_of_common_face
 from .modification import corner, removals, rim_warnings
 from .resolution import Resolution, locking_warnings, resolution_warnings, resolve
 from .storage import Arrays, counted_bytes, packed_bytes, sizes, stored_arrays
@@ -64,9 +69,7 @@ class Model:
         """Coefficient of friction, given or by a formula; 0 without friction."""
         if self.scene.friction is None:
             return 0.0
-        from fenics_gears.effects.friction import coefficient_of
-
-        return coefficient_of(self.scene.friction, self.scene, self.pair)
+        return self.scene.friction.coefficient_of(self.scene, self.pair)
 
     @property
     def equations_of_motion(self) -> EquationsOfMotion:
@@ -101,22 +104,16 @@ class Model:
     def face(self) -> Face:
         if not self.scene.three_dimensional:
             return one_slice(self.pair.face_width)
-        from .face_resolution import face_of
-
         return face_of(self.scene, self.pair)
 
     def face_opening(self, z: np.ndarray, position: np.ndarray | None = None) -> np.ndarray:
         """Gap (k,), mm, along the line of action by lead modifications and misalignment at places z (k,), mm; see
         `geometry.face`."""
-        from fenics_gears.geometry.face import face_opening
-
         return face_opening(self.pair, self.scene.lead_modifications, self.scene.misalignment, z, position)
 
     @property
     def coast_face_opening(self) -> Callable[[np.ndarray, np.ndarray], np.ndarray] | None:
         """The same between the coast flanks, along their own line of action; None where nothing opens them."""
-        from fenics_gears.geometry.face import coast_face_opening
-
         leaning = self.scene.misalignment
         return None if leaning is None else partial(coast_face_opening, self.pair, leaning)
 
@@ -125,16 +122,12 @@ class Model:
         """How many slices of one width the common face has, and layers either body in it; None of a plane scene."""
         if not self.scene.three_dimensional:
             return None, None
-        from .face_resolution import layers_of_common_face
-
         return self.face.evenly, layers_of_common_face(self.scene, self.pair)
 
     def solid_discretisation(self, gear: int) -> FaceDiscretisation | None:
         """How the body of the pinion (0) or the wheel (1) is divided over its face; None of a plane scene."""
         if not self.scene.three_dimensional:
             return None
-        from .face_resolution import face_discretisation
-
         return face_discretisation(self, gear)
 
     def transmission_error(self, position: np.ndarray) -> np.ndarray:
@@ -163,8 +156,6 @@ class Model:
         """The drivetrain's elastic modes with one tooth pair in mesh, about; empty without inertia."""
         if self.drivetrain.mass is None:
             return []
-        from fenics_gears.dynamics.frequencies import vibrations
-
         return vibrations(self.drivetrain, mesh_stiffness(self.scene, self.pair), self.scene.friction is not None)
 
     @cached_property
@@ -187,16 +178,10 @@ class Model:
         for sentences in from_effects(self.scene, "warnings", self):
             found += sentences
         if self.scene.three_dimensional:
-            from .face_resolution import face_warnings
-
             found += face_warnings(self)
         if self.corner is not None:
-            from fenics_gears.contact.corner import edge_warnings
-
             found += edge_warnings(self.pair, self.corner)
         if self.vibrations:
-            from fenics_gears.dynamics.guidance import judged_frequency, time_step_warnings
-
             steps = self.resolution.steps_per_mesh_cycle
             judged = judged_frequency(self.vibrations, self.scene.mesh_frequencies)
             found += time_step_warnings(self.vibrations, judged, steps, self.time_scales, self.time_step)
@@ -247,8 +232,6 @@ def model_of(scene: Scene) -> Model:
     model = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
     from_effects(scene, "fits", model)
     if scene.three_dimensional:
-        from .face_resolution import check_layers
-
         check_layers(model)
     cycles = scene.motion.recorded_cycles if scene.output.contact_fields and scene.resolves_contact else 0
     whole = replace(model, contact_cycles=cycles)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.contact.corner import corner_contact
 from fenics_gears.effects import from_effects
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.inputs.tree import GEARS
@@ -39,8 +40,6 @@ def corner(scene: Scene, pair: GearPair):
     GeometryError for an edge that does not fit a tip."""
     if scene.corner_contact is None:
         return None
-    from fenics_gears.contact.corner import corner_contact
-
     return corner_contact(pair, scene.corner_contact.edge_radii)
 
 
@@ -82,6 +81,7 @@ class Removals:
     def side_by_side(cls, removals: Sequence[Removals], counts: Sequence[int]) -> Removals | None:
         """One removal for roll angles of several flanks one after the other, so many of each; None where the effects
         that remove differ."""
+        # Relief is an effect's, whose fields take 6 ms to declare.
         from fenics_gears.geometry.relief import side_by_side
 
         parts = [[type(part) for part in removal.parts] for removal in removals]

@@ -2,8 +2,8 @@
 scene.
 
 Flank elements and contact nodes come from the Hertz half-width at the whole load on one tooth pair and the smallest
-relative radius on the path of contact; the contact window from the deflection that lets teeth touch off the line of
-action; the time step from the mesh cycle and the drivetrain's frequencies.
+relative radius on the path of contact. The contact window comes from the deflection that lets teeth touch off the line
+of action, the time step from the mesh cycle and the drivetrain's frequencies.
 """
 
 from collections.abc import Sequence
@@ -16,6 +16,7 @@ import numpy as np
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.geometry.gear_data import PAIR_STIFFNESS, mean_youngs_modulus
 from fenics_gears.geometry.involute import arc_length, roll_angle_at_arc_length
@@ -32,6 +33,7 @@ from fenics_gears.scene.accuracy import (
 from fenics_gears.scene.data import ISO_6336, Material, Scene
 
 from .drivetrain import line_load, mesh_stiffness
+from .face_resolution import in_steps, inner_length
 from .modification import steepest_relief
 
 DEFAULT_ELEMENT = "P2"
@@ -70,8 +72,8 @@ class Resolution:
     """All of `[accuracy]`, decided: element name, element size (mm), contact grid, steps in a mesh cycle, condensation.
 
     `half_width`: the Hertz half-width (mm) that the defaults go by; zero without load. `body_element_size` (mm):
-    largest in tooth and rim, None for the element's default; `elastic_teeth`: how far apart teeth feel each other (1:
-    not at all), None for all; `mate_tips`: roll angles (rad) of pinion and wheel between which the mate's tip edge may
+    largest in tooth and rim, None for the element's default. `elastic_teeth`: how far apart teeth feel each other (1:
+    not at all), None for all. `mate_tips`: roll angles (rad) of pinion and wheel between which the mate's tip edge may
     press.
     """
 
@@ -135,8 +137,6 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     condensation = asked.condensation or ONCE
     inner = None
     if scene.three_dimensional:
-        from .face_resolution import in_steps, inner_length
-
         modulus = plane_contact_modulus(scene)
         half_width_of = partial(hertz_half_width, relative_radius=_widest(pair), plane_modulus=modulus)
         needed = inner_length(scene, pair, load, half_width_of) + 2.0 * shift + 2.0 * spacing
@@ -213,8 +213,6 @@ def _steps_per_mesh_cycle(scene: Scene, pair: GearPair, drivetrain: Drivetrain) 
     fewest = scene.fineness.steps_per_mesh_cycle
     if drivetrain.mass is None:
         return fewest
-    from fenics_gears.dynamics.frequencies import natural_frequencies
-
     frequencies = natural_frequencies(drivetrain, mesh_stiffness(scene, pair))
     highest = frequencies[frequencies <= drivetrain.right_up_to].max(initial=0.0)
     wanted = ceil(STEPS_PER_PERIOD * highest / scene.mesh_frequencies[0])

@@ -43,8 +43,8 @@ class Searches:
     value, as far as they are known.
 
     Between the first two and the last two steps nothing is sought, nor where the curve is level at its top. A search
-    ends where no crossing of lines is higher by what is sought and on either side of the largest value the curve falls
-    by NEAR times that in small parts, so that lines are those beside the crest; or after MOST_SOLVED values.
+    ends where no crossing of lines is higher by what is sought, and the curve falls on either side of its largest value
+    by NEAR times that in small parts. It ends after MOST_SOLVED values at the latest.
     """
 
     def __init__(self, steps: np.ndarray, curves: np.ndarray, sought: np.ndarray, finest: float, corners: bool = True):
@@ -151,9 +151,9 @@ def _next(x, y, known, top, settings):
 
 @njit(cache=True)
 def _steep_neighbour(x, y, top, sought, finest):
-    """The steeper of the intervals in which the curve falls below its largest value, at the point `top`, by more than
-    NEAR times what is sought within a step of it; 0 where neither does so in itself, has a place between, or both are
-    at an end."""
+    """The steeper of the two intervals beside the largest value, at the point `top`, where the curve falls by more than
+    NEAR times what is sought within a step. 0 where neither falls so far, none has a place between, or both are at an
+    end."""
     near = NEAR * sought
     steepest = 0
     fall = -inf
@@ -222,8 +222,8 @@ def _bound(x, y):
     """How high a curve may be between the middle two of four points x, y (4,); the place that is to be solved there;
     and whether it may jump.
 
-    That is the crossing of the lines from either side; half-way where one rises into the interval and the other lies
-    far below its end, so that the curve may have jumped down anywhere.
+    That is the crossing of the lines from either side. It is half-way where one line rises into the interval and the
+    other lies far below its end: the curve may have jumped down anywhere.
     """
     h = x[2] - x[1]
     a = y[1]

@@ -2,7 +2,7 @@
 
 h5py writes and reads it as the format's specification has dimensions and attributes in HDF5 (appendix "NetCDF-4 format"
 of the NetCDF user's guide). Datasets alike in all but values, such as the runs of a study, begin as copies of one file
-without values: half a hundred variables with attributes take HDF5 longer to make than to fill.
+without values. HDF5 takes longer to make fifty variables with attributes than to fill them.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """What a march has recorded, on disk while it goes on: it outlives a process that is killed, and takes no memory.
 
-A directory with a file for each variable, to which the values of every block of steps are written when it is done; then
-STATE, which says how many steps are whole, is replaced. Nothing waits in the process to be written, as it would with
-HDF5: what was written is in the hands of the operating system, which loses nothing when the process is killed.
+A directory with a file for each variable. The values of every block of steps are appended when it is done; then STATE,
+which says how many steps are whole, is replaced. Nothing waits in the process to be written, as it would with HDF5.
+What was written belongs to the operating system, which loses nothing when the process is killed.
 """
 
 import json

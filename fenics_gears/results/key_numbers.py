@@ -12,6 +12,7 @@ from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, slidin
 from fenics_gears.scene.data import Scene
 
 from .contact_variables import Curves, largest_normal_force, mesh_force, transmitted
+from .load_factors import end_of_line
 from .numbers import HARMONICS, first_largest, harmonics, largest_of_one_pair, mean_where_positive, shares_at
 
 MICROMETRE = 1e-3  # mm
@@ -35,7 +36,7 @@ def key_numbers(
     counted: Mapping[str, np.ndarray], pair: GearPair, friction_loss: float | None, timed: bool
 ) -> dict[str, float | str]:
     """All numbers of the settled steps of a result but those of root stress, as far as their curves are among those
-    `counted`; `friction_loss`: its attribute; `timed`: the scene has a speed, without which there is no power."""
+    `counted`. `friction_loss`: its attribute. `timed`: the scene has a speed, without which there is no power."""
     # The last step begins the next cycle.
     last = max(len(counted["time"]) - 1, 1)
     settled = {name: values[:last] for name, values in counted.items()}
@@ -112,8 +113,6 @@ def _pressure(settled: Curves, pair: GearPair) -> dict[str, float | str]:
     on_coast = "coast_normal_force" in settled and at("coast_normal_force") > at("normal_force")
     roll = at("largest_contact_pressure_roll_angle")
     if pair.slope:
-        from .load_factors import end_of_line
-
         if end := end_of_line(pair, pair.pinion.base_radius * roll):
             found["peak_contact_pressure_beside"] = end
     return found | {

@@ -72,9 +72,9 @@ def mean_line_load(result: xr.Dataset, side: str) -> np.ndarray | None:
 
 
 def _of_instants(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float]:
-    """Of the largest line load of one tooth pair at any stored step, the mean over a window away from edges, and of a
-    slice at edges: over the line load that the force of that step makes if it spreads evenly along the lines of contact
-    of rigid gears when they are shortest. It is no mean of the same places: where edges carry more than that, the rest
+    """Of the largest line load of one tooth pair at any stored step: its mean over a window away from edges, and that
+    of a slice at edges. Both are over the line load of an even spread: the force of that step over the shortest sum of
+    the lines of contact of rigid gears. It is no mean of the same places: where edges carry more than that, the rest
     carries less, and the factor away from edges may be below 1."""
     loads = line_loads(settled, side)
     z = settled["face_position"].values
@@ -122,8 +122,8 @@ def end_of_line(pair: GearPair, position: float) -> str:
 
 
 def passing(pair: GearPair, position, side: str):
-    """Where the contact of a pair's drive flanks stands (mm from T1) when that of its flanks of `side` passes a
-    position on their own line of action, which coast flanks pass the other way."""
+    """Position (mm from T1) of a pair's contact on the drive flanks when its contact on the flanks of `side` passes a
+    position on their own line of action. Coast flanks pass theirs the other way."""
     return pair.pinion.base_radius * coast_roll_angles(pair, 0.0)[0] - position if side else position
 
 

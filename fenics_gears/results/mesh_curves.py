@@ -23,13 +23,14 @@ from fenics_gears.dynamics.steps import Steps, forces_at, in_block, nodes_at, op
 from fenics_gears.model.model import Model
 from fenics_gears.model.modification import kinks
 
+from .face_ends import in_end_zone
 from .side_by_side import Layouts, SideBySide
 
 
 @njit(cache=True)
 def mesh_stiffness(contact, status, forces, coordinates):
     """Secant and tangent stiffness, N/mm, of the drive or coast flanks, whichever carry more, and how many tooth pairs
-    carry there; all zero where nothing touches, the secant not a number where they do not approach.
+    carry there. All are zero where nothing touches; the secant is not a number where the flanks do not approach.
 
     `contact`: the `addresses.Arrays` of elastic flanks; others as of StepSolution.
     """
@@ -73,9 +74,9 @@ def mesh_stiffness(contact, status, forces, coordinates):
 
 @njit(cache=True)
 def _highest(overlap, node_pair):
-    """Largest overlap (mm) of flanks with overlaps (n,) at evenly spaced nodes: the highest vertex of the parabolas
-    through a node and its neighbours, of all nodes that are no lower than these. At nodes alone it would be too small
-    by up to spacing^2/(8 rho). Of slices whose highest nodes are alike no one is taken before the others."""
+    """Largest overlap (mm) of flanks with overlaps (n,) at evenly spaced nodes. Of all nodes that are no lower than
+    their neighbours, it is the highest vertex of the parabolas through the node and these. At nodes alone it would be
+    too small by up to spacing^2/(8 rho). Of slices whose highest nodes are alike no one is taken before the others."""
     highest = -np.inf
     last = len(overlap) - 1
     for node in range(last + 1):
@@ -195,8 +196,6 @@ class EdgesAndKinks:
         self.half_width = model.resolution.half_width
         self._end_slices = None
         if model.face.slices > 1:
-            from .face_ends import in_end_zone
-
             self._end_slices = in_end_zone(model.pair, model.face.positions)
         self._places: list[_Place] = []
         gears = model.pair.pinion, model.pair.wheel

@@ -189,8 +189,8 @@ def contact_losses(separations: Sequence[tuple[int, float]]) -> list[ContactLoss
 
 
 def loss_attributes(separations: Sequence[tuple[int, float]], first: int, last: int, clock: Clock) -> dict[str, float]:
-    """Attributes of a result on lost contact between two steps: how often; where contact was lost also time of the
-    first and length of the longest loss (s), share of the time, widest opening (mm)."""
+    """Attributes of a result on contact that is lost: how often between two steps. Where it was lost also the time of
+    the first and the length of the longest loss (s), the share of the time and the widest opening (mm)."""
     losses = contact_losses(separations)
     if not losses:
         return {"contact_loss_count": 0}

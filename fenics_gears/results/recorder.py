@@ -20,6 +20,7 @@ from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import InMemory, Kept, sizes, stored_arrays
 
+from .bent_shafts import BentShafts
 from .contact_variables import (
     energy_variables,
     mesh_variables,
@@ -28,6 +29,8 @@ from .contact_variables import (
     watched_contact,
     work_variables,
 )
+from .face_variables import AlongTheFace
+from .journal import Journal
 from .mesh_curves import EdgesAndKinks, pressure_curves, stiffness_curves
 from .side_by_side import KnownLayouts, SideBySide
 
@@ -43,12 +46,8 @@ WATCHED = "watched: "
 def _along_face(model: Model, cycle: Cycle) -> tuple[AlongTheFace, ...]:
     if cycle.face.slices == 1:
         return ()
-    from .face_variables import AlongTheFace
-
     if not model.drivetrain.elastic:
         return (AlongTheFace(cycle),)
-    from .bent_shafts import BentShafts
-
     return (BentShafts(cycle, model),)
 
 
@@ -66,8 +65,8 @@ class KnownTouching:
 
 
 class Recorder:
-    """Takes the steps of a march, block by block; `loads`: the varying ones, the model's unless given; `stress`: root
-    stress, if asked for; `journal`: where a long march is written down, in memory only where None.
+    """Takes the steps of a march, block by block. `loads`: the varying ones, the model's unless given. `stress`: root
+    stress, if asked for. `journal`: where a long march is written down, in memory only where None.
 
     `steps`: how many are recorded. `first_number`: of the pair that reaches the start of contact as the run begins.
     """
@@ -111,8 +110,6 @@ class Recorder:
         room = self.stored, self.model.steps + 1, self.model.contact_steps
         if journal is None:
             return InMemory(*room)
-        from .journal import Journal
-
         return Journal(journal, self.model.scene, *room)
 
     def take(self, solved: Steps, march: March | None = None) -> None:

@@ -35,7 +35,9 @@ class RootStress:
     a flank."""
 
     def __init__(self, pair: GearPair, cycle: Cycle, rows: Rows):
-        self.pair, self.cycle, self.rows = pair, cycle, rows
+        self.pair = pair
+        self.cycle = cycle
+        self.rows = rows
         angles, at_section = np.split(np.array([each.tangent_angle for each in rows]), [-1], axis=1)
         self._angles = np.tile(angles, 2)
         self._of_bending = self._angles >= OF_BENDING * at_section
@@ -45,7 +47,8 @@ class RootStress:
         """Indices (t,) of the tooth pairs in reach, and what contact forces are on both gears' flanks."""
         key = position.nodes, position.index
         if key not in self._on_flanks:
-            pairs, tangential = position.operator.pairs, position.operator.rigid_slip is not None
+            pairs = position.operator.pairs
+            tangential = position.operator.rigid_slip is not None
             teeth = np.array(sorted({pair.place.index for pair in pairs}, reverse=True), dtype=int)
             self._on_flanks[key] = teeth, tuple(self._of_gear(side, pairs, tangential) for side in self.pair.sides)
         return self._on_flanks[key]
@@ -84,7 +87,8 @@ class RootStress:
         for i, position in enumerate(nodes.steps.positions):
             alike[position.nodes, position.index].append(i)
         asked: dict[tuple[int, int], list[tuple[np.ndarray, np.ndarray, np.ndarray]]] = defaultdict(list)
-        starts, all_forces = nodes.steps.kinds * nodes.steps.starts, nodes.steps.forces
+        starts = nodes.steps.kinds * nodes.steps.starts
+        all_forces = nodes.steps.forces
         for steps in map(np.array, alike.values()):
             teeth, gears = self.on_flanks(nodes.steps.positions[steps[0]])
             slots = nodes.slot_of(steps[:, None], teeth)
@@ -95,7 +99,9 @@ class RootStress:
                 for sector, loaded, own in zip(sectors, on_teeth.any(axis=1), on_teeth):
                     some = loaded.nonzero()[0]
                     if len(some):
-                        own, these, places = own[:, some].T, steps[some], slots[some]
+                        own = own[:, some].T
+                        these = steps[some]
+                        places = slots[some]
                         for index, slot in zip(teeth.tolist(), places.T):
                             asked[side.number, side.sense * index - sector].append((these, slot, own))
         for (gear, ahead), found in asked.items():

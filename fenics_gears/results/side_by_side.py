@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from fenics_gears.contact.corner import edge_ends
 from fenics_gears.contact.kinematics import CENTRE_COORDINATES, COLUMNS, COORDINATES, displacement_jacobian, lines_of
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -28,16 +29,15 @@ from fenics_gears.geometry.pair import GearPair
 
 
 def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool) -> dict[str, np.ndarray]:
-    """What belongs to the contact nodes (n,) of some positions of the gears, one position's after the other's, whatever
-    the step. All in one go: of a position by itself Python takes several times what its numbers do.
+    """What belongs to the contact nodes (n,) of some positions, in the order of the positions, at any step. All
+    positions are done at once: a loop over them would take several times as long.
 
-    `index`: of the node's tooth pair at the position; `node`: its place in that pair; `drive`: whether it is on a drive
-    flank; `slice`: of the face; `at_end`: whether it stands on an end of the window; `on_edge` (4, n): on the edge of
-    the pinion's and of the wheel's tip, and on the edge at the form circle of either where it is undercut; `arcs` (2,
-    n): where it touches the pinion's and the wheel's flank, mm along the involute from the base circle;
-    `rows_of_normals` (6, n) and `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force
-    (x, y), N, and torque, N mm; over a face (12, n), with the axial force, N, and the moments about x and y, N mm, of
-    both gears after these.
+    `index`: of the node's tooth pair at the position. `node`: its place in that pair. `drive`: whether it is on a drive
+    flank. `slice`: of the face. `at_end`: whether it stands on an end of the window. `on_edge` (4, n): on the edge of
+    the pinion's tip, of the wheel's tip, and at the form circle of an undercut pinion or wheel. `arcs` (2, n): where it
+    touches the pinion's and the wheel's flank, mm along the involute from the base circle; `rows_of_normals` (6, n) and
+    `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm.
+    Over a face (12, n): then the axial force, N, and the moments about x and y, N mm, of both gears.
     """
     pairs = [pair for operator in operators for pair in operator.pairs]
     face = operators[0].face
@@ -92,8 +92,6 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
     of_flanks = of_flanks.copy()
     by_line = np.array([pair.place.line is None for pair in pairs], dtype=bool)
     if any(cut):
-        from fenics_gears.contact.corner import edge_ends
-
         for pair in np.flatnonzero(~by_line):
             of_flanks[pair] = edge_ends(cycle.pair, cycle.corner, pairs[pair].place)
     first = ends[:-1]
@@ -133,7 +131,7 @@ class Layouts:
     """The contact nodes of consecutive positions side by side (N,), joined once for each block of the mesh cycle.
 
     `known`: layouts that hold the nodes of each position, which begin and end at `parts` (s, 2) of all of them one
-    after the other; `places` (N,): of these nodes there.
+    after the other. `places` (N,): of these nodes there.
     """
 
     def __init__(
@@ -209,8 +207,8 @@ class KnownLayouts:
 class SideBySide:
     """The contact nodes (N,) of consecutive steps, one step's after the other's.
 
-    `step`: the place of the step that each node is of; `slot`: where its tooth pair is kept, pairs being numbered from
-    `first_number` on for the pair of index 0 in cycle 0; `normal` and `tangential`: its forces, N, the latter None
+    `step`: the place of the step that each node is of. `slot`: where its tooth pair is kept, pairs being numbered from
+    `first_number` on for the pair of index 0 in cycle 0. `normal` and `tangential`: its forces, N, the latter None
     without friction.
     """
 

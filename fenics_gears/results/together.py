@@ -1,8 +1,8 @@
-"""The numbers of runs that are marched together, where few are asked for and nothing else of the runs is: those of
-`results.dataset`, from the same functions.
+"""The numbers of runs that are marched together, where a few numbers and no dataset are asked for. The functions are
+those of `results.dataset`.
 
-A run of which there would be more to say has to be run by itself: contact that is lost, gears that pass through each
-other, steps that are divided or have no solution.
+A run that would have a warning is run by itself: where contact is lost, gears pass through each other, or steps are
+divided or have no solution.
 """
 
 import time

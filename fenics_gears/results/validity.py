@@ -44,7 +44,7 @@ def warnings_of_energy(
     scene: Scene, result: RunResult, steps_per_mesh_cycle: int, steps: slice = slice(None)
 ) -> list[str]:
     """Whether the time stepping, not physics, adds or removes much energy within a mesh cycle where teeth part and
-    meet, in all steps or some; cycle by cycle, for over a long run even little of it adds up."""
+    meet, in all steps or some. It is judged cycle by cycle, since over a long run even a little adds up."""
     if scene.inertia is None or scene.tooth_elasticity is None or not len(result["time"]):
         return []
     work = result["work_contact_changes"][steps]

@@ -24,8 +24,8 @@ NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
 
 
 class GearStore:
-    """Keeps the gears used last, `most` of them (None: all) beside those of mesh cycles, and with `cycles` the last
-    mesh cycles, so that a frequency sweep builds its operators once.
+    """Keeps the gears used last, `most` of them (None: all), and those that mesh cycles need. With `cycles` it keeps
+    the last mesh cycles, so that a frequency sweep builds its operators once.
 
     Two runs share a mesh cycle when gears, flanks, contact grid, steps, moving coordinates and the presence of friction
     are the same: speed, masses, springs, torque and coefficient may differ. Where only gaps differ (reliefs, lead

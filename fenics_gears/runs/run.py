@@ -20,8 +20,8 @@ Sharing = tuple[int, int]
 class Run:
     """A scene that is to be run.
 
-    `key`: hash of all that its result depends on; `sharing`: equal numbers of runs that share contact operators, and of
-    these of runs with the same gaps; `make`: makes its model; `index`: its place in a study; `values`: of the swept
+    `key`: hash of all that its result depends on. `sharing`: equal numbers of runs that share contact operators, and of
+    these of runs with the same gaps. `make`: makes its model. `index`: its place in a study. `values`: of the swept
     fields, in words.
     """
 

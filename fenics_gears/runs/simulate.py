@@ -51,7 +51,7 @@ def simulate(
 
     With `[accuracy] target` settings are chosen first, by trial runs. The result then has the attributes `target`,
     `estimated_error`, and `estimated_error: ...` by setting, all in parts of 1, `time_choose` (s), `target_runs`,
-    `target_remarks`; its scene has the settings in place of the target, so that it repeats the run.
+    `target_remarks`. Its scene has the settings in place of the target, so that it repeats the run.
 
     scene: from `load_scene` or `build_scene`, as it is or changed by `dataclasses.replace`; or its `model_of`.
     progress: is told the stages and how far they are (`system.progress`); nothing is shown unless given.
@@ -64,10 +64,10 @@ def simulate(
     keep: is given the result as soon as the march ends. What follows, dynamic factors and proposed lead modifications,
         may fail: a warning then says so, and the attribute `failed_afterwards` names it.
 
-    Raises GeometryError before any computation where the gears are impossible; ComputationError where the run does not
-    fit into the memory that it may take, or a stage fails: steps that were computed before are then in its attribute
-    `partial`; TargetNotReached where no settings keep the target.
-    Ctrl-C during the march returns the steps computed so far, with the attribute `complete` 0.
+    Raises GeometryError before any computation where the gears are impossible, and TargetNotReached where no settings
+    keep the target. Raises ComputationError where the run does not fit into the memory that it may take, or a stage
+    fails: the steps before are in its attribute `partial`. Ctrl-C during the march returns the steps computed so far,
+    with the attribute `complete` 0.
 
     >>> from fenics_gears import load_scene, simulate
     >>> result = simulate(load_scene("demos/lundvall2004.toml"))
@@ -112,7 +112,6 @@ def settled(scene: Scene | Model, progress: Progress) -> Settled:
     target = known.accuracy.target
     if target is None:
         return Settled(scene)
-    # Imported here: the search for settings takes scipy.optimize, and few scenes name a target.
     from .settings.target import choose
 
     begun = time.perf_counter()

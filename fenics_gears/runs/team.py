@@ -1,8 +1,8 @@
 """Many tasks over the processes of one MPI job, or one after another in a process that runs alone, which never touches
 MPI.
 
-Ranks 1 to N-1 are workers of mpi4py.futures; rank 0 hands out tasks from the first on by mpi4py's own thread, and
-itself takes back and computes tasks from the last on.
+Ranks 1 to N-1 are workers of mpi4py.futures. Rank 0 hands out tasks from the first on by mpi4py's own thread. Itself it
+takes back and computes tasks from the last on.
 """
 
 import contextlib
@@ -30,6 +30,8 @@ the end, where they wait, is that much shorter."""
 
 
 class Alone:
+    """One process, which computes all runs itself."""
+
     size = 1
 
     def run(self, function: Task, tasks: Sequence[Any], finished: Finished, tick: Callable[[], None]) -> None:

@@ -26,6 +26,7 @@ from .schema import LOAD_WORDS as LOAD_WORDS
 from .schema import Derived as Derived
 from .schema import Load as Load
 from .schema import Motion as Motion
+from .write import html, text_of
 
 if TYPE_CHECKING:
     from fenics_gears.contact.eccentricity import Eccentricity
@@ -52,9 +53,9 @@ class Scene:
     """All input of a run. Its `text` always says what its data are, also of a scene that ``dataclasses.replace``
     changed.
 
-    One field for each effect of `effects.AT_THE_TOP`, in the same order, None where the scene does not name it;
-    `derived`: what the scene leaves out of gears and load; `measured_over`: spanned teeth and ball diameter of
-    pinion and wheel, where it names them; `written`: the text that it was read from; `folder`: from which its files are
+    One field for each effect of `effects.AT_THE_TOP`, in the same order, None where the scene does not name it.
+    `derived`: what the scene leaves out of gears and load. `measured_over`: spanned teeth and ball diameter of
+    pinion and wheel, where it names them. `written`: the text that it was read from. `folder`: from which its files are
     looked for. (Elastic teeth are an effect too: they are there where `gears` have a material.)
     """
 
@@ -90,8 +91,6 @@ class Scene:
     @cached_property
     def text(self) -> str:
         """The scene file that gives these data: as it was read where nothing was changed since, else written anew."""
-        from .write import text_of
-
         return text_of(self)
 
     def __str__(self) -> str:
@@ -99,8 +98,6 @@ class Scene:
 
     def _repr_html_(self) -> str:
         """The table that notebooks show."""
-        from .write import html
-
         return html(self)
 
     @property

@@ -20,9 +20,11 @@ from fenics_gears.geometry.gear_data import MATERIALS, RACKS, GearData, GearPair
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, LOADS, MODULES, PRESSURE_ANGLES, in_normal_section, wheel_torque
 
+from . import unusual
 from .gear_schema import Gear as GearText
 from .gear_schema import Gears
 from .schema import Derived, Load, LoadText, Motion
+from .thickness import asked_measures, check_measure, shift_of_thickness
 
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
@@ -139,17 +141,12 @@ def _shift(pair: Gears, drawn: GearText, name: str) -> tuple[float, list[Derived
     """The profile shift of the tooth's thickness."""
     if drawn.measure is None:
         return drawn.profile_shift, []
-    # Imported here as below: most drawings give profile shifts.
-    from .thickness import shift_of_thickness
-
     return shift_of_thickness(pair, drawn, name)
 
 
 def _asked_measures(pair: Gears, drawn: GearText, name: str, cut: float) -> Iterable[Derived]:
     if drawn.spanned_teeth is None and drawn.ball_diameter is None:
         return ()
-    from .thickness import asked_measures
-
     return asked_measures(pair, drawn, name, cut)
 
 
@@ -213,8 +210,6 @@ def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequen
             f"half of the backlash by each gear, and half of the {overlap:.4g} mm by which teeth with the given profile"
             " shifts would overlap"
         )
-    from . import unusual
-
     odd = (unusual.of_thinning(pair, overlap, distance, nominal, thinner), "")
     return lowered, [
         Derived(f"{name} profile shift of its tooth thickness", shift, "modules", words, remark)
@@ -230,8 +225,6 @@ def _tip_shortening(
         return pair.tip_shortening, []
     if all(gear.tip_diameter is not None for gear in drawn):
         return 0.0, []
-    from . import unusual
-
     reference = 0.5 * pair.module * sum(gear.teeth for gear in drawn) / cos(pair.helix_angle or 0.0)
     shortening = max(0.0, round(sum(shifts) - (distance - reference) / pair.module, DECIMALS_IN_MODULES))
     if shortening >= TOOTH_HEIGHT:
@@ -275,8 +268,6 @@ def _gear_data(
         nominal_profile_shift=None if shift == cut else float(shift),
     )  # fmt: skip
     if drawn.measure is not None:
-        from .thickness import check_measure
-
         check_measure(drawn, name, pair.in_rotation(data))
     return data, found
 

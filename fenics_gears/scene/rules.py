@@ -1,5 +1,5 @@
-"""Rules between the fields of a scene, and of what a drawing may leave out; those of one effect are in its own module,
-those of speed and accuracy in ``accuracy_rules``.
+"""Rules between the fields of a scene, and of what a drawing may leave out. Rules of one effect are in its own module,
+rules of speed and accuracy in ``accuracy_rules``.
 
 They read the parsed TOML file, so that they apply even where some field is wrong; a value that they cannot read is
 reported elsewhere.
@@ -44,6 +44,7 @@ from .accuracy_rules import (
     recorded_cycles_are_run,
     settling_is_of_vibrations,
 )
+from .face_rules import rules_over_the_face
 from .gear_schema import MEASURES, Gear, Gears
 from .schema import LoadText, scene_text
 
@@ -121,9 +122,6 @@ def _errors_are_small(tree: Tree) -> Broken:
 def _flanks_are_resolved_over_the_face(tree: Tree) -> Broken:
     """Fields of faces belong to three-dimensional scenes, which have rules of their own, and a hand to a helix."""
     if reasons := over_the_face(tree):
-        # Imported here: plane scenes have none.
-        from .face_rules import rules_over_the_face
-
         yield from rules_over_the_face(tree, reasons)
     else:
         for path, allowed, _ in given(scene_text(tree), tree):

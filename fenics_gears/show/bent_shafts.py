@@ -25,7 +25,7 @@ OF_GEAR = dict(zip(GEARS, PALETTE[2:4]))
 
 class Line(NamedTuple):
     """The axis of a gear's shaft: `places` (p,), mm from the middle of the common face, and the mean deflection (p,),
-    mm, by direction; `bearings` (b,): their places; `seat`: where the gear begins and ends."""
+    mm, by direction. `bearings` (b,): their places. `seat`: where the gear begins and ends."""
 
     gear: str
     places: np.ndarray

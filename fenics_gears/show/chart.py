@@ -87,8 +87,8 @@ class Flag:
 
 @dataclass(frozen=True)
 class Chart:
-    """Curves over one axis. `note`: a sentence below; `least`: the smallest span that the second axis shows; `linked`:
-    charts of a page with the same word are zoomed together; `logarithmic`: the axes ("x", "y", "xy") so divided;
+    """Curves over one axis. `note`: a sentence below. `least`: the smallest span that the second axis shows. `linked`:
+    charts of a page with the same word are zoomed together. `logarithmic`: the axes ("x", "y", "xy") so divided.
     `equal`: a length is as long on either axis."""
 
     caption: str

@@ -116,8 +116,9 @@ MOST_POINTS = 2000
 
 
 def thinned(values: np.ndarray, most: int = MOST_POINTS) -> np.ndarray:
-    """Places (k,) of the values (n,) that a curve is drawn through: all up to `most`; beyond, of each of most/2 slices
-    the smallest and the largest value, a place that is not a number where there is one, and both ends of the curve."""
+    """Indices (k,) of the values (n,) that a curve is drawn through: all of them up to `most`. Of longer curves they
+    are both ends and, of each of most/2 slices, the smallest and the largest value and a value that is not a number,
+    where there is one."""
     count = len(values)
     if count <= most:
         return np.arange(count)

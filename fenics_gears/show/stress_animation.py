@@ -1,5 +1,5 @@
-"""The stored mesh cycles as a moving picture: GIF, or MP4 where ffmpeg is installed; and for ParaView: a .vtu file for
-each step, and the .pvd file that lists them."""
+"""The stored mesh cycles as a moving picture: GIF, or MP4 where ffmpeg is installed. For ParaView: a .vtu file for each
+step, and the .pvd file that lists them."""
 
 import shutil
 import subprocess

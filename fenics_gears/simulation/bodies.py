@@ -13,9 +13,14 @@ from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies, Body
 from fenics_gears.elasticity.element_sizes import Discretisation
+from fenics_gears.elasticity.face.compliance import face_compliance
+from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.inputs.tree import GEARS
+from fenics_gears.model.face_cost import both_at_once
+from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
 from fenics_gears.system.progress import Progress
+from fenics_gears.system.second_process import second_process, threads
 
 if TYPE_CHECKING:
     from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
@@ -65,9 +70,8 @@ def _section(model: Model, name: str, cache: Cache | None):
     for own in from_effects(model.scene, "elasticity", model, name, reach, cache):
         if own is not None:
             return own
-    from fenics_gears.elasticity.gear_compliance import flank_compliance
-
-    material, division = model.scene.gears.material_of(name), model.resolution.discretisation(GEARS.index(name))
+    material = model.scene.gears.material_of(name)
+    division = model.resolution.discretisation(GEARS.index(name))
     gear = getattr(model.pair, name)
     if gear.web is not None and model.scene.three_dimensional:
         # The web is in the body; here it would be in both sections of which one corrects the other.
@@ -88,8 +92,6 @@ def _begun(model: Model, progress: Progress, cache: Cache | None) -> Iterator[Ca
     if model.solid_discretisation(0) is None:
         yield lambda: (None, None)
         return
-    from fenics_gears.model.face_cost import both_at_once
-    from fenics_gears.system.second_process import second_process, threads
 
     def begin(number: int) -> None:
         progress.stage(f"condense {GEARS[number]}'s body")
@@ -109,9 +111,7 @@ def _begun(model: Model, progress: Progress, cache: Cache | None) -> Iterator[Ca
 
 def solid_of(model: Model, name: str, cache: Cache | None, process: SecondProcess | None = None) -> FaceCompliance:
     """The body of the "pinion" or the "wheel" in three dimensions, from the cache or condensed."""
-    from fenics_gears.elasticity.face.compliance import face_compliance
-    from fenics_gears.model.face_resolution import face_discretisation
-
-    gear, material = getattr(model.pair, name), model.scene.gears.material_of(name)
+    gear = getattr(model.pair, name)
+    material = model.scene.gears.material_of(name)
     division = face_discretisation(model, GEARS.index(name))
     return face_compliance(gear, material, division, model.touching.reach, cache, process)

@@ -41,7 +41,8 @@ def compile_loops(progress: Progress) -> None:
     """Compile all loops that are not compiled yet, in a minute or less, and say so; where that fails, a run compiles
     what it needs."""
     _save_in_turn()
-    places, name = _places(), f"compiled-{_machine()}"
+    places = _places()
+    name = f"compiled-{_machine()}"
     beside, kept = next(iter(places.items()))
     if _is_of_these_sources(kept / name):
         return
@@ -135,7 +136,7 @@ def end_at_once_by_ctrl_c() -> None:
 
 @cache
 def _save_in_turn() -> None:
-    """Let one process at a time add to numba's files on a loop: two that compile it for different types at once would
+    """Let one process at a time add to numba's files of a loop. Two that compile it for different types at once would
     both take the same free name for their code."""
     save = IndexDataCacheFile.save
 

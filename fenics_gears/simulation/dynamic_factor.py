@@ -26,11 +26,13 @@ DIFFERENT_CYCLES = "mesh cycles differ: [output] root_stress = true runs the sce
 
 def wanted(scene: Scene) -> bool:
     """Whether a scene has dynamic factors: of elastic teeth with inertia, condensed once."""
-    elastic, condensed_once = scene.tooth_elasticity is not None, scene.accuracy.condensation != EVERY_STEP
+    elastic = scene.tooth_elasticity is not None
+    condensed_once = scene.accuracy.condensation != EVERY_STEP
     return scene.inertia is not None and elastic and condensed_once
 
 
 def quasi_static(scene: Scene) -> Scene:
+    """The scene without inertia and without the effects that need it."""
     sections = [effect.section for effect in effects_on(scene)]
     left = [name for name in sections if name != "inertia"]
     while needing := {effect.section for effect, _ in missing_needs(left)}:
@@ -39,10 +41,11 @@ def quasi_static(scene: Scene) -> Scene:
 
 
 def dynamic_factors(recorder: Recorder, result: RunResult) -> dict[str, float | str]:
-    """Largest force of a tooth pair and, if taken, largest root stress of a run's settled steps over those of the same
-    scene without inertia; a reason in their place where that has no solution, or where mesh cycles differ, so that a
-    second march as long as the run's own were needed, and root stress is not asked for."""
-    model, cycle = recorder.model, recorder.cycle
+    """Largest force of a tooth pair and, if taken, largest root stress of a run's settled steps, over those of the same
+    scene without inertia. A reason stands in their place where that scene has no solution. So it does without root
+    stress where mesh cycles differ: a second march as long as the run's own would be needed."""
+    model = recorder.model
+    cycle = recorder.cycle
     scene = quasi_static(model.scene)
     if common_period(scene) != 1 and recorder.stress is None:
         return {"dynamic_factor_unknown": DIFFERENT_CYCLES}
@@ -81,7 +84,9 @@ _PEAKS_OF_CYCLES: WeakKeyDictionary[Cycle, dict[tuple, Peaks]] = WeakKeyDictiona
 
 def _peaks_still(still: Model, recorder: Recorder) -> Peaks | str:
     """The peaks of the quasi-static model, or why there are none."""
-    cycle, drivetrain, equations = recorder.cycle, still.drivetrain, still.equations_of_motion
+    cycle = recorder.cycle
+    drivetrain = still.drivetrain
+    equations = still.equations_of_motion
     # Without mass and loads that vary nothing depends on time, nor on the mesh frequency.
     numbers = [each.tobytes() for each in (drivetrain.radii, drivetrain.stiffness, drivetrain.load)]
     key = (drivetrain.coordinates, *numbers, equations.friction, still.steps)

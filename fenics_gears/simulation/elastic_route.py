@@ -1,17 +1,21 @@
-"""The fast route: each gear condensed once, its compliance seen by the contact nodes of every position, and what opens
-these, on the contact operators that models which differ in nothing else share."""
+"""The fast route: each gear is condensed once, and the contact nodes of every position take their compliance from it.
+Models that differ only in their gaps share the contact operators."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from fenics_gears.contact.mesh import Mesh, elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps, Opening
 from fenics_gears.contact.tooth_pair import Flanks, Removal
+from fenics_gears.contact.whole_body_mesh import whole_body_mesh
+from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
 from fenics_gears.effects import ALONG_THE_FACE, effects_on, from_effects
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies
+from fenics_gears.elasticity.overhang import with_overhang
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.system.job import Job
@@ -35,26 +39,28 @@ def elastic_route(
 
 def mesh_cycle(model: Model, bodies: Bodies) -> Cycle:
     """The contact operators of one mesh cycle, for the centre coordinates and the friction that the scene has."""
-    flanks, grid, corner = flanks_of(model, bodies), model.resolution.contact_grid, model.corner
+    flanks = flanks_of(model, bodies)
+    grid = model.resolution.contact_grid
+    corner = model.corner
     first, second = (body.solid for body in bodies)
     if first is not None and second is not None:
-        from fenics_gears.contact.face_mesh import face_mesh
-
-        return cycle_of(model, face_mesh(flanks, _seated(model, first, second), model.face, grid, corner))
+        return cycle_of(model, _over_face().face_mesh(flanks, _seated(model, first, second), model.face, grid, corner))
     if all(each.alike for each in flanks.compliance):
         return cycle_of(model, elastic_mesh(flanks, grid, corner))
-    from fenics_gears.contact.whole_body_mesh import whole_body_mesh
-
     return cycle_of(model, whole_body_mesh(flanks, grid, model.resolution.steps_per_mesh_cycle, corner))
+
+
+def _over_face() -> ModuleType:
+    """Contact over the face, whose compiled functions take 30 ms to load."""
+    from fenics_gears.contact import face_mesh
+
+    return face_mesh
 
 
 def _seated(model: Model, *bodies: FaceCompliance) -> tuple[FaceCompliance, FaceCompliance]:
     """Both bodies, those on a seat that gives way with what it does so within the face."""
     by_gear = dict(zip(GEARS, bodies))
     for shaft in yielding_seats(model):
-        # Imported here: few seats give way.
-        from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
-
         body = by_gear[shaft.gear]
         by_gear[shaft.gear] = replace(body, seat=seat_compliance(shaft, body.heights))
     return by_gear[GEARS[0]], by_gear[GEARS[1]]
@@ -67,20 +73,23 @@ def yielding_seats(model: Model) -> tuple[ElasticShaft, ...]:
 
 def cycle_of(model: Model, mesh: Mesh) -> Cycle:
     """The contact equations of a mesh over the steps of the model, with what opens its nodes."""
-    steps, friction = model.resolution.steps_per_mesh_cycle, model.scene.friction is not None
+    steps = model.resolution.steps_per_mesh_cycle
+    friction = model.scene.friction is not None
     cycle = Cycle(mesh, steps, model.drivetrain.indices, friction)
     return cycle.with_gaps(gaps_of(model, cycle))
 
 
 def flanks_of(model: Model, bodies: Bodies) -> Flanks:
     """Both gears as contact sees them: in the plane a load over the common face spreads in a gear that is wider."""
-    pair, removal, first, second = model.pair, removal_of_nodes(model), bodies[0].section, bodies[1].section
+    pair = model.pair
+    removal = removal_of_nodes(model)
+    first = bodies[0].section
+    second = bodies[1].section
     within = pair.effective_face_widths == (pair.face_width, pair.face_width)
     if within or any(body.solid is not None for body in bodies):
         return Flanks(pair, (first, second), removal)
-    from fenics_gears.elasticity.overhang import with_overhang
-
-    gears, materials = (pair.pinion, pair.wheel), model.scene.gears.materials
+    gears = (pair.pinion, pair.wheel)
+    materials = model.scene.gears.materials
     pinion, wheel = (
         with_overhang(body.section, gear, material, pair.face_width / width)
         for body, gear, material, width in zip(bodies, gears, materials, pair.effective_face_widths)
@@ -107,14 +116,17 @@ def sections_of_gaps(model: Model) -> tuple[str, ...]:
     """The sections of a scene in which models may differ that share contact operators."""
     if not gaps_apart(model):
         return ()
-    reliefs, named = reliefs_apart(model), effects_on(model.scene)
+    reliefs = reliefs_apart(model)
+    named = effects_on(model.scene)
     return *ALONG_THE_FACE, *(each.section for each in named if each.gaps or each.removal and reliefs)
 
 
 def gaps_of(model: Model, cycle: Cycle) -> Gaps:
     """What opens the contact nodes of a cycle of the model, or of one that shares its contact operators."""
-    profile, of_steps = None, None
+    profile = None
+    of_steps = None
     if model.removal != (None, None) and reliefs_apart(model):
+        # With the fields of a relief, 10 ms.
         from fenics_gears.contact.relief_gaps import profile_of
 
         profile, of_steps = profile_of(cycle, model.removal)
@@ -125,6 +137,4 @@ def openings_of(model: Model, cycle: Cycle) -> tuple[Opening, ...]:
     """What opens the contact nodes of such a cycle along the face."""
     if cycle.face.slices == 1:
         return ()
-    from fenics_gears.contact.face_mesh import opening_over_face
-
-    return (opening_over_face(cycle, model.face_opening, model.coast_face_opening),)
+    return (_over_face().opening_over_face(cycle, model.face_opening, model.coast_face_opening),)

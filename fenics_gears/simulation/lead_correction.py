@@ -1,5 +1,5 @@
-"""Lead modifications that make the line load along the face as even as two numbers can: helix slope and crowning of the
-pinion for the least face load factor of the run's own mesh.
+"""Lead modifications that make the line load along the face as even as two numbers can. They are the helix slope and
+crowning of the pinion that give the mesh its least face load factor.
 
 Static positions of a mesh cycle are solved by the run's contact operators with other gaps, without friction; everything
 else that opens the flanks along the face counts as in the run. While the closed nodes stay closed, line load w (S,) is
@@ -46,12 +46,16 @@ from .elastic_route import gaps_apart, gaps_of
 # Positions of the mesh cycle, about.
 POSITIONS = 16
 # Steps of the search, halvings of one, and the change of the face load factor below which a gain is none.
-MOST_STEPS, MOST_HALVINGS, GAIN = 8, 5, 1e-3
+MOST_STEPS = 8
+MOST_HALVINGS = 5
+GAIN = 1e-3
 # The part of an even load's share that the inner face keeps, and the largest part of what the flanks approach unevenly,
 # which is estimated by the stiffness below, that is taken off.
-EVEN, MOST_TAKEN = 0.95, 1.5
+EVEN = 0.95
+MOST_TAKEN = 1.5
 # Difference for derivatives, over the mean approach of the flanks, estimated by a mesh stiffness, N/mm per mm of face.
-DIFFERENCE, STIFFNESS = 0.05, 14e3
+DIFFERENCE = 0.05
+STIFFNESS = 14e3
 MICROMETRE = 1e-3
 # Of amounts, mm.
 DECIMALS = 4
@@ -73,7 +77,8 @@ def wanted(model: Model) -> bool:
     if not scene.three_dimensional or not gaps_apart(model) or scene.load.wheel_torque <= 0.0:
         return False
     webs = [gear.web for gear in (model.pair.pinion, model.pair.wheel)]
-    bearings, leaning = scene.bearings, scene.misalignment
+    bearings = scene.bearings
+    leaning = scene.misalignment
     return (
         any(web is not None and web.offset for web in webs)
         or (bearings is not None and (bearings.places is not None or bearings.each is not None))
@@ -119,8 +124,8 @@ def proposed(recorder: Recorder) -> Proposal | None:
 
 
 class _Along(NamedTuple):
-    """Mean over the mesh cycle: line load (S,), N/mm, of all tooth pairs, and what is left open (S,), mm, where the
-    flanks are nearest; the face load factor, infinite where the ends of the face alone carry, and the share of the load
+    """Means over the mesh cycle: the line load (S,), N/mm, of all tooth pairs, and the gap (S,), mm, where the flanks
+    are nearest. Then the face load factor, infinite where the ends of the face alone carry, and the share of the load
     between them."""
 
     load: np.ndarray
@@ -156,7 +161,8 @@ def _towards_even(values: np.ndarray, slopes: np.ndarray, crowning: float) -> np
     # Imported here: few runs look for corrections.
     from scipy.optimize import linprog
 
-    steepest, largest = np.abs(slopes).max(initial=0.0), np.abs(values).max(initial=0.0)
+    steepest = np.abs(slopes).max(initial=0.0)
+    largest = np.abs(values).max(initial=0.0)
     if not (0.0 < steepest < np.inf and 0.0 < largest < np.inf):
         return None
     scale = steepest / largest
@@ -171,8 +177,11 @@ class _LineLoads:
     the scene."""
 
     def __init__(self, model: Model, cycle: Cycle, along: Mapping[str, Any]):
-        scene, self._face, self._run = model.scene, xr.Dataset(coords=along), (model, cycle)
-        self._windows, widths = windows(self._face, model.pair), inner_widths(self._face, model.pair)
+        scene = model.scene
+        self._face = xr.Dataset(coords=along)
+        self._run = (model, cycle)
+        self._windows = windows(self._face, model.pair)
+        widths = inner_widths(self._face, model.pair)
         self._inner = widths / widths.sum()
         # Of an even load.
         self.inner_share = float(widths.sum() / cycle.face.widths.sum())
@@ -266,7 +275,8 @@ class _LineLoads:
 
 def _of_position(record: Record, slices: int) -> tuple[np.ndarray, np.ndarray] | None:
     """Force (S,), N, and what is left open (S,), mm, at a position; None where coast flanks press."""
-    operator, solution = record.position.operator, record.solution
+    operator = record.position.operator
+    solution = record.solution
     places = np.array([(pair.place.slice, pair.place.flank) for pair in operator.pairs], dtype=int)
     number, flank = per_node(operator.pairs, places.reshape(-1, 2)).T
     drive = flank == DRIVE

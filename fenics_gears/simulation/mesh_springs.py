@@ -41,7 +41,8 @@ def iso_route(model: Model, progress: Progress, cache: Cache | None, job: Job | 
 
 def table_cycle(model: Model, bodies: Bodies) -> tuple[Bodies, Cycle]:
     """The mesh cycle of a stiffness table of the full contact; the bodies' `time_condense` has what the table took."""
-    begun, resolution = perf_counter(), model.resolution
+    begun = perf_counter()
+    resolution = model.resolution
     full = Cycle(
         elastic_mesh(flanks_of(model, bodies), resolution.contact_grid, model.corner),
         min(resolution.steps_per_mesh_cycle, MOST_PHASES),
@@ -83,7 +84,8 @@ def _cycle(model: Model, springs: Springs, levels: int) -> Cycle:
 
 def _gaps_on_path(model: Model, flank: int, phase: float) -> dict[int, float]:
     """Gap (mm) of every pair whose flanks meet on the line of action at a phase, by its index."""
-    pair, found = model.pair, {}
+    pair = model.pair
+    found = {}
     removal = model.removal if flank == DRIVE else (None, None)
     reach = int(np.ceil(pair.contact_ratio)) + 2
     for index in range(-reach, reach + 1):

@@ -26,13 +26,16 @@ def reference_route(
             f'{model.scene.name}: condensation = "{EVERY_STEP}" meshes the drive flanks only. Leave [coast_flanks] out,'
             f' or choose condensation = "{ONCE}".'
         )
-    resolution, order = model.resolution, element_named(model.resolution.element).order
+    resolution = model.resolution
+    order = element_named(model.resolution.element).order
     nodes = paired_nodes(model.pair, model.removal, resolution.contact_grid, order, resolution.steps_per_mesh_cycle)
     gears = []
     for number, name in enumerate(("pinion", "wheel")):
         progress.stage(f"remesh {name}")
-        gear, material = getattr(model.pair, name), model.scene.gears.material_of(name)
-        teeth, division = [loaded_teeth(pairs, number, order) for pairs in nodes], resolution.discretisation(number)
+        gear = getattr(model.pair, name)
+        material = model.scene.gears.material_of(name)
+        teeth = [loaded_teeth(pairs, number, order) for pairs in nodes]
+        division = resolution.discretisation(number)
         how = {"cache": cache, "job": job, "report": progress.update}
         gears.append(remeshed_stiffness(gear, material, teeth, division, **how))
     positions = list(zip(*(gear.positions for gear in gears)))

@@ -16,6 +16,7 @@ def rigid_route(model: Model, progress: Progress, cache: Cache | None, job: Job 
 
 def rigid_cycle(model: Model) -> Cycle:
     """The contact of one mesh cycle between rigid flanks."""
-    scene, grid = model.scene, model.resolution.contact_grid
+    scene = model.scene
+    grid = model.resolution.contact_grid
     mesh = rigid_mesh(model.pair, model.removal, grid, scene.coast_flanks is not None)
     return cycle_of(model, mesh)

@@ -22,7 +22,9 @@ def root_stress(model: Model, cycle: Cycle, progress: Progress, cache: Cache | N
 def rows_of(model: Model, name: str, cache: Cache | None) -> RootStressRows:
     """Root stress rows of the "pinion" or the "wheel", in the slices of the face where it has some, on the mesh of its
     compliance."""
-    gear, face, coast = ("pinion", "wheel").index(name), model.face, model.scene.coast_flanks is not None
+    gear = ("pinion", "wheel").index(name)
+    face = model.face
+    coast = model.scene.coast_flanks is not None
     return root_stress_rows(
         getattr(model.pair, name),
         model.scene.gears.material_of(name),

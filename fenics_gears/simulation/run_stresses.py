@@ -91,7 +91,7 @@ class GearInSpace:
 
 @dataclass(frozen=True)
 class GearsInMesh:
-    """Pinion and wheel at a stored time; `coast`: whether the coast flanks carry more than the drive flanks;
+    """Pinion and wheel at a stored time. `coast`: whether the coast flanks carry more than the drive flanks.
     `approach`: mm along their line of action that the hubs' motion brings the flanks together that carry more (coast
     flanks stand apart by the backlash before it)."""
 
@@ -109,8 +109,8 @@ class GearsInMesh:
 
 
 class RunStresses:
-    """Displacement and stress of both gears at any step of a result whose contact fields are stored: of whole gears in
-    the plane, over the face of the teeth in mesh. Use it in a `with`, or `close` it.
+    """Displacement and stress of both gears at any step of a result whose contact fields are stored. In the plane they
+    are of whole gears, over the face of the teeth in mesh. Use it in a `with`, or `close` it.
 
     scene: the one that was run. Raises SceneError where the run has no elastic teeth, or met its contact by remeshing.
     """
@@ -137,7 +137,8 @@ class RunStresses:
         self._check_place(index)
         stored = stored_forces(self.result, self.model, self.cycle, index)
         motion = hub_motion(self.result, index)
-        pair, coast = self.model.pair, stored.on_coast_flanks
+        pair = self.model.pair
+        coast = stored.on_coast_flanks
         place = coast_place(pair, 0, pair.pitch_point) if coast else drive_place(pair, 0, pair.pitch_point)
         arcs = pair.pinion.base_radius * motion[0, 2] + pair.wheel.base_radius * motion[1, 2]
         approach = float((motion[0, :2] - motion[1, :2]) @ place.axes[0] + place.turn * arcs)
@@ -146,7 +147,8 @@ class RunStresses:
         return GearsInMesh(time, phase, gears, pair, approach, coast)
 
     def _check_place(self, index: int) -> None:
-        error, pitch = abs(float(self.result["transmission_error"].values[index])), self.model.pair.wheel.angular_pitch
+        error = abs(float(self.result["transmission_error"].values[index]))
+        pitch = self.model.pair.wheel.angular_pitch
         if error > pitch:
             raise SceneError(
                 f"the transmission error at mesh phase {float(self.result['mesh_phase'].values[index]):.3f} is"
@@ -155,14 +157,16 @@ class RunStresses:
             )
 
     def _gear(self, gear: int, stored: StoredForces, motion: np.ndarray) -> GearInSpace:
-        recovery, data = self.recoveries[gear], (self.model.pair.pinion, self.model.pair.wheel)[gear]
+        recovery = self.recoveries[gear]
+        data = (self.model.pair.pinion, self.model.pair.wheel)[gear]
         forces = stored.on_flanks(self.model, gear, recovery.heights)
         found = recovery.recovered(forces, self._sectors(data, forces))
         centre, turns, places = self._standing(gear, stored.phase)
         own = np.array(found.sectors) % data.teeth
         # In the plane nothing moves along z.
         moved = np.pad(found.displacement, [(0, 0)] * 3 + [(0, 3 - found.displacement.shape[-1])])
-        section, radius = recovery.sector.section, np.linalg.norm(recovery.points, axis=1)
+        section = recovery.sector.section
+        radius = np.linalg.norm(recovery.points, axis=1)
         outline = outer_sides(section, recovery.sector.mesh)
         in_web, beside = layers_of(recovery.sector)
         inner = data.bore_radius if data.web is None else data.web.rim_radius
@@ -191,9 +195,12 @@ class RunStresses:
     def _standing(self, gear: int, phase: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """A gear's centre (2,); how a section's frame stands (teeth, h, 3, 3), by sector and height, and its nodes'
         places (teeth, h, n, 3), without load."""
-        recovery, face, pair = self.recoveries[gear], self.model.face, self.model.pair
+        recovery = self.recoveries[gear]
+        face = self.model.face
+        pair = self.model.pair
         centre, angles = standing(pair, gear, phase)
-        z, twist = recovery.heights + face.middles[gear], (1.0, -1.0)[gear] * face.slope / recovery.gear.base_radius
+        z = recovery.heights + face.middles[gear]
+        twist = (1.0, -1.0)[gear] * face.slope / recovery.gear.base_radius
         turns = np.stack([[rotation(angle + twist * height, 3) for height in z] for angle in angles])
         section = np.pad(recovery.points, ((0, 0), (0, 1)))
         along = z[:, None, None] * np.array([0.0, 0.0, 1.0])
@@ -219,7 +226,8 @@ class RunStresses:
 
 
 def recovery_of(model: Model, gear: int) -> GearRecovery:
-    data, material = (model.pair.pinion, model.pair.wheel)[gear], model.scene.gears.materials[gear]
+    data = (model.pair.pinion, model.pair.wheel)[gear]
+    material = model.scene.gears.materials[gear]
     return gear_recovery(data, material, discretisation_of(model, gear), model.scene.coast_flanks is not None)
 
 
@@ -245,7 +253,8 @@ def hub_motion(result: xr.Dataset, index: int) -> np.ndarray:
 
 def layers_of(sector: Sector) -> tuple[np.ndarray, tuple[ElementNodes, np.ndarray] | None]:
     """`in_web` and `beside` of a `GearInSpace`."""
-    sweep, section = sector.sweep, sector.section
+    sweep = sector.sweep
+    section = sector.section
     if sweep is None or sweep.web is None:
         return np.ones(0 if sweep is None else len(sweep.thicknesses), dtype=bool), None
     part = replace(section, cells=section.cells[sweep.web.beside(section.middles)])
@@ -254,7 +263,8 @@ def layers_of(sector: Sector) -> tuple[np.ndarray, tuple[ElementNodes, np.ndarra
 
 def outer_sides(nodes, mesh) -> np.ndarray:
     """Sides (k, 2) of first order of a sector's boundary, without those on its cuts."""
-    sides, count = nodes.boundary_sides, len(nodes.points)
+    sides = nodes.boundary_sides
+    count = len(nodes.points)
     cuts = np.sort(np.vstack([mesh.edges["lower cut"], mesh.edges["upper cut"]]), axis=1)
     ends = np.sort(sides[:, :2], axis=1)
     sides = sides[~np.isin(ends @ [count, 1], cuts @ [count, 1])]
@@ -269,7 +279,8 @@ def _on_flank(gear: Gear, points: np.ndarray, outline: np.ndarray, coast: bool) 
     def ahead(places: np.ndarray) -> np.ndarray:
         return np.sin(np.arctan2(places[..., 1], places[..., 0]) - tooth.centreline_angle)
 
-    radius, outer = np.linalg.norm(points, axis=1), np.zeros(len(points), dtype=bool)
+    radius = np.linalg.norm(points, axis=1)
+    outer = np.zeros(len(points), dtype=bool)
     outer[np.unique(outline)] = True
     own_side = ahead(points) * ahead(middle) * (-1.0 if coast else 1.0) > 0.0
     # The form circle and the tip's edge belong to it.

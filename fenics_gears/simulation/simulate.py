@@ -18,6 +18,7 @@ from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.errors import ComputationError, MemoryEnded, attempted
 from fenics_gears.model.bore_twist import bore_twist_stiffness
 from fenics_gears.model.cost import expected_cost
+from fenics_gears.model.fitting import too_large
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.extrema import repeating_steps
@@ -28,6 +29,8 @@ from fenics_gears.system.job import Job
 from fenics_gears.system.memory import allowed_memory, give_back
 from fenics_gears.system.progress import Progress, SilentProgress
 
+from . import dynamic_factor, lead_correction
+from .root_stress import root_stress
 from .routes import Preparation, prepared, route_of
 from .warm_up import compile_kernels, compile_loops
 
@@ -93,11 +96,9 @@ def _simulated(
 def memory_for_operators(model: Model) -> float:
     """Bytes that contact operators may take beside all else; raises ComputationError where a run does not fit without
     any."""
-    allowed, cost = allowed_memory(), expected_cost(model)
+    allowed = allowed_memory()
+    cost = expected_cost(model)
     if cost.held > allowed:
-        # Imported here: nearly all runs fit.
-        from fenics_gears.model.fitting import too_large
-
         raise ComputationError(too_large(model, cost, allowed))
     return allowed - cost.held
 
@@ -106,14 +107,13 @@ def root_stress_of(model: Model, cycle, progress: Progress, cache: Cache):
     """What the recorder needs for root stresses where they are asked for; None for routes without stresses."""
     if not (model.scene.output.root_stress and route_of(model).stresses):
         return None
-    from .root_stress import root_stress
-
     return root_stress(model, cycle, progress, cache)
 
 
 def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> March:
     """The march through time, recorded as it goes; a failure carries the result so far."""
-    model, cycle = recorder.model, recorder.cycle
+    model = recorder.model
+    cycle = recorder.cycle
     scene = model.scene
     try:
         judged = 0 if cycle.traits.rigid else min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1
@@ -156,8 +156,6 @@ def _add_dynamic_factors(result: RunResult, progress: Progress) -> None:
     recorder = result.recorder
     if recorder.model.scene.inertia is None or not result.attrs["complete"]:
         return
-    from . import dynamic_factor
-
     if dynamic_factor.wanted(recorder.model.scene):
         progress.stage("quasi-static run")
         found = attempted(result.attrs, "dynamic factor", lambda: dynamic_factor.dynamic_factors(recorder, result))
@@ -166,11 +164,10 @@ def _add_dynamic_factors(result: RunResult, progress: Progress) -> None:
 
 def with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
     """The result's dataset with the lead modifications that are proposed for its pinion, where there are any."""
-    model, dataset = result.recorder.model, result.dataset
+    model = result.recorder.model
+    dataset = result.dataset
     if not model.scene.three_dimensional or not result.attrs["complete"]:
         return dataset
-    from . import lead_correction
-
     if lead_correction.wanted(model):
         progress.stage("propose lead modifications")
         add = functools.partial(lead_correction.add_proposal, dataset, result.recorder)
@@ -180,7 +177,9 @@ def with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
 
 def result_of(recorder: Recorder, march: March, gears, compiled: float, stopped: str) -> RunResult:
     """The result of a recorded march; `stopped`: why it did not come to its end, empty where it did."""
-    model, cycle, result = recorder.model, recorder.cycle, None
+    model = recorder.model
+    cycle = recorder.cycle
+    result = None
     resolution = model.resolution
     with suppress(MemoryError):
         result = RunResult(recorder, march)

@@ -21,7 +21,8 @@ from .warm_up import compile_kernels
 def can_be_solved_together(model: Model, asked: Collection[str]) -> bool:
     """Whether the numbers `asked` of a run can be had so: of a quasi-static pair of elastic teeth, all alike, under a
     constant load."""
-    scene, drivetrain = model.scene, model.drivetrain
+    scene = model.scene
+    drivetrain = model.drivetrain
     teeth_alike = reliefs_apart(model) and common_period(scene) == 1
     steady = drivetrain.mass is None and drivetrain.rolling is None and not model.loads
     own = scene.output.root_stress or scene.accuracy.target is not None or scene.speed_ramp is not None
@@ -49,7 +50,9 @@ def solved_together(
         _, cycle = preparation(model, SilentProgress(), user_cache())
         cycle.kept.most = most
         compile_kernels(model.scene.friction is not None)
-        involutes, at_once, found = cycle.with_gaps(Gaps()), _most_at_once(model, cycle), []
+        involutes = cycle.with_gaps(Gaps())
+        at_once = _most_at_once(model, cycle)
+        found = []
         for first in range(0, len(models) if at_once else 0, max(at_once, 1)):
             some = models[first : first + at_once]
             gaps = Profiles(involutes, [each.removal for each in some], [openings_of(each, involutes) for each in some])
@@ -61,7 +64,8 @@ def solved_together(
 
 def _most_at_once(model: Model, cycle: Cycle) -> int:
     """How many runs on the operators of a cycle may be marched together; none where these cannot all be held."""
-    kept, position = cycle.kept, cycle.position(0)
+    kept = cycle.kept
+    position = cycle.position(0)
     if position.bytes * cycle.steps > SHARE_KEPT * kept.most - kept.others:
         return 0
     kinds = 2 if model.scene.friction is not None else 1

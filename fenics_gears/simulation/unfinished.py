@@ -22,7 +22,8 @@ def unfinished(directory: Path) -> xr.Dataset:
     """The result as if the run had been interrupted after the last step of its journal; `complete` 0, `stopped`
     NOT_ENDED. The gears are those of the cache, or condensed again. Raises ComputationError where the journal cannot be
     read."""
-    progress, cache = SilentProgress(), user_cache()
+    progress = SilentProgress()
+    cache = user_cache()
     recorded = read(directory)
     model = model_of(recorded.scene)
     gears, cycle = prepared(model, progress, cache)

@@ -1,8 +1,8 @@
 """Compile the hot kernels, or load them from disk, before the clock of the march starts.
 
-`python -m fenics_gears.simulation.warm_up` compiles all of them into numba's files on disk, where they are not compiled
-yet (`compiled_ahead`): the launcher calls it after the set-up and after each change of the sources. With the name of a
-part it compiles that part in this process.
+`python -m fenics_gears.simulation.warm_up` compiles all of them that are not compiled yet into numba's files on disk
+(`compiled_ahead`). The launcher calls it after the set-up and after each change of the sources. With the name of a part
+it compiles that part in this process.
 """
 
 import gc
@@ -25,15 +25,19 @@ from fenics_gears.contact.interpolation import (
 from fenics_gears.contact.kinematics import nodes_before
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
 from fenics_gears.contact.operator import ContactOperator, Position
+from fenics_gears.contact.rigid_mesh import solve_rigid
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, solve_step
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, nodal_gap
+from fenics_gears.contact.uniqueness import between_closed
 from fenics_gears.contact.window import ContactGrid, node_offsets
 from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, Course, Motion, solve_steps
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.steps import Steps, drive_flanks_touch, smallest_openings
 from fenics_gears.results.contact_variables import energy_of_teeth
+from fenics_gears.results.crests import Searches
 from fenics_gears.results.mesh_curves import stiffness_curves
+from fenics_gears.results.numbers import largest_of_cubics
 from fenics_gears.system.progress import LineProgress, Progress, SilentProgress
 
 from .compiled_ahead import MARCH, compile_loops, end_at_once_by_ctrl_c
@@ -58,8 +62,6 @@ def _run_once(tangential: bool, rigid: bool, evaluated: bool = True) -> None:
     motion = Motion.of(drivetrain, AVERAGE_ACCELERATION, 0.1, problem.tolerance)
     solve_steps(steps, 1, 2, motion, Course(np.ones(2), np.ones((2, 1))))
     if rigid:
-        from fenics_gears.contact.rigid_mesh import solve_rigid
-
         solve_rigid(steps.positions[0], problem, status, None)
     if evaluated:
         _evaluate(steps, tangential)
@@ -78,20 +80,25 @@ def _place_nodes(tangential: bool) -> None:
     nodal_gap(view, offsets, ends, view.places(offsets, ends))
     points_of_pairs(40.0, -1, contact, np.array([40.0]), offsets, ends)
     node_offsets(((-0.1, -0.2), (0.1, 0.2)), ContactGrid(1.0, 5))
-    kinds, near = 2 if tangential else 1, np.ravel(interpolation.near)
+    kinds = 2 if tangential else 1
+    near = np.ravel(interpolation.near)
     # With friction also along the tangent as it stood before.
-    block, results = np.eye(10), np.zeros((2, 2 * kinds, 2 * kinds))
+    block = np.eye(10)
+    results = np.zeros((2, 2 * kinds, 2 * kinds))
     positions = np.array([[results[0].ctypes.data, results[1].ctypes.data, 2, 2]])
     flanks = np.array([[0, interpolation.near.shape[1], 0, 2]])
     products = np.array([[0, block.ctypes.data, block.size, 10, 0, 0, 0 if tangential else NO_FLANK, 0, 0, 0]])
-    axes, responding = np.ones((1, kinds, 2)), np.ones((1, 2 * kinds - 1, 2))
+    axes = np.ones((1, kinds, 2))
+    responding = np.ones((1, 2 * kinds - 1, 2))
     compliance_products((positions, flanks, products), near, interpolation.first, axes, responding)
 
 
 def _steps(tangential: bool) -> tuple[Steps, StepProblem]:
     """Room for two steps of one contact node, and the problem of such a step."""
     kinds = 2 if tangential else 1
-    node, row, tolerance = np.zeros(1), np.eye(kinds, 1), Tolerance.of_load(1.0)
+    node = np.zeros(1)
+    row = np.eye(kinds, 1)
+    tolerance = Tolerance.of_load(1.0)
     slip = np.ones(1) if tangential else np.empty(0)
     problem = StepProblem(np.eye(1), np.ones(1), np.eye(kinds), row, node, slip, 0.1, np.empty(0), tolerance)
     place = Place(0, DRIVE, (0.5, 0.5))
@@ -108,16 +115,11 @@ def _evaluate(steps: Steps, tangential: bool) -> None:
     for evaluated in (contact_work, stiffness_curves, energy_of_teeth, smallest_openings, drive_flanks_touch):
         evaluated(steps)
     if tangential:
-        from fenics_gears.contact.uniqueness import between_closed
-
         between_closed(np.zeros((1, 1)), np.eye(2), np.array([0]), np.ones(1))
 
 
 def _look_for_extremes() -> None:
     """Not with every run: each is loaded where a run looks for its extremes."""
-    from fenics_gears.results.crests import Searches
-    from fenics_gears.results.numbers import largest_of_cubics
-
     largest_of_cubics(np.arange(4.0), np.zeros(4))
     Searches(np.arange(4.0), np.zeros((1, 4)), np.ones(1), 0.125)
 
@@ -132,14 +134,13 @@ def _compile_part(name: str) -> None:
         return
     for with_friction in (True, False):
         _evaluate(_steps(with_friction)[0], with_friction)
-    # A plane run does without.
-    from fenics_gears.contact.factored_compliance import factored_solver
-    from fenics_gears.contact.formed_rows import fine_section, row_former, uncertain_slices
+    # What is compiled already, a run in the plane does not load.
+    from fenics_gears.contact import factored_compliance, formed_rows
 
-    row_former()
-    factored_solver()
-    uncertain_slices.compile("(int64, float64[::1], float64)")
-    fine_section.compile("(int64, int64)")
+    formed_rows.row_former()
+    factored_compliance.factored_solver()
+    formed_rows.uncertain_slices.compile("(int64, float64[::1], float64)")
+    formed_rows.fine_section.compile("(int64, int64)")
 
 
 if __name__ == "__main__":

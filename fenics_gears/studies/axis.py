@@ -130,6 +130,7 @@ def number_in(value: Any, unit: str) -> float | None:
 
 
 def factor_of(unit: str) -> float:
+    """What a number in this unit is multiplied by to be in N, mm, s and rad."""
     return units.quantity(f"1 {unit}")[0]
 
 

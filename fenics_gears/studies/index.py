@@ -23,8 +23,8 @@ def directory_of(path: Path, output: Path | None) -> Path:
 
 
 def seems_complete(path: Path, directory: Path) -> bool:
-    """Whether files of all cases are there that the study of a file had last, and the file is none of after that: found
-    without reading either, so that what is not sure is still to be looked at."""
+    """Whether the study of a file had all its cases when it last ran, and the file has not changed since. Only names
+    and times of files are read, so this is a guess that has to be checked."""
     try:
         changed = path.stat().st_mtime > (directory / INDEX).stat().st_mtime
         listed = _read(directory)

@@ -11,8 +11,8 @@ from .axis import Axis
 class Study:
     """A validated study: all its scenes are right.
 
-    `combine`: "product" (one dimension for each axis) or "zip" (one dimension, `case`); `cases`: its runs, the last
-    swept field changes fastest; `text` and `scene_text`: the files it was read from; `base_key`: the base scene's hash.
+    `combine`: "product" (one dimension for each axis) or "zip" (one dimension, `case`). `cases`: its runs, the last
+    swept field changes fastest. `text` and `scene_text`: the files it was read from. `base_key`: the base scene's hash.
     """
 
     name: str

@@ -126,6 +126,7 @@ def _changes(tree: Mapping[str, Any], mistakes: Mistakes) -> Changes:
 
 
 def left_out(tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[fields.Path, ...]:
+    """The sections and fields that a file leaves out of its scene (`without`); mistakes in them are noted."""
     names = tree.get("without", [])
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
         allowed = 'sections and fields to leave out, such as ["inertia", "damping"]'

@@ -9,6 +9,7 @@ MOST_FAILURES = 5
 
 
 def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
+    """What a study has come to, as rows of name, value and unit."""
     records = outcome.records.values()
     rows = [("cases", f"{len(outcome.study.cases)}", ""), *outcome.spent.rows(outcome.kept)]
     if outcome.failures:

@@ -65,7 +65,8 @@ def choice() -> Choice:
         return Choice("", f"chosen by OpenBLAS; the processor is not known to have {' and '.join(sorted(missing))}")
     # As `system.environment` has made sure that it can be written.
     folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "fenics_gears")
-    file, key = folder / "kernels.json", _key(processor)
+    file = folder / "kernels.json"
+    key = _key(processor)
     with contextlib.suppress(OSError, ValueError, TypeError, KeyError):
         known = json.loads(file.read_text(encoding="utf-8"))
         if known["key"] == key:

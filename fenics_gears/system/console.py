@@ -50,7 +50,8 @@ def prepare_streams() -> None:
             _open_nowhere(number, name)
     if sys.stderr is sys.__stderr__:
         raw = NeverFull(sys.stderr.fileno(), "w", closefd=False)
-        buffer, encoding = io.BufferedWriter(raw), sys.stderr.encoding
+        buffer = io.BufferedWriter(raw)
+        encoding = sys.stderr.encoding
         sys.stderr = io.TextIOWrapper(buffer, encoding, "replace", line_buffering=True, write_through=True)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
@@ -83,7 +84,8 @@ def print_table(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[
 
 def _print(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Sequence[str]], left: int) -> None:
     """Print a table whose first columns, `left` of them, begin at the left and the others end at the right."""
-    heading, rows = printable(heading), [[printable(cell) for cell in row] for row in rows]
+    heading = printable(heading)
+    rows = [[printable(cell) for cell in row] for row in rows]
     columns = list(zip(*headings, *rows))
     if on_terminal(sys.stdout):
         _print_rich(heading, [column[: len(headings)] for column in columns], rows, left)

@@ -1,7 +1,7 @@
 """What MPI, PETSc and BLAS read from the process environment, set before they are loaded.
 
-What the user has set is never changed, unless it names a folder for temporary files or caches that cannot be written:
-numba and DOLFINx keep compiled code there, matplotlib its list of fonts, and MPI ends the process where temporary files
+What the user has set is never changed, unless it names a folder for temporary files or caches that cannot be written.
+Numba and DOLFINx keep compiled code there, matplotlib its list of fonts. MPI ends the process where temporary files
 have no room.
 """
 
@@ -79,7 +79,8 @@ def _largest(environment, names):
 
 Environment = MutableMapping[str, str]
 # Where temporary files go unless TMPDIR says where, and how many bytes of room they need.
-TEMPORARY, ROOM = ("/tmp", "/var/tmp"), 10e6
+TEMPORARY = ("/tmp", "/var/tmp")
+ROOM = 10e6
 # Folders within the user's folder for caches.
 CACHES = ("numba", "fenics", "matplotlib", "fenics_gears")
 

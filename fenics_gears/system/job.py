@@ -23,7 +23,8 @@ from . import environment
 LOGGER = logging.getLogger(__name__)
 
 # Seconds for which a failed rank waits for the others, in case that they fail too, and between looks for messages.
-PATIENCE, BETWEEN_LOOKS = 5.0, 0.005
+PATIENCE = 5.0
+BETWEEN_LOOKS = 0.005
 END = None
 
 
@@ -66,7 +67,8 @@ class Job:
     """All ranks of a job: rank 0 calls `together` and at last `end`, every other one `follow`."""
 
     def __init__(self, world):
-        self._world, self.size = world, world.size
+        self._world = world
+        self.size = world.size
         # Requests and agreements never meet the messages of the work itself.
         self._talk = world.Dup()
 
@@ -98,7 +100,8 @@ class Job:
                 self._carried_out(request[0], request[1], {})
 
     def _carried_out(self, work: Callable[..., Any], arguments: tuple, here: dict[str, Any]) -> list[Any]:
-        error, outcome = None, None
+        error = None
+        outcome = None
         with ending_all(self._world, KeyboardInterrupt):
             try:
                 outcome = work(*arguments, self._world, **here)
@@ -116,7 +119,8 @@ class Job:
     def _failures(self, error: Exception | None) -> dict[int, GearsError]:
         """The errors of all ranks, by rank. Where another rank does not come here soon after this one has failed, all
         end."""
-        counted, begun = array("i", [0]), time.monotonic()
+        counted = array("i", [0])
+        begun = time.monotonic()
         request = self._talk.Iallreduce(array("i", [error is not None]), counted)
         while not request.Test():
             if error is not None and time.monotonic() - begun > PATIENCE:

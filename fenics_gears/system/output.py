@@ -1,7 +1,7 @@
 """The directory a run writes to: a file is written aside and then renamed, so that a final name never holds half a
 file.
 
-Sealed files end with a digest of all bytes before it, which is checked first: HDF5 can end the whole process at one
+Sealed files end with a digest of all bytes before it, which is checked first. HDF5 can end the whole process at one
 wrong bit, and ignores bytes after its own end. Processes that write the same files do it one at a time.
 """
 
@@ -87,8 +87,8 @@ def _is_there(path: Path) -> bool:
 
 @contextlib.contextmanager
 def whole_file(path: Path, buffering: int = -1) -> Iterator[BinaryIO]:
-    """A new file, open to be written and read, which takes its name, also from a file that had it, at the end, and goes
-    where an exception ends the block. Raises OSError where it cannot be written."""
+    """A new file, open to be written and read. At the end it takes its name, even from a file that had it; where an
+    exception ends the block, it is removed. Raises OSError where it cannot be written."""
     path.parent.mkdir(parents=True, exist_ok=True)
     # Beside the final name, because a rename is atomic only within a file system; each writer has a file of its own.
     aside = path.with_name(f"{_unfinished()}{threading.get_ident()}")
@@ -181,7 +181,8 @@ def seal(content: bytes | memoryview) -> bytes:
 
 def seal_of(file: BinaryIO, length: int) -> bytes:
     """The same of the first `length` bytes of an open file."""
-    digest, left = hashlib.sha256(), length
+    digest = hashlib.sha256()
+    left = length
     file.seek(0)
     while left and (part := file.read(min(left, _PART))):
         digest.update(part)

@@ -13,7 +13,8 @@ from typing import TextIO, TypeVar
 SECONDS_BETWEEN_LINES = 5.0
 # A stage begins with what takes longest, such as compiling. The time left is said once a tenth is done, or once a
 # minute is over, by the pace of its later half.
-ENOUGH_DONE, ENOUGH_SECONDS = 0.1, 60.0
+ENOUGH_DONE = 0.1
+ENOUGH_SECONDS = 60.0
 
 
 Part = TypeVar("Part")
@@ -56,7 +57,8 @@ class LineProgress(Progress):
 
     def __init__(self, stream: TextIO | None = None, interval: float = SECONDS_BETWEEN_LINES, clock=time.monotonic):
         self._stream = stream if stream is not None else sys.stderr
-        self._interval, self._clock = interval, clock
+        self._interval = interval
+        self._clock = clock
         self.finished: Finished = []
         self._begin(None)
 
@@ -74,7 +76,8 @@ class LineProgress(Progress):
         now = self._clock()
         if now - self._spoken < self._interval or total <= 0:
             return
-        self._spoken, elapsed = now, now - self._begun
+        self._spoken = now
+        elapsed = now - self._begun
         said = f", {note}" if note else ""
         self._print(
             f"{self._name or 'work'}: {done} of {total} ({100 * done // total} %){said} after"
@@ -119,7 +122,8 @@ class BarProgress(Progress):
                 known = is_enough(task.completed, task.total or 0, task.elapsed or 0.0)
                 return super().render(task) if task.finished or known else Text("-:--:--", style="progress.remaining")
 
-        described, left = progress.TextColumn("{task.description}"), progress.TextColumn("left")
+        described = progress.TextColumn("{task.description}")
+        left = progress.TextColumn("left")
         columns = (described, progress.BarColumn(), progress.MofNCompleteColumn(), progress.TimeElapsedColumn(), left)
         self._bars = progress.Progress(*columns, Remaining(), console=console)
         self._task = None
@@ -181,8 +185,8 @@ class Interruption(Progress):
     """A ``Progress`` that passes everything on and decides, as a context manager, when Ctrl-C becomes a
     KeyboardInterrupt.
 
-    Within a counted stage it waits for the next ``update``: compiled code that it hit in the middle would end in a
-    SystemError, a step in the middle would be half done. A second Ctrl-C does not wait.
+    Within a counted stage it waits for the next ``update``. In the middle of compiled code it would end in a
+    SystemError, and a step would be half done. A second Ctrl-C does not wait.
     """
 
     def __init__(self, progress: Progress):

@@ -1,5 +1,5 @@
-"""A second process that computes one thing while this one computes another: libraries under MPI and gmsh hold no two
-threads, and two gears on half of the cores each are quicker than one after the other on all.
+"""A second process that computes one thing while this one computes another. Libraries under MPI and gmsh allow no two
+threads. Two gears on half of the cores each are quicker than one after the other on all cores.
 
 It is started anew: a copy of a process that has loaded MPI, or that has threads, may hang.
 """
@@ -37,7 +37,8 @@ class SecondProcess:
     size = 1
 
     def __init__(self, threads: int):
-        self._threads, self._ended = threads, False
+        self._threads = threads
+        self._ended = False
         self._process: subprocess.Popen[bytes] | None = None
 
     def together(self, work: Callable[..., Any], *arguments: Any) -> list[Any]:
@@ -95,7 +96,8 @@ def serve() -> None:
     outcome: Any
     try:
         work, arguments = pickle.load(sys.stdin.buffer)
-        failed, outcome = False, work(*arguments, None)
+        failed = False
+        outcome = work(*arguments, None)
     except Exception as error:
         failed = True
         outcome = error if isinstance(error, GearsError) else ComputationError(f"{type(error).__name__}: {error}")

@@ -34,7 +34,8 @@ def check_file(path: str | Path, largest: int) -> None:
     if not stat.S_ISREG(found.st_mode):
         raise Unreadable("it is a device or a pipe, not a file")
     if found.st_size > largest:
-        size, most = round(found.st_size / MEGABYTE), largest // MEGABYTE
+        size = round(found.st_size / MEGABYTE)
+        most = largest // MEGABYTE
         raise Unreadable(f"has {size} MB; a file of more than {most} MB is not read")
 
 

@@ -1,6 +1,7 @@
 """How large and how tangled the package is, as one table: `python -m tests.benchmarks.house [CHECKOUT ...]`.
 
-A column for each checkout, this one unless named. All is counted in the source, but for the modules of a plane run:
+A column for each checkout, this one unless named; then the members of all circles.
+All is counted in the source, but for the modules of a plane run:
 that run is made, without a cache of gears, so that condensing counts too.
 """
 
@@ -115,8 +116,12 @@ def circles(modules: list[Module]) -> list[list[str]]:
     return sorted((sorted(group) for group in groups), key=len, reverse=True)
 
 
+def modules_of(root: Path) -> list[Module]:
+    return [Module(root, path) for path in sorted((root / "fenics_gears").rglob("*.py"))]
+
+
 def measures(root: Path) -> dict[str, str]:
-    modules = [Module(root, path) for path in sorted((root / "fenics_gears").rglob("*.py"))]
+    modules = modules_of(root)
     core = [module for module in modules if not module.name.startswith("fenics_gears.extensions")]
     settings = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["tool"]
     excused = sum(len(each.get("ignore_imports", [])) for each in settings["importlinter"]["contracts"])
@@ -148,3 +153,6 @@ if __name__ == "__main__":
     columns = [measures(Path(each).resolve()) for each in sys.argv[1:] or [HERE]]
     for name in columns[0]:
         print("|".join(["", name, *(column[name] for column in columns), ""]))
+    for root in sys.argv[1:] or [HERE]:
+        for circle in circles(modules_of(Path(root).resolve())):
+            print(f"circle in {root}:", *circle, sep="\n  ")

@@ -9,6 +9,8 @@ import pytest
 import xarray as xr
 from tests.programs import DEMO
 
+from fenics_gears.commands.work import kept_run
+
 
 def small_result(complete=1):
     steps = ("time",)
@@ -31,7 +33,7 @@ def small_result(complete=1):
 def simulation(monkeypatch, tmp_path):
     """Its ``outcome`` is kept and goes through ``afterwards``, or is raised; the test runs in an empty directory."""
     monkeypatch.chdir(tmp_path)
-    stand_in = types.ModuleType("fenics_gears.runs.simulate")
+    stand_in = types.SimpleNamespace()
     stand_in.outcome, stand_in.calls = small_result(), []
     stand_in.afterwards = lambda result: result
 
@@ -44,7 +46,6 @@ def simulation(monkeypatch, tmp_path):
         keep(stand_in.outcome)
         return stand_in.afterwards(stand_in.outcome)
 
-    stand_in.simulate = simulate
     plots = types.ModuleType("fenics_gears.show.plots")
 
     def draw_run(dataset, directory):
@@ -53,7 +54,8 @@ def simulation(monkeypatch, tmp_path):
         return [picture]
 
     plots.draw_run = draw_run
-    monkeypatch.setitem(sys.modules, "fenics_gears.runs.simulate", stand_in)
+    stand_in.simulate = simulate
+    monkeypatch.setattr(kept_run, "simulate", lambda *given, **options: stand_in.simulate(*given, **options))
     monkeypatch.setitem(sys.modules, "fenics_gears.show.plots", plots)
     return stand_in
 

@@ -142,7 +142,7 @@ def test_what_fails_after_the_march_costs_exit_code_5(simulation, capsys, monkey
     elif what == "pictures":
         sys.modules["fenics_gears.show.plots"].draw_run = fails
     else:
-        monkeypatch.setattr("fenics_gears.results.summary.summary_rows", fails)
+        monkeypatch.setattr("fenics_gears.commands.work.kept_run.summary_rows", fails)
     assert main(["run", str(DEMO), "--output", "here"]) == 5
     said = capsys.readouterr()
     assert f"{what}: failed" in said.out + said.err and "float division" in said.out + said.err

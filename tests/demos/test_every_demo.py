@@ -17,14 +17,6 @@ def pictures(page: Path) -> list[Path]:
     return [(page.parent / name).resolve() for name in re.findall(r"!\[[^]]+\]\(([^)]+)\)", page.read_text())]
 
 
-def test_every_folder_is_a_demonstration():
-    """docs/demos.md: a folder with a script."""
-    folders = {
-        path.name for path in DEMOS.iterdir() if path.is_dir() and any(path.glob("*.*")) and path.name != "__pycache__"
-    }
-    assert folders == set(FOLDERS)
-
-
 @pytest.mark.parametrize("demo", FOLDERS)
 def test_it_is_tested_and_shown(demo):
     """docs/demos.md."""
@@ -50,14 +42,3 @@ def test_its_script_calls_a_module_that_is_there(demo):
     assert subprocess.run(["bash", "-n", script], capture_output=True).returncode == 0
     (module,) = re.findall(rf'/launch" demos\.{demo}\.(\w+)', script.read_text())
     assert (DEMOS / demo / f"{module}.py").is_file()
-
-
-def test_scripts_take_one_argument(capsys):
-    """demos/arguments.py."""
-    from demos.arguments import output_directory
-
-    assert output_directory("tip_relief", "Words.", []) == Path("results/tip_relief")
-    assert output_directory("tip_relief", "Words.", ["elsewhere"]) == Path("elsewhere")
-    with pytest.raises(SystemExit):
-        output_directory("tip_relief", "Words.", ["one", "two"])
-    assert "demos/tip_relief/run: error: unrecognized arguments: two" in capsys.readouterr().err

@@ -1,12 +1,8 @@
 """The demonstration of three real pairs."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from demos.real_pairs import pairs
-from demos.real_pairs.picture import picture
-from tests.coarse import COARSE
 
 from fenics_gears import load_scene, lumped_gears, model_of
 
@@ -29,17 +25,3 @@ def test_pairs_are_what_their_sources_say():
             mass = density * np.pi * radius**2 * scene.gears.face_width
             assert 1e3 * lumped.mass == pytest.approx(mass, rel=1e-3)
             assert 1e3 * lumped.moment_of_inertia == pytest.approx(0.5 * mass * radius**2, rel=5e-3)
-
-
-def test_table_and_picture_have_every_pair(monkeypatch):
-    """What they are made from."""
-    coarse = replace(
-        SCENES[2], accuracy=replace(COARSE, contact_length=1.0), motion=replace(SCENES[2].motion, mesh_cycles=3)
-    )
-    monkeypatch.setattr("fenics_gears.load_scene", lambda path: coarse)
-    found = pairs.measured(pairs.HERE)
-    assert len(found.row) == len(pairs.COLUMNS) and found.row[2:4] == ("96", "200")
-    assert pairs.table([found.row]).count("\n") == 2
-    axes = picture([found, found]).axes
-    assert len(axes) == 4 and len(axes[0].get_lines()) == 2
-    assert np.isfinite(axes[0].get_lines()[1].get_ydata()).all()

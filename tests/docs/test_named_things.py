@@ -40,20 +40,6 @@ def test_the_guide_is_short():
     assert sum(len(page.read_text(encoding="utf-8").split()) for page in pages) <= 20_000
 
 
-@pytest.mark.parametrize("page", [pytest.param(page, id=name_of(page)) for page in PAGES if page.stem != "CHANGELOG"])
-def test_a_page_tells_no_history(page):
-    """CONTRIBUTING.md."""
-    assert not re.findall(r"\b(?:commit|revision) [0-9a-f]{7}", page.read_text(encoding="utf-8"))
-
-
-def test_the_tour_names_files_of_every_folder():
-    """The checkout."""
-    named = set(in_text(ROOT / "docs" / "reading_the_code.md"))
-    folders = [path for path in (ROOT / "fenics_gears").iterdir() if (path / "__init__.py").exists()]
-    assert folders and all(f"fenics_gears/{folder.name}" in named for folder in folders)
-    assert len([name for name in named if name.endswith(".py") and (ROOT / name).exists()]) > 40
-
-
 def reading_table(heading):
     page = (ROOT / "docs" / "reading_the_code.md").read_text(encoding="utf-8")
     table = re.search(rf"^\| {heading} \|.*\n\|[-|]+\n((?:\|.*\n)+)", page, re.M)[1]

@@ -8,7 +8,7 @@ import pytest
 from tests.paper_text import PAPER
 
 from fenics_gears import SceneError, gear_pair, load_scene, scene_from_text
-from fenics_gears.commands.shared import checked_model
+from fenics_gears.commands.work.scenes import checked_model
 from fenics_gears.geometry.flank_deviations import flank_deviations
 from fenics_gears.geometry.flank_errors import GearErrors
 

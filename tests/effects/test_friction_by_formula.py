@@ -4,7 +4,7 @@ import pytest
 from tests.effects.examples import text_of
 
 from fenics_gears import SceneError, model_of, scene_from_text
-from fenics_gears.commands.shared import checked_model
+from fenics_gears.commands.work.scenes import checked_model
 from fenics_gears.geometry.friction_formulas import schlenk
 
 ELASTIC = text_of("tooth_elasticity")

@@ -22,12 +22,6 @@ def test_schema_data_and_list_know_the_same_sections():
     } == set(AT_THE_TOP)
 
 
-def test_a_module_has_the_effect_of_its_name():
-    """Identity."""
-    assert tuple(each.section for each in effects.every_effect()) == SECTIONS
-    assert tuple(each.section for each in effects.every_effect() if not each.within) == AT_THE_TOP
-
-
 def test_names_in_the_list_are_consistent():
     """Identity: needs and excludes name sections of the list, variables of one name are the same."""
     named = [name for effect in effects.every_effect() for name in (*effect.needs, *effect.excludes)]

@@ -6,7 +6,7 @@ from tests.effects.examples import text_of
 from tests.stand_in import stand_in_compliance
 
 from fenics_gears import SceneError
-from fenics_gears.commands.shared import checked_model
+from fenics_gears.commands.work.scenes import checked_model
 from fenics_gears.contact.flank_gaps import flank_gaps
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle

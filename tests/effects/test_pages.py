@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 from tests import effects_table
-from tests.effects.examples import scene_of, text_of
+from tests.effects.examples import text_of
 from tests.programs import python
 
 import fenics_gears
-from fenics_gears import Scene, scene_from_text, simulate
+from fenics_gears import scene_from_text, simulate
 
 PACKAGE = Path(fenics_gears.__file__).parent
 GUIDE = effects_table.PAGE.with_name("adding_an_effect.md")
@@ -167,8 +167,3 @@ def test_the_guides_effect_left_out_leaves_nothing_behind(runs, plain):
     assert bare["variables"] == plain["variables"] and "work_brake" not in bare["variables"]
     assert bare["transmission_error"] == plain["transmission_error"]
     assert set(runs[1]["variables"]) - set(bare["variables"]) == {"work_brake"}
-
-
-def test_the_packages_own_scene_does_not_know_the_guides_effect():
-    """Identity."""
-    assert "brake" not in Scene.__dataclass_fields__ and not hasattr(scene_of(), "brake")

@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 from tests.manufactured import l2_error
 
-from fenics_gears import SceneError
-from fenics_gears.elasticity.elements import ELEMENTS, element_named
+from fenics_gears.elasticity.elements import ELEMENTS
 
 ORDERS = {"P1": 2, "P2": 3, "Q1": 2, "Q1 incompatible": 2, "Q2": 3}
 
@@ -14,8 +13,3 @@ def test_order_of_the_displacement_error(name):
     errors = [l2_error(name, cells, 0.3) for cells in (6, 12, 24)]
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     assert abs(orders[-1] - ORDERS[name]) < 0.15
-
-
-def test_unknown_element_is_refused_with_the_nearest_name():
-    with pytest.raises(SceneError, match="did you mean 'P2'"):
-        element_named("p2")

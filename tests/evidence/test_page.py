@@ -2,8 +2,8 @@
 
 import pytest
 from tests.benchmarks.marked_section import markers
-from tests.evidence.kept import all_kept, numbers_of
-from tests.evidence.page import MOST_ROWS, PAGE, README, RED, page, readme_rows
+from tests.evidence.kept import numbers_of
+from tests.evidence.page import PAGE, README, RED, page, readme_rows
 from tests.evidence.parts import PARTS
 
 CHEAP = [part for part in PARTS if not part.minutes and not part.needs]
@@ -15,13 +15,6 @@ def test_the_page_is_made_of_the_numbers():
     begin, end = markers("evidence")
     shown = README.read_text(encoding="utf-8").partition(begin)[2].partition(end)[0]
     assert shown.strip() == readme_rows(PARTS)
-
-
-def test_the_page_is_short_and_every_number_has_a_row():
-    """Numbers whose row is gone would be kept for ever."""
-    rows = {(part.name, name) for part in PARTS for name in part.claims}
-    assert len(rows) == sum(len(part.claims) for part in PARTS) <= MOST_ROWS
-    assert {(part, name) for part, numbers in all_kept().items() for name in numbers} <= rows
 
 
 def test_every_row_outside_its_band_is_marked():

@@ -13,7 +13,7 @@ from fenics_gears import ComputationError, SceneError, expected_cost, model_of, 
 from fenics_gears.commands.cli import main
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.model.cost import ON_FLANKS, contact_of
+from fenics_gears.model.cost_parts import ON_FLANKS, contact_of
 from fenics_gears.results import load, save
 from fenics_gears.results.root_stress_variables import RootStress
 from fenics_gears.results.side_by_side import KnownLayouts

@@ -184,7 +184,7 @@ def test_a_level_that_fails_is_told_and_the_others_are_measured(scene, monkeypat
 def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monkeypatch, capsys):
     """Tables and the sentence on the terminal, DIR/accuracy.csv and DIR/accuracy.png."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(reports, "measure", lambda *arguments, **options: report)
+    monkeypatch.setattr("fenics_gears.commands.work.accuracy.measure", lambda *arguments, **options: report)
     (tmp_path / "small.toml").write_text(text_of(TEETH))
     assert main(["accuracy", "small.toml", "--quick", "--output", "there"]) == 0
     output = capsys.readouterr().out

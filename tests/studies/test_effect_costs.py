@@ -143,7 +143,7 @@ def test_csv_holds_every_row_with_units_in_its_names(report, tmp_path):
 def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monkeypatch, capsys):
     """A table on the terminal, DIR/effects.csv and DIR/effects.png."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(measured, "measure", lambda scene, progress: report)
+    monkeypatch.setattr("fenics_gears.commands.work.effects.measure", lambda scene, progress: report)
     (tmp_path / "small.toml").write_text(text_of(*PAPER))
     assert main(["effects", "small.toml", "--output", "there"]) == 0
     output = capsys.readouterr().out

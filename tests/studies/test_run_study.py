@@ -10,8 +10,8 @@ from tests.programs import command, ended
 from tests.studies.conftest import stamps, write_study
 
 from fenics_gears import load_scene, model_of, results, simulate
-from fenics_gears.commands import study as commands_study
 from fenics_gears.commands.cli import main
+from fenics_gears.commands.work import study as commands_study
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.runs import one_run

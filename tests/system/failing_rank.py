@@ -13,7 +13,7 @@ from fenics_gears.commands import cli
 OWN = int(os.environ.get("OMPI_COMM_WORLD_RANK") or os.environ.get("PMI_RANK", 0))
 WORDS = "no more chalk"
 STAGES = {
-    "reading": "commands.run:checked_model_and_directory",
+    "reading": "commands.work.run:checked_model_and_directory",
     "model": "simulation.simulate:memory_for_operators",
     "plane sections": "elasticity.gear_compliance:_computed",
     "section mesh": "elasticity.face.condensed:SectionForms",

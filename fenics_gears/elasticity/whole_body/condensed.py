@@ -51,7 +51,8 @@ def whole_body_compliance(
         "tooth_offsets": tooth_offsets,
     }
     arrays, timings = kept(cache, inputs, lambda: _computed(mesh, gear, material.poissons_ratio, chosen, tooth_offsets))
-    teeth, modulus = range(gear.teeth), material.youngs_modulus
+    teeth = range(gear.teeth)
+    modulus = material.youngs_modulus
     return WholeBodyCompliance(
         roll_angles=tuple(arrays[f"roll_angle_{tooth}"] for tooth in teeth),
         element_order=chosen.order,
@@ -90,7 +91,8 @@ class _CondensedPart:
 
 
 def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Element, tooth_offsets: int):
-    clock, body = perf_counter(), divided_body(mesh, gear, element)
+    clock = perf_counter()
+    body = divided_body(mesh, gear, element)
     parts = [
         _condensed(part, body, element, poissons_ratio, tooth * gear.angular_pitch)
         for tooth, part in enumerate(body.parts)
@@ -107,7 +109,8 @@ def _condensed(part: Part, body: DividedBody, element: Element, poissons_ratio: 
     """A part whose tooth stands turned by an angle (rad)."""
     groups = {name: body.nodes.points[getattr(part, name)] for name in ("flank", "faces", "interface", "hub")}
     found = condense(part.mesh, element, poissons_ratio, groups, cells_of={"faces": part.face_cells})
-    surface, interface = np.concatenate([found.dofs("flank"), found.dofs("faces")]), found.dofs("interface")
+    surface = np.concatenate([found.dofs("flank"), found.dofs("faces")])
+    interface = found.dofs("interface")
     stiffness = _in_frame(_in_frame(found.stiffness[np.ix_(surface, surface)], angle).T, angle)
     coupling = _in_frame(found.stiffness[np.ix_(surface, interface)], angle)
     own = definite_inverse(0.5 * (stiffness + stiffness.T), "a tooth's flank")
@@ -129,7 +132,8 @@ def _blocks(gear: Gear, body: DividedBody, parts: list[_CondensedPart], tooth_of
     size = 2 * len(body.interface)
     places = np.hstack([[np.repeat(part.dofs, len(part.dofs)), np.tile(part.dofs, len(part.dofs))] for part in parts])
     joined = sparse.coo_matrix((np.concatenate([part.link.ravel() for part in parts]), places), shape=(size, size))
-    factor, found = Factor(joined.tocsr(), "the interfaces of a gear's teeth"), {}
+    factor = Factor(joined.tocsr(), "the interfaces of a gear's teeth")
+    found = {}
 
     def opened(by: int, at: int, motion: np.ndarray) -> None:
         """Add how far apart a force on the flank of a tooth moves the faces of cracks in the part at a tooth, from
@@ -162,7 +166,8 @@ def _blocks(gear: Gear, body: DividedBody, parts: list[_CondensedPart], tooth_of
 def _add_openings(rows: np.ndarray, body: DividedBody, part: int, motion: np.ndarray, frame: np.ndarray) -> None:
     """Add to the openings (k, 2 f) what a part's faces contribute: their motion (2 c, 2 f) in a turned frame, its axes
     in the columns of `frame`."""
-    faces, cracks = body.parts[part].faces, body.cracks
+    faces = body.parts[part].faces
+    cracks = body.cracks
     motion = motion.reshape(len(faces), 2, -1)
     for nodes, sense in ((cracks.one, -1.0), (cracks.other, 1.0)):
         place = np.searchsorted(faces, nodes)

@@ -42,7 +42,8 @@ def _why_not_read(path: Path) -> str:
 def _check_cells(corners: int, element: str) -> None:
     chosen = element_named(element)
     if corners != chosen.corners:
-        triangles, quadrilaterals = ("triangles", '"P1" or "P2"'), ("quadrilaterals", '"Q1", "Q1 incompatible" or "Q2"')
+        triangles = ("triangles", '"P1" or "P2"')
+        quadrilaterals = ("quadrilaterals", '"Q1", "Q1 incompatible" or "Q2"')
         kind, fitting = triangles if corners == 3 else quadrilaterals
         raise SceneError(f"the mesh has {kind}, accuracy.element is {chosen.name}. Take {fitting}, for both gears")
 

@@ -137,7 +137,8 @@ def _standing_angle(points: np.ndarray, gear: Gear) -> float:
     between = (radius > gear.form_radius) & (radius < gear.tip_form_radius - tolerance)
     if not between.any():
         raise SceneError("the boundary of the mesh has no points on the flanks, between form circle and tip circle")
-    pitch, window = gear.angular_pitch, 2.0 * tolerance / gear.base_radius
+    pitch = gear.angular_pitch
+    window = 2.0 * tolerance / gear.base_radius
     angle = np.arctan2(points[between, 1], points[between, 0]) - drive_flank_angle(gear, radius[between])
     angle = np.sort(np.mod(angle, pitch))
     twice = np.concatenate([angle, angle + pitch])
@@ -153,7 +154,8 @@ def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float)
     radius = np.linalg.norm(points[boundary], axis=1)
     tooth, on_drive_side, off = _off_involute(points[boundary], gear)
     off = np.abs(off)
-    known, found = {tuple(side) for side in sides.tolist()}, []
+    known = {tuple(side) for side in sides.tolist()}
+    found = []
     for each in range(gear.teeth):
         own = on_drive_side & (tooth == each)
         chain, problem = _chain(points, known, boundary[own & (off <= tolerance)], gear, tolerance)
@@ -209,7 +211,8 @@ def _chain(
     """Sides of one flank from points that lie on its involute, and what is wrong with them."""
     radius = np.linalg.norm(points[candidates], axis=1)
     order = np.argsort(radius)
-    candidates, radius = candidates[order], radius[order]
+    candidates = candidates[order]
+    radius = radius[order]
     # Of the points at and below the form circle the highest begins the flank; below it there is fillet.
     first = max(int(np.searchsorted(radius, gear.form_radius + tolerance, side="right")) - 1, 0)
     chain = np.sort(np.stack([candidates[first:-1], candidates[first + 1 :]], axis=-1), axis=1)

@@ -127,13 +127,15 @@ def crack_nodes(nodes: ElementNodes) -> CrackNodes:
     ends = nodes.points[sides[:, :2]]
     tolerance = 1e-9 * np.abs(nodes.points).max()
     pairs = cKDTree(ends.mean(axis=1)).query_pairs(tolerance, output_type="ndarray").reshape(-1, 2)
-    one, other = sides[pairs[:, 0]], sides[pairs[:, 1]]
+    one = sides[pairs[:, 0]]
+    other = sides[pairs[:, 1]]
     # Cells go counter-clockwise: along a side the body is on the left, and both faces run against each other.
     other = other[:, [1, 0, *range(2, other.shape[1])]]
     along = ends[pairs[:, 0], 1] - ends[pairs[:, 0], 0]
     normals = np.stack([along[:, 1], -along[:, 0]], axis=-1) / np.linalg.norm(along, axis=1)[:, None]
     normals = np.repeat(normals, one.shape[1], axis=0)
-    one, other = one.ravel(), other.ravel()
+    one = one.ravel()
+    other = other.ravel()
     apart = one != other
     return CrackNodes(one[apart], other[apart], normals[apart])
 

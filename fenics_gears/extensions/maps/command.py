@@ -2,25 +2,14 @@
 or under mpirun; a stopped map is continued."""
 
 import argparse
-import sys
-from pathlib import Path
 
-from fenics_gears import ComputationError
 from fenics_gears.command_line import (
-    INTERRUPTED,
-    WITHOUT_SOMETHING,
     add_memory_argument,
     add_output_argument,
     add_processes_argument,
     add_scene_argument,
-    after_result,
-    check_writable,
-    checked_model,
+    later,
     positive_count,
-    print_files,
-    print_rows,
-    seconds_in_words,
-    shown_progress,
     under_mpirun,
 )
 
@@ -50,58 +39,9 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def draw_map(options: argparse.Namespace) -> int:
-    """Run what is missing of a map and draw it."""
-    if options.processes is not None:
-        given = (("--loads", options.loads), ("--speeds", options.speeds))
-        values = [word for name, words in given if words for word in (name, *words)]
-        return under_mpirun(options, ["map", str(options.scene), *values, "--most-runs", str(options.most_runs)])
-    from fenics_gears.runs.team import ranks
-
-    with ranks() as team:
-        return 0 if team is None else _run(options, team)
-
-
-def _run(options: argparse.Namespace, team) -> int:
-    from fenics_gears.studies.run_study import run_with
-    from fenics_gears.studies.summary import last_words, summary_rows
-
-    from .load_map import OVER_SPEED, QUASI_STATIC, load_map
-
-    scene = checked_model(options.scene).scene
-    wanted = load_map(options.scene, scene, options.loads, options.speeds, options.most_runs)
-    directory = options.output or Path("results") / f"{scene.name}_map"
-    outcomes = {}
-    check_writable(directory, "map.nc", "harris_map.png", "over_load.png", "over_speed.png", "campbell.png")
-    studies = wanted.studies
-    if not options.quiet:
-        time = f"about {seconds_in_words(wanted.expected_seconds)} on one core of an idle machine"
-        print(f"{scene.title}: {wanted.count} runs, {time}.", file=sys.stderr, flush=True)
-    for name, study in studies.items():
-        outcome = outcomes[name] = run_with(team, study, directory / name, shown_progress(options.quiet), options.quiet)
-        if not options.quiet:
-            print_rows(study.title, summary_rows(outcome))
-        if words := last_words(outcome, "the map"):
-            print(words, file=sys.stderr)
-        if outcome.interrupted:
-            return INTERRUPTED
-    from .map_results import map_dataset
-
-    found = map_dataset(wanted, outcomes[QUASI_STATIC], outcomes.get(OVER_SPEED))
-    from fenics_gears import save_tables
-
-    tables = save_tables(found, directory, "map")
-    pictures = after_result(tables[0], "pictures", lambda: _drawn(found, directory, scene))
-    print_files([*tables, *(pictures or [])], options.quiet)
-    if any(outcome.failures for outcome in outcomes.values()):
-        return ComputationError.exit_code
-    return WITHOUT_SOMETHING if pictures is None else 0
-
-
-def _drawn(found, directory: Path, scene) -> list[Path]:
-    from fenics_gears.charts import design, draw_charts
-
-    from .charts import map_pictures
-
-    supports = [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
-    more = f"{design(scene)}{', elastic ' + ' and '.join(supports) if supports else ''}"
-    return draw_charts(map_pictures(found), directory, scene.title, more)
+    """Run what is missing of a map and draw it, or start the processes that do."""
+    if options.processes is None:
+        return later("fenics_gears.extensions.maps.work:draw_map")(options)
+    given = (("--loads", options.loads), ("--speeds", options.speeds))
+    values = [word for name, words in given if words for word in (name, *words)]
+    return under_mpirun(options, ["map", str(options.scene), *values, "--most-runs", str(options.most_runs)])

@@ -10,15 +10,8 @@ from typing import Any
 
 from fenics_gears import Load, Scene, SceneError, as_toml, expected_cost, model_of, units
 from fenics_gears.command_line import seconds_in_words
-from fenics_gears.effects import common_period, effects_on
-from fenics_gears.inputs.problem import NOTHING_DONE
-from fenics_gears.inputs.tree import wheel_torque
-from fenics_gears.results.settled import settling_time
-from fenics_gears.scene.data import LOAD_WORDS
-from fenics_gears.simulation.dynamic_factor import quasi_static
-from fenics_gears.studies.axis import AxisError, values_in_words
-from fenics_gears.studies.study import Study
-from fenics_gears.studies.study_file import study_of
+from fenics_gears.many_runs import Study, common_period, effects_on, quasi_static, settling_time, study_of
+from fenics_gears.scene_text import LOAD_WORDS, NOTHING_DONE, AxisError, values_in_words, wheel_torque
 
 QUASI_STATIC = "quasi_static"
 OVER_SPEED = "over_speed"

@@ -13,17 +13,17 @@ from fenics_gears import (
     GearPair,
     Load,
     Scene,
+    Vibration,
     load,
     mesh_force,
     mesh_stiffness,
     model_of,
     of_settled,
     spectrum,
+    vibrations,
 )
-from fenics_gears.dynamics.frequencies import Vibration, vibrations
-from fenics_gears.scene.data import LOAD_WORDS
-from fenics_gears.studies.combine import load_combined
-from fenics_gears.studies.run_study import Outcome
+from fenics_gears.many_runs import Outcome, load_combined
+from fenics_gears.scene_text import LOAD_WORDS
 
 from .load_map import LoadMap
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from fenics_gears.charts import GREY, MARKED_LINES, MARKERS, PALETTE, Chart, Curve, draw_charts, harris_map
-from fenics_gears.studies.scenes import model_of_tree
+from fenics_gears.scene_text import model_of_tree
 
 from .design import QUANTILE, Goal, Variable
 from .evaluations import Evaluation

@@ -2,17 +2,13 @@
 stopped search is continued."""
 
 import argparse
-import sys
 from pathlib import Path
 
 from fenics_gears.command_line import (
-    INTERRUPTED,
-    WITHOUT_SOMETHING,
     add_memory_argument,
     add_output_argument,
     add_processes_argument,
-    after_result,
-    shown_progress,
+    later,
     under_mpirun,
 )
 
@@ -29,28 +25,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def optimize(options: argparse.Namespace) -> int:
-    if options.processes is not None:
-        return under_mpirun(options, ["optimize", str(options.design), *(["--yes"] if options.yes else [])])
-    from .optimize import optimize
-    from .result import write_result
-
-    try:
-        outcome = optimize(options.design, options.output, shown_progress(options.quiet), options.quiet, options.yes)
-    except KeyboardInterrupt:
-        print("Interrupted. Finished runs are kept; the same command goes on from there.", file=sys.stderr)
-        return INTERRUPTED
-    if outcome is None:
-        return 0
-    files = write_result(outcome)
-    from .charts import summary_rows, write_pictures
-    from .page import write_page
-
-    drawn = after_result(files[0], "pictures", lambda: write_pictures(outcome))
-    page = after_result(files[0], "page", lambda: [write_page(outcome)])
-    files += [*(drawn or []), *(page or [])]
-    if not options.quiet:
-        from fenics_gears.command_line import print_rows
-
-        print_rows(outcome.design.title, summary_rows(outcome))
-        print_rows("Files", [("", str(file), "") for file in files])
-    return WITHOUT_SOMETHING if drawn is None or page is None else 0
+    """Search, or start the processes that do."""
+    if options.processes is None:
+        return later("fenics_gears.extensions.optimization.work:search")(options)
+    return under_mpirun(options, ["optimize", str(options.design), *(["--yes"] if options.yes else [])])

@@ -5,9 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from fenics_gears.inputs.tree import GEARS, value_at
-from fenics_gears.studies import fields
-from fenics_gears.studies.axis import factor_of, number_in
+from fenics_gears.scene_text import GEARS, factor_of, fields, number_in, value_at
 
 from .design import Design, Scatter
 

@@ -8,10 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from fenics_gears.inputs.allowed import AllowedNumber
-from fenics_gears.inputs.fields import choice, declared, whole_number
-from fenics_gears.inputs.section import Section
-from fenics_gears.studies import fields
+from fenics_gears.scene_text import AllowedNumber, Section, choice, declared, fields, whole_number
 
 MEAN = "mean"
 WORST = "worst"
@@ -139,8 +136,8 @@ class Search(Section):
 class Design:
     """A validated optimisation.
 
-    `tree`: the parsed scene that designs are changes of; `before`: the one they are compared with; `directory`: from
-    which files are found that the scene names; `text`: of the design file.
+    `tree`: the parsed scene that designs are changes of. `before`: the one they are compared with. `directory`: from
+    which files are found that the scene names. `text`: of the design file.
     """
 
     name: str

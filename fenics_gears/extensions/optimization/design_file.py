@@ -6,12 +6,18 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears import Scene, SceneError, flank_tolerance, gear_pair, helix_tolerance
-from fenics_gears.inputs.tree import GEARS
-from fenics_gears.scene.parsing import parsed
-from fenics_gears.scene.read import name_of, text_of
-from fenics_gears.studies import fields
-from fenics_gears.studies.scenes import Changes, NoScene, model_of_tree
-from fenics_gears.studies.study_file import entries, left_out
+from fenics_gears.scene_text import (
+    GEARS,
+    Changes,
+    NoScene,
+    entries,
+    fields,
+    left_out,
+    model_of_tree,
+    name_of,
+    parsed,
+    text_of,
+)
 
 from .conditions import FROM_ZERO, samples, scattered, value_of
 from .design import Design, Scatter

@@ -8,17 +8,23 @@ from typing import Any
 
 import numpy as np
 
-from fenics_gears.results.dataset import RunResult
-from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.runs.common_windows import CommonWindows
-from fenics_gears.runs.lines import Lines, kept
-from fenics_gears.runs.record import numbers_of
-from fenics_gears.runs.run import Run, run_of
-from fenics_gears.runs.runs import Failure, Runs
-from fenics_gears.runs.spent import seconds_of
-from fenics_gears.runs.team import Alone, Together
-from fenics_gears.studies.scenes import Models, NoScene
-from fenics_gears.system.progress import Interruption
+from fenics_gears.many_runs import (
+    NO_MEANING,
+    Alone,
+    CommonWindows,
+    Failure,
+    Interruption,
+    Lines,
+    Run,
+    RunResult,
+    Runs,
+    Together,
+    kept,
+    numbers_of,
+    run_of,
+    seconds_of,
+)
+from fenics_gears.scene_text import Models, NoScene
 
 from .conditions import trees_of
 from .design import Design, Goal
@@ -33,9 +39,9 @@ and more."""
 class Evaluation:
     """What a design amounts to.
 
-    `values`: of its variables; `goals`: by name, as the design file judges; `of_samples`: by name, the values
-    (samples,) behind it; `at_points`: by name, the mean over the samples at each operating point; `violation`: of the
-    constraints, 0 where all hold; `failure`: why it has no numbers, empty where it has.
+    `values`: of its variables. `goals`: by name, as the design file judges. `of_samples`: by name, the values
+    (samples,) behind it. `at_points`: by name, the mean over the samples at each operating point. `violation`: of the
+    constraints, 0 where all hold. `failure`: why it has no numbers, empty where it has.
     """
 
     values: dict[str, float | str]

@@ -8,13 +8,17 @@ import numpy as np
 
 from fenics_gears import SceneError, expected_cost
 from fenics_gears.command_line import seconds_in_words
-from fenics_gears.inputs.tree import GEARS
-from fenics_gears.runs.common_windows import CommonWindows
-from fenics_gears.runs.condensing import BODY, gear_tasks
-from fenics_gears.runs.gear_store import operators_key
-from fenics_gears.runs.run import Run, run_of
-from fenics_gears.runs.runs import most_together, solved_at_once
-from fenics_gears.studies.scenes import NoScene, model_of_tree
+from fenics_gears.many_runs import (
+    BODY,
+    CommonWindows,
+    Run,
+    gear_tasks,
+    most_together,
+    operators_key,
+    run_of,
+    solved_at_once,
+)
+from fenics_gears.scene_text import GEARS, NoScene, model_of_tree
 
 from .conditions import FRESH, trees_of
 from .design import Design

@@ -1,9 +1,7 @@
 """The numbers of a result that goals and constraints may name, and what a scene needs to have them."""
 
 from fenics_gears import HARMONIC_NAMES, Scene
-from fenics_gears.results.attributes import RESULT_ATTRIBUTES
-from fenics_gears.results.together import OVER_FACE
-from fenics_gears.runs.record import NUMBERS
+from fenics_gears.many_runs import NUMBERS, OVER_FACE, RESULT_ATTRIBUTES
 
 ERROR = "peak_to_peak_transmission_error"
 ROOT = ("largest_root_stress_pinion", "largest_root_stress_wheel")

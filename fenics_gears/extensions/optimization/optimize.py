@@ -10,14 +10,8 @@ import numpy as np
 
 from fenics_gears import ComputationError
 from fenics_gears.command_line import check_writable
-from fenics_gears.inputs.tree import Tree
-from fenics_gears.runs.folder import sole_writer
-from fenics_gears.runs.spent import Spent
-from fenics_gears.runs.team import Alone, Together, ranks
-from fenics_gears.studies import fields
-from fenics_gears.studies.axis import number_in
-from fenics_gears.studies.scenes import model_of_tree
-from fenics_gears.system.progress import Interruption, Progress
+from fenics_gears.many_runs import Alone, Interruption, Progress, Spent, Together, ranks, sole_writer
+from fenics_gears.scene_text import Tree, fields, model_of_tree, number_in
 
 from .conditions import samples
 from .design import Design
@@ -40,7 +34,7 @@ class Outcome:
     `before`: the scene before, `tried`: all designs in their order, `best`: the place of the chosen one, `front`:
     places of the Pareto front. `fresh`: the scene before and the chosen design under samples that the search did not
     know, where there are tolerances. `along`: by variable its values and the chosen design's evaluations there, without
-    scatter; `limits`: by scatter the evaluations of the chosen design at the lower limit, without scatter and at the
+    scatter. `limits`: by scatter the evaluations of the chosen design at the lower limit, without scatter and at the
     upper limit; nothing where one failed. `harris`: torques (loads,), N m, and of the scene before and the chosen one
     curves (2, steps) of mesh phase and transmission error, rad. `spent`: on the runs that were not `kept` from before.
     """

@@ -3,10 +3,21 @@
 from pathlib import Path
 
 from fenics_gears.command_line import write_whole
-from fenics_gears.show.report.origin import made_by, scene_section
-from fenics_gears.show.report.overview import counted
-from fenics_gears.show.report.page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words
-from fenics_gears.show.report.rendering import rendered
+from fenics_gears.pages import (
+    Block,
+    Cell,
+    Facts,
+    Page,
+    Section,
+    Table,
+    Tile,
+    Tiles,
+    Words,
+    counted,
+    made_by,
+    rendered,
+    scene_section,
+)
 
 from . import charts
 from .optimize import PAGE, Outcome

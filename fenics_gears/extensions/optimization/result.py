@@ -9,11 +9,8 @@ import xarray as xr
 import fenics_gears
 from fenics_gears import as_toml
 from fenics_gears.command_line import write_whole
-from fenics_gears.inputs.allowed import AllowedFile
-from fenics_gears.inputs.tree import value_at
-from fenics_gears.results.files import save
-from fenics_gears.scene.schema import known_paths
-from fenics_gears.studies import fields
+from fenics_gears.many_runs import save
+from fenics_gears.scene_text import AllowedFile, fields, known_paths, value_at
 
 from .design import QUANTILE
 from .optimize import BEST, RESULT, TABLE, Outcome

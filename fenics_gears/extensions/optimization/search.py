@@ -1,8 +1,8 @@
 """The search for the best designs, by samplers of Optuna: for one goal over ranges CMA-ES (covariance matrix
 adaptation), else TPE (tree-structured Parzen estimators), which takes words and several goals too.
 
-Designs are asked for and told in whole populations and in order, so that the same seed tries the same designs whatever
-the number of processes, and a search that was stopped goes on by being run again: its runs are found on disk.
+Designs are asked for and told in whole populations and in order. So the same seed tries the same designs whatever the
+number of processes. A search that was stopped goes on when it is run again: its runs are on disk.
 """
 
 import warnings

@@ -7,13 +7,22 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears import load_scene, units
-from fenics_gears.inputs.problem import did_you_mean, line_numbers
-from fenics_gears.inputs.section import Section, names_in, read
-from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.parsing import parsed
-from fenics_gears.studies import fields
-from fenics_gears.studies.axis import AxisError, factor_of, number_in, values_of
-from fenics_gears.studies.study_file import Mistakes, entries
+from fenics_gears.scene_text import (
+    AxisError,
+    Mistakes,
+    Section,
+    as_written,
+    did_you_mean,
+    entries,
+    factor_of,
+    fields,
+    line_numbers,
+    names_in,
+    number_in,
+    parsed,
+    read,
+    values_of,
+)
 
 from .design import WORST, Bound, Goal, Loads, Scatter, Search, Tolerances, Variable
 from .goals import NAMES, unit_and_words

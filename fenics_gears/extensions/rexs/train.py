@@ -1,8 +1,8 @@
 """The gear train around a mesh: which parts turn as one, which meshes join them, and the torque, speed and direction
 of power that a gear has through it.
 
-Nothing is lost on the way: M2 = M1 z2/z1, n2 = n1 z1/z2. A torque is found only where it follows from the given loads:
-not where a path divides and comes together again, ends without a load or goes through a planetary stage.
+Nothing is lost on the way: M2 = M1 z2/z1, n2 = n1 z1/z2. A torque is known only where it follows from the given loads.
+It does not where a path divides and comes together again, ends without a load or goes through a planetary stage.
 """
 
 from __future__ import annotations

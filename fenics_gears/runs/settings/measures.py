@@ -1,7 +1,7 @@
 """The measures by which two runs of a scene are compared, and their relative distance.
 
 All are arrays of the same shape in all runs but the curve of T_E, which has a value for each step of the last mesh
-cycle. Curves of different steps are compared at phases that both have: straight lines between steps would add an error
+cycle. Curves of different steps are compared at phases that both have. Straight lines between steps would add an error
 of their own at the kinks where tooth pairs enter or leave contact. T_EPP is located between steps (`results.extrema`).
 The `energy defect` is an error in itself, in parts of the drive's work.
 """
@@ -48,7 +48,7 @@ Answer = dict[str, np.ndarray]
 
 
 def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> Answer:
-    """All measures of a run; `window` (mm): length over which pressures are compared; `root_stress`: MPa, peak at a
+    """All measures of a run. `window` (mm): length over which pressures are compared. `root_stress`: MPa, peak at a
     material point (`root_point`), which is not in a result; None where it is not known."""
     found = {**judged_answer(run), DEFECT: np.array([_defect(run)])}
     if "energy_teeth" in run:

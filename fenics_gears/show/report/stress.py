@@ -1,7 +1,5 @@
 """The gears in mesh with their stresses, drawn as `gears picture` draws them."""
 
-import io
-
 import numpy as np
 import xarray as xr
 
@@ -54,12 +52,7 @@ def _most_loaded(dataset: xr.Dataset) -> int:
 
 
 def _drawn(run: Run, index: int) -> tuple[bytes, str, list[Chart]]:
-    from fenics_gears.simulation.run_stresses import RunStresses
+    # A page without the picture needs no DOLFINx.
+    from .stress_drawn import drawn
 
-    from ..stress_picture import charts_of, save_picture, still
-
-    with RunStresses(run.dataset, run.scene) as stresses:
-        mesh = stresses.at(index)
-    content = io.BytesIO()
-    save_picture(still(mesh, run.dataset), content)
-    return content.getvalue(), *charts_of(mesh)
+    return drawn(run, index)

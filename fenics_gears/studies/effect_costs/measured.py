@@ -32,10 +32,10 @@ MOST_BYTES = 1e9
 class Row:
     """Costs and results of one subset.
 
-    `contact_rows`: of the contact operator, on the average over the mesh cycle; `step_times` (rounds,), s; `condense`:
-    both gears, s, zero for rigid flanks; `operators`: of one mesh cycle, s; `transmission_error`: peak to peak, mm on
-    the wheel's base circle; `peak_force`: of the mesh, N; `remarks`: what to know of this row; `peak_pressure`: MPa,
-    tip edges left out; `face_load_factor`: K_Hbeta. NaN where there is none.
+    `contact_rows`: of the contact operator, on the average over the mesh cycle; `step_times` (rounds,), s. `condense`:
+    both gears, s, zero for rigid flanks. `operators`: of one mesh cycle, s. `transmission_error`: peak to peak, mm on
+    the wheel's base circle. `peak_force`: of the mesh, N. `remarks`: what to know of this row. `peak_pressure`: MPa,
+    tip edges left out. `face_load_factor`: K_Hbeta. NaN where there is none.
     """
 
     subset: Subset

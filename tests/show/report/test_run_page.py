@@ -184,13 +184,12 @@ def write_measured(directory, lines):
 
 def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
     """--effects writes what `gears effects` writes, before the page reads it."""
-    from fenics_gears.commands import report
-    from fenics_gears.studies.effect_costs import measured
+    from fenics_gears.commands.work import report
 
     dataset = results.load(run / "run.nc")
     error = dataset.attrs["peak_to_peak_transmission_error"] * dataset.attrs["base_radius_wheel"]
     asked = []
-    monkeypatch.setattr(measured, "measure", lambda scene, progress: asked.append(scene.text) or "measured")
+    monkeypatch.setattr(report, "measure", lambda scene, progress: asked.append(scene.text) or "measured")
 
     def write(found, directory, name, write_csv, draw):
         assert (found, directory, name) == ("measured", tmp_path, "effects")

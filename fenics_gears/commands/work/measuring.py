@@ -5,11 +5,13 @@ from contextlib import closing
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
+from fenics_gears.show.plots import save_figures
 from fenics_gears.system.console import print_rows
 from fenics_gears.system.job import communicator
 from fenics_gears.system.output import written_aside
 
-from .shared import after_result, checked_model_and_directory, shown_progress
+from .scenes import checked_model_and_directory
+from .shared import after_result, shown_progress
 
 NO_TIMES = "measures times, which mean nothing while processes share the machine. Start gears without mpirun."
 
@@ -32,8 +34,6 @@ def measured(measure: Callable, quiet: bool):
 
 def write_report(report, directory: Path, name: str, write_csv: Callable, draw: Callable) -> list[Path]:
     """Write `name`.csv by `write_csv(report, file)`, then `name`.png, the figure `draw(report)`; return the files."""
-    from fenics_gears.show.plots import save_figures
-
     written: list[Path] = []
     with written_aside(directory, written) as aside:
         write_csv(report, aside / f"{name}.csv")

@@ -1,0 +1,35 @@
+"""What ``gears accuracy`` does."""
+
+import argparse
+
+from fenics_gears.show.work_precision import work_precision
+from fenics_gears.studies.accuracy import table
+from fenics_gears.studies.accuracy.report import measure
+from fenics_gears.system.console import print_rows, print_table
+
+from ..shared import WITHOUT_SOMETHING
+from .measuring import measured, print_origin, scene_to_measure, write_report
+
+
+def accuracy(options: argparse.Namespace) -> int:
+    scene, directory = scene_to_measure(options, "accuracy")
+    report = measured(lambda progress: measure(scene, progress, options.quick), options.quiet)
+    files = write_report(report, directory, "accuracy", table.write_csv, work_precision)
+    if not options.quiet:
+        _print(report, files)
+    return 0 if len(files) > 1 else WITHOUT_SOMETHING
+
+
+def _print(report, files) -> None:
+    title = f"{report.scene.title}: each setting's error, the others at {report.fine.words}"
+    print_table(title, table.headings(report), table.table_rows(report))
+    print_table(
+        "Combinations of settings, and cheaper models; * on the Pareto front",
+        table.whole_headings(report),
+        table.whole_rows(report),
+    )
+    print_rows("Result", [("", table.in_one_sentence(report), "")])
+    print_rows("Remarks", [("", remark, "") for remark in (*table.remarks(report), table.timed(report))])
+    if report.failures:
+        print_rows("Not run", [(name, reason, "") for name, reason in report.failures])
+    print_origin(report, files)

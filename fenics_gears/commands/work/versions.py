@@ -1,0 +1,14 @@
+"""What ``gears --version -v`` says of the libraries."""
+
+from fenics_gears.studies.machine import processor, versions
+from fenics_gears.system import blas
+
+
+def print_versions() -> int:
+    print(versions().removeprefix("fenics_"), processor(), sep="\n")
+    for each in blas.libraries():
+        wrong = "" if each["exact"] else ", WRONG: products of integers are not exact"
+        words = f"kernels for {each['kernels']}, threads {each['threads']}{wrong}"
+        print(f"OpenBLAS {each['version']} ({each['file']}): {words}")
+    print(f"kernels: {blas.said()}")
+    return 0

@@ -1,0 +1,63 @@
+"""What ``gears map`` does."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from fenics_gears import ComputationError, save_tables
+from fenics_gears.charts import design, draw_charts
+from fenics_gears.command_line import (
+    INTERRUPTED,
+    WITHOUT_SOMETHING,
+    after_result,
+    check_writable,
+    checked_model,
+    print_files,
+    print_rows,
+    seconds_in_words,
+    shown_progress,
+)
+from fenics_gears.many_runs import last_words, ranks, run_with, summary_rows
+
+from .charts import map_pictures
+from .load_map import OVER_SPEED, QUASI_STATIC, load_map
+from .map_results import map_dataset
+
+
+def draw_map(options: argparse.Namespace) -> int:
+    """Run what is missing of a map and draw it."""
+    with ranks() as team:
+        return 0 if team is None else _run(options, team)
+
+
+def _run(options: argparse.Namespace, team) -> int:
+    scene = checked_model(options.scene).scene
+    wanted = load_map(options.scene, scene, options.loads, options.speeds, options.most_runs)
+    directory = options.output or Path("results") / f"{scene.name}_map"
+    outcomes = {}
+    check_writable(directory, "map.nc", "harris_map.png", "over_load.png", "over_speed.png", "campbell.png")
+    studies = wanted.studies
+    if not options.quiet:
+        time = f"about {seconds_in_words(wanted.expected_seconds)} on one core of an idle machine"
+        print(f"{scene.title}: {wanted.count} runs, {time}.", file=sys.stderr, flush=True)
+    for name, study in studies.items():
+        outcome = outcomes[name] = run_with(team, study, directory / name, shown_progress(options.quiet), options.quiet)
+        if not options.quiet:
+            print_rows(study.title, summary_rows(outcome))
+        if words := last_words(outcome, "the map"):
+            print(words, file=sys.stderr)
+        if outcome.interrupted:
+            return INTERRUPTED
+    found = map_dataset(wanted, outcomes[QUASI_STATIC], outcomes.get(OVER_SPEED))
+    tables = save_tables(found, directory, "map")
+    pictures = after_result(tables[0], "pictures", lambda: _drawn(found, directory, scene))
+    print_files([*tables, *(pictures or [])], options.quiet)
+    if any(outcome.failures for outcome in outcomes.values()):
+        return ComputationError.exit_code
+    return WITHOUT_SOMETHING if pictures is None else 0
+
+
+def _drawn(found, directory: Path, scene) -> list[Path]:
+    supports = [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
+    more = f"{design(scene)}{', elastic ' + ' and '.join(supports) if supports else ''}"
+    return draw_charts(map_pictures(found), directory, scene.title, more)

@@ -1,0 +1,76 @@
+"""What ``gears listen`` and ``gears plot --spectrum`` do."""
+
+import argparse
+from pathlib import Path
+
+from fenics_gears import SceneError, save_tables
+from fenics_gears.charts import draw_charts
+from fenics_gears.command_line import (
+    check_writable,
+    file_to_write,
+    loaded_run,
+    number_of_option,
+    print_files,
+    run_file,
+    write_whole,
+)
+
+from .charts import noise_charts
+from .command import AUTOMATIC
+from .figures import noise_figures
+from .sound import LOWEST_HEARD, save_sound, sound
+
+LONGEST = 600.0
+NOISE_FILES = "noise.png", "noise.nc"
+
+
+def listen(options: argparse.Namespace) -> int:
+    """Write the sound of a run."""
+    file = run_file(options.run)
+    output = file_to_write(options, file.parent / f"{options.curve}.wav", "the sound")
+    if not 0.1 <= options.seconds <= LONGEST:
+        raise SceneError(f"--seconds {options.seconds:g}: allowed are 0.1 to {LONGEST:g} seconds.")
+    result = loaded_run(file)
+    full_scale = _checked(result, options)
+    try:
+        heard = sound(result, options.curve, options.seconds, full_scale)
+    except ValueError as error:
+        why = f"{error} in this run. Without inertia and friction the force is constant"
+        raise SceneError(f"--curve {options.curve}: {why}: take --curve transmission_error.") from None
+    print_files([write_whole(output, lambda path: save_sound(heard, path))], options.quiet)
+    if not options.quiet:
+        print(f"full scale {heard.full_scale:.4g} {result[options.curve].attrs['units']}")
+    return 0
+
+
+def _checked(result, options: argparse.Namespace) -> float | None:
+    """The full scale in the curve's unit; None where none is given. Raises SceneError for a curve that is none, a run
+    that is too slow to be heard, and a wrong unit."""
+    curves = [name for name in result.data_vars if result[name].dims == ("time",) and result[name].dtype.kind == "f"]
+    if options.curve not in curves:
+        raise SceneError(f"--curve {options.curve}: is no curve of this run. Allowed: {', '.join(curves)}.")
+    phase = result["mesh_phase"].values
+    time = result["time"].values
+    fastest = abs(phase[-1] - phase[0]) / (time[-1] - time[0]) if len(time) > 1 else 0.0
+    if fastest < LOWEST_HEARD:
+        low = f"has a mesh frequency of {fastest:.3g} Hz, too low to hear (from {LOWEST_HEARD:g} Hz)"
+        raise SceneError(f"{options.run}: {low}. Give the scene a higher motion.mesh_frequency or motion.pinion_speed.")
+    unit = result[options.curve].attrs["units"]
+    return None if options.full_scale is None else number_of_option("--full-scale", options.full_scale, unit)
+
+
+def plot_spectrum(options: argparse.Namespace) -> int:
+    """Write a run's noise figures."""
+    file = run_file(options.run)
+    directory = options.output or file.parent
+    check_writable(directory, *NOISE_FILES)
+    print_files(_noise(loaded_run(file), directory, options.spectrum), options.quiet)
+    return 0
+
+
+def _noise(dataset, directory: Path, window: str) -> list[Path]:
+    found = noise_figures(dataset, None if window == AUTOMATIC else window)
+    picture = {"noise.png": ("Noise figures", noise_charts(found))}
+    title = str(dataset.attrs.get("title", ""))
+    more = f"Window: {found.attrs['window']}"
+    return [*save_tables(found, directory, "noise"), *draw_charts(picture, directory, title, more)]

@@ -1,0 +1,47 @@
+"""What ``gears import`` does."""
+
+import argparse
+from pathlib import Path
+
+from fenics_gears import GeometryError, SceneError, check_geometry, scene_from_text
+from fenics_gears.command_line import file_to_write, write_whole
+
+from .imported import imported_scene
+
+
+def import_rexs(options: argparse.Namespace) -> int:
+    """Write the scene, once it is found right, and say what was assumed and left out."""
+    output = file_to_write(options, Path((options.file.stem.removesuffix(".rexs") or "scene") + ".toml"), "a scene")
+    if output.exists():
+        # A scene is the user's own work.
+        raise SceneError(f"{output} exists already. Name another file with --output SCENE, or remove it.")
+    imported = imported_scene(
+        options.file, options.stage, options.load_case, options.wheel_torque, options.pinion_speed
+    )
+    _check_scene(imported, options.file, output)
+    write_whole(output, lambda path: path.write_text(imported.text, encoding="utf-8"))
+    if not options.quiet:
+        print(_summary(imported, output))
+    return 0
+
+
+def _check_scene(imported, file: Path, output: Path) -> None:
+    """What the file says makes a scene and gears that mesh. Raises SceneError, which also says what had to be
+    assumed."""
+    source = f"{file} as a scene"
+    try:
+        scene = scene_from_text(imported.text, output.stem, source=source, with_lines=False)
+        check_geometry(scene)
+    except SceneError as error:
+        words = f"{source}: {error}\nNothing was written." if isinstance(error, GeometryError) else str(error)
+        gears = f"The pinion is {imported.stage.pinion.gear}, the wheel {imported.stage.wheel.gear}."
+        assumed = "".join(f"\n    assumed: {each}" for each in imported.assumed if each.startswith("gears."))
+        raise SceneError(f"{words}\n{gears}{assumed}") from error
+
+
+def _summary(imported, output: Path) -> str:
+    lines = [f"{output}: {imported.stage.pinion.gear} drives {imported.stage.wheel.gear}."]
+    for heading, listed in (("Assumed:", imported.assumed), ("Left out:", imported.left_out)):
+        if listed:
+            lines += [heading, *(f"    {each}" for each in listed)]
+    return "\n".join([*lines, f"Next: gears check {output}"])

@@ -1,0 +1,46 @@
+"""Many runs: studies of a scene, and runs that share gears and contact equations, by one process or by all of a job.
+
+`study_of` and `run_with` make and run a study; `Runs` computes the `Run` of each model that is not kept yet. What a run
+of a scene depends on is told by `effects_on`, `common_period` and `settling_time`.
+
+>>> from fenics_gears import load_scene
+>>> from fenics_gears.many_runs import common_period, effects_on, quasi_static
+>>> scene = load_scene("demos/lundvall2004.toml")
+>>> [effect.section for effect in effects_on(quasi_static(scene))]
+['tooth_elasticity', 'shafts', 'bearings', 'friction']
+>>> common_period(scene)
+1
+"""
+
+from fenics_gears.effects import common_period, effects_on
+from fenics_gears.results.attributes import RESULT_ATTRIBUTES
+from fenics_gears.results.dataset import RunResult
+from fenics_gears.results.files import save
+from fenics_gears.results.settled import settling_time
+from fenics_gears.results.together import OVER_FACE
+from fenics_gears.results.validity import NO_MEANING
+from fenics_gears.runs.common_windows import CommonWindows
+from fenics_gears.runs.condensing import BODY, gear_tasks
+from fenics_gears.runs.folder import sole_writer
+from fenics_gears.runs.gear_store import operators_key
+from fenics_gears.runs.lines import Lines, kept
+from fenics_gears.runs.record import NUMBERS, numbers_of
+from fenics_gears.runs.run import Run, run_of
+from fenics_gears.runs.runs import Failure, Runs, most_together, solved_at_once
+from fenics_gears.runs.spent import Spent, seconds_of
+from fenics_gears.runs.team import Alone, Together, ranks
+from fenics_gears.simulation.dynamic_factor import quasi_static
+from fenics_gears.studies.combine import load_combined
+from fenics_gears.studies.run_study import Outcome, run_with
+from fenics_gears.studies.study import Study
+from fenics_gears.studies.study_file import study_of
+from fenics_gears.studies.summary import last_words, summary_rows
+from fenics_gears.system.progress import Interruption, Progress
+
+__all__ = [
+    "BODY", "NO_MEANING", "NUMBERS", "OVER_FACE", "RESULT_ATTRIBUTES", "Alone", "CommonWindows", "Failure",
+    "Interruption", "Lines", "Outcome", "Progress", "Run", "RunResult", "Runs", "Spent", "Study", "Together",
+    "common_period", "effects_on", "gear_tasks", "kept", "last_words", "load_combined", "most_together", "numbers_of",
+    "operators_key", "quasi_static", "ranks", "run_of", "run_with", "save", "seconds_of", "settling_time",
+    "sole_writer", "solved_at_once", "study_of", "summary_rows",
+]  # fmt: skip
