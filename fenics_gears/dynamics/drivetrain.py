@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
     from .elastic_shaft import ElasticShaft
     from .rolling_springs import RollingSprings
+    from .shaft_system import ShaftSystem
     from .tilting import MeshOverFace
 
 # The load's moment of inertia over the wheel's, at most: their sum keeps six digits of the wheel's.
@@ -58,7 +59,7 @@ class Drivetrain:
 
     `coordinates`: their names; `radii` (k,): mm per rad of a rotation, 1 for a translation; `stiffness` (k, k), N/mm;
     `load` (k,), N; `mass` (k, k), N s^2/mm, and `damping` (k, k), N s/mm, or None where the scene has none. `mesh`: how
-    the coordinates move flanks that have a width; None in the plane. `elastic`: the shafts that also bend, and
+    the coordinates move flanks that have a width; None in the plane. `systems`: of the shafts that also bend, and
     `bearing_stiffness` (k, k), N/mm, the part of the stiffness that is in the bearings. `of_the_coupling` (k,),
     N s^2/mm: mass of an elastic input shaft that turns with its coupling, whose rotation is prescribed. `rolling`: by
     how much bearings depart from the stiffness that the matrix has for them, None where none does.
@@ -71,7 +72,7 @@ class Drivetrain:
     mass: np.ndarray | None
     damping: np.ndarray | None
     mesh: MeshOverFace | None = None
-    elastic: tuple[ElasticShaft, ...] = ()
+    systems: tuple[ShaftSystem, ...] = ()
     bearing_stiffness: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
     of_the_coupling: np.ndarray | float = 0.0
     rolling: RollingSprings | None = None
@@ -83,6 +84,11 @@ class Drivetrain:
         return [*known, *range(len(COORDINATES), len(COORDINATES) + len(self.coordinates) - len(known))]
 
     @property
+    def elastic(self) -> tuple[ElasticShaft, ...]:
+        """The shafts that also bend."""
+        return tuple(shaft for system in self.systems for shaft in system.shafts)
+
+    @property
     def bearings(self) -> int:
         """Number of the bearings of shafts that also bend."""
         return sum(len(shaft.bearings) for shaft in self.elastic)
@@ -91,7 +97,7 @@ class Drivetrain:
     def modes(self) -> int:
         """How many of the coordinates, the last ones, are motions in rolling bearings and modes of shafts, which no
         contact moves."""
-        return sum(len(shaft.modes) for shaft in self.elastic)
+        return sum(len(system.modes) for system in self.systems)
 
     @cached_property
     def stiffness_at_work(self) -> np.ndarray:
@@ -152,14 +158,15 @@ class Drivetrain:
 @dataclass(frozen=True)
 class Supports:
     """Shafts, bearings, masses and damping of a drivetrain, None where a scene has none; `gears`: "pinion" and "wheel"
-    as lumped masses; `elastic`: the shafts that also bend, `even_loads` (5,): of their gears, where bearings roll."""
+    as lumped masses; `systems`: those of shafts that also bend, `even_loads` (5,): of their gears, where bearings
+    roll."""
 
     shafts: Shafts | None = None
     bearings: Bearings | None = None
     inertia: Inertia | None = None
     gears: Mapping[str, LumpedGear] = field(default_factory=dict)
     damping: Damping | None = None
-    elastic: tuple[ElasticShaft, ...] = ()
+    systems: tuple[ShaftSystem, ...] = ()
     even_loads: tuple[np.ndarray, ...] = ()
 
 
@@ -182,19 +189,20 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
 
             add_bearings(stiffness, names, supports.bearings)
     in_bearings = stiffness.copy()
-    for shaft in supports.elastic:
-        shaft.add_to(stiffness, names, shaft.own_stiffness)
-        shaft.add_to(in_bearings, names, shaft.bearing_stiffness)
+    for system in supports.systems:
+        bent = [names.index(name) for name in system.coordinates]
+        stiffness[np.ix_(bent, bent)] += system.stiffness
+        in_bearings[np.ix_(bent, bent)] += system.bearing_stiffness
     for name, torsion in _torsion(supports).items():
         stiffness[names.index(name), names.index(name)] += torsion
     coupling: np.ndarray | float = 0.0
     if supports.inertia is not None:
         mass = _mass(names, supports.inertia, supports.gears)
-        if supports.elastic:
-            from .elastic_shaft_modes import add_masses
-
+        for system in supports.systems:
+            own_mass, momentum = system.mass_over(names)
+            mass += own_mass
             # Turned by the pinion's base pitch, as its own rotation is.
-            coupling = add_masses(mass, names, supports.elastic) / pair.pinion.base_radius
+            coupling = coupling + momentum / pair.pinion.base_radius
     scale = np.outer(1.0 / radii, 1.0 / radii)
     stiffness, mass = stiffness * scale, None if mass is None else mass * scale
     if mass is not None and (pair.slope or not set(names).isdisjoint(FACE_COORDINATES)):
@@ -203,7 +211,7 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
         mesh = mesh_over_face(pair, names)
     load = forces_of_torque(names, radii, wheel_torque)
     in_bearings, coupling = in_bearings * scale, coupling / radii
-    undamped = Drivetrain(names, radii, stiffness, load, mass, None, mesh, supports.elastic, in_bearings, coupling)
+    undamped = Drivetrain(names, radii, stiffness, load, mass, None, mesh, supports.systems, in_bearings, coupling)
     if supports.even_loads:
         from .rolling_springs import springs_of
 
@@ -223,9 +231,10 @@ def _moving_coordinates(supports: Supports) -> tuple[str, ...]:
     if supports.bearings is not None:
         moving.update(name for name, side in TRANSLATIONS.items() if supports.bearings.of(*side) is not None)
         moving.update(_leaning(supports.bearings))
-    moving.update(name for shaft in supports.elastic for name in shaft.coordinates)
-    modes = (name for shaft in supports.elastic for name in shaft.modes)
-    return (*(name for name in COORDINATES if name in moving), *modes)
+    moving.update(name for system in supports.systems for name in system.moved)
+    of_faces = (name for system in supports.systems for name in system.moved if name not in COORDINATES)
+    modes = (name for system in supports.systems for name in system.modes)
+    return (*(name for name in COORDINATES if name in moving), *of_faces, *modes)
 
 
 def _leaning(bearings: Bearings) -> set[str]:
@@ -249,7 +258,12 @@ def _torsion(supports: Supports) -> dict[str, float]:
     rotation and phi1; the output shaft's, whose twist is phi3 - phi2 [4]-[6]."""
     found = {}
     for name, shaft in (("rotation_1", "input"), ("shaft_twist", "output")) if supports.shafts is not None else ():
-        bent = [each.torsional_stiffness for each in supports.elastic if each.gear == SIDE[name]]
+        bent = [
+            system.torsional_stiffness(each)
+            for system in supports.systems
+            for each in system.shafts
+            if each.gear == SIDE[name]
+        ]
         torsion = bent[0] if bent else supports.shafts.of(shaft)
         if torsion is not None and isfinite(torsion):
             found[name] = torsion

@@ -96,6 +96,16 @@ class HousingFile:
     problem: str = ""
 
 
+def _housing(seats: str, otherwise: str):
+    return file_name(
+        ".txt",
+        "housing.txt",
+        meaning=f"text file with the stiffness matrix of the housing between the seats of {seats}",
+        otherwise=otherwise,
+        made=HousingFile,
+    )
+
+
 @dataclass(frozen=True)
 class Shaft(Section):
     """``[shafts.input]`` and ``[shafts.output]``: the shaft between the prescribed rotation and the pinion, and that
@@ -121,15 +131,11 @@ class Shaft(Section):
         default=RIGID_SEAT,
     )
     material: ShaftMaterial = ShaftMaterial()
-    housing: HousingFile | None = file_name(
-        ".txt",
-        "housing.txt",
-        meaning="text file with the stiffness matrix of the housing between the seats of this shaft's bearings, in N,"
-        " mm and rad, a row on each line: six motions of each seat in the order of the bearings, displacements along x"
-        " (the line of action), y and z (the axis) and rotations about them; lines that begin with #, %, ! or * are"
-        " passed over",
-        otherwise="the housing is rigid",
-        made=HousingFile,
+    housing: HousingFile | None = _housing(
+        "this shaft's bearings, in N, mm and rad, a row on each line: six motions of each seat in the order of the"
+        " bearings, displacements along x (the line of action), y and z (the axis) and rotations about them; lines that"
+        " begin with #, %, ! or * are passed over",
+        "the housing is rigid, or that of `[shafts]`",
     )
 
 
@@ -142,6 +148,11 @@ class Shafts(Section):
     )
     input: Shaft | None = None
     output: Shaft | None = None
+    housing: HousingFile | None = _housing(
+        "all bearings of both shafts, which it ties together: first those of `[[bearings.pinion]]`, then those of"
+        " `[[bearings.wheel]]`; otherwise as that of a shaft",
+        "each shaft has its own, if any",
+    )
 
     def of(self, shaft: str) -> float | None:
         """Torsional stiffness (N mm/rad) of the "input" or the "output" shaft; None where it has sections or is
@@ -161,7 +172,14 @@ def shafts_are_complete(tree: Tree) -> Broken:
     if both is None:
         return
     yield from _each_gives_way(both)
-    if shafts_with_sections(tree):
+    bent = shafts_with_sections(tree)
+    if "housing" in both and len(bent) < len(SHAFTS):
+        message = (
+            "is the housing of both shafts, which then have sections. Add them, or give that of one shaft as housing of"
+            " [shafts.input] or [shafts.output]."
+        )
+        yield ("shafts", "housing"), message
+    if bent:
         from .elastic_shaft_rules import rules_of_elastic_shafts
 
         yield from rules_of_elastic_shafts(tree)
@@ -193,16 +211,21 @@ def _each_gives_way(both: Tree) -> Broken:
 
 
 def located(shafts: Shafts, directory: Path) -> Shafts:
-    if all(each is None or each.housing is None for each in (shafts.input, shafts.output)):
+    if not _housings(shafts):
         return shafts
     from .elastic_shaft_housing import found
 
-    return replace(shafts, input=found(shafts.input, directory), output=found(shafts.output, directory))
+    own = {name: found(each, directory) for name in SHAFTS if (each := getattr(shafts, name)) is not None}
+    return replace(found(shafts, directory), **own)
+
+
+def _housings(shafts: Shafts) -> list[HousingFile]:
+    both = (each for each in (shafts, shafts.input, shafts.output) if each is not None)
+    return [each.housing for each in both if each.housing is not None]
 
 
 def files(shafts: Shafts) -> dict[str, str]:
-    both = (each.housing for each in (shafts.input, shafts.output) if each is not None)
-    return {each.path: each.digest for each in both if each is not None}
+    return {each.path: each.digest for each in _housings(shafts)}
 
 
 def check(shafts: Shafts, scene, pair) -> None:

@@ -22,6 +22,7 @@ from .routes import CONDENSED, route_of
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+    from fenics_gears.dynamics.shaft_system import ShaftSystem
     from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
 
@@ -51,18 +52,16 @@ def mesh_cycle(model: Model, bodies: Bodies) -> Cycle:
 def _seated(model: Model, *bodies: FaceCompliance) -> tuple[FaceCompliance, FaceCompliance]:
     """Both bodies, those on a seat that gives way with what it does so within the face."""
     by_gear = dict(zip(GEARS, bodies))
-    for shaft in yielding_seats(model):
-        # Imported here: few seats give way.
-        from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
-
+    for system, shaft in yielding_seats(model):
         body = by_gear[shaft.gear]
-        by_gear[shaft.gear] = replace(body, seat=seat_compliance(shaft, body.heights))
+        by_gear[shaft.gear] = replace(body, seat=system.seat(shaft).under(body.heights).compliance)
     return by_gear[GEARS[0]], by_gear[GEARS[1]]
 
 
-def yielding_seats(model: Model) -> tuple[ElasticShaft, ...]:
-    """The elastic shafts on which a gear is no rigid seat: flanks give way by them."""
-    return tuple(shaft for shaft in model.drivetrain.elastic if shaft.yields_within)
+def yielding_seats(model: Model) -> list[tuple[ShaftSystem, ElasticShaft]]:
+    """The elastic shafts on which a gear is no rigid seat, with their systems: flanks give way by them."""
+    systems = model.drivetrain.systems
+    return [(system, shaft) for system in systems for shaft in system.shafts if shaft.yields_within]
 
 
 def cycle_of(model: Model, mesh: Mesh) -> Cycle:

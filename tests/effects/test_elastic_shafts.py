@@ -113,7 +113,7 @@ def test_axes_lines_and_bearings_of_gears_cut_into_shafts_are_those_of_elements(
     operator, (points, weights) = record.position.operator, np.polynomial.legendre.leggauss(6)
     of_slice = np.tile(np.concatenate([[each.place.slice] * len(each.offsets) for each in operator.pairs]), 2)
     for shaft, middle in zip(drivetrain.elastic, model.pair.gear_middles):
-        columns = [drivetrain.coordinates.index(name) for name in shaft.coordinates]
+        columns = [drivetrain.coordinates.index(name) for name in shaft.of_gear]
         forces = -operator.jacobian[:, columns] * drivetrain.radii[columns] * record.solution.forces[:, None]
         of_teeth = np.array([forces[of_slice == each].sum(axis=0) for each in range(face.slices)])
         # About the slices' own heights.
@@ -189,7 +189,7 @@ def test_the_even_load_is_the_force_of_a_run_on_the_flanks_that_carry(torque):
     recorder.finish()
     motions = np.stack([recorder.arrays[name][1:].mean(axis=0) for name in OF_GEARS])
     for number, shaft in enumerate(model.drivetrain.elastic):
-        load = shaft.stiffness @ motions[:, number]
+        load = model.drivetrain.systems[number].gear_stiffness @ motions[:, number]
         even = even_load(shaft, model.pair, torque)
         # Each gear's tilts about the pitch point are what the line load makes of them.
         assert np.abs(even - load)[:3].max() <= 1e-4 * np.linalg.norm(load[:3])
@@ -231,7 +231,7 @@ def test_what_is_said_of_shafts_that_vibrate():
     along = [2000.0 / getattr(model.pair, gear).base_radius ** 2 for gear in ("pinion", "wheel")]
     reduced = said["reduced mass J1 J2/(J1 rb2^2 + J2 rb1^2)"]
     assert reduced == pytest.approx(along[0] * along[1] / sum(along), rel=1e-12)
-    per_newton = np.linalg.inv(model.drivetrain.elastic[0].stiffness)
+    per_newton = np.linalg.inv(model.drivetrain.systems[0].gear_stiffness)
     words = said["its stiffness at the pinion"]
     assert [float(part.split()[0]) for part in words.split(", ")] == pytest.approx(
         [1e-3 / per_newton[axis, axis] for axis in range(3)], rel=1e-3

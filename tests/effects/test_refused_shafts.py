@@ -111,7 +111,7 @@ def written(folder, matrix):
 def test_a_housing_from_a_file_is_in_series_with_the_bearings(tmp_path):
     """Identity: seats that do not hold each other are springs behind the bearings."""
     scene = scene_from_text(written(tmp_path, SEATS), directory=tmp_path)
-    found = model_of(scene).drivetrain.elastic[0]
+    found = model_of(scene).drivetrain.systems[0]
     wanted = [0.15e6, 0.12e6, 0.05e6, 0.0, 0.0, 0.4e6 * 0.3 / 0.7, 0.4e6 * 0.2 / 0.6, 0.0, 1e15 / 1.1e8, 2e15 / 2.1e8]
     assert found.springs == pytest.approx(np.diag(wanted), rel=1e-12)
     assert scene.shafts.input.housing.digest
