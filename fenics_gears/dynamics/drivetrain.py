@@ -40,17 +40,16 @@ TRANSLATIONS = {
 }
 # Each coordinate's gear, with the shaft and the bearings that are on its side of the mesh.
 SIDE = {name: "pinion" if name.endswith("1") else "wheel" for name in COORDINATES}
-# What of a gear is moved, by the first word of the coordinate's name; a mode of a shaft that bends is a length.
+# What of a gear is moved, by the first word of the coordinate's name.
 MOVED = {
     "centre": "mass",
     "axial": "mass",
     "rotation": "moment_of_inertia",
     "shaft": "moment_of_inertia",
     "tilt": "tilting_inertia",
-    "bearing": "mass",
-    "bending": "mass",
-    "torsion": "mass",
 }
+# Beginnings of the names of rotations that are carried as arc lengths.
+ARCS = ("rotation", "shaft", "tilt", "face_tilt", "face_turn")
 
 
 @dataclass(frozen=True)
@@ -98,6 +97,13 @@ class Drivetrain:
         """How many of the coordinates, the last ones, are motions in rolling bearings and modes of shafts, which no
         contact moves."""
         return sum(len(system.modes) for system in self.systems)
+
+    @cached_property
+    def bending_faces(self) -> np.ndarray:
+        """Stiffness and flexibility (2, f, f), N/mm, of the faces that bend by coordinates of their own."""
+        own = [self.coordinates.index(name) for shaft in self.elastic for name in shaft.of_face]
+        of_faces = self.stiffness[np.ix_(own, own)]
+        return np.stack([of_faces, np.linalg.inv(of_faces)])
 
     @cached_property
     def stiffness_at_work(self) -> np.ndarray:
@@ -177,7 +183,7 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
     load beside which the wheel's own moment of inertia is lost in round-off.
     """
     names = _moving_coordinates(supports)
-    arms = {name: 1.0 if MOVED[_kind(name)] == "mass" else getattr(pair, gear_of(name)).base_radius for name in names}
+    arms = {name: getattr(pair, gear_of(name)).base_radius if name.startswith(ARCS) else 1.0 for name in names}
     radii = np.array([*arms.values()])
     stiffness, mass, mesh = np.zeros((len(names), len(names))), None, None
     if supports.bearings is not None:

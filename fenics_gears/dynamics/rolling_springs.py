@@ -42,12 +42,14 @@ class Departure(NamedTuple):
 
 class RollingSpring(NamedTuple):
     """A bearing: the `rows` (5,) of its motions among the coordinates, its row of rolling elements, the stiffness
-    (5, 5) that the drivetrain's matrix has for these, and its number among all bearings of elastic shafts."""
+    (5, 5) that the drivetrain's matrix has for these, its number among all bearings of elastic shafts, and the `axial`
+    stiffness, N/mm, that it has beside them."""
 
     rows: np.ndarray
     rolling: RollingBearing
     secant: np.ndarray
     bearing: int
+    axial: float = 0.0
 
     def departure(self, coordinates: np.ndarray) -> Departure:
         """Of the loads (5,) at coordinates (k,) of the drivetrain."""
@@ -104,6 +106,16 @@ class RollingSprings:
     def largest_force(self, coordinates: np.ndarray) -> float:
         """Largest force, N, of a rolling element."""
         return max(reaction(each.rolling, coordinates[each.rows]).largest for each in self.springs)
+
+    def largest_under(self, loads: np.ndarray) -> float:
+        """The same where the bearings have loads (b, 5), N and N mm. Raises NoBalance."""
+        stiffness = np.eye(len(self.reference))
+        load = np.zeros(len(self.reference))
+        for spring in self.springs:
+            beside = np.diag([0.0, 0.0, spring.axial, 0.0, 0.0])
+            stiffness[np.ix_(spring.rows, spring.rows)] = spring.secant + beside
+            load[spring.rows] = loads[spring.bearing]
+        return self.largest_force(self.settled(stiffness, load, self.reference))
 
     def settled(self, stiffness: np.ndarray, load: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
         """Coordinates (k,) of which those that no contact moves are in balance, with a linear stiffness (k, k), under a
@@ -190,7 +202,8 @@ def springs_of(drivetrain: Drivetrain, loads: Sequence[np.ndarray]) -> RollingSp
         for place, number in enumerate(rolling):
             bearing = system.bearings[number]
             own = rows[len(gears) + MOTIONS * place :][:MOTIONS]
-            secant = np.array(bearing.matrix) - np.diag([0.0, 0.0, bearing.axial_stiffness, 0.0, 0.0])
-            found.append(RollingSpring(own, bearing.rolling, secant, first + number))
+            axial = bearing.axial_stiffness
+            secant = np.array(bearing.matrix) - np.diag([0.0, 0.0, axial, 0.0, 0.0])
+            found.append(RollingSpring(own, bearing.rolling, secant, first + number, axial))
         first += len(system.bearings)
     return RollingSprings(tuple(found), reference, drivetrain.modes) if found else None

@@ -37,11 +37,14 @@ class BentShafts(AlongTheFace):
         self.drivetrain = model.drivetrain
         self._lines = {}
         self._seats = {}
+        self._bent = {}
         for system in self.drivetrain.systems:
             for shaft in system.shafts:
                 self._lines[shaft.gear] = system.deflection(shaft, self.points(shaft.length))
                 if shaft.yields_within:
                     self._seats[shaft.gear] = self._seat(system, shaft)
+                if shaft.of_face:
+                    self._bent[shaft.gear] = self._nearest(system.seat(shaft).follows(self._heights(shaft)), shaft)
 
     @staticmethod
     def points(length: float) -> np.ndarray:
@@ -61,6 +64,9 @@ class BentShafts(AlongTheFace):
                     teeth = self._loads(nodes, each.gear)
                     motions[:, GEARS.index(each.gear)] += np.tensordot(teeth, seat.teeth, ((1, 2), (1, 2)))
                     loads[-1] += np.tensordot(teeth, seat.bearings, ((1, 2), (1, 2)))
+                if each.gear in self._bent:
+                    apart = np.stack([self.drivetrain.value(states, name) for name in each.of_face], axis=-1)
+                    motions[:, GEARS.index(each.gear)] += apart @ self._bent[each.gear].T
         on_bearings = np.concatenate(loads, axis=1).reshape(len(states), -1, len(MOTIONS))
         if self.drivetrain.rolling is not None:
             on_bearings = self.drivetrain.rolling.loads(states, on_bearings)
@@ -114,19 +120,31 @@ class BentShafts(AlongTheFace):
     def _seat(self, system: ShaftSystem, shaft: ElasticShaft) -> BentBySeat:
         """What a seat does under loads (S, 6) in the slices of the face, at their own heights: of its teeth, motions
         (5, S, 6) of the straight axis that is nearest to them over the common face, in the middle of the gear."""
-        z = self.face.positions - self.pair.gear_middles[GEARS.index(shaft.gear)]
-        widths = self.face.widths
-        heights = np.concatenate([z - GAUSS * widths, z + GAUSS * widths])
-        found = system.bent_by_seat(shaft, heights, self.points(shaft.length))
-        teeth, line, bearings = (each.reshape(*each.shape[:-2], 2, len(z), SIX).mean(axis=-3) for each in found)
-        teeth = teeth.reshape(2, len(z), SIX, len(z), SIX).mean(axis=0)
-        moved = np.zeros((len(MOTIONS), len(z), SIX))
+        slices = len(self.face.positions)
+        found = system.bent_by_seat(shaft, self._heights(shaft), self.points(shaft.length))
+        teeth, line, bearings = (each.reshape(*each.shape[:-2], 2, slices, SIX).mean(axis=-3) for each in found)
+        return BentBySeat(self._nearest(teeth, shaft), line, bearings)
+
+    def _heights(self, shaft: ElasticShaft) -> np.ndarray:
+        """Heights (2 S,) from the gear's middle of which two stand for a load that is even over a slice."""
+        z = self._slices(shaft)
+        return np.concatenate([z - GAUSS * self.face.widths, z + GAUSS * self.face.widths])
+
+    def _slices(self, shaft: ElasticShaft) -> np.ndarray:
+        return self.face.positions - self.pair.gear_middles[GEARS.index(shaft.gear)]
+
+    def _nearest(self, teeth: np.ndarray, shaft: ElasticShaft) -> np.ndarray:
+        """Motions (5, ...) in the gear's middle of the straight axis that is nearest over the common face to teeth that
+        move by (2 S, 6, ...)."""
+        z = self._slices(shaft)
+        slices = teeth.reshape(2, len(z), *teeth.shape[1:]).mean(axis=0)
         straight = np.stack([np.ones_like(z), z], axis=1)
-        nearest = np.linalg.solve((straight.T * widths) @ straight, straight.T * widths)
+        nearest = np.linalg.solve((straight.T * self.face.widths) @ straight, straight.T * self.face.widths)
+        moved = np.zeros((len(MOTIONS), *teeth.shape[2:]))
         # A positive tilt about x moves what lies further along the axis to negative y.
         for axis, rows, sense in ((0, [0, 4], 1.0), (1, [1, 3], -1.0)):
-            moved[rows] = np.tensordot(np.diag([1.0, sense]) @ nearest, teeth[:, axis], 1)
-        return BentBySeat(moved, line, bearings)
+            moved[rows] = np.tensordot(np.diag([1.0, sense]) @ nearest, slices[:, axis], 1)
+        return moved
 
     def _loads(self, nodes: SideBySide, gear: str) -> np.ndarray:
         """Loads (steps, S, 6) of the teeth on a gear in the slices of the face, at their own heights, over MOTIONS and
@@ -161,6 +179,10 @@ class BentShafts(AlongTheFace):
         drivetrain = self.drivetrain
         if rolling is None:
             return {}
+        if any(shaft.of_face for shaft in drivetrain.elastic):
+            # The gears' motions are not all that moves shafts in their bearings.
+            loads = np.stack([counted[name].mean("time").values for name in LOADS], axis=1)
+            return {"largest_rolling_element_force": rolling.largest_under(loads)}
         coordinates = rolling.reference.copy()
         for gear, number in NUMBERS.items():
             for name, of in zip(MOTIONS, OF_GEARS):

@@ -21,6 +21,7 @@ from .bodies import gear_bodies
 from .routes import CONDENSED, route_of
 
 if TYPE_CHECKING:
+    from fenics_gears.dynamics.bending_faces import BendingFace
     from fenics_gears.dynamics.elastic_shaft import ElasticShaft
     from fenics_gears.dynamics.shaft_system import ShaftSystem
     from fenics_gears.elasticity.face_compliance_data import FaceCompliance
@@ -64,11 +65,40 @@ def yielding_seats(model: Model) -> list[tuple[ShaftSystem, ElasticShaft]]:
     return [(system, shaft) for system in systems for shaft in system.shafts if shaft.yields_within]
 
 
+def _bending_faces(model: Model) -> list[BendingFace]:
+    """The gears whose faces bend by coordinates of their own."""
+    found = []
+    for system, shaft in yielding_seats(model):
+        if shaft.of_face:
+            # Imported here: few faces bend so.
+            from fenics_gears.dynamics.bending_faces import bending_face
+
+            middles = model.face.positions - model.face.middles[GEARS.index(shaft.gear)]
+            found.append(bending_face(model.drivetrain, system, shaft, middles, model.face.widths))
+    return found
+
+
 def cycle_of(model: Model, mesh: Mesh) -> Cycle:
     """The contact equations of a mesh over the steps of the model, with what opens its nodes."""
-    steps, friction = model.resolution.steps_per_mesh_cycle, model.scene.friction is not None
-    cycle = Cycle(mesh, steps, model.drivetrain.indices, friction)
+    steps = model.resolution.steps_per_mesh_cycle
+    friction = model.scene.friction is not None
+    indices = model.drivetrain.indices
+    if faces := _bending_faces(model):
+        from fenics_gears.dynamics.bending_faces import CycleOfBendingFaces
+
+        cycle: Cycle = CycleOfBendingFaces(mesh, steps, indices, friction, faces)
+    else:
+        cycle = Cycle(mesh, steps, indices, friction)
     return cycle.with_gaps(gaps_of(model, cycle))
+
+
+def frictionless(cycle: Cycle, coordinates: list[int]) -> Cycle:
+    """The contact equations without friction."""
+    from fenics_gears.dynamics.bending_faces import CycleOfBendingFaces
+
+    if isinstance(cycle, CycleOfBendingFaces):
+        return cycle.frictionless(coordinates)
+    return Cycle(cycle.mesh, cycle.steps, coordinates, False)
 
 
 def flanks_of(model: Model, bodies: Bodies) -> Flanks:

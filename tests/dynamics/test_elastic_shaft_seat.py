@@ -36,6 +36,8 @@ BEARINGS = {
     "overhung": (Bearing(5.0, 3e5), Bearing(30.0, 4e5, 1e5)),
     # Not alike in all directions, which changes nothing of the seat where all are on one side.
     "overhung, not alike": (Bearing(5.0, 3e5), Bearing(30.0, stiffness_matrix=SKEW)),
+    # Not alike either, where ends of the face have coordinates of their own.
+    "between, not alike": (Bearing(10.0, stiffness_matrix=SKEW), Bearing(100.0, 2e5, 0.0, 3e7)),
     "three": (Bearing(10.0, 3e5, 1e5), Bearing(80.0, 1e5, 2e4), Bearing(115.0, 2e5)),
 }
 
@@ -45,7 +47,7 @@ def shaft(bearings, torque_at=0.0):
 
 
 def seat_compliance(shaft, heights, system=None):
-    return (system or alone(shaft)).seat(shaft).under(heights).compliance
+    return (system or alone(shaft)).seat(shaft).whole(heights)
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
@@ -75,10 +77,10 @@ def test_rigid_seat_and_remainder_make_up_the_whole_compliance(name):
     whole = np.linalg.inv(stiffness)[np.ix_(own, own)]
     rigid = np.concatenate([carried(z)[:5, :5] for z in HEIGHTS])
     seat = seat_compliance(found, HEIGHTS)[:, :5, :, :5].reshape(len(own), -1)
-    wanted = whole - rigid @ np.linalg.solve(alone(found).stiffness, rigid.T)
+    wanted = whole - rigid @ np.linalg.solve(alone(found).gear_stiffness, rigid.T)
     size = np.sqrt(np.outer(np.diag(whole), np.diag(whole)))
     assert np.abs((seat - wanted) / size).max() <= 1e-9
-    assert rigid.T @ np.linalg.solve(whole, rigid) == pytest.approx(alone(found).stiffness, rel=1e-6, abs=1e-3)
+    assert rigid.T @ np.linalg.solve(whole, rigid) == pytest.approx(alone(found).gear_stiffness, rel=1e-6, abs=1e-3)
     assert np.linalg.eigvalsh(seat / size)[0] >= -1e-12
 
 
