@@ -222,9 +222,16 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
         from .rolling_springs import springs_of
 
         undamped = replace(undamped, rolling=springs_of(undamped, supports.even_loads))
-    if supports.damping is None or mass is None:
-        return undamped
-    return replace(undamped, damping=_damping(supports.damping, undamped, mesh_stiffness))
+    damping = None
+    if supports.damping is not None and mass is not None:
+        damping = _damping(supports.damping, undamped, mesh_stiffness)
+    for system in supports.systems:
+        if mass is not None and system.damping.any():
+            bent = [names.index(name) for name in system.coordinates]
+            own = np.zeros_like(stiffness)
+            own[np.ix_(bent, bent)] = system.damping
+            damping = own * scale + (0.0 if damping is None else damping)
+    return replace(undamped, damping=damping)
 
 
 def forces_of_torque(names: tuple[str, ...], radii: np.ndarray, torque: float) -> np.ndarray:

@@ -138,7 +138,10 @@ class ShaftSystem:
     @cached_property
     def bearing_loads(self) -> np.ndarray:
         """Loads (5 b, k) of the shafts on their bearings per coordinate."""
-        loads = {name: load for each in self._springs for name, load in zip(each.motions, self._loads_on(each))}
+        loads: dict[str, np.ndarray] = {}
+        # The housing is the last: what rolls carries by its own springs.
+        for each in reversed(self._springs):
+            loads |= dict(zip(each.motions, self._loads_on(each)))
         return np.array([loads[name] for name in self._in_bearings])
 
     @cached_property
@@ -180,8 +183,8 @@ class ShaftSystem:
         beside = self._beside(shaft, places[~within], ()) @ np.eye(len(self._ends))[:, own]
         line[~within] = (beside @ ends).reshape(-1, *line.shape[1:])
         moved = self._at_rest.motions_of(self._in_bearings)[:, own] @ ends
-        numbers = np.repeat([each is shaft for each in self.shafts for _ in each.bearings], FIVE)
-        return BentBySeat(found.compliance, line, (self.springs @ moved)[numbers].reshape(-1, *line.shape[2:]))
+        loads = self.springs @ moved
+        return BentBySeat(found.compliance, line, loads.reshape(-1, *line.shape[2:]))
 
     def deflection(self, shaft: ElasticShaft, places: Sequence[float]) -> np.ndarray:
         """Motions (p, 5, k) of places on a shaft's axis (mm from its left end) per coordinate."""
