@@ -14,7 +14,7 @@ import numpy as np
 from .shaft_elements import SIX, Element, Flexible, carried, motions_of
 
 if TYPE_CHECKING:
-    from fenics_gears.effects.shafts import ShaftSection
+    from .shafts import ShaftSection
 
 # Gauss points between two places of a shaft: exact for the polynomials of a cylinder, and for a cone, whose section is
 # in the denominator: its flexibility is right to 1e-9 while its wall is nowhere more than ten times the thinnest.

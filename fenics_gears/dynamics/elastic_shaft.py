@@ -22,10 +22,9 @@ from .shaft_elements import MOTIONS as SHAFT_MOTIONS
 from .shaft_elements import carried, motions_of
 
 if TYPE_CHECKING:
-    from fenics_gears.effects.bearings import Bearing
-    from fenics_gears.effects.shafts import ShaftSection
-
+    from .bearings import Bearing
     from .elastic_shaft_hub import Hub
+    from .shafts import ShaftSection
 
 # Names of the coordinates of a gear's middle, without its number; and the gears' numbers.
 MOTIONS = ("centre_x", "centre_y", "axial_", "tilt_x", "tilt_y")

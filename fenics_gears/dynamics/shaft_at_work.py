@@ -22,8 +22,9 @@ from .shaft_system import ShaftSystem
 from .tilting import coast_normal, contact_normal, moved
 
 if TYPE_CHECKING:
-    from fenics_gears.effects.bearings import Bearing
     from fenics_gears.inputs.allowed import Matrix
+
+    from .bearings import Bearing
 
 SLICES = 40
 # Lever arm, mm, that makes tilts comparable with displacements; mm/N that every bearing yields besides in the search of

@@ -18,8 +18,7 @@ import numpy as np
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
-    from fenics_gears.effects.bearings import Bearings
-
+    from .bearings import Bearings
     from .frequencies import Vibration
 
 # Shifts of natural frequencies that give a warning.

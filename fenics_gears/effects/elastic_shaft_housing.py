@@ -12,12 +12,11 @@ from typing import TypeVar
 
 import numpy as np
 
+from fenics_gears.dynamics.shafts import HousingFile, Shaft, Shafts
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.allowed import AllowedMatrix, Matrix, Refused
 from fenics_gears.inputs.written import as_written
 from fenics_gears.system import user_file
-
-from .shafts import HousingFile, Shaft, Shafts
 
 # Of a seat: displacements along x, y, z and rotations about them.
 OF_A_SEAT = 6

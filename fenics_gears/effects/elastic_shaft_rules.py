@@ -8,19 +8,19 @@ from typing import Any
 import numpy as np
 
 from fenics_gears.dynamics.beam import STEEPEST_CONE
+from fenics_gears.dynamics.bearings import Bearing, Stiffnesses
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions
+from fenics_gears.dynamics.rolling_bearing_data import wrong_with
 from fenics_gears.dynamics.shaft_at_work import at_work, even_load
 from fenics_gears.dynamics.shaft_system import ShaftSystem
+from fenics_gears.dynamics.shafts import INTEGRAL, RIGID_SEAT
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import LISTED, Broken
 from fenics_gears.inputs.section import names_in
 from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, given_for, shafts_with_sections, table, value_at
 
-from .bearings import Bearing, Stiffnesses
 from .elastic_shaft_housing import check_housing, stiffness_of_seats
 from .elastic_shaft_seats import OFF_THE_BORE, ROUND_OFF, seated, under_the_face, wrong_with_seat
-from .rolling_bearings import wrong_with
-from .shafts import INTEGRAL, RIGID_SEAT
 
 BESIDE_MATRIX = ("radial_stiffness", "axial_stiffness", "tilting_stiffness", "rolling")
 BESIDE_ROLLING = ("radial_stiffness", "tilting_stiffness")

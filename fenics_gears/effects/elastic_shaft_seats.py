@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_hub import Hub, Ring
+from fenics_gears.dynamics.shafts import PRESS_FIT, RIGID_SEAT, ShaftSection
 from fenics_gears.inputs.tree import GEARS
-
-from .shafts import PRESS_FIT, RIGID_SEAT, ShaftSection
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear import Gear

@@ -7,7 +7,8 @@ from dataclasses import replace
 from math import inf, isfinite, pi, sqrt
 from typing import TYPE_CHECKING
 
-from fenics_gears.dynamics.drivetrain import Drivetrain, Supports, assembled
+from fenics_gears.dynamics.assembled_drivetrain import Supports, assembled
+from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.geometry.gear_data import rough_pair_stiffness
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.inputs.tree import GEARS

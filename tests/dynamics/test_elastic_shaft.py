@@ -8,9 +8,9 @@ import pytest
 from tests.beam_elements import alone, condensed
 
 from fenics_gears.dynamics.beam import shear_coefficient
+from fenics_gears.dynamics.bearings import Bearing, BearingPlaces, Bearings, Support
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions, in_series
-from fenics_gears.effects.bearings import Bearing, BearingPlaces, Bearings, Support
-from fenics_gears.effects.shafts import Shaft, ShaftMaterial, Shafts, ShaftSection
+from fenics_gears.dynamics.shafts import Shaft, ShaftMaterial, Shafts, ShaftSection
 from fenics_gears.model.drivetrain import drivetrain
 
 STEEL = (206e3, 0.3)

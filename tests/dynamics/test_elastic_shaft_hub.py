@@ -9,11 +9,11 @@ from scipy.sparse import csc_matrix, diags
 from scipy.sparse.linalg import splu
 from tests.beam_elements import alone
 
+from fenics_gears.dynamics.bearings import Bearing
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_hub import Hub
 from fenics_gears.dynamics.shaft_elements import carried
-from fenics_gears.effects.bearings import Bearing
-from fenics_gears.effects.shafts import ShaftSection
+from fenics_gears.dynamics.shafts import ShaftSection
 from fenics_gears.elasticity.body_of_revolution import BodyOfRevolution, Ring, flexibility, flexibility_outside
 
 STEEL = (206e3, 0.3)

@@ -13,11 +13,11 @@ from tests.elastic_shaft_scenes import CUT, INERTIA, VIBRATING
 from tests.helical import helical_scene
 
 from fenics_gears import model_of
+from fenics_gears.dynamics.bearings import Bearing
 from fenics_gears.dynamics.elastic_shaft import LONGEST_ELEMENT
 from fenics_gears.dynamics.frequencies import vibrations
+from fenics_gears.dynamics.shafts import ShaftSection
 from fenics_gears.dynamics.speed_ramp import inertia_forces
-from fenics_gears.effects.bearings import Bearing
-from fenics_gears.effects.shafts import ShaftSection
 from fenics_gears.model.drivetrain import mesh_stiffness
 
 DENSITY = 7.85e-9

@@ -12,11 +12,11 @@ from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
 from fenics_gears.dynamics.beam import shear_coefficient
+from fenics_gears.dynamics.bearings import Bearing
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft
 from fenics_gears.dynamics.shaft_at_work import face_compliance_of_shafts, middles_of_slices
 from fenics_gears.dynamics.shaft_elements import carried
-from fenics_gears.effects.bearings import Bearing
-from fenics_gears.effects.shafts import ShaftSection
+from fenics_gears.dynamics.shafts import ShaftSection
 from fenics_gears.elasticity.slice_averages import slice_averages
 from fenics_gears.simulation.elastic_route import mesh_cycle
 

@@ -9,11 +9,11 @@ from tests.beam_elements import alone, assembled
 from tests.dynamics.test_elastic_shaft import ON_THREE, STEEL, STEPS, STIFF, E, G, area, second, shaft, shear
 
 from fenics_gears.dynamics.beam import Beam
+from fenics_gears.dynamics.bearings import Bearing
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, Line
 from fenics_gears.dynamics.shaft_elements import Assembly, Element, Link, Springs, carried, motions_of
 from fenics_gears.dynamics.shaft_system import ShaftSystem
-from fenics_gears.effects.bearings import Bearing
-from fenics_gears.effects.shafts import ShaftSection
+from fenics_gears.dynamics.shafts import ShaftSection
 
 LENGTH, DIAMETER = 150.0, 25.0
 

@@ -24,10 +24,10 @@ from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of, scene_from_text
 from fenics_gears.dynamics.beam import shear_coefficient
+from fenics_gears.dynamics.bearings import Bearing
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.rolling_bearing import secant_stiffness
 from fenics_gears.dynamics.shaft_at_work import even_load
-from fenics_gears.effects.bearings import Bearing
 from fenics_gears.model.description import describe
 from fenics_gears.results.bent_shafts import OF_GEARS
 from fenics_gears.results.recorder import Recorder

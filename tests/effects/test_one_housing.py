@@ -10,9 +10,9 @@ from tests.hard_cases.invariants import cycle_of, run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import SceneError, model_of, scene_from_text
+from fenics_gears.dynamics.bearings import Bearing
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.rolling_bearing import reaction, secant_stiffness
-from fenics_gears.effects.bearings import Bearing
 
 HOUSED = '[shafts]\nhousing = "housing.txt"\n'
 # The housing of the seats without their turns, which bearings do not hold.

@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 from scipy.linalg import block_diag, eigh
 
+from fenics_gears.dynamics.bearings import Bearing
 from fenics_gears.dynamics.elastic_shaft import FIVE, ElasticShaft
 from fenics_gears.dynamics.shaft_system import ShaftSystem
-from fenics_gears.effects.bearings import Bearing
-from fenics_gears.effects.shafts import ShaftSection
+from fenics_gears.dynamics.shafts import ShaftSection
 
 BEARINGS = (Bearing(12.0, 3e5, 1e5), Bearing(85.0, 4e5))
 HOLLOW, THICK = ShaftSection(40.0, 28.0, bore=8.0), ShaftSection(90.0, 35.0)

@@ -8,11 +8,11 @@ import pytest
 from tests.beam_elements import alone
 from tests.elasticity.face.body_of_revolution import BORE, OUTER, POISSON, SECTORS, Meridian, Part, motion
 
+from fenics_gears.dynamics.bearings import Bearing
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_hub import Hub, Ring
 from fenics_gears.dynamics.shaft_elements import carried
-from fenics_gears.effects.bearings import Bearing
-from fenics_gears.effects.shafts import ShaftSection
+from fenics_gears.dynamics.shafts import ShaftSection
 from fenics_gears.elasticity.body_of_revolution import BodyOfRevolution, flexibility_outside
 from fenics_gears.elasticity.slice_averages import slice_averages
 
