@@ -199,6 +199,7 @@ def _damping(supports: Supports, undamped: Drivetrain, mesh_stiffness: float, sc
         return found if np.any(found) else None
     if damping.modal:
         return found + modal_damping(undamped, mesh_stiffness, damping.modal)
-    # No spring and no mass connects both sides of the mesh: a row and its column have the same factors.
-    alpha, beta = np.array([damping.rayleigh(gear_of(name)) for name in undamped.coordinates]).T[:, :, None]
+    # A row and its column have the same factors, but for springs of a housing that joins both sides of the mesh.
+    factors = np.array([damping.rayleigh(gear_of(name)) for name in undamped.coordinates]).T
+    alpha, beta = 0.5 * (factors[:, :, None] + factors[:, None, :])
     return found + alpha * undamped.stiffness_at_work + beta * undamped.mass

@@ -9,7 +9,6 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import minimize
 
 from fenics_gears.contact.face import even_slices
 from fenics_gears.errors import SceneError
@@ -125,6 +124,9 @@ def _balanced(system: ShaftSystem, load: np.ndarray) -> np.ndarray:
     The energy of shafts and bearings less the load's work has no minimum but this one. It is sought within a trust
     region, and what is left of balance is then driven to round-off by Newton's method.
     """
+    # Imported here: slow to load, and few shafts are on rolling bearings.
+    from scipy.optimize import minimize
+
     free = system.free_of_rolling
     rolling = [each for each in system.bearings if each.rolling is not None]
     rows = free.assembly.numbers(system.in_rolling_motions)
