@@ -168,7 +168,8 @@ def _mass(names: tuple[str, ...], inertia: Inertia, gears: Mapping[str, LumpedGe
     end = inertia.shaft_end
     of_gears = {name: getattr(gears[SIDE[name]], MOVED[kind_of(name)]) for name in names if name in SIDE}
     lumped = dict.fromkeys(names, 0.0) | of_gears
-    mass, second = np.diag([lumped[name] for name in names]), names.index("rotation_2")
+    mass = np.diag([lumped[name] for name in names])
+    second = names.index("rotation_2")
     if "shaft_twist" in names:
         _check_load(end, lumped["rotation_2"])
         twist = names.index("shaft_twist")

@@ -117,9 +117,11 @@ def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:
     found = {}
     for name, width in zip(GEARS, pair.face_widths):
         given = scene.inertia.of(name)
-        mass, moment = given.mass, given.moment_of_inertia
+        mass = given.mass
+        moment = given.moment_of_inertia
         if mass is None or moment is None:
-            body, per_area = _section(scene, pair, name), given.density * width
+            body = _section(scene, pair, name)
+            per_area = given.density * width
             mass = per_area * body.area if mass is None else mass
             moment = per_area * body.polar_moment if moment is None else moment
         found[name] = LumpedGear(mass, moment, width, given.tilting_moment_of_inertia)
