@@ -6,10 +6,10 @@ from fenics_gears import command_line as command_line
 from fenics_gears import many_runs as many_runs
 from fenics_gears import pages as pages
 from fenics_gears import scene_text as scene_text
-from fenics_gears.dynamics.elastic_shaft_face import face_compliance_of_shafts as face_compliance_of_shafts
-from fenics_gears.dynamics.elastic_shaft_face import middles_of_slices as middles_of_slices
 from fenics_gears.dynamics.frequencies import Vibration as Vibration
 from fenics_gears.dynamics.frequencies import vibrations as vibrations
+from fenics_gears.dynamics.shaft_at_work import face_compliance_of_shafts as face_compliance_of_shafts
+from fenics_gears.dynamics.shaft_at_work import middles_of_slices as middles_of_slices
 from fenics_gears.errors import ComputationError as ComputationError
 from fenics_gears.errors import GearsError as GearsError
 from fenics_gears.errors import GeometryError as GeometryError

@@ -3,7 +3,14 @@ shear coefficient is the program's, which is checked by itself."""
 
 import numpy as np
 
+from fenics_gears.dynamics.shaft_system import ShaftSystem
+
 FIVE = 5
+
+
+def alone(shaft, housing=None):
+    """An elastic shaft by itself."""
+    return ShaftSystem((shaft,), housing)
 
 
 def element(length, modulus, ratio, outer, bore, shear):

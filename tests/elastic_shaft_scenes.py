@@ -47,6 +47,8 @@ CUT = (
     .replace(f"stiffness_matrix = {ROWS}", 'radial_stiffness = "0.3e6 N/mm"\naxial_stiffness = "0.2e6 N/mm"')
     .replace('material = "ductile cast iron"\n', "")
 )
+# The same with a bearing of the wheel that is not alike in all directions, on the other side of which is another one.
+SKEWED = CUT.replace('radial_stiffness = "0.3e6 N/mm"\naxial_stiffness = "0.2e6 N/mm"', f"stiffness_matrix = {ROWS}")
 # The same on shafts that are as thick as the bores of helical pairs.
 PRESSED = CUT.replace("integral", "press fit").replace('"35 mm"', '"22.36 mm"').replace('"40 mm" }]', '"43.48 mm" }]')
 INERTIA = '[inertia]\nmass = "2 kg"\nmoment_of_inertia = "0.002 kg m^2"\n'
@@ -73,6 +75,10 @@ length = "10 mm"
 pitch_diameter = "65 mm"
 clearance = "20 um"
 """
+)
+# An input shaft as of an e-axle: teeth cut in between its rolling bearings.
+E_AXLE = (
+    ROLLING.replace("114 mm", "58 mm").replace('"85 mm"', '"110 mm"').replace("torque", 'seat = "integral"\ntorque', 1)
 )
 
 

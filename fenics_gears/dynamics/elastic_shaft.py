@@ -1,12 +1,8 @@
-"""A gear on an elastic shaft: a Timoshenko beam on its bearings, condensed onto the motions of the gear's middle.
+"""A gear on an elastic shaft: what the shaft is, and the elements that it is made of.
 
-The shaft is held where its gear sits, rigid over the gear's width, and either side of it is a cantilever whose
-flexibility is integrated along the axis (virtual forces). The bearings' forces are then the only unknowns, so that no
-stiffness of a short element stands beside that of a soft bearing: equilibrium holds to round-off whatever both are.
-
-Motions of a place, and loads there, are ordered as MOTIONS: x along and y off the line of action, z along the axis,
-tilts about x and y; mm and rad, N and N mm. Torsion does not act on them, since sections are round and bearings let the
-shaft turn.
+A shaft is a chain of beams between its nodes: ends, bearings, coupling, and both ends of the face of each gear. Within
+a face there is no beam: a seat that is rigid carries both ends of the face as one body, and what one does that gives
+way is in `elastic_shaft_seat`. `shaft_system` puts shafts together and condenses them.
 """
 
 from __future__ import annotations
@@ -14,49 +10,116 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf
+from itertools import pairwise
+from math import ceil, inf
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from scipy.linalg import block_diag
 
-from .beam import MASS_POINTS, beam_flexibility, properties
+from .beam import MASS_POINTS, Beam, beams, masses, properties
+from .shaft_elements import MOTIONS as SHAFT_MOTIONS
+from .shaft_elements import carried, motions_of
 
 if TYPE_CHECKING:
-    from fenics_gears.effects.bearings import Bearing
-    from fenics_gears.effects.shafts import ShaftSection
-    from fenics_gears.inputs.allowed import Matrix
-
-    from .drivetrain import Drivetrain
+    from .bearings import Bearing
     from .elastic_shaft_hub import Hub
+    from .shafts import ShaftSection
 
 # Names of the coordinates of a gear's middle, without its number; and the gears' numbers.
 MOTIONS = ("centre_x", "centre_y", "axial_", "tilt_x", "tilt_y")
 NUMBERS = {"pinion": "1", "wheel": "2"}
-# The same of a place of the shaft.
+# The same of a node of the shaft, without the turn, in which bearings do not hold it.
 AXES = ("x", "y", "z", "tilt_x", "tilt_y")
-# mm/N that a place moves at least whose motions are coordinates: beside the seat it does as little as does not count.
-LEAST_YIELDING = 1e-12
+FIVE = len(AXES)
 # Part of the largest stiffness, tilts taken over the shaft's length, below which a motion is free.
 LEAST_HELD = 1e-12
+# Elements with a mass are no longer than this part of the shaft.
+LONGEST_ELEMENT = 1.0 / 60.0
+# Places (mm) that are no further apart are one but for round-off.
+ROUND_OFF = 1e-9
 
 
-def carried(distance: float) -> np.ndarray:
-    """Motions (5, 5) of a place at a distance (mm) along a rigid axis, per motion of its origin; its transpose takes
-    loads back."""
-    matrix = np.eye(len(MOTIONS))
-    matrix[0, 4], matrix[1, 3] = distance, -distance
-    return matrix
+class Chain(NamedTuple):
+    """Nodes of a shaft at `places` (n,), mm from its left end, one behind the other: numbers of the nodes at both ends
+    of each of the `faces`, beams `beside` these and `within` them."""
+
+    places: np.ndarray
+    faces: tuple[tuple[int, int], ...]
+    beside: tuple[Beam, ...]
+    within: tuple[Beam, ...]
+
+    def nodes(self, places: Sequence[float]) -> np.ndarray:
+        """Numbers (p,) of the nodes at places."""
+        return np.abs(self.places - np.reshape(places, (-1, 1))).argmin(axis=1)
+
+
+@dataclass(frozen=True)
+class Line:
+    """A shaft of such a `name` and a `material` (Young's modulus, N/mm^2, Poisson's ratio), its `sections` from left to
+    right, and the `faces` of gears on it, from each one's left to its right end, mm from the left end of the shaft; the
+    sections by which it is `heavy`, and the `density`, N s^2/mm^4, if it has a mass."""
+
+    name: str
+    sections: tuple[ShaftSection, ...]
+    material: tuple[float, float]
+    faces: tuple[tuple[float, float], ...]
+    heavy: tuple[ShaftSection, ...] = ()
+    density: float = 0.0
+
+    def chain(self, stops: Iterable[float]) -> Chain:
+        """With a node at each of the stops, mm, beside the ends of the shaft and the faces."""
+        sections = np.cumsum([0.0, *(each.length for each in self.sections)])
+        length = sections[-1]
+        places = np.array([0.0, length]) if not self.density else sections
+        for place in (*(end for face in self.faces for end in face), *stops):
+            if np.abs(places - place).min() > ROUND_OFF:
+                places = np.sort(np.append(places, place))
+        if self.density:
+            parts = [
+                np.linspace(left, right, ceil((right - left) / (LONGEST_ELEMENT * length)) + 1)[:-1]
+                for left, right in pairwise(places)
+            ]
+            places = np.append(np.concatenate(parts), length)
+        faces = []
+        for begin, end in self.faces:
+            left, right = np.abs(places - np.reshape([begin, end], (-1, 1))).argmin(axis=1)
+            if left == right:
+                # Both ends of a face without width are nodes of their own.
+                places = np.insert(places, right, places[right])
+                right += 1
+            faces.append((int(left), int(right)))
+        return self._of_nodes(places, tuple(faces))
+
+    def _of_nodes(self, places: np.ndarray, faces: tuple[tuple[int, int], ...]) -> Chain:
+        light = properties(self.sections, self.material, places)
+        kinds = np.zeros(len(places) - 1, dtype=bool)
+        for left, right in faces:
+            kinds[left:right] = True
+        weights = np.zeros((len(kinds), 0))
+        if self.density:
+            # Pieces without length have none.
+            long = np.diff(places) > 0.0
+            ends = places[np.append(True, long)]
+            bent, heavy = (properties(of, self.material, ends, MASS_POINTS) for of in (self.sections, self.heavy))
+            weights = np.zeros((len(kinds), 12, 12))
+            weights[long] = masses(bent, heavy, ends, self.density / self.material[0])
+        found = beams(self.name, range(len(places)), places, light, weights if self.density else ())
+        beside = tuple(each for each, within in zip(found, kinds) if not within)
+        within = tuple(each for each, own in zip(found, kinds) if own)
+        return Chain(places, faces, beside, within)
 
 
 @dataclass(frozen=True)
 class ElasticShaft:
     """The shaft of the "pinion" or the "wheel": its `sections` of one `material` (Young's modulus, N/mm^2, Poisson's
     ratio), the middle of the gear's seat, mm from the left end, the `seat`'s width, mm, where the torque is coupled,
-    and the bearings; `integral`: whether the gear is cut into the shaft, of which `sections` then have its root
-    diameter within the face, where it gives way as `elastic_shaft_seat` says; `hub`: with what it does so otherwise;
-    `housing`: stiffness between the bearings' seats (5 b, 5 b), N, mm and rad, None where it is rigid. Of a shaft that
-    vibrates: the sections by which it is `heavy`, where not those by which it bends, its `density`, N s^2/mm^4, and the
-    frequency `up_to` which it has modes of its own, Hz.
+    and the bearings.
+
+    `integral`: whether the gear is cut into the shaft, of which `sections` then have its root diameter within the face,
+    where it gives way as `elastic_shaft_seat` says; `hub`: with what it does so otherwise. `in_housing`: whether the
+    bearings are seated in one that gives way. Of a shaft that vibrates: the sections by which it is `heavy`, where not
+    those by which it bends, its `density`, N s^2/mm^4, and the frequency `up_to` which it has modes of its own, Hz.
     """
 
     gear: str
@@ -67,7 +130,7 @@ class ElasticShaft:
     torque_at: float
     bearings: tuple[Bearing, ...]
     integral: bool = False
-    housing: Matrix | None = None
+    in_housing: bool = False
     heavy: tuple[ShaftSection, ...] | None = None
     density: float = 0.0
     up_to: float = inf
@@ -95,9 +158,19 @@ class ElasticShaft:
         return tuple(f"bearing_{axis}_{number + 1}_{self.gear}" for number in self.rolling for axis in AXES)
 
     @property
-    def modes(self) -> tuple[str, ...]:
-        """Names of the coordinates that contact does not move."""
-        return self.in_rolling
+    def of_gear(self) -> tuple[str, ...]:
+        """Names of the coordinates of the gear's middle."""
+        return tuple(f"{name}{NUMBERS[self.gear]}" for name in MOTIONS)
+
+    @property
+    def of_face(self) -> tuple[str, ...]:
+        """Names of the coordinates by which the ends of the gear's face move apart: where the seat gives way between
+        bearings on both sides that are not alike in all directions across the axis, since what it does then depends on
+        the direction; elsewhere it is part of the flanks' compliance."""
+        if not self.yields_within or len({each.at > self.gear_at for each in self.bearings}) < 2:
+            return ()
+        alike = not self.in_housing and all(_is_alike(each) for each in self.bearings)
+        return () if alike else tuple(f"face_{motion}_{self.gear}" for motion in SHAFT_MOTIONS)
 
     @property
     def mass_of_all(self) -> float:
@@ -106,156 +179,77 @@ class ElasticShaft:
         return self.density * float(along.weights @ (1.0 / along.axial)) / self.material[0]
 
     @property
-    def coordinates(self) -> tuple[str, ...]:
-        """Names of the coordinates that the shaft's bending and its bearings act on."""
-        return (*(f"{name}{NUMBERS[self.gear]}" for name in MOTIONS), *self.modes)
-
-    @property
     def seat_ends(self) -> tuple[float, float]:
         """Where the gear's face begins and ends, mm from the left end of the shaft."""
         return self.gear_at - 0.5 * self.seat, self.gear_at + 0.5 * self.seat
 
-    def flexibility(self, places: Sequence[float], loaded: Sequence[float]) -> np.ndarray:
-        """Motions (p, 5, l, 5) of places on the axis per load at the `loaded` ones, with the gear held."""
-        along = properties(self.sections, self.material, {*places, *loaded, *self.seat_ends})
-        return beam_flexibility(along, places, loaded, self.seat_ends)[:, : len(MOTIONS), :, : len(MOTIONS)]
-
-    @cached_property
-    def torsional_stiffness(self) -> float:
-        """Of the shaft between gear and coupling, N mm/rad; infinite where the torque is coupled within the seat."""
-        along = properties(self.sections, self.material, {*self.seat_ends, self.torque_at})
-        twist = beam_flexibility(along, [self.torque_at], [self.torque_at], self.seat_ends)[0, -1, 0, -1]
-        return 1.0 / twist if twist else inf
-
     @property
-    def at_bearings(self) -> np.ndarray:
-        """Motions (5 b, k) of the shaft in its bearings per coordinate."""
-        return self._held.motions
+    def coupled_within(self) -> bool:
+        """Whether the torque is coupled within the gear's seat."""
+        return self.seat_ends[0] <= self.torque_at <= self.seat_ends[1]
 
     @cached_property
-    def bearings_at_rest(self) -> np.ndarray:
-        """Motions (5 b, 5) of the shaft in its bearings per motion of the gear, at rest."""
-        yielding = self.held_flexibility @ self.springs
-        return np.linalg.solve(np.eye(len(yielding)) + yielding, self.rigid_motions)
+    def chain(self) -> Chain:
+        """With nodes where bearings and coupling are."""
+        return self.chain_with(())
 
-    @cached_property
-    def held_flexibility(self) -> np.ndarray:
-        """Motions (5 b, 5 b) of the shaft in its bearings per load on it there, with the gear held."""
-        places = [each.at for each in self.bearings]
-        return self.flexibility(places, places).reshape((len(MOTIONS) * len(places),) * 2)
-
-    @property
-    def rigid_motions(self) -> np.ndarray:
-        """Motions (5 b, 5) of a rigid shaft in its bearings per motion of the gear."""
-        return self._rigid([each.at for each in self.bearings])
-
-    @cached_property
-    def bearing_loads(self) -> np.ndarray:
-        """Loads (5 b, k) of the shaft on its bearings per coordinate."""
-        return self.springs @ self.at_bearings
-
-    @cached_property
-    def stiffness(self) -> np.ndarray:
-        """Of shaft and bearings at the gear's middle (5, 5): loads of the gear on its shaft per motion."""
-        return self.stiffness_beside(-1.0) + self.stiffness_beside(1.0)
-
-    def stiffness_beside(self, side: float) -> np.ndarray:
-        """The part (5, 5) of the stiffness at the gear's middle that is left (-1) or right (1) of the gear: neither
-        gives way by what is on the other side."""
-        own = [each.at for each in self.bearings if (each.at >= self.gear_at) == (side > 0.0)]
-        rows = np.repeat([each.at in own for each in self.bearings], len(MOTIONS))
-        found = self._rigid(own).T @ self._loads_at_rest[rows]
-        return 0.5 * (found + found.T)
-
-    @cached_property
-    def bearing_stiffness(self) -> np.ndarray:
-        """The part (k, k) of the stiffness whose energy is in the bearings."""
-        return self.at_bearings.T @ self.bearing_loads
-
-    def deflection(self, places: Sequence[float]) -> np.ndarray:
-        """Motions (p, 5, k) of places on the axis (mm from the left end) per coordinate."""
-        flexible = self.flexibility(places, [each.at for each in self.bearings])
-        moved = -flexible.reshape(len(MOTIONS) * len(places), -1) @ self._held.loads
-        moved[:, : len(MOTIONS)] += self._rigid(places)
-        return moved.reshape(len(places), len(MOTIONS), -1)
-
-    def motions(self, drivetrain: Drivetrain, states: np.ndarray) -> np.ndarray:
-        """The shaft's coordinates (..., c) at states (..., k) of the drivetrain."""
-        return np.stack([drivetrain.value(states, name) for name in self.coordinates], axis=-1)
-
-    def add_to(self, stiffness: np.ndarray, names: Sequence[str], part: np.ndarray) -> None:
-        """Add a part (c, c) of the stiffness to that of a drivetrain, in N, mm and rad, over coordinates of such
-        names."""
-        places = [names.index(name) for name in self.coordinates]
-        stiffness[np.ix_(places, places)] += part
-
-    @property
-    def own_stiffness(self) -> np.ndarray:
-        """Of shaft and bearings over the coordinates (k, k)."""
-        if not self.rolling:
-            return self.stiffness
-        rows = self._rows_of_rolling
-        loads = self.rigid_motions.T @ self._held.loads
-        found = np.concatenate([loads, -self._held.loads[rows]])
-        found = 0.5 * (found + found.T)
-        found[len(MOTIONS) :, len(MOTIONS) :] += self.springs[np.ix_(rows, rows)]
-        return found
-
-    @cached_property
-    def _held(self) -> Held:
-        """The shaft at rest over MOTIONS of the gear and the motions in rolling bearings."""
-        if not self.rolling:
-            return Held(self.bearings_at_rest, self._loads_at_rest)
-        rows, springs, flexible = self._rows_of_rolling, self.fixed_springs, self.held_flexibility
-        yielding = np.linalg.solve(
-            np.eye(len(flexible)) + flexible @ springs, np.concatenate([self.rigid_motions, flexible], axis=1)
+    def chain_with(self, places: Iterable[float]) -> Chain:
+        """The same with nodes at more places (mm from the left end)."""
+        line = Line(
+            self.gear, self.sections, self.material, (self.seat_ends,), self.heavy or self.sections, self.density
         )
-        followed = yielding[:, : len(MOTIONS)]
-        pushed = yielding[:, len(MOTIONS) :][:, rows]
-        own = pushed[rows]
-        own = own + np.diag(np.maximum(LEAST_YIELDING - np.diag(own), 0.0))
-        forces = np.linalg.solve(own, np.concatenate([-followed[rows], np.eye(len(rows))], axis=1))
-        motions = np.pad(followed, ((0, 0), (0, len(rows)))) + pushed @ forces
-        motions[rows] = np.eye(len(rows), motions.shape[1], len(MOTIONS))
-        loads = springs @ motions
-        loads[rows] -= forces
-        return Held(motions, loads)
+        return line.chain([self.torque_at, *(each.at for each in self.bearings), *places])
+
+    def ends(self, chain: Chain) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Names of the motions of the left and the right end of the gear's face."""
+        left, right = chain.faces[0]
+        return motions_of(self.gear, left), motions_of(self.gear, right)
+
+    def coupling(self, chain: Chain) -> tuple[str, ...]:
+        """Name of the turn of the coupling; none where it turns with the gear."""
+        return () if self.coupled_within else motions_of(self.gear, int(chain.nodes([self.torque_at])[0]))[-1:]
+
+    def motions_at(self, chain: Chain, place: float) -> tuple[str, ...]:
+        """Names (5,) of the motions of the node at a place beside the gear, without the turn."""
+        nodes = np.flatnonzero(np.abs(chain.places - place) <= ROUND_OFF)
+        # Both ends of a face without width are at one place.
+        return motions_of(self.gear, int(nodes[-1] if place >= self.gear_at else nodes[0]))[:FIVE]
+
+    def at_bearing(self, chain: Chain, number: int) -> tuple[str, ...]:
+        """The same of the node in a bearing."""
+        return self.motions_at(chain, self.bearings[number].at)
+
+    def ring(self, number: int) -> tuple[str, ...]:
+        """Names (5,) of the motions of a bearing's ring on the shaft."""
+        return motions_of(self.gear, f"ring {number + 1}")[:FIVE]
+
+    def in_bearing(self, number: int) -> tuple[str, ...]:
+        """Names (5,) of the motions in a rolling bearing."""
+        return motions_of(self.gear, f"bearing {number + 1}")[:FIVE]
 
     @property
-    def _rows_of_rolling(self) -> np.ndarray:
-        return (len(MOTIONS) * np.array(self.rolling, dtype=int)[:, None] + np.arange(len(MOTIONS))).ravel()
+    def driven(self) -> bool:
+        """Whether the rotation of the coupling is prescribed."""
+        return self.gear == "pinion"
 
-    @cached_property
-    def fixed_springs(self) -> np.ndarray:
-        """Stiffness (5 b, 5 b) of the bearings that have one whatever their load."""
-        found = self.springs.copy()
-        found[self._rows_of_rolling] = found[:, self._rows_of_rolling] = 0.0
-        return found
+    @property
+    def rotation(self) -> str:
+        """Name of the coordinate of the gear's turn."""
+        return f"rotation_{NUMBERS[self.gear]}"
 
-    @cached_property
-    def _loads_at_rest(self) -> np.ndarray:
-        """Loads (5 b, 5) of the shaft on its bearings per motion of the gear, at rest."""
-        return self.springs @ self.bearings_at_rest
-
-    @cached_property
-    def springs(self) -> np.ndarray:
-        """Stiffness (5 b, 5 b) of all bearings in their housing."""
-        found = np.zeros((len(MOTIONS) * len(self.bearings),) * 2)
-        for number, bearing in enumerate(self.bearings):
-            own = slice(len(MOTIONS) * number, len(MOTIONS) * (number + 1))
-            found[own, own] = bearing.matrix
-        return found if self.housing is None else in_series(found, np.array(self.housing))
-
-    def _rigid(self, places: Iterable[float]) -> np.ndarray:
-        """Motions (5 p, 5) of places on a rigid axis per motion of the gear."""
-        return np.concatenate([np.empty((0, len(MOTIONS))), *(carried(at - self.gear_at) for at in places)])
+    @property
+    def turned_by(self) -> dict[str, tuple[str, ...]]:
+        """What the coordinates of turning turn: the gear, and the coupling of an output shaft."""
+        gear = motions_of(self.gear, "gear")[-1:]
+        if self.driven:
+            return {self.rotation: gear}
+        coupling = self.coupling(self.chain)
+        return {self.rotation: (*gear, *coupling), "shaft_twist": coupling}
 
 
-class Held(NamedTuple):
-    """Motions (5 b, k) of a shaft at rest in its bearings per coordinate, and its loads (5 b, k) on them."""
-
-    motions: np.ndarray
-    loads: np.ndarray
+def _is_alike(bearing: Bearing) -> bool:
+    """Whether a bearing is alike in all directions across the axis."""
+    return bearing.stiffness_matrix is None and bearing.rolling is None
 
 
 def in_series(first: np.ndarray, second: np.ndarray) -> np.ndarray:
@@ -270,13 +264,16 @@ def in_series(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     return 0.5 * (found + found.T)
 
 
-def free_motions(shaft: ElasticShaft) -> list[str]:
-    """The motions, in words, that a shaft's bearings leave free."""
-    middle = sum(each.at for each in shaft.bearings) / len(shaft.bearings)
-    scale = np.diag([1.0, 1.0, 1.0, 1.0 / shaft.length, 1.0 / shaft.length])
-    moved = np.concatenate([carried(each.at - middle) @ scale for each in shaft.bearings])
-    held = moved.T @ shaft.springs @ moved
+def free_motions(shafts: Sequence[ElasticShaft], springs: np.ndarray) -> dict[str, list[str]]:
+    """The motions, in words, that bearings of a stiffness (5 b, 5 b) leave the shaft of each gear free."""
+    of_shafts = []
+    for shaft in shafts:
+        middle = sum(each.at for each in shaft.bearings) / len(shaft.bearings)
+        scale = np.diag([1.0, 1.0, 1.0, 1.0 / shaft.length, 1.0 / shaft.length])
+        of_shafts.append(np.concatenate([carried(each.at - middle)[:FIVE, :FIVE] @ scale for each in shaft.bearings]))
+    moved = block_diag(*of_shafts)
+    held = moved.T @ springs @ moved
     values, vectors = np.linalg.eigh(held)
-    free = vectors[:, values <= LEAST_HELD * max(values[-1], 0.0)]
+    free = np.linalg.norm(vectors[:, values <= LEAST_HELD * max(values[-1], 0.0)], axis=1).reshape(-1, FIVE)
     words = ("moves along x", "moves along y", "moves along its axis", "tilts about x", "tilts about y")
-    return [word for word, part in zip(words, np.linalg.norm(free, axis=1)) if part > 0.1]
+    return {shaft.gear: [word for word, part in zip(words, parts) if part > 0.1] for shaft, parts in zip(shafts, free)}

@@ -21,11 +21,12 @@ import numpy as np
 
 from fenics_gears.elasticity.body_of_revolution import BodyOfRevolution, Ring, flexibility, flexibility_outside
 
-from .beam import OF_CYLINDER, SIX, Properties, beam_flexibility, gauss_rule
-from .elastic_shaft_seat import carried_with_twist
+from .beam import OF_CYLINDER, Properties, flexibilities, gauss_rule
+from .shaft_elements import SIX, carried
 
 # Of the bore's radius: how far beside the face, and the size of elements.
-BESIDE, SIZE = 1.5, 1.0 / 7.0
+BESIDE = 1.5
+SIZE = 1.0 / 7.0
 
 
 @dataclass(frozen=True)
@@ -50,9 +51,12 @@ def hub_flexibility(hub: Hub, heights: np.ndarray, axis: np.ndarray) -> np.ndarr
 
 @lru_cache(maxsize=8)
 def _flexibility(hub: Hub, heights: tuple[float, ...], axis: tuple[float, ...]) -> np.ndarray:
-    shaft, circles = hub.shaft, np.array(heights)
-    beside, size = BESIDE * shaft.outer, SIZE * shaft.outer
-    left, right = shaft.low - beside, shaft.high + beside
+    shaft = hub.shaft
+    circles = np.array(heights)
+    beside = BESIDE * shaft.outer
+    size = SIZE * shaft.outer
+    left = shaft.low - beside
+    right = shaft.high + beside
     body = BodyOfRevolution([shaft._replace(low=left, high=right), *hub.gear], size)
     harmonics = []
     for order in (1, 0):
@@ -63,12 +67,13 @@ def _flexibility(hub: Hub, heights: tuple[float, ...], axis: tuple[float, ...]) 
         within = body.nodes[:, 0] < shaft.outer + 1e-9
         found[: len(rim), : len(rim)] -= flexibility_outside(stiffness, within, rim)
         harmonics.append(found)
-    found, piece = _over_motions(*harmonics), _piece(shaft, beside, size)
+    found = _over_motions(*harmonics)
+    piece = _piece(shaft, beside, size)
     # The left end of the body carries all places, and the right end is carried by that of the face.
-    carry = np.stack([carried_with_twist(each - shaft.low) for each in (*heights, *axis, right)])
+    carry = np.stack([carried(each - shaft.low) for each in (*heights, *axis, right)])
     found -= np.einsum("pia,ab,qjb->piqj", carry, piece, carry)
     found[-1, :, -1] -= piece
-    back = carried_with_twist(-beside)
+    back = carried(-beside)
     found[-1] = np.einsum("ab,bqj->aqj", back, found[-1])
     found[:, :, -1] = np.einsum("piq,bq->pib", found[:, :, -1], back)
     return found
@@ -92,11 +97,12 @@ def _piece(shaft: Ring, length: float, size: float) -> np.ndarray:
     ends = [both.of_section(place, shaft.outer, 1) for place in (0.0, 2.0 * length)]
     whole = flexibility(both.stiffness(1), *ends)[0, 0]
     points, weights = gauss_rule(OF_CYLINDER)
-    area, second = np.pi * (shaft.outer**2 - shaft.inner**2), 0.25 * np.pi * (shaft.outer**4 - shaft.inner**4)
+    area = np.pi * (shaft.outer**2 - shaft.inner**2)
+    second = 0.25 * np.pi * (shaft.outer**4 - shaft.inner**4)
     bending = 1.0 / (shaft.modulus * second)
     shear = (whole - bending * (2.0 * length) ** 3 / 3.0) / (2.0 * length)
     flexible = shear, 1.0 / (shaft.modulus * area), bending, (1.0 + shaft.ratio) * bending
     along = Properties(
         0.5 * length * (1.0 + points), 0.5 * length * weights, *(np.full(len(points), each) for each in flexible)
     )
-    return beam_flexibility(along, [length], [length], (0.0, 0.0))[0, :, 0, :]
+    return flexibilities(along, np.array([0.0, length]))[0]

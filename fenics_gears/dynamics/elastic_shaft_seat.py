@@ -2,25 +2,33 @@
 
 All of shaft and bearings is C, motions of places within the face per load there. With R, the motions of these places as
 parts of a rigid gear, C = R K^-1 R^T + D: K = (R^T C^-1 R)^-1 is the stiffness of a seat that is rigid over its width,
-which the drivetrain has in any case, and D >= 0 what is left, which joins the compliance of the flanks (Schur's
-complement the other way round). Under D the gear moves so that shaft and bearings beside the face feel neither force
-nor moment of it in sum; the split is exact.
+which the drivetrain has in any case, and D >= 0 what is left (Schur's complement the other way round). Under D the gear
+moves so that what holds it beside the face feels neither force nor moment of it in sum; the split is exact.
+
+D is what the face does between its ends, both held, and what it does as these move apart. Where the latter is alike in
+all directions both join the compliance of the flanks; elsewhere the ends' motions apart are coordinates.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from .beam import SIX, beam_flexibility, properties
-from .elastic_shaft import MOTIONS, ElasticShaft, carried
+from .beam import beams, properties
+from .shaft_elements import SIX, Assembly, carried, motions_of
+
+if TYPE_CHECKING:
+    from .elastic_shaft import ElasticShaft
 
 NOWHERE = np.empty(0)
+MIDDLE = np.zeros(1)
 
 
 class YieldingSeat(NamedTuple):
-    """What a seat does under loads of the teeth (h, 6) within its face, over MOTIONS and the twist: the `compliance` D
+    """What a seat does under loads of the teeth (h, 6) within its face, over six motions: the `compliance` D
     (h, 6, h, 6), motions of the shaft's `axis` (a, 6, h, 6) there, and of its `ends` (2, 6, h, 6), left and right of
     the face, as motions of the gear's middle."""
 
@@ -29,92 +37,102 @@ class YieldingSeat(NamedTuple):
     ends: np.ndarray
 
 
-def seat_compliance(shaft: ElasticShaft, heights: np.ndarray) -> np.ndarray:
-    """D (h, 6, h, 6): motions of places at `heights` (h,), mm from the gear's middle, per load there, over MOTIONS and
-    the twist, counter-clockwise."""
-    return yielding_seat(shaft, heights).compliance
-
-
-def yielding_seat(shaft: ElasticShaft, heights: np.ndarray, axis: np.ndarray = NOWHERE) -> YieldingSeat:
-    """The seat of a gear that is loaded at `heights` (h,), mm from its middle; `axis` (a,): heights within the face at
-    which the shaft is asked for.
-
-    The face is a cantilever from its left end; w and v are what the shaft on either side of it holds, as motions of the
-    gear's middle: K_L w + K_R v = 0 is the condition on which D moves.
-    """
-    places, loaded = np.concatenate([heights, axis]), len(heights)
-    left, right = (_six(shaft.stiffness_beside(side), side, shaft) for side in (-1.0, 1.0))
-    free = _within_the_face(shaft, heights, axis).reshape(SIX * (len(places) + 1), -1)
-    to_middle = carried_with_twist(-0.5 * shaft.seat)
-    both = left + right
-    held = left @ np.linalg.solve(both, right)
-    at_end = to_middle @ free[-SIX:]
-    given = np.linalg.solve(np.eye(SIX) + at_end[:, -SIX:] @ to_middle.T @ held, at_end)
-    cantilever = free - at_end.T @ held @ given
-    follows = np.concatenate([carried_with_twist(each) for each in places]) @ np.linalg.solve(both, right) @ to_middle
-    motion = np.concatenate([np.eye(SIX * len(places)), -follows], axis=1)
-    moved = cantilever @ motion.T
-    found = motion @ moved
-    found = (0.5 * (found + found.T)).reshape(len(places), SIX, len(places), SIX)[:, :, :loaded]
-    apart = to_middle @ moved[-SIX:, : SIX * loaded]
-    ends = np.stack([-np.linalg.solve(both, right @ apart), np.linalg.solve(both, left @ apart)])
-    return YieldingSeat(found[:loaded], found[loaded:], ends.reshape(2, SIX, loaded, SIX))
-
-
 class BentBySeat(NamedTuple):
-    """What loads of the teeth (h, 6) do to a shaft by a seat that gives way, beside what they do by a rigid one:
-    motions of the `teeth` (h, 6, h, 6), which is D, and of places on its `line` (p, 5, h, 6); loads on its `bearings`
-    (5 b, h, 6)."""
+    """What loads of the teeth (h, 6) do to a shaft by a seat that gives way, beside what its coordinates do: motions of
+    the `teeth` (h, 6, h, 6), and of places on its `line` (p, 5, h, 6); loads on its `bearings` (5 b, h, 6)."""
 
     teeth: np.ndarray
     line: np.ndarray
     bearings: np.ndarray
 
 
-def bent_by_seat(shaft: ElasticShaft, heights: np.ndarray, places: np.ndarray) -> BentBySeat:
-    """A shaft whose gear is loaded at `heights` (h,), mm from its middle; `places` (p,), mm from the left end. What is
-    beside the face follows its ends."""
-    (begin, end), bearings = shaft.seat_ends, np.array([each.at for each in shaft.bearings])
-    within = (places > begin) & (places < end)
-    seat = yielding_seat(shaft, heights, places[within] - shaft.gear_at)
-    loads = shaft.springs @ shaft.bearings_at_rest
-    line = np.zeros((len(places), len(MOTIONS), len(heights), SIX))
-    line[within], found = seat.axis[:, : len(MOTIONS)], np.zeros((len(loads), len(heights), SIX))
-    for moved, side in zip(seat.ends[:, : len(MOTIONS)], (-1.0, 1.0)):
-        beside, own = ((each - shaft.gear_at) * side > 0.0 for each in (places, bearings))
-        beside &= ~within
-        line[beside] = np.einsum("pmn,nhi->pmhi", shaft.deflection(places[beside])[:, :, : len(MOTIONS)], moved)
-        rows = np.repeat(own, len(MOTIONS))
-        found[rows] = np.einsum("bn,nhi->bhi", loads[rows], moved)
-    return BentBySeat(seat.compliance, line, found)
+@dataclass(frozen=True, eq=False)
+class Seat:
+    """The seat of the gear on a shaft, held at both ends of its face by a stiffness `beside` it (12, 12) over the
+    motions of the left and the right end, each as one of the gear's middle."""
 
+    shaft: ElasticShaft
+    beside: np.ndarray
 
-def _within_the_face(shaft: ElasticShaft, heights: np.ndarray, axis: np.ndarray) -> np.ndarray:
-    """Motions (h + a + 1, 6, h + a + 1, 6) of places within the face, the last ones of the shaft's `axis`, and of its
-    right end, per load there, with its left end held."""
-    if shaft.hub is not None:
-        # Imported here: few gears have a hub that gives way.
-        from .elastic_shaft_hub import hub_flexibility
+    @cached_property
+    def apart(self) -> np.ndarray:
+        """Motions (12, 6) of both ends per motion of the right one against the left one, under which what is beside the
+        face feels neither force nor moment in sum."""
+        both = np.concatenate([np.eye(SIX)] * 2)
+        summed = both.T @ self.beside
+        share = np.linalg.solve(summed @ both, summed[:, SIX:])
+        return np.concatenate([-share, np.eye(SIX) - share])
 
-        return hub_flexibility(shaft.hub, heights, axis)
-    begin, end = shaft.seat_ends
-    places = [*(shaft.gear_at + heights), *(shaft.gear_at + axis), end]
-    along = properties(shaft.sections, shaft.material, {*places, begin})
-    within = along._replace(weights=np.where((along.places > begin) & (along.places < end), along.weights, 0.0))
-    return beam_flexibility(within, places, places, (begin, begin))
+    @property
+    def stiffness_of_face(self) -> np.ndarray:
+        """Of the face (6, 6) against this motion."""
+        return self._to_end.T @ np.linalg.solve(self._within(MIDDLE, NOWHERE)[-1, :, -1], self._to_end)
 
+    def follows(self, heights: np.ndarray) -> np.ndarray:
+        """Motions (h, 6, 6) of the teeth at `heights` (h,), mm from the gear's middle, per such motion."""
+        return self._follows(self._within(heights, NOWHERE), heights)
 
-def _six(stiffness: np.ndarray, side: float, shaft: ElasticShaft) -> np.ndarray:
-    """A stiffness (5, 5) with that of the twist, which is all on the coupling's side: how large does not matter."""
-    found = np.zeros((SIX, SIX))
-    found[:-1, :-1] = stiffness
-    found[-1, -1] = float((shaft.torque_at - shaft.gear_at) * side > 0.0)
-    return found
+    def axis_follows(self, heights: np.ndarray) -> np.ndarray:
+        """The same (h, 6, 6) of the shaft's axis."""
+        free = self._within(MIDDLE, heights)[len(MIDDLE) :, :, len(MIDDLE) :]
+        return self._follows(free, heights)
 
+    def under(self, heights: np.ndarray, axis: np.ndarray = NOWHERE) -> YieldingSeat:
+        """What it does where loaded at `heights` (h,), mm from the gear's middle; `axis` (a,): heights within the face
+        at which the shaft is asked for. Where the ends' motions apart are coordinates, they are held."""
+        free = self._within(heights, axis)
+        places = np.concatenate([heights, axis])
+        size = SIX * len(places)
+        whole = free.reshape(size + SIX, -1)
+        to_end = np.linalg.solve(whole[-SIX:, -SIX:], whole[-SIX:, :size])
+        found = whole[:size, :size] - whole[:size, -SIX:] @ to_end
+        ends = np.zeros((2 * SIX, SIX * len(heights)))
+        if not self.shaft.of_face:
+            follows = self._follows(free, places).reshape(size, SIX)
+            moved = np.linalg.solve(self.stiffness_apart, follows.T)
+            found += follows @ moved
+            ends = self.apart @ moved[:, : SIX * len(heights)]
+        found = (0.5 * (found + found.T)).reshape(len(places), SIX, len(places), SIX)[:, :, : len(heights)]
+        return YieldingSeat(found[: len(heights)], found[len(heights) :], ends.reshape(2, SIX, len(heights), SIX))
 
-def carried_with_twist(distance: float) -> np.ndarray:
-    """Motions (6, 6), the twist among them, of a place at a distance (mm) along a rigid axis per motion of its
-    origin."""
-    found = np.eye(SIX)
-    found[:-1, :-1] = carried(distance)
-    return found
+    def whole(self, heights: np.ndarray) -> np.ndarray:
+        """D (h, 6, h, 6) with what the ends' motions apart do, also where these are coordinates."""
+        found = self.under(heights).compliance
+        if self.shaft.of_face:
+            follows = self.follows(heights)
+            moved = np.linalg.solve(self.stiffness_apart, follows.reshape(-1, SIX).T)
+            found = found + (follows.reshape(-1, SIX) @ moved).reshape(found.shape)
+        return found
+
+    @property
+    def stiffness_apart(self) -> np.ndarray:
+        """Of face and all that holds it (6, 6) against the ends' motion apart."""
+        return self.apart.T @ self.beside @ self.apart + self.stiffness_of_face
+
+    @property
+    def _to_end(self) -> np.ndarray:
+        return carried(0.5 * self.shaft.seat)
+
+    def _follows(self, free: np.ndarray, places: np.ndarray) -> np.ndarray:
+        """The same by motions `free` (p + 1, 6, p + 1, 6) of the face with its left end held."""
+        by_right = np.linalg.solve(free[-1, :, -1], self._to_end)
+        left = np.array([carried(each) for each in places]).reshape(-1, SIX, SIX) @ self.apart[:SIX]
+        return left + free[:-1, :, -1] @ by_right
+
+    def _within(self, heights: np.ndarray, axis: np.ndarray) -> np.ndarray:
+        """Motions (h + a + 1, 6, h + a + 1, 6) of places within the face, the last ones of the shaft's `axis`, and of
+        its right end, per load there, with its left end held."""
+        shaft = self.shaft
+        if shaft.hub is not None:
+            # Imported here: few gears have a hub that gives way.
+            from .elastic_shaft_hub import hub_flexibility
+
+            return hub_flexibility(shaft.hub, heights, axis)
+        begin, end = shaft.seat_ends
+        places = np.array([*(shaft.gear_at + heights), *(shaft.gear_at + axis), end])
+        nodes = np.unique(np.append(places, begin))
+        along = properties(shaft.sections, shaft.material, nodes)
+        face = Assembly(beams(shaft.gear, range(len(nodes)), nodes, along))
+        held = face.held(motions_of(shaft.gear, 0))
+        own = (SIX * np.searchsorted(nodes, places)[:, None] + np.arange(SIX)).ravel()
+        return held.flexibility[np.ix_(own, own)].reshape(len(places), SIX, len(places), SIX)

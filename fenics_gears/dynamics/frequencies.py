@@ -114,7 +114,7 @@ def _plane(drivetrain: Drivetrain, direction: dict[str, float]) -> np.ndarray:
 # What most of the energy of a mode may be in: first words of coordinates, and the mode in words.
 OF_GEARS = ((("tilt",), "{} tilts"), (("axial",), "{} moves along its axis"))
 OF_SHAFTS = (
-    (("centre", "tilt", "bending"), "the {}'s shaft bends"),
+    (("centre", "tilt", "face", "bending"), "the {}'s shaft bends"),
     (("rotation", "shaft", "torsion"), "the {}'s shaft twists"),
     (("axial",), "the {}'s shaft moves along its axis"),
 )

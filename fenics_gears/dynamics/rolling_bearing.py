@@ -23,19 +23,24 @@ from scipy.special import ellipe, ellipk
 from fenics_gears.errors import SceneError
 
 if TYPE_CHECKING:
-    from fenics_gears.effects.rolling_bearings import RollingBearing
+    from .rolling_bearing_data import RollingBearing
 
 MOTIONS = 5
 # Steel on steel, of which rolling bearings are.
-YOUNGS_MODULUS, POISSONS_RATIO = 210e3, 0.3
+YOUNGS_MODULUS = 210e3
+POISSONS_RATIO = 0.3
 # N/mm^(10/9) of a roller per mm^(8/9) of its length; slices of a roller (ISO/TS 16281, 4.3).
-OF_A_ROLLER, SLICES = 35948.0, 30
-BALLS_POWER, ROLLERS_POWER = 1.5, 10.0 / 9.0
+OF_A_ROLLER = 35948.0
+SLICES = 30
+BALLS_POWER = 1.5
+ROLLERS_POWER = 10.0 / 9.0
 # Approach, mm, of every rolling element in the bearing whose stiffness stands for it before its load is known.
 NOMINAL_APPROACH = 0.01
 # Parts of the way from rest to a motion, finer towards its end, since clearances are at its beginning; Gauss points in
 # each; and part of the work that they must find.
-PARTS, ON_A_PART, SEEN = (0.0, *(1.0 - 0.5 ** np.arange(1, 6)), 1.0), 4, 0.5
+PARTS = (0.0, *(1.0 - 0.5 ** np.arange(1, 6)), 1.0)
+ON_A_PART = 4
+SEEN = 0.5
 
 
 class Reaction(NamedTuple):
@@ -51,7 +56,7 @@ class Reaction(NamedTuple):
 def reaction(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
     """What a bearing that is braced by its preload, if it has one, does about a motion (5,) of the shaft in it.
 
-    >>> from fenics_gears.effects.rolling_bearings import RollingBearing
+    >>> from fenics_gears.dynamics.rolling_bearing_data import RollingBearing
     >>> bearing = RollingBearing(number=9, diameter=12.7, pitch_diameter=65.0)
     >>> round(float(reaction(bearing, np.array([0.05, 0.0, 0.0, 0.0, 0.0])).loads[0]))  # N at 50 um
     8056
@@ -69,7 +74,8 @@ def secant_stiffness(rolling: RollingBearing, motion: np.ndarray) -> np.ndarray:
     """Stiffness (5, 5), symmetric and not negative, that gives the bearing's loads at a motion (5,) from none at rest:
     the mean of its stiffness on the way there, of which the rest that a quadrature leaves is made up for as in the
     method of Broyden, Fletcher, Goldfarb and Shanno."""
-    found, mean = reaction(rolling, motion), np.zeros((MOTIONS, MOTIONS))
+    found = reaction(rolling, motion)
+    mean = np.zeros((MOTIONS, MOTIONS))
     points, weights = np.polynomial.legendre.leggauss(ON_A_PART)
     for begin, end in pairwise(PARTS):
         for point, weight in zip(points, weights):
@@ -95,7 +101,8 @@ def _braced(rolling: RollingBearing) -> np.ndarray:
     """Axial motion, as (5,), by which the preload displaces the inner ring."""
     if not rolling.preload:
         return np.zeros(MOTIONS)
-    axis, far = np.eye(MOTIONS)[2], rolling.diameter
+    axis = np.eye(MOTIONS)[2]
+    far = rolling.diameter
 
     def missing(distance: float) -> float:
         return _reaction(rolling, np.copysign(distance, rolling.contact_angle) * axis).loads[2] - rolling.bracing
@@ -117,7 +124,9 @@ def _angles(rolling: RollingBearing) -> np.ndarray:
 def _rows(angles: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Radial and axial displacement, at a radius (mm) on the inner ring, and its tilt towards the axis (n, 5) per
     motion of the shaft."""
-    c, s, nothing = np.cos(angles), np.sin(angles), np.zeros_like(angles)
+    c = np.cos(angles)
+    s = np.sin(angles)
+    nothing = np.zeros_like(angles)
     radial = np.stack([c, s, nothing, nothing, nothing], axis=1)
     tilt = np.stack([nothing, nothing, nothing, -s, c], axis=1)
     axial = np.stack([nothing, nothing, np.ones_like(angles), nothing, nothing], axis=1) - radius * tilt
@@ -127,14 +136,17 @@ def _rows(angles: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray, np
 def _of_balls(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
     """ISO/TS 16281, 4.2: the distance of the grooves' centres of curvature, less that of balls without load."""
     inner, outer = rolling.grooves
-    free, angle = inner + outer - rolling.diameter, rolling.contact_angle
+    free = inner + outer - rolling.diameter
+    angle = rolling.contact_angle
     pitch = 0.5 * rolling.pitch_diameter + (inner - 0.5 * rolling.diameter) * cos(angle)
     radial, axial, _ = _rows(_angles(rolling), pitch)
-    across, along = free * cos(angle) - 0.5 * rolling.clearance + radial @ motion, free * sin(angle) + axial @ motion
+    across = free * cos(angle) - 0.5 * rolling.clearance + radial @ motion
+    along = free * sin(angle) + axial @ motion
     distance = np.hypot(across, along)
     approach = np.maximum(distance - free, 0.0)
     constant = _spring_of_ball(rolling)
-    force, slope = constant * approach**BALLS_POWER, BALLS_POWER * constant * approach ** (BALLS_POWER - 1.0)
+    force = constant * approach**BALLS_POWER
+    slope = BALLS_POWER * constant * approach ** (BALLS_POWER - 1.0)
     # Direction of each ball's force, and how it turns.
     normal = (across[:, None] * radial + along[:, None] * axial) / distance[:, None]
     turned = (along[:, None] * radial - across[:, None] * axial) / distance[:, None]
@@ -147,10 +159,13 @@ def _of_balls(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
 def _spring_of_ball(rolling: RollingBearing) -> float:
     """Force, N/mm^(3/2), of a ball between both rings by Hertz's theory (ISO/TS 16281, 4.2.1; its 1.48 is
     sqrt(2) pi/3)."""
-    ratio, found = rolling.diameter * cos(rolling.contact_angle) / rolling.pitch_diameter, 0.0
+    ratio = rolling.diameter * cos(rolling.contact_angle) / rolling.pitch_diameter
+    found = 0.0
     for sign, groove in zip((1.0, -1.0), rolling.grooves):
-        rolled, held = sign * ratio / (1.0 - sign * ratio), rolling.diameter / (2.0 * groove)
-        total, difference = 2.0 + rolled - held, (rolled + held) / (2.0 + rolled - held)
+        rolled = sign * ratio / (1.0 - sign * ratio)
+        held = rolling.diameter / (2.0 * groove)
+        total = 2.0 + rolled - held
+        difference = (rolled + held) / (2.0 + rolled - held)
         slender = _axes_of_ellipse(difference)
         parameter = 1.0 - 1.0 / slender**2
         curvature = 2.0 / rolling.diameter * total
@@ -172,14 +187,16 @@ def _axes_of_ellipse(difference: float) -> float:
 
 def _of_rollers(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
     """ISO/TS 16281, 4.3, with the rollers' axes inclined by the contact angle: the approach of each slice."""
-    angle, constant = rolling.contact_angle, OF_A_ROLLER * rolling.length ** (8.0 / 9.0) / SLICES
+    angle = rolling.contact_angle
+    constant = OF_A_ROLLER * rolling.length ** (8.0 / 9.0) / SLICES
     radial, axial, tilt = _rows(_angles(rolling), 0.5 * rolling.pitch_diameter)
     places = ((np.arange(SLICES) + 0.5) / SLICES - 0.5) * rolling.length
     normal = cos(angle) * radial + sin(angle) * axial
     rows = normal[:, None, :] + places[None, :, None] * tilt[:, None, :]
     lacking = 0.5 * rolling.clearance * cos(angle) + 2.0 * _profile(rolling, places)
     approach = np.maximum(rows @ motion - lacking, 0.0)
-    force, slope = constant * approach**ROLLERS_POWER, np.zeros_like(approach)
+    force = constant * approach**ROLLERS_POWER
+    slope = np.zeros_like(approach)
     closed = approach > 0.0
     slope[closed] = ROLLERS_POWER * constant * approach[closed] ** (ROLLERS_POWER - 1.0)
     stiffness = np.einsum("jki,jk,jkl->il", rows, slope, rows)
@@ -190,7 +207,8 @@ def _of_rollers(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
 def _profile(rolling: RollingBearing, places: np.ndarray) -> np.ndarray:
     """What rollers lack at places (s,), mm, along their axes, on each ring (ISO/TS 16281, 4.3.3; of tapered rollers the
     profile of 4.3.3 for these)."""
-    length, straight = rolling.length, max(rolling.length - 2.5 * rolling.diameter, 0.0)
+    length = rolling.length
+    straight = max(rolling.length - 2.5 * rolling.diameter, 0.0)
     amount = 0.00045 if rolling.contact_angle else 0.0005 if straight else 0.00035
     if rolling.contact_angle:
         straight = 0.0

@@ -20,12 +20,14 @@ from .rolling_bearing import MOTIONS, reaction
 
 if TYPE_CHECKING:
     from fenics_gears.contact.step_solver import StepSolution
-    from fenics_gears.effects.rolling_bearings import RollingBearing
 
     from .drivetrain import Drivetrain
+    from .rolling_bearing_data import RollingBearing
 
 # Change of motions, in parts of the largest, that ends an iteration, whose error is the square of it; and how often.
-SAME, MOST_ITERATIONS, MOST_HALVINGS = 1e-9, 60, 30
+SAME = 1e-9
+MOST_ITERATIONS = 60
+MOST_HALVINGS = 30
 # Part of the decrease of energy by its slope that a step must bring.
 DECREASE = 1e-4
 
@@ -40,17 +42,20 @@ class Departure(NamedTuple):
 
 class RollingSpring(NamedTuple):
     """A bearing: the `rows` (5,) of its motions among the coordinates, its row of rolling elements, the stiffness
-    (5, 5) that the drivetrain's matrix has for these, and its number among all bearings of elastic shafts."""
+    (5, 5) that the drivetrain's matrix has for these, its number among all bearings of elastic shafts, and the `axial`
+    stiffness, N/mm, that it has beside them."""
 
     rows: np.ndarray
     rolling: RollingBearing
     secant: np.ndarray
     bearing: int
+    axial: float = 0.0
 
     def departure(self, coordinates: np.ndarray) -> Departure:
         """Of the loads (5,) at coordinates (k,) of the drivetrain."""
         motion = coordinates[self.rows]
-        found, linear = reaction(self.rolling, motion), self.secant @ motion
+        found = reaction(self.rolling, motion)
+        linear = self.secant @ motion
         return Departure(found.energy - 0.5 * motion @ linear, found.loads - linear, found.stiffness - self.secant)
 
 
@@ -77,7 +82,9 @@ class RollingSprings:
     def departure(self, coordinates: np.ndarray) -> Departure:
         """What all springs depart by at coordinates (k,)."""
         size = len(coordinates)
-        energy, forces, stiffness = 0.0, np.zeros(size), np.zeros((size, size))
+        energy = 0.0
+        forces = np.zeros(size)
+        stiffness = np.zeros((size, size))
         for spring in self.springs:
             found = spring.departure(coordinates)
             energy += found.energy
@@ -100,11 +107,22 @@ class RollingSprings:
         """Largest force, N, of a rolling element."""
         return max(reaction(each.rolling, coordinates[each.rows]).largest for each in self.springs)
 
+    def largest_under(self, loads: np.ndarray) -> float:
+        """The same where the bearings have loads (b, 5), N and N mm. Raises NoBalance."""
+        stiffness = np.eye(len(self.reference))
+        load = np.zeros(len(self.reference))
+        for spring in self.springs:
+            beside = np.diag([0.0, 0.0, spring.axial, 0.0, 0.0])
+            stiffness[np.ix_(spring.rows, spring.rows)] = spring.secant + beside
+            load[spring.rows] = loads[spring.bearing]
+        return self.largest_force(self.settled(stiffness, load, self.reference))
+
     def settled(self, stiffness: np.ndarray, load: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
         """Coordinates (k,) of which those that no contact moves are in balance, with a linear stiffness (k, k), under a
         load (k,): where energy is least. Raises NoBalance."""
         own = slice(len(load) - self.modes, len(load))
-        found, change = coordinates.copy(), np.inf
+        found = coordinates.copy()
+        change = np.inf
         for _ in range(MOST_ITERATIONS):
             beyond = self.departure(found)
             slope = (stiffness @ found - load + beyond.forces)[own]
@@ -124,7 +142,8 @@ class RollingSprings:
         def energy(coordinates: np.ndarray) -> float:
             return 0.5 * coordinates @ stiffness @ coordinates - load @ coordinates + self.departure(coordinates).energy
 
-        before, part = energy(begun), 1.0
+        before = energy(begun)
+        part = 1.0
         # What energy is too coarse for, near its minimum, is taken whole.
         coarse = 1e-12 * abs(before)
         for _ in range(MOST_HALVINGS):
@@ -144,7 +163,9 @@ class RollingSprings:
     ) -> StepSolution:
         """A step whose matrix is `stiffness` (k, k) and whose right-hand side is `load` (k,), but for what springs
         depart by: `solve` does a linear one. Raises NoBalance."""
-        place, last, change, part = begin, np.inf, np.inf, 1.0
+        place = begin
+        last = change = np.inf
+        part = 1.0
         for _ in range(MOST_ITERATIONS):
             place = self.settled(stiffness, load, place)
             beyond = self.departure(place)
@@ -154,7 +175,8 @@ class RollingSprings:
             if change <= SAME:
                 return solution
             part = min(1.0, 2.0 * part) if change < last else 0.5 * part
-            place, last = place + part * (found - place), change
+            place = place + part * (found - place)
+            last = change
         raise NoBalance(change)
 
 
@@ -165,17 +187,23 @@ def _change(step: np.ndarray, coordinates: np.ndarray) -> float:
 def springs_of(drivetrain: Drivetrain, loads: Sequence[np.ndarray]) -> RollingSprings | None:
     """The rolling bearings of a drivetrain whose gears have loads (5,) on their elastic shafts; None where it has
     none."""
-    found, first, reference = [], 0, np.zeros(len(drivetrain.coordinates))
-    for shaft, load in zip(drivetrain.elastic, loads):
-        gear = np.linalg.solve(shaft.stiffness, load)
-        moved = np.concatenate(
-            [gear, (shaft.bearings_at_rest @ gear).reshape(-1, MOTIONS)[list(shaft.rolling)].ravel()]
-        )
-        rows = np.array([drivetrain.coordinates.index(name) for name in shaft.coordinates])[: len(moved)]
-        reference[rows] = moved * drivetrain.radii[rows]
-        for place, number in enumerate(shaft.rolling):
-            bearing, own = shaft.bearings[number], rows[MOTIONS * (place + 1) :][:MOTIONS]
-            secant = np.array(bearing.matrix) - np.diag([0.0, 0.0, bearing.axial_stiffness, 0.0, 0.0])
-            found.append(RollingSpring(own, bearing.rolling, secant, first + number))
-        first += len(shaft.bearings)
+    found = []
+    first = 0
+    reference = np.zeros(len(drivetrain.coordinates))
+    left = list(loads)
+    for system in drivetrain.systems:
+        own = np.concatenate([left.pop(0) for _ in system.shafts])
+        gears = np.linalg.solve(system.gear_stiffness, own)
+        motions = (system.bearings_at_rest @ gears).reshape(-1, MOTIONS)
+        rolling = [number for number, each in enumerate(system.bearings) if each.rolling is not None]
+        names = (*system.moved[: len(gears)], *system.in_rolling)
+        rows = np.array([drivetrain.coordinates.index(name) for name in names])
+        reference[rows] = np.concatenate([gears, motions[rolling].ravel()]) * drivetrain.radii[rows]
+        for place, number in enumerate(rolling):
+            bearing = system.bearings[number]
+            own = rows[len(gears) + MOTIONS * place :][:MOTIONS]
+            axial = bearing.axial_stiffness
+            secant = np.array(bearing.matrix) - np.diag([0.0, 0.0, axial, 0.0, 0.0])
+            found.append(RollingSpring(own, bearing.rolling, secant, first + number, axial))
+        first += len(system.bearings)
     return RollingSprings(tuple(found), reference, drivetrain.modes) if found else None

@@ -1,36 +1,88 @@
-"""A shaft on rolling bearings in balance with the load of its gear, and the springs that such bearings then are."""
+"""Elastic shafts under the load of their gears: the gap that they open over the face, and the springs that rolling
+bearings then are."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import minimize
 
+from fenics_gears.contact.face import even_slices
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.pair import GearPair
 
+from .elastic_shaft import FIVE, NUMBERS, ElasticShaft
 from .rolling_bearing import MOTIONS, reaction, secant_stiffness
+from .shaft_elements import carried
+from .shaft_system import ShaftSystem
 from .tilting import coast_normal, contact_normal, moved
 
 if TYPE_CHECKING:
-    from fenics_gears.effects.bearings import Bearing
-    from fenics_gears.geometry.pair import GearPair
+    from fenics_gears.inputs.allowed import Matrix
 
-    from .elastic_shaft import ElasticShaft
+    from .bearings import Bearing
 
+SLICES = 40
 # Lever arm, mm, that makes tilts comparable with displacements; mm/N that every bearing yields besides in the search of
 # a minimum; parts of the load that the search may leave, and that Newton's method may, with its largest number of
 # iterations.
-ARM, YIELDING, NEAR, LEFT, POLISHED = 30.0, 1e-9, 1e-6, 1e-11, 30
+ARM = 30.0
+YIELDING = 1e-9
+NEAR = 1e-6
+LEFT = 1e-11
+POLISHED = 30
+
+
+def middles_of_slices(pair: GearPair, slices: int = SLICES) -> np.ndarray:
+    """Middles (slices,), mm, of equal slices of the common face.
+
+    >>> from fenics_gears import gear_pair, load_scene
+    >>> pair = gear_pair(load_scene("demos/lundvall2004.toml").gears)
+    >>> (middles_of_slices(pair, 2) / pair.face_width).tolist()
+    [-0.25, 0.25]
+    """
+    return even_slices(pair.face_width, slices)[0]
+
+
+def face_compliance_of_shafts(systems: Iterable[ShaftSystem], pair: GearPair, z: np.ndarray) -> np.ndarray:
+    """How far bending shafts move the flanks apart along the face: entry (i, j) is the gap, in mm of the transverse
+    section, that opens at z[i] by a transverse force of 1 N at z[j]. z (s,): heights on the common face, mm.
+
+    The force acts along the line of action at the pitch point, without friction. Rotations of whole gears are left out.
+
+    >>> from fenics_gears import gear_pair, load_scene
+    >>> pair = gear_pair(load_scene("demos/lundvall2004.toml").gears)
+    >>> face_compliance_of_shafts((), pair, middles_of_slices(pair, 2)).tolist()  # rigid shafts
+    [[0.0, 0.0], [0.0, 0.0]]
+    """
+    found = np.zeros((len(z), len(z)))
+    along = pair.pitch_point, pair.pitch_point - pair.line_of_action_length
+    across = -pair.pinion.base_radius, pair.wheel.base_radius
+    for system in systems:
+        moves = []
+        for shaft in system.shafts:
+            gear = list(NUMBERS).index(shaft.gear)
+            sense = (1.0, -1.0)[gear]
+            x = along[gear]
+            y = across[gear]
+            lean = -pair.slope
+            row = np.array([1.0, 0.0, lean, y * lean, -x * lean, -y])
+            heights = z - pair.gear_middles[gear]
+            moves.append(sense * np.einsum("i,sij->sj", row, [carried(each) for each in heights])[:, :FIVE])
+            if shaft.yields_within:
+                found += np.einsum("i,sitj,j->st", row, system.seat(shaft).whole(heights), row)
+        moved_by = np.concatenate(moves, axis=1)
+        found += moved_by @ np.linalg.solve(system.gear_stiffness, moved_by.T)
+    return found
 
 
 def even_load(shaft: ElasticShaft, pair: GearPair, torque: float) -> np.ndarray:
     """Load (5,) of the gear on its shaft under a torque (N mm) on the wheel, spread evenly over the common face, at the
     pitch point and without friction, on coast flanks if that is negative."""
-    names = (*shaft.coordinates[:MOTIONS], "rotation_2")
+    names = (*shaft.of_gear, "rotation_2")
     # Both lines of action pass through the pitch point.
     normal = coast_normal(pair) if torque < 0.0 else contact_normal(pair)
     row = moved(pair, names, (pair.pitch_point, 0.0), normal)
@@ -39,86 +91,106 @@ def even_load(shaft: ElasticShaft, pair: GearPair, torque: float) -> np.ndarray:
     return -abs(torque / pair.wheel.base_radius / row[-1]) * row[:-1] * scale
 
 
-def at_work(shaft: ElasticShaft, load: np.ndarray) -> tuple[Bearing, ...]:
-    """The bearings of a shaft under a load (5,) of its gear, rolling ones with their `secant_stiffness`: springs that
-    bend and displace the shaft as they would.
+def at_work(system: ShaftSystem, load: np.ndarray) -> ShaftSystem:
+    """Shafts whose rolling bearings have the `secant_stiffness` under a load (5 g,) of their gears: springs that bend
+    and displace the shafts as they would.
 
-    Raises SceneError where no place of the shaft is found that balances the load.
+    Raises SceneError where no place of the shafts is found that balances the load.
     """
-    return _at_work(shaft, tuple(load.tolist())) if np.any(load) else shaft.bearings
+    if not system.in_rolling or not np.any(load):
+        return system
+    bearings = list(_at_work(system.shafts, system.housing, tuple(load.tolist())))
+    shafts = [replace(each, bearings=tuple(bearings.pop(0) for _ in each.bearings)) for each in system.shafts]
+    return replace(system, shafts=tuple(shafts))
 
 
 # Runs of a search begin with the same shafts under the same load.
 @lru_cache(maxsize=256)
-def _at_work(shaft: ElasticShaft, load: tuple[float, ...]) -> tuple[Bearing, ...]:
-    motions = _balanced(shaft, np.array(load)).reshape(-1, MOTIONS)
-    return tuple(
-        each if each.rolling is None else replace(each, worked=each.with_axial(secant_stiffness(each.rolling, motion)))
-        for each, motion in zip(shaft.bearings, motions)
-    )
+def _at_work(shafts: tuple[ElasticShaft, ...], housing: Matrix | None, load: tuple[float, ...]) -> list[Bearing]:
+    system = ShaftSystem(shafts, housing)
+    motions = list(_balanced(system, np.array(load)).reshape(-1, MOTIONS))
+    return [
+        each
+        if each.rolling is None
+        else replace(each, worked=each.with_axial(secant_stiffness(each.rolling, motions.pop(0))))
+        for each in system.bearings
+    ]
 
 
-def _balanced(shaft: ElasticShaft, load: np.ndarray) -> np.ndarray:
-    """Motions (5 b,) in the bearings in which a load (5,) of the gear, and the beam between, are in balance.
+def _balanced(system: ShaftSystem, load: np.ndarray) -> np.ndarray:
+    """Motions (5 r,) in the rolling bearings in which a load (5 g,) of the gears, and the shafts between, are in
+    balance.
 
-    The energy of beam and bearings less the load's work has no minimum but this one. It is sought within a trust
+    The energy of shafts and bearings less the load's work has no minimum but this one. It is sought within a trust
     region, and what is left of balance is then driven to round-off by Newton's method.
     """
-    flexibility, rigid = shaft.held_flexibility, shaft.rigid_motions
-    bearings, count = shaft.bearings, len(flexibility)
-    scale = np.tile([1.0, 1.0, 1.0, 1.0 / ARM, 1.0 / ARM], len(bearings) + 1)
-    start = np.linalg.solve(shaft.stiffness, load)
+    # Imported here: slow to load, and few shafts are on rolling bearings.
+    from scipy.optimize import minimize
+
+    free = system.free_of_rolling
+    rolling = [each for each in system.bearings if each.rolling is not None]
+    rows = free.assembly.numbers(system.in_rolling_motions)
+    flexibility = free.flexibility[np.ix_(rows, rows)]
+    rigid = free.motions[rows] @ system.rigid
+    otherwise = system.rigid.T @ free.stiffness @ system.rigid
+    count = len(flexibility)
+    scale = np.tile([1.0, 1.0, 1.0, 1.0 / ARM, 1.0 / ARM], (count + len(load)) // MOTIONS)
+    start = np.linalg.solve(system.gear_stiffness, load)
     # A place beside the seat does not yield: there it does as little as does not count.
     beam = np.linalg.inv(flexibility + np.diag(YIELDING * scale[:count] ** 2))
     bent = np.hstack([np.eye(count), -rigid])
-    of_beam, worked = bent.T @ beam @ bent, np.concatenate([np.zeros(count), load])
+    of_beam = bent.T @ beam @ bent
+    of_beam[count:, count:] += otherwise
+    worked = np.concatenate([np.zeros(count), load])
 
     def energy(scaled: np.ndarray) -> tuple[float, np.ndarray]:
         motion = scale * scaled
-        stored, loads, _ = _of_all(bearings, motion[:count])
+        stored, loads, _ = _of_all(rolling, motion[:count])
         elastic = of_beam @ motion
-        slope = elastic - worked + np.concatenate([loads, np.zeros(MOTIONS)])
+        slope = elastic - worked + np.concatenate([loads, np.zeros(len(load))])
         return 0.5 * motion @ elastic + stored - worked @ motion, scale * slope
 
     def curvature(scaled: np.ndarray) -> np.ndarray:
         found = of_beam.copy()
-        found[:count, :count] += _of_all(bearings, scale[:count] * scaled[:count])[2]
+        found[:count, :count] += _of_all(rolling, scale[:count] * scaled[:count])[2]
         return scale[:, None] * found * scale
 
-    begun = np.concatenate([shaft.bearings_at_rest @ start, start]) / scale
+    in_rolling = np.repeat([each.rolling is not None for each in system.bearings], MOTIONS)
+    begun = np.concatenate([(system.bearings_at_rest @ start)[in_rolling], start]) / scale
     size = float(np.abs(load).max())
     found = minimize(energy, begun, jac=True, hess=curvature, method="trust-exact", options={"gtol": NEAR * size})
-    motion, near = scale * found.x, False
+    motion = scale * found.x
+    near = False
     for _ in range(POLISHED):
-        _, loads, stiffness = _of_all(bearings, motion[:count])
-        apart, missing = bent @ motion + flexibility @ loads, rigid.T @ loads - load
+        _, loads, stiffness = _of_all(rolling, motion[:count])
+        apart = bent @ motion + flexibility @ loads
+        missing = rigid.T @ loads + otherwise @ motion[count:] - load
         # One step after that: a hardly loaded bearing is as stiff as its load divided by a small part of the motion.
-        near, before = max(np.abs(apart).max() / np.abs(motion).max(), np.abs(missing).max() / size) <= LEFT, near
+        before = near
+        near = max(np.abs(apart).max() / np.abs(motion).max(), np.abs(missing).max() / size) <= LEFT
         if near and before:
             return motion[:count]
-        matrix = np.block(
-            [[np.eye(count) + flexibility @ stiffness, -rigid], [rigid.T @ stiffness, np.zeros((MOTIONS,) * 2)]]
-        )
+        matrix = np.block([[np.eye(count) + flexibility @ stiffness, -rigid], [rigid.T @ stiffness, otherwise]])
         motion = motion - np.linalg.lstsq(matrix, np.concatenate([apart, missing]), rcond=None)[0]
+    gears = " and ".join(f"bearings.{shaft.gear}" for shaft in system.shafts)
     raise SceneError(
-        f"bearings.{shaft.gear}: no place of the shaft was found in which its rolling bearings balance the load. Check"
-        " numbers, diameters, contact_angle and clearance of their rolling elements"
+        f"{gears}: no place of the shaft was found in which its rolling bearings balance the load. Check numbers,"
+        " diameters, contact_angle and clearance of their rolling elements"
     )
 
 
 def _of_all(bearings: Sequence[Bearing], motions: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
-    """Energy, N mm, of all bearings at motions (5 b,) in them, loads (5 b,) on them, and their derivatives
-    (5 b, 5 b)."""
-    energy, loads, stiffness = 0.0, np.zeros_like(motions), np.zeros((len(motions),) * 2)
+    """Energy, N mm, of rolling bearings at motions (5 r,) in them, loads (5 r,) on them, and their derivatives
+    (5 r, 5 r)."""
+    energy = 0.0
+    loads = np.zeros_like(motions)
+    stiffness = np.zeros((len(motions),) * 2)
     for number, bearing in enumerate(bearings):
         own = slice(MOTIONS * number, MOTIONS * (number + 1))
-        motion = motions[own]
-        if bearing.rolling is None:
-            linear = np.array(bearing.matrix)
-        else:
-            found, linear = reaction(bearing.rolling, motion), np.diag([0.0, 0.0, bearing.axial_stiffness, 0.0, 0.0])
-            energy, loads[own], stiffness[own, own] = energy + found.energy, found.loads, found.stiffness
-        pushed = linear @ motion
-        energy, loads[own] = energy + 0.5 * float(motion @ pushed), loads[own] + pushed
-        stiffness[own, own] += linear
+        found = reaction(bearing.rolling, motions[own])
+        axial = np.diag([0.0, 0.0, bearing.axial_stiffness, 0.0, 0.0])
+        pushed = axial @ motions[own]
+        energy += found.energy + 0.5 * float(motions[own] @ pushed)
+        loads[own] = found.loads + pushed
+        stiffness[own, own] = found.stiffness + axial
     return energy, loads, stiffness

@@ -18,8 +18,7 @@ import numpy as np
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
-    from fenics_gears.effects.bearings import Bearings
-
+    from .bearings import Bearings
     from .frequencies import Vibration
 
 # Shifts of natural frequencies that give a warning.
@@ -70,7 +69,8 @@ def add_bearings(stiffness: np.ndarray, names: tuple[str, ...], bearings: Bearin
         if places is None:
             continue
         for direction, (tilt, sense) in TILTS.items():
-            centre, turned = names.index(f"centre_{direction}{number}"), names.index(f"{tilt}{number}")
+            centre = names.index(f"centre_{direction}{number}")
+            turned = names.index(f"{tilt}{number}")
             each = 0.5 * bearings.of(gear, direction)
             stiffness[turned, turned] += each * sum(place**2 for place in places)
             stiffness[centre, turned] = stiffness[turned, centre] = sense * each * sum(places)
@@ -109,7 +109,9 @@ def moved(pair: GearPair, names: tuple[str, ...], place: tuple[float, float], di
     The pinion approaches along the direction, the wheel against it. A rotation theta moves the point at r by theta x r,
     along n by theta . (r x n).
     """
-    (along, height), (middle_1, middle_2), by_name = place, pair.gear_middles, {}
+    along, height = place
+    middle_1, middle_2 = pair.gear_middles
+    by_name: dict[str, float] = {}
     gears = (
         ("1", 1.0, pair.pinion.base_radius, (along, -pair.pinion.base_radius, height - middle_1)),
         (

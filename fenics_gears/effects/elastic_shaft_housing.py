@@ -8,15 +8,15 @@ import re
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
+from fenics_gears.dynamics.shafts import HousingFile, Shaft, Shafts
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.allowed import AllowedMatrix, Matrix, Refused
 from fenics_gears.inputs.written import as_written
 from fenics_gears.system import user_file
-
-from .shafts import HousingFile, Shaft
 
 # Of a seat: displacements along x, y, z and rotations about them.
 OF_A_SEAT = 6
@@ -26,12 +26,15 @@ COMMENTS = ("#", "%", "!", "*")
 ROUNDING = 1e-6
 
 
-def found(shaft: Shaft | None, directory: Path) -> Shaft | None:
-    """The shaft with the matrix of its housing, whose file is looked for from a directory on."""
-    if shaft is None or shaft.housing is None:
-        return shaft
+Housed = TypeVar("Housed", Shaft, Shafts)
+
+
+def found(housed: Housed, directory: Path) -> Housed:
+    """A shaft, or both, with the matrix of the housing, whose file is looked for from a directory on."""
+    if housed.housing is None:
+        return housed
     # `check` says what is wrong; a scene that is only looked at needs no file.
-    path = os.path.realpath(directory / shaft.housing.path)
+    path = os.path.realpath(directory / housed.housing.path)
     try:
         text = user_file.text_of(Path(path), user_file.LARGEST_SCENE)
         stiffness = _matrix_in(text)
@@ -40,7 +43,7 @@ def found(shaft: Shaft | None, directory: Path) -> Shaft | None:
         text = ""
         stiffness = None
         problem = str(refused)
-    return replace(shaft, housing=HousingFile(path, sha256(text.encode()).hexdigest(), stiffness, problem))
+    return replace(housed, housing=HousingFile(path, sha256(text.encode()).hexdigest(), stiffness, problem))
 
 
 def _matrix_in(text: str) -> Matrix:
@@ -60,17 +63,17 @@ def _matrix_in(text: str) -> Matrix:
     return allowed.convert(rows)
 
 
-def check_housing(shaft: Shaft, name: str, bearings: int) -> None:
-    """Raise SceneError where the matrix of [shafts.`name`] cannot be read, or is not of so many seats."""
-    if shaft.housing is None:
+def check_housing(housing: HousingFile | None, field: str, bearings: int) -> None:
+    """Raise SceneError where the matrix in a field of the scene cannot be read, or is not of so many seats."""
+    if housing is None:
         return
     size = OF_A_SEAT * bearings
-    problem = shaft.housing.problem
-    rows = len(shaft.housing.stiffness or ())
+    problem = housing.problem
+    rows = len(housing.stiffness or ())
     if not problem and rows != size:
         problem = f"has {rows} rows for {bearings} bearings; allowed are {size}: six motions of each seat"
     if problem:
-        raise SceneError(f"shafts.{name}.housing = {as_written(shaft.housing.path)}: {problem}")
+        raise SceneError(f"{field} = {as_written(housing.path)}: {problem}")
 
 
 def stiffness_of_seats(housing: HousingFile | None) -> Matrix | None:

@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from fenics_gears.dynamics.beam import STEEPEST_CONE
+from fenics_gears.dynamics.bearings import Bearing, Stiffnesses
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions
+from fenics_gears.dynamics.rolling_bearing_data import wrong_with
 from fenics_gears.dynamics.shaft_at_work import at_work, even_load
+from fenics_gears.dynamics.shaft_system import ShaftSystem
+from fenics_gears.dynamics.shafts import INTEGRAL, RIGID_SEAT
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import LISTED, Broken
 from fenics_gears.inputs.section import names_in
 from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, given_for, shafts_with_sections, table, value_at
 
-from .bearings import Bearing, Stiffnesses
 from .elastic_shaft_housing import check_housing, stiffness_of_seats
 from .elastic_shaft_seats import OFF_THE_BORE, ROUND_OFF, seated, under_the_face, wrong_with_seat
-from .rolling_bearings import wrong_with
-from .shafts import INTEGRAL, RIGID_SEAT
 
 BESIDE_MATRIX = ("radial_stiffness", "axial_stiffness", "tilting_stiffness", "rolling")
 BESIDE_ROLLING = ("radial_stiffness", "tilting_stiffness")
@@ -35,6 +37,9 @@ def rules_of_elastic_shafts(tree: Tree) -> Broken:
         )
         yield ("shafts", "torsional_stiffness"), message
     for shaft in shafts_with_sections(tree):
+        if "housing" in both and "housing" in (table(both, shaft) or {}):
+            message = "stands beside the housing of [shafts], which is that of both shafts. Leave one out."
+            yield ("shafts", shaft, "housing"), message
         for name in ("gear_at", "torque_at"):
             if name not in (table(both, shaft) or {}):
                 message = 'is missing. Allowed: a length from the left end of the shaft, such as "58 mm".'
@@ -89,24 +94,39 @@ def rules_of_listed_bearings(tree: Tree, both: Tree, listed: Sequence[str]) -> B
 def check_shafts(scene: Any, pair: Any) -> None:
     """Raise SceneError for all that does not fit along the shafts of a scene, or is not held by their bearings."""
     wrong: list[str] = []
+    check_housing(scene.shafts.housing, "shafts.housing", len(scene.bearings.each or ()))
     for gear, shaft in zip(GEARS, SHAFTS):
         if gear in scene.shafts.sections:
-            check_housing(scene.shafts.sections[gear], shaft, len(scene.bearings.each_of(gear)))
+            own = scene.shafts.sections[gear].housing
+            check_housing(own, f"shafts.{shaft}.housing", len(scene.bearings.each_of(gear)))
             found = elastic_shaft(scene, pair, gear)
             wrong += [*_sections_are_solid(found, shaft), *_places_are_on_the_shaft(found, shaft)]
-            wrong += _rolling_stands_for_itself(found)
-            wrong += [*_bearings_hold(found), *_bearings_brace(found)] if not wrong else []
+            wrong += [*_bearings_brace(found)] if not wrong else []
             wrong += wrong_with_seat(scene, pair, found, shaft)
+    if not wrong:
+        wrong += [said for system in shaft_systems(scene, pair) for said in _bearings_hold(system)]
     if wrong:
         raise SceneError("\n".join(wrong))
 
 
-def shaft_at_work(scene: Any, pair: Any, gear: str) -> ElasticShaft:
-    """As `elastic_shaft`, with rolling bearings as stiff as they are under an even line load."""
-    found = elastic_shaft(scene, pair, gear)
-    if all(each.rolling is None for each in found.bearings):
-        return found
-    return replace(found, bearings=at_work(found, even_load(found, pair, scene.load.wheel_torque)))
+def systems_at_work(scene: Any, pair: Any) -> tuple[ShaftSystem, ...]:
+    """The shafts of a scene that have sections, with rolling bearings as stiff as they are under an even line load."""
+    found = []
+    for system in shaft_systems(scene, pair):
+        if system.in_rolling:
+            loads = [even_load(shaft, pair, scene.load.wheel_torque) for shaft in system.shafts]
+            system = at_work(system, np.concatenate(loads))
+        found.append(system)
+    return tuple(found)
+
+
+def shaft_systems(scene: Any, pair: Any) -> tuple[ShaftSystem, ...]:
+    """The shafts of a scene that have sections, without load: each by itself, or both in one housing."""
+    shafts = [elastic_shaft(scene, pair, gear) for gear in scene.shafts.sections]
+    if scene.shafts.housing is not None:
+        return (ShaftSystem(tuple(shafts), stiffness_of_seats(scene.shafts.housing)),)
+    housings = [stiffness_of_seats(scene.shafts.sections[shaft.gear].housing) for shaft in shafts]
+    return tuple(ShaftSystem((shaft,), housing) for shaft, housing in zip(shafts, housings))
 
 
 def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
@@ -119,7 +139,7 @@ def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
     bearings = scene.bearings.each_of(gear)
     found = ElasticShaft(
         gear, shaft.sections, constants, shaft.gear_at, width, shaft.torque_at, bearings,
-        housing=stiffness_of_seats(shaft.housing),
+        in_housing=shaft.housing is not None or scene.shafts.housing is not None,
     )  # fmt: skip
     return found if shaft.seat == RIGID_SEAT else seated(found, shaft.seat, getattr(pair, gear), material)
 
@@ -199,15 +219,6 @@ def _stiffness_is_given_once(bearing: Bearing, name: str) -> Iterator[str]:
         yield from (f"{name} {said}" for said in wrong_with(bearing.rolling))
 
 
-def _rolling_stands_for_itself(found: ElasticShaft) -> Iterator[str]:
-    """Bearings that roll are on a ground that does not yield."""
-    if found.rolling and found.housing is not None:
-        yield (
-            f"bearings.{found.gear}: rolling beside a housing, through which its load is not computed; give its"
-            " stiffness under load as stiffness_matrix"
-        )
-
-
 def _bearings_brace(found: ElasticShaft) -> Iterator[str]:
     """Preloads of a shaft's bearings are each other's."""
     braced = [each.rolling.bracing for each in found.bearings if each.rolling is not None and each.rolling.preload]
@@ -218,19 +229,21 @@ def _bearings_brace(found: ElasticShaft) -> Iterator[str]:
         )
 
 
-def _bearings_hold(found: ElasticShaft) -> Iterator[str]:
+def _bearings_hold(system: ShaftSystem) -> Iterator[str]:
     """The bearings leave no motion free."""
-    free = free_motions(found)
-    if free:
-        count = len(found.bearings)
-        held = "one bearing holds" if count == 1 else f"{count} bearings hold"
-        remedies = {
-            "along its axis": "give one of them an axial_stiffness",
-            "tilts": "add a second bearing at another place, or give one a tilting_stiffness",
-            "moves along x": "add a bearing with a radial_stiffness",
-        }
-        remedy = "; ".join(words for motion, words in remedies.items() if any(motion in each for each in free))
-        yield (
-            f"bearings.{found.gear}: {held} the shaft, which freely {' and '.join(free)}"
-            + (f": {remedy}" if remedy else "")
-        )
+    free_of = free_motions(system.shafts, system.springs)
+    for shaft in system.shafts:
+        free = free_of[shaft.gear]
+        if free:
+            count = len(shaft.bearings)
+            held = "one bearing holds" if count == 1 else f"{count} bearings hold"
+            remedies = {
+                "along its axis": "give one of them an axial_stiffness",
+                "tilts": "add a second bearing at another place, or give one a tilting_stiffness",
+                "moves along x": "add a bearing with a radial_stiffness",
+            }
+            remedy = "; ".join(words for motion, words in remedies.items() if any(motion in each for each in free))
+            yield (
+                f"bearings.{shaft.gear}: {held} the shaft, which freely {' and '.join(free)}"
+                + (f": {remedy}" if remedy else "")
+            )

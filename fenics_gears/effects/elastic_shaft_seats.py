@@ -10,12 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_hub import Hub, Ring
+from fenics_gears.dynamics.shafts import PRESS_FIT, RIGID_SEAT, ShaftSection
 from fenics_gears.inputs.tree import GEARS
 
-from .shafts import PRESS_FIT, RIGID_SEAT, ShaftSection
-
 if TYPE_CHECKING:
-    from fenics_gears.dynamics.elastic_shaft_hub import Hub
     from fenics_gears.geometry.gear import Gear
     from fenics_gears.geometry.gear_data import Material
 
@@ -107,24 +105,6 @@ def wrong_with_seat(scene: Any, pair: Any, found: ElasticShaft, shaft: str) -> I
         yield f'{named}: gears.{found.gear}.web stands between teeth and shaft; leave one out, or seat = "{RIGID_SEAT}"'
     if abs(found.torque_at - found.gear_at) < 0.5 * found.seat - ROUND_OFF:
         yield f"{named}: torque_at = {found.torque_at:g} mm is within the face; move the coupling beside it"
-    yield from _bearings_are_alike(found, named)
-
-
-def _bearings_are_alike(found: ElasticShaft, named: str) -> Iterator[str]:
-    """How the seat gives way depends on bearings where there are some on either side of the gear."""
-    if len({each.at > found.gear_at for each in found.bearings}) < 2:
-        return
-    if found.housing is not None:
-        yield (
-            f"{named}: stands between bearings in a housing, which is not alike in all directions across the axis;"
-            " leave one out"
-        )
-    if any(each.stiffness_matrix is not None or each.rolling is not None for each in found.bearings):
-        yield (
-            f"{named}: bearings.{found.gear} has a stiffness_matrix or rolling; allowed on both sides of a gear are"
-            " bearings that are alike in all directions across the axis: give radial_stiffness, axial_stiffness and"
-            " tilting_stiffness"
-        )
 
 
 def _is_a_cylinder(own: Any, found: ElasticShaft, bore: float, named: str) -> Iterator[str]:

@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fenics_gears.geometry.gear_data import MATERIALS, Material
-from fenics_gears.inputs.fields import choice, number, quantity
+from fenics_gears.geometry.material_fields import material_name, poissons_ratio, youngs_modulus
+from fenics_gears.inputs.fields import quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section, allowed_in
 from fenics_gears.inputs.tree import GEARS, Tree, material_sections, table
@@ -13,27 +14,6 @@ from fenics_gears.inputs.tree import GEARS, Tree, material_sections, table
 from .effect import OF_NODES, OF_TIME, Effect, variables
 
 CONSTANTS = ("youngs_modulus", "poissons_ratio")
-
-
-def youngs_modulus(otherwise: str):
-    return quantity("1 kPa to 1e9 GPa", "206 GPa", meaning="Young's modulus", otherwise=otherwise)
-
-
-def poissons_ratio(otherwise: str):
-    return number(0.3, meaning="Poisson's ratio", above=-1, below=0.5, otherwise=otherwise)
-
-
-def material_name(otherwise: str):
-    listed = "; ".join(
-        f"{name} {each.youngs_modulus / 1e3:g} GPa, {each.poissons_ratio:g}"
-        + (f", yield strength {each.yield_strength:g} MPa" if each.yield_strength else "")
-        for name, (each, _) in MATERIALS.items()
-    )
-    return choice(
-        *MATERIALS,
-        meaning=f'material by name, also written `material = "steel"` in the section above: {listed}',
-        otherwise=otherwise,
-    )
 
 
 def _yield_strength(otherwise: str):

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import inf, isfinite, pi, sqrt
 from typing import TYPE_CHECKING
 
-from fenics_gears.dynamics.drivetrain import Drivetrain, Supports, assembled
-from fenics_gears.dynamics.elastic_shaft_modes import vibrating
+from fenics_gears.dynamics.assembled_drivetrain import Supports, assembled
+from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.geometry.gear_data import LumpedGear, rough_pair_stiffness
 from fenics_gears.geometry.iso_6336 import pair_stiffness, theoretical_stiffness
 from fenics_gears.geometry.pair import GearPair, gear_pair
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from fenics_gears.dynamics.elastic_shaft import ElasticShaft
-    from fenics_gears.geometry.gear_data import LumpedGear
+    from fenics_gears.dynamics.shaft_system import ShaftSystem
     from fenics_gears.geometry.section import CrossSection
 
 # Harmonics of the mesh that shafts follow with all of their modes.
@@ -34,32 +35,37 @@ def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
     Raises SceneError for a load so heavy that the wheel is nothing beside it.
     """
     gears = {} if scene.inertia is None else lumped_gears(scene, pair)
-    elastic = _elastic(scene, pair, gears)
-    loads = even_loads(scene, pair, elastic)
-    supports = Supports(scene.shafts, scene.bearings, scene.inertia, gears, scene.damping, elastic, loads)
+    systems = _shaft_systems(scene, pair, gears)
+    loads = even_loads(scene, pair, systems)
+    supports = Supports(scene.shafts, scene.bearings, scene.inertia, gears, scene.damping, systems, loads)
     return assembled(pair, scene.load.wheel_torque, supports, mesh_stiffness(scene, pair))
 
 
-def even_loads(scene: Scene, pair: GearPair, shafts: Sequence[ElasticShaft]) -> tuple[np.ndarray, ...]:
+def even_loads(scene: Scene, pair: GearPair, systems: Sequence[ShaftSystem]) -> tuple[np.ndarray, ...]:
     """Loads (5,) of gears on elastic shafts by an even line load; none where no bearing rolls."""
-    if not any(shaft.rolling for shaft in shafts):
+    if not any(system.in_rolling for system in systems):
         return ()
     from fenics_gears.dynamics.shaft_at_work import even_load
 
+    shafts = (shaft for system in systems for shaft in system.shafts)
     return tuple(even_load(shaft, pair, scene.load.wheel_torque) for shaft in shafts)
 
 
-def _elastic(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]) -> tuple[ElasticShaft, ...]:
+def _shaft_systems(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]) -> tuple[ShaftSystem, ...]:
     if scene.shafts is None or scene.shafts.sections is None:
         return ()
-    from fenics_gears.effects.elastic_shaft_rules import shaft_at_work
+    from fenics_gears.effects.elastic_shaft_rules import systems_at_work
 
-    shafts = tuple(shaft_at_work(scene, pair, gear) for gear in scene.shafts.sections)
+    systems = systems_at_work(scene, pair)
     if scene.inertia is None:
-        return shafts
+        return systems
     up_to = 2.0 * highest_of_interest(scene, pair, gears)
-    given = {gear: shaft.material.density for gear, shaft in scene.shafts.sections.items()}
-    return tuple(vibrating(each, given[each.gear] or scene.inertia.of(each.gear).density, up_to) for each in shafts)
+
+    def vibrating(shaft: ElasticShaft) -> ElasticShaft:
+        given = scene.shafts.sections[shaft.gear].material.density
+        return replace(shaft, density=given or scene.inertia.of(shaft.gear).density, up_to=up_to)
+
+    return tuple(replace(each, shafts=tuple(map(vibrating, each.shafts))) for each in systems)
 
 
 def highest_of_interest(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]) -> float:

@@ -1,6 +1,9 @@
 """What moves, in rows for people: speed, inertia, periods and natural frequencies of a scene."""
 
+from __future__ import annotations
+
 from math import inf, lcm
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +15,10 @@ from fenics_gears.geometry.sliding import sliding_speed
 
 from .drivetrain import lumped_gears
 from .model import Model
+
+if TYPE_CHECKING:
+    from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+    from fenics_gears.dynamics.shaft_system import ShaftSystem
 
 Rows = list[tuple[str, object, str]]
 MILLIMETRE = 1e-3  # m
@@ -53,8 +60,8 @@ def inertia_rows(model: Model) -> Rows:
             about = f"kg mm^2, about a diameter{origin}"
             rows.append((f"{name} tilting moment of inertia", 1e3 * lumped.tilting_inertia, about))
         along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
-    for shaft in model.drivetrain.elastic:
-        modes = len(shaft.modes) - len(shaft.in_rolling)
+    for system, shaft in shafts_of(model):
+        modes = sum(name.endswith(f"_{shaft.gear}") for name in system.own_modes)
         words = f"kg, in addition, with its {modes} lowest modes, up to {shaft.up_to:.4g} Hz"
         rows.append((f"mass of the {shaft.gear}'s shaft", 1e3 * shaft.mass_of_all, words))
     twists = "shaft_twist" in model.drivetrain.coordinates
@@ -66,15 +73,20 @@ def inertia_rows(model: Model) -> Rows:
     return [*rows, (label, reduced, "kg, of both gears along the line of action")]
 
 
+def shafts_of(model: Model) -> list[tuple[ShaftSystem, ElasticShaft]]:
+    """The shafts that bend, each with the system that it is in."""
+    return [(system, shaft) for system in model.drivetrain.systems for shaft in system.shafts]
+
+
 def unknown_rows(model: Model) -> Rows:
     """The shafts that bend, with how stiff they are where the gear is, and the motions that are unknown."""
     rows: Rows = []
-    for shaft in model.drivetrain.elastic:
+    for system, shaft in shafts_of(model):
         places = ", ".join(f"{bearing.at:g}" for bearing in shaft.bearings)
         rows.append((f"shaft of the {shaft.gear}", shaft.length, f"mm, on bearings at {places} mm from its left end"))
-        x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(shaft.stiffness))
+        x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(system.stiffness_at(shaft)))
         words = f"{x:.4g} along x, {y:.4g} along y, {axial:.4g} axially"
-        held = "its bearings" if shaft.housing is None else "its bearings in their housing"
+        held = "its bearings" if system.housing is None else "its bearings in their housing"
         rows.append((f"its stiffness at the {shaft.gear}", words, f"N/um, with {held}"))
         if shaft.integral:
             words = "mm, the root diameter, as which the shaft bends and twists within the face"
@@ -84,7 +96,11 @@ def unknown_rows(model: Model) -> Rows:
         elif shaft.hub is not None:
             words = "mm, the bore, where hub and shaft hold each other without slip and give way together"
             rows.append((f"press fit of the {shaft.gear}", 2.0 * shaft.hub.shaft.outer, words))
-    names = [name for name in model.drivetrain.coordinates if "_mode_" not in name and not name.startswith("bearing_")]
+    names = [
+        name
+        for name in model.drivetrain.coordinates
+        if "_mode_" not in name and not name.startswith(("bearing_", "face_"))
+    ]
     motions = ", ".join(map(motion_in_words, names))
     return [*rows, ("motions of the gears that are unknown", f"{len(names)}:", motions)]
 

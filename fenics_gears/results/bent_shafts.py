@@ -6,10 +6,11 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.beam import SIX
 from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, ElasticShaft
-from fenics_gears.dynamics.elastic_shaft_seat import BentBySeat, bent_by_seat, carried_with_twist
+from fenics_gears.dynamics.elastic_shaft_seat import BentBySeat
 from fenics_gears.dynamics.frequencies import vibrations
+from fenics_gears.dynamics.shaft_elements import SIX, carried
+from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import SHAFT_POINTS
@@ -34,8 +35,16 @@ class BentShafts(AlongTheFace):
         super().__init__(cycle)
         self.model = model
         self.drivetrain = model.drivetrain
-        self._lines = {each.gear: each.deflection(self.points(each.length)) for each in self.drivetrain.elastic}
-        self._seats = {each.gear: self._seat(each) for each in self.drivetrain.elastic if each.yields_within}
+        self._lines = {}
+        self._seats = {}
+        self._bent = {}
+        for system in self.drivetrain.systems:
+            for shaft in system.shafts:
+                self._lines[shaft.gear] = system.deflection(shaft, self.points(shaft.length))
+                if shaft.yields_within:
+                    self._seats[shaft.gear] = self._seat(system, shaft)
+                if shaft.of_face:
+                    self._bent[shaft.gear] = self._nearest(system.seat(shaft).follows(self._heights(shaft)), shaft)
 
     @staticmethod
     def points(length: float) -> np.ndarray:
@@ -46,19 +55,21 @@ class BentShafts(AlongTheFace):
         """Departures of the axes in the middle of the common face, um, and loads of the bearings (steps, bearings)."""
         states = nodes.steps.states[:, 0]
         motions = self._motions(states)
-        loads = [
-            (each.motions(self.drivetrain, states) @ each.bearing_loads.T).reshape(len(states), -1, len(MOTIONS))
-            for each in self.drivetrain.elastic
-        ]
-        for place, each in enumerate(self.drivetrain.elastic):
-            if each.gear in self._seats:
-                seat = self._seats[each.gear]
-                teeth = self._loads(nodes, each.gear)
-                motions[:, GEARS.index(each.gear)] += np.tensordot(teeth, seat.teeth, ((1, 2), (1, 2)))
-                loads[place] += np.tensordot(teeth, seat.bearings, ((1, 2), (1, 2))).reshape(loads[place].shape)
-        carried = np.concatenate(loads, axis=1)
+        loads = []
+        for system in self.drivetrain.systems:
+            loads.append(self._values(system, states) @ system.bearing_loads.T)
+            for each in system.shafts:
+                if each.gear in self._seats:
+                    seat = self._seats[each.gear]
+                    teeth = self._loads(nodes, each.gear)
+                    motions[:, GEARS.index(each.gear)] += np.tensordot(teeth, seat.teeth, ((1, 2), (1, 2)))
+                    loads[-1] += np.tensordot(teeth, seat.bearings, ((1, 2), (1, 2)))
+                if each.gear in self._bent:
+                    apart = np.stack([self.drivetrain.value(states, name) for name in each.of_face], axis=-1)
+                    motions[:, GEARS.index(each.gear)] += apart @ self._bent[each.gear].T
+        on_bearings = np.concatenate(loads, axis=1).reshape(len(states), -1, len(MOTIONS))
         if self.drivetrain.rolling is not None:
-            carried = self.drivetrain.rolling.loads(states, carried)
+            on_bearings = self.drivetrain.rolling.loads(states, on_bearings)
         x, y, _, tilt_x, tilt_y = np.moveaxis(motions, -1, 0)
         heights = np.array(self.pair.gear_middles)
         leaning = {"in_plane": tilt_y, "out_of_plane": -tilt_x}
@@ -66,18 +77,20 @@ class BentShafts(AlongTheFace):
         width = MICROMETRES * self.pair.face_width
         departures = {f"axis_inclination_{name}": width * np.diff(of)[:, 0] for name, of in leaning.items()}
         departures |= {f"axis_offset_{name}": MICROMETRES * np.diff(of)[:, 0] for name, of in offset.items()}
-        return super().curves(curves, nodes) | departures | dict(zip(LOADS, np.moveaxis(carried, -1, 0)))
+        return super().curves(curves, nodes) | departures | dict(zip(LOADS, np.moveaxis(on_bearings, -1, 0)))
 
     def fields(self, nodes: SideBySide) -> dict[str, np.ndarray]:
         """Deflection of both shafts (steps, gears, points), mm; not a number where a shaft has no sections."""
         states = nodes.steps.states[:, 0]
         found = np.full((2, len(states), len(NUMBERS), SHAFT_POINTS), np.nan)
-        for each in self.drivetrain.elastic:
-            lines = np.einsum("pmn,sn->msp", self._lines[each.gear][:, :2], each.motions(self.drivetrain, states))
-            if each.gear in self._seats:
-                line = self._seats[each.gear].line[:, :2]
-                lines += np.einsum("pmzi,szi->msp", line, self._loads(nodes, each.gear), optimize=True)
-            found[:, :, GEARS.index(each.gear)] = lines
+        for system in self.drivetrain.systems:
+            values = self._values(system, states)
+            for each in system.shafts:
+                lines = np.einsum("pmn,sn->msp", self._lines[each.gear][:, :2], values)
+                if each.gear in self._seats:
+                    line = self._seats[each.gear].line[:, :2]
+                    lines += np.einsum("pmzi,szi->msp", line, self._loads(nodes, each.gear), optimize=True)
+                found[:, :, GEARS.index(each.gear)] = lines
         return super().fields(nodes) | {"shaft_deflection_x": found[0], "shaft_deflection_y": found[1]}
 
     def coordinates(self) -> dict[str, tuple]:
@@ -104,22 +117,34 @@ class BentShafts(AlongTheFace):
         found |= {"largest_bearing_force": float(forces.max())}
         return super().numbers(counted) | found | self._rolling_elements(counted) | self._vibrations(counted)
 
-    def _seat(self, shaft: ElasticShaft) -> BentBySeat:
+    def _seat(self, system: ShaftSystem, shaft: ElasticShaft) -> BentBySeat:
         """What a seat does under loads (S, 6) in the slices of the face, at their own heights: of its teeth, motions
         (5, S, 6) of the straight axis that is nearest to them over the common face, in the middle of the gear."""
-        z = self.face.positions - self.pair.gear_middles[GEARS.index(shaft.gear)]
-        widths = self.face.widths
-        heights = np.concatenate([z - GAUSS * widths, z + GAUSS * widths])
-        found = bent_by_seat(shaft, heights, self.points(shaft.length))
-        teeth, line, bearings = (each.reshape(*each.shape[:-2], 2, len(z), SIX).mean(axis=-3) for each in found)
-        teeth = teeth.reshape(2, len(z), SIX, len(z), SIX).mean(axis=0)
-        moved = np.zeros((len(MOTIONS), len(z), SIX))
+        slices = len(self.face.positions)
+        found = system.bent_by_seat(shaft, self._heights(shaft), self.points(shaft.length))
+        teeth, line, bearings = (each.reshape(*each.shape[:-2], 2, slices, SIX).mean(axis=-3) for each in found)
+        return BentBySeat(self._nearest(teeth, shaft), line, bearings)
+
+    def _heights(self, shaft: ElasticShaft) -> np.ndarray:
+        """Heights (2 S,) from the gear's middle of which two stand for a load that is even over a slice."""
+        z = self._slices(shaft)
+        return np.concatenate([z - GAUSS * self.face.widths, z + GAUSS * self.face.widths])
+
+    def _slices(self, shaft: ElasticShaft) -> np.ndarray:
+        return self.face.positions - self.pair.gear_middles[GEARS.index(shaft.gear)]
+
+    def _nearest(self, teeth: np.ndarray, shaft: ElasticShaft) -> np.ndarray:
+        """Motions (5, ...) in the gear's middle of the straight axis that is nearest over the common face to teeth that
+        move by (2 S, 6, ...)."""
+        z = self._slices(shaft)
+        slices = teeth.reshape(2, len(z), *teeth.shape[1:]).mean(axis=0)
         straight = np.stack([np.ones_like(z), z], axis=1)
-        nearest = np.linalg.solve((straight.T * widths) @ straight, straight.T * widths)
+        nearest = np.linalg.solve((straight.T * self.face.widths) @ straight, straight.T * self.face.widths)
+        moved = np.zeros((len(MOTIONS), *teeth.shape[2:]))
         # A positive tilt about x moves what lies further along the axis to negative y.
         for axis, rows, sense in ((0, [0, 4], 1.0), (1, [1, 3], -1.0)):
-            moved[rows] = np.tensordot(np.diag([1.0, sense]) @ nearest, teeth[:, axis], 1)
-        return BentBySeat(moved, line, bearings)
+            moved[rows] = np.tensordot(np.diag([1.0, sense]) @ nearest, slices[:, axis], 1)
+        return moved
 
     def _loads(self, nodes: SideBySide, gear: str) -> np.ndarray:
         """Loads (steps, S, 6) of the teeth on a gear in the slices of the face, at their own heights, over MOTIONS and
@@ -135,7 +160,7 @@ class BentShafts(AlongTheFace):
         found = np.stack([np.bincount(place, each, minlength=size) for each in forces], axis=1)
         found = found.reshape(-1, self.face.slices, SIX)
         heights = self.face.positions - self.pair.gear_middles[number]
-        return np.einsum("szi,zij->szj", found, [carried_with_twist(-each) for each in heights])
+        return np.einsum("szi,zij->szj", found, [carried(-each) for each in heights])
 
     def _vibrations(self, counted: xr.Dataset) -> dict[str, str]:
         """Natural frequencies with the mesh as it was, a line each; nothing without inertia or contact."""
@@ -154,6 +179,10 @@ class BentShafts(AlongTheFace):
         drivetrain = self.drivetrain
         if rolling is None:
             return {}
+        if any(shaft.of_face for shaft in drivetrain.elastic):
+            # The gears' motions are not all that moves shafts in their bearings.
+            loads = np.stack([counted[name].mean("time").values for name in LOADS], axis=1)
+            return {"largest_rolling_element_force": rolling.largest_under(loads)}
         coordinates = rolling.reference.copy()
         for gear, number in NUMBERS.items():
             for name, of in zip(MOTIONS, OF_GEARS):
@@ -162,6 +191,10 @@ class BentShafts(AlongTheFace):
                     coordinates[place] = counted[of].sel(gear=gear).mean() * drivetrain.radii[place]
         settled = rolling.settled(drivetrain.stiffness, np.zeros(len(coordinates)), coordinates)
         return {"largest_rolling_element_force": rolling.largest_force(settled)}
+
+    def _values(self, system: ShaftSystem, states: np.ndarray) -> np.ndarray:
+        """Coordinates (steps, k) of a system of shafts, mm and rad."""
+        return np.stack([self.drivetrain.value(states, name) for name in system.coordinates], axis=-1)
 
     def _motions(self, states: np.ndarray) -> np.ndarray:
         """Motions (steps, gears, 5) of the middles of pinion and wheel."""

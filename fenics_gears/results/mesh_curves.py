@@ -28,11 +28,13 @@ from .side_by_side import Layouts, SideBySide
 
 
 @njit(cache=True)
-def mesh_stiffness(contact, status, forces, coordinates):
+def mesh_stiffness(contact, status, forces, coordinates, faces):
     """Secant and tangent stiffness, N/mm, of the drive or coast flanks, whichever carry more, and how many tooth pairs
     carry there. All are zero where nothing touches; the secant is not a number where the flanks do not approach.
 
-    `contact`: the `addresses.Arrays` of elastic flanks; others as of StepSolution.
+    `contact`: the `addresses.Arrays` of elastic flanks; `faces` (2, f, f): stiffness and flexibility of faces that bend
+    by coordinates of their own, the last of those that contact moves: flanks give way by them as by the seats of
+    others. The rest as of StepSolution.
     """
     # Taken out of the record once: in a loop that would cost more than the numbers.
     jacobian = contact.jacobian
@@ -62,14 +64,17 @@ def mesh_stiffness(contact, status, forces, coordinates):
     if force <= NO_FORCE:
         return np.zeros(3)
     overlap = np.full(n, -np.inf)
+    rigid = coordinates.copy()
+    moved = jacobian.shape[1]
+    rigid[moved - faces.shape[1] : moved] = 0.0
     for node in range(n):
         if on_drive_flanks[node] == side:
-            overlap[node] = product(jacobian[node], coordinates) - gap[node]
+            overlap[node] = product(jacobian[node], rigid) - gap[node]
     deflection = _highest(overlap, node_pair)
     # Of a gear so heavy that it does not move, the deflection is below the last digit of its rotation; wedged teeth may
     # be pressed by friction where they do not approach.
     secant = force / deflection if deflection > 0.0 else np.nan
-    return np.array([secant, _tangent(contact, closed[:count]), pairs])
+    return np.array([secant, _tangent(contact, closed[:count], faces), pairs])
 
 
 @njit(cache=True)
@@ -92,45 +97,60 @@ def _highest(overlap, node_pair):
 
 
 @njit(cache=True)
-def _tangent(contact, nodes):
+def _tangent(contact, nodes, faces):
     """Force (N) on some nodes when all of them approach by 1 mm; over a face by what the march factored, where they are
     all that are closed."""
     compliance = contact.compliance
     n = len(contact.gap)
+    bent = faces.shape[1]
+    first = contact.jacobian.shape[1] - bent
     approach = np.ones(len(nodes))
     # In the plane nothing is factored.
     if contact.rows != 0:
-        still = np.eye(1)
-        unmoved = np.zeros((n, 1))
+        held = np.eye(1)
+        moved = np.zeros((n, 1))
+        if bent:
+            held = faces[0].copy()
+            moved = contact.jacobian[:n, first:].copy()
         nothing = np.empty(0)
-        equations = Equations(still, np.zeros(1), compliance, unmoved, contact.gap, nothing, 0.0, nothing, contact.rows)
-        iterate = Iterate(np.empty(0, dtype=np.int8), np.zeros(n), np.zeros(1), nothing)
+        load = np.zeros(len(held))
+        equations = Equations(held, load, compliance, moved, contact.gap, nothing, 0.0, nothing, contact.rows)
+        iterate = Iterate(np.empty(0, dtype=np.int8), np.zeros(n), np.zeros(len(held)), nothing)
         if solve_factored(equations, iterate, nodes, nothing, -approach):
             return iterate.forces.sum()
     # `solve_sets` would be compiled, and loaded by each run, once more.
     matrix = system_of(len(nodes))
     for i in range(len(nodes)):
         put_entries(matrix[i], compliance[nodes[i]], nodes, np.int64(0), 1.0)
+        for c in range(bent):
+            moved_by = 0.0
+            for d in range(bent):
+                moved_by += faces[1, c, d] * contact.jacobian[nodes[i], first + d]
+            for j in range(len(nodes)):
+                matrix[i, j] += contact.jacobian[nodes[j], first + c] * moved_by
     return solved(matrix, approach, len(nodes)).sum()
 
 
 Curves = dict[str, np.ndarray]
+# Of a drivetrain in which no face bends by coordinates of its own.
+NO_FACES = np.zeros((2, 0, 0))
 
 
-def stiffness_curves(steps: Steps) -> Curves:
-    """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive steps."""
-    secant, tangent, pairs = _stiffness(steps.in_memory)
+def stiffness_curves(steps: Steps, faces: np.ndarray = NO_FACES) -> Curves:
+    """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive steps; `faces`: as of
+    `mesh_stiffness`."""
+    secant, tangent, pairs = _stiffness(steps.in_memory, faces)
     return {"mesh_stiffness": secant, "mesh_stiffness_tangent": tangent, "loaded_pairs": pairs}
 
 
 @njit(cache=True)
-def _stiffness(block):
+def _stiffness(block, faces):
     steps = in_block(block)
     found = np.zeros((3, len(steps.rows)))
     for s in range(len(steps.rows)):
         forces = steps.forces[forces_at(steps, s)]
         status = steps.status[nodes_at(steps, s)]
-        found[:, s] = mesh_stiffness(operator_at(steps, s), status, forces, steps.states[s, 0])
+        found[:, s] = mesh_stiffness(operator_at(steps, s), status, forces, steps.states[s, 0], faces)
     return found
 
 

@@ -147,7 +147,7 @@ class Recorder:
         values = {"time": times, "mesh_phase": numbers / cycle.steps, "pair_number": nodes.pair_number}
         values |= self._centres(block) | mesh_variables(scene, nodes) | pair_variables(scene, nodes)
         if scene.tooth_elasticity is not None:
-            values |= stiffness_curves(block)
+            values |= stiffness_curves(block, self.model.drivetrain.bending_faces)
         energies, worked = self._energies(block)
         values |= energies
         for effect in effects_on(scene):

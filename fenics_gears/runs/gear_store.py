@@ -140,7 +140,7 @@ def operators_key(model: Model, grid: ContactGrid | None = None) -> tuple:
         (model.face.slices, *divided),
         in_operators,
         scene.coast_flanks is not None,
-        (accuracy, springs, yielding_seats(model)),
+        (accuracy, springs, tuple(system.key for system, _ in yielding_seats(model))),
         tuple(model.drivetrain.indices),
         scene.friction is not None,
         bool(apart),

@@ -30,16 +30,16 @@ from .write import html, text_of
 
 if TYPE_CHECKING:
     from fenics_gears.contact.eccentricity import Eccentricity
+    from fenics_gears.dynamics.bearings import Bearings
     from fenics_gears.dynamics.damping import Damping
     from fenics_gears.dynamics.inertia import Inertia
+    from fenics_gears.dynamics.shafts import Shafts
     from fenics_gears.dynamics.torque_ripple import TorqueRipple
-    from fenics_gears.effects.bearings import Bearings
     from fenics_gears.effects.body_meshes import BodyMeshes
     from fenics_gears.effects.coast_flanks import CoastFlanks
     from fenics_gears.effects.corner_contact import CornerContact
     from fenics_gears.effects.friction import Friction
     from fenics_gears.effects.root_relief import RootRelief
-    from fenics_gears.effects.shafts import Shafts
     from fenics_gears.effects.speed_ramp import SpeedRamp
     from fenics_gears.effects.tip_relief import TipRelief
     from fenics_gears.geometry.flank_errors import FlankErrors

@@ -11,7 +11,6 @@ from fenics_gears.contact.mesh import Mesh, elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps, Opening
 from fenics_gears.contact.tooth_pair import Flanks, Removal
 from fenics_gears.contact.whole_body_mesh import whole_body_mesh
-from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
 from fenics_gears.effects import ALONG_THE_FACE, effects_on, from_effects
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies
@@ -25,7 +24,9 @@ from .bodies import gear_bodies
 from .routes import CONDENSED, route_of
 
 if TYPE_CHECKING:
+    from fenics_gears.dynamics.bending_faces import BendingFace
     from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+    from fenics_gears.dynamics.shaft_system import ShaftSystem
     from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
 
@@ -60,23 +61,52 @@ def _over_face() -> ModuleType:
 def _seated(model: Model, *bodies: FaceCompliance) -> tuple[FaceCompliance, FaceCompliance]:
     """Both bodies, those on a seat that gives way with what it does so within the face."""
     by_gear = dict(zip(GEARS, bodies))
-    for shaft in yielding_seats(model):
+    for system, shaft in yielding_seats(model):
         body = by_gear[shaft.gear]
-        by_gear[shaft.gear] = replace(body, seat=seat_compliance(shaft, body.heights))
+        by_gear[shaft.gear] = replace(body, seat=system.seat(shaft).under(body.heights).compliance)
     return by_gear[GEARS[0]], by_gear[GEARS[1]]
 
 
-def yielding_seats(model: Model) -> tuple[ElasticShaft, ...]:
-    """The elastic shafts on which a gear is no rigid seat: flanks give way by them."""
-    return tuple(shaft for shaft in model.drivetrain.elastic if shaft.yields_within)
+def yielding_seats(model: Model) -> list[tuple[ShaftSystem, ElasticShaft]]:
+    """The elastic shafts on which a gear is no rigid seat, with their systems: flanks give way by them."""
+    systems = model.drivetrain.systems
+    return [(system, shaft) for system in systems for shaft in system.shafts if shaft.yields_within]
+
+
+def _bending_faces(model: Model) -> list[BendingFace]:
+    """The gears whose faces bend by coordinates of their own."""
+    found = []
+    for system, shaft in yielding_seats(model):
+        if shaft.of_face:
+            # Imported here: few faces bend so.
+            from fenics_gears.dynamics.bending_faces import bending_face
+
+            middles = model.face.positions - model.face.middles[GEARS.index(shaft.gear)]
+            found.append(bending_face(model.drivetrain, system, shaft, middles, model.face.widths))
+    return found
 
 
 def cycle_of(model: Model, mesh: Mesh) -> Cycle:
     """The contact equations of a mesh over the steps of the model, with what opens its nodes."""
     steps = model.resolution.steps_per_mesh_cycle
     friction = model.scene.friction is not None
-    cycle = Cycle(mesh, steps, model.drivetrain.indices, friction)
+    indices = model.drivetrain.indices
+    if faces := _bending_faces(model):
+        from fenics_gears.dynamics.bending_faces import CycleOfBendingFaces
+
+        cycle: Cycle = CycleOfBendingFaces(mesh, steps, indices, friction, faces)
+    else:
+        cycle = Cycle(mesh, steps, indices, friction)
     return cycle.with_gaps(gaps_of(model, cycle))
+
+
+def frictionless(cycle: Cycle, coordinates: list[int]) -> Cycle:
+    """The contact equations without friction."""
+    from fenics_gears.dynamics.bending_faces import CycleOfBendingFaces
+
+    if isinstance(cycle, CycleOfBendingFaces):
+        return cycle.frictionless(coordinates)
+    return Cycle(cycle.mesh, cycle.steps, coordinates, False)
 
 
 def flanks_of(model: Model, bodies: Bodies) -> Flanks:

@@ -5,12 +5,12 @@ from math import inf, pi
 
 import numpy as np
 import pytest
-from tests.beam_elements import condensed
+from tests.beam_elements import alone, condensed
 
 from fenics_gears.dynamics.beam import shear_coefficient
+from fenics_gears.dynamics.bearings import Bearing, BearingPlaces, Bearings, Support
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions, in_series
-from fenics_gears.effects.bearings import Bearing, BearingPlaces, Bearings, Support
-from fenics_gears.effects.shafts import Shaft, ShaftMaterial, Shafts, ShaftSection
+from fenics_gears.dynamics.shafts import Shaft, ShaftMaterial, Shafts, ShaftSection
 from fenics_gears.model.drivetrain import drivetrain
 
 STEEL = (206e3, 0.3)
@@ -36,7 +36,7 @@ def shear(diameter, bore=0.0):
 
 
 def pushed(found, motion):
-    return np.linalg.solve(found.stiffness, LOAD * np.eye(5)[motion])
+    return np.linalg.solve(alone(found).stiffness, LOAD * np.eye(5)[motion])
 
 
 def test_the_shear_coefficient_is_cowpers():
@@ -132,19 +132,23 @@ def of_steps_and_a_cone():
     return shaft(sections, 110.0, [Bearing(10.0, 1e5, 1e5), Bearing(70.0, 1e5)], seat=20.0)
 
 
+def torsion(found):
+    return alone(found).torsional_stiffness(found)
+
+
 def twisted():
     """Twist (rad/(N mm)) in closed form and found: sum of L / G J; a cone's 32 L (1/d1^3 - 1/d2^3) / (3 pi G (d2 -
     d1))."""
     tapered = 32.0 * 50.0 * (20.0**-3 - 35.0**-3) / (3.0 * pi * G * 15.0)
     exact = 40.0 / (G * 2.0 * second(30.0, 12.0)) + tapered + 10.0 / (G * 2.0 * second(35.0))
-    return exact, 1.0 / of_steps_and_a_cone().torsional_stiffness
+    return exact, 1.0 / torsion(of_steps_and_a_cone())
 
 
 def test_torsion_of_steps_and_of_a_cone():
     """Closed form up to the gear's seat; none within it."""
     exact, found = twisted()
     assert found == pytest.approx(exact, rel=1e-12)
-    assert replace(of_steps_and_a_cone(), torque_at=104.0).torsional_stiffness == inf
+    assert torsion(replace(of_steps_and_a_cone(), torque_at=104.0)) == inf
 
 
 MATRIX = np.array([
@@ -165,18 +169,18 @@ def test_the_stiffness_is_that_of_a_textbooks_elements():
     # Elements cannot be rigid: what their flexibility leaves is in proportion to it, and extrapolated.
     by_elements = 2.0 * condensed(found, shear, 2e4) - condensed(found, shear, 1e4)
     size = np.outer(*2 * [np.sqrt(np.diag(by_elements))])
-    assert found.stiffness / size == pytest.approx(by_elements / size, abs=1e-8)
+    assert alone(found).stiffness / size == pytest.approx(by_elements / size, abs=1e-8)
     free = replace(found, seat=0.0)
-    assert free.stiffness / size == pytest.approx(condensed(free, shear) / size, abs=1e-9)
+    assert alone(free).stiffness / size == pytest.approx(condensed(free, shear) / size, abs=1e-9)
 
 
 def test_deflection_lines_go_through_gear_and_bearings():
     """Identity: as the gear and the shaft in its bearings move; straight beyond the last bearing."""
     found = shaft(STEPS, 55.0, ON_THREE[:2], seat=18.0)
     places = np.array([55.0, 12.0, 88.0, 100.0, 110.0, 120.0, 49.0])
-    lines = found.deflection(places)
+    lines = alone(found).deflection(found, places)
     assert lines[0] == pytest.approx(np.eye(5), abs=1e-14)
-    assert lines[1:3].reshape(10, 5) == pytest.approx(found.at_bearings, rel=1e-9, abs=1e-15)
+    assert lines[1:3].reshape(10, 5) == pytest.approx(alone(found).at_bearings, rel=1e-9, abs=1e-15)
     assert lines[5] - lines[4] == pytest.approx(lines[4] - lines[3], abs=1e-13)
     # Within the seat it is the gear's own.
     assert lines[6, 0] == pytest.approx([1.0, 0.0, 0.0, 0.0, -6.0], abs=1e-14)
@@ -233,8 +237,8 @@ def test_a_housing_of_springs_is_in_series_with_the_bearings():
         series = np.diag(own * seats / (own + seats))
         blocks = (series[:5, :5], series[5:, 5:])
         wanted = [Bearing(each.at, stiffness_matrix=tuple(map(tuple, of))) for each, of in zip(bearings, blocks)]
-        found = replace(shaft(STEPS, 55.0, bearings), housing=tuple(map(tuple, np.diag(seats))))
-        by_hand = shaft(STEPS, 55.0, wanted).stiffness
+        found = alone(shaft(STEPS, 55.0, bearings), np.diag(seats))
+        by_hand = alone(shaft(STEPS, 55.0, wanted)).stiffness
         assert found.stiffness == pytest.approx(by_hand, rel=1e-12, abs=1e-12 * by_hand.max())
     draw = np.random.default_rng(7).normal(size=(10, 6))
     coupled, springs = 1e5 * draw @ draw.T, np.diag(own + 1e3)
@@ -253,4 +257,5 @@ def test_a_housing_of_springs_is_in_series_with_the_bearings():
 )
 def test_motions_that_bearings_leave_free(bearings, free):
     """Exact: motions of a rigid shaft without stiffness."""
-    assert free_motions(shaft([ShaftSection(100.0, 30.0)], 80.0, bearings)) == free
+    found = alone(shaft([ShaftSection(100.0, 30.0)], 80.0, bearings))
+    assert free_motions(found.shafts, found.springs) == {"pinion": free}

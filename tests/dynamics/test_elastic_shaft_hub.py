@@ -7,12 +7,13 @@ import pytest
 from scipy.linalg import block_diag
 from scipy.sparse import csc_matrix, diags
 from scipy.sparse.linalg import splu
+from tests.beam_elements import alone
 
+from fenics_gears.dynamics.bearings import Bearing
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_hub import Hub
-from fenics_gears.dynamics.elastic_shaft_seat import bent_by_seat, carried_with_twist
-from fenics_gears.effects.bearings import Bearing
-from fenics_gears.effects.shafts import ShaftSection
+from fenics_gears.dynamics.shaft_elements import carried
+from fenics_gears.dynamics.shafts import ShaftSection
 from fenics_gears.elasticity.body_of_revolution import BodyOfRevolution, Ring, flexibility, flexibility_outside
 
 STEEL = (206e3, 0.3)
@@ -47,13 +48,14 @@ def test_body_on_its_bore_rigid_seat_and_hub_make_up_one_solid():
     sections = (ShaftSection(LENGTH, 2.0 * BORE, bore=2.0 * BORED),)
     hub = Hub(GEAR, Ring(BORED, BORE, -HALF, HALF, *STEEL))
     shaft = ElasticShaft("wheel", sections, STEEL, AT, 2.0 * HALF, 0.0, held, hub=hub)
-    rigid = block_diag(np.linalg.inv(shaft.stiffness), 1.0 / shaft.torsional_stiffness)
-    carry = np.array([carried_with_twist(z) for z in HEIGHTS])
-    seat, line, bearings = bent_by_seat(shaft, HEIGHTS, PLACES)
+    system = alone(shaft)
+    rigid = block_diag(np.linalg.inv(system.stiffness), 1.0 / system.torsional_stiffness(shaft))
+    carry = np.array([carried(z) for z in HEIGHTS])
+    seat, line, bearings = system.bent_by_seat(shaft, HEIGHTS, PLACES)
     found = seat + np.einsum("sia,ab,tjb->sitj", carry, rigid, carry)
     gear = np.einsum("ab,tjb->atj", rigid, carry)[:5]
-    line = line + np.einsum("pma,atj->pmtj", shaft.deflection(PLACES), gear)
-    bearings = (bearings + np.einsum("ba,atj->btj", shaft.bearing_loads, gear)).reshape(2, 5, len(HEIGHTS), 6)
+    line = line + np.einsum("pma,atj->pmtj", system.deflection(shaft, PLACES), gear)
+    bearings = (bearings + np.einsum("ba,atj->btj", system.bearing_loads, gear)).reshape(2, 5, len(HEIGHTS), 6)
     for order, motions in ((1, [0, 4]), (0, [2, 5])):
         stiffness, rim = whole.stiffness(order), whole.of_circles(OUTER, HEIGHTS, order)
         left, right = (whole.of_section(end, BORE, order) for end in (-AT, LENGTH - AT))

@@ -7,27 +7,31 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from scipy.linalg import block_diag, eigh
-from tests.beam_elements import FIVE, assembled
+from tests.beam_elements import FIVE, alone, assembled
 from tests.dynamics.test_elastic_shaft import ON_THREE, STEPS, STIFF, E, G, area, second, shaft, shear
 from tests.elastic_shaft_scenes import CUT, INERTIA, VIBRATING
 from tests.helical import helical_scene
 
 from fenics_gears import model_of
-from fenics_gears.dynamics.elastic_shaft_modes import LONGEST_ELEMENT, vibrating
+from fenics_gears.dynamics.bearings import Bearing
+from fenics_gears.dynamics.elastic_shaft import LONGEST_ELEMENT
 from fenics_gears.dynamics.frequencies import vibrations
+from fenics_gears.dynamics.shafts import ShaftSection
 from fenics_gears.dynamics.speed_ramp import inertia_forces
-from fenics_gears.effects.bearings import Bearing
-from fenics_gears.effects.shafts import ShaftSection
 from fenics_gears.model.drivetrain import mesh_stiffness
 
 DENSITY = 7.85e-9
 ALL = 1e6  # Hz: more modes than anybody needs.
 
 
+def vibrating(shaft, density, up_to):
+    return alone(replace(shaft, density=density, up_to=up_to))
+
+
 def frequencies(found, of_gear=(0.0,) * 6):
     """Hz, of a shaft with masses of its gear, free to turn."""
-    torsion = found.torsional_stiffness * np.array([[1.0, -1.0], [-1.0, 1.0]])
-    stiffness = block_diag(found.stiffness, torsion, found.own_stiffness[FIVE:, FIVE:])
+    torsion = found.torsional_stiffness(found.shafts[0]) * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    stiffness = block_diag(found.stiffness[:FIVE, :FIVE], torsion, found.stiffness[FIVE:, FIVE:])
     mass = found.mass + np.diag([*of_gear, *np.zeros(len(found.mass) - 6)])
     return np.sqrt(np.maximum(eigh(stiffness, mass, eigvals_only=True), 0.0)) / (2.0 * pi)
 
@@ -99,9 +103,9 @@ def test_mass_is_that_of_a_rigid_body():
     """Exact: a hollow cylinder that moves as a whole."""
     length, at = 80.0, 30.0
     found = vibrating(shaft([ShaftSection(length, 30.0, bore=10.0)], at, ON_THREE[:1], 70.0, 20.0), DENSITY, 1e3)
-    stiff = replace(found, material=(1e30, 0.3))
+    stiff = alone(replace(found.shafts[0], material=(1e30, 0.3)))
     section, bending = DENSITY * area(30.0, 10.0), DENSITY * second(30.0, 10.0)
-    assert found.mass_of_all == pytest.approx(section * length, rel=1e-12)
+    assert found.shafts[0].mass_of_all == pytest.approx(section * length, rel=1e-12)
     off = 0.5 * length - at
     assert stiff.mass[0, [0, 4]] == pytest.approx(section * length * np.array([1.0, off]), rel=1e-12)
     tilting = bending * length + section * length * (length**2 / 12.0 + off**2)
@@ -114,24 +118,24 @@ def test_mass_is_that_of_a_rigid_body():
 def test_modes_move_bearings_as_they_move_the_line():
     """Identity: the deflection line at the bearings; stiffness as a sum of what is in shaft and bearings."""
     found = vibrating(shaft(STEPS, 55.0, ON_THREE, seat=18.0), DENSITY, 3e4)
-    lines = found.deflection([each.at for each in ON_THREE])
+    lines = found.deflection(found.shafts[0], [each.at for each in ON_THREE])
     assert lines.shape[2] == len(found.coordinates) > FIVE + 5
     assert lines.reshape(found.at_bearings.shape) == pytest.approx(found.at_bearings, rel=1e-9, abs=1e-12)
-    parts = found.own_stiffness - found.bearing_stiffness
-    size = np.sqrt(np.diag(found.own_stiffness))
+    parts = found.stiffness - found.bearing_stiffness
+    size = np.sqrt(np.diag(found.stiffness))
     # What is in the shaft is positive too.
     assert np.linalg.eigvalsh(parts / np.outer(size, size))[0] > -1e-9
-    assert np.diag(found.mass)[7:] == pytest.approx(found.mass_of_all, rel=1e-9)
+    assert np.diag(found.mass)[7:] == pytest.approx(found.shafts[0].mass_of_all, rel=1e-9)
 
 
 def test_a_gear_that_is_cut_into_its_shaft_is_not_counted_twice():
     """Exact: the shaft under the face is what its gear, down to the bore, has not."""
     more = CUT.replace("torque_at", 'material = { density = "7.85 g/cm^3" }\ntorque_at') + INERTIA
     model = model_of(helical_scene(more, accuracy=""))
-    own, bore = model.drivetrain.elastic[0], 2.0 * model.pair.pinion.bore_radius
+    system, own, bore = model.drivetrain.systems[0], model.drivetrain.elastic[0], 2.0 * model.pair.pinion.bore_radius
     wanted = area(28.0, 8.0) * 40.0 + area(35.0) * (90.0 - own.seat) + area(bore) * own.seat
     assert own.mass_of_all == pytest.approx(DENSITY * wanted, rel=1e-12)
-    assert own.mass[:2, :2] == pytest.approx(own.mass[0, 0] * np.eye(2))
+    assert system.mass[:2, :2] == pytest.approx(system.mass[0, 0] * np.eye(2))
 
 
 def test_an_accelerated_input_shaft_is_twisted_by_its_own_inertia():

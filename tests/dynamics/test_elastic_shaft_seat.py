@@ -5,18 +5,18 @@ from math import pi
 
 import numpy as np
 import pytest
-from tests.beam_elements import assembled
+from tests.beam_elements import alone, assembled
 from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, PRESSED
 from tests.hard_cases.invariants import run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
 from fenics_gears.dynamics.beam import shear_coefficient
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft, carried
-from fenics_gears.dynamics.elastic_shaft_face import face_compliance_of_shafts, middles_of_slices
-from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
-from fenics_gears.effects.bearings import Bearing
-from fenics_gears.effects.shafts import ShaftSection
+from fenics_gears.dynamics.bearings import Bearing
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+from fenics_gears.dynamics.shaft_at_work import face_compliance_of_shafts, middles_of_slices
+from fenics_gears.dynamics.shaft_elements import carried
+from fenics_gears.dynamics.shafts import ShaftSection
 from fenics_gears.elasticity.slice_averages import slice_averages
 from fenics_gears.simulation.elastic_route import mesh_cycle
 
@@ -36,12 +36,18 @@ BEARINGS = {
     "overhung": (Bearing(5.0, 3e5), Bearing(30.0, 4e5, 1e5)),
     # Not alike in all directions, which changes nothing of the seat where all are on one side.
     "overhung, not alike": (Bearing(5.0, 3e5), Bearing(30.0, stiffness_matrix=SKEW)),
+    # Not alike either, where ends of the face have coordinates of their own.
+    "between, not alike": (Bearing(10.0, stiffness_matrix=SKEW), Bearing(100.0, 2e5, 0.0, 3e7)),
     "three": (Bearing(10.0, 3e5, 1e5), Bearing(80.0, 1e5, 2e4), Bearing(115.0, 2e5)),
 }
 
 
 def shaft(bearings, torque_at=0.0):
     return ElasticShaft("pinion", SECTIONS, STEEL, 55.0, WIDTH, torque_at, bearings, integral=True)
+
+
+def seat_compliance(shaft, heights, system=None):
+    return (system or alone(shaft)).seat(shaft).whole(heights)
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
@@ -69,12 +75,12 @@ def test_rigid_seat_and_remainder_make_up_the_whole_compliance(name):
     places, stiffness = assembled(found, shear, found.gear_at + HEIGHTS)
     own = np.concatenate([5 * np.abs(np.array(places) - found.gear_at - z).argmin() + np.arange(5) for z in HEIGHTS])
     whole = np.linalg.inv(stiffness)[np.ix_(own, own)]
-    rigid = np.concatenate([carried(z) for z in HEIGHTS])
+    rigid = np.concatenate([carried(z)[:5, :5] for z in HEIGHTS])
     seat = seat_compliance(found, HEIGHTS)[:, :5, :, :5].reshape(len(own), -1)
-    wanted = whole - rigid @ np.linalg.solve(found.stiffness, rigid.T)
+    wanted = whole - rigid @ np.linalg.solve(alone(found).gear_stiffness, rigid.T)
     size = np.sqrt(np.outer(np.diag(whole), np.diag(whole)))
     assert np.abs((seat - wanted) / size).max() <= 1e-9
-    assert rigid.T @ np.linalg.solve(whole, rigid) == pytest.approx(found.stiffness, rel=1e-6, abs=1e-3)
+    assert rigid.T @ np.linalg.solve(whole, rigid) == pytest.approx(alone(found).gear_stiffness, rel=1e-6, abs=1e-3)
     assert np.linalg.eigvalsh(seat / size)[0] >= -1e-12
 
 
@@ -99,14 +105,14 @@ def test_flanks_give_way_as_their_rows_say(helix, shafts):
         operator, added = cut.position(step).operator, 0.0
         of_slice = np.concatenate([[pair.place.slice] * len(pair.offsets) for pair in operator.pairs])
         z = np.tile(model.face.positions[of_slice], 2)
-        for gear, number in zip(model.drivetrain.elastic, "12"):
+        for gear, system, number in zip(model.drivetrain.elastic, model.drivetrain.systems, "12"):
             names = [f"{name}{number}" for name in ("centre_x", "centre_y", "axial_", "tilt_x", "tilt_y", "rotation_")]
             columns = [model.drivetrain.coordinates.index(name) for name in names]
             rows = operator.jacobian[:, columns] * model.drivetrain.radii[columns]
             rows[:, 3] += z * rows[:, 1]
             rows[:, 4] -= z * rows[:, 0]
             weights = slice_averages(heights, 2, model.face.positions, model.face.widths)
-            seat = np.einsum("sh,hikj,tk->sitj", weights, seat_compliance(gear, heights), weights)
+            seat = np.einsum("sh,hikj,tk->sitj", weights, seat_compliance(gear, heights, system), weights)
             places = np.tile(of_slice, 2)
             added = added + np.einsum("mi,minj,nj->mn", rows, seat[places][:, :, places], rows)
         found = operator.compliance - rigid.position(step).operator.compliance
@@ -130,7 +136,7 @@ def test_the_straight_part_is_the_inclination_of_the_axes():
     """Identity: an even line load opens a straight gap; a helix slope that closes it makes the line load even."""
     model, bent = finished(ELASTIC, 0.0)
     z, pair = middles_of_slices(model.pair), model.pair
-    compliance = face_compliance_of_shafts(model.drivetrain.elastic, pair, z)
+    compliance = face_compliance_of_shafts(model.drivetrain.systems, pair, z)
     gap = compliance.mean(axis=1) * model.scene.load.wheel_torque / pair.wheel.base_radius
     slope, middle = np.polyfit(z, gap, 1)
     assert gap == pytest.approx(middle + slope * z, abs=1e-12)

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 from scipy.optimize import root
+from tests.beam_elements import alone
 
+from fenics_gears.dynamics.bearings import Bearing
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft
 from fenics_gears.dynamics.rolling_bearing import reaction, secant_stiffness
+from fenics_gears.dynamics.rolling_bearing_data import RollingBearing
 from fenics_gears.dynamics.shaft_at_work import at_work
-from fenics_gears.effects.bearings import Bearing
-from fenics_gears.effects.rolling_bearings import RollingBearing
-from fenics_gears.effects.shafts import ShaftSection
+from fenics_gears.dynamics.shafts import ShaftSection
 
 STEEL = (206e3, 0.3)
 
@@ -105,13 +106,13 @@ def test_a_shaft_on_rolling_bearings_rests_where_they_carry_its_load(force):
     )
     shaft = ElasticShaft("pinion", (ShaftSection(130.0, 35.0),), STEEL, 114.0, 24.0, 0.0, bearings)
     load = force * np.array([-1.0, 0.06, 0.18, 4.0, 8.0])
-    working = ElasticShaft("pinion", shaft.sections, STEEL, 114.0, 24.0, 0.0, at_work(shaft, load))
-    gear = np.linalg.solve(working.stiffness, load)
+    working = at_work(alone(shaft), load)
+    gear = np.linalg.solve(working.gear_stiffness, load)
     motions = (working.bearings_at_rest @ gear).reshape(2, 5)
     loads = [reaction(each.rolling, motion).loads for each, motion in zip(bearings, motions)]
     linear = (working.springs @ working.bearings_at_rest @ gear).reshape(2, 5)
     # The gear's motion has the round-off of the solution above, of a shaft that is hardly loaded 500 times that of a
     # loaded one: its condition number is 1e8.
-    round_off = np.linalg.cond(working.stiffness) * np.finfo(float).eps
+    round_off = np.linalg.cond(working.gear_stiffness) * np.finfo(float).eps
     assert np.abs(np.array(loads) - linear).max() < round_off * np.abs(linear).max()
     assert np.abs(np.sum(loads, axis=0)[:3] - load[:3]).max() < 1e-8 * np.abs(load).max()

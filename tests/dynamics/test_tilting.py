@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.kinematics import COORDINATES
+from fenics_gears.dynamics.bearings import BearingPlaces, Bearings, Support
 from fenics_gears.dynamics.clock import FOLLOWING
 from fenics_gears.dynamics.frequencies import Vibration, natural_frequencies, vibrations
 from fenics_gears.dynamics.guidance import time_step_warnings
 from fenics_gears.dynamics.inertia import GearInertia, Inertia, LoadInertia
 from fenics_gears.dynamics.tilting import gyroscopic_warnings, moved
-from fenics_gears.effects.bearings import BearingPlaces, Bearings, Support
 from fenics_gears.geometry.gear_data import LumpedGear
 from fenics_gears.geometry.pair import Helix
 from fenics_gears.model.drivetrain import drivetrain

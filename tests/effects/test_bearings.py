@@ -8,7 +8,7 @@ from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
 from tests.paper_text import PAPER as DEMO
 
 from fenics_gears import SceneError, scene_from_text, simulate
-from fenics_gears.effects.bearings import BearingPlaces, Bearings, Support
+from fenics_gears.dynamics.bearings import BearingPlaces, Bearings, Support
 
 ISOTROPIC = 'stiffness = "0.155e6 N/mm"'
 

@@ -10,7 +10,7 @@ from fenics_gears.contact.addresses import Arrays
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.results.mesh_curves import mesh_stiffness
+from fenics_gears.results.mesh_curves import NO_FACES, mesh_stiffness
 
 ROTATION_OF_THE_WHEEL = 5
 LOAD = 7e3
@@ -22,7 +22,7 @@ def stiffness(operator, solution):
         operator.compliance, operator.jacobian, operator.gap, operator.on_drive_flanks, operator.node_pair,
         operator.node_pair, nothing, none, none, nothing,
     )  # fmt: skip
-    secant, tangent, pairs = mesh_stiffness(contact, solution.status, solution.forces, solution.coordinates)
+    secant, tangent, pairs = mesh_stiffness(contact, solution.status, solution.forces, solution.coordinates, NO_FACES)
     return SimpleNamespace(secant=secant, tangent=tangent, pairs=pairs)
 
 

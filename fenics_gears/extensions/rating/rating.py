@@ -112,7 +112,7 @@ def _on_bent_shafts(scene: Scene, pair: GearPair) -> dict[str, np.ndarray]:
         return {}
     z = middles_of_slices(pair)
     return {
-        "shafts": face_compliance_of_shafts(model_of(scene).drivetrain.elastic, pair, z),
+        "shafts": face_compliance_of_shafts(model_of(scene).drivetrain.systems, pair, z),
         "opening": face_opening(pair, scene.lead_modifications, scene.misalignment, z),
     }
 

@@ -13,12 +13,12 @@ from fenics_gears import gear_pair, load_scene, lumped_gears
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.spring_mesh import PairSprings, spring_mesh
 from fenics_gears.contact.tooth_pair import DRIVE
+from fenics_gears.dynamics.bearings import Bearings, Support
 from fenics_gears.dynamics.drivetrain import forces_of_torque
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.shafts import Shaft, Shafts
 from fenics_gears.dynamics.stepping import EquationsOfMotion
-from fenics_gears.effects.bearings import Bearings, Support
-from fenics_gears.effects.shafts import Shaft, Shafts
 from fenics_gears.model.drivetrain import drivetrain
 
 HERE = Path(__file__).parent

@@ -8,8 +8,8 @@ import numpy as np
 from tests.benchmarks.against_exudyn.pair import BEARINGS, MESH, SHAFTS, scene
 
 from fenics_gears import gear_pair, lumped_gears
+from fenics_gears.dynamics.bearings import BearingPlaces
 from fenics_gears.dynamics.frequencies import natural_frequencies
-from fenics_gears.effects.bearings import BearingPlaces
 from fenics_gears.geometry.pair import Helix
 from fenics_gears.model.drivetrain import drivetrain
 

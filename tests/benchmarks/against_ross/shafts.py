@@ -7,15 +7,16 @@ elements of ROSS as the second number of its row says.
 
 import json
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from scipy.linalg import block_diag, eigh
 
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft
-from fenics_gears.dynamics.elastic_shaft_modes import VibratingShaft, vibrating
-from fenics_gears.effects.bearings import Bearing
-from fenics_gears.effects.shafts import ShaftSection
+from fenics_gears.dynamics.bearings import Bearing
+from fenics_gears.dynamics.elastic_shaft import FIVE, ElasticShaft
+from fenics_gears.dynamics.shaft_system import ShaftSystem
+from fenics_gears.dynamics.shafts import ShaftSection
 
 BEARINGS = (Bearing(12.0, 3e5, 1e5), Bearing(85.0, 4e5))
 HOLLOW, THICK = ShaftSection(40.0, 28.0, bore=8.0), ShaftSection(90.0, 35.0)
@@ -64,15 +65,15 @@ def elastic(frequencies: np.ndarray) -> np.ndarray:
     return frequencies[(frequencies > 1.0) & (frequencies < COMPARED)]
 
 
-def free_frequencies(shaft: VibratingShaft) -> np.ndarray:
+def free_frequencies(shaft: ElasticShaft) -> np.ndarray:
     """Natural frequencies, Hz, with the disc, free to turn."""
     mass, across, about = DISC
-    of_disc = np.zeros(len(shaft.mass))
+    system = ShaftSystem((replace(shaft, density=DENSITY, up_to=UP_TO),))
+    of_disc = np.zeros(len(system.mass))
     of_disc[:6] = mass, mass, mass, across, across, about
-    torsion = shaft.torsional_stiffness * np.array([[1.0, -1.0], [-1.0, 1.0]])
-    own = len(shaft.stiffness)
-    stiffness = block_diag(shaft.stiffness, torsion, shaft.own_stiffness[own:, own:])
-    squares = eigh(stiffness, shaft.mass + np.diag(of_disc), eigvals_only=True)
+    torsion = system.torsional_stiffness(system.shafts[0]) * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    stiffness = block_diag(system.gear_stiffness, torsion, system.stiffness[FIVE:, FIVE:])
+    squares = eigh(stiffness, system.mass + np.diag(of_disc), eigvals_only=True)
     return elastic(np.sqrt(np.maximum(squares, 0.0)) / (2.0 * np.pi))
 
 
@@ -81,6 +82,6 @@ def compared(python: str) -> dict[str, tuple[tuple[np.ndarray, np.ndarray], tupl
     found = {}
     for name, (sections, gear_at, pieces) in SHAFTS.items():
         shaft = ElasticShaft("pinion", sections, (206e3, 0.3), gear_at, 0.0, 0.0, BEARINGS)
-        own = np.linalg.inv(shaft.stiffness), free_frequencies(vibrating(shaft, DENSITY, UP_TO))
+        own = np.linalg.inv(ShaftSystem((shaft,)).stiffness), free_frequencies(shaft)
         found[name] = own, by_ross(python, shaft, pieces)
     return found

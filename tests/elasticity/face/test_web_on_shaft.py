@@ -5,13 +5,14 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from tests.beam_elements import alone
 from tests.elasticity.face.body_of_revolution import BORE, OUTER, POISSON, SECTORS, Meridian, Part, motion
 
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft, carried
+from fenics_gears.dynamics.bearings import Bearing
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_hub import Hub, Ring
-from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
-from fenics_gears.effects.bearings import Bearing
-from fenics_gears.effects.shafts import ShaftSection
+from fenics_gears.dynamics.shaft_elements import carried
+from fenics_gears.dynamics.shafts import ShaftSection
 from fenics_gears.elasticity.body_of_revolution import BodyOfRevolution, flexibility_outside
 from fenics_gears.elasticity.slice_averages import slice_averages
 
@@ -72,7 +73,7 @@ def shaft_of(name, sections, seat):
 
 
 def axis(name, sections, seat):
-    moved = np.linalg.inv(shaft_of(name, sections, seat).stiffness)
+    moved = np.linalg.inv(alone(shaft_of(name, sections, seat)).stiffness)
     return dict(zip(AXIS, (FORCE * moved[0, 0], FORCE * moved[4, 0], -MOMENT * moved[4, 4])))
 
 
@@ -92,7 +93,7 @@ def by_program(name, wheel=Wheel(), press_fit=False):
     if press_fit:
         rings = [Ring(*each, 1.0, POISSON) for each in (*wheel.rings(), (INNER, BORE, *wheel.rings()[0][2:]))]
         shaft = replace(shaft_of(name, PLAIN, wheel.face), hub=Hub(tuple(rings[:3]), rings[3]))
-        seat = seat_compliance(shaft, heights)[:, 0]
+        seat = alone(shaft).seat(shaft).under(heights).compliance[:, 0]
         by_force, by_moment = (
             by_force + FORCE * seat[:, :, 0] @ over_face,
             by_moment - MOMENT * seat[:, :, 4] @ over_face,
@@ -208,10 +209,10 @@ def test_the_line_load_of_a_press_fit_is_that_of_one_solid(name):
     body = BodyOfRevolution(rings, 1.0)
     own = flexibility_outside(body.stiffness(1), body.nodes[:, 0] < BORE + 1e-9, body.of_circles(OUTER, z, 1)[::2])
     shaft = shaft_of(name, PLAIN, FACE)
-    carry = np.array([carried(each) for each in z])[:, 0]
-    rigid = own + carry @ np.linalg.solve(shaft.stiffness, carry.T)
+    carry = np.array([carried(each)[0, :5] for each in z])
+    rigid = own + carry @ np.linalg.solve(alone(shaft).stiffness, carry.T)
     shaft = replace(shaft, hub=Hub(tuple(rings), Ring(INNER, BORE, -0.5 * FACE, 0.5 * FACE, 1.0, POISSON)))
-    fitted = rigid + seat_compliance(shaft, z)[:, 0, :, 0]
+    fitted = rigid + alone(shaft).seat(shaft).under(z).compliance[:, 0, :, 0]
     wanted, stiff, found = (load_factor(each) for each in (moved, over @ rigid @ over.T, over @ fitted @ over.T))
     print(f"K_Hbeta {name}: solid {wanted:.4f}, rigid seat {stiff:.4f}, press fit {found:.4f}")
     assert found == pytest.approx(wanted, rel=0.02)

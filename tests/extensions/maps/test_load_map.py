@@ -14,7 +14,7 @@ from tests.studies.conftest import stamps
 from fenics_gears import Load, SceneError, load_scene, model_of, results, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.dynamics.inertia import Inertia
-from fenics_gears.effects.shafts import Shafts
+from fenics_gears.dynamics.shafts import Shafts
 from fenics_gears.extensions.maps.load_map import OVER_SPEED, QUASI_STATIC, load_map, shared_accuracy
 from fenics_gears.extensions.maps.map_results import frequencies_over_load
 from fenics_gears.results.settled import settling_time

@@ -1,0 +1,206 @@
+"""A drivetrain put together of shafts, bearings, masses and damping.
+
+Mass and moment of inertia of a gear are given, or follow from its cross-section and a density.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from math import isfinite
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fenics_gears.contact.kinematics import COORDINATES, FACE_COORDINATES
+from fenics_gears.errors import SceneError
+from fenics_gears.geometry.pair import GearPair
+
+from .damping import Damping
+from .drivetrain import SIDE, Drivetrain, forces_of_torque, gear_of, kind_of
+from .inertia import Inertia
+from .modal_damping import modal_damping
+from .tilting import add_bearings, mesh_over_face
+
+if TYPE_CHECKING:
+    from fenics_gears.geometry.gear_data import LumpedGear
+
+    from .bearings import Bearings
+    from .shaft_system import ShaftSystem
+    from .shafts import Shafts
+
+# The load's moment of inertia over the wheel's, at most: their sum keeps six digits of the wheel's.
+MOST_OF_WHEEL = 1e10
+# Each centre's translations: of which gear, in which direction.
+TRANSLATIONS = {
+    f"centre_{axis}{number}": (gear, axis) for gear, number in (("pinion", 1), ("wheel", 2)) for axis in "xy"
+}
+# What of a gear is moved, by the first word of the coordinate's name.
+MOVED = {
+    "centre": "mass",
+    "axial": "mass",
+    "rotation": "moment_of_inertia",
+    "shaft": "moment_of_inertia",
+    "tilt": "tilting_inertia",
+}
+# Beginnings of the names of rotations that are carried as arc lengths.
+ARCS = ("rotation", "shaft", "tilt", "face_tilt", "face_turn")
+
+
+@dataclass(frozen=True)
+class Supports:
+    """Shafts, bearings, masses and damping of a drivetrain, None where a scene has none; `gears`: "pinion" and "wheel"
+    as lumped masses; `systems`: those of shafts that also bend, `even_loads` (5,): of their gears, where bearings
+    roll."""
+
+    shafts: Shafts | None = None
+    bearings: Bearings | None = None
+    inertia: Inertia | None = None
+    gears: Mapping[str, LumpedGear] = field(default_factory=dict)
+    damping: Damping | None = None
+    systems: tuple[ShaftSystem, ...] = ()
+    even_loads: tuple[np.ndarray, ...] = ()
+
+
+def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stiffness: float) -> Drivetrain:
+    """The drivetrain of a pair under a torque (N mm) on the wheel's shaft; coordinates that cannot move do not appear.
+
+    `mesh_stiffness`, N/mm: of one tooth pair, roughly; damping ratios are of the modes with it. Raises SceneError for a
+    load beside which the wheel's own moment of inertia is lost in round-off.
+    """
+    names = _moving_coordinates(supports)
+    radii = np.array([getattr(pair, gear_of(name)).base_radius if name.startswith(ARCS) else 1.0 for name in names])
+    scale = np.outer(1.0 / radii, 1.0 / radii)
+    stiffness, in_bearings = _stiffness(names, supports)
+    mass = mesh = None
+    coupling = np.zeros(len(names))
+    if supports.inertia is not None:
+        mass, coupling = _mass_of_all(names, supports)
+        mass = scale * mass
+        # Turned by the pinion's base pitch, as its own rotation is.
+        coupling = coupling / pair.pinion.base_radius / radii
+        if pair.slope or not set(names).isdisjoint(FACE_COORDINATES):
+            mesh = mesh_over_face(pair, names)
+    load = forces_of_torque(names, radii, wheel_torque)
+    undamped = Drivetrain(
+        names, radii, scale * stiffness, load, mass, None, mesh, supports.systems, scale * in_bearings, coupling
+    )
+    if supports.even_loads:
+        from .rolling_springs import springs_of
+
+        undamped = replace(undamped, rolling=springs_of(undamped, supports.even_loads))
+    return replace(undamped, damping=None if mass is None else _damping(supports, undamped, mesh_stiffness, scale))
+
+
+def _stiffness(names: tuple[str, ...], supports: Supports) -> tuple[np.ndarray, np.ndarray]:
+    """Stiffness (k, k) of all springs, in N, mm and rad, and the part of it that is in bearings."""
+    stiffness = np.zeros((len(names), len(names)))
+    if supports.bearings is not None:
+        for name, side in TRANSLATIONS.items():
+            if (own := supports.bearings.of(*side)) is not None:
+                stiffness[names.index(name), names.index(name)] = own
+        if supports.bearings.places is not None:
+            add_bearings(stiffness, names, supports.bearings)
+    in_bearings = stiffness.copy()
+    for system in supports.systems:
+        stiffness += _spread(names, system, system.stiffness)
+        in_bearings += _spread(names, system, system.bearing_stiffness)
+    for name, torsion in _torsion(supports).items():
+        stiffness[names.index(name), names.index(name)] += torsion
+    return stiffness, in_bearings
+
+
+def _mass_of_all(names: tuple[str, ...], supports: Supports) -> tuple[np.ndarray, np.ndarray]:
+    """Mass (k, k) of gears, load and shafts, and momentum (k,) of input shafts per speed of their coupling."""
+    mass = _mass(names, supports.inertia, supports.gears)
+    coupling = np.zeros(len(names))
+    for system in supports.systems:
+        own, momentum = system.mass_over(names)
+        mass += own
+        coupling += momentum
+    return mass, coupling
+
+
+def _spread(names: tuple[str, ...], system: ShaftSystem, matrix: np.ndarray) -> np.ndarray:
+    """A matrix over a system's own coordinates as one over all (k, k)."""
+    found = np.zeros((len(names), len(names)))
+    own = [names.index(name) for name in system.coordinates]
+    found[np.ix_(own, own)] = matrix
+    return found
+
+
+def _moving_coordinates(supports: Supports) -> tuple[str, ...]:
+    moving = {"rotation_2", *_torsion(supports)}
+    if supports.bearings is not None:
+        moving.update(name for name, side in TRANSLATIONS.items() if supports.bearings.of(*side) is not None)
+        moving.update(_leaning(supports.bearings))
+    moving.update(name for system in supports.systems for name in system.moved)
+    of_faces = (name for system in supports.systems for name in system.moved if name not in COORDINATES)
+    modes = (name for system in supports.systems for name in system.modes)
+    return (*(name for name in COORDINATES if name in moving), *of_faces, *modes)
+
+
+def _leaning(bearings: Bearings) -> set[str]:
+    """The coordinates of gears whose bearings have places: tilts, and the axial one where the shaft is not held."""
+    tilting = [name for name in FACE_COORDINATES if bearings.places_of(SIDE[name]) is not None]
+    return {name for name in tilting if kind_of(name) == "tilt" or bearings.axial(SIDE[name]) is not None}
+
+
+def _torsion(supports: Supports) -> dict[str, float]:
+    """Torsional stiffness (N mm/rad) of the shafts that twist, by coordinate: the input shaft's between the prescribed
+    rotation and phi1; the output shaft's, whose twist is phi3 - phi2 [4]-[6]."""
+    found = {}
+    for name, shaft in (("rotation_1", "input"), ("shaft_twist", "output")) if supports.shafts is not None else ():
+        bent = [
+            system.torsional_stiffness(each)
+            for system in supports.systems
+            for each in system.shafts
+            if each.gear == SIDE[name]
+        ]
+        torsion = bent[0] if bent else supports.shafts.of(shaft)
+        if torsion is not None and isfinite(torsion):
+            found[name] = torsion
+    return found
+
+
+def _mass(names: tuple[str, ...], inertia: Inertia, gears: Mapping[str, LumpedGear]) -> np.ndarray:
+    """Lumped masses; J3 phi3'' with phi3 = phi2 + twist couples the wheel's rotation with the twist."""
+    end = inertia.shaft_end
+    of_gears = {name: getattr(gears[SIDE[name]], MOVED[kind_of(name)]) for name in names if name in SIDE}
+    lumped = dict.fromkeys(names, 0.0) | of_gears
+    mass = np.diag([lumped[name] for name in names])
+    second = names.index("rotation_2")
+    if "shaft_twist" in names:
+        _check_load(end, lumped["rotation_2"])
+        twist = names.index("shaft_twist")
+        mass[twist, twist] = end
+        mass[second, second] += end
+        mass[second, twist] = mass[twist, second] = end
+    elif inertia.load is not None:
+        mass[second, second] += inertia.load.moment_of_inertia
+    return mass
+
+
+def _check_load(end: float, wheel: float) -> None:
+    """Raise SceneError for a load (N mm s^2) beside which the wheel's own moment of inertia is round-off."""
+    if end > MOST_OF_WHEEL * wheel:
+        raise SceneError(
+            f"inertia.load: a moment of inertia of {end / wheel:.3g} times the wheel's; allowed are up to"
+            f" {MOST_OF_WHEEL:g} times, beyond which the far end of the output shaft stands still all the same. Lower"
+            " inertia.load.moment_of_inertia, or raise that of [inertia.wheel]"
+        )
+
+
+def _damping(supports: Supports, undamped: Drivetrain, mesh_stiffness: float, scale: np.ndarray) -> np.ndarray | None:
+    """D (k, k): alpha K + beta M of either shaft, or by the ratios of the modes with one tooth pair in mesh, and what
+    elements of shafts have of their own."""
+    found = sum(scale * _spread(undamped.coordinates, each, each.damping) for each in supports.systems)
+    damping = supports.damping
+    if damping is None:
+        return found if np.any(found) else None
+    if damping.modal:
+        return found + modal_damping(undamped, mesh_stiffness, damping.modal)
+    # A row and its column have the same factors, but for springs of a housing that joins both sides of the mesh.
+    factors = np.array([damping.rayleigh(gear_of(name)) for name in undamped.coordinates]).T
+    alpha, beta = 0.5 * (factors[:, :, None] + factors[:, None, :])
+    return found + alpha * undamped.stiffness_at_work + beta * undamped.mass

@@ -1,0 +1,255 @@
+"""Elastic shafts condensed onto the coordinates of a drivetrain.
+
+At rest a shaft follows its gear, its coupling and its rolling bearings (`shafts_at_rest`); with a mass it also has
+modes in which these are held (R. R. Craig and M. C. C. Bampton, Coupling of substructures for dynamic analyses, AIAA
+Journal 6 (1968)). Stiffness then falls apart: that of rest, exact, and of each mode by itself. Modes come from the
+flexibility of the nodes, which stiff bearings do not spoil. Gyroscopic moments are left out, as for gears that tilt.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg import block_diag, eigh
+
+from .elastic_shaft import FIVE, ElasticShaft
+from .elastic_shaft_seat import BentBySeat
+from .shaft_elements import SIX, Assembly, Element, Springs, carried, motions_of
+from .shafts_at_rest import ShaftsAtRest
+
+KINDS = {"bending": [0, 1, 3, 4], "axial": [2], "torsion": [5]}
+
+
+@dataclass(frozen=True, eq=False)
+class ShaftSystem(ShaftsAtRest):
+    """Shafts over the coordinates of the gears' middles, of faces that bend, the motions in rolling bearings, and the
+    shafts' own modes in mm, each of which has the mass of the shafts."""
+
+    @property
+    def moved(self) -> tuple[str, ...]:
+        """Names of the coordinates that contact moves."""
+        of_gears = [name for shaft in self.shafts for name in shaft.of_gear]
+        return (*of_gears, *(name for shaft in self.shafts for name in shaft.of_face))
+
+    @property
+    def in_rolling(self) -> tuple[str, ...]:
+        """Names of the motions in rolling bearings as coordinates."""
+        return tuple(name for shaft in self.shafts for name in shaft.in_rolling)
+
+    @property
+    def modes(self) -> tuple[str, ...]:
+        """Names of the coordinates that contact does not move."""
+        return (*self.in_rolling, *self.own_modes)
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names (k,) of the coordinates that the shafts' bending and their bearings act on."""
+        return (*self.moved, *self.modes)
+
+    @cached_property
+    def stiffness(self) -> np.ndarray:
+        """Of shafts and bearings over the coordinates (k, k)."""
+        at_rest = self.bending.T @ self.held.stiffness @ self.bending
+        for shaft in self.shafts:
+            if shaft.of_face:
+                own = [self.moved.index(name) for name in shaft.of_face]
+                at_rest[np.ix_(own, own)] += self.seat(shaft).stiffness_of_face
+        return block_diag(0.5 * (at_rest + at_rest.T), np.diag(self._vibrations[0]))
+
+    @cached_property
+    def damping(self) -> np.ndarray:
+        """Of the elements over the coordinates (k, k), N s/mm."""
+        assembly = self.held.assembly
+        moved = self._moved(assembly.names)
+        return moved.T @ assembly.sum("damping") @ moved
+
+    @cached_property
+    def bearing_stiffness(self) -> np.ndarray:
+        """The part (k, k) of the stiffness whose energy is in bearings and housing."""
+        found = np.zeros((len(self.coordinates),) * 2)
+        for each in self._springs:
+            found += self._moved(each.motions).T @ self._loads_on(each)
+        return found
+
+    @cached_property
+    def at_bearings(self) -> np.ndarray:
+        """Motions (5 b, k) of the shafts in their bearings per coordinate."""
+        return self._moved(self.rings)
+
+    @cached_property
+    def bearing_loads(self) -> np.ndarray:
+        """Loads (5 b, k) of the shafts on their bearings per coordinate."""
+        loads: dict[str, np.ndarray] = {}
+        # The housing is the last: what rolls carries by its own springs.
+        for each in reversed(self._springs):
+            loads |= dict(zip(each.motions, self._loads_on(each)))
+        return np.array([loads[name] for name in self.in_bearings])
+
+    def bent_by_seat(self, shaft: ElasticShaft, heights: np.ndarray, places: np.ndarray) -> BentBySeat:
+        """A shaft whose gear is loaded at `heights` (h,), mm from its middle, and `places` (p,), mm from the left end:
+        what is beside the face follows its ends."""
+        within = (places > shaft.seat_ends[0]) & (places < shaft.seat_ends[1])
+        found = self.seat(shaft).under(heights, places[within] - shaft.gear_at)
+        own, carry = self.face(shaft)
+        ends = carry @ found.ends.reshape(2 * SIX, -1)
+        line = np.zeros((len(places), FIVE, len(heights), SIX))
+        line[within] = found.axis[:, :FIVE]
+        beside = self.beside(shaft, places[~within], ()) @ np.eye(len(self.ends))[:, own]
+        line[~within] = (beside @ ends).reshape(-1, *line.shape[1:])
+        moved = self.at_rest.motions_of(self.in_bearings)[:, own] @ ends
+        loads = self.springs @ moved
+        return BentBySeat(found.compliance, line, loads.reshape(-1, *line.shape[2:]))
+
+    def deflection(self, shaft: ElasticShaft, places: Sequence[float]) -> np.ndarray:
+        """Motions (p, 5, k) of places on a shaft's axis (mm from its left end) per coordinate."""
+        at = np.asarray(places, dtype=float)
+        within = (at >= shaft.seat_ends[0]) & (at <= shaft.seat_ends[1])
+        bent = np.zeros((len(at), FIVE, self.bending.shape[1]))
+        heights = at[within] - shaft.gear_at
+        columns = [self.moved.index(name) for name in shaft.of_gear]
+        inside = np.zeros((len(heights), *bent.shape[1:]))
+        inside[:, :, columns] = np.reshape([carried(each)[:FIVE, :FIVE] for each in heights], (-1, FIVE, FIVE))
+        if shaft.of_face:
+            columns = [self.moved.index(name) for name in shaft.of_face]
+            inside[:, :, columns] = self.seat(shaft).axis_follows(heights)[:, :FIVE]
+        bent[within] = inside
+        bent[~within] = self.beside(shaft, at[~within], self.in_rolling_motions) @ self.bending
+        nodes = range(len(shaft.chain.places))
+        shapes = self._shapes[self._nodes.numbers(name for node in nodes for name in motions_of(shaft.gear, node))]
+        own = [np.interp(at, shaft.chain.places, each) for each in shapes.reshape(len(nodes), -1).T]
+        vibrating = np.reshape(own, (SIX, -1, len(at)))[:FIVE]
+        return np.concatenate([bent, np.moveaxis(vibrating, 2, 0)], axis=2)
+
+    @cached_property
+    def mass(self) -> np.ndarray:
+        """Over all given motions and the modes (g + m, g + m), N, mm, s and rad."""
+        moved = np.concatenate([self._nodes_at_rest, self._shapes], axis=1)
+        return moved.T @ self._mass_of_nodes @ moved
+
+    def mass_over(self, names: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:
+        """The mass (k, k) over a drivetrain's coordinates of such names, in N, mm, s and rad; and the momentum (k,)
+        over these per speed (rad/s) of the prescribed rotation of a whole input shaft, as far as it is not that of the
+        gear."""
+        moved = np.zeros((len(self.mass), len(names)))
+        places = [names.index(name) for name in self.coordinates]
+        moved[:, places] = block_diag(self.selected(self.bending_names), np.eye(len(self.own_modes)))
+        turning = np.zeros(len(self.mass))
+        given = len(self.given)
+        for shaft in self.shafts:
+            for name, turned in shaft.turned_by.items():
+                if name in names:
+                    moved[:given, names.index(name)] = self.selected(turned).sum(axis=1)
+            if shaft.driven:
+                gear = self.selected(motions_of(shaft.gear, "gear")[-1:]).sum(axis=1)
+                turning[:given] += self.selected(shaft.coupling(shaft.chain)).sum(axis=1)
+                turning[:given] += gear * (shaft.rotation not in names)
+        return moved.T @ self.mass @ moved, moved.T @ self.mass @ turning
+
+    @cached_property
+    def own_modes(self) -> tuple[str, ...]:
+        """Names of the shafts' own modes, by frequency."""
+        energies = self._shapes * (self._mass_of_nodes @ self._shapes)
+        counted = dict.fromkeys((shaft.gear for shaft in self.shafts), 0)
+        shafts = np.array([name.partition("/")[0] for name in self._nodes.names])
+        motions = np.arange(len(shafts)) % SIX
+        found = []
+        for energy in energies.T:
+            gear = max(counted, key=lambda each: energy[shafts == each].sum())
+            kind = max(KINDS, key=lambda each: energy[np.isin(motions, KINDS[each])].sum())
+            counted[gear] += 1
+            found.append(f"{kind}_mode_{counted[gear]}_{gear}")
+        return tuple(found)
+
+    @property
+    def _shapes(self) -> np.ndarray:
+        """Motions (n, m) of all nodes per mode."""
+        return self._vibrations[1]
+
+    @cached_property
+    def _vibrations(self) -> tuple[np.ndarray, np.ndarray]:
+        """Stiffness (m,), N/mm, and shapes (n, m) of the modes in which all that is given is held."""
+        names = self._nodes.names
+        if not self.vibrates:
+            return np.zeros(0), np.zeros((len(names), 0))
+        held = self.held
+        fixed = {*held.names, *(self._tied if self.housing is None else ())}
+        free = [name for name in names if name in held.assembly and name not in fixed]
+        nodes = self._nodes.numbers(free)
+        places = held.assembly.numbers(free)
+        root = np.linalg.cholesky(self._mass_of_nodes[np.ix_(nodes, nodes)])
+        flexible = root.T @ held.flexibility[np.ix_(places, places)] @ root
+        slowest = (2.0 * np.pi * min(shaft.up_to for shaft in self.shafts)) ** -2
+        squares, found = eigh(0.5 * (flexible + flexible.T), subset_by_value=(slowest, np.inf))
+        own = sum(shaft.mass_of_all for shaft in self.shafts)
+        shapes = np.zeros((len(names), len(squares)))
+        shapes[nodes] = np.sqrt(own) * np.linalg.solve(root.T, found)
+        return own / squares[::-1], shapes[:, ::-1]
+
+    @property
+    def vibrates(self) -> bool:
+        """Whether the shafts have a mass."""
+        return any(shaft.density for shaft in self.shafts)
+
+    @cached_property
+    def _nodes(self) -> Assembly:
+        """All beams, also those within the faces."""
+        return Assembly(beam for shaft in self.shafts for beam in (*shaft.chain.beside, *shaft.chain.within))
+
+    @cached_property
+    def _mass_of_nodes(self) -> np.ndarray:
+        return self._nodes.sum("mass")
+
+    @cached_property
+    def _nodes_at_rest(self) -> np.ndarray:
+        """Motions (n, g) of all nodes per given one."""
+        names = self._nodes.names
+        known = [name in self.held.assembly for name in names]
+        found = np.zeros((len(names), len(self.given)))
+        found[known] = self.held.motions_of(each for each, has in zip(names, known) if has) @ self.of_given
+        for shaft in self.shafts:
+            left, right = shaft.chain.faces[0]
+            for node in range(left + 1, right):
+                rows = self._nodes.numbers(motions_of(shaft.gear, node))
+                height = shaft.chain.places[node] - shaft.gear_at
+                found[rows] = carried(height) @ self.selected(motions_of(shaft.gear, "gear")).T
+                if shaft.of_face:
+                    bent = self.seat(shaft).axis_follows(np.array([height]))[0]
+                    found[rows] += bent @ self.selected(motions_of(shaft.gear, "face")).T
+        return found
+
+    @property
+    def _tied(self) -> Iterator[str]:
+        """Names of the motions of nodes in rolling bearings."""
+        for shaft in self.shafts:
+            yield from (name for number in shaft.rolling for name in shaft.at_bearing(shaft.chain, number))
+
+    @property
+    def _springs(self) -> list[Springs]:
+        return [each for each in self.held.assembly.elements if isinstance(each, Springs)]
+
+    def _moved(self, names: Sequence[str]) -> np.ndarray:
+        """Motions (n, k) per coordinate."""
+        at_rest = self.held.motions_of(names) @ self.bending
+        vibrating = np.zeros((len(names), self._shapes.shape[1]))
+        known = [number for number, name in enumerate(names) if self._node_of.get(name, name) in self._nodes]
+        nodes = (self._node_of.get(names[number], names[number]) for number in known)
+        vibrating[known] = self._shapes[self._nodes.numbers(nodes)]
+        return np.concatenate([at_rest, vibrating], axis=1)
+
+    def _loads_on(self, element: Element) -> np.ndarray:
+        """Loads (n, k) on an element per coordinate."""
+        at_rest = self.held.loads_on(element) @ self.bending
+        vibrating = element.stiffness @ self._moved(element.motions)[:, self.bending.shape[1] :]
+        return np.concatenate([at_rest, vibrating], axis=1)
+
+    @cached_property
+    def _node_of(self) -> dict[str, str]:
+        """The motion of a node that each ring has."""
+        found: dict[str, str] = {}
+        for shaft in self.shafts:
+            for number in range(len(shaft.bearings)):
+                found |= dict(zip(shaft.ring(number), shaft.at_bearing(shaft.chain, number)))
+        return found

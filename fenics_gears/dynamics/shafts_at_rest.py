@@ -1,0 +1,230 @@
+"""Elastic shafts with their bearings at rest: those that one housing ties together, or one by itself.
+
+All follow their gears, their couplings and the motions in their rolling bearings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import inf
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.linalg import block_diag
+
+from .elastic_shaft import FIVE, ROUND_OFF, ElasticShaft, in_series
+from .elastic_shaft_seat import Seat
+from .shaft_elements import ARM, SIX, STIFFNESS, Assembly, Element, Held, Link, Springs, carried, motions_of
+
+if TYPE_CHECKING:
+    from fenics_gears.inputs.allowed import Matrix
+
+    from .bearings import Bearing
+
+# mm/N that a place moves at least whose motions are coordinates: beside the seat it does as little as does not count.
+LEAST_YIELDING = 1e-12
+# N/mm of a rolling bearing in a housing, whose own motions are coordinates.
+RIGID = 1e6 * STIFFNESS
+TILTING = (1.0, 1.0, 1.0, ARM**2, ARM**2)
+
+
+@dataclass(frozen=True, eq=False)
+class ShaftsAtRest:
+    """`shafts` with the stiffness of one `housing` between the seats of all of their bearings (5 b, 5 b), N, mm and
+    rad, None where it is rigid; `more`: elements that hold or join their nodes otherwise."""
+
+    shafts: tuple[ElasticShaft, ...]
+    housing: Matrix | None = None
+    more: tuple[Element, ...] = ()
+
+    @property
+    def key(self) -> tuple:
+        """What systems have in common that are alike."""
+        return self.shafts, self.housing, self.more
+
+    @property
+    def bearings(self) -> tuple[Bearing, ...]:
+        """The bearings of all shafts, one after the other."""
+        return tuple(bearing for shaft in self.shafts for bearing in shaft.bearings)
+
+    @property
+    def rings(self) -> tuple[str, ...]:
+        """Names (5 b,) of the motions of the rings on the shafts."""
+        return tuple(
+            name for shaft in self.shafts for number in range(len(shaft.bearings)) for name in shaft.ring(number)
+        )
+
+    @property
+    def in_bearings(self) -> tuple[str, ...]:
+        """Names (5 b,) of the motions in the bearings."""
+        return tuple(
+            name
+            for shaft in self.shafts
+            for number, bearing in enumerate(shaft.bearings)
+            for name in (shaft.ring(number) if bearing.rolling is None else shaft.in_bearing(number))
+        )
+
+    @property
+    def in_rolling_motions(self) -> tuple[str, ...]:
+        """Names of the motions in rolling bearings."""
+        return tuple(name for shaft in self.shafts for number in shaft.rolling for name in shaft.in_bearing(number))
+
+    @cached_property
+    def given(self) -> tuple[str, ...]:
+        """Names (g,) of all motions that others follow at rest."""
+        found: list[str] = []
+        for shaft in self.shafts:
+            found += motions_of(shaft.gear, "gear")
+            found += motions_of(shaft.gear, "face") if shaft.of_face else ()
+            found += shaft.coupling(shaft.chain)
+        return (*found, *self.in_rolling_motions)
+
+    @cached_property
+    def bending_names(self) -> tuple[str, ...]:
+        """Those that are coordinates, in the order of these."""
+        of_gears = [name for shaft in self.shafts for name in motions_of(shaft.gear, "gear")[:FIVE]]
+        of_faces = [name for shaft in self.shafts if shaft.of_face for name in motions_of(shaft.gear, "face")]
+        return (*of_gears, *of_faces, *self.in_rolling_motions)
+
+    def selected(self, names: Sequence[str]) -> np.ndarray:
+        """Given motions (g, n) per one of such names."""
+        return np.array([[float(each == name) for name in names] for each in self.given])
+
+    @cached_property
+    def ends(self) -> tuple[str, ...]:
+        """Names of the motions of both ends of all faces, and of the turns of couplings."""
+        return self.ends_of(())
+
+    def ends_of(self, chains) -> tuple[str, ...]:
+        found: list[str] = []
+        for shaft, chain in zip(self.shafts, chains or self.chains):
+            left, right = shaft.ends(chain)
+            found += [*left, *right, *shaft.coupling(chain)]
+        return tuple(found)
+
+    @property
+    def chains(self) -> list:
+        return [shaft.chain for shaft in self.shafts]
+
+    def face(self, shaft: ElasticShaft) -> tuple[list[int], np.ndarray]:
+        """Numbers (12,) of the motions of both ends of a face among `_ends`, and these motions per motion of either end
+        as one of the gear's middle."""
+        left, right = shaft.ends(shaft.chain)
+        own = [self.ends.index(name) for name in (*left, *right)]
+        return own, block_diag(carried(-0.5 * shaft.seat), carried(0.5 * shaft.seat))
+
+    @cached_property
+    def gear_stiffness(self) -> np.ndarray:
+        """Of shafts and bearings at the middles of all gears (5 g, 5 g) on rigid seats: their loads per motion."""
+        found = self.rigid.T @ self.at_rest.stiffness @ self.rigid
+        return 0.5 * (found + found.T)
+
+    def stiffness_at(self, shaft: ElasticShaft) -> np.ndarray:
+        """The same (5, 5) of the gear on one shaft, with no load on the other."""
+        if len(self.shafts) == 1:
+            return self.gear_stiffness
+        first = FIVE * self.shafts.index(shaft)
+        own = slice(first, first + FIVE)
+        return np.linalg.inv(np.linalg.inv(self.gear_stiffness)[own, own])
+
+    def torsional_stiffness(self, shaft: ElasticShaft) -> float:
+        """Of a shaft between gear and coupling, N mm/rad; infinite where the torque is coupled within the seat."""
+        if shaft.coupled_within:
+            return inf
+        place = self.ends.index(*shaft.coupling(shaft.chain))
+        return float(self.at_rest.stiffness[place, place])
+
+    @cached_property
+    def springs(self) -> np.ndarray:
+        """Stiffness (5 b, 5 b) of all bearings in their housing, those that roll as under an even load."""
+        found = block_diag(*(each.matrix for each in self.bearings))
+        return found if self.housing is None else in_series(found, np.array(self.housing))
+
+    @cached_property
+    def bearings_at_rest(self) -> np.ndarray:
+        """Motions (5 b, 5 g) in the bearings per motion of the gears on rigid seats, at rest."""
+        return self.at_rest.motions_of(self.in_bearings) @ self.rigid
+
+    @cached_property
+    def free_of_rolling(self) -> Held:
+        """The shafts at rest without their rolling bearings, in which they are free, over what `rigid` moves."""
+        return self.assembled(loaded=False).held(self.ends)
+
+    @cached_property
+    def rigid(self) -> np.ndarray:
+        """Motions of both ends of all faces, and of couplings, per motion (5 g) of the gears on rigid seats."""
+        return self.bending[: len(self.ends), : FIVE * len(self.shafts)]
+
+    def seat(self, shaft: ElasticShaft) -> Seat:
+        """The seat of a shaft's gear between what holds it on either side."""
+        own, carry = self.face(shaft)
+        return Seat(shaft, carry.T @ self.at_rest.stiffness[np.ix_(own, own)] @ carry)
+
+    @cached_property
+    def held(self) -> Held:
+        return self.assembled().held((*self.ends, *self.in_rolling_motions))
+
+    @cached_property
+    def at_rest(self) -> Held:
+        """With rolling bearings as under an even load."""
+        return self.held if not self.in_rolling_motions else self.assembled().held(self.ends)
+
+    @cached_property
+    def of_given(self) -> np.ndarray:
+        """Motions of `_ends` and in rolling bearings per given one."""
+        found = np.zeros((len(self.held.names), len(self.given)))
+        for shaft in self.shafts:
+            own, carry = self.face(shaft)
+            gear = np.concatenate([np.eye(SIX)] * 2) @ self.selected(motions_of(shaft.gear, "gear")).T
+            if shaft.of_face:
+                gear += self.seat(shaft).apart @ self.selected(motions_of(shaft.gear, "face")).T
+            found[own] = carry @ gear
+        for number, name in enumerate(self.held.names):
+            if name in self.given:
+                found[number] = self.selected((name,))[:, 0]
+        return found
+
+    @cached_property
+    def bending(self) -> np.ndarray:
+        """The same per coordinate but for modes."""
+        return self.of_given @ self.selected(self.bending_names)
+
+    def beside(self, shaft: ElasticShaft, places: np.ndarray, more: Sequence[str]) -> np.ndarray:
+        """Motions (p, 5, h) of places beside a shaft's face per motion of `_ends` and of `more`."""
+        chains = [each.chain_with(places) if each is shaft else each.chain for each in self.shafts]
+        held = self.assembled(chains).held((*self.ends_of(chains), *more))
+        chain = chains[self.shafts.index(shaft)]
+        found = [held.motions_of(shaft.motions_at(chain, place)) for place in places]
+        return np.reshape(found, (len(places), FIVE, len(held.names)))
+
+    def assembled(self, chains=None, loaded: bool = True) -> Assembly:
+        """The sum of all elements, of shafts with such `chains`; without rolling bearings where it is not `loaded`."""
+        elements: list[Element] = [*self.more]
+        matrices = []
+        for shaft, chain in zip(self.shafts, chains or self.chains):
+            elements += chain.beside
+            for number, bearing in enumerate(shaft.bearings):
+                ring = shaft.ring(number)
+                inner = shaft.in_bearing(number)
+                elements.append(Link((*ring, *shaft.at_bearing(chain, number))))
+                rolls = bearing.rolling is not None
+                if rolls and self.housing is None:
+                    at_face = any(abs(bearing.at - end) <= ROUND_OFF for end in shaft.seat_ends)
+                    elements.append(Link((*ring, *inner), LEAST_YIELDING if at_face else 0.0))
+                elif self.housing is None:
+                    elements.append(Springs(ring, np.array(bearing.matrix)))
+                if rolls and loaded:
+                    elements.append(Springs(inner, np.array(bearing.matrix)))
+                matrices.append(RIGID * np.diag(TILTING) if rolls else np.array(bearing.matrix))
+        if self.housing is not None:
+            elements.append(self.in_housing(in_series(block_diag(*matrices), np.array(self.housing))))
+        return Assembly(elements, self.ends_of(chains))
+
+    def in_housing(self, springs: np.ndarray) -> Springs:
+        """All bearings on the housing; in those that roll the motion in them is apart."""
+        rolling = [each.rolling is not None for each in self.bearings]
+        apart = np.eye(len(springs))[:, np.repeat(rolling, FIVE)]
+        rows = np.concatenate([np.eye(len(springs)), -apart], axis=1)
+        return Springs((*self.rings, *self.in_rolling_motions), springs, rows)
