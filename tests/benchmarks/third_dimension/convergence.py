@@ -17,26 +17,27 @@ NAME = "convergence"
 # By number of the pair: slices and layers.
 OLD = {0: ((16, 8), (24, 12), (36, 12), (40, 20), (60, 20)), 9: ((10, 5), (14, 7), (20, 10), (28, 14), (42, 21))}
 NEW = {
-    0: ((10, 4), (19, 8), (38, 12), (57, 12), (76, 12), (114, 12)),
+    0: ((10, 4), (19, 8), (36, 12), (38, 12), (40, 12), (60, 12), (60, 20), (76, 12), (114, 12)),
     9: ((8, 4), (12, 5), (16, 7), (24, 7), (32, 7), (64, 7)),
 }
 MEAN, SPAN = "mean_transmission_error", "peak_to_peak_transmission_error"
 
 
 def measure(old: Path | None = None) -> list[Row]:
-    """This checkout and, where it is given, the old one; its rows of the file stay otherwise."""
-    kept = read_rows(NAME) if (PICTURES / f"{NAME}.csv").exists() else []
-    rows = [row for row in kept if row["old"] and old is None]
+    """What the file does not have yet, by this checkout and, where it is given, by the old one."""
+    rows = read_rows(NAME) if (PICTURES / f"{NAME}.csv").exists() else []
+    done = {(row["pair"], row["old"], row["slices"], row["layers"]) for row in rows}
     for checkout, sizes in ((old, OLD), (ROOT, NEW)):
-        for number, each in sizes.items() if checkout else ():
-            for slices, layers in each:
-                text = text_of(pair(*PAIRS[number]))
-                text += f"\n[accuracy]\nslices = {slices}\nlayers = {layers}\nsteps_per_mesh_cycle = {STEPS}\n"
-                with TemporaryDirectory() as cache:
-                    found = numbers_of(text, checkout=checkout, cache=Path(cache))
-                rows.append({"pair": number, "old": checkout is old, "slices": slices, "layers": layers, **found})
-                print(rows[-1], flush=True)
-                write_rows(NAME, rows)
+        for number, slices, layers in [(number, *each) for number in sizes for each in sizes[number]] if checkout else ():
+            if (number, checkout is old, slices, layers) in done:
+                continue
+            text = text_of(pair(*PAIRS[number]))
+            text += f"\n[accuracy]\nslices = {slices}\nlayers = {layers}\nsteps_per_mesh_cycle = {STEPS}\n"
+            with TemporaryDirectory() as cache:
+                found = numbers_of(text, checkout=checkout, cache=Path(cache))
+            rows.append({"pair": number, "old": checkout is old, "slices": slices, "layers": layers, **found})
+            print(rows[-1], flush=True)
+            write_rows(NAME, rows)
     return rows
 
 
