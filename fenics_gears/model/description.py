@@ -18,6 +18,7 @@ from fenics_gears.scene.data import ISO_6336, Scene
 from .bore_twist import bore_twist_stiffness
 from .cost import SECTOR_UNKNOWNS, expected_cost
 from .drivetrain import mesh_stiffness
+from .expected_errors import error_rows
 from .face_resolution import face_discretisation, layers_of_common_face
 from .model import Model, model_of
 from .motion_rows import Rows, frequency_rows, inertia_rows, period_rows, speed_rows, unknown_rows
@@ -251,6 +252,7 @@ def _accuracy_rows(model: Model) -> Rows:
         ("time step" if model.scene.speed_ramp is None else "time step, the longest", f"{model.time_step:.4g}", "s"),
         ("steps", f"{model.steps}, {_contact_fields(model)}", ""),
         *period_rows(model),
+        *error_rows(model),
     ]
 
 

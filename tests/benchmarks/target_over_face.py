@@ -1,7 +1,7 @@
 """Does `[accuracy] target` keep its promise over the face, and at what cost: `python -m
 tests.benchmarks.target_over_face [FIRST [LAST]]`, ten helical pairs at random, against settings twice as fine. The
-cheapest settings are found from the chosen ones by making mesh, slices or layers coarser as long as the true error
-allows it."""
+cheapest settings are found from the chosen ones by making mesh or slices coarser as long as the true error allows
+it."""
 
 import csv
 import sys
@@ -51,11 +51,9 @@ def twice_as_fine(setting: Setting) -> Setting:
 
 
 def coarser(setting: Setting) -> list[Setting]:
-    """The setting with a coarser mesh, with fewer slices, with fewer layers."""
+    """The setting with a coarser mesh, with fewer slices."""
     mesh = {name: COARSER * getattr(setting, name) for name in ("flank", "spacing", "body")}
-    fewer = {name: max(2, round(getattr(setting, name) / COARSER)) for name in ("slices", "layers")}
-    found = [replace(setting, **mesh), *(replace(setting, **{name: number}) for name, number in fewer.items())]
-    return [each for each in found if each != setting]
+    return [replace(setting, **mesh), replace(setting, slices=max(2, round(setting.slices / COARSER)))]
 
 
 def measured(number: int) -> dict[str, object]:

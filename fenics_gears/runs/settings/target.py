@@ -13,22 +13,17 @@ from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.system.progress import Progress
 
 from .setting import Setting
-from .trial_runs import COARSER, LAYERS, MESH, SLICES, STEPS, Sizes, TargetNotReached, TrialRuns
-from .two_runs import EXPECTED_ORDER
+from .trial_runs import COARSER, MESH, SLICES, STEPS, Sizes, TargetNotReached, TrialRuns
+from .two_runs import EXPECTED_ORDER, SAFETY_OF_TWO
 
-# Sizes at which errors are estimated first for a target of 1 %; over the face the mesh also for larger ones.
+# Sizes at which errors are estimated first for a target of 1 %.
 FIRST_MESH = 2.5
 FIRST_STEPS = 60.0
 # In the plane: twice a mesh of 2.5 has 0.6 elements in the Hertz half-width, and the change from there says nothing of
 # 1 % (1.2 % was seen where 0.95 % were expected).
 FIRST_PLANE_MESH = 1.8
-# Over the face the first mesh of larger targets is coarser, up to that of this part.
-COARSEST_FIRST = 0.7
-# Slices and layers of the first trial runs for a target of 1 %, in the default numbers, and the fewest.
-FIRST_SLICES = 0.7
+# Over the face: the fewest slices of the first trial runs. From ten and five the change says too much.
 FEWEST_SLICES = 16
-FIRST_LAYERS = 0.5
-FEWEST_LAYERS = 4
 # Steps over the face for a target of 1 %, where they know nothing of one another: line loads are averaged over them.
 # From 20 to 100 steps the mean changes by 0.25 %.
 FACE_STEPS = 28.0
@@ -118,7 +113,7 @@ def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
 
 def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
     """Estimate errors and choose; once more from finer sizes where the chosen ones are much finer."""
-    tried = _within_limits(runs, first_sizes(target, runs.fewest_steps, runs.steps_matter, runs.slices, runs.layers))
+    tried = _within_limits(runs, first_sizes(target, runs))
     for _ in range(MOST_ROUNDS):
         errors = runs.errors(tried)
         sizes = _cheapest(runs, tried, errors, target)
@@ -126,7 +121,6 @@ def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
             tried.mesh <= EXTRAPOLATED * sizes.mesh
             and sizes.steps <= EXTRAPOLATED * tried.steps
             and sizes.slices <= EXTRAPOLATED * tried.slices
-            and sizes.layers <= EXTRAPOLATED * tried.layers
         ):
             setting = runs.setting(_resolving(runs, sizes, target))
             return Chosen(setting.accuracy(module), setting, _of_worst(errors_at(tried, errors, sizes)), runs.runs)
@@ -134,7 +128,6 @@ def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
             min(COARSER_FIRST * sizes.mesh, tried.mesh),
             max(round_steps(sizes.steps / COARSER_FIRST), tried.steps),
             max(even(sizes.slices / COARSER_FIRST), tried.slices),
-            max(even(sizes.layers / COARSER_FIRST), tried.layers),
         )  # fmt: skip
     raise TargetNotReached(f"errors do not fall with order 2 down to {runs.setting(tried).words}")
 
@@ -159,18 +152,20 @@ def _of_worst(errors: Errors) -> dict[str, float]:
     return {name: float(np.ravel(parts)[worst]) for name, parts in errors.items()}
 
 
-def first_sizes(target: float, fewest_steps: int, steps_matter: bool, slices: int = 0, layers: int = 0) -> Sizes:
-    """Sizes of the first trial runs, somewhat coarser than those that will be chosen; `slices` and `layers`: the
-    default numbers, 0 in the plane."""
+def first_sizes(target: float, runs: TrialRuns) -> Sizes:
+    """Sizes of the first trial runs: in the plane somewhat coarser than those that will be chosen, over the face those
+    that the expected errors ask for."""
     finer = sqrt(0.01 / target)
-    by_target = FIRST_STEPS if steps_matter else FACE_STEPS if slices else 0.0
-    steps = round_steps(max(by_target * finer, fewest_steps))
+    by_target = FIRST_STEPS if runs.steps_matter else FACE_STEPS if runs.slices else 0.0
+    steps = round_steps(max(by_target * finer, runs.fewest_steps))
     plane = max(min(FIRST_MESH / finer, FIRST_PLANE_MESH), min(FIRST_PLANE_MESH / finer, FIRST_MESH))
+    if not runs.slices:
+        return Sizes(plane, steps)
+    mesh, slices = (SAFETY_OF_TWO * sqrt(2.0) * runs.expected[part] / target for part in (MESH, SLICES))
     return Sizes(
-        FIRST_MESH / max(finer, COARSEST_FIRST) if slices else plane,
+        min(mesh ** (-1.0 / EXPECTED_ORDER), FIRST_PLANE_MESH),
         steps,
-        max(even(FIRST_SLICES * finer * slices), FEWEST_SLICES) if slices else 0,
-        max(even(FIRST_LAYERS * finer * layers), FEWEST_LAYERS) if slices else 0,
+        max(even(runs.slices * slices ** (1.0 / EXPECTED_ORDER)), FEWEST_SLICES),
     )
 
 
@@ -201,7 +196,6 @@ def errors_at(tried: Sizes, errors: Errors, sizes: Sizes) -> Errors:
         MESH: sizes.mesh / tried.mesh,
         STEPS: tried.steps / sizes.steps,
         SLICES: tried.slices / (sizes.slices or 1),
-        LAYERS: tried.layers / (sizes.layers or 1),
     }
     return {name: error * ratios[name] ** EXPECTED_ORDER for name, error in errors.items()}
 
@@ -220,15 +214,15 @@ def _cheapest(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> S
 
 
 def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Sizes:
-    """The sizes of about least cost within the limits, mesh and steps not coarser than those tried, slices and layers
-    than half of them; raises TargetNotReached.
+    """The sizes of about least cost within the limits, mesh and steps not coarser than those tried, slices than half of
+    them; raises TargetNotReached.
 
     From the coarsest, the size is made finer that takes away most of the error for its cost, one after the other; then
     sizes are made coarser again as far as the target allows.
     """
     # Twice the mesh and half the steps may be near the finer run by luck: of meshes between the two, one in a hundred
     # erred by more than its target.
-    coarsest = replace(tried, slices=tried.slices // COARSER, layers=tried.layers // COARSER)
+    coarsest = replace(tried, slices=tried.slices // COARSER)
 
     def excess(sizes: Sizes) -> float:
         return float(np.maximum(_squares(errors_at(tried, errors, sizes)) - target**2, 0.0).sum())
@@ -268,7 +262,6 @@ def _finer(sizes: Sizes, errors: Errors) -> list[Sizes]:
         MESH: replace(sizes, mesh=sizes.mesh / RATIO),
         STEPS: replace(sizes, steps=round_steps(RATIO * sizes.steps)),
         SLICES: replace(sizes, slices=sizes.slices + 2),
-        LAYERS: replace(sizes, layers=sizes.layers + 1),
     }
     return [found[name] for name in errors]
 
@@ -278,6 +271,5 @@ def _coarser(sizes: Sizes, coarsest: Sizes) -> list[Sizes]:
         replace(sizes, mesh=min(RATIO * sizes.mesh, coarsest.mesh)),
         replace(sizes, steps=max(sizes.steps - ROUND_STEPS, coarsest.steps)),
         replace(sizes, slices=max(sizes.slices - 2, coarsest.slices)),
-        replace(sizes, layers=max(sizes.layers - 1, coarsest.layers)),
     ]
     return [each for each in found if each != sizes]

@@ -1,8 +1,9 @@
 """The trial runs from which the errors of settings are estimated: a few that are coarse in different ways.
 
 Two sizes make a setting: that of the mesh, with which flank elements, contact nodes and body elements grow together
-from their defaults, and the number of steps; over a face also the numbers of slices and of the bodies' layers. All
-errors fall with the square of the size, so that a run with twice the size differs by three times the error.
+from their defaults, and the number of steps; over a face also the number of slices. Layers of the bodies stay those of
+the defaults, which err by less than any target (docs/evidence/third_dimension.md). All errors fall with the square of
+the size, so that a run with twice the size differs by three times the error.
 """
 
 from collections.abc import Callable
@@ -13,6 +14,7 @@ import numpy as np
 
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.model.cost import expected_cost
+from fenics_gears.model.expected_errors import FACE_LOAD, FLANK, LINE_LOAD, OF_SLICES, SPAN, expected_errors
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.runs.one_run import Ticking
@@ -21,7 +23,7 @@ from fenics_gears.scene.accuracy_rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.data import Output, Scene
 from fenics_gears.system.memory import allowed_memory
 
-from .measures import Answer, judged_answer
+from .measures import LEAST_SPAN, Answer, judged_answer
 from .setting import Setting, own_setting, without_settings
 from .setting_runs import SettingRuns
 from .two_runs import NotComparable, errors_of_two
@@ -33,7 +35,6 @@ MOST_STEPS = 1280
 MESH = "finite elements and contact nodes"
 STEPS = "steps per mesh cycle"
 SLICES = "slices"
-LAYERS = "layers"
 COARSER = 2
 # Steps that barely follow a vibration err by more than order 2 says: from 40 to 80 of them errors fell by order 1, and
 # were 2.2 times what the two runs said, more than the factor that every estimate has.
@@ -51,13 +52,11 @@ class TargetNotReached(ComputationError):
 
 @dataclass(frozen=True)
 class Sizes:
-    """Size of the mesh in that of the defaults, steps in a mesh cycle, and slices and layers of the face, 0 in the
-    plane."""
+    """Size of the mesh in that of the defaults, steps in a mesh cycle, and slices of the face, 0 in the plane."""
 
     mesh: float
     steps: int
     slices: int = 0
-    layers: int = 0
 
 
 class TrialRuns:
@@ -86,7 +85,6 @@ class TrialRuns:
             body=sizes.mesh,
             steps=sizes.steps,
             slices=sizes.slices or default.slices,
-            layers=sizes.layers or default.layers,
         )
 
     def resolving_mesh(self, elements: float) -> float:
@@ -100,9 +98,15 @@ class TrialRuns:
         return self._default.slices or 0
 
     @property
-    def layers(self) -> int:
-        """The default number of layers, 0 in the plane."""
-        return self._default.layers or 0
+    def expected(self) -> dict[str, float]:
+        """By setting the largest error over the face that the defaults are expected to have in what is judged."""
+        errors = expected_errors(model_of(self._whole))
+        found = {MESH: 0.0, SLICES: 0.0}
+        for name, scale in ((SPAN, LEAST_SPAN), (FACE_LOAD, 1.0), (LINE_LOAD, 1.0)):
+            parts = errors[name]
+            found[MESH] = max(found[MESH], parts[FLANK] / scale)
+            found[SLICES] = max(found[SLICES], *(parts[size] / scale for size in OF_SLICES if size in parts))
+        return found
 
     @property
     def fewest_steps(self) -> int:
@@ -119,13 +123,13 @@ class TrialRuns:
     def errors(self, sizes: Sizes) -> dict[str, np.ndarray]:
         """Estimated relative errors of a run, by setting: of each judged measure over the face, where settings tell on
         different ones; in the plane of the worst of both. Raises ComputationError."""
-        # Each error is measured where runs are short: the mesh's beside fewer steps, over the face each beside
-        # coarser sizes of the others, but that of slices, which needs layers that tell them apart.
+        # Each error is measured where runs are short: the mesh's beside fewer steps and slices, that of slices beside
+        # a coarser mesh.
         short = sizes
         if self.steps_matter:
             short = replace(short, steps=sizes.steps // COARSER)
         if self.slices:
-            short = replace(short, slices=sizes.slices // COARSER, layers=sizes.layers // COARSER)
+            short = replace(short, slices=sizes.slices // COARSER)
         self._with_window_long_enough(replace(short, steps=sizes.steps))
         coarse = replace(short, mesh=COARSER * sizes.mesh)
         errors = {MESH: self._error(short, coarse)}
@@ -133,9 +137,7 @@ class TrialRuns:
             vibrating = MORE_OF_VIBRATIONS if self._whole.inertia is not None else 1.0
             errors[STEPS] = vibrating * self._error(replace(short, steps=sizes.steps), short)
         if self.slices:
-            layered = replace(coarse, layers=sizes.layers)
-            errors[LAYERS] = self._error(layered, coarse)
-            errors[SLICES] = self._error(replace(layered, slices=sizes.slices), layered)
+            errors[SLICES] = self._error(replace(coarse, slices=sizes.slices), coarse)
         return errors
 
     def cost(self, sizes: Sizes) -> float:

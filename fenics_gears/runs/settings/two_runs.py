@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .measures import Answer, distance
+from .measures import MEAN, Answer, distance
 
 # Of two runs, of which nothing but the order that is expected is known: at coarse sizes differences fall more slowly,
 # and scatter (docs/evidence/accuracy.md).
@@ -23,9 +23,9 @@ def part_left(sizes: Sequence[float], order: float) -> float:
 
 
 def errors_of_two(finer: Answer, coarser: Answer, ratio: float) -> np.ndarray:
-    """Relative error of the finer of two runs in each measure, by the expected order; `ratio` of their sizes. Raises
-    NotComparable for a measure that one of them lacks, or of which nothing is left in the finer one."""
-    measures = sorted({*finer, *coarser})
+    """Relative error of the finer of two runs in each measure but the mean, by the expected order; `ratio` of their
+    sizes. Raises NotComparable for a measure that one of them lacks, or of which nothing is left in the finer one."""
+    measures = sorted({*finer, *coarser} - {MEAN})
     changes = np.array([distance(coarser, finer, measure) for measure in measures])
     if not np.isfinite(changes).all():
         raise NotComparable(measures[int(np.argmin(np.isfinite(changes)))])

@@ -16,7 +16,7 @@ from fenics_gears.runs.settings.target import (
     round_steps,
     search,
 )
-from fenics_gears.runs.settings.trial_runs import FEWEST_STEPS, LAYERS, MESH, SLICES, STEPS, Sizes, TargetNotReached
+from fenics_gears.runs.settings.trial_runs import FEWEST_STEPS, MESH, SLICES, STEPS, Sizes, TargetNotReached
 
 TRIED = Sizes(2.0, 60)
 MODULE = 4.5
@@ -26,7 +26,7 @@ class KnownRuns:
     """Errors `constants` times the square of the size, costs a power of both; sizes below `finest` are beyond the
     limits."""
 
-    fewest_steps, slices, layers = FEWEST_STEPS, 0, 0
+    fewest_steps, slices = FEWEST_STEPS, 0
 
     def __init__(self, constants, powers=(2.0, 1.0), finest=0.0, order=2.0, steps_matter=True):
         self.constants, self.powers, self.finest, self.order = constants, powers, finest, order
@@ -84,40 +84,39 @@ def test_sizes_beyond_the_limits_are_not_chosen_and_the_reachable_target_is_name
 @pytest.mark.parametrize("target", [0.5, 0.05, 0.01, 0.002, 0.0005])
 def test_first_sizes_go_with_the_root_of_the_target(target):
     """Order 2; halves of the steps are whole numbers."""
-    sizes, coarser = (first_sizes(each, FEWEST_STEPS, True) for each in (target, 4.0 * target))
+    sizes, coarser = (first_sizes(each, KnownRuns((0.0, 0.0))) for each in (target, 4.0 * target))
     assert coarser.mesh <= 2.0 * sizes.mesh * (1.0 + 1e-12) and sizes.steps <= 2 * coarser.steps
     assert sizes.steps % ROUND_STEPS == 0 and sizes.steps >= FEWEST_STEPS and round_steps(1) == ROUND_STEPS
 
 
 class KnownRunsOverFace(KnownRuns):
-    """With slices and layers: errors of order 2, a cost of the slices' square, and of the layers' over mesh."""
+    """With slices: errors of order 2, a cost of their square."""
 
-    slices, layers = 20, 10
+    slices = 20
+    expected = {MESH: 0.001, SLICES: 0.0025}
 
     def errors(self, sizes):
-        slices, layers = 0.02 * (10 / sizes.slices) ** 2, 0.02 * (4 / sizes.layers) ** 2
-        return super().errors(sizes) | {SLICES: slices, LAYERS: layers}
+        return super().errors(sizes) | {SLICES: 0.02 * (10 / sizes.slices) ** 2}
 
     def cost(self, sizes):
-        return super().cost(sizes) * (1.0 + 0.02 * sizes.slices**2) + 20.0 * sizes.layers**2 / sizes.mesh
+        return super().cost(sizes) * (1.0 + 0.02 * sizes.slices**2)
 
 
 @pytest.mark.parametrize("steps_matter", [True, False])
 @pytest.mark.parametrize("target", [0.05, 0.01])
-def test_slices_and_layers_are_chosen_beside_mesh_and_steps(steps_matter, target):
-    """Brute force: nothing that reaches the target is much cheaper."""
+def test_slices_are_chosen_beside_mesh_and_steps(steps_matter, target):
+    """Brute force: nothing that reaches the target is much cheaper. Errors are twice those of two runs."""
     runs = KnownRunsOverFace((0.002, 0.004 * 60**2), steps_matter=steps_matter)
-    tried = first_sizes(target, FEWEST_STEPS, steps_matter, runs.slices, runs.layers)
-    assert tried.slices == even(max(16, 14 * sqrt(0.01 / target))) and tried.layers == (6 if target == 0.01 else 4)
+    tried = first_sizes(target, runs)
+    assert tried.slices == even(max(16, 20 * sqrt(2.0 * sqrt(2.0) * 0.0025 / target)))
     errors = runs.errors(tried)
     found = search(runs, tried, errors, target)
     assert hypot(*errors_at(tried, errors, found).values()) <= target
     candidates = (
-        Sizes(tried.mesh / RATIO**place, steps, slices, layers)
-        for place, slices, layers, steps in product(
+        Sizes(tried.mesh / RATIO**place, steps, slices)
+        for place, slices, steps in product(
             range(18),
             range(tried.slices // 2, 40),
-            range(tried.layers // 2, 12),
             range(tried.steps, 161, ROUND_STEPS) if steps_matter else [tried.steps],
         )
     )

@@ -1,0 +1,117 @@
+"""Error over processor seconds from nothing, of two helical pairs by 0.4.0, whose bodies had thin layers all through
+the gear, and by this checkout: `python -m tests.benchmarks.third_dimension.convergence CHECKOUT_OF_0.4.0`."""
+
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+from matplotlib.figure import Figure
+from tests.benchmarks.third_dimension.defaults import PAIRS, ROOT, STEPS, numbers_of, pair
+from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
+
+from fenics_gears.scene.write import text_of
+from fenics_gears.show.panels import GREY, PALETTE, styled
+
+NAME = "convergence"
+# By number of the pair: slices and layers.
+OLD = {0: ((16, 8), (24, 12), (36, 12), (40, 20), (60, 20)), 9: ((10, 5), (14, 7), (20, 10), (28, 14), (42, 21))}
+NEW = {
+    0: ((10, 4), (19, 8), (36, 12), (38, 12), (40, 12), (60, 12), (60, 20), (76, 12), (114, 12)),
+    9: ((8, 4), (12, 5), (16, 7), (24, 7), (32, 7), (64, 7)),
+}
+MEAN, SPAN = "mean_transmission_error", "peak_to_peak_transmission_error"
+
+
+def measure(old: Path | None = None) -> list[Row]:
+    """What the file does not have yet, by this checkout and, where it is given, by the old one."""
+    rows = read_rows(NAME) if (PICTURES / f"{NAME}.csv").exists() else []
+    done = {(row["pair"], row["old"], row["slices"], row["layers"]) for row in rows}
+    for checkout, sizes in ((old, OLD), (ROOT, NEW)):
+        for number, slices, layers in [(number, *each) for number in sizes for each in sizes[number]] if checkout else ():
+            if (number, checkout is old, slices, layers) in done:
+                continue
+            text = text_of(pair(*PAIRS[number]))
+            text += f"\n[accuracy]\nslices = {slices}\nlayers = {layers}\nsteps_per_mesh_cycle = {STEPS}\n"
+            with TemporaryDirectory() as cache:
+                found = numbers_of(text, checkout=checkout, cache=Path(cache))
+            rows.append({"pair": number, "old": checkout is old, "slices": slices, "layers": layers, **found})
+            print(rows[-1], flush=True)
+            write_rows(NAME, rows)
+    return rows
+
+
+def limits(number: int) -> Row:
+    """Of a pair: from this checkout's two finest numbers of slices, by order 2."""
+    finest = sorted((row for row in read_rows(NAME) if row["pair"] == number and not row["old"]), key=_slices)[-2:]
+    left = (finest[0]["slices"] / finest[1]["slices"]) ** 2
+    return {name: (finest[1][name] - left * finest[0][name]) / (1.0 - left) for name in (MEAN, SPAN)}
+
+
+def _slices(row: Row) -> float:
+    return row["slices"]
+
+
+def errors(row: Row, limit: Row) -> tuple[float, float]:
+    """Of mean and peak-to-peak transmission error, in % of the mean."""
+    mean, span = (100.0 * abs(row[name] - limit[name]) / limit[MEAN] for name in (MEAN, SPAN))
+    return mean, span
+
+
+@styled
+def picture(rows: list[Row]) -> Figure:
+    figure = Figure(figsize=(10.0, 7.2), layout="constrained")
+    panels = figure.subplots(2, 2, sharex=True, sharey="row")
+    for column, number in enumerate(OLD):
+        module, width, helix, teeth, mate, _ = PAIRS[number]
+        limit = limits(number)
+        panels[0, column].set_title(f"{teeth}/{mate} teeth, module {module:g} mm, {helix:g}°, face {width:g} mm")
+        for old, words, colour, marker in (
+            (True, "0.4.0: bodies with thin layers", PALETTE[1], "s"),
+            (False, "now: what layers leave out is added", PALETTE[0], "o"),
+        ):
+            own = sorted((row for row in rows if row["pair"] == number and bool(row["old"]) == old), key=_slices)
+            # The two finest of this checkout made the limit.
+            shown = own if old else own[:-1]
+            seconds = [row["seconds"] for row in shown]
+            found = np.array([errors(row, limit) for row in shown])
+            for line, axes in enumerate(panels[:, column]):
+                axes.loglog(seconds, np.maximum(found[:, line], 1e-3), f"-{marker}", color=colour, label=words)
+                for row, x, y in zip(shown, seconds, found[:, line]):
+                    words_of = f"{row['slices']:g}/{row['layers']:g}"
+                    axes.annotate(
+                        words_of, (x, max(y, 1e-3)), (4, 4), textcoords="offset points", fontsize=8, color=colour
+                    )
+    for line, (words, goal) in enumerate((("mean transmission error", 0.3), ("peak-to-peak transmission error", 0.2))):
+        panels[line, 0].set_ylabel(f"Error of the {words}\n(% of the mean)")
+        for axes in panels[line]:
+            axes.axhline(goal, color=GREY, linewidth=1.0, linestyle="--")
+            axes.grid(True, which="major", alpha=0.3)
+    for axes in panels[1]:
+        axes.set_xlabel("Processor seconds from nothing, one thread")
+    panels[0, 0].legend(loc="lower left")
+    return figure
+
+
+def section() -> str:
+    rows = read_rows(NAME)
+    picture(rows).savefig(PICTURES / f"{NAME}.png")
+    lines = []
+    for row in rows:
+        _, width, helix, teeth, mate, _ = PAIRS[int(row["pair"])]
+        off = (f"{each:.2f}" for each in errors(row, limits(int(row["pair"]))))
+        lines.append([
+            f"{teeth}/{mate}, {width:g} mm, {helix:g} deg", "0.4.0" if row["old"] else "now",
+            f"{row['slices']:g} on {row['layers']:g}", f"{row[MEAN]:.3f}", f"{row[SPAN]:.3f}", *off,
+            f"{row['seconds']:.0f}", f"{row['memory']:.1f}",
+        ])  # fmt: skip
+    headings = [
+        "pair", "program", "slices on layers", "mean T_E, µm", "T_EPP, µm", "off the limit, % of the mean: mean T_E",
+        "T_EPP", "processor, s", "memory, GB",
+    ]  # fmt: skip
+    shown = f"![Error over seconds of two helical pairs](../pictures/third_dimension/{NAME}.png)"
+    return "\n".join([shown, "", *table(headings, lines)])
+
+
+if __name__ == "__main__":
+    measure(Path(sys.argv[1]))
