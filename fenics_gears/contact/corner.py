@@ -27,8 +27,10 @@ from .window import ContactGrid, Ends, node_offsets, window
 
 @dataclass(frozen=True, eq=False)
 class CornerContact:
-    """The tip edges of both gears, and those at their form circles where they are undercut; equal to itself alone, so
-    that what depends on it can be kept by it."""
+    """The tip edges of both gears, and the edges at their form circles where they are undercut.
+
+    Equal to itself alone, so that caches can have it as a key.
+    """
 
     edges: tuple[TipEdge, TipEdge]
     form_edges: tuple[TipEdge | None, TipEdge | None] = (None, None)

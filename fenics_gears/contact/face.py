@@ -1,4 +1,4 @@
-"""The face of a gear pair, cut into slices across the axes: where a slice stands, and how far its mesh is ahead of the
+"""The face of a gear pair, cut into slices across the axes: the place of each, and how far its mesh is ahead of the
 middle one's. In the plane there is one slice."""
 
 from __future__ import annotations

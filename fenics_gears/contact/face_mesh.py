@@ -26,7 +26,7 @@ OnLines = tuple[np.ndarray, np.ndarray, np.ndarray, list[int]]
 
 
 class LinesOfContact(dict[float, OnLines]):
-    """Those of the positions of a cycle, whatever opens them."""
+    """Lines of contact at the positions of a cycle, whatever their gaps."""
 
 
 def face_mesh(

@@ -2,7 +2,7 @@
 flanks (docs/third_dimension.md).
 
 The body's mesh is too coarse for the contact. Under a load that does not vary along the face its error is that of the
-same section in plane strain; the difference between a fine section and the body's own section is therefore added in
+same section in plane strain. Therefore the difference between a fine section and the body's own section is added in
 each slice. A force dF on a slice of width dz is the line load cos(beta_b) dF/dz on the line of contact, across which
 the section is in plane strain.
 """

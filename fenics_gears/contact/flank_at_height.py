@@ -46,9 +46,10 @@ def _points(base_radius, contact, heights):
 @njit(cache=True)
 def points_of_pairs(base_radius, sense, contact_rolls, lever_arms, offsets, ends):
     """Roll angles (n,), rad, and x (n,), mm, of the flank points at offsets (n,), mm, from the lines of action of many
-    pairs, those of each from its place in `ends` (P + 1,) on.
+    pairs.
 
-    `contact_rolls` (P,), rad, and `lever_arms` (P,), mm, of these lines; `sense` of the gear's side.
+    `ends` (P + 1,): where the points of each pair begin and end; `contact_rolls` (P,), rad, and `lever_arms` (P,), mm:
+    of these lines; `sense` of the gear's side.
     """
     rolls = np.empty(len(offsets))
     x = np.empty(len(offsets))

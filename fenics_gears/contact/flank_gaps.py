@@ -32,8 +32,10 @@ FEWEST_STEPS_A_WAVE = 2
 
 @dataclass(frozen=True)
 class _OnSide:
-    """The contact nodes of one pair on one of its flanks: where they are among all, the tooth as of a Place, the gap
-    `shapes` (n, m) per unit of each deviation, and functions that give the measured excess (n,) of a tooth."""
+    """The contact nodes of one pair on one of its flanks: where they are among all, and the tooth, as of a Place.
+
+    `shapes` (n, m): the gap per unit of each deviation; `measured`: functions that give the excess (n,) of a tooth.
+    """
 
     nodes: slice
     side: Side
@@ -83,8 +85,7 @@ class FlankGaps:
         Profiles and helices of coast flanks are true; an index deviation displaces both flanks of a tooth.
         """
         arm = pair.place.line_in(self._pair).lever_arms[side.number]
-        # A later tooth stands behind on the pinion, whose flank drives: the gap opens. On the wheel it stands nearer to
-        # the pinion's.
+        # A tooth too far on opens the gap of the pinion, whose flank drives. On the wheel it is nearer to the pinion's.
         displaced = np.full(len(pair.offsets), pair.place.turn * side.sense * arm / side.gear.reference_radius)
         if pair.place.flank != DRIVE:
             return displaced[:, None]
@@ -130,8 +131,8 @@ def _excess(
 def profile_shapes(
     deviations: FlankDeviations, roll: np.ndarray, pair: PairNodes, turned: float = 0.0
 ) -> list[np.ndarray]:
-    """Excess of material (n,) at a pair's nodes for a unit of slope, form, of slope and form of the helix, and of the
-    cosine and the sine of the waviness.
+    """Excess of material (n,) at a pair's nodes for a unit of slope and form, of slope and form of the helix, and of
+    both parts of the waviness.
 
     `roll`: roll angles (rad) at the nodes, or where these average; `turned`: by which the helix turns the gear's
     section at the pair's height, in the sense of rotation.

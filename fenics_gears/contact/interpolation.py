@@ -45,7 +45,7 @@ class FlankInterpolation:
 
 
 def hat_integrals(offsets: np.ndarray) -> np.ndarray:
-    """Integral of each hat function (n,), mm: the length of flank that a contact node stands for.
+    """Integral of each hat function (n,), mm: the length of flank of a contact node.
 
     >>> hat_integrals(np.array([0.0, 1.0, 3.0])).tolist()
     [0.5, 1.5, 1.0]
@@ -165,7 +165,7 @@ def _averaging_weights(offsets, ends, rolls, contact_rolls, flank_rolls, flanks,
 
 @njit(cache=True)
 def _add_weights(near, first, arrays, numbers, order):
-    """Those of one pair, into `near` (n, w)."""
+    """Add the weights of one pair to `near` (n, w)."""
     offsets, arcs, vertex_arc = arrays
     base_radius, sense, contact_roll = numbers
     elements = len(vertex_arc) - 1
@@ -246,8 +246,8 @@ def flank_interpolations(nodes: GearContacts) -> list[FlankInterpolation]:
 
 
 class Averages:
-    """Averages over the function of each contact node, so that nothing jumps as it passes nodes of the flank. The nodes
-    are those of many pairs, of each from its place in `ends` (P + 1,) on.
+    """Averages over the function of each contact node, so that nothing jumps as it passes nodes of the flank. Nodes
+    are of many pairs, of each from its place in `ends` (P + 1,) on.
 
     `places`: offsets at which nodes need values; `at_nodes`: values of the nodes from those there; `of_flank`: the
     weights of the flank's nodes; `points`: where the places of each pair begin and end.

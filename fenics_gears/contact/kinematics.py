@@ -219,7 +219,7 @@ def _same_nodes(found, now, before, spacing):
 
 @njit(cache=True)
 def _closer(offsets, spacing):
-    """Whether the nodes stand closer at the first and at the last end, since an edge is there."""
+    """Whether the nodes are closer at the first and at the last end, since an edge is there."""
     if len(offsets) < 3:
         return False, False
     return offsets[1] - offsets[0] < 0.5 * spacing, offsets[-1] - offsets[-2] < 0.5 * spacing

@@ -128,9 +128,10 @@ def contact_operators(
     responses: Sequence[Response],
     face: Face = IN_THE_PLANE,
 ) -> list[ContactOperator]:
-    """The contact equations at the end of each of some passages, of nodes whose normal forces act along their pair's
-    line; those of friction too where the passages have previous nodes. All in one go: for each
-    position by itself Python would take several times as long.
+    """The contact equations at the end of each of some passages, with rows of friction where these have previous nodes.
+
+    Normal forces act along the line of a pair. All in one go: for each position by itself Python would take several
+    times as long.
 
     `coordinates`: which of COORDINATES are unknowns; those beyond, at the end, are of shafts, and move no contact.
     """

@@ -58,8 +58,11 @@ def _with_all_columns(jacobian: np.ndarray, operator: ContactOperator) -> np.nda
 
 
 class Stored(NamedTuple):
-    """A compliance as it lies in memory, by rows (m, m'), mm/N, those of nodes that were closed at least; and the
-    `address` of what forms the others, 0 where all are there."""
+    """A compliance as it lies in memory, by rows (m, m'), mm/N.
+
+    The rows of nodes that were closed are there at least; `address`: of the function that forms the others, 0 where
+    all are there.
+    """
 
     rows: np.ndarray
     address: int = 0
@@ -140,8 +143,11 @@ class ContactOperator:
 
 class Passage(NamedTuple):
     """Contact nodes on their way from one position to the next: the `pairs` now and the `previous` ones, None without
-    friction; the node before of each node now (`node_before`, as of a Position); the place of both in the mesh cycle,
-    in steps; and by how many mesh cycles the gears turn (`advance`)."""
+    friction.
+
+    `node_before`: as of a Position; `index` and `index_before`: place of both in the mesh cycle, in steps; `advance`:
+    mesh cycles by which the gears turn.
+    """
 
     pairs: tuple[PairNodes, ...]
     previous: tuple[PairNodes, ...] | None = None
@@ -152,9 +158,11 @@ class Passage(NamedTuple):
 
 
 class Response(NamedTuple):
-    """How contact nodes yield: `compliance`, `previous_compliance` (None without friction), `dependent_rows` and
-    `sliding` of a ContactOperator; `normal_lever_arms` and `previous_jacobian`, over all coordinates, where they are
-    not those of flanks that slide along the line of action."""
+    """How contact nodes yield: fields as of a ContactOperator.
+
+    `previous_compliance` is None without friction. `normal_lever_arms` and `previous_jacobian`, over all coordinates,
+    are None where flanks slide along the line of action.
+    """
 
     compliance: np.ndarray | FormedRows
     previous_compliance: np.ndarray | FormedRows | None = None
@@ -218,7 +226,7 @@ class StepRows:
     table: np.ndarray | None = None
 
     def of(self, positions: Sequence[Position]) -> np.ndarray:
-        """Those of the positions of the cycle that these rows go with."""
+        """The rows of the positions of their cycle."""
         if self.table is None:
             self.table = np.array([position.in_memory[0] for position in positions])
         return self.table

@@ -1,4 +1,4 @@
-"""Where flanks stand that can touch at a phase of the mesh, in the plane and in the slices of a face."""
+"""Places of flanks that can touch at a phase of the mesh, in the plane and in the slices of a face."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def face_places(
 
 
 def _with_edges(pair: GearPair, grid: ContactGrid, corner: CornerContact, place_of, xi: np.ndarray) -> np.ndarray:
-    """Whether flanks with their tip edges may touch where they stand on the path (mm)."""
+    """Whether flanks with their tip edges may touch at places on the path (mm)."""
     from .corner import pair_reaches
 
     return np.reshape([pair_reaches(pair, grid, corner, place_of(pair, 0, at)) for at in xi.ravel().tolist()], xi.shape)

@@ -59,28 +59,28 @@ class RelativeStiffness:
     ):
         shafts = _Shafts(effective, coordinates)
         known = zip(gears, sides, shafts.places, shafts.stiffness)
-        first, second = (
+        gears = first, second = [
             CentreEliminated(stiffness, _motion(side, [coordinates[place] for place in places]), block)
             for stiffness, side, places, block in known
-        )
+        ]
         unit = np.eye(len(coordinates))
-        force_1, force_2 = shafts.forces(unit)
-        difference = first.load(force_1) - second.load(force_2)
+        loads = [gear.load(force) for gear, force in zip(gears, shafts.forces(unit))]
+        difference = loads[0] - loads[1]
         factor = cho_factor(first.stiffness + second.stiffness)
         share = cho_solve(factor, first.stiffness)
         relative = first.stiffness - first.stiffness @ share
         relative = 0.5 * (relative + relative.T)
-        load = first.load(force_1) - share.T @ difference
-        # u_2 of the wheel by u and by F; the pinion has the rest of u.
-        wheel_by_force = cho_solve(factor, difference)
-        by_force = shafts.coordinates(
-            unit, first.centre(force_1, -wheel_by_force), second.centre(force_2, wheel_by_force)
-        )
+        load = loads[0] - share.T @ difference
+
+        def coordinates_by(force: np.ndarray, *displacement: np.ndarray) -> np.ndarray:
+            each = zip(gears, shafts.forces(force), displacement)
+            return shafts.coordinates(force, *(gear.centre(own, moved) for gear, own, moved in each))
+
+        # u_2 of the second gear by u and by F; the first one has the rest of u.
+        second_by_force = cho_solve(factor, difference)
+        by_force = coordinates_by(unit, -second_by_force, second_by_force)
         nothing = np.zeros((len(coordinates), len(relative)))
-        zero_1, zero_2 = shafts.forces(nothing)
-        by_displacement = shafts.coordinates(
-            nothing, first.centre(zero_1, np.eye(len(relative)) - share), second.centre(zero_2, share)
-        )
+        by_displacement = coordinates_by(nothing, np.eye(len(relative)) - share, share)
         if not tangential:
             n = len(relative) // 2
             free = cho_factor(relative[n:, n:])

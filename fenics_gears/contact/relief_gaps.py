@@ -44,7 +44,7 @@ class FacingPoints:
     together: Facing | None = None
 
     def of_steps(self, steps: int) -> Facing | None:
-        """Those of all steps of the cycle, one after the other; None as long as some are not known."""
+        """The points of all steps of the cycle, one after the other; None as long as some are not known."""
         if self.together is None and all(step in self.known for step in range(steps)):
             self.together = _joined([self.known[step] for step in range(steps)])
         return self.together
@@ -53,9 +53,11 @@ class FacingPoints:
 def profile_of(
     cycle: Cycle, removal: tuple[Removal | None, Removal | None]
 ) -> tuple[PerPosition[np.ndarray], np.ndarray | None]:
-    """The gaps (n,), mm, at a position of a `cycle` of flanks along the line of action from which `removal` is taken;
-    what the cycle's own flanks lack is not counted. And those of all steps, one after the other, where they are
-    known."""
+    """The gaps (n,), mm, at a position of a `cycle`, of flanks from which `removal` is taken, on the line of action;
+    and the gaps of all steps, one after the other, where they are known.
+
+    Material that the cycle's own flanks lack is not counted.
+    """
     points = cycle.shared(FacingPoints)
     facing = _facing_points(cycle)
     known: dict[float, np.ndarray] = {}

@@ -40,8 +40,8 @@ class RunOut:
 
 
 def run_out(side: Side, offset: Offset, width: float, cycles: float) -> list[float]:
-    """Displacement, mm, and tilt, mm as arc lengths, of a gear's teeth on its axis after some mesh cycles, along x (the
-    line of action), y and z and about them; `width` (mm): of its face."""
+    """Displacement, mm, and tilt, mm as arc lengths, of a gear's teeth on its axis after some mesh cycles, in the order
+    of `kinematics.MOTIONS`; `width` (mm): of its face."""
     turned = side.turn * cycles
     angle = turned + side.sense * offset.phase
     leaning = turned + side.sense * offset.wobble_phase

@@ -3,8 +3,8 @@
 A mesh spring that stiffens with its load, piecewise linear, is a row of linear springs side by side, each with a gap of
 its own:
 ``F(u) = sum k_i (u - g_i)_+``. Each is a contact node, so that the march through time needs nothing new, and the energy
-is exactly ``sum p_i^2/(2 k_i)``. The springs of a tooth pair stand where its flanks meet on the line of action, with
-the lever arms that friction has there; across that line they yield as much as along it.
+is exactly ``sum p_i^2/(2 k_i)``. The springs of a tooth pair are where its flanks meet on the line of action, with the
+lever arms that friction has there. Across that line they are as soft as along it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .operator import Passage, Response
 from .tooth_pair import DRIVE, PairNodes, coast_place, drive_place, over_nodes
 from .window import ContactGrid
 
-# The springs of a pair stand at one point; this distance (mm) between them tells them apart from step to step.
+# The springs of a pair are at one point; this distance (mm) between them tells them apart from step to step.
 APART = 1e-9
 
 

@@ -31,7 +31,8 @@ class Flanks:
     removal: tuple[Removal | None, Removal | None] = (None, None)
 
 
-DRIVE, COAST = 0, 1
+DRIVE = 0
+COAST = 1
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a pair of flanks stands: its `index`, `flank` DRIVE or COAST, `contact_rolls` (rad) of either gear.
+    """The place of a pair of flanks: its `index`, `flank` DRIVE or COAST, `contact_rolls` (rad) of either gear.
 
     Coast flanks are described in the mirror, the line of centres being the mirror's line. `axes` (2, 2) are the
     directions in space of the line of action and across it, `turn` is the sign of rotations. `line`: another line than
@@ -69,7 +70,7 @@ class Place:
 
     @property
     def teeth(self) -> tuple[int, int]:
-        """Pitches by which the tooth of either gear stands counter-clockwise of that of drive pair 0."""
+        """Pitches by which the tooth of either gear is counter-clockwise of that of drive pair 0."""
         # A later pair has a tooth ahead on the pinion, and behind on the wheel.
         return self.index, self.flank - self.index
 
@@ -92,9 +93,9 @@ def coast_place(pair: GearPair, index: int, xi: float) -> Place:
 class PairNodes:
     """Contact nodes (n,) of the flanks at `place`.
 
-    `offsets` (mm, from the line of action), `lengths` (mm of flank a node stands for), `gap` [9] (mm, positive when
-    open). Of both gears: `friction_arms` (2, n), mm, the lever arms of friction, distances of the point of contact from
-    T1 and T2 along the line of action; and roll angles `rolls` (2, n), rad.
+    `offsets` (mm, from the line of action), `lengths` (mm of flank of a node), `gap` [9] (mm, positive when
+    open). Of both gears: `rolls` (2, n), roll angles, rad, and `friction_arms` (2, n), mm, lever arms of friction:
+    distances of the point of contact from T1 and T2 along the line of action.
     """
 
     place: Place
@@ -121,7 +122,7 @@ def flank_points(
 ) -> np.ndarray:
     """Roll angles (rad) and x (mm, of `flank_at_height`) of points of both flanks, (2, 2 gears, n).
 
-    They stand at offsets (n,), mm, from the lines of action of many pairs, from the place in `ends` (P + 1,) on those
+    They are at offsets (n,), mm, from the lines of action of many pairs, from the place in `ends` (P + 1,) on those
     of each. These lines have contact roll angles (2, P), rad, and lever arms (2, P), mm.
     """
     lines = zip(pair.sides, contact_rolls, lever_arms)
@@ -135,7 +136,7 @@ def contact_rolls_of(places: Sequence[Place]) -> np.ndarray:
 
 
 def apart(pair: GearPair, places: Sequence[Place]) -> np.ndarray:
-    """How far (P,), mm along their lines, points that meet stand apart: on coast flanks until the wheel has turned."""
+    """How far (P,), mm along their lines, points that meet are apart: on coast flanks until the wheel has turned."""
     turned = pair.backlash / pair.base_radii[1]
     return np.array([turned * place.line_in(pair).lever_arms[1] * (place.flank == COAST) for place in places])
 
@@ -226,7 +227,7 @@ def nodes_on_flanks(
     view = INTERPOLATIONS[grid.interpolation]
     rolls = rolls_of(flanks.pair, places, nodes)
     lengths = np.repeat([place.line_in(flanks.pair).length for place in places], np.diff(ends))
-    # Flanks that deform to touch meet midway between where they stand undeformed. Friction acts there on both, so that
+    # Flanks that deform to touch meet midway between their places undeformed. Friction acts there on both, so that
     # action and reaction leave no torque. Averaged gaps are those of closed flanks.
     meeting = 0.5 * (view.at_nodes(offsets, ends, difference) + lengths)
     gap = nodal_gap(view, offsets, ends, gap) + np.repeat(apart(flanks.pair, places), np.diff(ends))
@@ -267,7 +268,7 @@ def interpolations(
 
 
 def node_slices(pairs: Sequence[PairNodes]) -> list[slice]:
-    """Where each pair's contact nodes stand among those of all pairs, one pair after the other."""
+    """Slice of each pair's contact nodes among those of all pairs, one pair after the other."""
     ends = list(accumulate((len(pair.offsets) for pair in pairs), initial=0))
     return [slice(start, end) for start, end in zip(ends[:-1], ends[1:])]
 

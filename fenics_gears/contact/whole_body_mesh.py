@@ -75,7 +75,10 @@ class MeshesAlike:
     arguments as of `whole_body_mesh`."""
 
     def __init__(self, flanks: Flanks, grid: ContactGrid, steps: int, corner: CornerContact | None = None):
-        self._flanks, self._grid, self._steps, self._corner = flanks, grid, steps, corner
+        self._flanks = flanks
+        self._grid = grid
+        self._steps = steps
+        self._corner = corner
         self._blocks: tuple[dict, dict] = ({}, {})
         self._first_alike: tuple[dict[int, int], ...] = ({}, {})
         self.meshes: dict[tuple[int, int], tuple[tuple, Mesh]] = {}

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.contact.kinematics import COORDINATES, approach
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
@@ -106,26 +107,10 @@ def moved(pair: GearPair, names: tuple[str, ...], place: tuple[float, float], di
     """Relative displacement (k,) along a direction (3,), per coordinate, of flanks that touch at a place (mm): on the
     path of contact, and the height.
 
-    The pinion approaches along the direction, the wheel against it. A rotation theta moves the point at r by theta x r,
-    along n by theta . (r x n).
+    The pinion approaches along the direction, the wheel against it.
     """
     along, height = place
-    middle_1, middle_2 = pair.gear_middles
-    by_name: dict[str, float] = {}
-    gears = (
-        ("1", 1.0, pair.pinion.base_radius, (along, -pair.pinion.base_radius, height - middle_1)),
-        (
-            "2",
-            -1.0,
-            pair.wheel.base_radius,
-            (along - pair.line_of_action_length, pair.wheel.base_radius, height - middle_2),
-        ),
-    )
-    for number, sense, radius, point in gears:
-        turned = sense * np.cross(point, direction) / radius
-        by_name |= {
-            f"{name}{number}": sense * component
-            for name, component in zip(("centre_x", "centre_y", "axial_"), direction)
-        }
-        by_name |= {f"{name}{number}": component for name, component in zip(("tilt_x", "tilt_y", "rotation_"), turned)}
-    return np.array([by_name.get(name, 0.0) for name in names])
+    middles = zip(pair.sides, pair.gear_middles)
+    points = [[(along - side.foot, -side.sense * side.gear.base_radius, height - middle)] for side, middle in middles]
+    row = approach(pair.sides, np.array(points), direction[None])[0]
+    return np.array([row[COORDINATES.index(name)] if name in COORDINATES else 0.0 for name in names])
