@@ -27,7 +27,7 @@ from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.write import section_trees, text_of
 from fenics_gears.show.bent_shafts import bent_shafts
 from fenics_gears.show.plots import run_figures
-from fenics_gears.show.run import Run
+from fenics_gears.show.run import ShownRun
 
 
 def shear(outer, bore):
@@ -145,7 +145,7 @@ def test_axes_lines_and_bearings_of_gears_cut_into_shafts_are_those_of_elements(
 def test_the_drawing_shows_gears_bearings_and_deflection_to_scale(run):
     """Identity: as long and thick as the scene's, off their axes by the magnified deflection."""
     model, result = run
-    scale, *lines = bent_shafts(Run(result))
+    scale, *lines = bent_shafts(ShownRun(result))
     times = float(scale.caption.split("magnified ")[1].split()[0])
     shaft, _, bearings = scale.curves[:3]
     own = model.drivetrain.elastic[0]
