@@ -23,7 +23,7 @@ from fenics_gears.runs.common_windows import CommonWindows
 from fenics_gears.runs.condensing import BODY, gear_tasks
 from fenics_gears.runs.folder import sole_writer
 from fenics_gears.runs.gear_store import operators_key
-from fenics_gears.runs.lines import Lines, kept
+from fenics_gears.runs.lines import FolderOfLines, kept
 from fenics_gears.runs.record import NUMBERS, numbers_of
 from fenics_gears.runs.run import Run, run_of
 from fenics_gears.runs.runs import Failure, Runs, most_together, solved_at_once
@@ -39,7 +39,7 @@ from fenics_gears.system.progress import Interruption, Progress
 
 __all__ = [
     "BODY", "NO_MEANING", "NUMBERS", "OVER_FACE", "RESULT_ATTRIBUTES", "Alone", "CommonWindows", "Failure",
-    "Interruption", "Lines", "Outcome", "Progress", "Run", "RunResult", "Runs", "Spent", "Study", "Together",
+    "Interruption", "FolderOfLines", "Outcome", "Progress", "Run", "RunResult", "Runs", "Spent", "Study", "Together",
     "common_period", "effects_on", "gear_tasks", "kept", "last_words", "load_combined", "most_together", "numbers_of",
     "operators_key", "quasi_static", "ranks", "run_of", "run_with", "save", "seconds_of", "settling_time",
     "sole_writer", "solved_at_once", "study_of", "summary_rows",

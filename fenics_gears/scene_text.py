@@ -23,12 +23,12 @@ from fenics_gears.scene.read import name_of, text_of
 from fenics_gears.scene.schema import known_paths
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import AxisError, factor_of, number_in, values_in_words, values_of
-from fenics_gears.studies.scenes import Changes, Models, NoScene, model_of_tree
+from fenics_gears.studies.scenes import Models, NoScene, SceneChanges, model_of_tree
 from fenics_gears.studies.study_file import Mistakes, entries, left_out
 
 __all__ = [
-    "GEARS", "LOAD_WORDS", "NOTHING_DONE", "AllowedFile", "AllowedNumber", "AxisError", "Changes", "Mistakes", "Models",
-    "NoScene", "Section", "Tree", "as_written", "choice", "declared", "did_you_mean", "entries", "factor_of", "fields",
-    "known_paths", "left_out", "line_numbers", "model_of_tree", "name_of", "names_in", "number_in", "parsed", "read",
-    "text_of", "value_at", "values_in_words", "values_of", "wheel_torque", "whole_number",
+    "GEARS", "LOAD_WORDS", "NOTHING_DONE", "AllowedFile", "AllowedNumber", "AxisError", "Mistakes", "Models", "NoScene",
+    "SceneChanges", "Section", "Tree", "as_written", "choice", "declared", "did_you_mean", "entries", "factor_of",
+    "fields", "known_paths", "left_out", "line_numbers", "model_of_tree", "name_of", "names_in", "number_in", "parsed",
+    "read", "text_of", "value_at", "values_in_words", "values_of", "wheel_torque", "whole_number",
 ]  # fmt: skip

@@ -13,7 +13,7 @@ import numpy as np
 from demos.arguments import output_directory
 from fenics_gears.extensions.optimization.conditions import samples
 from fenics_gears.extensions.optimization.evaluations import Evaluation, Evaluator
-from fenics_gears.extensions.optimization.optimize import Outcome, optimize
+from fenics_gears.extensions.optimization.optimize import SearchOutcome, optimize
 from fenics_gears.runs.team import Alone
 from fenics_gears.system.progress import Interruption
 from fenics_gears.system.progress import LineProgress
@@ -33,7 +33,7 @@ PICTURE, TABLE = "best_relief.png", "best_relief.md"
 class Compared:
     """What was found, and the goal (depths, lengths), um, of all reliefs of a grid."""
 
-    found: Outcome
+    found: SearchOutcome
     depths: np.ndarray
     lengths: np.ndarray
     map: np.ndarray
@@ -120,7 +120,7 @@ def _exchanged(every: dict[str, Compared]) -> list[str]:
     return rows
 
 
-def fresh(found: Outcome, reliefs: Sequence[dict[str, float]]) -> list[Evaluation]:
+def fresh(found: SearchOutcome, reliefs: Sequence[dict[str, float]]) -> list[Evaluation]:
     """Reliefs under the conditions of a search, but under other samples of its tolerances than it was judged by."""
     with Interruption(LineProgress()) as progress:
         progress.stage("fresh samples")

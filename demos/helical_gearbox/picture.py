@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from fenics_gears.show.contact_pattern import contact_patterns
 from fenics_gears.show.panels import PALETTE, styled
-from fenics_gears.show.run import Run
+from fenics_gears.show.run import ShownRun
 
 
 @styled
@@ -24,7 +24,7 @@ def picture(results: dict) -> Figure:
         ha="left",
         fontsize=14,
     )
-    fields = {name: contact_patterns(Run(result))[0].field for name, result in results.items()}
+    fields = {name: contact_patterns(ShownRun(result))[0].field for name, result in results.items()}
     limit = max(1.1 * result.attrs["peak_contact_pressure"] for result in results.values())
     for column, (name, result) in enumerate(results.items()):
         above, below = axes[:, column]

@@ -108,14 +108,14 @@ class Kind:
         return max(steps - self.last, 0) if self.last else 0
 
 
-class Kept(Protocol):
+class KeptArrays(Protocol):
     """Values that have been kept, in memory or on disk."""
 
     def get(self, name: str, steps: int) -> np.ndarray:
         """The values of the first so many steps, in the order of time."""
 
 
-class InMemory:
+class ArraysInMemory:
     """Keeps the values of at most so many `steps`, of contact fields those of the `last`; `stored`: the arrays with a
     type of their own."""
 

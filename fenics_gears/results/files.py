@@ -30,14 +30,14 @@ def save(result: xr.Dataset, path: str | Path) -> None:
     Raises OSError where the disk is full or the directory cannot be written.
     """
     with whole_file(Path(path), buffering=0) as file:
-        written = NeverFull(file)
+        written = FileNeverFull(file)
         write_netcdf(result, written)
         if written.failure is not None:
             raise written.failure
         file.write(seal_of(file, file.seek(0, os.SEEK_END)))
 
 
-class NeverFull:
+class FileNeverFull:
     """A file for HDF5, which does not come back cleanly from a full disk: this goes on in memory then, and has the
     `failure`."""
 

@@ -23,7 +23,7 @@ import numpy as np
 import fenics_gears
 from fenics_gears.dynamics.march import LONGEST_BLOCK, March
 from fenics_gears.errors import ComputationError, GearsError
-from fenics_gears.model.storage import Arrays, InMemory, Kind, Values
+from fenics_gears.model.storage import Arrays, ArraysInMemory, Kind, Values
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.system.memory import mapped
@@ -48,18 +48,18 @@ LISTS = {"separations": Kind(np.dtype(float), (2,)), "locked": Kind(np.dtype(np.
 
 
 @dataclass(frozen=True)
-class Place:
+class JournalPlace:
     """The `directory` of a journal, and the folder of the scene's file, by which a scene names others."""
 
     directory: Path
     scene_folder: Path = Path()
 
 
-class Journal(InMemory):
+class Journal(ArraysInMemory):
     """Keeps values in memory for the first SECONDS_WITHOUT, then in files at a `place`; in memory again where these
     cannot be written."""
 
-    def __init__(self, place: Place, scene: Scene, stored: Arrays, steps: int, last: int):
+    def __init__(self, place: JournalPlace, scene: Scene, stored: Arrays, steps: int, last: int):
         super().__init__(stored, steps, last)
         self.place = place
         self.directory = place.directory

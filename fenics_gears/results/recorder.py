@@ -18,7 +18,7 @@ from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model
-from fenics_gears.model.storage import InMemory, Kept, sizes, stored_arrays
+from fenics_gears.model.storage import ArraysInMemory, KeptArrays, sizes, stored_arrays
 
 from .bent_shafts import BentShafts
 from .contact_variables import (
@@ -36,7 +36,7 @@ from .side_by_side import KnownLayouts, SideBySide
 
 if TYPE_CHECKING:
     from .face_variables import AlongTheFace
-    from .journal import Place, Recorded
+    from .journal import JournalPlace, Recorded
     from .root_stress_variables import RootStress
 
 # How the names of what the warnings need begin, beside those of the result.
@@ -77,7 +77,7 @@ class Recorder:
         cycle: Cycle,
         loads: Sequence[VaryingLoad] | None = None,
         stress: RootStress | None = None,
-        journal: Place | None = None,
+        journal: JournalPlace | None = None,
     ):
         self.model = model
         self.cycle = cycle
@@ -92,7 +92,7 @@ class Recorder:
         )
         self.stored = stored_arrays(model.scene, self.size)
         self._room = self._room_for(journal)
-        self.kept: Kept = self._room
+        self.kept: KeptArrays = self._room
         # Complete when the recorder has finished.
         self.arrays: dict[str, np.ndarray] = {}
         self.watched: dict[str, np.ndarray] = {}
@@ -106,10 +106,10 @@ class Recorder:
         self._singular = EdgesAndKinks(model)
         cycle.shared(KnownLayouts).forget_beyond(cycle.steps)
 
-    def _room_for(self, journal: Place | None) -> InMemory:
+    def _room_for(self, journal: JournalPlace | None) -> ArraysInMemory:
         room = self.stored, self.model.steps + 1, self.model.contact_steps
         if journal is None:
-            return InMemory(*room)
+            return ArraysInMemory(*room)
         return Journal(journal, self.model.scene, *room)
 
     def take(self, solved: Steps, march: March | None = None) -> None:

@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 
-class Stored:
+class StoredResult:
     """A result in an open file: `attrs`, and variables by name, which have `values` and `attrs`; each is read when it
     is asked for."""
 
@@ -70,7 +70,7 @@ def _read(held: h5py.h5d.DatasetID | h5py.h5a.AttrID, *spaces: Any) -> np.ndarra
 
 
 @contextmanager
-def stored(content: BinaryIO) -> Iterator[Stored]:
+def stored(content: BinaryIO) -> Iterator[StoredResult]:
     """The result in an open NetCDF-4 file."""
     with h5py.File(content) as file:
-        yield Stored(file["/"].id)
+        yield StoredResult(file["/"].id)

@@ -19,7 +19,7 @@ from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.stored import stored
 from fenics_gears.system.output import remove_left_over, unsealed, write_whole
 
-from .record import Record, record_of
+from .record import RunRecord, record_of
 from .run import Run
 from .runs import Failure, failure_of
 from .spent import seconds_of
@@ -37,7 +37,7 @@ class Folder:
     directory: Path
     asked: ClassVar[None] = None
 
-    def known(self, runs: Iterable[Run]) -> dict[str, Record]:
+    def known(self, runs: Iterable[Run]) -> dict[str, RunRecord]:
         """Records of the runs whose whole and undamaged files are there."""
         files = {path.stem.rpartition("-")[2]: path for path in sorted(self.directory.glob(f"*{ENDING}"))}
         there = [(run, path) for run in runs if (path := files.get(run.name.rpartition("-")[2])) is not None]
@@ -50,7 +50,7 @@ class Folder:
                     os.replace(path, self._file(run, ENDING))
         return found
 
-    def keep(self, run: Run, found: RunResult) -> Record:
+    def keep(self, run: Run, found: RunResult) -> RunRecord:
         """Write the result and return its record; a note on an earlier failure goes."""
         result = found.dataset
         said = {"case_key": run.key, "case_values": json.dumps(run.values)}
@@ -58,7 +58,7 @@ class Folder:
         self._file(run, FAILED_ENDING).unlink(missing_ok=True)
         return replace(record_of(result), seconds=seconds_of(found))
 
-    def seconds(self, known: Record) -> tuple[float, ...]:
+    def seconds(self, known: RunRecord) -> tuple[float, ...]:
         return known.seconds
 
     def keep_failure(self, run: Run, error: Exception) -> Failure:
@@ -88,7 +88,7 @@ def _opened(paths: Iterable[Path]) -> Iterator[Callable[[], BinaryIO]]:
             yield waiting.popleft().result
 
 
-def _undamaged(path: Path, run: Run, opened: Callable[[], BinaryIO]) -> Record | None:
+def _undamaged(path: Path, run: Run, opened: Callable[[], BinaryIO]) -> RunRecord | None:
     try:
         with opened() as content, stored(content) as result:
             if (result.attrs.get("case_key"), result.attrs.get("complete")) != (run.key, 1):

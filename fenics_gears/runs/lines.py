@@ -28,7 +28,7 @@ Line = dict[str, Any]
 
 
 @dataclass(frozen=True)
-class Lines:
+class FolderOfLines:
     """A folder of lines, each what `line_of` makes of a run and its result, with at least the `numbers` that are
     `asked` for; with `failure` why there is nothing, also of a result that has no meaning."""
 

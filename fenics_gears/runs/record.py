@@ -11,7 +11,7 @@ from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.pairs import shown_steps
 from fenics_gears.results.settled import settled_steps
-from fenics_gears.results.stored import Stored
+from fenics_gears.results.stored import StoredResult
 
 # Units and long name of each number that every record has.
 NUMBERS = {
@@ -33,7 +33,7 @@ CURVES = (
 
 
 @dataclass(frozen=True)
-class Record:
+class RunRecord:
     """Numbers and curves of one run.
 
     `numbers`: by name, also those of `STUDIED` that the run has. `curves`: (steps,) or (steps, 2), in the units of the
@@ -50,7 +50,7 @@ class Record:
     seconds: tuple[float, ...] = ()
 
 
-def numbers_of(run: RunResult | xr.Dataset | Stored) -> dict[str, float]:
+def numbers_of(run: RunResult | xr.Dataset | StoredResult) -> dict[str, float]:
     """The numbers of a complete run; the wall time is the attribute `wall_time`, s."""
     said = ChainMap(
         {
@@ -63,14 +63,14 @@ def numbers_of(run: RunResult | xr.Dataset | Stored) -> dict[str, float]:
     return {name: float(said[name]) for name in names}
 
 
-def record_of(run: xr.Dataset | Stored) -> Record:
+def record_of(run: xr.Dataset | StoredResult) -> RunRecord:
     """The record of a complete run."""
     last = shown_steps(run)
     phase = run["mesh_phase"].values[last]
     taken = {name: run[name] for name in CURVES if name in run}
     curves = {name: each.values[last] for name, each in taken.items()}
     labels = {name: {key: each.attrs[key] for key in ("units", "long_name")} for name, each in taken.items()}
-    return Record(
+    return RunRecord(
         numbers_of(run),
         phase - np.floor(phase[0]),
         curves,

@@ -22,7 +22,7 @@ from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress, SilentProgress
 
 if TYPE_CHECKING:
-    from fenics_gears.results.journal import Place
+    from fenics_gears.results.journal import JournalPlace
 
 # The remedy where a warning recommends a setting, for settings may not stand beside a target.
 OTHER_SETTINGS = (
@@ -39,7 +39,7 @@ def simulate(
     cache: Cache | None = None,
     preparation: Preparation | None = None,
     job: Job | None = None,
-    journal: Place | None = None,
+    journal: JournalPlace | None = None,
     keep: Keep | None = None,
 ) -> xr.Dataset:
     """Run a scene and return its result, an `xarray.Dataset` (docs/result.md).
@@ -92,7 +92,7 @@ def simulate(
 
 
 @dataclass(frozen=True)
-class Settled:
+class SettledScene:
     """A scene, or its model, whose settings stand; `chosen`: what the result says of their choice, nothing where
     the scene has its own."""
 
@@ -106,12 +106,12 @@ class Settled:
             result.attrs.update(self.chosen, target_remarks=remarks)
 
 
-def settled(scene: Scene | Model, progress: Progress) -> Settled:
+def settled(scene: Scene | Model, progress: Progress) -> SettledScene:
     """The scene with settings in place of its target, where it has one; raises TargetNotReached where none keep it."""
     known = scene.scene if isinstance(scene, Model) else scene
     target = known.accuracy.target
     if target is None:
-        return Settled(scene)
+        return SettledScene(scene)
     from .settings.target import choose
 
     begun = time.perf_counter()
@@ -125,4 +125,4 @@ def settled(scene: Scene | Model, progress: Progress) -> Settled:
     how |= {"target_runs": found.runs, "target_remarks": "", "time_choose": time.perf_counter() - begun}
     if found.accuracy.slices:
         how |= {"slices": found.accuracy.slices, "layers": found.accuracy.layers}
-    return Settled(replace(known, accuracy=found.accuracy), how)
+    return SettledScene(replace(known, accuracy=found.accuracy), how)

@@ -10,7 +10,7 @@ from fenics_gears.inputs.tree import GEARS
 
 from .chart import MARKERS, Chart, Curve
 from .panels import DARK, PALETTE
-from .run import Run
+from .run import ShownRun
 
 ACROSS = "Place along the axes, from the middle of the common face (mm)"
 # Not divided as the lines are, which have no scale to keep.
@@ -23,7 +23,7 @@ SMALLEST = 1e-6
 OF_GEAR = dict(zip(GEARS, PALETTE[2:4]))
 
 
-class Line(NamedTuple):
+class ShaftLine(NamedTuple):
     """The axis of a gear's shaft: `places` (p,), mm from the middle of the common face, and the mean deflection (p,),
     mm, by direction. `bearings` (b,): their places. `seat`: where the gear begins and ends."""
 
@@ -34,7 +34,7 @@ class Line(NamedTuple):
     seat: np.ndarray
 
 
-def bent_shafts(run: Run) -> list[Chart]:
+def bent_shafts(run: ShownRun) -> list[Chart]:
     """Shafts, gears and bearings, the deflection in the plane of action magnified; and the deflection in either
     direction."""
     if "shaft_deflection_x" not in run.dataset or not run.dataset.sizes["contact_time"] or run.pair is None:
@@ -44,7 +44,7 @@ def bent_shafts(run: Run) -> list[Chart]:
     return [_to_scale(run, lines), *(_deflection(lines, direction) for direction in bent)]
 
 
-def _lines(run: Run) -> Iterator[Line]:
+def _lines(run: ShownRun) -> Iterator[ShaftLine]:
     part = run.last_fields
     pair = run.pair
     shafts = run.scene.shafts.sections
@@ -55,10 +55,10 @@ def _lines(run: Run) -> Iterator[Line]:
             deflection = {each: own[f"shaft_deflection_{each}"].values.mean(axis=0) for each in DIRECTIONS}
             bearings = np.array([each.at for each in run.scene.bearings.each_of(gear)]) + from_end
             seat = pair.gear_middles[number] + np.array([-0.5, 0.5]) * pair.face_widths[number]
-            yield Line(gear, own["shaft_place"].values + from_end, deflection, bearings, seat)
+            yield ShaftLine(gear, own["shaft_place"].values + from_end, deflection, bearings, seat)
 
 
-def _to_scale(run: Run, lines: list[Line]) -> Chart:
+def _to_scale(run: ShownRun, lines: list[ShaftLine]) -> Chart:
     largest = max(np.abs(each.deflection["x"]).max() for each in lines)
     longest = max(np.ptp(each.places) for each in lines)
     # A magnification of one digit.
@@ -70,7 +70,7 @@ def _to_scale(run: Run, lines: list[Line]) -> Chart:
         colour = OF_GEAR[line.gear]
         axis = _axis(run, line.gear)
 
-        def moved(places: np.ndarray, line: Line = line, axis: float = axis) -> np.ndarray:
+        def moved(places: np.ndarray, line: ShaftLine = line, axis: float = axis) -> np.ndarray:
             return axis + magnified * np.interp(places, line.places, line.deflection["x"])
 
         places, radii = _outline(run, line)
@@ -97,7 +97,7 @@ def _to_scale(run: Run, lines: list[Line]) -> Chart:
     )  # fmt: skip
 
 
-def _axis(run: Run, gear: str) -> float:
+def _axis(run: ShownRun, gear: str) -> float:
     return 0.0 if gear == GEARS[0] else -run.pair.centre_distance
 
 
@@ -105,7 +105,7 @@ def _closed(name: str, x: np.ndarray, y: np.ndarray, colour: str) -> Curve:
     return Curve(name, np.append(x, x[0]), np.append(y, y[0]), colour)
 
 
-def _outline(run: Run, line: Line) -> tuple[np.ndarray, np.ndarray]:
+def _outline(run: ShownRun, line: ShaftLine) -> tuple[np.ndarray, np.ndarray]:
     """Places and radii of a shaft from end to end; a step has two radii at one place."""
     begin = line.places[0]
     places = []
@@ -118,7 +118,7 @@ def _outline(run: Run, line: Line) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate(places), np.concatenate(radii)
 
 
-def _deflection(lines: list[Line], direction: str) -> Chart:
+def _deflection(lines: list[ShaftLine], direction: str) -> Chart:
     curves = []
     for line in lines:
         colour = OF_GEAR[line.gear]

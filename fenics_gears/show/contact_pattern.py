@@ -12,7 +12,7 @@ from fenics_gears.results.pairs import carrying_side
 from .chart import Chart, Curve, Field
 from .panels import DARK, GREY
 from .pressure import COLOURS, colour_limit, counted_on, has_pressure, node_edges
-from .run import Run
+from .run import ShownRun
 
 ACROSS = "Distance along the axes from the middle of the common face (mm)"
 ROWS = 200
@@ -22,7 +22,7 @@ NOTE = "Averaged over five contact nodes; between steps the peak is interpolated
 GEARS = ("pinion", "wheel")
 
 
-def contact_patterns(run: Run) -> list[Chart]:
+def contact_patterns(run: ShownRun) -> list[Chart]:
     """Patterns on the flanks of pinion and wheel that carry, in the last cycles whose contact fields are stored."""
     if not has_pressure(run) or run.pair is None:
         return []
@@ -57,7 +57,7 @@ def rolls_on_wheel(pair: GearPair, part: xr.Dataset, side: str, rolls: np.ndarra
     return np.sqrt(np.maximum(of_wheel**2 - 2.0 * along / pair.wheel.base_radius, 0.0))
 
 
-def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyond: str) -> Chart:
+def _pattern(run: ShownRun, gear: int, side: str, pressure, rolls, limit: float, beyond: str) -> Chart:
     pair = run.pair
     name = GEARS[gear]
     data = getattr(pair, name)

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fenics_gears.scene.data import Scene
-from fenics_gears.studies.effect_costs.measured import EffectReport, Row
+from fenics_gears.studies.effect_costs.measured import EffectReport, MeasuredRow
 from fenics_gears.studies.effect_costs.subsets import ALL, ALONE, BARE, LEFT_OUT
 from fenics_gears.studies.effect_costs.table import MICRO, MILLI, change, in_percent, own_remarks
 from fenics_gears.studies.machine import in_words
@@ -65,12 +65,12 @@ def effect_costs(report: EffectReport) -> Figure:
     return figure
 
 
-def _places(rows: tuple[Row, ...]) -> np.ndarray:
+def _places(rows: tuple[MeasuredRow, ...]) -> np.ndarray:
     steps = [0.0] + [1.0 if before.subset.kind == row.subset.kind else 1.5 for before, row in zip(rows, rows[1:])]
     return np.cumsum(steps)
 
 
-def _unknowns(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
+def _unknowns(axes: Axes, rows: tuple[MeasuredRow, ...], places: np.ndarray) -> None:
     centres = np.array([row.coordinates for row in rows])
     contact = np.array([row.contact_rows for row in rows])
     axes.barh(places, centres, color=PALETTE[0], label="centre coordinates", height=0.7)
@@ -108,7 +108,7 @@ def _number(value: float, largest: float) -> str:
     return f"{value:,.0f}" if value >= 1e3 else f"{value:.3g}"
 
 
-def _whiskers(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
+def _whiskers(axes: Axes, rows: tuple[MeasuredRow, ...], places: np.ndarray) -> None:
     least, most = (np.array([of(row.step_times) for row in rows]) * MICRO for of in (min, max))
     axes.hlines(places, least, most, color=GREY, linewidth=1.6)
 

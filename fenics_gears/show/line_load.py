@@ -10,7 +10,7 @@ from .chart import MESH_CYCLES, TIME, Chart, Curve, Field
 from .contact_pattern import ACROSS
 from .panels import DARK, PALETTE, in_unit
 from .pressure import COLOURS
-from .run import Run
+from .run import ShownRun
 
 TITLE = "Line load (N/mm)"
 # The factors of a run, behind the curve that they are of.
@@ -21,7 +21,7 @@ FACTORS = {
 }
 
 
-def line_loads(run: Run) -> list[Chart]:
+def line_loads(run: ShownRun) -> list[Chart]:
     """Line load of the flanks that carry, in the last cycles whose contact fields are stored; nothing without load."""
     side = carrying_side(run.dataset)
     name = f"{side}line_load"
@@ -50,7 +50,7 @@ def _of_mesh(side: str, loads: np.ndarray, phase: np.ndarray, slices: np.ndarray
     )  # fmt: skip
 
 
-def _of_pair(run: Run, side: str, loads: np.ndarray, phase: np.ndarray, slices: np.ndarray) -> Chart:
+def _of_pair(run: ShownRun, side: str, loads: np.ndarray, phase: np.ndarray, slices: np.ndarray) -> Chart:
     """Line load from the start to the end of contact, put together of all pairs, of unlike ones the largest."""
     pair = run.pair
     numbers = run.last_fields["contact_pair_number"]
@@ -83,7 +83,7 @@ def _of_pair(run: Run, side: str, loads: np.ndarray, phase: np.ndarray, slices: 
     )  # fmt: skip
 
 
-def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
+def _over_face(run: ShownRun, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
     part = run.last_fields
     total = loads.sum(axis=1)
     mean = mean_line_load(part, side)
@@ -129,7 +129,7 @@ def _correction(found) -> str:
     return f"mesh, as proposed: pinion's helix slope {slope:.1f} µm, crowning {crowning:.1f} µm{factor}"
 
 
-def _factor(run: Run, name: str) -> str:
+def _factor(run: ShownRun, name: str) -> str:
     return FACTORS[name].format(run.dataset.attrs[name]) if name in run.dataset.attrs else ""
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from .chart import BAND, LEAST_SHARE, Chart, Curve, Second, of_variables, over_time, span
 from .panels import DARK, PALETTE, factor
-from .run import Run
+from .run import ShownRun
 
 # Smallest spans shown. Contact is solved to 1e-4 um and to 1e-6 of the transmitted force; what is smaller is no curve.
 LEAST_LENGTH = 0.1  # um
@@ -15,19 +15,19 @@ LEAST_ANGLE = 1e-3  # urad
 ERROR = "Transmission error"
 
 
-def motion_charts(run: Run) -> list[Chart]:
+def motion_charts(run: ShownRun) -> list[Chart]:
     """All motions that the result has."""
     return [transmission_error(run), *error_by_cycle(run), *_shafts(run)]
 
 
-def error_values(run: Run) -> tuple[np.ndarray, str]:
+def error_values(run: ShownRun) -> tuple[np.ndarray, str]:
     """Transmission error (time,) and its unit: µm on the wheel's base circle, µrad where that is not known."""
     if np.isfinite(run.micrometres):
         return run.values("transmission_error", "rad") * run.micrometres, "µm"
     return run.values("transmission_error", "µrad"), "µrad"
 
 
-def transmission_error(run: Run) -> Chart:
+def transmission_error(run: ShownRun) -> Chart:
     """The transmission error over the mesh cycles."""
     values, unit = error_values(run)
     note = ""
@@ -46,7 +46,7 @@ def transmission_error(run: Run) -> Chart:
     return over_time(run, caption, f"{ERROR} ({unit})", curves, least=least, note=note, second=second, height=380)
 
 
-def _peak_to_peak(run: Run, values: np.ndarray, unit: str) -> str:
+def _peak_to_peak(run: ShownRun, values: np.ndarray, unit: str) -> str:
     attributes = run.dataset.attrs
     if not run.complete or "peak_to_peak_transmission_error" not in attributes:
         return f"peak to peak of what is stored {np.ptp(values):#.4g} {unit}"
@@ -56,7 +56,7 @@ def _peak_to_peak(run: Run, values: np.ndarray, unit: str) -> str:
     return f"peak to peak {value:#.4g} {unit}{over}"
 
 
-def error_by_cycle(run: Run) -> list[Chart]:
+def error_by_cycle(run: ShownRun) -> list[Chart]:
     """Least and largest transmission error of every mesh cycle of the record, where cycles are not all shown."""
     if run.shows_all or len(run.whole_cycles) < 2:
         return []
@@ -73,7 +73,7 @@ def error_by_cycle(run: Run) -> list[Chart]:
     return [Chart(caption, curves, title, f"{ERROR} ({unit})", least=least, height=280)]
 
 
-def wheels_shaft(run: Run) -> list[Chart]:
+def wheels_shaft(run: ShownRun) -> list[Chart]:
     """Displacement of the wheel's shaft: off the line of action with friction; without, it moves only along it."""
     name, words = ("centre_y", "off") if "friction_force" in run.dataset else ("centre_x", "along")
     if name not in run.dataset:
@@ -84,7 +84,7 @@ def wheels_shaft(run: Run) -> list[Chart]:
     return [over_time(run, caption, "Displacement (µm)", curves, least=LEAST_LENGTH, height=240)]
 
 
-def _shafts(run: Run) -> list[Chart]:
+def _shafts(run: ShownRun) -> list[Chart]:
     caption = "Displacement of the gears' centres"
     sides = {"centre_x": "along", "centre_y": "off"}
     # Without friction gears that do not tilt stay on the line of action.
@@ -119,7 +119,7 @@ COAST_NOTE = "Coast flanks are drawn downwards."
 SHARES_UNKNOWN = "Where several rigid pairs touch at once their shares are not determined."
 
 
-def force_charts(run: Run) -> list[Chart]:
+def force_charts(run: ShownRun) -> list[Chart]:
     """All forces that the result has."""
     names = {"drive_flank_opening": "drive flanks", "coast_flank_opening": "coast flanks"}
     options = {"least": 0.1, "height": 300}
@@ -127,7 +127,7 @@ def force_charts(run: Run) -> list[Chart]:
     return [*mesh_forces(run), *pair_forces(run), *_reactions(run), *openings]
 
 
-def mesh_forces(run: Run) -> list[Chart]:
+def mesh_forces(run: ShownRun) -> list[Chart]:
     """Normal and friction force of the mesh, on either side of the teeth."""
     if "normal_force" not in run.dataset:
         return []
@@ -146,7 +146,7 @@ def mesh_forces(run: Run) -> list[Chart]:
     return [normal, *of_variables(run, "Friction force of the mesh", "Friction force", "N", names)]
 
 
-def pair_forces(run: Run) -> Iterator[Chart]:
+def pair_forces(run: ShownRun) -> Iterator[Chart]:
     """Shares of the tooth pairs in normal and in friction force."""
     for name, caption in (
         ("pair_normal_force", "Load sharing: normal force of each tooth pair"),
@@ -168,12 +168,12 @@ def pair_forces(run: Run) -> Iterator[Chart]:
             yield over_time(run, caption, "Force (N)", curves, least=span(curves), note=note, height=380)
 
 
-def shaft_torques(run: Run) -> list[Chart]:
+def shaft_torques(run: ShownRun) -> list[Chart]:
     """Torque of either gear on its shaft."""
     return of_variables(run, "Torque of either gear on its shaft", "Torque", "N m", {"reaction_couple": ""})
 
 
-def _reactions(run: Run) -> list[Chart]:
+def _reactions(run: ShownRun) -> list[Chart]:
     sides = {"reaction_x": "along", "reaction_y": "off"} if "friction_force" in run.dataset else {"reaction_x": "along"}
     charts = [
         of_variables(run, f"Reaction of either gear on its shaft {words} the line of action", "Force", "N", {name: ""})

@@ -24,7 +24,7 @@ from fenics_gears.results.spectrum import (
 from .chart import BARS, Chart, Curve, Flag
 from .motion import error_values
 from .panels import GREY, PALETTE
-from .run import Run
+from .run import ShownRun
 
 MESH_ORDERS = 10.5
 FOLLOWED_ORDERS = 4
@@ -51,7 +51,7 @@ class Spectrum:
     record: str
 
 
-def signals_of(run: Run) -> dict[str, tuple[np.ndarray, str]]:
+def signals_of(run: ShownRun) -> dict[str, tuple[np.ndarray, str]]:
     """Values (time,) and units of the analysed curves."""
     signals = {ERROR: error_values(run)}
     force = varying_mesh_force(run.dataset)
@@ -60,7 +60,7 @@ def signals_of(run: Run) -> dict[str, tuple[np.ndarray, str]]:
     return signals
 
 
-def order_spectrum(run: Run) -> Chart | None:
+def order_spectrum(run: ShownRun) -> Chart | None:
     """Amplitudes of the transmission error over orders of the pinion's shaft; None for a record shorter than its
     turn."""
     if "transmission_error" not in run.dataset or run.scene is None:
@@ -113,7 +113,7 @@ def _by_origin(lines: OrderLines, kinds: np.ndarray, seen: np.ndarray, wide: flo
     return curves
 
 
-def mesh_order_chart(run: Run, name: str, unit: str, found: Spectrum) -> Chart:
+def mesh_order_chart(run: ShownRun, name: str, unit: str, found: Spectrum) -> Chart:
     """Amplitudes over mesh orders."""
     lines = found.lines
     shown = (lines.orders <= MESH_ORDERS) & (lines.amplitudes > LEAST_PART * lines.amplitudes.max(initial=0.0))
@@ -127,7 +127,7 @@ def mesh_order_chart(run: Run, name: str, unit: str, found: Spectrum) -> Chart:
     return Chart(name, curves, title, f"Amplitude ({unit})", note, height=320, x_range=(0.0, MESH_ORDERS))
 
 
-def spectrum(run: Run, values: np.ndarray) -> Spectrum:
+def spectrum(run: ShownRun, values: np.ndarray) -> Spectrum:
     """The mesh orders of values (time,): of whole hunting tooth periods where these are stored at a steady speed, so
     that what comes with a turn of either gear stands apart; else of whole mesh cycles."""
     scene = run.scene
@@ -157,7 +157,7 @@ def _beyond(lines: OrderLines) -> str:
     return f" The largest of all is at order {order:.4g}, beyond the picture: {lines.amplitudes.max():.4g}."
 
 
-def orders_by_cycle(run: Run, signals: dict[str, tuple[np.ndarray, str]]) -> list[Chart]:
+def orders_by_cycle(run: ShownRun, signals: dict[str, tuple[np.ndarray, str]]) -> list[Chart]:
     """Amplitudes of the first mesh orders in each mesh cycle of a long record."""
     cycles = run.whole_cycles
     if len(cycles) < CYCLES_TO_FOLLOW or cycles[0].stop - 1 < 2 * FOLLOWED_ORDERS:

@@ -6,12 +6,12 @@ from .bent_shafts import bent_shafts
 from .chart import Chart
 from .contact_pattern import contact_patterns
 from .line_load import line_loads
-from .run import Run
+from .run import ShownRun
 
 
-def charts_over_face(run: Run) -> dict[str, Callable[[Run], list[Chart]]]:
+def charts_over_face(run: ShownRun) -> dict[str, Callable[[ShownRun], list[Chart]]]:
     """What draws them, by subject."""
-    found: dict[str, Callable[[Run], list[Chart]]] = {
+    found: dict[str, Callable[[ShownRun], list[Chart]]] = {
         "Contact pattern": contact_patterns,
         "Line load along the face": line_loads,
     }

@@ -32,27 +32,27 @@ from .orders import OF_ERROR, order_spectrum
 from .over_face import charts_over_face
 from .panels import DARK, DOTS_PER_INCH, WARNING, styled
 from .pressure import pressure_maps
-from .run import Run, conditions
+from .run import ShownRun, conditions
 
 
-def _errors(run: Run) -> list[Chart]:
+def _errors(run: ShownRun) -> list[Chart]:
     if "transmission_error" not in run.dataset:
         return []
     whole = error_by_cycle(run) if run.varies(error_values(run)[0]) else []
     return [transmission_error(run), *wheels_shaft(run), *whole]
 
 
-def _shares(run: Run) -> list[Chart]:
+def _shares(run: ShownRun) -> list[Chart]:
     return list(pair_forces(run))[:1]
 
 
-def _orders(run: Run) -> Iterable[Chart]:
+def _orders(run: ShownRun) -> Iterable[Chart]:
     chart = order_spectrum(run)
     # The heading names the subject.
     return [replace(chart, caption=chart.caption.removeprefix(f"{OF_ERROR}, "))] if chart is not None else []
 
 
-SUBJECTS: tuple[tuple[str, Callable[[Run], Iterable[Chart]]], ...] = (
+SUBJECTS: tuple[tuple[str, Callable[[ShownRun], Iterable[Chart]]], ...] = (
     ("Transmission error", _errors),
     ("Mesh forces", lambda run: [*mesh_forces(run), *shaft_torques(run)]),
     ("Load sharing between tooth pairs", _shares),
@@ -74,7 +74,7 @@ def draw_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
 
 def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
     """The pictures of a result as figures, by file name. Raises ComputationError as ``draw_run`` does."""
-    run = Run(dataset)
+    run = ShownRun(dataset)
     _check_steps(run)
     pictures = PICTURES
     if run.over_face:
@@ -85,7 +85,7 @@ def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
     return {name: picture(_heading(run, subject), charts, colour) for name, subject, charts in found if charts}
 
 
-def _heading(run: Run, subject: str) -> str:
+def _heading(run: ShownRun, subject: str) -> str:
     more = [] if run.scene is None else [conditions(run.scene)]
     if not run.complete:
         more.append(f"INCOMPLETE RUN: stopped at mesh cycle {run.phase[-1]:.2f}")
@@ -98,7 +98,7 @@ def heading(subject: str, title: str, *more: str) -> str:
     return "\n".join([first, *(line for each in more for line in textwrap.wrap(each, LETTERS, break_long_words=False))])
 
 
-def _check_steps(run: Run) -> None:
+def _check_steps(run: ShownRun) -> None:
     if run.has_curves:
         return
     stored = "no step is stored" if run.steps == 0 else "only one step is stored"

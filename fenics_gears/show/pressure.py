@@ -6,7 +6,7 @@ from fenics_gears.results.pairs import words_of_slice
 
 from .chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second, of_variables
 from .panels import DARK, digits, factor
-from .run import Run
+from .run import ShownRun
 
 # Which side of the teeth: how the result's variables of that side begin, and what it is called.
 APART_NOTE = " The pressure at edges and kinks does not converge with the mesh."
@@ -26,12 +26,12 @@ COLOURS = ("#FDE9B8", "#F6A04D", "#D9483B", "#8A1A63", "#2A0A4A")
 _DEGREES = factor("rad", "deg")
 
 
-def has_pressure(run: Run) -> bool:
+def has_pressure(run: ShownRun) -> bool:
     """Whether the result has contact fields."""
     return {"contact_pressure", "contact_roll_angle"} <= {*run.dataset} and run.dataset.sizes["contact_time"] > 1
 
 
-def largest_pressures(run: Run) -> list[Chart]:
+def largest_pressures(run: ShownRun) -> list[Chart]:
     """Largest contact pressure at every step, away from edges and kinks and at these."""
     names = {
         "largest_contact_pressure": "away from edges and kinks",
@@ -45,7 +45,7 @@ def largest_pressures(run: Run) -> list[Chart]:
     return of_variables(run, "Largest contact pressure", "Pressure", "MPa", names, note=note, height=300)
 
 
-def pressure_maps(run: Run) -> list[Chart]:
+def pressure_maps(run: ShownRun) -> list[Chart]:
     """Pressure over mesh cycles and the pinion's roll angle, for each side of the teeth that carries."""
     if not has_pressure(run):
         return []
@@ -55,7 +55,13 @@ def pressure_maps(run: Run) -> list[Chart]:
 
 
 def _map(
-    run: Run, side: str, pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, number: np.ndarray, named: bool
+    run: ShownRun,
+    side: str,
+    pressure: np.ndarray,
+    place: np.ndarray,
+    phase: np.ndarray,
+    number: np.ndarray,
+    named: bool,
 ) -> Chart:
     field = pressure_field(pressure, place, phase, colour_limit(run, pressure[pressure > 0.0]))
     highest = float(np.nanmax(field.values, initial=0.0))
@@ -84,7 +90,7 @@ def _map(
     )  # fmt: skip
 
 
-def _peaks(run: Run) -> str:
+def _peaks(run: ShownRun) -> str:
     """The settled run's peak pressures, which are not those of single nodes."""
     attributes = run.dataset.attrs
     if "peak_contact_pressure" not in attributes:
@@ -123,7 +129,7 @@ def counted_on(first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.nda
     return each, first[each] + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
 
 
-def colour_limit(run: Run, pressures: np.ndarray) -> float:
+def colour_limit(run: ShownRun, pressures: np.ndarray) -> float:
     """Where the colours of pressures (n,), MPa, end: at the highest, or below it where those at edges are beyond."""
     highest = float(pressures.max(initial=0.0)) or 1.0
     if peak := run.dataset.attrs.get("peak_contact_pressure"):

@@ -31,7 +31,7 @@ ALIKE = 0.01
 
 
 @dataclass(frozen=True)
-class Run:
+class ShownRun:
     """A result, the file it was read from, and the settings of its report.
 
     at: mesh cycles after the first stored step at which the stress picture is drawn, None for where the largest force
@@ -87,7 +87,7 @@ class Run:
         return float(self.phase[-1] - self.phase[0])
 
     @cached_property
-    def settled(self) -> Run:
+    def settled(self) -> ShownRun:
         """The settled part of the run, from which all its numbers are taken."""
         return replace(self, dataset=of_settled(self.dataset))
 

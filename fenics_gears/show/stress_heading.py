@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from fenics_gears.simulation.run_stresses import GearsInMesh
 
 from .panels import DARK, WARNING
-from .run import Run, conditions
+from .run import ShownRun, conditions
 
 # Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots
 # are.
@@ -51,7 +51,7 @@ def colour_bar(
 
 def heading(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset) -> None:
     """Title of the run, its conditions, and the time of the picture."""
-    run = Run(dataset)
+    run = ShownRun(dataset)
     scene = run.scene
     look = {"color": DARK if run.complete else WARNING, "parse_math": False}
     title = textwrap.shorten(f"Stress in the gears: {run.title}", LETTERS_OF_TITLE, placeholder=" …")

@@ -35,7 +35,7 @@ from .routes import Preparation, prepared, route_of
 from .warm_up import compile_kernels, compile_loops
 
 if TYPE_CHECKING:
-    from fenics_gears.results.journal import Place
+    from fenics_gears.results.journal import JournalPlace
 
 # The stage that marches through time.
 MARCH = "march"
@@ -50,7 +50,7 @@ def solved(
     cache: Cache | None = None,
     preparation: Preparation | None = None,
     job: Job | None = None,
-    journal: Place | None = None,
+    journal: JournalPlace | None = None,
     ended: Ended | None = None,
 ) -> RunResult:
     """A run whose settings are settled, without proposed lead modifications; its dataset is put together when it is
@@ -78,7 +78,7 @@ def solved(
 
 
 def _simulated(
-    model: Model, progress: Progress, cache: Cache, prepare: Preparation, journal: Place | None
+    model: Model, progress: Progress, cache: Cache, prepare: Preparation, journal: JournalPlace | None
 ) -> RunResult:
     for_operators = memory_for_operators(model)
     gears, cycle = prepare(model, progress, cache)

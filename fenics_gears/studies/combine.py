@@ -13,7 +13,7 @@ from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.files import read, save
 from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.runs.record import CURVES, NUMBERS, Record
+from fenics_gears.runs.record import CURVES, NUMBERS, RunRecord
 from fenics_gears.system.output import write_whole
 
 from .axis import Axis
@@ -24,7 +24,7 @@ STUDY_FILE = "study.nc"
 MOST_CURVE_VALUES = 100_000_000
 
 
-def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int, str]) -> xr.Dataset:
+def combined(study: Study, records: Mapping[int, RunRecord], failures: Mapping[int, str]) -> xr.Dataset:
     """The dataset of the cases so far, over the swept fields, or `case` where they are varied together; NaN where a
     case has no result or lacks a number. `failed` is 1 for cases that failed and `failure` says why; curves are there
     when every case has the same steps."""
@@ -53,7 +53,7 @@ def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int,
 
 
 def _variables(
-    study: Study, records: Mapping[int, Record], failures: Mapping[int, str]
+    study: Study, records: Mapping[int, RunRecord], failures: Mapping[int, str]
 ) -> dict[str, tuple[Mapping, Any, dict]]:
     """By name the values of the cases that have one, what stands for the others, and the attributes."""
     known = {name for record in records.values() for name in record.numbers}
@@ -101,7 +101,7 @@ def _coordinate(axis: Axis, study: Study) -> tuple[str, tuple]:
     return axis.name, (axis.name if study.combine == "product" else "case", values, attributes)
 
 
-def _curves(study: Study, records: Mapping[int, Record]) -> tuple[dict[str, tuple], str]:
+def _curves(study: Study, records: Mapping[int, RunRecord]) -> tuple[dict[str, tuple], str]:
     """The curves that some case has, over the study's dimensions and the mesh phase; or why there are none."""
     if not records:
         return {}, "none: no case has a result"

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.runs.folder import Folder, sole_writer
-from fenics_gears.runs.record import Record
+from fenics_gears.runs.record import RunRecord
 from fenics_gears.runs.run import Run
 from fenics_gears.runs.runs import Failure, Runs
 from fenics_gears.runs.spent import Spent
@@ -31,7 +31,7 @@ class Outcome:
     study: Study
     file: Path | None = None
     kept: int = 0
-    records: dict[int, Record] = field(default_factory=dict)
+    records: dict[int, RunRecord] = field(default_factory=dict)
     failures: dict[int, str] = field(default_factory=dict)
     spent: Spent = field(default_factory=Spent)
     interrupted: bool = False

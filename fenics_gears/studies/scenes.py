@@ -25,7 +25,7 @@ MOST_HELD = 1000
 
 
 @dataclass(frozen=True)
-class Changes:
+class SceneChanges:
     """The changes that a study file makes to the base scene, by the paths of its fields."""
 
     without: tuple[fields.Path, ...]
@@ -51,7 +51,7 @@ class Changes:
 class Scenes:
     """The scenes of a study's cases: of a large study each is made again when it is asked for."""
 
-    def __init__(self, name: str, directory: Path, changes: Changes, scene_tree: Mapping[str, Any]):
+    def __init__(self, name: str, directory: Path, changes: SceneChanges, scene_tree: Mapping[str, Any]):
         self._name = name
         self._directory = directory
         self._changes = changes

@@ -16,7 +16,7 @@ from fenics_gears.scene.read import load_scene, name_of, text_of
 
 from . import fields
 from .axis import Axis, AxisError, label, unit_of, values_of
-from .scenes import Changes, NoScene, Scenes
+from .scenes import NoScene, SceneChanges, Scenes
 from .study import Study
 
 KEYS = ("title", "scene", "combine", "without", "set", "sweep")
@@ -109,7 +109,7 @@ def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
         mistakes.add(("sweep",), None, message)
 
 
-def _changes(tree: Mapping[str, Any], mistakes: Mistakes) -> Changes:
+def _changes(tree: Mapping[str, Any], mistakes: Mistakes) -> SceneChanges:
     without = left_out(tree, mistakes)
     fixed = dict(entries(tree, "set", mistakes))
     swept = []
@@ -122,7 +122,7 @@ def _changes(tree: Mapping[str, Any], mistakes: Mistakes) -> Changes:
     _check_overlaps(without, fixed, axes, mistakes)
     combine = tree.get("combine", "product")
     _check_sizes(axes, combine, mistakes)
-    return Changes(without, fixed, axes, combine)
+    return SceneChanges(without, fixed, axes, combine)
 
 
 def left_out(tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[fields.Path, ...]:
@@ -201,7 +201,7 @@ def _check_sizes(axes: tuple[Axis, ...], combine: str, mistakes: Mistakes) -> No
         mistakes.add(("sweep",), "", f"makes {cases} cases. Allowed: up to {MOST_CASES}.")
 
 
-def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: str, mistakes: Mistakes) -> None:
+def _check_present(changes: SceneChanges, scene_tree: Mapping[str, Any], scene_file: str, mistakes: Mistakes) -> None:
     """ "present" needs a section that the scene, with what is set, has."""
     values = [(("sweep", axis.dotted), axis.path, axis.values) for axis in changes.axes]
     values += [(("set", ".".join(path)), path, (value,)) for path, value in changes.fixed.items()]
@@ -211,7 +211,7 @@ def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: 
             mistakes.add(place, f'"{fields.PRESENT}"', message)
 
 
-def _cases(scenes: Scenes, changes: Changes, mistakes: Mistakes) -> tuple[Run, ...]:
+def _cases(scenes: Scenes, changes: SceneChanges, mistakes: Mistakes) -> tuple[Run, ...]:
     cases: list[Run] = []
     by_key: dict[str, Run] = {}
     wrong: dict[tuple, list[str]] = {}
@@ -233,7 +233,7 @@ def _cases(scenes: Scenes, changes: Changes, mistakes: Mistakes) -> tuple[Run, .
     return tuple(cases)
 
 
-def _in_study(field: fields.Path, written, message: str, changes: Changes, where: list[str], points: int) -> tuple:
+def _in_study(field: fields.Path, written, message: str, changes: SceneChanges, where: list[str], points: int) -> tuple:
     """A mistake in the scenes of some cases as a mistake of the study file, at the line that causes it where there is
     one."""
     named = [("sweep", axis.path) for axis in changes.axes] + [("set", path) for path in changes.fixed]

@@ -8,7 +8,7 @@ from tests.coarse import COARSE
 
 from fenics_gears import load_scene, simulate
 from fenics_gears.show.orders import order_spectrum
-from fenics_gears.show.run import Run
+from fenics_gears.show.run import ShownRun
 
 
 @pytest.mark.nightly
@@ -18,7 +18,7 @@ def test_the_picture_names_every_error_of_the_scene():
     assert (scene.motion.mesh_cycles, scene.motion.recorded_cycles) == (48, 48)
     assert scene.flank_errors.tolerance_class == 6
     result = simulate(replace(scene, accuracy=COARSE))
-    chart = order_spectrum(Run(result))
+    chart = order_spectrum(ShownRun(result))
     flags = {flag.words: flag for flag in chart.flags}
     named = {
         "mesh",

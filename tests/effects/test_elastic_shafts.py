@@ -35,7 +35,7 @@ from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.write import section_trees, text_of
 from fenics_gears.show.bent_shafts import bent_shafts
 from fenics_gears.show.plots import run_figures
-from fenics_gears.show.run import Run
+from fenics_gears.show.run import ShownRun
 
 
 def shear(outer, bore):
@@ -198,7 +198,7 @@ def test_bearings_that_are_alike_may_be_given_as_matrices():
 def test_the_drawing_shows_gears_bearings_and_deflection_to_scale(run):
     """Identity: as long and thick as the scene's, off their axes by the magnified deflection."""
     model, result = run
-    scale, *lines = bent_shafts(Run(result))
+    scale, *lines = bent_shafts(ShownRun(result))
     times = float(scale.caption.split("magnified ")[1].split()[0])
     shaft, _, bearings = scale.curves[:3]
     own = model.drivetrain.elastic[0]

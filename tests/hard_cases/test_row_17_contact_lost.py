@@ -16,7 +16,7 @@ from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion
 from fenics_gears.show.motion import pair_forces
-from fenics_gears.show.run import Run
+from fenics_gears.show.run import ShownRun
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.progress import SilentProgress
 
@@ -60,7 +60,7 @@ def test_reversed_torque_is_the_mirror_image(both_flanks, paper_pair, absent, me
     )
     assert backward.reaction_couple.sel(gear="wheel").values == pytest.approx(scene.load.wheel_torque, rel=1e-9)
     assert backward.coast_flank_opening.values.max() <= 1e-12
-    lowest = min(np.nanmin(curve.y) for curve in next(pair_forces(Run(backward))).curves)
+    lowest = min(np.nanmin(curve.y) for curve in next(pair_forces(ShownRun(backward))).curves)
     assert lowest == pytest.approx(-backward.pair_coast_normal_force.values.max())
 
 

@@ -30,7 +30,7 @@ OF_FACE = {
 def test_journal_keeps_fields_over_the_face(tmp_path, monkeypatch):
     """Identity, bit for bit."""
     monkeypatch.setattr(journal, "SECONDS_WITHOUT", 0.0)
-    written = simulate(wide_pair(MORE), journal=journal.Place(tmp_path / "run.nc.part"))
+    written = simulate(wide_pair(MORE), journal=journal.JournalPlace(tmp_path / "run.nc.part"))
     assert any((tmp_path / "run.nc.part").iterdir())
     xr.testing.assert_equal(written, helical_run())
 

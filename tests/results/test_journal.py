@@ -14,7 +14,7 @@ import fenics_gears
 from fenics_gears import ComputationError, load_scene, simulate
 from fenics_gears.dynamics.march import LONGEST_BLOCK
 from fenics_gears.results import journal
-from fenics_gears.results.journal import COUNTS, HEADER, SPARE, Journal, Place, read
+from fenics_gears.results.journal import COUNTS, HEADER, SPARE, Journal, JournalPlace, read
 from fenics_gears.system.output import seal
 
 LAST, STEPS = 300, 4 * SPARE
@@ -40,7 +40,7 @@ def block(first, end):
 
 
 def written(tmp_path, until, length):
-    own = Journal(Place(tmp_path / "run.nc.part"), load_scene(DEMO), STORED, STEPS, LAST)
+    own = Journal(JournalPlace(tmp_path / "run.nc.part"), load_scene(DEMO), STORED, STEPS, LAST)
     for first in range(0, until, length):
         own.put(first, block(first, min(first + length, until)), march_of(min(first + length, until)))
     return own
@@ -78,7 +78,7 @@ def test_a_full_disk_does_not_end_the_march(tmp_path, paper_scene, at_once, monk
         return pwrite(*arguments)
 
     monkeypatch.setattr(os, "pwrite", full)
-    found, whole = simulate(scene, journal=Place(tmp_path / "run.nc.part")), simulate(scene)
+    found, whole = simulate(scene, journal=JournalPlace(tmp_path / "run.nc.part")), simulate(scene)
     assert "No space left on device. The run goes on" in caplog.text and list(tmp_path.iterdir()) == []
     assert len(calls) == failing + 1 and found.equals(whole)
 

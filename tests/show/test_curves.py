@@ -11,7 +11,7 @@ from fenics_gears.results import by_pair
 from fenics_gears.show.panels import tick_labels, ticks
 from fenics_gears.show.plots import run_figures
 from fenics_gears.show.pressure import MOST_COLUMNS, node_edges, pressure_field
-from fenics_gears.show.run import Run
+from fenics_gears.show.run import ShownRun
 
 
 def transmission_error(run):
@@ -163,7 +163,7 @@ def mesh(figure):
 
 def field_of(run):
     """The raster of a run's drive flanks, and what it is of."""
-    pressure, place, phase, _ = Run(run).fields("")
+    pressure, place, phase, _ = ShownRun(run).fields("")
     return pressure_field(pressure, place, phase, pressure.max()), pressure, place, phase
 
 

@@ -15,14 +15,14 @@ from fenics_gears.show import FACE_PICTURE_FILES, face_picture, stress_heading
 from fenics_gears.show.contact_pattern import contact_patterns, pattern
 from fenics_gears.show.line_load import line_loads
 from fenics_gears.show.plots import draw_run
-from fenics_gears.show.run import Run
+from fenics_gears.show.run import ShownRun
 from fenics_gears.show.stress_picture import charts_of, still
 from fenics_gears.simulation.run_stresses import RunStresses
 
 
 @pytest.fixture(scope="module")
 def run():
-    return Run(helical_run(), stress=False)
+    return ShownRun(helical_run(), stress=False)
 
 
 def test_pictures_of_the_face_are_written_beside_the_others(tmp_path):
@@ -104,7 +104,7 @@ def test_between_steps_the_pattern_goes_on_as_the_peak_does():
 @pytest.mark.parametrize("side", ["", pytest.param("coast_", marks=pytest.mark.nightly)])
 def test_line_loads_add_up_to_the_forces(run, side):
     """Identity: the normal force of mesh and pair; contact ends where the lines are."""
-    run = Run(root_stress_run(coast=True)[1], stress=False) if side else run
+    run = ShownRun(root_stress_run(coast=True)[1], stress=False) if side else run
     mesh, pair, _ = line_loads(run)
     widths = np.diff(mesh.field.y)
     assert np.nansum(mesh.field.values * widths[:, None], axis=0) == pytest.approx(

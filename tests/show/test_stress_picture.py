@@ -133,9 +133,9 @@ def test_calls_that_make_no_sense_are_refused(run, tmp_path, monkeypatch, capsys
 
 
 def test_command_line_does_not_load_vtk():
-    """Only a file for ParaView imports pyvista."""
+    """What a command takes is told without what it draws with."""
     code = (
-        "import sys, fenics_gears, fenics_gears.commands.cli; from fenics_gears.commands.work import picture;"
+        "import sys, fenics_gears, fenics_gears.commands.cli; from fenics_gears.commands import picture;"
         " print('pyvista' in sys.modules, 'vtkmodules' in sys.modules)"
     )
     assert python("-c", code).stdout.split() == ["False", "False"]

@@ -9,7 +9,7 @@ import pytest
 
 from fenics_gears.elasticity.cache import content_key
 from fenics_gears.numbers_version import NUMBERS_VERSION
-from fenics_gears.runs.lines import Lines, append
+from fenics_gears.runs.lines import FolderOfLines, append
 from fenics_gears.runs.run import run_of, scene_key
 from fenics_gears.runs.runs import Failure
 from fenics_gears.scene.read import scene_from_text
@@ -92,7 +92,7 @@ def test_a_line_without_what_is_asked_for_is_no_run(tmp_path):
         append(tmp_path, {"key": key, **said})
 
     def known(*asked):
-        return Lines(tmp_path, lambda run, result: {}, asked).known([])
+        return FolderOfLines(tmp_path, lambda run, result: {}, asked).known([])
 
     assert known("a").keys() == {"one", "both", "none"} and known("a", "b").keys() == {"both", "none"}
     assert known("a", "b")["both"]["numbers"] == {"a": 1.0, "b": 2.0} and isinstance(known("a")["none"], Failure)

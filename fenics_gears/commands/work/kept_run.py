@@ -13,7 +13,7 @@ from fenics_gears import results
 from fenics_gears.errors import FAILED, ComputationError
 from fenics_gears.model.model import Model
 from fenics_gears.results import validity
-from fenics_gears.results.journal import Place, is_journal, remove
+from fenics_gears.results.journal import JournalPlace, is_journal, remove
 from fenics_gears.results.summary import Row, summary_rows, what_is_there
 from fenics_gears.runs.simulate import simulate
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
@@ -30,7 +30,7 @@ def run_and_keep(model: Model, directory: Path, options: argparse.Namespace, job
     """Run a model, write its result and pictures into `directory`, print its summary; return the exit code."""
     # What imports have made stays: the search for garbage need not look at it.
     gc.freeze()
-    journal = Place(directory / JOURNAL, options.scene.parent)
+    journal = JournalPlace(directory / JOURNAL, options.scene.parent)
     with Interruption(shown_progress(options.quiet)) as interruption:
         kept = _Kept(directory, interruption)
         try:

@@ -10,7 +10,7 @@ from fenics_gears.show.effect_costs import effect_costs
 from fenics_gears.show.report.rendering import rendered
 from fenics_gears.show.report.run_page import run_page
 from fenics_gears.show.report.study_page import study_page
-from fenics_gears.show.run import Run
+from fenics_gears.show.run import ShownRun
 from fenics_gears.simulation.stored_forces import stored_index
 from fenics_gears.studies.combine import load_combined
 from fenics_gears.studies.effect_costs.measured import measure
@@ -76,7 +76,7 @@ def _check(options: argparse.Namespace, file: Path, output: Path, is_study: bool
 
 
 def _run(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
-    run = Run(loaded_run(file), file, at=options.at, stress=not options.no_stress)
+    run = ShownRun(loaded_run(file), file, at=options.at, stress=not options.no_stress)
     written = []
     if options.at is not None and run.steps:
         stored_index(run.dataset, options.at)

@@ -10,7 +10,7 @@ from fenics_gears.scene_text import model_of_tree
 
 from .design import QUANTILE, Goal, Variable
 from .evaluations import Evaluation
-from .optimize import Outcome, score
+from .optimize import SearchOutcome, score
 from .result import harris_dataset
 
 BEFORE = "before"
@@ -39,12 +39,12 @@ def goals_of(evaluations, goal: Goal) -> np.ndarray:
     return np.array([each.goals.get(goal.name, np.nan) for each in evaluations])
 
 
-def _shown(outcome: Outcome, goal: Goal, values: np.ndarray) -> np.ndarray:
+def _shown(outcome: SearchOutcome, goal: Goal, values: np.ndarray) -> np.ndarray:
     largest = np.nanmax([outcome.before.goals.get(goal.name, np.nan), outcome.chosen.goals[goal.name]])
     return np.where(values <= MOST_TIMES * largest, values, np.nan)
 
 
-def search_chart(outcome: Outcome, goal: Goal) -> Chart:
+def search_chart(outcome: SearchOutcome, goal: Goal) -> Chart:
     """A goal of all designs in the order in which they were tried, the least so far, and what it is before."""
     every = goals_of(outcome.tried, goal)
     numbers = np.arange(1, len(outcome.tried) + 1)
@@ -60,12 +60,12 @@ def search_chart(outcome: Outcome, goal: Goal) -> Chart:
     return Chart(f"{sentence(called(goal.name))} of the designs", curves, *axes, _note(outcome))
 
 
-def _note(outcome: Outcome) -> str:
+def _note(outcome: SearchOutcome) -> str:
     failed = sum(bool(each.failure) for each in outcome.tried)
     return f"{failed} of {len(outcome.tried)} designs failed and are not drawn." if failed else ""
 
 
-def front_chart(outcome: Outcome) -> Chart:
+def front_chart(outcome: SearchOutcome) -> Chart:
     """The first two goals of all designs against each other, and the Pareto front."""
     one, other = outcome.design.goals[:2]
     x, y = (_shown(outcome, goal, goals_of(outcome.tried, goal)) for goal in (one, other))
@@ -85,7 +85,7 @@ def _mark(name: str, x, y: float, colour: str) -> Curve:
     return Curve(name, np.array([x]), np.array([y]), colour, mode=MARKERS)
 
 
-def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
+def variable_chart(outcome: SearchOutcome, variable: Variable, goal: Goal) -> Chart:
     """A goal over a variable: of all designs, and of the chosen one with this variable alone changed."""
     places, evaluations = outcome.along[variable.name]
     x = np.array([each.values[variable.name] for each in outcome.tried])
@@ -101,7 +101,7 @@ def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
     return Chart(f"{sentence(called(goal.name))} over {called(variable.name)}", curves, *axes)
 
 
-def tolerance_rows(outcome: Outcome, goal: Goal) -> list[tuple[str, str, str, str, str]]:
+def tolerance_rows(outcome: SearchOutcome, goal: Goal) -> list[tuple[str, str, str, str, str]]:
     """Of each scatter its limit, and the chosen design's goal at the lower limit, without scatter, at the upper limit;
     the largest change first."""
     rows = []
@@ -116,7 +116,7 @@ def tolerance_rows(outcome: Outcome, goal: Goal) -> list[tuple[str, str, str, st
     return [row for _, row in sorted(rows, key=lambda each: -each[0])]
 
 
-def harris_charts(outcome: Outcome) -> list[Chart]:
+def harris_charts(outcome: SearchOutcome) -> list[Chart]:
     """The Harris maps before and after, to the same scale; none where a run failed."""
     found = harris_dataset(outcome)
     if "transmission_error" not in found:
@@ -132,7 +132,7 @@ def harris_charts(outcome: Outcome) -> list[Chart]:
     return [replace(chart, y_range=(float(every.min() - room), float(every.max() + room))) for chart in charts]
 
 
-def write_pictures(outcome: Outcome) -> list[Path]:
+def write_pictures(outcome: SearchOutcome) -> list[Path]:
     """Draw all charts as PNG, and return the files."""
     design = outcome.design
     first = outcome.design.goals[0]
@@ -146,7 +146,7 @@ def write_pictures(outcome: Outcome) -> list[Path]:
     return draw_charts(pictures, outcome.directory, design.title)
 
 
-def goal_words(outcome: Outcome, goal: Goal, evaluation: Evaluation) -> str:
+def goal_words(outcome: SearchOutcome, goal: Goal, evaluation: Evaluation) -> str:
     """A goal of an evaluation in words, with mean and quantile where there are tolerances."""
     if evaluation.failure:
         return f"none: {evaluation.failure}"
@@ -159,7 +159,7 @@ def goal_words(outcome: Outcome, goal: Goal, evaluation: Evaluation) -> str:
     return ", ".join(words[::-1] if tolerances.judged == QUANTILE else words)
 
 
-def no_gain(outcome: Outcome) -> str:
+def no_gain(outcome: SearchOutcome) -> str:
     """A warning where the chosen design is not better than what is before; empty where it is."""
     before = outcome.before
     design = outcome.design
@@ -168,7 +168,7 @@ def no_gain(outcome: Outcome) -> str:
     return "The chosen design is not better than the scene before: try more designs, other variables or wider ranges."
 
 
-def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
+def summary_rows(outcome: SearchOutcome) -> list[tuple[str, str, str]]:
     """Rows of label, value, unit: what was tried and computed, goals before and after, and the chosen values."""
     failed = sum(bool(each.failure) for each in outcome.tried)
     rows = [

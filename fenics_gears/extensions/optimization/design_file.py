@@ -8,8 +8,8 @@ from typing import Any
 from fenics_gears import Scene, SceneError, flank_tolerance, gear_pair, helix_tolerance
 from fenics_gears.scene_text import (
     GEARS,
-    Changes,
     NoScene,
+    SceneChanges,
     entries,
     fields,
     left_out,
@@ -45,7 +45,9 @@ def load_design(path: str | Path) -> Design:
     sections.mistakes.check()
     varied = {variable.path[0] for variable in found["variables"]}
     before = {place: value for place, value in fixed.items() if place[0] not in varied}
-    scene_tree, before_tree = (Changes(without, changes, (), "product").apply(base, ()) for changes in (fixed, before))
+    scene_tree, before_tree = (
+        SceneChanges(without, changes, (), "product").apply(base, ()) for changes in (fixed, before)
+    )
     name = name_of(path)
     design = Design(name, tree.get("title", name), scene_tree, before_tree, directory, text, **found)
     scene = _checked_ranges(design, sections)

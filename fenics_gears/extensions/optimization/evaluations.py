@@ -13,8 +13,8 @@ from fenics_gears.many_runs import (
     Alone,
     CommonWindows,
     Failure,
+    FolderOfLines,
     Interruption,
-    Lines,
     Run,
     RunResult,
     Runs,
@@ -76,7 +76,7 @@ class Evaluator:
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
         self.design = design
         self._progress = progress
-        self.runs = Runs(Lines(directory, line_of, self.design.asked), team)
+        self.runs = Runs(FolderOfLines(directory, line_of, self.design.asked), team)
         self.others = kept(directory)[1]
         self._models = Models(design.name, design.directory)
         self._windows = CommonWindows()

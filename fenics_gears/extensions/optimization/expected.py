@@ -47,7 +47,7 @@ TORQUES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5)
 
 
 @dataclass(frozen=True)
-class Work:
+class ExpectedWork:
     """Runs of an optimisation that are not kept yet, at most; seconds on one core of an idle machine, None where its
     scenes are none at the ends of the variables."""
 
@@ -70,7 +70,7 @@ class Work:
             )
 
 
-def expected_work(design: Design, kept: int, processes: int = 1) -> Work:
+def expected_work(design: Design, kept: int, processes: int = 1) -> ExpectedWork:
     """Of a design file of which so many runs are kept."""
     points = len(design.loads.points)
     samples = design.tolerances.samples
@@ -81,7 +81,7 @@ def expected_work(design: Design, kept: int, processes: int = 1) -> Work:
     runs = max(points * (designs * samples + along + around) + 2 * len(TORQUES) - kept, 0)
     ends = at_ends(design)
     if not ends:
-        return Work(runs, None)
+        return ExpectedWork(runs, None)
     cases = [case for end in ends for case in end]
     costs = [expected_cost(case.model) for case in cases]
     marching, building, condensing = (
@@ -107,7 +107,7 @@ def expected_work(design: Design, kept: int, processes: int = 1) -> Work:
         shared = operators == len({operators_key(case.model) for case in ends[0]})
         seconds = runs * (TIME_OF_A_RESULT + EXTREMES * position + first + (0.0 if shared else building))
     pairs = ceil(sum(task.part == BODY for task in gear_tasks(ends[0])) / len(GEARS))
-    return Work(runs, seconds + (bodies * pairs * condensing if runs else 0.0))
+    return ExpectedWork(runs, seconds + (bodies * pairs * condensing if runs else 0.0))
 
 
 def at_ends(design: Design) -> list[list[Run]]:

@@ -17,7 +17,7 @@ from .conditions import samples
 from .design import Design
 from .design_file import load_design
 from .evaluations import Evaluation, Evaluator
-from .expected import TORQUES, VALUES, Work, at_ends, expected_work
+from .expected import TORQUES, VALUES, ExpectedWork, at_ends, expected_work
 from .search import front, optimiser, search
 
 RESULT = "optimization.nc"
@@ -28,7 +28,7 @@ NOT_IN_A_HARRIS_MAP = ("inertia", "damping", "motion", "speed_ramp", "torque_rip
 
 
 @dataclass
-class Outcome:
+class SearchOutcome:
     """What an optimisation found.
 
     `before`: the scene before, `tried`: all designs in their order, `best`: the place of the chosen one, `front`:
@@ -59,7 +59,7 @@ class Outcome:
 
 def optimize(
     path: Path, output: Path | None, progress: Progress, quiet: bool = False, any_time: bool = False
-) -> Outcome | None:
+) -> SearchOutcome | None:
     """Search the best design and look at it from all sides; None on every rank of an MPI job but 0. Finished runs are
     kept in `runs` of the directory, `results/<name of the design file>` unless `output`.
 
@@ -80,7 +80,7 @@ def optimize(
 
 def _run(
     design: Design, directory: Path, team: Alone | Together, progress: Interruption, quiet: bool, any_time: bool
-) -> Outcome:
+) -> SearchOutcome:
     evaluator = Evaluator(design, directory / "runs", team, progress)
     deviations = samples(design)
     work = expected_work(design, evaluator.runs.kept, team.size)
@@ -100,7 +100,7 @@ def _run(
     tried = search(design, lambda designs: evaluator.of_designs(designs, deviations), report)
     evaluator.designs = 0, 0
     best = chosen(design, before, tried)
-    outcome = Outcome(design, directory, before, tried, best, front(tried, [goal.name for goal in design.goals]))
+    outcome = SearchOutcome(design, directory, before, tried, best, front(tried, [goal.name for goal in design.goals]))
     progress.stage("sensitivity")
     _look_around(outcome, evaluator)
     progress.stage("Harris map")
@@ -110,7 +110,7 @@ def _run(
     return outcome
 
 
-def _opening(design: Design, count: int, evaluator: Evaluator, work: Work, size: int) -> str:
+def _opening(design: Design, count: int, evaluator: Evaluator, work: ExpectedWork, size: int) -> str:
     runs = len(design.loads.points) * count
     kept = f" {evaluator.runs.kept} runs are kept from before." if evaluator.runs.kept else ""
     if evaluator.others:
@@ -144,7 +144,7 @@ def score(design: Design, before: Evaluation, evaluation: Evaluation) -> float:
     )
 
 
-def _look_around(outcome: Outcome, evaluator: Evaluator) -> None:
+def _look_around(outcome: SearchOutcome, evaluator: Evaluator) -> None:
     """The chosen design with each variable over its range, and at both limits of each scatter."""
     design = outcome.design
     values = outcome.chosen.values

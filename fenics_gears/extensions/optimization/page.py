@@ -8,7 +8,7 @@ from fenics_gears.pages import (
     Cell,
     Facts,
     Page,
-    Section,
+    PageSection,
     Table,
     Tile,
     Tiles,
@@ -20,29 +20,29 @@ from fenics_gears.pages import (
 )
 
 from . import charts
-from .optimize import PAGE, Outcome
+from .optimize import PAGE, SearchOutcome
 from .result import BEST, TABLE, best_scene
 
 MOST_ROWS = 50
 
 
-def write_page(outcome: Outcome) -> Path:
+def write_page(outcome: SearchOutcome) -> Path:
     """Write the page beside the result and return its file."""
     text = rendered(optimization_page(outcome))
     return write_whole(outcome.directory / PAGE, lambda path: path.write_text(text, encoding="utf-8"))
 
 
-def optimization_page(outcome: Outcome) -> Page:
+def optimization_page(outcome: SearchOutcome) -> Page:
     design = outcome.design
     maps: list[Block] = [*charts.harris_charts(outcome)] or [Words("A run of the Harris maps failed.", warns=True)]
     sections = [
         _summary(outcome),
-        Section(
+        PageSection(
             "harris",
             "Harris maps before and after",
             [Words("Quasi-static transmission error over two mesh cycles, a curve for each torque."), *maps],
         ),
-        Section(
+        PageSection(
             "variables",
             "Each variable alone",
             [charts.variable_chart(outcome, variable, goal) for variable in design.variables for goal in design.goals],
@@ -61,7 +61,7 @@ def optimization_page(outcome: Outcome) -> Page:
     return Page("Gear pair: optimisation", design.title, subtitle, sections, made_by(), charts.no_gain(outcome))
 
 
-def _summary(outcome: Outcome) -> Section:
+def _summary(outcome: SearchOutcome) -> PageSection:
     tiles = []
     goals = outcome.design.goals
     for goal in goals:
@@ -74,10 +74,10 @@ def _summary(outcome: Outcome) -> Section:
         # Goals before and after are on the tiles; with tolerances the rows have more of them.
         said = {f"{charts.called(goal.name)}, {words}" for goal in goals for words in (charts.BEFORE, charts.BEST)}
         rows = [row for row in rows if row[0] not in said]
-    return Section("summary", "Summary", [Tiles(tiles), Facts(rows)])
+    return PageSection("summary", "Summary", [Tiles(tiles), Facts(rows)])
 
 
-def _designs(outcome: Outcome) -> Section:
+def _designs(outcome: SearchOutcome) -> PageSection:
     design = outcome.design
     blocks: list[Block] = [charts.search_chart(outcome, goal) for goal in design.goals]
     allowed = (place for place, each in enumerate(outcome.tried) if each.allowed)
@@ -109,10 +109,10 @@ def _designs(outcome: Outcome) -> Section:
     if failures := [(f"{place}", Cell(why, warns=True)) for place, why in failed]:
         table = Table(("Design", "Why"), failures[:MOST_ROWS], numbers=9)
         blocks += [Words(f"{len(failures)} designs failed."), table]
-    return Section("designs", "Designs", blocks)
+    return PageSection("designs", "Designs", blocks)
 
 
-def _tolerances(outcome: Outcome) -> Section:
+def _tolerances(outcome: SearchOutcome) -> PageSection:
     blocks: list[Block] = []
     heads = ("Tolerance", "Limit", "At the lower limit", "Without scatter", "At the upper limit")
     for goal in outcome.design.goals:
@@ -121,4 +121,4 @@ def _tolerances(outcome: Outcome) -> Section:
     words = "One deviation at its limit, all others zero; the largest change first."
     if not outcome.limits:
         words = "A run with a deviation at its limit failed."
-    return Section("tolerances", "Each tolerance alone", [Words(words, warns=not outcome.limits), *blocks])
+    return PageSection("tolerances", "Each tolerance alone", [Words(words, warns=not outcome.limits), *blocks])

@@ -13,10 +13,10 @@ from fenics_gears.many_runs import save
 from fenics_gears.scene_text import AllowedFile, fields, known_paths, value_at
 
 from .design import QUANTILE
-from .optimize import BEST, RESULT, TABLE, Outcome
+from .optimize import BEST, RESULT, TABLE, SearchOutcome
 
 
-def write_result(outcome: Outcome) -> list[Path]:
+def write_result(outcome: SearchOutcome) -> list[Path]:
     """Write the dataset, the table and the scene, and return their files. Raises ComputationError where they cannot be
     written."""
     result = dataset(outcome)
@@ -32,7 +32,7 @@ def write_result(outcome: Outcome) -> list[Path]:
     ]
 
 
-def dataset(outcome: Outcome) -> xr.Dataset:
+def dataset(outcome: SearchOutcome) -> xr.Dataset:
     """All designs over the dimension `design`: variables by their paths, goals, constraints, whether allowed, on the
     front, and why they failed.
 
@@ -78,7 +78,7 @@ def dataset(outcome: Outcome) -> xr.Dataset:
     )
 
 
-def harris_dataset(outcome: Outcome) -> xr.Dataset:
+def harris_dataset(outcome: SearchOutcome) -> xr.Dataset:
     """The transmission errors before and after over load and mesh phase; empty where a run of them failed."""
     torques, curves = outcome.harris
     every = [each for of_choice in curves for each in of_choice]
@@ -96,7 +96,7 @@ def harris_dataset(outcome: Outcome) -> xr.Dataset:
     )
 
 
-def best_scene(outcome: Outcome) -> str:
+def best_scene(outcome: SearchOutcome) -> str:
     """The chosen design as the text of a scene file beside the result."""
     tree = outcome.design.scene_tree(outcome.chosen.values)
     for path, is_section in known_paths().items():

@@ -38,7 +38,7 @@ BESIDE = 0.03
 
 
 @dataclass(frozen=True)
-class Row:
+class RatingRow:
     """One quantity: symbol with its meaning, unit, value by the standard, and from the run; NaN where one has none."""
 
     name: str
@@ -47,7 +47,7 @@ class Row:
     computed: float
 
 
-def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[Row]:
+def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[RatingRow]:
     """The rows of a run. Raises SceneError for a scene without speed, load or elastic teeth."""
     operation = _operation(scene, finish, result)
     factors = load_factors(operation)
@@ -57,25 +57,25 @@ def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[Row]:
     flank = flank_stress(operation, factors)
     roots = root_stresses(operation, factors)
     rows = [
-        Row("K_v, dynamic factor", "1", factors.dynamic, found.get("dynamic_factor_by_force", nan)),
-        Row("F_betax, misalignment over the face", "um", mesh_misalignment(operation), misaligned),
-        Row("K_Hbeta, face load factor", "1", factors.face, face),
+        RatingRow("K_v, dynamic factor", "1", factors.dynamic, found.get("dynamic_factor_by_force", nan)),
+        RatingRow("F_betax, misalignment over the face", "um", mesh_misalignment(operation), misaligned),
+        RatingRow("K_Hbeta, face load factor", "1", factors.face, face),
     ]
     if operation.shafts is not None:
         iterated = iterated_face_factor(operation, factors.dynamic)
-        rows.append(Row("K_Hbeta, line load iterated over the shafts", "1", iterated, face))
+        rows.append(RatingRow("K_Hbeta, line load iterated over the shafts", "1", iterated, face))
     transverse = found.get("transverse_load_factor", nan)
-    rows.append(Row("K_Halpha, transverse load factor", "1", factors.transverse, transverse))
+    rows.append(RatingRow("K_Halpha, transverse load factor", "1", factors.transverse, transverse))
     pressure = found.get("peak_contact_pressure", nan)
     for name, stress in zip(("pinion", "wheel"), flank.stress):
-        rows.append(Row(f"sigma_H, contact stress of the {name}", "MPa", stress, pressure))
+        rows.append(RatingRow(f"sigma_H, contact stress of the {name}", "MPa", stress, pressure))
         safeties = flank.limit / stress, flank.limit / pressure
-        rows.append(Row(f"S_H, safety against pitting of the {name}", "1", *safeties))
+        rows.append(RatingRow(f"S_H, safety against pitting of the {name}", "1", *safeties))
     for name, root in zip(("pinion", "wheel"), roots):
         computed = found.get(f"largest_root_stress_{name}", nan)
-        rows.append(Row(f"sigma_F, root stress of the {name}", "MPa", root.stress, computed))
+        rows.append(RatingRow(f"sigma_F, root stress of the {name}", "MPa", root.stress, computed))
         safeties = root.limit / root.stress, root.limit / computed
-        rows.append(Row(f"S_F, safety against tooth breakage of the {name}", "1", *safeties))
+        rows.append(RatingRow(f"S_F, safety against tooth breakage of the {name}", "1", *safeties))
     return rows + _flash(operation, result)
 
 
@@ -183,7 +183,7 @@ def _reduced_mass(scene: Scene, pair: GearPair) -> float:
     return first * second / (first + second)
 
 
-def _flash(operation: Operation, result: xr.Dataset) -> list[Row]:
+def _flash(operation: Operation, result: xr.Dataset) -> list[RatingRow]:
     """The largest flash temperature of a run with friction, by the standard's load share and by the computed forces."""
     friction = result.attrs.get("friction_coefficient")
     if friction is None:
@@ -202,4 +202,4 @@ def _flash(operation: Operation, result: xr.Dataset) -> list[Row]:
     # The standard's line force is in the transverse section; those of the run are along the contact normal.
     transverse = pair.cosine * forces[on_path] / pair.face_width
     computed = flash_temperature(pair, operation.materials, places[on_path], transverse, *at_work)
-    return [Row("flash temperature", "K", float(standard.max()), float(computed.max(initial=0.0)))]
+    return [RatingRow("flash temperature", "K", float(standard.max()), float(computed.max(initial=0.0)))]

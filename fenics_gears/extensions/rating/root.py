@@ -23,7 +23,7 @@ class ToothForm:
 
 
 @dataclass(frozen=True)
-class RootStress:
+class NominalRootStress:
     """Nominal stress sigma_F0 (MPa), stress sigma_F and limit sigma_FG of one gear."""
 
     nominal: float
@@ -31,14 +31,14 @@ class RootStress:
     limit: float
 
 
-def root_stresses(operation: Operation, factors: LoadFactors) -> tuple[RootStress, RootStress]:
+def root_stresses(operation: Operation, factors: LoadFactors) -> tuple[NominalRootStress, NominalRootStress]:
     """Of pinion and wheel: F_t / (b m_n) Y_F Y_S Y_beta, raised by the load factors; the limit by Y_delta_relT, Y_RrelT
     and Y_X of case-hardened steel."""
     pair = operation.pair
     return _of_gear(operation, factors, pair.pinion), _of_gear(operation, factors, pair.wheel)
 
 
-def _of_gear(operation: Operation, factors: LoadFactors, gear: Gear) -> RootStress:
+def _of_gear(operation: Operation, factors: LoadFactors, gear: Gear) -> NominalRootStress:
     tooth = form_at_outer_point(gear, operation.pair.contact_ratio)
     finish = operation.finish
     load = operation.tangential_force / (operation.face_width * gear.normal_module)
@@ -47,7 +47,9 @@ def _of_gear(operation: Operation, factors: LoadFactors, gear: Gear) -> RootStre
     notch = 0.9434 + 0.0231 * sqrt(1.0 + 2.0 * tooth.notch)
     surface = 1.120 if finish.root_roughness < 1.0 else 1.674 - 0.529 * (finish.root_roughness + 1.0) ** 0.1
     size = 1.05 - 0.01 * min(max(gear.normal_module, 5.0), 25.0)
-    return RootStress(nominal, stress, STRESS_CORRECTION_OF_TEST_GEAR * finish.root_limit * notch * surface * size)
+    return NominalRootStress(
+        nominal, stress, STRESS_CORRECTION_OF_TEST_GEAR * finish.root_limit * notch * surface * size
+    )
 
 
 def helix_angle_factor(operation: Operation) -> float:

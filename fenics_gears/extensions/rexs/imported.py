@@ -11,7 +11,7 @@ from .flanks import loaded_flanks, note_what_is_left_out, relief_sections, toler
 from .gears import Sections, gear_sections
 from .lead import lead_sections
 from .loads import loaded_model, pinion_speed, wheel_torque
-from .model import Model
+from .model import RexsModel
 from .read import read_model
 from .scene_text import scene_text
 from .stage import Stage, chosen_stage
@@ -46,7 +46,7 @@ def imported_scene(
     reading = Reading()
     # A call that says all that a load case is asked for needs none.
     if load_case is None and None not in by_call:
-        loaded: Model | None = model
+        loaded: RexsModel | None = model
     else:
         loaded = reading.attempt(lambda: loaded_model(model, load_case))
     try:
@@ -88,7 +88,7 @@ def _check_all_found(reading: Reading, path: Path) -> None:
 
 
 def _load_sections(
-    reading: Reading, model: Model | None, stage: Stage, gears: Sections, by_call: tuple[Value | None, Value | None]
+    reading: Reading, model: RexsModel | None, stage: Stage, gears: Sections, by_call: tuple[Value | None, Value | None]
 ) -> Sections:
     """Torque and speed; ``model``: in its load case, None where that is not known."""
     teeth = gears["gears.pinion"]["teeth"], gears["gears.wheel"]["teeth"]

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from .attributes import every, first
-from .model import Model
+from .model import RexsModel
 from .stage import GearParts, Stage
 from .train import Train
 from .values import Value, ValueProblem, computed, together
@@ -13,7 +13,7 @@ ASSUMED_SPEED = 100.0
 BY_TEETH = " by the ratio of teeth"
 
 
-def loaded_model(model: Model, case: str | None) -> Model:
+def loaded_model(model: RexsModel, case: str | None) -> RexsModel:
     """The model in a load case, or in the only one. Raises ValueProblem, which lists the cases, where it is not clear
     which."""
     listed = ", ".join(model.load_cases)
@@ -26,7 +26,7 @@ def loaded_model(model: Model, case: str | None) -> Model:
     return model.under_load(case or listed) if model.load_cases else model
 
 
-def wheel_torque(model: Model, stage: Stage, ratio: float) -> Value:
+def wheel_torque(model: RexsModel, stage: Stage, ratio: float) -> Value:
     """The torque on the driven gear; ``ratio``: its teeth over those of the driving one. Raises ValueProblem where the
     file gives none."""
     for part, factor in ((stage.wheel, 1.0), (stage.pinion, ratio)):
@@ -45,7 +45,7 @@ def wheel_torque(model: Model, stage: Stage, ratio: float) -> Value:
     )
 
 
-def pinion_speed(model: Model, stage: Stage, ratio: float) -> Value:
+def pinion_speed(model: RexsModel, stage: Stage, ratio: float) -> Value:
     """The speed of the driving gear, against its carrier where it has one; a slow one where the file gives none."""
     for part, factor in ((stage.pinion, 1.0), (stage.wheel, ratio)):
         speeds = every(part, "speed_in_mesh") + ([] if stage.in_planetary else every(part, "speed"))
@@ -76,7 +76,7 @@ def _through(value: Value, stages: tuple[int, ...]) -> Value:
     return replace(value, origin=f"{value.origin} through {named}{BY_TEETH}")
 
 
-def _torque_of_train(model: Model, stage: Stage, part: GearParts) -> Value | None:
+def _torque_of_train(model: RexsModel, stage: Stage, part: GearParts) -> Value | None:
     """What the loads on a gear's side of the stage bring to it, where all of it goes through this mesh; None where it
     may not."""
     shares = None if stage.in_planetary else Train(model).shares(part.gear, stage.stage)

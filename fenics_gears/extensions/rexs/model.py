@@ -120,7 +120,7 @@ class _LoadSpectrum(_Node):
     load_cases: list[_LoadCase] = []
 
 
-class Model(_Node):
+class RexsModel(_Node):
     """A whole file."""
 
     version: Name
@@ -148,7 +148,7 @@ class Model(_Node):
         numbers = dict.fromkeys(each.roles[wanted] for each in self.related(type, **known) if wanted in each.roles)
         return [self.components[number] for number in numbers]
 
-    def under_load(self, case: str) -> Model:
+    def under_load(self, case: str) -> RexsModel:
         """The model with what a load case says of its components put before what they say themselves."""
         said = self.load_cases[case]
         loaded = {
@@ -158,11 +158,11 @@ class Model(_Node):
         return self.model_copy(update={"components": loaded})
 
 
-def checked_model(tree: Any) -> Model:
+def checked_model(tree: Any) -> RexsModel:
     """The model of a file's tree, as JSON has it. Raises ModelError where it is none: of another shape, with numbers
     that are there twice or lead nowhere, or of a version that is not known."""
     try:
-        model = Model.model_validate(tree)
+        model = RexsModel.model_validate(tree)
     except ValidationError as error:
         raise ModelError(_words(tree, error.errors()[0])) from None
     if not KNOWN_VERSION.fullmatch(model.version):

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 
 from fenics_gears import SceneError, user_file
 
-from .model import Model, ModelError, checked_model
+from .model import ModelError, RexsModel, checked_model
 
 # Bytes: models of whole gearboxes have some hundred kilobytes, with results some megabytes.
 LARGEST = 200 * user_file.MEGABYTE
@@ -20,7 +20,7 @@ ENDINGS = (".rexs", ".rexsj", ".rexs.xml", ".rexs.json")
 PACKED = ".rexsz"
 
 
-def read_model(path: Path) -> Model:
+def read_model(path: Path) -> RexsModel:
     """The model of a file ``.rexs`` (XML), ``.rexsj`` (JSON) or ``.rexsz`` (either, in a ZIP archive).
 
     Raises SceneError where it cannot be read or is none.
@@ -38,7 +38,7 @@ def read_model(path: Path) -> Model:
         raise SceneError(f"{path}: {problem}.\nNothing was written.") from None
 
 
-def _model(content: bytes) -> Model:
+def _model(content: bytes) -> RexsModel:
     if len(content) > LARGEST:
         raise ModelError(f"has more than {LARGEST // 1_000_000} MB, which is not read")
     start = _start(content)

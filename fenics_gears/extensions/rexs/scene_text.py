@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 
 from fenics_gears import toml_value
 
-from .model import Model
+from .model import RexsModel
 from .stage import Stage
 from .values import Value
 
@@ -14,7 +14,7 @@ COLUMN = 44
 
 def scene_text(
     file: str,
-    model: Model,
+    model: RexsModel,
     stage: Stage,
     sections: Mapping[str, Mapping[str, Value]],
     notes: Mapping[str, Iterable[str]],
@@ -27,7 +27,7 @@ def scene_text(
     return text
 
 
-def _head(file: str, model: Model, stage: Stage, notes: Mapping[str, Iterable[str]]) -> str:
+def _head(file: str, model: RexsModel, stage: Stage, notes: Mapping[str, Iterable[str]]) -> str:
     program = f"{model.applicationId} {model.applicationVersion}".strip() or "by a program not named"
     lines = [
         f"Made by gears import from {file} (REXS {model.version}, {program}, {model.date or 'without a date'}).",

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from .model import Component, Model, Relation
+from .model import Component, Relation, RexsModel
 from .train import Train
 from .values import COUNT, Value, ValueProblem, value_of, word_of
 
@@ -94,7 +94,7 @@ class Stage:
         return {"pinion": self.pinion, "wheel": self.wheel}
 
 
-def chosen_stage(model: Model, wanted: int | None) -> Stage:
+def chosen_stage(model: RexsModel, wanted: int | None) -> Stage:
     """The stage with the wanted number, or the only one. Raises ValueProblem, which lists the stages, where it is not
     clear which."""
     relations = {
@@ -115,7 +115,7 @@ def chosen_stage(model: Model, wanted: int | None) -> Stage:
     return _stage(model, relations[number])
 
 
-def _no_stage(model: Model) -> str:
+def _no_stage(model: RexsModel) -> str:
     numbers = {each.roles["stage"] for each in model.related("stage") if "stage" in each.roles}
     others = sorted({model.components[number].type for number in numbers})
     besides = f" Its stages are: {', '.join(others)}." if others else ""
@@ -123,7 +123,7 @@ def _no_stage(model: Model) -> str:
     return f"has no pair of cylindrical gears: {needed}.{besides}"
 
 
-def _described(model: Model, relation: Relation) -> str:
+def _described(model: RexsModel, relation: Relation) -> str:
     gears = [model.components[relation.roles[role]] for role in ("gear_1", "gear_2")]
     named = model.components[relation.roles["stage"]].name
     return f"{named + ': ' if named else ''}{' and '.join(map(_with_teeth, gears))}"
@@ -135,7 +135,7 @@ def _with_teeth(gear: Component) -> str:
     return f"{gear.type} {gear.id} ({count} teeth)"
 
 
-def _stage(model: Model, relation: Relation) -> Stage:
+def _stage(model: RexsModel, relation: Relation) -> Stage:
     stage = model.components[relation.roles["stage"]]
     train = Train(model)
     parts = [_parts(model, stage, model.components[relation.roles[role]]) for role in ("gear_1", "gear_2")]
@@ -149,7 +149,7 @@ def _stage(model: Model, relation: Relation) -> Stage:
     return Stage(stage, pinion, wheel, in_planetary)
 
 
-def _parts(model: Model, stage: Component, gear: Component) -> GearParts:
+def _parts(model: RexsModel, stage: Component, gear: Component) -> GearParts:
     roles = next((each.roles for each in model.related("flank", gear=gear)), {})
     flanks = {side: model.components[roles[side]] for side in ("left", "right") if side in roles}
     steps = [step for flank in flanks.values() for step in model.related("manufacturing_step", workpiece=flank)]

@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .model import Component, Model
+from .model import Component, RexsModel
 from .values import COUNT, SPEED, Value, numbers_of, value_of, word_of
 
 # Relations of a joint and the two parts that it joins; the second is that of version 1.0.
@@ -61,7 +61,7 @@ class Share:
 class Train:
     """The train of a model."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: RexsModel) -> None:
         self.model = model
 
     def shares(self, gear: Component, stage: Component) -> list[Share] | None:

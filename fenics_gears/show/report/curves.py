@@ -8,24 +8,24 @@ from ..motion import force_charts, motion_charts
 from ..orders import FORCE, mesh_order_chart, order_spectrum, orders_by_cycle, signals_of, spectrum
 from ..panels import MOST_POINTS
 from ..pressure import has_pressure, largest_pressures, pressure_maps
-from ..run import TOO_FEW, Run
-from .page import Block, Section, Table, Words, sentence
+from ..run import TOO_FEW, ShownRun
+from .page import Block, PageSection, Table, Words, sentence
 
 LISTED_ORDERS = 10
 
 
-def motion(run: Run) -> Section:
+def motion(run: ShownRun) -> PageSection:
     """Curves of all motions; first, which of the result's cycles are seen here and in what follows."""
     section = _section("motion", "Transmission error and motion", run, motion_charts)
     return replace(section, blocks=[*_cycles_shown(run), *section.blocks]) if run.has_curves else section
 
 
-def forces(run: Run) -> Section:
+def forces(run: ShownRun) -> PageSection:
     """Curves of all forces that the result has."""
     return _section("forces", "Forces", run, force_charts)
 
 
-def pressure(run: Run) -> Section:
+def pressure(run: ShownRun) -> PageSection:
     """Largest pressure at every step, and the map of the mesh cycles shown."""
     section = _section("pressure", "Contact pressure", run, lambda run: [*largest_pressures(run), *pressure_maps(run)])
     if has_pressure(run) or not run.has_curves:
@@ -36,11 +36,11 @@ def pressure(run: Run) -> Section:
     return replace(section, blocks=[*section.blocks, Words(none)])
 
 
-def _section(name: str, heading: str, run: Run, charts) -> Section:
-    return Section(name, heading, list(charts(run))) if run.has_curves else sentence(name, heading, TOO_FEW, True)
+def _section(name: str, heading: str, run: ShownRun, charts) -> PageSection:
+    return PageSection(name, heading, list(charts(run))) if run.has_curves else sentence(name, heading, TOO_FEW, True)
 
 
-def _cycles_shown(run: Run) -> list[Block]:
+def _cycles_shown(run: ShownRun) -> list[Block]:
     first, last = run.window
     part = (
         f"Charts over time show mesh cycles {first:g} to {last:g}. On screen, a double click shows all cycles, from"
@@ -53,7 +53,7 @@ def _cycles_shown(run: Run) -> list[Block]:
     return [] if run.shows_all else [Words(part + (f" {fewer}" if run.steps > MOST_POINTS else ""))]
 
 
-def spectra(run: Run) -> Section:
+def spectra(run: ShownRun) -> PageSection:
     """Amplitudes over orders, their table, and how they change from cycle to cycle in long records."""
     heading = "Spectra by mesh order"
     run = run.settled
@@ -74,7 +74,7 @@ def spectra(run: Run) -> Section:
     by_turns = order_spectrum(run)
     blocks += [by_turns] if by_turns is not None else []
     table = _table(signals, [each.lines for each in found.values()])
-    return Section("spectra", heading, [*blocks, table, *followed])
+    return PageSection("spectra", heading, [*blocks, table, *followed])
 
 
 def _table(signals: dict, lines: list[OrderLines]) -> Table:

@@ -8,8 +8,8 @@ from fenics_gears.model.description import effect_states
 from fenics_gears.studies.effect_costs.subsets import ALL
 from fenics_gears.studies.effect_costs.table import MILLI
 
-from ..run import NO_SCENE, Run
-from .page import Block, Fold, Picture, Section, Table, Words, sentence
+from ..run import NO_SCENE, ShownRun
+from .page import Block, Fold, PageSection, Picture, Table, Words, sentence
 
 MEASURED_TABLE = "effects.csv"
 MEASURED_PICTURE = "effects.png"
@@ -17,7 +17,7 @@ MEASURED_PICTURE = "effects.png"
 SAME_ANSWER = 1e-3
 
 
-def effects(run: Run) -> Section:
+def effects(run: ShownRun) -> PageSection:
     """Each effect with what the model has by it or without it; below, what was measured."""
     if run.scene is None:
         return sentence("effects", "Effects", NO_SCENE, True)
@@ -28,10 +28,10 @@ def effects(run: Run) -> Section:
         Table(("Section", "The model has"), on, "On", numbers=9),
         Fold(f"Off: {len(off)}", [Table(("Section", "In its place the model has"), off, numbers=9)]),
     ]  # fmt: skip
-    return Section("effects", "Effects on and off", [*tables, *_measured(run)])
+    return PageSection("effects", "Effects on and off", [*tables, *_measured(run)])
 
 
-def _measured(run: Run) -> list[Block]:
+def _measured(run: ShownRun) -> list[Block]:
     """The picture that `gears effects` wrote into the run's directory, where it is of this scene."""
     file = run.file.with_name(MEASURED_TABLE)
     picture = run.file.with_name(MEASURED_PICTURE)
@@ -56,7 +56,7 @@ def _measured(run: Run) -> list[Block]:
     return [drawn, Words(f"Measured on {machine}.")]
 
 
-def _same_scene(run: Run, whole: dict[str, str]) -> bool:
+def _same_scene(run: ShownRun, whole: dict[str, str]) -> bool:
     answer = run.dataset.attrs.get("peak_to_peak_transmission_error", math.nan) * run.micrometres
     measured = float(whole["transmission_error_peak_to_peak_mm"]) * MILLI
     same = not run.complete or math.isclose(measured, answer, rel_tol=SAME_ANSWER, abs_tol=1e-4)

@@ -8,8 +8,8 @@ from fenics_gears.results.contact_variables import transmitted
 
 from ..chart import over_time, span
 from ..panels import DARK, PALETTE, digits, factor, in_unit
-from ..run import TOO_FEW, Run
-from .page import Facts, Section, sentence
+from ..run import TOO_FEW, ShownRun
+from .page import Facts, PageSection, sentence
 
 PARTS = {
     "energy_teeth": "teeth",
@@ -23,16 +23,18 @@ HEADING = "Energy account"
 UNIT = "N m"
 
 
-def energy(run: Run) -> Section:
+def energy(run: ShownRun) -> PageSection:
     """The account over the settled cycles as numbers and curves."""
     run = run.settled
     if "energy" not in run.dataset or not run.has_curves:
         said = TOO_FEW if "energy" in run.dataset else "The result has no energies."
         return sentence("energy", HEADING, said, True)
-    return Section("energy", HEADING, [Facts(_rows(run), "Over the settled mesh cycles (1 N m = 1 J)"), *_curves(run)])
+    return PageSection(
+        "energy", HEADING, [Facts(_rows(run), "Over the settled mesh cycles (1 N m = 1 J)"), *_curves(run)]
+    )
 
 
-def _rows(run: Run) -> list[tuple[str, str, str]]:
+def _rows(run: ShownRun) -> list[tuple[str, str, str]]:
     last = {
         name: float(np.subtract(*in_unit(run.dataset[name], UNIT)[[-1, 0]]))
         for name in (*TAKEN, "work_contact_changes") if name in run.dataset
@@ -64,7 +66,7 @@ def _since_first(work) -> np.ndarray:
     return values - values[:1]
 
 
-def _curves(run: Run) -> list:
+def _curves(run: ShownRun) -> list:
     dataset = run.dataset
 
     def stored(names: dict[str, str], values) -> list[tuple[str, np.ndarray, str]]:

@@ -1,8 +1,8 @@
 """Contact over the face: pattern and line load, where the flanks are resolved over it."""
 
 from ..over_face import charts_over_face
-from ..run import TOO_FEW, Run
-from .page import Section, Words, sentence
+from ..run import TOO_FEW, ShownRun
+from .page import PageSection, Words, sentence
 
 HEADING = "Contact over the face"
 # The load factors along the face, by their attributes.
@@ -23,7 +23,7 @@ FACTORS = {
 }
 
 
-def face(run: Run) -> Section | None:
+def face(run: ShownRun) -> PageSection | None:
     """Charts of the stored contact fields, or why there are none; no section of a plane run."""
     if not run.over_face:
         return None
@@ -35,4 +35,4 @@ def face(run: Run) -> Section | None:
     if not charts and not said:
         none = "There are none: no contact fields are stored (`[output] contact_fields`), or no flank is loaded."
         return sentence("face", HEADING, none)
-    return Section("face", HEADING, [*charts, *said])
+    return PageSection("face", HEADING, [*charts, *said])

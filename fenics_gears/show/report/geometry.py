@@ -5,8 +5,8 @@ from math import degrees
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.gear_data import GearPairData
 
-from ..run import NO_SCENE, Run
-from .page import Beside, Facts, Section, Table, sentence
+from ..run import NO_SCENE, ShownRun
+from .page import Beside, Facts, PageSection, Table, sentence
 from .pair_drawing import drawings
 
 GEARS = ("pinion", "wheel")
@@ -14,7 +14,7 @@ GEARS = ("pinion", "wheel")
 MEASURED = ("(W_k)", "(M_d)")
 
 
-def geometry(run: Run) -> Section:
+def geometry(run: ShownRun) -> PageSection:
     """What the scene gives of the gears, what follows, and both gears drawn in mesh."""
     if run.pair is None:
         return sentence("geometry", "Geometry", NO_SCENE, True)
@@ -30,10 +30,10 @@ def geometry(run: Run) -> Section:
         for label, value, unit in (*of_pair, *(row for row in rows if not row[0].startswith(GEARS)))
     ]
     tables = Beside([_both(run, rows), Facts(of_pair, "Both gears together")])
-    return Section("geometry", "Geometry of the pair", [*drawings(run.pair, run.on_coast_flanks), tables])
+    return PageSection("geometry", "Geometry of the pair", [*drawings(run.pair, run.on_coast_flanks), tables])
 
 
-def _both(run: Run, rows: list[tuple[str, float, str]]) -> Table:
+def _both(run: ShownRun, rows: list[tuple[str, float, str]]) -> Table:
     given = run.scene.gears
     names = {"teeth": "", "tip_diameter": "mm", "root_diameter": "mm", "bore_diameter": "mm"}
     names["rack_tip_radius"] = "modules"

@@ -6,8 +6,8 @@ from fenics_gears.geometry.characteristics import contact_by_fewest
 from fenics_gears.results.summary import result_rows
 
 from ..panels import digits
-from ..run import Run
-from .page import Beside, Facts, Section, Table, Words
+from ..run import ShownRun
+from .page import Beside, Facts, PageSection, Table, Words
 
 # What the summary that `gears run` prints leaves out.
 MORE = {
@@ -19,7 +19,7 @@ MORE = {
 }
 
 
-def numbers(run: Run) -> Section:
+def numbers(run: ShownRun) -> PageSection:
     """The summary that `gears run` prints, and more; beside it the path of contact where the result has it."""
     attributes = run.dataset.attrs
     rows = result_rows(run.dataset) if run.steps else []
@@ -31,14 +31,14 @@ def numbers(run: Run) -> Section:
     blocks = [Facts(rows, "Of the settled mesh cycles")] if rows else []
     if "specific_sliding" in run.dataset:
         blocks.append(_contact_points(run))
-    return Section("numbers", "Numbers", [Beside(blocks)] if blocks else [Words("The run has none.")])
+    return PageSection("numbers", "Numbers", [Beside(blocks)] if blocks else [Words("The run has none.")])
 
 
 def _round_off(name: str, attributes) -> bool:
     return name == "rms_normal_force" and attributes[name] < 1e-9 * attributes.get("largest_pair_force", 0.0)
 
 
-def _contact_points(run: Run) -> Table:
+def _contact_points(run: ShownRun) -> Table:
     dataset = run.dataset
     timed = "sliding_speed" in run.dataset
     speed = ("Sliding speed (m/s)",) if timed else ()

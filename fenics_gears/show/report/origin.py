@@ -7,13 +7,13 @@ from pathlib import Path
 import fenics_gears
 from fenics_gears.studies.machine import versions
 
-from .page import Facts, Listing, Section, Words
+from .page import Facts, Listing, PageSection, Words
 
 # Packages that compute and that draw and write a report.
 PAGE_PACKAGES = ("numpy", "fenics-dolfinx", "petsc4py", "plotly", "matplotlib", "pyvista", "jinja2")
 
 
-def version_section(attributes: dict, file: Path) -> Section:
+def version_section(attributes: dict, file: Path) -> PageSection:
     """Versions of what computed and of what made the page."""
     computed = str(attributes.get("fenics_gears_version", "unknown"))
     written = datetime.datetime.fromtimestamp(file.stat().st_mtime).astimezone()
@@ -26,13 +26,13 @@ def version_section(attributes: dict, file: Path) -> Section:
     if computed != fenics_gears.__version__:
         made = f"The result was computed by version {computed}, this page is made by {fenics_gears.__version__}."
         blocks.append(Words(made, warns=True))
-    return Section("versions", "Versions", blocks)
+    return PageSection("versions", "Versions", blocks)
 
 
-def scene_section(text: str, heading: str = "Scene", name: str = "scene", remarks: Sequence[str] = ()) -> Section:
+def scene_section(text: str, heading: str = "Scene", name: str = "scene", remarks: Sequence[str] = ()) -> PageSection:
     """A scene's or a study's text, after remarks on it."""
     listing = Listing(text) if text.strip() else Words("The result has no scene's text.", warns=True)
-    return Section(name, heading, [*(Words(each, warns=True) for each in remarks), listing])
+    return PageSection(name, heading, [*(Words(each, warns=True) for each in remarks), listing])
 
 
 def made_by() -> str:

@@ -6,30 +6,30 @@ from collections.abc import Iterator
 from fenics_gears.results.contact_variables import largest_normal_force
 
 from ..panels import digits, factor
-from ..run import Run, load_in_words
-from .page import Section, Tile, Tiles, Words, sentence
+from ..run import ShownRun, load_in_words
+from .page import PageSection, Tile, Tiles, Words, sentence
 
 
-def summary(run: Run) -> Section:
+def summary(run: ShownRun) -> PageSection:
     """The key numbers as tiles, the others below."""
     if not run.steps:
         said = "No step is stored: the run ended before its recorded mesh cycles began."
         return sentence("summary", "Summary", said, True)
-    return Section("summary", "Summary", [Tiles([*_tiles(run), *_conditions(run)])])
+    return PageSection("summary", "Summary", [Tiles([*_tiles(run), *_conditions(run)])])
 
 
-def warnings(run: Run) -> Section:
+def warnings(run: ShownRun) -> PageSection:
     """The warnings of the run."""
     said = str(run.dataset.attrs.get("warnings", "")).splitlines()
     blocks = [Words(_sentence(each), warns=True) for each in said]
-    return Section("warnings", "Warnings", blocks or [Words("None: the run stayed within what the model assumes.")])
+    return PageSection("warnings", "Warnings", blocks or [Words("None: the run stayed within what the model assumes.")])
 
 
 def _sentence(words: str) -> str:
     return words[:1].upper() + words[1:] + ("" if words.endswith(".") else ".")
 
 
-def _tiles(run: Run) -> Iterator[Tile]:
+def _tiles(run: ShownRun) -> Iterator[Tile]:
     attributes = run.dataset.attrs
     dataset = run.dataset
     part = "" if run.complete else " of what is stored"
@@ -77,12 +77,12 @@ def _tiles(run: Run) -> Iterator[Tile]:
         yield Tile(label, *counted(attributes["contact_loss_count"], "time").split(), note)
 
 
-def _longest(run: Run) -> str:
+def _longest(run: ShownRun) -> str:
     timed = run.scene is not None and run.scene.motion.speed_given and "contact_loss_longest" in run.dataset.attrs
     return f", for up to {run.dataset.attrs['contact_loss_longest']:.3g} s" if timed else ""
 
 
-def _conditions(run: Run) -> Iterator[Tile]:
+def _conditions(run: ShownRun) -> Iterator[Tile]:
     if run.scene is None:
         return
     gears = run.scene.gears

@@ -106,7 +106,7 @@ Block = Words | Tiles | Table | Facts | Chart | Picture | Listing | Fold | Besid
 
 
 @dataclass(frozen=True)
-class Section:
+class PageSection:
     """A heading, its name in links, and the blocks under it."""
 
     name: str
@@ -114,9 +114,9 @@ class Section:
     blocks: Sequence[Block]
 
 
-def sentence(name: str, heading: str, text: str, warns: bool = False) -> Section:
+def sentence(name: str, heading: str, text: str, warns: bool = False) -> PageSection:
     """A section that has nothing but a sentence."""
-    return Section(name, heading, [Words(text, warns)])
+    return PageSection(name, heading, [Words(text, warns)])
 
 
 @dataclass(frozen=True)
@@ -127,6 +127,6 @@ class Page:
     subject: str
     title: str
     subtitle: str
-    sections: Sequence[Section]
+    sections: Sequence[PageSection]
     origin: str = ""
     alarm: str = ""

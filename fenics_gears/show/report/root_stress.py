@@ -6,23 +6,23 @@ from fenics_gears.results.pairs import contact_times
 
 from ..chart import MARKED_LINES, Chart, Curve, over_time, span
 from ..panels import PALETTE, factor, in_unit
-from ..run import TOO_FEW, Run
-from .page import Section, sentence
+from ..run import TOO_FEW, ShownRun
+from .page import PageSection, sentence
 
 HEADING = "Root stress"
 
 
-def root_stress(run: Run) -> Section:
+def root_stress(run: ShownRun) -> PageSection:
     """Curves and numbers of the fillets' stress; a line on how to have it where it is not there."""
     if "root_stress_maximum" not in run.dataset:
         said = "Over time it was not recorded; `[output] root_stress = true` in the scene records it."
         return sentence("root-stress", HEADING, said)
     if not run.has_curves:
         return sentence("root-stress", HEADING, TOO_FEW, True)
-    return Section("root-stress", HEADING, [*_over_time(run), *_along_fillets(run)])
+    return PageSection("root-stress", HEADING, [*_over_time(run), *_along_fillets(run)])
 
 
-def _over_time(run: Run) -> list[Chart]:
+def _over_time(run: ShownRun) -> list[Chart]:
     largest = run.dataset["root_stress_maximum"].transpose("time", "gear", "slot")
     values = in_unit(largest, "MPa")
     gears = [str(gear) for gear in run.dataset["gear"].values]
@@ -52,7 +52,7 @@ def _over_time(run: Run) -> list[Chart]:
     return plots
 
 
-def _along_fillets(run: Run) -> list[Chart]:
+def _along_fillets(run: ShownRun) -> list[Chart]:
     """Stress along the fillet of the tooth that has the largest tension, at the time it has it."""
     plots = []
     if "root_stress" not in run.dataset:
@@ -92,7 +92,7 @@ def _along_fillets(run: Run) -> list[Chart]:
     return plots
 
 
-def _over_face(run: Run, gear: str, largest: np.ndarray) -> Chart:
+def _over_face(run: ShownRun, gear: str, largest: np.ndarray) -> Chart:
     """Largest tension in the roots of a tooth over the slices of the face (S,), at the time it is largest."""
     z = run.dataset["face_position"].values
     curve = Curve(gear, z, largest, PALETTE[0], mode=MARKED_LINES)

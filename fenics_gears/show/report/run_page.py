@@ -6,7 +6,7 @@ from fenics_gears.results.carried_scene import changed_files
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.system.progress import Progress, SilentProgress
 
-from ..run import Run, conditions
+from ..run import ShownRun, conditions
 from .curves import forces, motion, pressure, spectra
 from .effects import effects
 from .energy import energy
@@ -15,23 +15,23 @@ from .geometry import geometry
 from .numbers import numbers
 from .origin import made_by, scene_section, version_section
 from .overview import summary, warnings
-from .page import Page, Section
+from .page import Page, PageSection
 from .root_stress import root_stress
 from .solver import solver
 from .stress import stress
 
 # What was computed comes first, as in any report; of the results pictures come before tables.
-SECTIONS: tuple[Callable[[Run], Section | None], ...] = (
+SECTIONS: tuple[Callable[[ShownRun], PageSection | None], ...] = (
     summary, warnings, geometry, motion, forces, pressure, face, stress, root_stress, spectra, numbers, effects, energy,
     solver,
 )  # fmt: skip
 
 
-def run_page(run: Run, progress: Progress | None = None) -> Page:
+def run_page(run: ShownRun, progress: Progress | None = None) -> Page:
     """The page of a run. Raises SceneError where a time is asked for that the run has not stored."""
     progress = progress or SilentProgress()
     progress.stage("sections")
-    sections: list[Section] = []
+    sections: list[PageSection] = []
     for make in progress.counted(SECTIONS, lambda make: make.__name__.replace("_", " ")):
         if (section := make(run)) is not None:
             sections.append(section)
@@ -43,13 +43,13 @@ def run_page(run: Run, progress: Progress | None = None) -> Page:
     return Page("Gear pair: report on a run", run.title or run.file.stem, subtitle, sections, made_by(), _alarm(run))
 
 
-def _alarm(run: Run) -> str:
+def _alarm(run: ShownRun) -> str:
     said = str(run.dataset.attrs.get("warnings", "")).splitlines()
     without_meaning = [f"NO MEANING: {each}." for each in said if NO_MEANING in each]
     return " ".join([*_incomplete(run), *without_meaning])
 
 
-def _incomplete(run: Run) -> list[str]:
+def _incomplete(run: ShownRun) -> list[str]:
     if run.complete:
         return []
     why = {

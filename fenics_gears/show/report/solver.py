@@ -7,14 +7,14 @@ from fenics_gears.results.summary import solver_rows, stage_rows
 
 from ..chart import over_time
 from ..panels import PALETTE
-from ..run import Run
-from .page import Beside, Block, Facts, Section, Table, Words
+from ..run import ShownRun
+from .page import Beside, Block, Facts, PageSection, Table, Words
 
 # What `gears check` says of a scene that is not said elsewhere on the page.
 DESCRIBED = ("Model", "Accuracy", "Natural frequencies")
 
 
-def solver(run: Run) -> Section:
+def solver(run: ShownRun) -> PageSection:
     """Settings and statistics."""
     blocks: list[Block] = [_described(run)]
     attributes = run.dataset.attrs
@@ -36,10 +36,10 @@ def solver(run: Run) -> Section:
         for (name, (caption, y_title)), colour in zip(counts.items(), (PALETTE[0], PALETTE[2])):
             curves = [(y_title, run.dataset[name].values.astype(float), colour)]
             blocks.append(over_time(run, caption, y_title, curves, least=2.0, height=240))
-    return Section("solver", "Model and solver", blocks)
+    return PageSection("solver", "Model and solver", blocks)
 
 
-def _extent(run: Run) -> list[tuple[str, str, str]]:
+def _extent(run: ShownRun) -> list[tuple[str, str, str]]:
     if not run.steps:
         return []
     timed = run.scene is None or run.scene.motion.speed_given
@@ -47,7 +47,7 @@ def _extent(run: Run) -> list[tuple[str, str, str]]:
     return [("stored", f"mesh cycles {run.phase[0]:.4g} to {run.phase[-1]:.4g}{seconds}, {run.steps:,} steps", "")]
 
 
-def _described(run: Run) -> Block:
+def _described(run: ShownRun) -> Block:
     """Model, accuracy and natural frequencies; why not, where files of the scene are missing."""
     try:
         sections = () if run.scene is None else describe(run.scene)

@@ -8,13 +8,13 @@ from fenics_gears.results.pairs import contact_times
 from fenics_gears.simulation.stored_forces import stored_index
 
 from ..chart import Chart
-from ..run import NO_SCENE, Run
-from .page import Picture, Section, sentence
+from ..run import NO_SCENE, ShownRun
+from .page import PageSection, Picture, sentence
 
 HEADING = "Stress in the gears"
 
 
-def stress(run: Run) -> Section:
+def stress(run: ShownRun) -> PageSection:
     """The stress picture where the mesh force is largest, or at the time asked for; or why there is none."""
     if why := _why_not(run):
         return sentence("stress", HEADING, *why)
@@ -28,10 +28,10 @@ def stress(run: Run) -> Section:
     since = float(dataset["mesh_phase"].values[index] - dataset["mesh_phase"].values[0])
     others = "`gears picture RUN --at PHASE` draws other times, `--animate` a turn."
     note = f"{since:.4g} mesh cycles after the first step with contact fields, {when}; {others}"
-    return Section("stress", HEADING, [Picture(f"{shown} of both gears in mesh", content, note), *charts])
+    return PageSection("stress", HEADING, [Picture(f"{shown} of both gears in mesh", content, note), *charts])
 
 
-def _why_not(run: Run) -> tuple[str, bool] | None:
+def _why_not(run: ShownRun) -> tuple[str, bool] | None:
     if not run.stress:
         return "Left out by the option `--no-stress`.", False
     if run.scene is None or not run.steps:
@@ -51,7 +51,7 @@ def _most_loaded(dataset: xr.Dataset) -> int:
     return int(np.argmax(np.max(forces, axis=0)))
 
 
-def _drawn(run: Run, index: int) -> tuple[bytes, str, list[Chart]]:
+def _drawn(run: ShownRun, index: int) -> tuple[bytes, str, list[Chart]]:
     # A page without the picture needs no DOLFINx.
     from .stress_drawn import drawn
 

@@ -5,11 +5,11 @@ import io
 from fenics_gears.simulation.run_stresses import RunStresses
 
 from ..chart import Chart
-from ..run import Run
+from ..run import ShownRun
 from ..stress_picture import charts_of, save_picture, still
 
 
-def drawn(run: Run, index: int) -> tuple[bytes, str, list[Chart]]:
+def drawn(run: ShownRun, index: int) -> tuple[bytes, str, list[Chart]]:
     """PNG of both gears in mesh at a stored time, what it shows in words, and the charts that go with it."""
     with RunStresses(run.dataset, run.scene) as stresses:
         mesh = stresses.at(index)

@@ -14,7 +14,7 @@ from ..panels import PALETTE, digits
 from ..study_charts import effort_charts, result_charts
 from .origin import made_by, scene_section, version_section
 from .overview import counted
-from .page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words, sentence
+from .page import Block, Cell, Facts, Page, PageSection, Table, Tile, Tiles, Words, sentence
 
 # A browser sorts and lays out this many rows at once.
 MOST_ROWS = 2000
@@ -47,7 +47,7 @@ def _alarm(cases: Cases) -> str:
     return f"INCOMPLETE STUDY: of {cases.count} cases {parts}. Run the study again for these." if parts else ""
 
 
-def _summary(cases: Cases) -> Section:
+def _summary(cases: Cases) -> PageSection:
     counts = Counter(cases.states)
     states = ", ".join(f"{counts[state]:,} {words}" for state, words in STATE_WORDS.items() if counts[state])
     tiles = [Tile("Cases", f"{cases.count:,}", "", states)]
@@ -67,10 +67,10 @@ def _summary(cases: Cases) -> Section:
         values = list(dict.fromkeys(field.words(case) for case in range(cases.count)))
         shown = ", ".join(values) if len(values) <= 8 else f"{', '.join(values[:3])}, … {values[-1]}"
         rows.append((field.called, f"{shown} {field.unit}".strip(), ""))
-    return Section("summary", "Summary", [Tiles(tiles), Facts(rows, "Swept fields")])
+    return PageSection("summary", "Summary", [Tiles(tiles), Facts(rows, "Swept fields")])
 
 
-def _failures(cases: Cases) -> Section:
+def _failures(cases: Cases) -> PageSection:
     failed = [case for case, state in enumerate(cases.states) if state == STATES[2]]
     if not failed:
         return sentence("failures", "Failures", "None.")
@@ -81,10 +81,10 @@ def _failures(cases: Cases) -> Section:
     blocks.append(
         Words(f"The files `cases/*.failed.txt` have the scenes of these cases; `gears study` tries them again.{more}")
     )
-    return Section("failures", "Failures", blocks)
+    return PageSection("failures", "Failures", blocks)
 
 
-def _warnings(cases: Cases) -> Section:
+def _warnings(cases: Cases) -> PageSection:
     """Each kind of warning once, with the cases it is said of; numbers in it are those of the first."""
     said: dict[str, list[tuple[int, str]]] = {}
     for case, text in enumerate(cases.texts("warnings")):
@@ -99,15 +99,17 @@ def _warnings(cases: Cases) -> Section:
             of = f"In {len(found)} of {cases.count} cases ({', '.join(listed)})"
         others = " (numbers of the first)" if len({line for _, line in found}) > 1 else ""
         blocks.append(Words(f"{of}: {found[0][1]}{others}", warns=True))
-    return Section("warnings", "Warnings", blocks or [Words("None: every run stayed within what the model assumes.")])
+    return PageSection(
+        "warnings", "Warnings", blocks or [Words("None: every run stayed within what the model assumes.")]
+    )
 
 
-def _results(cases: Cases) -> Section:
+def _results(cases: Cases) -> PageSection:
     charts = list(result_charts(cases).values())
-    return Section("results", "Results over the parameters", charts or [Words(NO_RESULT, warns=True)])
+    return PageSection("results", "Results over the parameters", charts or [Words(NO_RESULT, warns=True)])
 
 
-def _standing_out(cases: Cases) -> Section:
+def _standing_out(cases: Cases) -> PageSection:
     heading, scale, unit = "Cases that stand out", *cases.error_scale
     found = ((case, why, cases.run(case)) for case, why in standing_out(cases).items())
     chosen = [(case, why, run) for case, why, run in found if run is not None and run.sizes.get("time", 0)]
@@ -125,7 +127,7 @@ def _standing_out(cases: Cases) -> Section:
     drawn = Chart("Transmission error", curves, title, f"Transmission error ({unit})", height=360)
     said = Table(("Case", "Values", "Has the", "File"), links, numbers=9)
     command = Words("`gears report DIR/cases/FILE.nc` makes a report on a case; the table of cases then leads to it.")
-    return Section("outstanding", heading, [said, drawn, command])
+    return PageSection("outstanding", heading, [said, drawn, command])
 
 
 def standing_out(cases: Cases) -> dict[int, list[str]]:
@@ -146,7 +148,7 @@ def standing_out(cases: Cases) -> dict[int, list[str]]:
     return found
 
 
-def _table(cases: Cases) -> Section:
+def _table(cases: Cases) -> PageSection:
     measures = [(values, unit) for values, unit, _ in cases.measures.values()]
     measures.append((cases.numbers("wall_time"), "s"))
     names = ("T_EPP", "Mean error", "Largest force", "Wall time")
@@ -177,10 +179,10 @@ def _table(cases: Cases) -> Section:
         fewer = f"The first {MOST_ROWS:,} of {cases.count:,} cases; the file {cases.file.name} has all."
         blocks.append(Words(fewer, warns=True))
     blocks.append(Table(headings, rows, sortable=True, numbers=len(cases.fields) + 2))
-    return Section("cases", "Table of cases", blocks)
+    return PageSection("cases", "Table of cases", blocks)
 
 
-def _effort(cases: Cases) -> Section:
+def _effort(cases: Cases) -> PageSection:
     times = cases.numbers("wall_time")
     iterations = cases.numbers("newton_iterations")
     if not np.isfinite(times).any():
@@ -193,4 +195,4 @@ def _effort(cases: Cases) -> Section:
         ("Newton iterations of all cases", f"{np.nansum(iterations):,.0f}", ""),
         ("steps per mesh cycle", f"{known.min():.0f}" + (f" to {known.max():.0f}" if np.ptp(known) else ""), ""),
     ]  # fmt: skip
-    return Section("effort", "Solver and effort", [Facts(rows), *effort_charts(cases)])
+    return PageSection("effort", "Solver and effort", [Facts(rows), *effort_charts(cases)])

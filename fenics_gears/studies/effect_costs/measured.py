@@ -29,7 +29,7 @@ MOST_BYTES = 1e9
 
 
 @dataclass(frozen=True)
-class Row:
+class MeasuredRow:
     """Costs and results of one subset.
 
     `contact_rows`: of the contact operator, on the average over the mesh cycle; `step_times` (rounds,), s. `condense`:
@@ -72,7 +72,7 @@ class EffectReport:
     """All rows of a scene, what was left out and why, and the machine."""
 
     scene: Scene
-    rows: tuple[Row, ...]
+    rows: tuple[MeasuredRow, ...]
     skipped: tuple[Skipped, ...]
     machine: dict[str, str]
 
@@ -81,7 +81,7 @@ class EffectReport:
         """The numbers that a report tells beside the others where runs have a load over their face."""
         return () if all(isnan(row.face_load_factor) for row in self.rows) else ("face_load_factor", "peak_pressure")
 
-    def row(self, kind: str, effect: str = "") -> Row | None:
+    def row(self, kind: str, effect: str = "") -> MeasuredRow | None:
         return next((each for each in self.rows if (each.subset.kind, each.subset.effect) == (kind, effect)), None)
 
     @property
@@ -93,7 +93,7 @@ class EffectReport:
             return ()
         return tuple(large / small for small, large in zip(bare.step_times, full.step_times))
 
-    def reference(self, row: Row) -> Row | None:
+    def reference(self, row: MeasuredRow) -> MeasuredRow | None:
         """What a row is compared with: the bare scene for an effect alone, the full one for an effect left out; else
         None."""
         return {ALONE: self.row(BARE), LEFT_OUT: self.row(ALL)}.get(row.subset.kind)
@@ -186,9 +186,9 @@ class Bench:
         timed = self._run(self._shorter, self.cycle if self.cycle is not None else self._build()[1])
         self._step_times.append(timed.attrs["time_march"] / timed.attrs["steps"])
 
-    def row(self) -> Row:
+    def row(self) -> MeasuredRow:
         run = self._whole
-        return Row(
+        return MeasuredRow(
             subset=self.subset,
             coordinates=len(self._model.drivetrain.coordinates),
             contact_rows=self._contact_rows,

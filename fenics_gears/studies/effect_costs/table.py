@@ -7,7 +7,7 @@ from pathlib import Path
 
 from fenics_gears.studies.machine import write_lines
 
-from .measured import EffectReport, Row
+from .measured import EffectReport, MeasuredRow
 from .subsets import ALL, BARE
 
 MICRO = 1e6
@@ -36,7 +36,7 @@ def table_rows(report: EffectReport) -> list[tuple[str, ...]]:
     return [_cells(report, row, numbers) for row in report.rows]
 
 
-def _cells(report: EffectReport, row: Row, numbers: dict[str, int]) -> tuple[str, ...]:
+def _cells(report: EffectReport, row: MeasuredRow, numbers: dict[str, int]) -> tuple[str, ...]:
     return (
         row.subset.name,
         f"{row.coordinates} + {row.contact_rows:.1f}",
@@ -52,14 +52,14 @@ def _cells(report: EffectReport, row: Row, numbers: dict[str, int]) -> tuple[str
     )
 
 
-def _with_change(value: float, report: EffectReport, row: Row, name: str, digits: int) -> str:
+def _with_change(value: float, report: EffectReport, row: MeasuredRow, name: str, digits: int) -> str:
     if isnan(value):
         return "none"
     changed = change(report, row, name)
     return f"{value:.{digits}f}" + ("" if changed is None else f" ({in_percent(changed)})")
 
 
-def change(report: EffectReport, row: Row, name: str) -> float | None:
+def change(report: EffectReport, row: MeasuredRow, name: str) -> float | None:
     """Relative change of a number of the rows, such as "transmission_error", against what the row is compared with;
     None without that."""
     reference = report.reference(row)
@@ -81,7 +81,7 @@ def remarks(report: EffectReport) -> list[str]:
     return [same[0] if len(set(same)) == 1 else same[0] + NUMBERS_OF_ONE for same in said.values()]
 
 
-def own_remarks(report: EffectReport, row: Row) -> list[str]:
+def own_remarks(report: EffectReport, row: MeasuredRow) -> list[str]:
     full = report.row(ALL)
     said = {_words(remark) for remark in full.remarks} if full is not None else set()
     return [remark for remark in row.remarks if _words(remark) not in said]
@@ -126,7 +126,7 @@ def write_csv(report: EffectReport, file: Path) -> None:
     write_lines(file, [*(dict(zip(CSV_COLUMNS, _line(report, row))) for row in report.rows), *skipped], report.machine)
 
 
-def _line(report: EffectReport, row: Row) -> tuple:
+def _line(report: EffectReport, row: MeasuredRow) -> tuple:
     reference = report.reference(row)
     return (
         row.subset.name, " ".join(sorted(row.subset.sections)), row.coordinates, row.contact_rows, row.closed_nodes,

@@ -17,10 +17,10 @@ from fenics_gears.show.panels import thinned
 from fenics_gears.show.report.curves import spectra
 from fenics_gears.show.report.energy import energy
 from fenics_gears.show.report.overview import summary
-from fenics_gears.show.report.page import Page, Section
+from fenics_gears.show.report.page import Page, PageSection
 from fenics_gears.show.report.pair_drawing import _on_line, gear_outline
 from fenics_gears.show.report.rendering import plotly_library, rendered
-from fenics_gears.show.run import Run
+from fenics_gears.show.run import ShownRun
 
 
 @given(st.lists(st.floats(-1e6, 1e6) | st.just(float("nan")), min_size=1, max_size=400), st.sampled_from([10, 40]))
@@ -48,13 +48,13 @@ def ramp_of(paper_scene, cycles):
 def test_a_ramp_points_to_orders_cycle_by_cycle_only_where_they_are_drawn(paper_scene, tmp_path):
     """From eight stored mesh cycles on."""
     for cycles in (2.0, 9.0):
-        section = spectra(Run(ramp_of(paper_scene, cycles), tmp_path / "run.nc"))
+        section = spectra(ShownRun(ramp_of(paper_scene, cycles), tmp_path / "run.nc"))
         drawn = [block.caption for block in section.blocks if "cycle by cycle" in getattr(block, "caption", "")]
         assert ("See the orders cycle by cycle." in section.blocks[0].text) == bool(drawn) == (cycles > 8.0)
 
 
 def tiles_of(dataset, tmp_path):
-    (tiles,) = summary(Run(dataset, tmp_path / "run.nc")).blocks
+    (tiles,) = summary(ShownRun(dataset, tmp_path / "run.nc")).blocks
     return {tile.label: tile for tile in tiles.tiles}
 
 
@@ -62,8 +62,8 @@ def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal
     """Statics: F_bn = T_2/(r_b2 cos(beta_b)), of a helical pair too."""
     for scene, helix in ((paper_scene.text, 0.0), (wide_pair().text, 15.0)):
         run = made_up_run(scene=scene)
-        pair = Run(run).pair
-        run["normal_force"] = 0.0 * run["normal_force"] + Run(run).scene.load.wheel_torque / (
+        pair = ShownRun(run).pair
+        run["normal_force"] = 0.0 * run["normal_force"] + ShownRun(run).scene.load.wheel_torque / (
             pair.wheel.base_radius * cos(asin(sin(radians(helix)) * cos(radians(20.0))))
         )
         assert tiles_of(run, tmp_path)["Largest mesh force"].note.startswith("1.000 times")
@@ -84,7 +84,7 @@ def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp
         dataset[name] = ("time", np.linspace(0.0, 1e3 * last, dataset.sizes["time"]), {"units": "N mm"})
 
     def rows():
-        facts = energy(Run(dataset, tmp_path / "run.nc")).blocks[0]
+        facts = energy(ShownRun(dataset, tmp_path / "run.nc")).blocks[0]
         return {label: f"{value} {unit}" for label, value, unit in facts.rows}
 
     wheel = rows()
@@ -123,7 +123,7 @@ def densely(points):
 
 def test_pairs_of_a_long_run_have_curves_where_they_are_seen():
     """What the curves show together is the mesh's force."""
-    run = Run(made_up_run(steps=401, cycles=20.0))
+    run = ShownRun(made_up_run(steps=401, cycles=20.0))
     curves = run.of_pairs("pair_normal_force", "N")
     assert 4 <= len(curves) <= 7 and len({number for *_, number in curves}) == len(curves)
     total = np.nansum([values for _, values, _ in curves], axis=0)
@@ -134,7 +134,7 @@ def test_pairs_of_a_long_run_have_curves_where_they_are_seen():
 def test_without_plotly_charts_stay_images_and_the_page_says_what_to_install(monkeypatch):
     """The extra of pyproject.toml."""
     chart = Chart("A line", [Curve("one", np.arange(2.0), np.arange(2.0))], "x", "y")
-    page = Page("Report", "A title", "", [Section("charts", "Charts", [chart])])
+    page = Page("Report", "A title", "", [PageSection("charts", "Charts", [chart])])
     assert 'id="library"' in rendered(page) and "[report]" not in rendered(page)
     plotly_library.cache_clear()
     monkeypatch.setitem(sys.modules, "plotly.offline", None)
