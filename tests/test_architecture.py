@@ -82,5 +82,5 @@ def test_a_run_loads_what_its_scene_and_its_call_name(loaded):
     assert not [name for name in loaded if re.search("spring|stiffness_table|corner|flank_gaps", name)]
     effects = {name.removeprefix("effects.") for name in loaded if name.startswith("effects.")}
     # Fields of [bearings] are declared in two modules.
-    assert effects == {"effect", "rolling_bearings", *EFFECTS}
+    assert effects == {"effect", *EFFECTS}
     assert 90 < len([name for name in loaded if not name.startswith("elasticity")]) <= MOST_MODULES

@@ -62,6 +62,9 @@ def test_a_housing_that_hardly_gives_way_is_a_rigid_one(tmp_path, shafts):
     for name in ("transmission_error", "tilt_y", "bearing_force_x", "bearing_moment_y", "shaft_deflection_x"):
         values = wanted[name].values
         assert np.nanmax(np.abs(found[name].values - values)) <= 2e-5 * np.nanmax(np.abs(values))
+    for name in {"largest_bearing_force", "largest_rolling_element_force"} & {*wanted.attrs}:
+        assert found.attrs[name] == pytest.approx(wanted.attrs[name], rel=1e-4)
+    assert "largest_bearing_force" in found.attrs
 
 
 def test_shafts_that_vibrate_in_one_housing_keep_the_balance_of_energy(tmp_path):
