@@ -19,7 +19,6 @@ from fenics_gears.geometry.pair import GearPair
 from .damping import Damping
 from .drivetrain import SIDE, Drivetrain, forces_of_torque, gear_of, kind_of
 from .inertia import Inertia
-from .modal_damping import modal_damping
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
@@ -202,6 +201,8 @@ def _damping(supports: Supports, undamped: Drivetrain, mesh_stiffness: float, sc
     if damping is None:
         return found if np.any(found) else None
     if damping.modal:
+        from .modal_damping import modal_damping
+
         return found + modal_damping(undamped, mesh_stiffness, damping.modal)
     # A row and its column have the same factors, but for springs of a housing that joins both sides of the mesh.
     factors = np.array([damping.rayleigh(gear_of(name)) for name in undamped.coordinates]).T

@@ -21,8 +21,8 @@ from .rolling_bearing import MOTIONS, reaction
 if TYPE_CHECKING:
     from fenics_gears.contact.step_solver import StepSolution
 
+    from .bearings import RollingBearing
     from .drivetrain import Drivetrain
-    from .rolling_bearing_data import RollingBearing
 
 # Change of motions, in parts of the largest, that ends an iteration, whose error is the square of it; and how often.
 SAME = 1e-9

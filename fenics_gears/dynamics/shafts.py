@@ -2,8 +2,7 @@
 
 from dataclasses import dataclass
 
-from fenics_gears.geometry.gear_data import MATERIALS, Material
-from fenics_gears.geometry.material_fields import material_name, poissons_ratio, youngs_modulus
+from fenics_gears.geometry.gear_data import MATERIALS, Material, material_name, poissons_ratio, youngs_modulus
 from fenics_gears.inputs.allowed import Matrix
 from fenics_gears.inputs.fields import choice, declared, file_name, quantity
 from fenics_gears.inputs.section import AllowedTables, Section, own_or_shared
