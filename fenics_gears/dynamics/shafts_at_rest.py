@@ -188,7 +188,7 @@ class ShaftsAtRest:
         """The same per coordinate but for modes."""
         return self.of_given @ self.selected(self.bending_names)
 
-    def beside(self, shaft: ElasticShaft, places: np.ndarray, more: Sequence[str]) -> np.ndarray:
+    def shaft_motions(self, shaft: ElasticShaft, places: np.ndarray, more: Sequence[str]) -> np.ndarray:
         """Motions (p, 5, h) of places beside a shaft's face per motion of `ends` and of `more`."""
         chains = [each.chain_with(places) if each is shaft else each.chain for each in self.shafts]
         held = self.assembled(chains).held((*self.ends_of(chains), *more))
@@ -202,7 +202,7 @@ class ShaftsAtRest:
         chains = chains or [shaft.chain for shaft in self.shafts]
         elements: list[Element] = [*self.more]
         for shaft, chain in zip(self.shafts, chains):
-            elements += chain.beside
+            elements += chain.outside
             for number in range(len(shaft.bearings)):
                 elements += self.of_bearing(shaft, chain, number, loaded)
         if self.housing is not None:
