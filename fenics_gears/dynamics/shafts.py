@@ -143,7 +143,7 @@ class Shafts(Section):
     output: Shaft | None = None
     housing: HousingFile | None = _housing(
         "all bearings of both shafts, which it ties together: first those of `[[bearings.pinion]]`, then those of"
-        " `[[bearings.wheel]]`; otherwise as that of a shaft",
+        " `[[bearings.wheel]]`, in the form of that of one shaft",
         "each shaft has its own, if any",
     )
 

@@ -94,11 +94,12 @@ def rules_of_listed_bearings(tree: Tree, both: Tree, listed: Sequence[str]) -> B
 def check_shafts(scene: Any, pair: Any) -> None:
     """Raise SceneError for all that does not fit along the shafts of a scene, or is not held by their bearings."""
     wrong: list[str] = []
-    check_housing(scene.shafts.housing, "shafts.housing", len(scene.bearings.each or ()))
+    of_both = len(scene.bearings.each or ())
+    check_housing(scene.shafts.housing, "shafts.housing", of_both)
     for gear, shaft in zip(GEARS, SHAFTS):
         if gear in scene.shafts.sections:
             own = scene.shafts.sections[gear].housing
-            check_housing(own, f"shafts.{shaft}.housing", len(scene.bearings.each_of(gear)))
+            check_housing(own, f"shafts.{shaft}.housing", len(scene.bearings.each_of(gear)), of_both)
             found = elastic_shaft(scene, pair, gear)
             wrong += [*_sections_are_solid(found, shaft), *_places_are_on_the_shaft(found, shaft)]
             wrong += [*_bearings_brace(found)] if not wrong else []
