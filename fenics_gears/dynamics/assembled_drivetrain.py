@@ -19,8 +19,6 @@ from fenics_gears.geometry.pair import GearPair
 from .damping import Damping
 from .drivetrain import SIDE, Drivetrain, forces_of_torque, gear_of, kind_of
 from .inertia import Inertia
-from .modal_damping import modal_damping
-from .tilting import add_bearings, mesh_over_face
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
@@ -80,6 +78,8 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
         # Turned by the pinion's base pitch, as its own rotation is.
         coupling = coupling / pair.pinion.base_radius / radii
         if pair.slope or not set(names).isdisjoint(FACE_COORDINATES):
+            from .tilting import mesh_over_face
+
             mesh = mesh_over_face(pair, names)
     load = forces_of_torque(names, radii, wheel_torque)
     undamped = Drivetrain(
@@ -100,6 +100,8 @@ def _stiffness(names: tuple[str, ...], supports: Supports) -> tuple[np.ndarray, 
             if (own := supports.bearings.of(*side)) is not None:
                 stiffness[names.index(name), names.index(name)] = own
         if supports.bearings.places is not None:
+            from .tilting import add_bearings
+
             add_bearings(stiffness, names, supports.bearings)
     in_bearings = stiffness.copy()
     for system in supports.systems:
@@ -199,6 +201,8 @@ def _damping(supports: Supports, undamped: Drivetrain, mesh_stiffness: float, sc
     if damping is None:
         return found if np.any(found) else None
     if damping.modal:
+        from .modal_damping import modal_damping
+
         return found + modal_damping(undamped, mesh_stiffness, damping.modal)
     # A row and its column have the same factors, but for springs of a housing that joins both sides of the mesh.
     factors = np.array([damping.rayleigh(gear_of(name)) for name in undamped.coordinates]).T

@@ -5,12 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from fenics_gears.inputs.allowed import AllowedMatrix, Matrix
-from fenics_gears.inputs.fields import declared, quantities, quantity
+from fenics_gears.inputs.fields import choice, declared, number, quantities, quantity, whole_number
 from fenics_gears.inputs.section import AllowedTables, Section, names_in, own_or_shared
 from fenics_gears.inputs.tree import GEARS
 
-from .rolling_bearing_data import RollingBearing
-
+BALLS = "balls"
+ROLLERS = "rollers"
+OF_ROLLERS = ("length",)
+OF_BALLS = ("inner_groove", "outer_groove")
+# Radii of grooves over the ball's diameter to which ISO 281 and ISO/TS 16281 refer.
+INNER_GROOVE = 0.52
+OUTER_GROOVE = 0.53
 MOST_BEARINGS = 20
 
 
@@ -26,6 +31,58 @@ def _places(gear: str):
     return quantities(
         "-10 m to 10 m", "-40 mm", "60 mm", meaning=meaning, otherwise=f"the {gear} does not tilt", count=2
     )
+
+
+def _size(example: str, meaning: str, limits: str = "0.1 mm to 10 m", **otherwise: str):
+    return quantity(limits, example, meaning=meaning, **otherwise)
+
+
+def _groove(meaning: str, otherwise: float):
+    return number(
+        otherwise, above=0.5, highest=1.0, meaning=f"radius of the {meaning} over the ball's diameter",
+        otherwise=f"{otherwise:g}",
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class RollingBearing(Section):
+    """One row of balls or rollers between two rings."""
+
+    number: int = whole_number(3, 500, 9, meaning="how many of them")
+    diameter: float = _size("12.7 mm", "their diameter, of tapered rollers in the middle")
+    pitch_diameter: float = _size("65 mm", "diameter of the circle through their middles")
+    elements: str = choice(BALLS, ROLLERS, meaning="what rolls", default=BALLS)
+    length: float | None = _size("14 mm", "effective length of a roller", otherwise="required of rollers")
+    contact_angle: float = quantity(
+        "-80 deg to 80 deg",
+        "15 deg",
+        meaning="nominal contact angle; positive where the bearing holds the shaft against moving to the right",
+        default="0 deg",
+    )
+    clearance: float = _size(
+        "10 um", "radial clearance in operation, negative for an interference", "-1 mm to 1 mm", default="0 mm"
+    )
+    preload: float = quantity(
+        "0 N to 1e9 N",
+        "200 N",
+        meaning="axial force by which bearings with contact angles brace each other",
+        default="0 N",
+    )
+    inner_groove: float | None = _groove("inner ring's groove", INNER_GROOVE)
+    outer_groove: float | None = _groove("outer ring's groove", OUTER_GROOVE)
+
+    @property
+    def rollers(self) -> bool:
+        return self.elements == ROLLERS
+
+    @property
+    def grooves(self) -> tuple[float, float]:
+        return self.diameter * (self.inner_groove or INNER_GROOVE), self.diameter * (self.outer_groove or OUTER_GROOVE)
+
+    @property
+    def bracing(self) -> float:
+        """Axial force, N, of the shaft on the bearing by its preload: positive towards the right."""
+        return self.preload if self.contact_angle > 0.0 else -self.preload
 
 
 @dataclass(frozen=True)

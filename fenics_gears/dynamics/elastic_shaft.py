@@ -42,12 +42,12 @@ ROUND_OFF = 1e-9
 
 class Chain(NamedTuple):
     """Nodes of a shaft at `places` (n,), mm from its left end, one behind the other: numbers of the nodes at both ends
-    of each of the `faces`, beams `beside` these and `within` them."""
+    of each of the `faces`, beams `outside` these and `inside`."""
 
     places: np.ndarray
     faces: tuple[tuple[int, int], ...]
-    beside: tuple[Beam, ...]
-    within: tuple[Beam, ...]
+    outside: tuple[Beam, ...]
+    inside: tuple[Beam, ...]
 
     def nodes(self, places: Sequence[float]) -> np.ndarray:
         """Numbers (p,) of the nodes at places."""
@@ -105,9 +105,9 @@ class Line:
             weights = np.zeros((len(kinds), 12, 12))
             weights[long] = masses(bent, heavy, ends, self.density / self.material[0])
         found = beams(self.name, range(len(places)), places, light, weights if self.density else ())
-        beside = tuple(each for each, within in zip(found, kinds) if not within)
-        within = tuple(each for each, own in zip(found, kinds) if own)
-        return Chain(places, faces, beside, within)
+        outside = tuple(each for each, own in zip(found, kinds) if not own)
+        inside = tuple(each for each, own in zip(found, kinds) if own)
+        return Chain(places, faces, outside, inside)
 
 
 @dataclass(frozen=True)

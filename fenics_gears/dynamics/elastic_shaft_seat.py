@@ -48,18 +48,18 @@ class BentBySeat(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Seat:
-    """The seat of the gear on a shaft, held at both ends of its face by a stiffness `beside` it (12, 12) over the
+    """The seat of the gear on a shaft, held at both ends of its face by a stiffness of its `supports` (12, 12) over the
     motions of the left and the right end, each as one of the gear's middle."""
 
     shaft: ElasticShaft
-    beside: np.ndarray
+    supports: np.ndarray
 
     @cached_property
     def apart(self) -> np.ndarray:
-        """Motions (12, 6) of both ends per motion of the right one against the left one, under which what is beside the
+        """Motions (12, 6) of both ends per motion of the right one against the left one, under which what holds the
         face feels neither force nor moment in sum."""
         both = np.concatenate([np.eye(SIX)] * 2)
-        summed = both.T @ self.beside
+        summed = both.T @ self.supports
         share = np.linalg.solve(summed @ both, summed[:, SIX:])
         return np.concatenate([-share, np.eye(SIX) - share])
 
@@ -107,7 +107,7 @@ class Seat:
     @property
     def stiffness_apart(self) -> np.ndarray:
         """Of face and all that holds it (6, 6) against the ends' motion apart."""
-        return self.apart.T @ self.beside @ self.apart + self.stiffness_of_face
+        return self.apart.T @ self.supports @ self.apart + self.stiffness_of_face
 
     @property
     def _to_end(self) -> np.ndarray:

@@ -23,7 +23,7 @@ from scipy.special import ellipe, ellipk
 from fenics_gears.errors import SceneError
 
 if TYPE_CHECKING:
-    from .rolling_bearing_data import RollingBearing
+    from .bearings import RollingBearing
 
 MOTIONS = 5
 # Steel on steel, of which rolling bearings are.
@@ -56,7 +56,7 @@ class Reaction(NamedTuple):
 def reaction(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
     """What a bearing that is braced by its preload, if it has one, does about a motion (5,) of the shaft in it.
 
-    >>> from fenics_gears.dynamics.rolling_bearing_data import RollingBearing
+    >>> from fenics_gears.dynamics.bearings import RollingBearing
     >>> bearing = RollingBearing(number=9, diameter=12.7, pitch_diameter=65.0)
     >>> round(float(reaction(bearing, np.array([0.05, 0.0, 0.0, 0.0, 0.0])).loads[0]))  # N at 50 um
     8056

@@ -21,8 +21,8 @@ from .rolling_bearing import MOTIONS, reaction
 if TYPE_CHECKING:
     from fenics_gears.contact.step_solver import StepSolution
 
+    from .bearings import RollingBearing
     from .drivetrain import Drivetrain
-    from .rolling_bearing_data import RollingBearing
 
 # Change of motions, in parts of the largest, that ends an iteration, whose error is the square of it; and how often.
 SAME = 1e-9
@@ -30,6 +30,8 @@ MOST_ITERATIONS = 60
 MOST_HALVINGS = 30
 # Part of the decrease of energy by its slope that a step must bring.
 DECREASE = 1e-4
+# Part of a bearing's largest stiffness that its free motions are given.
+FREE = 1e-9
 
 
 class Departure(NamedTuple):
@@ -112,7 +114,8 @@ class RollingSprings:
         stiffness = np.eye(len(self.reference))
         load = np.zeros(len(self.reference))
         for spring in self.springs:
-            beside = np.diag([0.0, 0.0, spring.axial, 0.0, 0.0])
+            # Motions that the bearing does not hold, as a roller bearing's along the axis, stay where they are.
+            beside = np.diag([0.0, 0.0, spring.axial, 0.0, 0.0]) + FREE * np.abs(spring.secant).max() * np.eye(MOTIONS)
             stiffness[np.ix_(spring.rows, spring.rows)] = spring.secant + beside
             load[spring.rows] = loads[spring.bearing]
         return self.largest_force(self.settled(stiffness, load, self.reference))

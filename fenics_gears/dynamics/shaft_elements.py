@@ -238,18 +238,16 @@ class Held:
         whole = np.block([[self._stiffness[np.ix_(self._free, self._free)], free.T], [free, -flexibility]])
         return csc_matrix(self._scale[:, None] * whole * self._scale)
 
-    @cached_property
-    def _factors(self):
-        return splu(self._matrix)
-
     def _solved(self, right: np.ndarray) -> np.ndarray:
         if not len(self._scale):
             return right
         right = self._scale[:, None] * right
-        found = self._factors.solve(right)
+        # Not kept: factors cannot be sent to another process.
+        factors = splu(self._matrix)
+        found = factors.solve(right)
         # One step of refinement makes each equation right by itself (R. D. Skeel, Mathematics of Computation 35, 1980):
         # that of a soft bearing is not lost beside those of stiff beams.
-        found += self._factors.solve(right - self._matrix @ found)
+        found += factors.solve(right - self._matrix @ found)
         return self._scale[:, None] * found
 
 

@@ -97,7 +97,7 @@ class ShaftSystem(ShaftsAtRest):
         ends = carry @ found.ends.reshape(2 * SIX, -1)
         line = np.zeros((len(places), FIVE, len(heights), SIX))
         line[within] = found.axis[:, :FIVE]
-        beside = self.beside(shaft, places[~within], ()) @ np.eye(len(self.ends))[:, own]
+        beside = self.shaft_motions(shaft, places[~within], ()) @ np.eye(len(self.ends))[:, own]
         line[~within] = (beside @ ends).reshape(-1, *line.shape[1:])
         moved = self.at_rest.motions_of(self.in_bearings)[:, own] @ ends
         loads = self.springs @ moved
@@ -116,7 +116,7 @@ class ShaftSystem(ShaftsAtRest):
             columns = [self.moved.index(name) for name in shaft.of_face]
             inside[:, :, columns] = self.seat(shaft).axis_follows(heights)[:, :FIVE]
         bent[within] = inside
-        bent[~within] = self.beside(shaft, at[~within], self.in_rolling_motions) @ self.bending
+        bent[~within] = self.shaft_motions(shaft, at[~within], self.in_rolling_motions) @ self.bending
         nodes = range(len(shaft.chain.places))
         shapes = self._shapes[self._nodes.numbers(name for node in nodes for name in motions_of(shaft.gear, node))]
         own = [np.interp(at, shaft.chain.places, each) for each in shapes.reshape(len(nodes), -1).T]
@@ -196,7 +196,7 @@ class ShaftSystem(ShaftsAtRest):
     @cached_property
     def _nodes(self) -> Assembly:
         """All beams, also those within the faces."""
-        return Assembly(beam for shaft in self.shafts for beam in (*shaft.chain.beside, *shaft.chain.within))
+        return Assembly(beam for shaft in self.shafts for beam in (*shaft.chain.outside, *shaft.chain.inside))
 
     @cached_property
     def _mass_of_nodes(self) -> np.ndarray:

@@ -2,8 +2,7 @@
 
 from dataclasses import dataclass
 
-from fenics_gears.geometry.gear_data import MATERIALS, Material
-from fenics_gears.geometry.material_fields import material_name, poissons_ratio, youngs_modulus
+from fenics_gears.geometry.gear_data import MATERIALS, Material, material_name, poissons_ratio, youngs_modulus
 from fenics_gears.inputs.allowed import Matrix
 from fenics_gears.inputs.fields import choice, declared, file_name, quantity
 from fenics_gears.inputs.section import AllowedTables, Section, own_or_shared
@@ -144,7 +143,7 @@ class Shafts(Section):
     output: Shaft | None = None
     housing: HousingFile | None = _housing(
         "all bearings of both shafts, which it ties together: first those of `[[bearings.pinion]]`, then those of"
-        " `[[bearings.wheel]]`; otherwise as that of a shaft",
+        " `[[bearings.wheel]]`, in the form of that of one shaft",
         "each shaft has its own, if any",
     )
 

@@ -5,7 +5,7 @@ All follow their gears, their couplings and the motions in their rolling bearing
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg import block_diag
 
-from .elastic_shaft import FIVE, ROUND_OFF, ElasticShaft, in_series
+from .elastic_shaft import FIVE, ROUND_OFF, Chain, ElasticShaft, in_series
 from .elastic_shaft_seat import Seat
 from .shaft_elements import ARM, SIX, STIFFNESS, Assembly, Element, Held, Link, Springs, carried, motions_of
 
@@ -95,21 +95,18 @@ class ShaftsAtRest:
     @cached_property
     def ends(self) -> tuple[str, ...]:
         """Names of the motions of both ends of all faces, and of the turns of couplings."""
-        return self.ends_of(())
+        return self.ends_of([shaft.chain for shaft in self.shafts])
 
-    def ends_of(self, chains) -> tuple[str, ...]:
+    def ends_of(self, chains: Sequence[Chain]) -> tuple[str, ...]:
+        """The same of shafts with such chains."""
         found: list[str] = []
-        for shaft, chain in zip(self.shafts, chains or self.chains):
+        for shaft, chain in zip(self.shafts, chains):
             left, right = shaft.ends(chain)
             found += [*left, *right, *shaft.coupling(chain)]
         return tuple(found)
 
-    @property
-    def chains(self) -> list:
-        return [shaft.chain for shaft in self.shafts]
-
     def face(self, shaft: ElasticShaft) -> tuple[list[int], np.ndarray]:
-        """Numbers (12,) of the motions of both ends of a face among `_ends`, and these motions per motion of either end
+        """Numbers (12,) of the motions of both ends of a face among `ends`, and these motions per motion of either end
         as one of the gear's middle."""
         left, right = shaft.ends(shaft.chain)
         own = [self.ends.index(name) for name in (*left, *right)]
@@ -173,7 +170,7 @@ class ShaftsAtRest:
 
     @cached_property
     def of_given(self) -> np.ndarray:
-        """Motions of `_ends` and in rolling bearings per given one."""
+        """Motions of `ends` and in rolling bearings per given one."""
         found = np.zeros((len(self.held.names), len(self.given)))
         for shaft in self.shafts:
             own, carry = self.face(shaft)
@@ -191,36 +188,41 @@ class ShaftsAtRest:
         """The same per coordinate but for modes."""
         return self.of_given @ self.selected(self.bending_names)
 
-    def beside(self, shaft: ElasticShaft, places: np.ndarray, more: Sequence[str]) -> np.ndarray:
-        """Motions (p, 5, h) of places beside a shaft's face per motion of `_ends` and of `more`."""
+    def shaft_motions(self, shaft: ElasticShaft, places: np.ndarray, more: Sequence[str]) -> np.ndarray:
+        """Motions (p, 5, h) of places beside a shaft's face per motion of `ends` and of `more`."""
         chains = [each.chain_with(places) if each is shaft else each.chain for each in self.shafts]
         held = self.assembled(chains).held((*self.ends_of(chains), *more))
         chain = chains[self.shafts.index(shaft)]
         found = [held.motions_of(shaft.motions_at(chain, place)) for place in places]
         return np.reshape(found, (len(places), FIVE, len(held.names)))
 
-    def assembled(self, chains=None, loaded: bool = True) -> Assembly:
-        """The sum of all elements, of shafts with such `chains`; without rolling bearings where it is not `loaded`."""
+    def assembled(self, chains: Sequence[Chain] = (), loaded: bool = True) -> Assembly:
+        """The sum of all elements, of shafts with such chains, their own unless given; without rolling bearings where
+        it is not `loaded`."""
+        chains = chains or [shaft.chain for shaft in self.shafts]
         elements: list[Element] = [*self.more]
-        matrices = []
-        for shaft, chain in zip(self.shafts, chains or self.chains):
-            elements += chain.beside
-            for number, bearing in enumerate(shaft.bearings):
-                ring = shaft.ring(number)
-                inner = shaft.in_bearing(number)
-                elements.append(Link((*ring, *shaft.at_bearing(chain, number))))
-                rolls = bearing.rolling is not None
-                if rolls and self.housing is None:
-                    at_face = any(abs(bearing.at - end) <= ROUND_OFF for end in shaft.seat_ends)
-                    elements.append(Link((*ring, *inner), LEAST_YIELDING if at_face else 0.0))
-                elif self.housing is None:
-                    elements.append(Springs(ring, np.array(bearing.matrix)))
-                if rolls and loaded:
-                    elements.append(Springs(inner, np.array(bearing.matrix)))
-                matrices.append(RIGID * np.diag(TILTING) if rolls else np.array(bearing.matrix))
+        for shaft, chain in zip(self.shafts, chains):
+            elements += chain.outside
+            for number in range(len(shaft.bearings)):
+                elements += self.of_bearing(shaft, chain, number, loaded)
         if self.housing is not None:
+            rigid = RIGID * np.diag(TILTING)
+            matrices = (rigid if each.rolling is not None else np.array(each.matrix) for each in self.bearings)
             elements.append(self.in_housing(in_series(block_diag(*matrices), np.array(self.housing))))
         return Assembly(elements, self.ends_of(chains))
+
+    def of_bearing(self, shaft: ElasticShaft, chain: Chain, number: int, loaded: bool) -> Iterator[Element]:
+        """The ring of a bearing on its shaft, and what it is on by itself."""
+        bearing = shaft.bearings[number]
+        ring = shaft.ring(number)
+        inner = shaft.in_bearing(number)
+        yield Link((*ring, *shaft.at_bearing(chain, number)))
+        if bearing.rolling is not None and loaded:
+            yield Springs(inner, np.array(bearing.matrix))
+        if self.housing is None:
+            at_face = any(abs(bearing.at - end) <= ROUND_OFF for end in shaft.seat_ends)
+            rolls = Link((*ring, *inner), LEAST_YIELDING if at_face else 0.0)
+            yield Springs(ring, np.array(bearing.matrix)) if bearing.rolling is None else rolls
 
     def in_housing(self, springs: np.ndarray) -> Springs:
         """All bearings on the housing; in those that roll the motion in them is apart."""

@@ -63,8 +63,9 @@ def _matrix_in(text: str) -> Matrix:
     return allowed.convert(rows)
 
 
-def check_housing(housing: HousingFile | None, field: str, bearings: int) -> None:
-    """Raise SceneError where the matrix in a field of the scene cannot be read, or is not of so many seats."""
+def check_housing(housing: HousingFile | None, field: str, bearings: int, of_both: int = 0) -> None:
+    """Raise SceneError where the matrix in a field of the scene cannot be read, or is not of so many seats; `of_both`:
+    how many both shafts have."""
     if housing is None:
         return
     size = OF_A_SEAT * bearings
@@ -72,6 +73,8 @@ def check_housing(housing: HousingFile | None, field: str, bearings: int) -> Non
     rows = len(housing.stiffness or ())
     if not problem and rows != size:
         problem = f"has {rows} rows for {bearings} bearings; allowed are {size}: six motions of each seat"
+        if rows == OF_A_SEAT * of_both:
+            problem += ". A housing that both shafts are seated in is the housing of [shafts]"
     if problem:
         raise SceneError(f"{field} = {as_written(housing.path)}: {problem}")
 

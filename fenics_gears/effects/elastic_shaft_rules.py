@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import pi
 from typing import Any
 
 import numpy as np
 
 from fenics_gears.dynamics.beam import STEEPEST_CONE
-from fenics_gears.dynamics.bearings import Bearing, Stiffnesses
+from fenics_gears.dynamics.bearings import BALLS, OF_BALLS, OF_ROLLERS, ROLLERS, Bearing, RollingBearing, Stiffnesses
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions
-from fenics_gears.dynamics.rolling_bearing_data import wrong_with
 from fenics_gears.dynamics.shaft_at_work import at_work, even_load
 from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.dynamics.shafts import INTEGRAL, RIGID_SEAT
@@ -94,11 +94,12 @@ def rules_of_listed_bearings(tree: Tree, both: Tree, listed: Sequence[str]) -> B
 def check_shafts(scene: Any, pair: Any) -> None:
     """Raise SceneError for all that does not fit along the shafts of a scene, or is not held by their bearings."""
     wrong: list[str] = []
-    check_housing(scene.shafts.housing, "shafts.housing", len(scene.bearings.each or ()))
+    of_both = len(scene.bearings.each or ())
+    check_housing(scene.shafts.housing, "shafts.housing", of_both)
     for gear, shaft in zip(GEARS, SHAFTS):
         if gear in scene.shafts.sections:
             own = scene.shafts.sections[gear].housing
-            check_housing(own, f"shafts.{shaft}.housing", len(scene.bearings.each_of(gear)))
+            check_housing(own, f"shafts.{shaft}.housing", len(scene.bearings.each_of(gear)), of_both)
             found = elastic_shaft(scene, pair, gear)
             wrong += [*_sections_are_solid(found, shaft), *_places_are_on_the_shaft(found, shaft)]
             wrong += [*_bearings_brace(found)] if not wrong else []
@@ -216,7 +217,7 @@ def _stiffness_is_given_once(bearing: Bearing, name: str) -> Iterator[str]:
         if getattr(bearing, whole) is not None and beside:
             yield f"{name} has {beside[0]} beside its {whole}, which is all of its stiffness there; leave one out"
     if bearing.rolling is not None:
-        yield from (f"{name} {said}" for said in wrong_with(bearing.rolling))
+        yield from (f"{name} {said}" for said in _rolling_elements_fit(bearing.rolling))
 
 
 def _bearings_brace(found: ElasticShaft) -> Iterator[str]:
@@ -247,3 +248,21 @@ def _bearings_hold(system: ShaftSystem) -> Iterator[str]:
                 f"bearings.{shaft.gear}: {held} the shaft, which freely {' and '.join(free)}"
                 + (f": {remedy}" if remedy else "")
             )
+
+
+def _rolling_elements_fit(rolling: RollingBearing) -> Iterator[str]:
+    """What does not fit within a rolling bearing, to be read after its name."""
+    for names, without in ((OF_ROLLERS, BALLS), (OF_BALLS, ROLLERS)):
+        found = [name for name in names if getattr(rolling, name) is not None]
+        if rolling.elements == without and found:
+            yield f"has {found[0]}, which {without} do not have; leave it out"
+    if rolling.rollers and rolling.length is None:
+        yield 'has rollers without length; allowed is such as "14 mm"'
+    needed = rolling.number * rolling.diameter / pi
+    if needed > rolling.pitch_diameter:
+        yield (
+            f"has {rolling.number} {rolling.elements} of {rolling.diameter:g} mm, which do not fit on a pitch_diameter"
+            f" of {rolling.pitch_diameter:g} mm; allowed are {needed:.4g} mm and more"
+        )
+    if rolling.preload and not rolling.contact_angle:
+        yield "has a preload without contact_angle; give one, or a negative clearance for an interference"

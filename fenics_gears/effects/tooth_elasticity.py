@@ -4,8 +4,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fenics_gears.geometry.gear_data import MATERIALS, Material
-from fenics_gears.geometry.material_fields import material_name, poissons_ratio, youngs_modulus
+from fenics_gears.geometry.gear_data import MATERIALS, Material, material_name, poissons_ratio, youngs_modulus
 from fenics_gears.inputs.fields import quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section, allowed_in

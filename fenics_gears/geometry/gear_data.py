@@ -3,6 +3,8 @@ rad."""
 
 from dataclasses import dataclass, field
 
+from fenics_gears.inputs.fields import choice, number, quantity
+
 # ISO 53:1998, Annex A, in modules: addendum, dedendum, tip radius of the rack. The same as types A to D of GOST
 # 13755-2015; A is also the rack of DIN 867.
 RACKS = {
@@ -160,3 +162,24 @@ def mean_youngs_modulus(materials: tuple[Material, Material]) -> float:
 def rough_pair_stiffness(materials: tuple[Material, Material], face_width: float) -> float:
     """Stiffness (N/mm) of one tooth pair along the line of action, about 14 N/(mm um) for steel; `face_width` in mm."""
     return PAIR_STIFFNESS * mean_youngs_modulus(materials) * face_width
+
+
+def youngs_modulus(otherwise: str):
+    return quantity("1 kPa to 1e9 GPa", "206 GPa", meaning="Young's modulus", otherwise=otherwise)
+
+
+def poissons_ratio(otherwise: str):
+    return number(0.3, meaning="Poisson's ratio", above=-1, below=0.5, otherwise=otherwise)
+
+
+def material_name(otherwise: str):
+    listed = "; ".join(
+        f"{name} {each.youngs_modulus / 1e3:g} GPa, {each.poissons_ratio:g}"
+        + (f", yield strength {each.yield_strength:g} MPa" if each.yield_strength else "")
+        for name, (each, _) in MATERIALS.items()
+    )
+    return choice(
+        *MATERIALS,
+        meaning=f'material by name, also written `material = "steel"` in the section above: {listed}',
+        otherwise=otherwise,
+    )

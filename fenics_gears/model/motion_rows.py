@@ -62,7 +62,8 @@ def inertia_rows(model: Model) -> Rows:
         along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
     for system, shaft in shafts_of(model):
         modes = sum(name.endswith(f"_{shaft.gear}") for name in system.own_modes)
-        words = f"kg, in addition, with its {modes} lowest modes, up to {shaft.up_to:.4g} Hz"
+        lowest = "lowest mode" if modes == 1 else f"{modes} lowest modes"
+        words = f"kg, in addition, with its {lowest}, up to {shaft.up_to:.4g} Hz"
         rows.append((f"mass of the {shaft.gear}'s shaft", 1e3 * shaft.mass_of_all, words))
     twists = "shaft_twist" in model.drivetrain.coordinates
     if twists or inertia.load is not None:

@@ -5,10 +5,9 @@ import pytest
 from scipy.optimize import root
 from tests.beam_elements import alone
 
-from fenics_gears.dynamics.bearings import Bearing
+from fenics_gears.dynamics.bearings import Bearing, RollingBearing
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft
 from fenics_gears.dynamics.rolling_bearing import reaction, secant_stiffness
-from fenics_gears.dynamics.rolling_bearing_data import RollingBearing
 from fenics_gears.dynamics.shaft_at_work import at_work
 from fenics_gears.dynamics.shafts import ShaftSection
 

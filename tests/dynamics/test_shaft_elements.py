@@ -37,7 +37,7 @@ def test_two_gears_on_one_shaft_bend_it_as_in_closed_form():
     nodes = [motions_of("shaft", number) for number in chain.nodes([0.0, LENGTH])]
     ends = [tuple(motions_of("shaft", node) for node in face) for face in chain.faces]
     elements = [
-        *chain.beside,
+        *chain.outside,
         *(Springs(node[:3], STIFF * np.diag([1.0, 1.0, axial])) for node, axial in zip(nodes, (1.0, 0.0))),
         *(Link((*left, *right)) for left, right in ends),
     ]
@@ -87,7 +87,7 @@ def test_a_beam_has_the_stiffness_of_the_textbooks_element():
     from tests.beam_elements import element
 
     chain = Line("shaft", (ShaftSection(60.0, 30.0, bore=10.0),), STEEL, ()).chain([])
-    (beam,) = chain.beside
+    (beam,) = chain.outside
     assert isinstance(beam, Beam)
     five = [*range(5), *range(6, 11)]
     wanted = element(60.0, *STEEL, 30.0, 10.0, shear(30.0, 10.0))

@@ -25,10 +25,11 @@ def whole(housing):
     return found
 
 
-def scene_in(folder, shafts, matrix, **more):
+def scene_in(folder, shafts, matrix, housed=HOUSED, **more):
     np.savetxt(folder / "housing.txt", matrix, fmt="%.17e")
-    text = helical_scene(shafts, accuracy=FEW, offset=2.0, **more).text
-    return scene_from_text(text.replace(shafts, HOUSED + shafts), directory=folder)
+    plain = shafts.replace('housing = "housing.txt"\n', "")
+    text = helical_scene(plain, accuracy=FEW, offset=2.0, **more).text
+    return scene_from_text(text.replace(plain, housed + shafts), directory=folder)
 
 
 def test_gears_and_rolling_bearings_in_one_housing_are_in_balance(tmp_path):
@@ -62,6 +63,9 @@ def test_a_housing_that_hardly_gives_way_is_a_rigid_one(tmp_path, shafts):
     for name in ("transmission_error", "tilt_y", "bearing_force_x", "bearing_moment_y", "shaft_deflection_x"):
         values = wanted[name].values
         assert np.nanmax(np.abs(found[name].values - values)) <= 2e-5 * np.nanmax(np.abs(values))
+    for name in {"largest_bearing_force", "largest_rolling_element_force"} & {*wanted.attrs}:
+        assert found.attrs[name] == pytest.approx(wanted.attrs[name], rel=1e-4)
+    assert "largest_bearing_force" in found.attrs
 
 
 def test_shafts_that_vibrate_in_one_housing_keep_the_balance_of_energy(tmp_path):
@@ -71,6 +75,14 @@ def test_shafts_that_vibrate_in_one_housing_keep_the_balance_of_energy(tmp_path)
     result = run_of(model, on_stand_in_bodies(model)).result
     assert np.abs(result["energy_defect"].values).max() <= 1e-10 * result["energy"].values.max()
     assert {name.rpartition("_")[2] for name in model.drivetrain.systems[0].own_modes} == {"pinion", "wheel"}
+
+
+def test_a_housing_of_both_shafts_that_is_given_to_one_is_told_where_it_belongs(tmp_path):
+    """What to do."""
+    of_input = ELASTIC.replace("torque_at", 'housing = "housing.txt"\ntorque_at', 1)
+    scene = scene_in(tmp_path, of_input, np.diag(np.where(TURNING, 0.0, 1e6)), housed="")
+    with pytest.raises(SceneError, match=r"24 rows for 2 bearings; allowed are 12.* is the housing of \[shafts\]"):
+        model_of(scene)
 
 
 @pytest.mark.parametrize(
