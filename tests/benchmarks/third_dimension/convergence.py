@@ -30,22 +30,23 @@ NAME = "convergence"
 OLD = {0: ((16, 8), (24, 12), (36, 12)), 9: ((10, 5), (14, 7), (20, 10), (28, 14), (42, 21))}
 NEW = {0: ((10, 4), (19, 8), (38, 12), (76, 12)), 9: ((8, 4), (12, 5), (16, 7), (24, 7), (32, 7))}
 
+SECONDS = (10, 20, 50, 100)
+
 
 def measure(old: Path | None = None) -> list[Row]:
     """What the file does not have yet, by this checkout and, where it is given, by the old one."""
     rows = read_rows(NAME) if (PICTURES / f"{NAME}.csv").exists() else []
     done = {(row["pair"], row["old"], row["slices"], row["layers"]) for row in rows}
-    for checkout, sizes in ((old, OLD), (ROOT, NEW)):
-        for number, slices, layers in (
-            [(number, *each) for number in sizes for each in sizes[number]] if checkout else ()
-        ):
-            if (number, checkout is old, slices, layers) in done:
+    of_both = [(old, True, OLD)] if old else []
+    for checkout, is_old, sizes in (*of_both, (ROOT, False, NEW)):
+        for number, slices, layers in [(place, *each) for place in sizes for each in sizes[place]]:
+            if (number, is_old, slices, layers) in done:
                 continue
             text = text_of(pair(*PAIRS[number]))
             text += f"\n[accuracy]\nslices = {slices}\nlayers = {layers}\nsteps_per_mesh_cycle = {STEPS}\n"
             with TemporaryDirectory() as cache:
                 found = numbers_of(text, checkout=checkout, cache=Path(cache))
-            rows.append({"pair": number, "old": checkout is old, "slices": slices, "layers": layers, **found})
+            rows.append({"pair": number, "old": is_old, "slices": slices, "layers": layers, **found})
             print(rows[-1], flush=True)
             write_rows(NAME, rows)
     return rows
@@ -84,7 +85,7 @@ def picture(rows: list[Row]) -> Figure:
         ):
             own = sorted((row for row in rows if row["pair"] == number and bool(row["old"]) == old), key=_slices)
             seconds = [row["seconds"] for row in own]
-            found = np.array([errors(row, limit) for row in own])
+            found = np.reshape([errors(row, limit) for row in own], (-1, 2))
             for line, axes in enumerate(panels[:, column]):
                 axes.loglog(seconds, np.maximum(found[:, line], 1e-3), f"-{marker}", color=colour, label=words)
                 for row, x, y in zip(own, seconds, found[:, line]):
@@ -92,14 +93,18 @@ def picture(rows: list[Row]) -> Figure:
                     axes.annotate(
                         words_of, (x, max(y, 1e-3)), (4, 4), textcoords="offset points", fontsize=8, color=colour
                     )
-    for line, (words, goal) in enumerate((("mean transmission error", 0.3), ("peak-to-peak transmission error", 0.2))):
-        panels[line, 0].set_ylabel(f"Error of the {words}\n(% of the mean)")
+    for line, (words, goal) in enumerate((("mean T_E", 0.3), ("T_EPP", 0.2))):
+        panels[line, 0].set_ylabel(f"Error of {words} (% of mean T_E)")
         for axes in panels[line]:
             axes.axhline(goal, color=GREY, linewidth=1.0, linestyle="--")
+            axes.text(0.99, goal, "goal", color=GREY, va="bottom", ha="right", transform=axes.get_yaxis_transform())
             axes.grid(True, which="major", alpha=0.3)
+            axes.yaxis.set_major_formatter("{x:g}")
     for axes in panels[1]:
+        axes.set_xticks(SECONDS, [f"{each}" for each in SECONDS])
+        axes.minorticks_off()
         axes.set_xlabel("Processor seconds from nothing, one thread")
-    panels[0, 0].legend(loc="lower left")
+    panels[0, 0].legend(loc="lower left", title="slices/layers at the points")
     return figure
 
 
