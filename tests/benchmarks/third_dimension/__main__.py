@@ -19,6 +19,8 @@ NAMES = (
     "root_stress",
     "cited",
     "resolved",
+    "defaults",
+    "convergence",
 )
 
 

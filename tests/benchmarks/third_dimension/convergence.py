@@ -7,7 +7,19 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 from matplotlib.figure import Figure
-from tests.benchmarks.third_dimension.defaults import PAIRS, ROOT, STEPS, numbers_of, pair
+from tests.benchmarks.third_dimension.defaults import (
+    MEAN,
+    ORDER,
+    ORDER_OF_MEAN_BY_SLICES,
+    PAIRS,
+    ROOT,
+    SPAN,
+    STEPS,
+    alone,
+    numbers_of,
+    pair,
+)
+from tests.benchmarks.third_dimension.defaults import NAME as DEFAULTS
 from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
 
 from fenics_gears.scene.write import text_of
@@ -15,37 +27,38 @@ from fenics_gears.show.panels import GREY, PALETTE, styled
 
 NAME = "convergence"
 # By number of the pair: slices and layers.
-OLD = {0: ((16, 8), (24, 12), (36, 12), (40, 20), (60, 20)), 9: ((10, 5), (14, 7), (20, 10), (28, 14), (42, 21))}
-NEW = {
-    0: ((10, 4), (19, 8), (36, 12), (38, 12), (40, 12), (60, 12), (60, 20), (76, 12), (114, 12)),
-    9: ((8, 4), (12, 5), (16, 7), (24, 7), (32, 7), (64, 7)),
-}
-MEAN, SPAN = "mean_transmission_error", "peak_to_peak_transmission_error"
+OLD = {0: ((16, 8), (24, 12), (36, 12)), 9: ((10, 5), (14, 7), (20, 10), (28, 14), (42, 21))}
+NEW = {0: ((10, 4), (19, 8), (38, 12), (76, 12)), 9: ((8, 4), (12, 5), (16, 7), (24, 7), (32, 7))}
+
+SECONDS = (10, 20, 50, 100)
 
 
 def measure(old: Path | None = None) -> list[Row]:
     """What the file does not have yet, by this checkout and, where it is given, by the old one."""
     rows = read_rows(NAME) if (PICTURES / f"{NAME}.csv").exists() else []
     done = {(row["pair"], row["old"], row["slices"], row["layers"]) for row in rows}
-    for checkout, sizes in ((old, OLD), (ROOT, NEW)):
-        for number, slices, layers in [(number, *each) for number in sizes for each in sizes[number]] if checkout else ():
-            if (number, checkout is old, slices, layers) in done:
+    of_both = [(old, True, OLD)] if old else []
+    for checkout, is_old, sizes in (*of_both, (ROOT, False, NEW)):
+        for number, slices, layers in [(place, *each) for place in sizes for each in sizes[place]]:
+            if (number, is_old, slices, layers) in done:
                 continue
             text = text_of(pair(*PAIRS[number]))
             text += f"\n[accuracy]\nslices = {slices}\nlayers = {layers}\nsteps_per_mesh_cycle = {STEPS}\n"
             with TemporaryDirectory() as cache:
                 found = numbers_of(text, checkout=checkout, cache=Path(cache))
-            rows.append({"pair": number, "old": checkout is old, "slices": slices, "layers": layers, **found})
+            rows.append({"pair": number, "old": is_old, "slices": slices, "layers": layers, **found})
             print(rows[-1], flush=True)
             write_rows(NAME, rows)
     return rows
 
 
 def limits(number: int) -> Row:
-    """Of a pair: from this checkout's two finest numbers of slices, by order 2."""
-    finest = sorted((row for row in read_rows(NAME) if row["pair"] == number and not row["old"]), key=_slices)[-2:]
-    left = (finest[0]["slices"] / finest[1]["slices"]) ** 2
-    return {name: (finest[1][name] - left * finest[0][name]) / (1.0 - left) for name in (MEAN, SPAN)}
+    """Of a pair: from its two finest numbers of slices among the runs of the defaults, by the order of each number."""
+    refined = (row for row in read_rows(DEFAULTS) if row["pair"] == number and alone(row, "slices"))
+    finer, finest = sorted(refined, key=lambda row: row["slices"])[-2:]
+    left = finer["slices"] / finest["slices"]
+    parts = {MEAN: left**ORDER_OF_MEAN_BY_SLICES, SPAN: left**ORDER}
+    return {name: (finest[name] - part * finer[name]) / (1.0 - part) for name, part in parts.items()}
 
 
 def _slices(row: Row) -> float:
@@ -71,25 +84,27 @@ def picture(rows: list[Row]) -> Figure:
             (False, "now: what layers leave out is added", PALETTE[0], "o"),
         ):
             own = sorted((row for row in rows if row["pair"] == number and bool(row["old"]) == old), key=_slices)
-            # The two finest of this checkout made the limit.
-            shown = own if old else own[:-1]
-            seconds = [row["seconds"] for row in shown]
-            found = np.array([errors(row, limit) for row in shown])
+            seconds = [row["seconds"] for row in own]
+            found = np.reshape([errors(row, limit) for row in own], (-1, 2))
             for line, axes in enumerate(panels[:, column]):
                 axes.loglog(seconds, np.maximum(found[:, line], 1e-3), f"-{marker}", color=colour, label=words)
-                for row, x, y in zip(shown, seconds, found[:, line]):
+                for row, x, y in zip(own, seconds, found[:, line]):
                     words_of = f"{row['slices']:g}/{row['layers']:g}"
                     axes.annotate(
                         words_of, (x, max(y, 1e-3)), (4, 4), textcoords="offset points", fontsize=8, color=colour
                     )
-    for line, (words, goal) in enumerate((("mean transmission error", 0.3), ("peak-to-peak transmission error", 0.2))):
-        panels[line, 0].set_ylabel(f"Error of the {words}\n(% of the mean)")
+    for line, (words, goal) in enumerate((("mean T_E", 0.3), ("T_EPP", 0.2))):
+        panels[line, 0].set_ylabel(f"Error of {words} (% of mean T_E)")
         for axes in panels[line]:
             axes.axhline(goal, color=GREY, linewidth=1.0, linestyle="--")
+            axes.text(0.99, goal, "goal", color=GREY, va="bottom", ha="right", transform=axes.get_yaxis_transform())
             axes.grid(True, which="major", alpha=0.3)
+            axes.yaxis.set_major_formatter("{x:g}")
     for axes in panels[1]:
+        axes.set_xticks(SECONDS, [f"{each}" for each in SECONDS])
+        axes.minorticks_off()
         axes.set_xlabel("Processor seconds from nothing, one thread")
-    panels[0, 0].legend(loc="lower left")
+    panels[0, 0].legend(loc="lower left", title="slices/layers at the points")
     return figure
 
 

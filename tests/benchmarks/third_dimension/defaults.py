@@ -161,7 +161,7 @@ def part(rows: list[Row], size: str, name: str) -> float:
     """Relative error of the defaults in a number by one size, against four times as fine: from the finest run of that
     size, or from one half as fine; T_EPP in parts of the mean. `rows`: a pair's."""
     known = {_key(0, row): row for row in rows}
-    times = max((row[size] for row in rows if _alone(row, size) and row[size] != 1), default=None)
+    times = max((row[size] for row in rows if alone(row, size) and row[size] != 1), default=None)
     if times is None:
         return nan
     own, finest = (known[_key(0, vars(finer))] for finer in (Finer(), Finer(**{size: times})))
@@ -170,7 +170,7 @@ def part(rows: list[Row], size: str, name: str) -> float:
     return (own[name] - finest[name]) / scale * (1.0 - 4.0**-order) / (1.0 - times**-order)
 
 
-def _alone(row: Row, size: str) -> bool:
+def alone(row: Row, size: str) -> bool:
     """Whether nothing but a size is finer, or nothing at all."""
     return row["steps"] == STEPS and all(row[each] == 1 for each in SIZES if each != size)
 
