@@ -41,7 +41,7 @@ class Frozen:
             replace(cycle.traits, divisible=False),
         )
 
-    def beside(self, kind):
+    def shared(self, kind):
         return kind()
 
     def build(self, steps):

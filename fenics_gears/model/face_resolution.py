@@ -81,6 +81,8 @@ def in_steps(wanted: float, whole: float) -> float:
 # face width, as a part of Young's modulus:
 # the largest line load is the mean one and this stiffness times the largest difference of openings along the face.
 INNER_HALF_WIDTHS = 3.0
+# Deviations of single teeth along the face are not among these openings.
+INNER_HALF_WIDTHS_OF_ERRORS = 4.5
 MESH_STIFFNESS = 0.1
 
 
@@ -88,9 +90,9 @@ def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: 
     """Length (mm) of that window, for the largest line load that is expected; `half_width_of`: half-width (mm) of the
     contact under a line load (N/mm)."""
     opening = face_opening(pair, scene.lead_modifications, scene.misalignment, np.linspace(*pair.common_face, 21))
-    return INNER_HALF_WIDTHS * half_width_of(
-        line_load + MESH_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity) * float(np.ptp(opening))
-    )
+    largest = line_load + MESH_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity) * float(np.ptp(opening))
+    many = INNER_HALF_WIDTHS if scene.flank_errors is None else INNER_HALF_WIDTHS_OF_ERRORS
+    return many * half_width_of(largest)
 
 
 def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
