@@ -43,7 +43,7 @@ MEASURED = {
     LINE_LOAD: {SLICES: (0.008, 3.3), FLANK: (0.006, 2.0), LAYERS: (0.004, 2.0)},
     PRESSURE: {SLICES: (0.026, 1.6), FLANK: (0.02, 2.0), LAYERS: (0.004, 2.0)},
 }
-LEAST_IN_STEP = 0.4
+LEAST_IN_STEP = 0.5
 
 
 def expected_errors(model: Model) -> dict[str, dict[str, float]]:
