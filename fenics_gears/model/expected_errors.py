@@ -7,14 +7,13 @@ ten helical pairs of 12 to 33 degrees, each size twice as coarse and up to four 
 
 from __future__ import annotations
 
-from cmath import exp
-from math import hypot, pi
+from math import hypot
 from typing import TYPE_CHECKING
 
-from fenics_gears.scene.accuracy import LAYER_THICKNESS, RESOLVED, SLICE_RISE, SLICE_WIDTH
+from fenics_gears.scene.accuracy import LAYER_THICKNESS, RESOLVED, SLICE_RISE
 
 from .drivetrain import line_load, mesh_stiffness
-from .face_resolution import layers_of_common_face, loaded_part
+from .face_resolution import layers_of_common_face, lines_in_step, loaded_part
 
 if TYPE_CHECKING:
     from .model import Model
@@ -44,6 +43,8 @@ MEASURED = {
     PRESSURE: {SLICES: (0.026, 1.6), FLANK: (0.02, 2.0), LAYERS: (0.004, 2.0)},
 }
 LEAST_IN_STEP = 0.5
+# The default when these were measured, in modules.
+MEASURED_WIDTH = 0.7
 
 
 def expected_errors(model: Model) -> dict[str, dict[str, float]]:
@@ -51,7 +52,7 @@ def expected_errors(model: Model) -> dict[str, dict[str, float]]:
     pair = model.pair
     module = model.scene.gears.module
     slice_width = pair.face_width / model.face.evenly
-    width = slice_width / (SLICE_WIDTH * module)
+    width = slice_width / (MEASURED_WIDTH * module)
     rise = slice_width * abs(pair.slope) / (SLICE_RISE * pair.base_pitch)
     sizes = {
         WIDTH: width,
@@ -64,15 +65,9 @@ def expected_errors(model: Model) -> dict[str, dict[str, float]]:
         name: {size: error * sizes[size] ** power for size, (error, power) in parts.items()}
         for name, parts in MEASURED.items()
     }
-    found[SPAN][SLICES] *= _in_step(pair.overlap_ratio, 1.0 / (rise * SLICE_RISE)) if rise else 1.0
+    if rise:
+        found[SPAN][SLICES] *= max(lines_in_step(pair.overlap_ratio, 1.0 / (rise * SLICE_RISE)), LEAST_IN_STEP)
     return found
-
-
-def _in_step(overlap_ratio: float, slices: float) -> float:
-    """How far lines of contact come to the next slice at the same time, from LEAST_IN_STEP to 1; `slices` in a base
-    pitch: of a whole number all do, and what each slice adds to the transmission error adds up."""
-    lines = max(round(overlap_ratio), 1)
-    return max(abs(sum(exp(2j * pi * line * slices) for line in range(lines))) / lines, LEAST_IN_STEP)
 
 
 def all_together(model: Model) -> dict[str, float]:

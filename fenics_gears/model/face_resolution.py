@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cmath import exp, pi
 from collections.abc import Callable
 from math import ceil, floor, log
 from typing import TYPE_CHECKING
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
 FEWEST_LOADED_SLICES = 6
 # From so many slices on the outermost of helical pairs are cut in two.
 FEWEST_WITH_FINER_ENDS = 8
+# Of lines of contact that come to the next slice at the same time, and how many slices more are tried against it.
+IN_STEP = 0.5
+MORE_SLICES = 3
 # An overhang of less than this part of a layer belongs to the layer beside it.
 LEAST_OVERHANG = 0.1
 
@@ -49,9 +53,22 @@ def face_of(scene: Scene, pair: GearPair) -> Face:
 
 
 def _fewest_slices(scene: Scene, pair: GearPair) -> int:
-    """Slices by their width and, of a helical pair, by how far its line of contact moves within one."""
+    """Slices by their width and, of a helical pair, by how far its line of contact moves within one; some more where
+    else lines of contact came to the next slice at the same time."""
     moves = SLICE_RISE * pair.base_pitch / abs(pair.slope) if pair.slope else np.inf
-    return max(ceil(pair.face_width / min(SLICE_WIDTH * scene.gears.module, moves) - 1e-9), FEWEST_SLICES)
+    fewest = max(ceil(pair.face_width / min(SLICE_WIDTH * scene.gears.module, moves) - 1e-9), FEWEST_SLICES)
+    if round(pair.overlap_ratio) < 2:
+        return fewest
+    counts = range(fewest, fewest + MORE_SLICES + 1)
+    in_step = {count: lines_in_step(pair.overlap_ratio, count / pair.overlap_ratio) for count in counts}
+    return next((count for count in counts if in_step[count] <= IN_STEP), min(counts, key=in_step.__getitem__))
+
+
+def lines_in_step(overlap_ratio: float, slices: float) -> float:
+    """How far lines of contact come to the next slice at the same time, up to 1; `slices` in a base pitch: of a whole
+    number all do, and what each slice adds to the transmission error adds up."""
+    lines = max(round(overlap_ratio), 1)
+    return abs(sum(exp(2j * pi * line * slices) for line in range(lines))) / lines
 
 
 def layers_of_common_face(scene: Scene, pair: GearPair) -> int:

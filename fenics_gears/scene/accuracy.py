@@ -48,7 +48,7 @@ LARGEST_LAYER_TURN = 0.3
 # Widest slices, in normal modules and by how far the line of contact of a helical pair moves along the path of contact
 # within one, in base pitches: the mean transmission error is then 0.1 to 0.2 % too small (28 and 30 degrees), and at a
 # whole overlap its peak-to-peak value too large by 0.15 % of the mean.
-SLICE_WIDTH = 0.7
+SLICE_WIDTH = 0.65
 SLICE_RISE = 0.08
 FEWEST_SLICES = 8
 

@@ -8,7 +8,7 @@ from tests.helical import BEARINGS, helical_scene, on_stand_in_bodies
 
 from fenics_gears import SceneError, model_of, simulate
 from fenics_gears.model.description import describe
-from fenics_gears.model.face_resolution import face_discretisation, loaded_part
+from fenics_gears.model.face_resolution import face_discretisation, lines_in_step, loaded_part
 from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.simulation.elastic_route import mesh_cycle
@@ -51,14 +51,19 @@ def test_outermost_slices_of_helical_pairs_are_cut_in_two():
 
 
 def test_steeper_helices_have_more_slices():
-    """Geometry: 24 mm of 3 mm and tau = 0.7086 move the line by 1.566 base pitches."""
-    assert model_with(helix=8.0).face.evenly == model_with(CROWNED, helix=0.0).face.slices == 12
-    assert model_with(helix=38.0).face.evenly == 20
+    """Geometry: 24 mm of 3 mm and tau = 0.7086 move the line by 1.566 base pitches, which 0.08 divides into 20 slices,
+    12.77 to a base pitch; of two lines cos(0.77 pi) come to the next slice together, of 21 slices cos(0.41 pi)."""
+    assert model_with(helix=8.0).face.evenly == model_with(CROWNED, helix=0.0).face.slices == 13
+    model = model_with(helix=38.0)
+    assert model.face.evenly == 21
+    overlap = model.pair.overlap_ratio
+    assert lines_in_step(overlap, 20 / overlap) == pytest.approx(abs(np.cos(np.pi * 20 / overlap)))
+    assert lines_in_step(overlap, 21 / overlap) < 0.5 < lines_in_step(overlap, 20 / overlap)
 
 
 @pytest.mark.parametrize(
     ("asked", "slices", "layers"),
-    [(Accuracy(slices=40, layers=12), 40, 12), (Accuracy(slices=40), 40, 5), (Accuracy(layers=8), 12, 8)],
+    [(Accuracy(slices=40, layers=12), 40, 12), (Accuracy(slices=40), 40, 5), (Accuracy(layers=8), 13, 8)],
 )
 def test_what_the_scene_asks_for_is_taken(asked, slices, layers):
     """Of one alone the other is what it is by default."""
