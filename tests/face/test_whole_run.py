@@ -59,7 +59,8 @@ def test_the_wheels_body_is_begun_before_the_sections(scene, monkeypatch):
         raise ComputationError("begun")
 
     monkeypatch.setattr(SecondProcess, "together", fails)
-    monkeypatch.setattr(second_process, "threads", lambda: 2)
+    for module in (second_process, of_run):
+        monkeypatch.setattr(module, "threads", lambda: 2)
     monkeypatch.setattr(of_run, "_section", lambda *given: begun.wait(timeout=60))
     monkeypatch.setattr(of_run, "solid_of", lambda *given: given[-1] and solid_of(*given))
     with pytest.raises(ComputationError, match="begun"):
@@ -75,7 +76,8 @@ def test_both_bodies_at_once_are_those_one_after_the_other(scene, monkeypatch, t
     monkeypatch.setattr(SecondProcess, "together", lambda *given: started.append(given) or together(*given))
 
     def bodies(threads, cache=None):
-        monkeypatch.setattr(second_process, "threads", lambda: threads)
+        for module in (second_process, of_run):
+            monkeypatch.setattr(module, "threads", lambda: threads)
         return solids_of(model, SilentProgress(), cache)
 
     expected, kept = bodies(1), Cache(tmp_path)
@@ -83,7 +85,8 @@ def test_both_bodies_at_once_are_those_one_after_the_other(scene, monkeypatch, t
     store = GearStore()
     for name, value in (("own_gear_store", store), ("user_cache", kept), ("threads", 2)):
         monkeypatch.setattr(condensing, name, lambda value=value: value)
-    monkeypatch.setattr(second_process, "threads", lambda: 2)
+    for module in (second_process, of_run):
+        monkeypatch.setattr(module, "threads", lambda: 2)
     condensing.condense(condensing.GearTask(scene, "pinion"))
     found = [store.body(model, name, None).solid for name in GEARS]
     assert len(started) == 1 and not any(body.timings["from_cache"] for body in found)

@@ -65,7 +65,7 @@ def test_check_says_that_a_scene_cannot_fit(tmp_path, monkeypatch, capsys):
     """Row 26: as a run, after the description; exit code 3. With another machine's memory it fits."""
     wide = tmp_path / "wide.toml"
     wide.write_text(
-        (DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text().replace("slices = 12", "slices = 300"),
+        (DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text().replace("slices = 12", "slices = 450"),
         encoding="utf-8",
     )
     monkeypatch.setenv(MEMORY_VARIABLE, "8 GB")

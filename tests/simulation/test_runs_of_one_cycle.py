@@ -12,6 +12,7 @@ from fenics_gears import simulate
 from fenics_gears.contact.mesh_cycle import Cycle, in_common
 from fenics_gears.model.model import model_of
 from fenics_gears.results.recorder import Recorder
+from fenics_gears.runs.common_windows import CommonWindows
 from fenics_gears.runs.gear_store import GearStore, cycle_key, operators_key
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation import dynamic_factor
@@ -75,6 +76,7 @@ def test_designs_share_operators_and_nothing_else(friction, always):
         model_of(helical_scene(always + friction + design, accuracy=accuracy, helix=12.0 if always else 0.0))
         for design in designs
     ]
+    models = CommonWindows().of(models)
     gears = tuple(body if always else replace(body, solid=None) for body in on_stand_in_bodies(models[0]))
     assert len({operators_key(model) for model in models}) == 1
     assert len({cycle_key(model) for model in models}) == len(models)
