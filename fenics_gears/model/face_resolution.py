@@ -12,7 +12,6 @@ import numpy as np
 from fenics_gears.contact.face import Face, even_slices, finer_ends
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.layers import SweptWeb
-from fenics_gears.geometry.face import face_opening
 from fenics_gears.geometry.gear_data import mean_youngs_modulus
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.accuracy import (
@@ -106,6 +105,8 @@ MESH_STIFFNESS = 0.1
 def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: Callable[[float], float]) -> float:
     """Length (mm) of that window, for the largest line load that is expected; `half_width_of`: half-width (mm) of the
     contact under a line load (N/mm)."""
+    from fenics_gears.geometry.face import face_opening
+
     opening = face_opening(pair, scene.lead_modifications, scene.misalignment, np.linspace(*pair.common_face, 21))
     largest = line_load + MESH_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity) * float(np.ptp(opening))
     many = INNER_HALF_WIDTHS if scene.flank_errors is None else INNER_HALF_WIDTHS_OF_ERRORS

@@ -10,17 +10,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.corner import edge_warnings
 from fenics_gears.contact.face import Face, one_slice
 from fenics_gears.contact.touching import Touching, touching
 from fenics_gears.dynamics.clock import FOLLOWING, Clock, SteadyClock, TimeScales, time_scales
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.frequencies import vibrations
-from fenics_gears.dynamics.guidance import judged_frequency, time_step_warnings
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.effects import check_files, common_period, from_effects
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.face import coast_face_opening, face_opening
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
@@ -109,11 +105,15 @@ class Model:
     def face_opening(self, z: np.ndarray, position: np.ndarray | None = None) -> np.ndarray:
         """Gap (k,), mm, along the line of action by lead modifications and misalignment at places z (k,), mm; see
         `geometry.face`."""
+        from fenics_gears.geometry.face import face_opening
+
         return face_opening(self.pair, self.scene.lead_modifications, self.scene.misalignment, z, position)
 
     @property
     def coast_face_opening(self) -> Callable[[np.ndarray, np.ndarray], np.ndarray] | None:
         """The same between the coast flanks, along their own line of action; None where nothing opens them."""
+        from fenics_gears.geometry.face import coast_face_opening
+
         leaning = self.scene.misalignment
         return None if leaning is None else partial(coast_face_opening, self.pair, leaning)
 
@@ -156,6 +156,8 @@ class Model:
         """The drivetrain's elastic modes with one tooth pair in mesh, about; empty without inertia."""
         if self.drivetrain.mass is None:
             return []
+        from fenics_gears.dynamics.frequencies import vibrations
+
         return vibrations(self.drivetrain, mesh_stiffness(self.scene, self.pair), self.scene.friction is not None)
 
     @cached_property
@@ -180,8 +182,12 @@ class Model:
         if self.scene.three_dimensional:
             found += face_warnings(self)
         if self.corner is not None:
+            from fenics_gears.contact.corner import edge_warnings
+
             found += edge_warnings(self.pair, self.corner)
         if self.vibrations:
+            from fenics_gears.dynamics.guidance import judged_frequency, time_step_warnings
+
             steps = self.resolution.steps_per_mesh_cycle
             judged = judged_frequency(self.vibrations, self.scene.mesh_frequencies)
             found += time_step_warnings(self.vibrations, judged, steps, self.time_scales, self.time_step)

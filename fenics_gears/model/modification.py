@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.corner import corner_contact
 from fenics_gears.effects import from_effects
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.inputs.tree import GEARS
@@ -40,6 +39,8 @@ def corner(scene: Scene, pair: GearPair):
     GeometryError for an edge that does not fit a tip."""
     if scene.corner_contact is None:
         return None
+    from fenics_gears.contact.corner import corner_contact
+
     return corner_contact(pair, scene.corner_contact.edge_radii)
 
 

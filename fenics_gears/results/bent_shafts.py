@@ -8,7 +8,6 @@ import xarray as xr
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_seat import BentBySeat
-from fenics_gears.dynamics.frequencies import vibrations
 from fenics_gears.dynamics.shaft_elements import SIX, carried
 from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.inputs.tree import GEARS
@@ -164,6 +163,8 @@ class BentShafts(AlongTheFace):
 
     def _vibrations(self, counted: xr.Dataset) -> dict[str, str]:
         """Natural frequencies with the mesh as it was, a line each; nothing without inertia or contact."""
+        from fenics_gears.dynamics.frequencies import vibrations
+
         if self.drivetrain.mass is None or "mesh_stiffness_tangent" not in counted:
             return {}
         stiffness = mean_where_positive(counted["mesh_stiffness_tangent"].values)

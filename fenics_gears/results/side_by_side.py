@@ -9,7 +9,6 @@ from functools import cached_property
 
 import numpy as np
 
-from fenics_gears.contact.corner import edge_ends
 from fenics_gears.contact.kinematics import CENTRE_COORDINATES, COLUMNS, COORDINATES, displacement_jacobian, lines_of
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -91,7 +90,9 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
     cut = (cycle.pair.pinion.undercut, cycle.pair.wheel.undercut)
     of_flanks = of_flanks.copy()
     by_line = np.array([pair.place.line is None for pair in pairs], dtype=bool)
-    if any(cut):
+    if any(cut) and not by_line.all():
+        from fenics_gears.contact.corner import edge_ends
+
         for pair in np.flatnonzero(~by_line):
             of_flanks[pair] = edge_ends(cycle.pair, cycle.corner, pairs[pair].place)
     first = ends[:-1]

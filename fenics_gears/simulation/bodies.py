@@ -13,8 +13,6 @@ from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies, Body
 from fenics_gears.elasticity.element_sizes import Discretisation
-from fenics_gears.elasticity.face.compliance import face_compliance
-from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.face_cost import both_at_once
 from fenics_gears.model.face_resolution import face_discretisation
@@ -66,6 +64,8 @@ def discretisation_of(model: Model, gear: int) -> Discretisation | FaceDiscretis
 
 
 def _section(model: Model, name: str, cache: Cache | None):
+    from fenics_gears.elasticity.gear_compliance import flank_compliance
+
     reach = model.touching.reach
     for own in from_effects(model.scene, "elasticity", model, name, reach, cache):
         if own is not None:
@@ -111,6 +111,8 @@ def _begun(model: Model, progress: Progress, cache: Cache | None) -> Iterator[Ca
 
 def solid_of(model: Model, name: str, cache: Cache | None, process: SecondProcess | None = None) -> FaceCompliance:
     """The body of the "pinion" or the "wheel" in three dimensions, from the cache or condensed."""
+    from fenics_gears.elasticity.face.compliance import face_compliance
+
     gear = getattr(model.pair, name)
     material = model.scene.gears.material_of(name)
     division = face_discretisation(model, GEARS.index(name))

@@ -10,11 +10,9 @@ from typing import TYPE_CHECKING
 from fenics_gears.contact.mesh import Mesh, elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps, Opening
 from fenics_gears.contact.tooth_pair import Flanks, Removal
-from fenics_gears.contact.whole_body_mesh import whole_body_mesh
 from fenics_gears.effects import ALONG_THE_FACE, effects_on, from_effects
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies
-from fenics_gears.elasticity.overhang import with_overhang
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.system.job import Job
@@ -48,6 +46,8 @@ def mesh_cycle(model: Model, bodies: Bodies) -> Cycle:
         return cycle_of(model, _over_face().face_mesh(flanks, _seated(model, first, second), model.face, grid, corner))
     if all(each.alike for each in flanks.compliance):
         return cycle_of(model, elastic_mesh(flanks, grid, corner))
+    from fenics_gears.contact.whole_body_mesh import whole_body_mesh
+
     return cycle_of(model, whole_body_mesh(flanks, grid, model.resolution.steps_per_mesh_cycle, corner))
 
 
@@ -111,6 +111,8 @@ def frictionless(cycle: Cycle, coordinates: list[int]) -> Cycle:
 
 def flanks_of(model: Model, bodies: Bodies) -> Flanks:
     """Both gears as contact sees them: in the plane a load over the common face spreads in a gear that is wider."""
+    from fenics_gears.elasticity.overhang import with_overhang
+
     pair = model.pair
     removal = removal_of_nodes(model)
     first = bodies[0].section
