@@ -235,7 +235,8 @@ def model_of(scene: Scene) -> Model:
     check_files(scene, pair)
     corner(scene, pair)  # refused here, before the run asks for it
     shafts = drivetrain(scene, pair)
-    model = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
+    removal = removals(scene, pair)
+    model = Model(scene, pair, shafts, resolve(scene, pair, shafts, removal), removal)
     from_effects(scene, "fits", model)
     if scene.three_dimensional:
         check_layers(model)
@@ -250,7 +251,8 @@ def model_of(scene: Scene) -> Model:
     return whole
 
 
-# Effects of a plane scene that change nothing of its model but the material removed from the flanks.
+# Effects of a plane scene that change nothing of its model but the material removed from the flanks, and under light
+# loads the window of contact nodes.
 RELIEFS = ("tip_relief", "root_relief", "profile_modifications")
 
 
@@ -263,7 +265,9 @@ def differ_only(one: Scene, other: Scene, names: Collection[str]) -> bool:
 def with_reliefs(model: Model, scene: Scene) -> Model:
     """The model of a plane scene that differs from that of a model in RELIEFS alone. Raises GeometryError for those
     that do not fit the flanks."""
-    return replace(model, scene=scene, removal=removals(scene, model.pair))
+    removal = removals(scene, model.pair)
+    resolution = resolve(scene, model.pair, model.drivetrain, removal)
+    return replace(model, scene=scene, removal=removal, resolution=resolution)
 
 
 def _too_large(curves: Model, whole: Model) -> str:

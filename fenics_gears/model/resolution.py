@@ -117,8 +117,9 @@ def plane_contact_modulus(scene: Scene) -> float:
     return 1.0 / sum((1.0 - each.poissons_ratio**2) / each.youngs_modulus for each in (first, second))
 
 
-def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
-    """Decide every accuracy setting: the scene's where it has one, else the default."""
+def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain, removal: tuple) -> Resolution:
+    """Decide every accuracy setting: the scene's where it has one, else the default. `removal`: from the flanks, as of
+    `modification.removals`."""
     if scene.tooth_elasticity is None:
         return _rigid_resolution(scene, drivetrain)
     if scene.accuracy.model == ISO_6336:
@@ -129,7 +130,7 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     smallest = min(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end))
     half_width = hertz_half_width(load, smallest, plane_contact_modulus(scene))
     size = asked.flank_element_size or _flank_element_size(scene, half_width)
-    shift = _widest(pair) * steepest_relief(scene, pair)
+    shift = _widest(pair) * steepest_relief(pair, removal)
     length = asked.contact_length or _contact_length(scene, pair, load, half_width, size, shift)
     spacing = NODE_SPACING * size if (asked.element or DEFAULT_ELEMENT).endswith("2") else size
     nodes = asked.contact_nodes or max(ceil(length / spacing), 2) + 1

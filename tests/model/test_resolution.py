@@ -69,9 +69,11 @@ def test_steps_follow_the_highest_frequency(paper_scene, paper_pair):
     shafts = drivetrain(paper_scene, paper_pair)
     highest = natural_frequencies(shafts, mesh_stiffness(paper_scene))[-1]
     scene = replace(paper_scene, motion=replace(paper_scene.motion, mesh_frequency=100.0), accuracy=Accuracy())
-    assert resolve(scene, paper_pair, shafts).steps_per_mesh_cycle == pytest.approx(20.0 * highest / 100.0, abs=1.0)
+    assert resolve(scene, paper_pair, shafts, (None, None)).steps_per_mesh_cycle == pytest.approx(
+        20.0 * highest / 100.0, abs=1.0
+    )
     slow = replace(scene, motion=replace(scene.motion, mesh_frequency=0.01))
-    assert resolve(slow, paper_pair, shafts).steps_per_mesh_cycle == MOST_STEPS_PER_MESH_CYCLE
+    assert resolve(slow, paper_pair, shafts, (None, None)).steps_per_mesh_cycle == MOST_STEPS_PER_MESH_CYCLE
     static = replace(scene, inertia=None, damping=None)
     assert model_of(static).resolution.steps_per_mesh_cycle == 200
 

@@ -62,6 +62,16 @@ def test_a_scene_with_other_reliefs_is_that_scene(name, monkeypatch):
     assert again.scene == model.scene and again.removal == model.removal and again.resolution == model.resolution
 
 
+def test_under_a_light_load_windows_reach_as_far_as_a_designs_own_reliefs():
+    """Identity with the parsed file, whose window follows the relief."""
+    light = BASE | {"load": {"wheel_torque": "0.5 N m"}, "accuracy": {}}
+    models = Models("design", DEMOS)
+    before = models.of(light)
+    design = light | CHANGES["a depth"]
+    found = models.of(design)
+    assert found.resolution == model_of_tree("design", design, DEMOS).resolution != before.resolution
+
+
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_reliefs_are_refused_in_the_same_words(name):
     """Identity."""
