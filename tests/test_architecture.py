@@ -50,7 +50,7 @@ assert "linewidth" in str(lines.Line2D.set.__signature__)
 EFFECTS = {"tooth_elasticity", "shafts", "bearings", "inertia", "damping", "friction"}
 # Those of condensing apart, which a run with gears from the cache does not load. Inertia, damping, bearings and shafts
 # are two modules each: the data, which the drivetrain takes, and the effect.
-MOST_MODULES = 187
+MOST_MODULES = 182
 
 
 @pytest.fixture(scope="module")

@@ -25,8 +25,7 @@ from fenics_gears.geometry.gear import Side
 from .addresses import form_rows
 from .compliance_product import directions
 from .face import Face
-from .fine_sections import BEGIN, IN_SLICE, OF_SLICE, SECTION, SLICE, TOOTH, Fine, by_nodes, stacked
-from .fine_sections import Side as Nodes
+from .fine_sections import BEGIN, IN_SLICE, OF_SLICE, SECTION, SLICE, TOOTH, Fine, SectionNodes, by_nodes, stacked
 from .formed_rows import FormedRows, fine_section, uncertain_slices
 from .interpolation import FlankInterpolation
 from .operator import Passage, Response
@@ -118,7 +117,7 @@ class FacePairing:
         apart, own, other = np.unravel_index(asked, body.values.shape[:3])
         body.find(apart - offsets, own, other)
 
-    def _response(self, passage: Passage, now: Nodes, before: Nodes | None) -> Response:
+    def _response(self, passage: Passage, now: SectionNodes, before: SectionNodes | None) -> Response:
         pairs: Sequence[FacePair] = passage.pairs
         layers = np.zeros(self.face.slices)
         compliance = self._rows(now, now, layers)
@@ -136,14 +135,16 @@ class FacePairing:
         form_rows(compliance.address, np.zeros(1, dtype=np.int64))
         return Response(compliance, earlier, dependent)
 
-    def _rows(self, rows: Nodes, columns: Nodes, layers: np.ndarray, by_columns: bool = False) -> FormedRows:
+    def _rows(
+        self, rows: SectionNodes, columns: SectionNodes, layers: np.ndarray, by_columns: bool = False
+    ) -> FormedRows:
         same = rows.groups[SLICE][:, None] == columns.groups[SLICE]
         for fine, own, other in zip(self._fine, rows.on_gears, columns.on_gears):
             _check_sections(fine, own[TOOTH][:, None] - other[TOOTH], (rows.flanks[:, None], columns.flanks), same)
         bodies = [(body.values, sections) for body, sections in self._bodies]
         return FormedRows.of(bodies, rows, columns, Fine(*self._fine, self._shares, layers), by_columns)
 
-    def _nodes_of(self, pairs: Sequence[FacePair], tangential: bool) -> Nodes:
+    def _nodes_of(self, pairs: Sequence[FacePair], tangential: bool) -> SectionNodes:
         """The pairs' nodes, along normal and tangent."""
         counts = np.array([len(pair.offsets) for pair in pairs], dtype=np.int64)
         places = [pair.place for pair in pairs]
@@ -164,7 +165,7 @@ class FacePairing:
             on_gears[gear] = teeth, under, place, section, lowest, plane_node
         axes = np.stack([self._axes(side, pairs, tangential) for side in self._sides])
         fine = _together([pair.interpolation for pair in pairs], padded=False)
-        return Nodes(
+        return SectionNodes(
             np.repeat(np.arange(len(pairs)), counts), first, _groups(begins, counts, slices), on_gears, near, axes,
             flanks, *fine[:2], *fine[2],
         )  # fmt: skip
@@ -243,7 +244,7 @@ def _joined(arrays: Sequence[np.ndarray], kind) -> np.ndarray:
 
 
 def _groups(begins: np.ndarray, counts: np.ndarray, slices: np.ndarray) -> np.ndarray:
-    """Of groups of so many nodes that begin there among all: numbers (4, P) as of `fine_sections.Side`."""
+    """Of groups of so many nodes that begin there among all: numbers (4, P) as of `fine_sections.SectionNodes`."""
     found = np.zeros((4, len(begins)), dtype=np.int64)
     found[BEGIN] = begins
     found[SLICE] = slices

@@ -20,7 +20,7 @@ BEGIN, SLICE, IN_SLICE, OF_SLICE = range(4)
 TOOTH, WIDTH, PLACE, SECTION, NODE, PLANE_NODE = range(6)
 
 
-class Side(NamedTuple):
+class SectionNodes(NamedTuple):
     """Contact nodes (n,) as rows or columns, in groups (P,).
 
     `group` (n,) of each node; `first` (2, n): the first flank node of either gear that a node sees, among those under

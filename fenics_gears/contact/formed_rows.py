@@ -42,7 +42,7 @@ from .fine_sections import (
     TOOTH,
     WIDTH,
     Fine,
-    Side,
+    SectionNodes,
     add_fine,
     add_section,
     add_seen,
@@ -60,8 +60,8 @@ if TYPE_CHECKING:
 class _Source(NamedTuple):
     """What the rows of a `matrix` are formed of."""
 
-    rows: Side
-    columns: Side
+    rows: SectionNodes
+    columns: SectionNodes
     fine: Fine
     blocks: tuple[np.ndarray, np.ndarray]
     sections: tuple[np.ndarray, np.ndarray]
@@ -94,8 +94,8 @@ class FormedRows:
     def of(
         cls,
         bodies: Sequence[tuple[np.ndarray, np.ndarray]],
-        rows: Side,
-        columns: Side,
+        rows: SectionNodes,
+        columns: SectionNodes,
         fine: Fine,
         by_columns: bool = False,
     ) -> FormedRows:
@@ -163,7 +163,7 @@ def _form_rows(address, nodes, count):
 
 @njit(cache=True)
 def _side(table):
-    return Side(
+    return SectionNodes(
         integer_vector(table[0]),
         integer_matrix(table[1]),
         integer_matrix(table[2]),

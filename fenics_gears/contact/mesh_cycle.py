@@ -130,6 +130,10 @@ class Cycle:
         other._positions = self._built if gaps.profile is None and not gaps.openings else self._opened_steps(gaps)
         return other
 
+    def frictionless(self, coordinates: list[int]) -> Cycle:
+        """The same contact nodes for these centre coordinates, without friction and gaps."""
+        return Cycle(self.mesh, self.steps, coordinates, False)
+
     def _opened_steps(self, gaps: Gaps) -> dict[tuple[Mesh, float], Position]:
         """All steps of a mesh cycle with these gaps, where their profiles are known and there are no openings; else
         none: each is then opened when it is asked for."""

@@ -57,7 +57,6 @@ class CycleOfBendingFaces(Cycle):
         self._faces = faces
 
     def frictionless(self, coordinates: list[int]) -> Cycle:
-        """The same contact nodes without friction."""
         return CycleOfBendingFaces(self.mesh, self.steps, coordinates, False, self._faces)
 
     def _built_of(self, mesh: Mesh, steps: list[tuple[float, float]]) -> list[Position]:

@@ -162,8 +162,8 @@ class GearPair:
     @property
     def tip_positions(self) -> tuple[float, float]:
         """Positions (mm) where the wheel's tip and the pinion's tip cross the line of action."""
-        of_pinion, of_wheel = (side.position(side.gear.tip_roll_angle) for side in self.sides)
-        return of_wheel, of_pinion
+        pinion, wheel = self.sides
+        return wheel.position(self.wheel.tip_roll_angle), pinion.position(self.pinion.tip_roll_angle)
 
     @cached_property
     def path_start(self) -> float:
@@ -253,11 +253,9 @@ class GearPair:
     @property
     def tip_clearances(self) -> tuple[float, float]:
         """Distances (mm) from the tip circles of pinion and wheel to the mate's root circle."""
-        pinion = self.pinion
-        wheel = self.wheel
         return (
-            self.centre_distance - pinion.tip_radius - wheel.root_radius,
-            self.centre_distance - wheel.tip_radius - pinion.root_radius,
+            self.centre_distance - self.pinion.tip_radius - self.wheel.root_radius,
+            self.centre_distance - self.wheel.tip_radius - self.pinion.root_radius,
         )
 
 

@@ -100,15 +100,6 @@ def cycle_of(model: Model, mesh: Mesh) -> Cycle:
     return cycle.with_gaps(gaps_of(model, cycle))
 
 
-def frictionless(cycle: Cycle, coordinates: list[int]) -> Cycle:
-    """The contact equations without friction."""
-    from fenics_gears.dynamics.bending_faces import CycleOfBendingFaces
-
-    if isinstance(cycle, CycleOfBendingFaces):
-        return cycle.frictionless(coordinates)
-    return Cycle(cycle.mesh, cycle.steps, coordinates, False)
-
-
 def flanks_of(model: Model, bodies: Bodies) -> Flanks:
     """Both gears as contact sees them: in the plane a load over the common face spreads in a gear that is wider."""
     from fenics_gears.elasticity.overhang import with_overhang

@@ -41,7 +41,7 @@ from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Scene
 
 from .dynamic_factor import at_rest, quasi_static
-from .elastic_route import frictionless, gaps_apart, gaps_of
+from .elastic_route import gaps_apart, gaps_of
 
 # Positions of the mesh cycle, about.
 POSITIONS = 16
@@ -188,7 +188,7 @@ class _LineLoads:
         self._model = at_rest(model, replace(quasi_static(scene), friction=None), cycle.steps)
         # Operators without friction are apart.
         indices = self._model.drivetrain.indices
-        self._cycle = frictionless(cycle, indices) if cycle.tangential else cycle
+        self._cycle = cycle.frictionless(indices) if cycle.tangential else cycle
         self._leads = scene.lead_modifications or LeadModifications()
         self._pinion = self._leads.pinion or LeadModification()
         self.own = np.array([self._pinion.helix_slope, self._pinion.crowning])

@@ -1,23 +1,19 @@
 """What ``gears accuracy`` does."""
 
 import argparse
+from functools import partial
 
 from fenics_gears.show.work_precision import work_precision
 from fenics_gears.studies.accuracy import table
 from fenics_gears.studies.accuracy.report import measure
 from fenics_gears.system.console import print_rows, print_table
 
-from ..shared import WITHOUT_SOMETHING
-from .measuring import measured, print_origin, scene_to_measure, write_report
+from .measuring import print_origin, report_of
 
 
 def accuracy(options: argparse.Namespace) -> int:
-    scene, directory = scene_to_measure(options, "accuracy")
-    report = measured(lambda progress: measure(scene, progress, options.quick), options.quiet)
-    files = write_report(report, directory, "accuracy", table.write_csv, work_precision)
-    if not options.quiet:
-        _print(report, files)
-    return 0 if len(files) > 1 else WITHOUT_SOMETHING
+    quick = partial(measure, quick=options.quick)
+    return report_of(options, "accuracy", quick, table.write_csv, work_precision, _print)
 
 
 def _print(report, files) -> None:

@@ -7,17 +7,11 @@ from fenics_gears.studies.effect_costs import table
 from fenics_gears.studies.effect_costs.measured import measure
 from fenics_gears.system.console import print_rows, print_table
 
-from ..shared import WITHOUT_SOMETHING
-from .measuring import measured, print_origin, scene_to_measure, write_report
+from .measuring import print_origin, report_of
 
 
 def effects(options: argparse.Namespace) -> int:
-    scene, directory = scene_to_measure(options, "effects")
-    report = measured(lambda progress: measure(scene, progress), options.quiet)
-    files = write_report(report, directory, "effects", table.write_csv, effect_costs)
-    if not options.quiet:
-        _print(report, files)
-    return 0 if len(files) > 1 else WITHOUT_SOMETHING
+    return report_of(options, "effects", measure, table.write_csv, effect_costs, _print)
 
 
 def _print(report, files) -> None:

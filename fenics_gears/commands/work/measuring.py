@@ -10,6 +10,7 @@ from fenics_gears.system.console import print_rows
 from fenics_gears.system.job import communicator
 from fenics_gears.system.output import written_aside
 
+from ..shared import WITHOUT_SOMETHING
 from .scenes import checked_model_and_directory
 from .shared import after_result, shown_progress
 
@@ -27,9 +28,16 @@ def scene_to_measure(options, command: str):
     return model.scene, directory
 
 
-def measured(measure: Callable, quiet: bool):
-    with closing(shown_progress(quiet)) as progress:
-        return measure(progress)
+def report_of(options, command: str, measure: Callable, write_csv: Callable, draw: Callable, tell: Callable) -> int:
+    """Carry a command out that measures times: `measure(scene, progress)` makes the report, `write_csv` and `draw` its
+    files as of `write_report`, `tell(report, files)` prints it. Returns the exit code."""
+    scene, directory = scene_to_measure(options, command)
+    with closing(shown_progress(options.quiet)) as progress:
+        report = measure(scene, progress)
+    files = write_report(report, directory, command, write_csv, draw)
+    if not options.quiet:
+        tell(report, files)
+    return 0 if len(files) > 1 else WITHOUT_SOMETHING
 
 
 def write_report(report, directory: Path, name: str, write_csv: Callable, draw: Callable) -> list[Path]:
