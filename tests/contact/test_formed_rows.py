@@ -6,7 +6,7 @@ from tests.stand_in import stand_in_compliance
 
 from fenics_gears import ComputationError
 from fenics_gears.contact.addresses import form_rows
-from fenics_gears.contact.fine_sections import Fine, Side, by_nodes, stacked
+from fenics_gears.contact.fine_sections import Fine, SectionNodes, by_nodes, stacked
 from fenics_gears.contact.formed_rows import FormedRows, fine_section, uncertain_slices
 
 NODES, FINE_NODES, SLICES, OFFSETS = 6, 9, 3, 2
@@ -33,7 +33,7 @@ def side(random, kinds):
     group, axes = np.repeat(np.arange(4), 3), random.standard_normal((2, 4, kinds, 5))
     begins, flanks = 9 * np.arange(8).reshape(2, 4), np.zeros(4, dtype=int)
     seen = flanks, fine_first, fine_near.ravel(), begins, np.full((2, 4), 3)
-    return Side(group, first, GROUPS, np.array(on_gears), near, axes, *seen), weights, fine
+    return SectionNodes(group, first, GROUPS, np.array(on_gears), near, axes, *seen), weights, fine
 
 
 def views(random, count, width):
