@@ -47,6 +47,11 @@ def loaded_run(file: Path, load: Callable | None = None):
             dataset = unfinished(file)
             print(f"{file}: {dataset.attrs['warnings'].splitlines()[0]}", file=sys.stderr)
             return dataset
-        return (load or results.load)(file)
+        dataset = (load or results.load)(file)
     except ComputationError as error:
         raise SceneError(str(error)) from error
+    if "overall_transmission_error" in dataset:
+        raise SceneError(
+            f"{file} is the run of a train, which this command does not take yet; its pictures stand beside it."
+        )
+    return dataset

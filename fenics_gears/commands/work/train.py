@@ -1,0 +1,135 @@
+"""What ``gears run`` and ``gears check`` do with a train of gears."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from math import pi
+from pathlib import Path
+
+from fenics_gears import results
+from fenics_gears.errors import ComputationError
+from fenics_gears.model.train import TrainModel, train_model_of
+from fenics_gears.scene.train import TrainScene
+from fenics_gears.system.console import print_rows
+from fenics_gears.system.output import check_writable, write_whole
+from fenics_gears.system.progress import Interruption
+
+from ..shared import INTERRUPTED, RUN_FILE, WITHOUT_SOMETHING
+from .shared import after_result, plots, shown_progress
+
+PICTURES = ("train.png", "transmission_error.png")
+Row = tuple[str, str, str]
+
+
+def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
+    """Run a train, write its result and pictures, print its numbers; return the exit code."""
+    directory = options.output or Path("results") / scene.name
+    check_writable(directory, RUN_FILE, *PICTURES)
+    model = train_model_of(scene)
+    from fenics_gears.results.train import train_rows
+    from fenics_gears.simulation.train import simulate_train
+
+    file = directory / RUN_FILE
+    pictures: list[Path] | None = []
+    with Interruption(shown_progress(options.quiet)) as interruption:
+        try:
+            found = simulate_train(model, interruption)
+        except ComputationError as error:
+            partial = getattr(error, "partial", None)
+            if partial is None or not partial.sizes.get("time", 0):
+                raise
+            _save(partial, file)
+            said = f"What was done until then is kept, marked incomplete: {file}"
+            raise ComputationError(f"{error}\n{said}") from error
+        _save(found, file)
+        whole = bool(found.attrs["complete"])
+        if whole and not options.no_pictures:
+            interruption.stage("draw pictures")
+            pictures = after_result(file, "pictures", lambda: plots("train").draw_train(scene, found, directory))
+    if not options.quiet:
+        said = [("WARNING", warning, "") for warning in found.attrs["warnings"].splitlines()]
+        print_rows(scene.title, [*train_rows(found), *said])
+        print_rows("Files", [("", str(each), "") for each in (file, *(pictures or []))])
+    if not whole:
+        print(f"Interrupted. What was done until then is kept, marked incomplete: {file}", file=sys.stderr)
+        return INTERRUPTED
+    return WITHOUT_SOMETHING if pictures is None else 0
+
+
+def _save(found, file: Path) -> None:
+    file.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(file, lambda path: results.save(found, path))
+    for picture in PICTURES:
+        # Those of an earlier run would be taken for pictures of this one.
+        (file.parent / picture).unlink(missing_ok=True)
+
+
+def check_train(scene: TrainScene) -> int:
+    """Print the description of a train: speeds, torques, meshes, phases and steps."""
+    model = train_model_of(scene)
+    print(f"{scene.title}\n")
+    print_rows("Train", _train_rows(model))
+    print_rows("Shafts", list(_shaft_rows(model)))
+    for mesh, own, phase in zip(scene.meshes, model.models, phases(model)):
+        print_rows(f"Mesh {mesh.name}", _mesh_rows(mesh, own, phase))
+    if model.warnings:
+        print_rows("Warnings", [("", said, "") for said in model.warnings])
+    return 0
+
+
+def _train_rows(model: TrainModel) -> list[Row]:
+    scene = model.scene
+    rows = [
+        ("meshes", f"{len(scene.meshes)}", ""),
+        ("turns of the first shaft in one of the last", f"{scene.ratio:.6g}", ""),
+        ("torque on the first shaft, without losses", f"{1e-3 * scene.input_torque:.5g}", "N m"),
+        ("torque on the last shaft", f"{1e-3 * scene.output_torque:.5g}", "N m"),
+        ("steps of the run", f"{model.steps}", ""),
+    ]
+    if scene.speed_given:
+        first = scene.meshes[0]
+        speed = first.scene.motion.mesh_frequency / first.pair.pinion.teeth
+        rows.append(("power", f"{1e-6 * 2.0 * pi * speed * scene.input_torque:.5g}", "kW"))
+    return rows
+
+
+def _shaft_rows(model: TrainModel):
+    """Speed and torque of each shaft; the first one turns counter-clockwise."""
+    sense = 1.0
+    first = model.scene.meshes[0]
+    speed = first.scene.motion.mesh_frequency / first.pair.pinion.teeth
+    torque = model.scene.input_torque
+    for number in range(len(model.scene.meshes) + 1):
+        turning = "counter-clockwise" if sense > 0.0 else "clockwise"
+        rate = f"{60.0 * speed:.5g} rpm, " if model.scene.speed_given else ""
+        yield f"shaft {number + 1}", f"{rate}{turning}, {1e-3 * torque:.5g} N m", ""
+        if number < len(model.scene.meshes):
+            ratio = model.scene.meshes[number].pair.rotation_ratio
+            speed *= ratio
+            torque /= ratio
+            sense = -sense
+
+
+def phases(model: TrainModel) -> list[float]:
+    """Mesh cycles past a start of contact at which each mesh begins."""
+    from fenics_gears.contact.train import begun_at
+
+    return [phase for phase, _ in begun_at([mesh.idler for mesh in model.scene.meshes])]
+
+
+def _mesh_rows(mesh, own, phase: float) -> list[Row]:
+    pair = own.pair
+    rows = [
+        ("teeth", f"{pair.pinion.teeth} / {pair.wheel.teeth}", ""),
+        ("centre distance", f"{pair.centre_distance:.6g}", "mm"),
+        ("direction of the wheel from the pinion", f"{180.0 / pi * mesh.direction:.4g}", "deg"),
+        ("contact ratio", f"{pair.contact_ratio:.4g}", ""),
+        ("torque on its wheel", f"{1e-3 * own.scene.load.wheel_torque:.5g}", "N m"),
+        ("steps in a mesh cycle", f"{own.resolution.steps_per_mesh_cycle}", ""),
+        ("begins at mesh phase", f"{phase:.6g}", ""),
+        ("flank elements", f"{own.resolution.flank_element_size:.3g}", "mm"),
+    ]
+    if own.scene.motion.speed_given:
+        rows.append(("mesh frequency", f"{own.scene.motion.mesh_frequency:.6g}", "Hz"))
+    return rows
