@@ -22,6 +22,7 @@ from .attributes import RESULT_ATTRIBUTES
 from .contact_variables import energy_of_teeth
 from .dataset import coordinates_of, variables_of
 from .key_numbers import key_numbers
+from .layout import OVERALL
 from .numbers import RUNG
 from .recorder import Recorder
 
@@ -39,7 +40,9 @@ class TrainResult:
         self._model = model
         self._recorders = recorders
         self._overall: list[np.ndarray] = []
+        # Work (N mm) that friction takes, and that of the drive beyond the one without losses.
         self._lost = 0.0
+        self._driven = 0.0
         self._last: Steps | None = None
 
     def take(self, solved: Steps) -> None:
@@ -49,7 +52,9 @@ class TrainResult:
         if self._model.equations_of_motion.friction:
             together = solved if self._last is None else self._last.followed_by(solved)
             clock = self._model.models[0].clock
-            self._lost += float(account(drivetrain, clock, together, energy_of_teeth(together)).friction[-1])
+            work = account(drivetrain, clock, together, energy_of_teeth(together))
+            self._lost += float(work.friction[-1])
+            self._driven += float(work.rotation[-1])
             self._last = solved.between(len(solved) - 1, len(solved))
 
     def dataset(self, march: March, bodies: Iterable[Body], stopped: str) -> xr.Dataset:
@@ -73,7 +78,7 @@ class TrainResult:
         }
         if "contact_time" in longest.arrays:
             coordinates["contact_time"] = ("contact_time", longest.arrays["contact_time"], labels)
-        variables["overall_transmission_error"] = (
+        variables[OVERALL] = (
             "time",
             overall,
             {"units": "rad", "long_name": "lag of the last shaft behind the nominal motion of the first"},
@@ -95,11 +100,12 @@ class TrainResult:
                 if name in ("mesh_phase", "pair_number", "contact_pair_number")
             }
             of_meshes.append({name: of for name, of in own.items() if not name.startswith(OF_ENERGY)})
+        sizes = _largest_sizes(of_meshes)
         for name in dict.fromkeys(name for own in of_meshes for name in own):
-            there = [own.get(name) for own in of_meshes]
-            dims, _, labels = next(each for each in there if each is not None)
-            dims = (dims,) if isinstance(dims, str) else tuple(dims)
-            values = _side_by_side([None if each is None else np.asarray(each[1]) for each in there])
+            there = [None if name not in own else np.asarray(own[name][1]) for own in of_meshes]
+            dims, _, labels = next(own[name] for own in of_meshes if name in own)
+            dims = _names_of(dims)
+            values = _side_by_side(there, [sizes[each] for each in dims])
             behind = 1 if dims[0] in TIMES else 0
             yield name, ((*dims[:behind], MESH, *dims[behind:]), np.moveaxis(values, 0, behind), labels)
 
@@ -144,7 +150,7 @@ class TrainResult:
         friction = model.equations_of_motion.friction
         if friction and march.steps:
             found["friction_coefficient"] = friction
-            found["friction_loss"] = self._lost / self._driving_work(march.steps)
+            found["friction_loss"] = self._lost / (self._driven + self._driving_work(march.steps))
         return found
 
     def _driving_work(self, steps: int) -> float:
@@ -160,16 +166,28 @@ class TrainResult:
         return [f"no flanks of any mesh touch in {len(march.separations)} of {march.steps} steps"]
 
 
-def _side_by_side(arrays: Sequence[np.ndarray | None]) -> np.ndarray:
+def _names_of(dims: str | Sequence[str]) -> tuple[str, ...]:
+    return (dims,) if isinstance(dims, str) else tuple(dims)
+
+
+def _largest_sizes(of_meshes: Sequence[Mapping[str, tuple]]) -> dict[str, int]:
+    """The largest size that any variable of any mesh has over each dimension."""
+    sizes: dict[str, int] = {}
+    for own in of_meshes:
+        for dims, values, _ in own.values():
+            for name, size in zip(_names_of(dims), np.shape(values)):
+                sizes[name] = max(size, sizes.get(name, 0))
+    return sizes
+
+
+def _side_by_side(arrays: Sequence[np.ndarray | None], shape: Sequence[int]) -> np.ndarray:
     """Arrays of all meshes (meshes, ...): not a number, or 0, where one has less than another."""
-    there = [each for each in arrays if each is not None]
-    shape = np.max([each.shape for each in there], axis=0)
-    kind = there[0].dtype
-    found = np.full((len(arrays), *shape), np.nan if kind.kind == "f" else 0, dtype=kind)
-    for own, each in zip(found, arrays):
+    kind = next(each.dtype for each in arrays if each is not None)
+    values = np.full((len(arrays), *shape), np.nan if kind.kind == "f" else 0, dtype=kind)
+    for own, each in zip(values, arrays):
         if each is not None:
             own[tuple(slice(size) for size in each.shape)] = each
-    return found
+    return values
 
 
 def _numbers_of_meshes(numbers: Sequence[Mapping[str, float]]) -> dict[str, tuple]:

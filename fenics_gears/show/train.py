@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from cmath import rect
+from math import cos
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.train import TrainScene
 
 from .chart import LEAST_SHARE, Chart, Curve
@@ -37,24 +40,28 @@ def draw_train(scene: TrainScene, dataset: xr.Dataset, directory: Path) -> list[
 
 
 def drawing_of(scene: TrainScene) -> Chart:
-    """All gears seen along their axes: tip circles, and dashed base circles. Gears on one shaft have one centre."""
+    """All gears seen along their axes: tip circles, and dashed pitch circles. Gears on one shaft have one centre."""
     curves = []
     centre = 0j
     number = 0
     for mesh in scene.meshes:
-        gears = [(centre, mesh.pair.pinion, f"{mesh.name}: pinion")] if mesh.idler is None else []
-        centre += rect(mesh.pair.centre_distance, mesh.direction)
-        gears.append((centre, mesh.pair.wheel, f"{mesh.name}: wheel"))
-        for middle, gear, name in gears:
+        pair = mesh.pair
+        stage, _, gears = mesh.name.partition(": gears ")
+        names = [f"gear {each}" for each in gears.split(" and ")] if gears else ["pinion", "wheel"]
+        places = [centre, centre + rect(pair.centre_distance, mesh.direction)]
+        centre = places[1]
+        both = list(zip(places, (pair.pinion, pair.wheel), names))
+        # An idler is drawn in its first mesh.
+        for middle, gear, name in both[mesh.idler is not None :]:
             colour = PALETTE[number % len(PALETTE)]
-            curves += _circles(middle, gear, f"{name}, {gear.teeth} teeth", colour)
+            curves += _circles(middle, gear, pair, f"{stage}: {name}, {gear.teeth} teeth", colour)
             number += 1
     speeds = "turns of the first shaft in one of the last"
-    caption = f"Tip circles, and base circles (dashed), to scale; {scene.ratio:.5g} {speeds}"
+    caption = f"Tip and pitch circles (dashed), to scale; {scene.ratio:.5g} {speeds}"
     return Chart(caption, curves, "x (mm)", "y (mm)", height=520, equal=True)
 
 
-def _circles(centre: complex, gear, name: str, colour: str) -> list[Curve]:
+def _circles(centre: complex, gear: Gear, pair: GearPair, name: str, colour: str) -> list[Curve]:
     angles = np.linspace(0.0, 2.0 * np.pi, POINTS_OF_A_CIRCLE)
 
     def circle(radius: float, **options) -> Curve:
@@ -62,7 +69,10 @@ def _circles(centre: complex, gear, name: str, colour: str) -> list[Curve]:
             name, centre.real + radius * np.cos(angles), centre.imag + radius * np.sin(angles), colour, **options
         )
 
-    return [circle(gear.tip_radius), circle(gear.base_radius, dash="dash", listed=False, width=1.0)]
+    return [
+        circle(gear.tip_radius),
+        circle(gear.base_radius / cos(pair.operating_pressure_angle), dash="dash", listed=False, width=1.0),
+    ]
 
 
 def _errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
