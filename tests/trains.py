@@ -54,7 +54,7 @@ def stage(name: str, module: float, teeth: tuple[int, int], more: str = "") -> s
         """
 
 
-def two_stages(of_first: str = "") -> TrainScene:
+def two_stages(of_first: str = "", more: str = "") -> TrainScene:
     """Two stages on three shafts under 400 N m on the last one; `of_first`: more of the first stage."""
     stages = stage("first", 2.0, (20, 30), of_first) + stage("second", 3.0, (20, 40))
-    return train_from(f'{stages}\n[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n')
+    return train_from(f'{stages}\n[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n{more}')

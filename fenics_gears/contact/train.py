@@ -1,5 +1,5 @@
-"""Contact of a train of gears: the contact nodes of all its meshes one after the other, over the coordinates of all its
-shafts. Compliance is summed over bodies, so that meshes in which the same gear stands feel each other.
+"""Contact of gears in a row: the contact nodes of all meshes one after the other, over the rotations of all gears.
+Compliance is summed over bodies, so that meshes in which the same gear stands feel each other.
 
 A mesh is described in a frame in which its pinion turns counter-clockwise. From one mesh to the next along a train the
 frame is the mirror image, in which the other flanks of the gear between them are its drive flanks.
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import floor, lcm
+from math import floor
 
 import numpy as np
 
@@ -118,11 +118,11 @@ class _Part:
 
 
 class TrainCycle(Cycle):
-    """Contact equations of all meshes of a train, which have as many steps as their cycles have in common."""
+    """Contact equations of all meshes of a row, whose cycles have as many steps as one another."""
 
     def __init__(self, meshes: Sequence[MeshOfTrain], idlers: Sequence[Idler]):
         first = meshes[0].cycle
-        super().__init__(first.mesh, lcm(*(each.cycle.steps for each in meshes)), [], first.tangential)
+        super().__init__(first.mesh, first.steps, [], first.tangential)
         self.meshes = meshes
         self._blocks: dict[tuple[int, Flank, Flank], tuple[tuple[int, int, int], np.ndarray]] = {}
         self._idlers = idlers

@@ -1,7 +1,7 @@
-"""Shafts of a train of gears, each rigid between its gears: one rotation a shaft, the first one's prescribed.
+"""Rotations of gears in a row, the first one's prescribed.
 
-A shaft's rotation is counted as the mesh does in which it is driven, and carried as the arc of its driven gear's base
-circle (mm). In the next mesh, whose frame is the mirror image, the same rotation counts the other way.
+A gear's rotation is counted as the mesh does in which it is driven, and carried as the arc of its base circle (mm). In
+the next mesh, whose frame is the mirror image, the same rotation counts the other way.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from .drivetrain import Drivetrain
 
 @dataclass(frozen=True)
 class TrainDrivetrain(Drivetrain):
-    """Equations of motion of the driven shafts; `motions` (f, k): of each mesh the motion of all shafts behind it,
+    """Equations of motion of the driven gears; `motions` (f, k): of each mesh the motion of all gears behind it,
     which it alone holds."""
 
     motions: tuple[tuple[float, ...], ...] = ()
@@ -31,7 +31,7 @@ class TrainDrivetrain(Drivetrain):
     @property
     def free_words(self) -> str:
         torque = 1e-3 * self.load[-1] * self.radii[-1]
-        return f"the last shaft turns freely under its torque of {torque:.4g} N m"
+        return f"the last gear turns freely under its torque of {torque:.4g} N m"
 
 
 def rotations_of(pairs: Sequence[GearPair]) -> list[np.ndarray]:
@@ -47,7 +47,7 @@ def rotations_of(pairs: Sequence[GearPair]) -> list[np.ndarray]:
 
 
 def train_drivetrain(pairs: Sequence[GearPair], output_torque: float) -> TrainDrivetrain:
-    """The shafts of a train under a torque (N mm) on the last one."""
+    """The gears of a row under a torque (N mm) on the last one."""
     count = len(pairs)
     radii = np.array([pair.base_radii[1] for pair in pairs])
     load = np.zeros(count)
@@ -66,7 +66,7 @@ def train_drivetrain(pairs: Sequence[GearPair], output_torque: float) -> TrainDr
 
 
 def drivetrain_of_mesh(pair: GearPair, wheel_torque: float) -> Drivetrain:
-    """Both gears of one mesh of a train, whose rotations follow from those of the shafts."""
+    """Both gears of one mesh of a row, whose rotations follow from those of all gears."""
     radii = np.array(pair.base_radii)
     load = np.array([0.0, wheel_torque]) / radii
     return Drivetrain(("rotation_1", "rotation_2"), radii, np.zeros((2, 2)), load, None, None)

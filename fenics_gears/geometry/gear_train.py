@@ -7,7 +7,7 @@ clockwise, is pushed on its counter-clockwise flanks and pushes with the others.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import floor, lcm, pi
+from math import floor, pi
 
 from fenics_gears.errors import GeometryError
 
@@ -46,30 +46,6 @@ def second_mesh(first: GearPair, second: GearPair, to_first: float, to_second: f
     pitches = (roll_of_second * radius - second.path_start) / idler.base_pitch
     whole = floor(pitches)
     return SecondMesh(pitches - whole, whole)
-
-
-def steps_in_common(counts: list[tuple[int, int]], fewest: int) -> list[int]:
-    """Steps in a mesh cycle of each of some meshes in a row, so that steps of all last as long.
-
-    `counts`: of each shaft between two meshes the teeth of the gear that is driven and of the one that drives; equal
-    for an idler. `fewest`: of the mesh with the fewest.
-
-    >>> steps_in_common([(61, 19)], 76)
-    [76, 244]
-    """
-    ratios = [(1, 1)]
-    for driven, driving in counts:
-        numerator, denominator = ratios[-1]
-        ratios.append(_lowest(numerator * driven, denominator * driving))
-    common = lcm(*(denominator for _, denominator in ratios))
-    whole = [numerator * common // denominator for numerator, denominator in ratios]
-    times = -(-fewest // min(whole))
-    return [times * each for each in whole]
-
-
-def _lowest(numerator: int, denominator: int) -> tuple[int, int]:
-    both = lcm(numerator, denominator)
-    return both // denominator, both // numerator
 
 
 def check_apart(one: Gear, other: Gear, distance: float, words: str) -> None:

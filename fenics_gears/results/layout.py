@@ -16,8 +16,9 @@ from .attributes import RESULT_ATTRIBUTES
 
 # Without these nothing can be drawn or said of a result; and what this program writes with them into each.
 REQUIRED = ("time", "mesh_phase", "transmission_error")
-# Of trains: the lag of the last shaft.
+# Of trains: the lag of the last shaft; and what dimensions of meshes are in results of pairs.
 OVERALL = "overall_transmission_error"
+OF_PAIRS = {"step": "time", "contact_step": "contact_time"}
 WRITTEN = (*COORDINATES, "slot", "gear", "normal_force", "pair_normal_force")
 TEXTS = ("title", "scene", "scene_name", "warnings")
 
@@ -49,11 +50,11 @@ def _mistakes_of_train(result: xr.Dataset) -> Iterator[str]:
 
 
 def _mistakes_of_values(result: xr.Dataset) -> Iterator[str]:
-    """Dimensions and kinds of variables and attributes; those of meshes are left to trains."""
+    """Dimensions and kinds of variables and attributes; in trains variables are over meshes too."""
     for name, allowed in _known_dims().items():
         if name not in result.variables:
             continue
-        dims = tuple(each for each in result[name].dims if each != "mesh")
+        dims = tuple(OF_PAIRS.get(each, each) for each in result[name].dims if each != "mesh")
         kind = result[name].dtype.kind
         if dims not in allowed:
             yield f"{name} is over ({', '.join(dims)}), not over ({', '.join(allowed[0])})"

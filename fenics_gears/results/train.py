@@ -1,169 +1,132 @@
-"""The result of a train: the variables of a pair with the dimension `mesh`, the numbers of each mesh as variables over
-it, and the transmission error of the whole."""
+"""The result of a train: the variables of a pair over steps and meshes, the numbers of each mesh as variables over the
+meshes, and the transmission error of the whole over time."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from math import isfinite
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 import fenics_gears
-from fenics_gears.dynamics.energy_account import account
-from fenics_gears.dynamics.march import March
-from fenics_gears.dynamics.steps import Steps
-from fenics_gears.elasticity.compliance import STAGES, Body
-from fenics_gears.model.train import TrainModel
+from fenics_gears.model.train import RowModel, TrainModel
 from fenics_gears.numbers_version import NUMBERS_VERSION
 
 from .attributes import RESULT_ATTRIBUTES
-from .contact_variables import energy_of_teeth
-from .dataset import coordinates_of, variables_of
-from .key_numbers import key_numbers
+from .dataset import RunResult
 from .layout import OVERALL
-from .numbers import RUNG
-from .recorder import Recorder
 
 MESH = "mesh"
-TIMES = ("time", "contact_time")
-# Of a mesh by itself they would leave out what it does through the bodies of its neighbours.
+# Each mesh has its own steps, in place of the times of a pair.
+STEPS = {"time": "step", "contact_time": "contact_step"}
+# Of a mesh of a row by itself they would leave out what it does through the bodies of its neighbours.
 OF_ENERGY = ("energy", "work_")
 MICROMETRE = 1e-3
+SHARED = ("gear", "path_point", "slot")
 
 
-class TrainResult:
-    """What a march of a train gives: `recorders` of its meshes, and the motion of its last shaft."""
+@dataclass(frozen=True)
+class MeshResult:
+    """A mesh of a train: its variables, as dimensions, values and labels, its numbers, and its warnings."""
 
-    def __init__(self, model: TrainModel, recorders: Sequence[Recorder]):
-        self._model = model
-        self._recorders = recorders
-        self._overall: list[np.ndarray] = []
-        # Work (N mm) that friction takes, and that of the drive beyond the one without losses.
-        self._lost = 0.0
-        self._driven = 0.0
-        self._last: Steps | None = None
+    name: str
+    variables: dict[str, tuple]
+    numbers: dict[str, float]
+    warnings: Sequence[str] = ()
 
-    def take(self, solved: Steps) -> None:
-        """The next steps."""
-        drivetrain = self._model.drivetrain
-        self._overall.append(solved.states[:, 0, -1] / drivetrain.radii[-1])
-        if self._model.equations_of_motion.friction:
-            together = solved if self._last is None else self._last.followed_by(solved)
-            clock = self._model.models[0].clock
-            work = account(drivetrain, clock, together, energy_of_teeth(together))
-            self._lost += float(work.friction[-1])
-            self._driven += float(work.rotation[-1])
-            self._last = solved.between(len(solved) - 1, len(solved))
+    @property
+    def cycle(self) -> np.ndarray:
+        """Transmission error (rad) at the steps of its last mesh cycle."""
+        steps = int(self.numbers["steps_per_mesh_cycle"])
+        return np.asarray(self.variables["transmission_error"][1])[-1 - steps : -1]
 
-    def dataset(self, march: March, bodies: Iterable[Body], stopped: str) -> xr.Dataset:
-        """All of it; `stopped`: why the march did not come to its end, empty where it did."""
-        for recorder in self._recorders:
-            recorder.finish()
-        overall = np.concatenate([np.empty(0), *self._overall])
-        longest = max(self._recorders, key=lambda each: each.steps)
-        widest = max(self._recorders, key=lambda each: each.slots)
-        times = self._model.models[0].clock.times(np.arange(len(overall)))
-        variables = dict(self._over_meshes())
-        coordinates = {
-            name: of
-            for name, of in coordinates_of(widest, widest.arrays).items()
-            if name in ("gear", "slot", "path_point")
-        }
-        labels = {"units": "s", "long_name": "time"}
-        coordinates |= {
-            "time": ("time", times, labels),
-            MESH: (MESH, [each.name for each in self._model.scene.meshes], {"long_name": "mesh"}),
-        }
-        if "contact_time" in longest.arrays:
-            coordinates["contact_time"] = ("contact_time", longest.arrays["contact_time"], labels)
-        variables[OVERALL] = (
-            "time",
-            overall,
-            {"units": "rad", "long_name": "lag of the last shaft behind the nominal motion of the first"},
+
+def mesh_result(name: str, result: RunResult) -> MeshResult:
+    """That of a stage which was run as a pair."""
+    dataset = result.dataset
+    own = {
+        str(each): (of.dims, of.values, of.attrs)
+        for each, of in dataset.variables.items()
+        if not str(each).startswith(OF_ENERGY)
+    }
+    numbers = {
+        each.name: float(dataset.attrs[each.name])
+        for each in RESULT_ATTRIBUTES
+        if each.units and not each.name.startswith("time_") and isinstance(dataset.attrs.get(each.name), float | int)
+    }
+    return MeshResult(name, own, numbers, dataset.attrs["warnings"].splitlines())
+
+
+def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
+    """All meshes side by side, and the lag of the last shaft."""
+    times, overall = overall_error(model, meshes)
+    variables = dict(_over_meshes(meshes))
+    variables[OVERALL] = (
+        "time",
+        overall,
+        {"units": "rad", "long_name": "lag of the last shaft behind the nominal motion of the first"},
+    )
+    variables |= _numbers_of_meshes([each.numbers for each in meshes])
+    most = {name: max((each for each in meshes), key=lambda each: _size(each, name)) for name in SHARED}
+    coordinates = {name: widest.variables[name] for name, widest in most.items() if name in widest.variables}
+    coordinates |= {
+        "time": ("time", times, {"units": "s", "long_name": "time"}),
+        MESH: (MESH, [each.name for each in meshes], {"long_name": "mesh"}),
+    }
+    found = xr.Dataset(variables, coords=coordinates)
+    found.attrs = _attributes(model, meshes, overall)
+    return found
+
+
+def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.ndarray, np.ndarray]:
+    """Times (s) over a cycle of the slowest mesh, at the steps of the fastest; and the lag (rad) of the last shaft
+    there: of each row that of its last gear, through the ratios behind it. Between steps it is linear."""
+    frequencies = [own.scene.motion.mesh_frequency for own in model.models]
+    steps = [frequency * each.numbers["steps_per_mesh_cycle"] for frequency, each in zip(frequencies, meshes)]
+    cycles = model.models[0].scene.motion.mesh_cycles
+    times = np.arange(int(np.ceil(cycles * max(steps) / min(frequencies))) + 1) / max(steps)
+    lag = np.zeros(len(times))
+    first = 0
+    for row in model.rows:
+        for model_of_mesh, each in zip(row.models, meshes[first : first + len(row.models)]):
+            phase = times * model_of_mesh.scene.motion.mesh_frequency
+            curve = each.cycle
+            own = np.interp(phase * len(curve), np.arange(len(curve)), curve, period=len(curve))
+            lag = lag * model_of_mesh.pair.rotation_ratio + own
+        first += len(row.models)
+    return times, lag
+
+
+def _size(mesh: MeshResult, name: str) -> int:
+    return len(mesh.variables[name][1]) if name in mesh.variables else 0
+
+
+def _over_meshes(meshes: Sequence[MeshResult]) -> Iterator[tuple[str, tuple]]:
+    """Name, and dimensions, values and labels of each variable of all meshes, side by side. What only some meshes have
+    over the face stands in its first slice for the others."""
+    own = [{name: of for name, of in each.variables.items() if name not in SHARED} for each in meshes]
+    sizes = _largest_sizes(own)
+    for name in dict.fromkeys(name for each in own for name in each):
+        there = [each.get(name) for each in own]
+        dims = max((_names_of(each[0]) for each in there if each is not None), key=len)
+        values = _side_by_side(
+            [None if each is None else _over(dims, each) for each in there], [sizes[each] for each in dims]
         )
-        numbers = [self._numbers(recorder) for recorder in self._recorders]
-        variables |= _numbers_of_meshes(numbers)
-        found = xr.Dataset(variables, coords=coordinates)
-        found.attrs = self._attributes(march, bodies, stopped, overall)
-        return found
+        behind = 1 if dims and dims[0] in STEPS else 0
+        renamed = [STEPS.get(each, each) for each in dims]
+        labels = next(each[2] for each in there if each is not None)
+        # Times and places of one mesh are no coordinate of all.
+        known = f"{name}_of_mesh" if name in dims else name
+        yield known, ((*renamed[:behind], MESH, *renamed[behind:]), np.moveaxis(values, 0, behind), labels)
 
-    def _over_meshes(self) -> Iterable[tuple[str, tuple]]:
-        """Variables of all meshes, side by side."""
-        of_meshes: list[dict[str, tuple]] = []
-        for recorder in self._recorders:
-            own = {name: (dims, values, labels) for name, dims, values, labels in variables_of(recorder, 0)}
-            own |= {
-                name: of
-                for name, of in coordinates_of(recorder, recorder.arrays).items()
-                if name in ("mesh_phase", "pair_number", "contact_pair_number")
-            }
-            of_meshes.append({name: of for name, of in own.items() if not name.startswith(OF_ENERGY)})
-        sizes = _largest_sizes(of_meshes)
-        for name in dict.fromkeys(name for own in of_meshes for name in own):
-            there = [None if name not in own else np.asarray(own[name][1]) for own in of_meshes]
-            dims, _, labels = next(own[name] for own in of_meshes if name in own)
-            dims = _names_of(dims)
-            values = _side_by_side(there, [sizes[each] for each in dims])
-            behind = 1 if dims[0] in TIMES else 0
-            yield name, ((*dims[:behind], MESH, *dims[behind:]), np.moveaxis(values, 0, behind), labels)
 
-    def _numbers(self, recorder: Recorder) -> dict[str, float]:
-        """Numbers of one mesh, of its whole cycles."""
-        if not recorder.steps:
-            return {}
-        counted = {name: recorder.arrays[name] for name, (dims, _) in recorder.stored.items() if dims[0] == "time"}
-        model = recorder.model
-        error = counted["transmission_error"]
-        cycle = error[:-1] if len(error) > 1 else error
-        found = key_numbers(counted, model.pair, None, False)
-        found |= {
-            "mean_transmission_error": float(cycle.mean()),
-            "peak_to_peak_transmission_error": float(np.ptp(error)),
-            "base_radius_wheel": model.pair.wheel.base_radius,
-        }
-        return {name: value for name, value in found.items() if isinstance(value, float | int) and isfinite(value)}
-
-    def _attributes(self, march: March, bodies: Iterable[Body], stopped: str, overall: np.ndarray) -> dict[str, Any]:
-        model = self._model
-        scene = model.scene
-        timings = {name: sum(body.timings[name] for body in bodies) for name in STAGES}
-        found: dict[str, Any] = {
-            "title": scene.title,
-            "scene": scene.text,
-            "scene_name": scene.name,
-            "fenics_gears_version": fenics_gears.__version__,
-            "numbers_version": NUMBERS_VERSION,
-            "complete": int(not stopped),
-            "steps": march.steps,
-            "newton_iterations_total": march.newton_iterations,
-            "time_march": march.seconds,
-            "warnings": "\n".join([*model.warnings, *self._without_contact(march)]),
-            **timings,
-            **({"stopped": stopped} if stopped else {}),
-            **{f"{RUNG}{rung}": count for rung, count in march.steps_by_method.items() if count},
-        }
-        if len(overall):
-            found["mean_overall_transmission_error"] = float(overall[:-1].mean() if len(overall) > 1 else overall[0])
-            found["peak_to_peak_overall_transmission_error"] = float(np.ptp(overall))
-        friction = model.equations_of_motion.friction
-        if friction and march.steps:
-            found["friction_coefficient"] = friction
-            found["friction_loss"] = self._lost / (self._driven + self._driving_work(march.steps))
-        return found
-
-    def _driving_work(self, steps: int) -> float:
-        """Work (N mm) of the drive over so many steps without losses."""
-        first = self._model.models[0]
-        pitch = first.pair.pinion.angular_pitch
-        return self._model.scene.input_torque * pitch * steps / first.resolution.steps_per_mesh_cycle
-
-    @staticmethod
-    def _without_contact(march: March) -> list[str]:
-        if not march.separations:
-            return []
-        return [f"no flanks of any mesh touch in {len(march.separations)} of {march.steps} steps"]
+def _over(dims: tuple[str, ...], variable: tuple) -> np.ndarray:
+    """The values of a variable with an axis for each of some dimensions."""
+    own = _names_of(variable[0])
+    values = np.asarray(variable[1])
+    return values.reshape([values.shape[own.index(each)] if each in own else 1 for each in dims])
 
 
 def _names_of(dims: str | Sequence[str]) -> tuple[str, ...]:
@@ -194,41 +157,69 @@ def _numbers_of_meshes(numbers: Sequence[Mapping[str, float]]) -> dict[str, tupl
     described = {each.name: each for each in RESULT_ATTRIBUTES}
     found = {}
     for name in dict.fromkeys(name for own in numbers for name in own):
-        labels = described[name]
         values = np.array([own.get(name, np.nan) for own in numbers], dtype=float)
-        found[name] = ((MESH,), values, {"units": labels.units or "1", "long_name": labels.meaning})
+        labels = {"units": described[name].units or "1", "long_name": described[name].meaning}
+        found[name] = ((MESH,), values, labels)
     return found
+
+
+def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.ndarray) -> dict[str, Any]:
+    scene = model.scene
+    said = [f"{each.name}: {warning}" for each in meshes for warning in each.warnings]
+    left = 1.0
+    for each in meshes:
+        left *= 1.0 - each.numbers.get("friction_loss", 0.0)
+    losses = {"friction_loss": 1.0 - left} if left != 1.0 else {}
+    mean = 0.0
+    for own, each in zip(model.models, meshes):
+        mean = mean * own.pair.rotation_ratio + each.numbers["mean_transmission_error"]
+    return {
+        "title": scene.title,
+        "scene": scene.text,
+        "scene_name": scene.name,
+        "fenics_gears_version": fenics_gears.__version__,
+        "numbers_version": NUMBERS_VERSION,
+        "complete": 1,
+        "warnings": "\n".join(dict.fromkeys([*said, *_of_rows(model)])),
+        "mean_overall_transmission_error": mean,
+        "peak_to_peak_overall_transmission_error": float(np.ptp(overall)),
+        **losses,
+    }
+
+
+def _of_rows(model: TrainModel) -> list[str]:
+    """Warnings before the run of those meshes that were not run as pairs, which tell their own."""
+    coupled: list[RowModel] = [row for row in model.rows if not row.single]
+    return [
+        f"{mesh.name}: {said}" for row in coupled for mesh, own in zip(row.meshes, row.models) for said in own.warnings
+    ]
 
 
 def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
     """What is printed of a train: rows of label, value and unit."""
+    attrs = found.attrs
     rows = [
-        (
-            "overall transmission error, peak to peak",
-            f"{found.attrs['peak_to_peak_overall_transmission_error']:.5g}",
-            "rad",
-        ),
-        ("overall transmission error, mean", f"{found.attrs['mean_overall_transmission_error']:.5g}", "rad"),
+        (f"overall transmission error, {label}", f"{attrs[f'{name}_overall_transmission_error']:.5g}", "rad")
+        for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
     ]
-    if "friction_loss" in found.attrs:
-        rows.append(("friction loss, all meshes", f"{100.0 * found.attrs['friction_loss']:.4g}", "%"))
+    if "friction_loss" in attrs:
+        rows.append(("friction loss, all meshes", f"{100.0 * attrs['friction_loss']:.4g}", "%"))
     for name in found[MESH].values:
         own = found.sel({MESH: name})
         radius = float(own["base_radius_wheel"])
-        for label, number in (("peak to peak", "peak_to_peak"), ("mean", "mean")):
+        for number, label in (("peak_to_peak", "peak to peak"), ("mean", "mean")):
             angle = float(own[f"{number}_transmission_error"])
             said = f"{angle * radius / MICROMETRE:.4g} um = {angle:.5g} rad"
             rows.append((f"{name}: transmission error, {label}", said, ""))
         for number, label, unit in SAID:
             if number in own and np.isfinite(own[number]):
                 rows.append((f"{name}: {label}", f"{float(own[number]):.4g}", unit))
-    attrs = found.attrs
-    rows.append(("steps, Newton iterations", f"{attrs['steps']}, {attrs['newton_iterations_total']}", ""))
     return rows
 
 
 SAID = (
     ("mean_mesh_stiffness", "mesh stiffness, mean", "N/(mm um)"),
+    ("face_load_factor", "face load factor K_Hbeta", ""),
     ("largest_pair_force", "largest force of a tooth pair", "N"),
     ("peak_contact_pressure", "peak contact pressure", "MPa"),
 )

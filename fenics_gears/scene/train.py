@@ -2,8 +2,8 @@
 
 A stage of two gears has what the scene of a pair has: its gears, and the sections of its effects. In a row of gears
 each gear meshes with the next, so that those between are idlers. The wheel of a stage, or the last gear of its row, is
-on one shaft with the pinion of the next stage. Each mesh becomes the scene of a pair, under the torque that it has in
-the train without losses.
+on one rigid shaft with the pinion of the next stage. Each mesh becomes the scene of a pair, under the torque that it
+has in the train without losses.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.geometry.gear_train import SecondMesh, check_apart, second_mesh, steps_in_common
+from fenics_gears.geometry.gear_train import SecondMesh, check_apart, second_mesh
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.inputs.fields import quantity, whole_number
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean, line_numbers, listed
@@ -32,9 +32,13 @@ from .schema import NOMINAL_FREQUENCY
 
 PAIR = "pair"
 ROW = "row"
-# Sections of a pair's scene that a stage may have; `[friction]` and `[accuracy]` are of the whole train.
-OF_A_STAGE = ("tip_relief", "root_relief", "profile_modifications", "corner_contact")
-OF_A_TRAIN = ("title", "stages", "load", "motion", "friction", "accuracy")
+# Sections that a train may have for all of its stages, and those that a row may have of its own; and a stage of two
+# gears. Others make shafts give way or vibrate, and so couple the stages.
+SHARED = ("friction", "accuracy")
+OF_A_ROW = (*SHARED, "tip_relief", "root_relief", "profile_modifications", "corner_contact")
+OF_A_STAGE = (*OF_A_ROW, "lead_modifications", "misalignment", "coast_flanks", "body_meshes")
+COUPLING = ("shafts", "bearings", "inertia", "damping", "torque_ripple", "speed_ramp", "flank_errors", "eccentricity")
+OF_A_TRAIN = ("title", "stages", "load", "motion", *SHARED)
 MOST_STAGES = 20
 
 
@@ -74,13 +78,7 @@ class TrainMotion(Section):
         meaning="speed of the first shaft",
         otherwise="a cycle of the first mesh takes 1 s",
     )
-    mesh_cycles: int | None = whole_number(
-        1,
-        1000000,
-        2,
-        meaning="cycles of the slowest mesh that are run",
-        otherwise="one, so that each mesh passes a whole one",
-    )
+    mesh_cycles: int | None = whole_number(1, 1000000, 2, meaning="cycles that each mesh is run", otherwise="one")
 
 
 @dataclass(frozen=True)
@@ -116,11 +114,6 @@ class TrainScene:
             found /= mesh.pair.rotation_ratio
         return found
 
-    @property
-    def steps(self) -> tuple[int, ...]:
-        """Steps in a mesh cycle of each mesh; all last as long."""
-        return tuple(mesh.scene.accuracy.steps_per_mesh_cycle or 0 for mesh in self.meshes)
-
 
 def load_train(path: str | os.PathLike) -> TrainScene:
     """Read and validate the scene file of a train.
@@ -134,6 +127,16 @@ def load_train(path: str | os.PathLike) -> TrainScene:
     if not is_train(tree):
         raise SceneError(f"{path}: has no [stages.NAME]: it is the scene of a pair, or none. {NOTHING_DONE}")
     return train_of(tree, text, name_of(path), str(path), path.parent)
+
+
+def rows_of(meshes: Sequence[MeshOfScene]) -> list[list[int]]:
+    """Numbers of meshes, those that idlers couple together."""
+    rows: list[list[int]] = []
+    for number, mesh in enumerate(meshes):
+        if mesh.idler is None:
+            rows.append([])
+        rows[-1].append(number)
+    return rows
 
 
 def is_train(tree: Mapping[str, Any]) -> bool:
@@ -187,6 +190,8 @@ def _sections(tree: Mapping[str, Any]) -> tuple[Any, Any, list[Problem]]:
 def _where(name: str) -> str:
     if name in OF_A_STAGE:
         return f"Write it within a stage: [stages.NAME.{name}]."
+    if name in COUPLING:
+        return f"It couples the stages, which is not yet computed. Known: {', '.join(OF_A_TRAIN)}."
     return f"Known: {', '.join(OF_A_TRAIN)}; within a stage {', '.join(OF_A_STAGE)} and all fields of [gears]."
 
 
@@ -211,9 +216,12 @@ def _of_stage(path: tuple[str, ...], content: Any) -> Iterator[Problem]:
     elif "gears" in content or "directions" in content:
         wrong = "gears" if "gears" in content else "directions"
         yield Problem((*path, wrong), as_written(content[wrong]), f'is of a row. Add kind = "{ROW}", or leave it out.')
-    for friction in ("friction", "accuracy"):
-        if friction in content:
-            yield Problem((*path, friction), "", f"is of the whole train. Write it as [{friction}].")
+    idlers = kind == ROW and isinstance(content.get("gears"), list) and len(content["gears"]) > 2
+    for name in (*COUPLING, *(OF_A_STAGE if idlers else ())):
+        if name in content and name not in OF_A_ROW:
+            what = "in rows with idlers" if name in OF_A_STAGE else "in trains"
+            allowed = f"Allowed: {', '.join(OF_A_ROW if idlers else OF_A_STAGE)}."
+            yield Problem((*path, name), "", f"is not yet computed {what}. {allowed}")
 
 
 def _of_row(path: tuple[str, ...], content: Mapping[str, Any]) -> Iterator[Problem]:
@@ -255,9 +263,12 @@ def _meshes_of(
         fields = {name: value for name, value in own.items() if name not in (*OF_A_STAGE, "pinion", "wheel")}
         both = {"pinion": gears[number], "wheel": gears[number + 1]}
         given = {name: gear for name, gear in both.items() if gear is not None}
-        shared = {name: tree[name] for name in ("friction", "accuracy") if name in tree}
-        sections = {"gears": fields | given, **inner, **shared, "load": {"wheel_torque": "1 N m"}}
-        return _pair_scene(sections, f"{stage} {number + 1}" if count > 1 else stage, label, folder)
+        shared = {name: tree[name] for name in SHARED if name in tree}
+        sections = {"gears": fields | given, **shared, **inner, "load": {"wheel_torque": "1 N m"}}
+        found = _pair_scene(sections, f"{stage} {number + 1}" if count > 1 else stage, label, folder)
+        if count > 1:
+            _check_in_row(found, label)
+        return found
 
     scenes = [scene(number) for number in range(count)]
     for number in range(1, count):
@@ -278,17 +289,23 @@ def _pair_scene(sections: Mapping[str, Any], name: str, source: str, folder: Pat
         raise SceneError(f"{error}\n[gears] and its effects stand for the stage's own section.") from None
     except GeometryError as error:
         raise GeometryError(str(error)) from None
-    if found.three_dimensional:
-        raise SceneError(
-            f"{source}: helical gears, lead modifications and misalignment are not yet computed in trains. Allowed:"
-            f" spur gears with {', '.join(OF_A_STAGE)}. {NOTHING_DONE}"
-        )
-    if found.accuracy.target is not None or found.accuracy.model is not None or found.accuracy.condensation is not None:
-        raise SceneError(
-            f"{source}: accuracy.target, accuracy.model and accuracy.condensation are not yet computed in trains."
-            f" {NOTHING_DONE}"
-        )
+    if found.accuracy.target is not None:
+        raise SceneError(f"{source}: accuracy.target is not yet computed in trains. {NOTHING_DONE}")
     return found
+
+
+def _check_in_row(scene: Scene, source: str) -> None:
+    """Raise SceneError for a mesh of a row with idlers that is not of elastic spur gears in the plane."""
+    if scene.three_dimensional:
+        raise SceneError(
+            f"{source}: helical gears are not yet computed in rows with idlers. Allowed: spur gears with"
+            f" {', '.join(OF_A_ROW)}. {NOTHING_DONE}"
+        )
+    if not scene.resolves_contact or scene.accuracy.condensation is not None:
+        raise SceneError(
+            f"{source}: rigid teeth, accuracy.model and accuracy.condensation are not yet computed in rows with idlers."
+            f" Allowed: elastic teeth, by a material. {NOTHING_DONE}"
+        )
 
 
 def _angle(written: Any, stage: str, source: str) -> float:
@@ -356,19 +373,13 @@ def _completed(
         output = load.input_torque / through
     else:
         output = load.power / driving / through
-    counts = [(one.pair.wheel.teeth, other.pair.pinion.teeth) for one, other in zip(meshes, meshes[1:])]
-    fewest = max(
-        each.scene.accuracy.steps_per_mesh_cycle or each.scene.fineness.steps_per_mesh_cycle for each in meshes
-    )
-    steps = steps_in_common(counts, fewest)
     cycles = motion.mesh_cycles or 1
     found = []
     torque = output * through
-    for mesh, count, ratio in zip(meshes, steps, ratios):
+    for mesh, ratio in zip(meshes, ratios):
         torque /= ratio
-        own = max(steps) * cycles // count
-        moving = Motion(frequency * steps[0] / count, own, own, False, speed is not None)
-        accuracy = replace(mesh.scene.accuracy, steps_per_mesh_cycle=count)
-        scene = replace(mesh.scene, load=Load(torque), motion=moving, accuracy=accuracy)
-        found.append(replace(mesh, scene=scene))
+        moving = Motion(frequency, cycles, cycles, False, speed is not None)
+        behind = meshes[len(found) + 1 : len(found) + 2]
+        frequency *= behind[0].pair.pinion.teeth / mesh.pair.wheel.teeth if behind else 1.0
+        found.append(replace(mesh, scene=replace(mesh.scene, load=Load(torque), motion=moving)))
     return TrainScene(title, name, tuple(found), output * through, output, speed is not None, text)

@@ -15,27 +15,21 @@ from fenics_gears.scene.train import TrainScene
 
 from .chart import LEAST_SHARE, Chart, Curve
 from .drawing import picture
-from .panels import DARK, PALETTE, WARNING
+from .panels import PALETTE
 from .plots import heading, save_figures
 
 TRAIN_PICTURE_FILES = ("train.png", "transmission_error.png")
 POINTS_OF_A_CIRCLE = 181
 MICRO = 1e6
-MESH_CYCLES = "Time (cycles of the first mesh)"
 
 
 def draw_train(scene: TrainScene, dataset: xr.Dataset, directory: Path) -> list[Path]:
     """Draw the pictures of a train's run, as PNG, and return the files."""
-    complete = bool(dataset.attrs["complete"])
-    more = [] if complete else [f"INCOMPLETE RUN: stopped after step {dataset.attrs['steps']}"]
     subjects = {
         TRAIN_PICTURE_FILES[0]: ("Gear train", [drawing_of(scene)]),
         TRAIN_PICTURE_FILES[1]: ("Transmission error", _errors(scene, dataset)),
     }
-    figures = {
-        name: picture(heading(subject, scene.title, *more), charts, DARK if complete else WARNING)
-        for name, (subject, charts) in subjects.items()
-    }
+    figures = {name: picture(heading(subject, scene.title), charts) for name, (subject, charts) in subjects.items()}
     return save_figures(figures, directory)
 
 
@@ -53,8 +47,7 @@ def drawing_of(scene: TrainScene) -> Chart:
         both = list(zip(places, (pair.pinion, pair.wheel), names))
         # An idler is drawn in its first mesh.
         for middle, gear, name in both[mesh.idler is not None :]:
-            colour = PALETTE[number % len(PALETTE)]
-            curves += _circles(middle, gear, pair, f"{stage}: {name}, {gear.teeth} teeth", colour)
+            curves += _circles(middle, gear, pair, f"{stage}: {name}, {gear.teeth} teeth", _colour(number))
             number += 1
     speeds = "turns of the first shaft in one of the last"
     caption = f"Tip and pitch circles (dashed), to scale; {scene.ratio:.5g} {speeds}"
@@ -76,34 +69,36 @@ def _circles(centre: complex, gear: Gear, pair: GearPair, name: str, colour: str
 
 
 def _errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
-    first = np.asarray(dataset["mesh_phase"].isel(mesh=0))
-    known = np.isfinite(first)
-    cycles = np.interp(dataset["time"], np.asarray(dataset["time"])[known], first[known]) if known.any() else first
+    """Of the whole over time, and of each mesh over its own mesh cycles."""
+    frequency = scene.meshes[0].scene.motion.mesh_frequency
     overall = MICRO * np.asarray(dataset["overall_transmission_error"])
-    span = dataset.attrs.get("peak_to_peak_overall_transmission_error", np.nan) * MICRO
     charts = [
         Chart(
-            f"Overall transmission error: peak to peak {span:#.4g} µrad",
-            [Curve("overall transmission error", cycles, overall)],
-            MESH_CYCLES,
+            f"Overall transmission error: peak to peak {np.ptp(overall):#.4g} µrad",
+            [Curve("overall transmission error", frequency * np.asarray(dataset["time"]), overall)],
+            "Time (cycles of the first mesh)",
             "Lag of the last shaft (µrad)",
-            least=LEAST_SHARE * float(np.nanmax(np.abs(overall), initial=0.0)),
+            least=LEAST_SHARE * float(np.abs(overall).max(initial=0.0)),
             height=320,
         )
     ]
     for number, mesh in enumerate(scene.meshes):
         own = dataset.isel(mesh=number)
-        radius = mesh.pair.wheel.base_radius
-        values = 1e3 * radius * np.asarray(own["transmission_error"])
-        name = f"{mesh.name}: peak to peak {np.nanmax(values) - np.nanmin(values):#.4g} µm on the wheel's base circle"
+        values = 1e3 * mesh.pair.wheel.base_radius * np.asarray(own["transmission_error"])
+        known = np.isfinite(values)
+        span = 1e3 * mesh.pair.wheel.base_radius * float(own["peak_to_peak_transmission_error"])
         charts.append(
             Chart(
-                name,
-                [Curve(mesh.name, cycles, values, PALETTE[number % len(PALETTE)])],
-                MESH_CYCLES,
+                f"{mesh.name}: peak to peak {span:#.4g} µm on the wheel's base circle",
+                [Curve(mesh.name, np.asarray(own["mesh_phase"])[known], values[known], _colour(number))],
+                "Time (cycles of this mesh)",
                 "Transmission error (µm)",
-                least=LEAST_SHARE * float(np.nanmax(np.abs(values), initial=0.0)),
+                least=LEAST_SHARE * float(np.abs(values[known]).max(initial=0.0)),
                 height=240,
             )
         )
     return charts
+
+
+def _colour(number: int) -> str:
+    return PALETTE[number % len(PALETTE)]

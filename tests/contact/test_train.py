@@ -8,7 +8,7 @@ from fenics_gears.contact.train import begun_at
 from fenics_gears.dynamics.stepping import Stepper
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.train import train_model_of
-from fenics_gears.simulation.train import train_cycle
+from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 
 FRICTION = "[friction]\ncoefficient = 0.1"
@@ -19,8 +19,8 @@ def cycle_of(tmp_path_factory):
     cache = Cache(tmp_path_factory.mktemp("gears"))
 
     def made(scene):
-        model = train_model_of(scene)
-        return model, train_cycle(model, SilentProgress(), cache)[0]
+        (model,) = train_model_of(scene).rows
+        return model, row_cycle(model, SilentProgress(), cache)
 
     return made
 
@@ -43,7 +43,7 @@ def test_a_train_driven_from_its_other_end_has_the_same_transmission_error(cycle
     steps = np.array([3.0, 5.75, 10.0, 14.5, 17.25])
     model, cycle = cycle_of(row([24, 31, 40], [0, 60], 300))
     mirrored, reversed_cycle = cycle_of(row([40, 31, 24], [120, 180], 180))
-    phase, _ = begun_at([mesh.idler for mesh in mirrored.scene.meshes])[1]
+    phase, _ = begun_at([mesh.idler for mesh in mirrored.meshes])[1]
     ahead = model.models[0].pair.contact_ratio - steps / cycle.steps - phase
     driven = overall_errors(model, cycle, steps) * 40 / 24
     driving = overall_errors(mirrored, reversed_cycle, (ahead % 1.0) * cycle.steps)

@@ -6,7 +6,7 @@ import pytest
 from tests.trains import row
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.gear_train import second_mesh, steps_in_common
+from fenics_gears.geometry.gear_train import second_mesh
 
 
 def past_the_pitch_point(pair, phase: float) -> float:
@@ -44,17 +44,6 @@ def test_an_idler_between_opposite_gears_has_the_parity_of_its_teeth():
         apart[teeth] = past_the_pitch_point(second, phase) - past_the_pitch_point(first, 0.0)
     assert apart[30] % 1.0 == pytest.approx(0.5, abs=1e-12)
     assert (apart[31] + 0.5) % 1.0 == pytest.approx(0.5, abs=1e-12)
-
-
-def test_steps_of_stages_last_as_long():
-    """f2/f1 = z_driver/z_driven on the shaft between: 20/61 and 19/70 need 19 and 61 steps or multiples."""
-    assert steps_in_common([(61, 19)], 76) == [76, 244]
-    assert steps_in_common([(31, 31)], 40) == [40, 40]
-    for counts in ([(67, 13), (38, 7)], [(30, 20), (35, 14), (50, 25)]):
-        steps = steps_in_common(counts, 20)
-        for (driven, driving), before, after in zip(counts, steps, steps[1:]):
-            assert after * driving == before * driven
-        assert min(steps) >= 20
 
 
 def test_gears_that_overlap_are_refused():

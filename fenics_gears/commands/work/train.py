@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import argparse
-import sys
+from collections.abc import Iterator
 from math import pi
 from pathlib import Path
 
 from fenics_gears import results
-from fenics_gears.errors import ComputationError
+from fenics_gears.contact.train import begun_at
+from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of
-from fenics_gears.scene.train import TrainScene
+from fenics_gears.scene.train import MeshOfScene, TrainScene
 from fenics_gears.system.console import print_rows
 from fenics_gears.system.output import check_writable, write_whole
 from fenics_gears.system.progress import Interruption
 
-from ..shared import INTERRUPTED, RUN_FILE, WITHOUT_SOMETHING
+from ..shared import RUN_FILE, WITHOUT_SOMETHING
 from .shared import after_result, plots, shown_progress
 
 PICTURES = ("train.png", "transmission_error.png")
@@ -33,27 +34,15 @@ def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
     file = directory / RUN_FILE
     pictures: list[Path] | None = []
     with Interruption(shown_progress(options.quiet)) as interruption:
-        try:
-            found = simulate_train(model, interruption)
-        except ComputationError as error:
-            partial = getattr(error, "partial", None)
-            if partial is None or not partial.sizes.get("time", 0):
-                raise
-            _save(partial, file)
-            said = f"What was done until then is kept, marked incomplete: {file}"
-            raise ComputationError(f"{error}\n{said}") from error
+        found = simulate_train(model, interruption)
         _save(found, file)
-        whole = bool(found.attrs["complete"])
-        if whole and not options.no_pictures:
+        if not options.no_pictures:
             interruption.stage("draw pictures")
             pictures = after_result(file, "pictures", lambda: plots("train").draw_train(scene, found, directory))
     if not options.quiet:
         said = [("WARNING", warning, "") for warning in found.attrs["warnings"].splitlines()]
         print_rows(scene.title, [*train_rows(found), *said])
         print_rows("Files", [("", str(each), "") for each in (file, *(pictures or []))])
-    if not whole:
-        print(f"Interrupted. What was done until then is kept, marked incomplete: {file}", file=sys.stderr)
-        return INTERRUPTED
     return WITHOUT_SOMETHING if pictures is None else 0
 
 
@@ -66,13 +55,15 @@ def _save(found, file: Path) -> None:
 
 
 def check_train(scene: TrainScene) -> int:
-    """Print the description of a train: speeds, torques, meshes, phases and steps."""
+    """Print the description of a train: speeds, torques, meshes and their phases."""
     model = train_model_of(scene)
     print(f"{scene.title}\n")
     print_rows("Train", _train_rows(model))
     print_rows("Shafts", list(_shaft_rows(model)))
-    for mesh, own, phase in zip(scene.meshes, model.models, phases(model)):
-        print_rows(f"Mesh {mesh.name}", _mesh_rows(mesh, own, phase))
+    for row in model.rows:
+        begun = begun_at([mesh.idler for mesh in row.meshes])
+        for mesh, own, (phase, _) in zip(row.meshes, row.models, begun):
+            print_rows(f"Mesh {mesh.name}", _mesh_rows(mesh, own, phase))
     if model.warnings:
         print_rows("Warnings", [("", said, "") for said in model.warnings])
     return 0
@@ -85,7 +76,6 @@ def _train_rows(model: TrainModel) -> list[Row]:
         ("turns of the first shaft in one of the last", f"{scene.ratio:.6g}", ""),
         ("torque on the first shaft, without losses", f"{1e-3 * scene.input_torque:.5g}", "N m"),
         ("torque on the last shaft", f"{1e-3 * scene.output_torque:.5g}", "N m"),
-        ("steps of the run", f"{model.steps}", ""),
     ]
     if scene.speed_given:
         first = scene.meshes[0]
@@ -94,7 +84,7 @@ def _train_rows(model: TrainModel) -> list[Row]:
     return rows
 
 
-def _shaft_rows(model: TrainModel):
+def _shaft_rows(model: TrainModel) -> Iterator[Row]:
     """Speed and torque of each shaft; the first one turns counter-clockwise."""
     sense = 1.0
     first = model.scene.meshes[0]
@@ -111,20 +101,13 @@ def _shaft_rows(model: TrainModel):
             sense = -sense
 
 
-def phases(model: TrainModel) -> list[float]:
-    """Mesh cycles past a start of contact at which each mesh begins."""
-    from fenics_gears.contact.train import begun_at
-
-    return [phase for phase, _ in begun_at([mesh.idler for mesh in model.scene.meshes])]
-
-
-def _mesh_rows(mesh, own, phase: float) -> list[Row]:
+def _mesh_rows(mesh: MeshOfScene, own: Model, phase: float) -> list[Row]:
     pair = own.pair
     rows = [
         ("teeth", f"{pair.pinion.teeth} / {pair.wheel.teeth}", ""),
         ("centre distance", f"{pair.centre_distance:.6g}", "mm"),
         ("direction of the wheel from the pinion", f"{180.0 / pi * mesh.direction:.4g}", "deg"),
-        ("contact ratio", f"{pair.contact_ratio:.4g}", ""),
+        ("contact ratio, with overlap", f"{pair.total_contact_ratio:.4g}", ""),
         ("torque on its wheel", f"{1e-3 * own.scene.load.wheel_torque:.5g}", "N m"),
         ("steps in a mesh cycle", f"{own.resolution.steps_per_mesh_cycle}", ""),
         ("begins at mesh phase", f"{phase:.6g}", ""),
