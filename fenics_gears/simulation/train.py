@@ -3,7 +3,7 @@ rotation alone."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -25,7 +25,7 @@ from fenics_gears.model.train import RowModel, TrainModel, train_model_of
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.row import RowResult
 from fenics_gears.results.train import MeshResult, dataset_of, mesh_result
-from fenics_gears.scene.train import TrainScene
+from fenics_gears.scene.train import MeshOfScene, TrainScene
 from fenics_gears.system.memory import allowed_memory
 from fenics_gears.system.progress import Progress, SilentProgress
 
@@ -38,11 +38,17 @@ from .warm_up import compile_kernels, compile_loops
 SHARE_OF_OPERATORS = 0.5
 
 
+Keep = Callable[[MeshOfScene, xr.Dataset], None]
+
+
 def simulate_train(
-    scene: TrainScene | TrainModel, progress: Progress | None = None, cache: Cache | None = None
+    scene: TrainScene | TrainModel,
+    progress: Progress | None = None,
+    cache: Cache | None = None,
+    keep: Keep | None = None,
 ) -> xr.Dataset:
     """Run a train and return its result: the variables of a pair over steps and `mesh`, the numbers of each mesh, and
-    the transmission error of the whole over time.
+    the transmission error of the whole over time. `keep`: is given each stage of two gears and its result as a pair.
 
     Raises GeometryError and SceneError before any computation, ComputationError where a stage fails, KeyboardInterrupt
     on Ctrl-C.
@@ -57,7 +63,7 @@ def simulate_train(
     found: list[MeshResult] = []
     for row in model.rows:
         try:
-            found += _single(row, progress, cache) if row.single else _coupled(row, progress, cache)
+            found += _single(row, progress, cache, keep) if row.single else _coupled(row, progress, cache)
         except ContactNotConverged as failure:
             failure.reason = f"{row.meshes[0].name}: {failure.reason}"
             failure.partial = None
@@ -65,11 +71,13 @@ def simulate_train(
     return dataset_of(model, found)
 
 
-def _single(row: RowModel, progress: Progress, cache: Cache | None) -> list[MeshResult]:
+def _single(row: RowModel, progress: Progress, cache: Cache | None, keep: Keep | None) -> list[MeshResult]:
     """A stage of two gears, as a pair by itself."""
     result = solved(row.models[0], progress=progress, cache=cache)
     if not result.attrs["complete"]:
         raise KeyboardInterrupt
+    if keep is not None:
+        keep(row.meshes[0], result.dataset)
     return [mesh_result(row.meshes[0].name, result)]
 
 

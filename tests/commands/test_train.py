@@ -3,7 +3,7 @@
 import pytest
 from tests.trains import COARSE, stage
 
-from fenics_gears import load
+from fenics_gears import load, load_scene
 from fenics_gears.commands.cli import main
 
 LOAD = f'[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n'
@@ -19,11 +19,22 @@ def scene(tmp_path):
 def test_run_writes_result_and_pictures(scene, tmp_path):
     """What the page on trains says."""
     assert main(["run", str(scene), "-o", str(tmp_path / "out"), "-q"]) == 0
-    assert {each.name for each in (tmp_path / "out").iterdir()} == {"run.nc", "train.png", "transmission_error.png"}
+    written = {"run.nc", "train.png", "transmission_error.png", "first", "second"}
+    assert {each.name for each in (tmp_path / "out").iterdir()} == written
     found = load(tmp_path / "out" / "run.nc")
     assert found.sizes["mesh"] == 2
     assert found.attrs["complete"] == 1
     assert found.attrs["scene"] == scene.read_text()
+
+
+def test_each_stage_is_a_run_and_a_scene_for_all_other_commands(scene, tmp_path, capsys):
+    """A stage is a pair under its torque: 200 N m on the first wheel."""
+    assert main(["run", str(scene), "-o", str(tmp_path / "out"), "-q", "--no-pictures"]) == 0
+    first = tmp_path / "out" / "first"
+    assert main(["export", str(first), "-q"]) == 0
+    assert main(["check", str(first / "scene.toml")]) == 0
+    assert load_scene(first / "scene.toml").load.wheel_torque == pytest.approx(200e3)
+    capsys.readouterr()
 
 
 def test_check_tells_shafts_and_meshes(scene, capsys):

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
+from functools import partial
 from math import pi
 from pathlib import Path
+from typing import Any
 
 from fenics_gears import results
 from fenics_gears.contact.train import begun_at
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of
 from fenics_gears.scene.train import MeshOfScene, TrainScene
-from fenics_gears.system.console import print_rows
+from fenics_gears.system.console import print_rows, printable
 from fenics_gears.system.output import check_writable, write_whole
 from fenics_gears.system.progress import Interruption
 
@@ -20,6 +22,7 @@ from ..shared import RUN_FILE, WITHOUT_SOMETHING
 from .shared import after_result, plots, shown_progress
 
 PICTURES = ("train.png", "transmission_error.png")
+SCENE_FILE = "scene.toml"
 Row = tuple[str, str, str]
 
 
@@ -34,16 +37,30 @@ def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
     file = directory / RUN_FILE
     pictures: list[Path] | None = []
     with Interruption(shown_progress(options.quiet)) as interruption:
-        found = simulate_train(model, interruption)
+        stages: list[tuple[Path, Any]] = []
+        found = simulate_train(model, interruption, keep=lambda mesh, of: stages.append(_stage(directory, mesh, of)))
         _save(found, file)
         if not options.no_pictures:
             interruption.stage("draw pictures")
             pictures = after_result(file, "pictures", lambda: plots("train").draw_train(scene, found, directory))
+            for own, of in stages:
+                after_result(own / RUN_FILE, "pictures", partial(plots().draw_run, of, own))
     if not options.quiet:
         said = [("WARNING", warning, "") for warning in found.attrs["warnings"].splitlines()]
         print_rows(scene.title, [*train_rows(found), *said])
         print_rows("Files", [("", str(each), "") for each in (file, *(pictures or []))])
+        if stages:
+            print_rows("Stages as pairs, for all other commands", [("", str(own), "") for own, _ in stages])
     return WITHOUT_SOMETHING if pictures is None else 0
+
+
+def _stage(directory: Path, mesh: MeshOfScene, found) -> tuple[Path, Any]:
+    """Write the result of a stage, and the scene of its pair, into a folder of its own; the folder and the result."""
+    own = directory / printable(mesh.name).replace("/", "_")
+    own.mkdir(parents=True, exist_ok=True)
+    write_whole(own / RUN_FILE, lambda path: results.save(found, path))
+    write_whole(own / SCENE_FILE, lambda path: Path(path).write_text(mesh.scene.text, encoding="utf-8"))
+    return own, found
 
 
 def _save(found, file: Path) -> None:
