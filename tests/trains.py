@@ -1,23 +1,16 @@
 """Trains of spur gears for tests, with coarse elements."""
 
-from pathlib import Path
-
-from fenics_gears.scene.parsing import parsed
-from fenics_gears.scene.train import TrainScene, train_of
+from fenics_gears import train_from_text
+from fenics_gears.scene.train import TrainScene
 
 COARSE = 'steps_per_mesh_cycle = 20\nflank_element_size = "0.1 mm"'
-
-
-def train_from(text: str) -> TrainScene:
-    """The train of a text."""
-    return train_of(parsed(text, "train"), text, "train", "train", Path())
 
 
 def row(teeth, directions, torque: float, *, more: str = "", accuracy: str = "") -> TrainScene:
     """A row of gears of module 3 mm, directions in degrees, under a torque (N m) on the last one."""
     gears = ", ".join(f'{{ teeth = {each}, profile_shift = 0, bore_diameter = "30 mm" }}' for each in teeth)
     angles = ", ".join(f'"{each} deg"' for each in directions)
-    return train_from(
+    return train_from_text(
         f"""
         [stages.row]
         kind = "row"
@@ -57,4 +50,4 @@ def stage(name: str, module: float, teeth: tuple[int, int], more: str = "") -> s
 def two_stages(of_first: str = "", more: str = "") -> TrainScene:
     """Two stages on three shafts under 400 N m on the last one; `of_first`: more of the first stage."""
     stages = stage("first", 2.0, (20, 30), of_first) + stage("second", 3.0, (20, 40))
-    return train_from(f'{stages}\n[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n{more}')
+    return train_from_text(f'{stages}\n[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n{more}')

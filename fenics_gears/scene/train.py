@@ -120,13 +120,32 @@ def load_train(path: str | os.PathLike) -> TrainScene:
 
     Raises SceneError, naming every mistake at once, where the file cannot be read or is wrong, and GeometryError for
     impossible gears.
+
+    >>> from fenics_gears import load_train
+    >>> train = load_train("demos/gear_trains/electric_axle.toml")
+    >>> [mesh.name for mesh in train.meshes], round(train.ratio, 3)
+    (['first', 'second'], 9.401)
     """
     path = Path(path)
-    text = text_of(path, "scene")
-    tree = parsed(text, str(path))
+    return train_from_text(text_of(path, "scene"), name_of(path), source=str(path), directory=path.parent)
+
+
+def train_from_text(
+    text: str, name: str = "train", *, source: str | None = None, directory: Path = Path()
+) -> TrainScene:
+    """The train that a TOML text describes; arguments and errors are those of `scene_from_text`.
+
+    >>> from pathlib import Path
+    >>> from fenics_gears import train_from_text
+    >>> text = Path("demos/gear_trains/idler.toml").read_text()
+    >>> [mesh.pair.wheel.teeth for mesh in train_from_text(text).meshes]
+    [31, 40]
+    """
+    source = source or name
+    tree = parsed(text, source)
     if not is_train(tree):
-        raise SceneError(f"{path}: has no [stages.NAME]: it is the scene of a pair, or none. {NOTHING_DONE}")
-    return train_of(tree, text, name_of(path), str(path), path.parent)
+        raise SceneError(f"{source}: has no [stages.NAME]: it is the scene of a pair, or none. {NOTHING_DONE}")
+    return train_of(tree, text, name, source, directory)
 
 
 def rows_of(meshes: Sequence[MeshOfScene]) -> list[list[int]]:

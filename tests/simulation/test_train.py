@@ -5,9 +5,9 @@ from functools import reduce
 
 import numpy as np
 import pytest
-from tests.trains import COARSE, row, stage, train_from, two_stages
+from tests.trains import COARSE, row, stage, two_stages
 
-from fenics_gears import model_of, simulate
+from fenics_gears import model_of, simulate, train_from_text
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.steps import Steps
@@ -47,7 +47,7 @@ def test_stages_on_rigid_shafts_are_pairs_by_themselves():
 def test_helical_stages_have_what_helical_pairs_have():
     """A stage over the face: its face load factor and line loads are those of its pair."""
     helical = stage("one", 3.0, (20, 30), 'helix_angle = "15 deg"\n[stages.one.accuracy]\nslices = 6\nlayers = 4')
-    scene = train_from(f"{helical}{stage('two', 3.0, (20, 40))}\n{LOAD}")
+    scene = train_from_text(f"{helical}{stage('two', 3.0, (20, 40))}\n{LOAD}")
     found = simulate_train(scene)
     alone = simulate(scene.meshes[0].scene)
     assert float(found["face_load_factor"][0]) == alone.attrs["face_load_factor"]
@@ -69,7 +69,7 @@ def marched(row: RowModel) -> Steps:
 def test_a_row_of_one_mesh_is_a_pair(friction):
     """The contact equations of a row of a single mesh, marched as those of a row, give the pair step by step."""
     shared = FRICTION.format(friction) if friction else ""
-    (pair,) = train_from(f"{stage('one', 3.0, (20, 40))}{shared}\n{LOAD}").meshes
+    (pair,) = train_from_text(f"{stage('one', 3.0, (20, 40))}{shared}\n{LOAD}").meshes
     own = model_of(pair.scene)
     row = RowModel((pair,), (replace(own, drivetrain=drivetrain_of_mesh(own.pair, own.scene.load.wheel_torque)),))
     steps = marched(row)

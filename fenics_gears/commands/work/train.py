@@ -11,6 +11,7 @@ from typing import Any
 
 from fenics_gears import results
 from fenics_gears.contact.train import begun_at
+from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of
 from fenics_gears.scene.train import MeshOfScene, TrainScene
@@ -81,6 +82,7 @@ def check_train(scene: TrainScene) -> int:
         begun = begun_at([mesh.idler for mesh in row.meshes])
         for mesh, own, (phase, _) in zip(row.meshes, row.models, begun):
             print_rows(f"Mesh {mesh.name}", _mesh_rows(mesh, own, phase))
+    print_rows("Expected cost", _cost_rows(model))
     if model.warnings:
         print_rows("Warnings", [("", said, "") for said in model.warnings])
     return 0
@@ -99,6 +101,16 @@ def _train_rows(model: TrainModel) -> list[Row]:
         speed = first.scene.motion.mesh_frequency / first.pair.pinion.teeth
         rows.append(("power", f"{1e-6 * 2.0 * pi * speed * scene.input_torque:.5g}", "kW"))
     return rows
+
+
+def _cost_rows(model: TrainModel) -> list[Row]:
+    """Of one stage after the other, each as a pair by itself."""
+    costs = [expected_cost(each) for each in model.models]
+    return [
+        ("meshing and condensing, unless cached", f"{sum(each.condensing or 0.0 for each in costs):.1f}", "s"),
+        ("marching", f"{sum(each.marching for each in costs):.1f}", "s"),
+        ("memory", f"{max(each.memory for each in costs) / 1e6:.0f}", "MB"),
+    ]
 
 
 def _shaft_rows(model: TrainModel) -> Iterator[Row]:
