@@ -18,7 +18,7 @@ from fenics_gears.geometry.gear_train import SecondMesh
 
 from .kinematics import IN_THE_PLANE
 from .mesh import Mesh
-from .mesh_cycle import Cycle, Kept, in_common
+from .mesh_cycle import Cycle, Kept
 from .operator import ContactOperator, Position
 from .pairing import Flank, FlankTable, Numbered, add_products, matched
 from .step_solver import StepProblem, StepSolution, solve_step
@@ -129,11 +129,8 @@ class TrainCycle(Cycle):
         self._joined: dict[float, Position] = {}
         # At each position, how many contact nodes there are before those of each mesh.
         self._firsts: dict[float, tuple[int, ...]] = {}
-        self._around: tuple[range, dict[int, Position]] = range(0), {}
-
-    @property
-    def alike(self) -> bool:
-        return all(each.cycle.alike for each in self.meshes)
+        # Of the steps that were built last, for which there may be no room.
+        self._around: dict[int, Position] = {}
 
     def share(self, memory: float) -> None:
         """Let operators take so many bytes, those of single meshes among them."""
@@ -143,14 +140,14 @@ class TrainCycle(Cycle):
 
     def position(self, step: int) -> Position:
         key = step % self.steps
-        found = self._joined.get(key) or self._around[1].get(key)
-        return found or self._keep(key, self._at(step, step - 1))
+        found = self._joined.get(key) or self._around.get(key)
+        return found or self._joined_at(key)
 
     def build(self, steps: Sequence[int]) -> None:
         for each in self.meshes:
             each.cycle.build(steps)
         missing = dict.fromkeys(step % self.steps for step in steps if step % self.steps not in self._joined)
-        self._around = range(0), {step: self._keep(step, self._at(step, step - 1)) for step in missing}
+        self._around = {step: self._joined_at(step) for step in missing}
 
     def between(self, step: float, before: float) -> Position:
         if step == int(step) and before == step - 1:
@@ -164,7 +161,7 @@ class TrainCycle(Cycle):
         self.kept.taken = 0.0
         self._joined.clear()
         self._shared.clear()
-        self._around = range(0), {}
+        self._around = {}
         return there
 
     def solve(
@@ -176,9 +173,11 @@ class TrainCycle(Cycle):
         """How many contact nodes the meshes before that one have at a position."""
         return self._firsts[position.index][number]
 
-    def _keep(self, key: float, position: Position) -> Position:
-        if in_common(key) and self.kept.takes(position.bytes):
-            self._joined[key] = position
+    def _joined_at(self, step: int) -> Position:
+        """All meshes at a step of the mesh cycle, kept if there is room."""
+        position = self._at(step, step - 1)
+        if self.kept.takes(position.bytes):
+            self._joined[step] = position
         return position
 
     def _at(self, step: float, before: float) -> Position:

@@ -343,7 +343,7 @@ def _joined(
     stage: str, scenes: Sequence[Scene], pairs: Sequence[GearPair], directions: Sequence[float], label: str
 ) -> list[MeshOfScene]:
     """The meshes of a stage, with how each idler's second mesh follows from its first."""
-    meshes = []
+    meshes: list[MeshOfScene] = []
     for number, (scene, pair) in enumerate(zip(scenes, pairs)):
         idler = None
         if number:
@@ -393,7 +393,7 @@ def _completed(
     else:
         output = load.power / driving / through
     cycles = motion.mesh_cycles or 1
-    found = []
+    found: list[MeshOfScene] = []
     torque = output * through
     for mesh, ratio in zip(meshes, ratios):
         torque /= ratio
