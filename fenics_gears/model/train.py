@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from fenics_gears.dynamics.row import RowDrivetrain, drivetrain_of_mesh, row_drivetrain
 from fenics_gears.dynamics.stepping import EquationsOfMotion
-from fenics_gears.dynamics.train import TrainDrivetrain, drivetrain_of_mesh, train_drivetrain
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.errors import SceneError
@@ -33,8 +33,8 @@ class RowModel:
         return len(self.models) == 1
 
     @property
-    def drivetrain(self) -> TrainDrivetrain:
-        return train_drivetrain([each.pair for each in self.models], self.models[-1].scene.load.wheel_torque)
+    def drivetrain(self) -> RowDrivetrain:
+        return row_drivetrain([each.pair for each in self.models], self.models[-1].scene.load.wheel_torque)
 
     @property
     def equations_of_motion(self) -> EquationsOfMotion:

@@ -12,10 +12,10 @@ import xarray as xr
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.train import Idler, MeshOfTrain, TrainCycle, at_phase, begun_at
+from fenics_gears.contact.row import Idler, MeshOfRow, RowCycle, at_phase, begun_at
 from fenics_gears.dynamics.march import March, Marcher
+from fenics_gears.dynamics.row import rotations_of
 from fenics_gears.dynamics.steps import Steps
-from fenics_gears.dynamics.train import rotations_of
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.elasticity.compliance import Body
 from fenics_gears.elasticity.gear_compliance import flank_compliance
@@ -101,7 +101,7 @@ def _coupled(row: RowModel, progress: Progress, cache: Cache | None) -> list[Mes
     return result.of_meshes(march)
 
 
-def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> TrainCycle:
+def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
     """The contact equations of all meshes of a row, on the bodies of all gears."""
     bodies = list(_bodies(row, progress, cache))
     begun = begun_at([mesh.idler for mesh in row.meshes])
@@ -114,8 +114,8 @@ def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> TrainCycle:
     meshes = []
     rotations = rotations_of([each.pair for each in row.models])
     for number, (own, (phase, _), rows) in enumerate(zip(row.models, begun, rotations)):
-        meshes.append(MeshOfTrain(_cycle(own, (bodies[number], bodies[number + 1]), phase), rows))
-    return TrainCycle(meshes, idlers)
+        meshes.append(MeshOfRow(_cycle(own, (bodies[number], bodies[number + 1]), phase), rows))
+    return RowCycle(meshes, idlers)
 
 
 def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body]:
@@ -147,7 +147,7 @@ def _cycle(model: Model, bodies: tuple[Body, Body], phase: float) -> Cycle:
     return cycle.with_gaps(gaps_of(model, cycle))
 
 
-def of_mesh(steps: Steps, cycle: TrainCycle, number: int) -> Steps:
+def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:
     """The steps of a row as one of its meshes has them: its contact nodes, and the rotations of its gears."""
     mesh = cycle.meshes[number]
     positions = [mesh.cycle.position(int(step)) for step in steps.numbers]

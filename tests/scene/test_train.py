@@ -21,6 +21,8 @@ LOAD = '[load]\noutput_torque = "400 N m"'
         (f'[stages.one]\nkind = "planetary"\n{LOAD}', "is not computed yet"),
         (f'[stages.one]\nkind = "row"\ngears = [{{ teeth = 20 }}]\n{LOAD}', "has not the gears of a row"),
         (f"[stages]\n{LOAD}", "has no stages"),
+        (f"title = 3\n{TWO}{LOAD}", "is no text"),
+        (stage('".."', 2.0, (20, 30)) + LOAD, "is no name of a stage"),
         (stage("one", 2.0, (20, 30), 'direction = "3 mm"') + LOAD, "is no angle"),
         (stage("one", 2.0, (20, 30), "[stages.one.bearings]\nx = 3") + LOAD, "is not yet computed in trains"),
         (stage("one", 2.0, (20, 30)).replace("teeth = 30", "tooth = 30") + LOAD, "stage one"),

@@ -27,10 +27,12 @@ def train_in(path: Path):
     """The train of a scene file, its values and geometry found right; None of another file."""
     if not path.is_file() or b"stages" not in path.read_bytes():
         return None
-    from fenics_gears.scene.train import is_train, load_train
+    from fenics_gears.scene.train_rules import is_train
 
     if not is_train(parsed(text_of(path, "scene"), str(path))):
         return None
+    from fenics_gears.scene.train import load_train
+
     return load_train(path)
 
 

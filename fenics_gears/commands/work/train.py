@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears import results
-from fenics_gears.contact.train import begun_at
+from fenics_gears.contact.row import begun_at
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of
 from fenics_gears.scene.train import MeshOfScene, TrainScene
-from fenics_gears.system.console import print_rows, printable
+from fenics_gears.system.console import print_rows
 from fenics_gears.system.output import check_writable, write_whole
 from fenics_gears.system.progress import Interruption
 
@@ -57,7 +57,7 @@ def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
 
 def _stage(directory: Path, mesh: MeshOfScene, found) -> tuple[Path, Any]:
     """Write the result of a stage, and the scene of its pair, into a folder of its own; the folder and the result."""
-    own = directory / printable(mesh.name).replace("/", "_")
+    own = directory / mesh.name
     own.mkdir(parents=True, exist_ok=True)
     write_whole(own / RUN_FILE, lambda path: results.save(found, path))
     write_whole(own / SCENE_FILE, lambda path: Path(path).write_text(mesh.scene.text, encoding="utf-8"))

@@ -1,7 +1,7 @@
 """Contact of gears in a row: the contact nodes of all meshes one after the other, over the rotations of all gears.
 Compliance is summed over bodies, so that meshes in which the same gear stands feel each other.
 
-A mesh is described in a frame in which its pinion turns counter-clockwise. From one mesh to the next along a train the
+A mesh is described in a frame in which its pinion turns counter-clockwise. From one mesh to the next along a row the
 frame is the mirror image, in which the other flanks of the gear between them are its drive flanks.
 """
 
@@ -54,9 +54,9 @@ def begun_at(idlers: Sequence[SecondMesh | None]) -> list[tuple[float, int]]:
 
 
 @dataclass(frozen=True)
-class MeshOfTrain:
-    """A mesh in a train: its `cycle` over the rotations of its own two gears, and how these follow (2, k) from the
-    coordinates of the train."""
+class MeshOfRow:
+    """A mesh in a row: its `cycle` over the rotations of its own two gears, and how these follow (2, k) from the
+    coordinates of the row."""
 
     cycle: Cycle
     rotations: np.ndarray
@@ -117,10 +117,10 @@ class _Part:
         return np.concatenate([own, own + nodes])
 
 
-class TrainCycle(Cycle):
+class RowCycle(Cycle):
     """Contact equations of all meshes of a row, whose cycles have as many steps as one another."""
 
-    def __init__(self, meshes: Sequence[MeshOfTrain], idlers: Sequence[Idler]):
+    def __init__(self, meshes: Sequence[MeshOfRow], idlers: Sequence[Idler]):
         first = meshes[0].cycle
         super().__init__(first.mesh, first.steps, [], first.tangential)
         self.meshes = meshes

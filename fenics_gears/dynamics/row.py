@@ -17,7 +17,7 @@ from .drivetrain import Drivetrain
 
 
 @dataclass(frozen=True)
-class TrainDrivetrain(Drivetrain):
+class RowDrivetrain(Drivetrain):
     """Equations of motion of the driven gears; `motions` (f, k): of each mesh the motion of all gears behind it,
     which it alone holds."""
 
@@ -35,7 +35,7 @@ class TrainDrivetrain(Drivetrain):
 
 
 def rotations_of(pairs: Sequence[GearPair]) -> list[np.ndarray]:
-    """Of each mesh, how the arcs (2, k) of its pinion and wheel follow from the coordinates of the train."""
+    """Of each mesh, how the arcs (2, k) of its pinion and wheel follow from the coordinates of the row."""
     found = []
     for number, pair in enumerate(pairs):
         rows = np.zeros((2, len(pairs)))
@@ -46,7 +46,7 @@ def rotations_of(pairs: Sequence[GearPair]) -> list[np.ndarray]:
     return found
 
 
-def train_drivetrain(pairs: Sequence[GearPair], output_torque: float) -> TrainDrivetrain:
+def row_drivetrain(pairs: Sequence[GearPair], output_torque: float) -> RowDrivetrain:
     """The gears of a row under a torque (N mm) on the last one."""
     count = len(pairs)
     radii = np.array([pair.base_radii[1] for pair in pairs])
@@ -62,7 +62,7 @@ def train_drivetrain(pairs: Sequence[GearPair], output_torque: float) -> TrainDr
         motions.append(tuple(motion / np.linalg.norm(motion)))
     names = tuple(f"rotation_{number + 2}" for number in range(count))
     nothing = np.zeros((count, count))
-    return TrainDrivetrain(names, radii, nothing, load, None, None, motions=tuple(motions))
+    return RowDrivetrain(names, radii, nothing, load, None, None, motions=tuple(motions))
 
 
 def drivetrain_of_mesh(pair: GearPair, wheel_torque: float) -> Drivetrain:
