@@ -49,6 +49,9 @@ from fenics_gears.scene.data import Scene as Scene
 from fenics_gears.scene.read import build_scene as build_scene
 from fenics_gears.scene.read import load_scene as load_scene
 from fenics_gears.scene.read import scene_from_text as scene_from_text
+from fenics_gears.scene.train import load_train as load_train
+from fenics_gears.scene.train import train_from_text as train_from_text
+from fenics_gears.simulation.train import simulate_train as simulate_train
 from fenics_gears.system import user_file as user_file
 
 __version__: str

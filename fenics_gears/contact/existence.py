@@ -6,6 +6,7 @@ force p_n at a node with friction that opposes its slip (sign sigma) gives (a_n 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -57,6 +58,12 @@ def locked_nodes(weights: Balance) -> np.ndarray:
     return (weights.normal > 0.0) & (weights.sliding <= 0.0)
 
 
+def _undone(weights: Balance) -> np.ndarray:
+    """What part (n,) of the load that a node's normal force holds its friction cancels; 0 where it is not locked."""
+    locked = locked_nodes(weights)
+    return np.where(locked, 1.0 - weights.sliding / np.where(locked, weights.normal, 1.0), 0.0)
+
+
 def locks(operator: ContactOperator, forces: np.ndarray, wheel: int, load: float) -> bool:
     """Whether friction at a closed node cancels more of the `load` on the wheel, the coordinate of that number, than
     its normal force holds."""
@@ -74,10 +81,10 @@ def explained(problem, attempts) -> ContactNotConverged:
             "no equilibrium: no tooth pair can touch at this position, and nothing else holds the static load:"
             f" {words}",
         )
-    weights = None
-    if len(problem.free_motion):
-        weights = balance(problem.jacobian, problem.free_motion, problem.friction, np.sign(problem.slip_before))
-        if problem.load @ problem.free_motion != 0.0 and weights.most.max() <= 0.0:
+    motions = _free_motions(problem)
+    weights = [balance(problem.jacobian, each, problem.friction, np.sign(problem.slip_before)) for each in motions]
+    for motion, each in zip(motions, weights):
+        if problem.load @ motion != 0.0 and each.most.max() <= 0.0:
             return NoStaticEquilibrium(
                 attempts, f"no equilibrium: the static load pulls the flanks apart, all gaps open and {words}"
             )
@@ -92,6 +99,11 @@ def explained(problem, attempts) -> ContactNotConverged:
     return ContactNotConverged(attempts, _reason(problem, attempts))
 
 
+def _free_motions(problem) -> np.ndarray:
+    """The free motions (f, k) of a problem: one of each mesh that alone holds the load."""
+    return problem.free_motion.reshape(-1, len(problem.load))
+
+
 def _visited(attempts) -> np.ndarray:
     """The different sets (rows, n) that the attempts ended with."""
     rows = np.concatenate([sets[-LAST_SETS:] for _, _, _, sets in attempts])
@@ -103,17 +115,17 @@ def _signs(problem, sets: np.ndarray) -> np.ndarray:
     return np.where(sets == SLIP_FORWARD, 1.0, np.where(sets == SLIP_BACKWARD, -1.0, np.sign(problem.slip_before)))
 
 
-def _locking(problem, visited: np.ndarray, weights: Balance | None) -> str:
+def _locking(problem, visited: np.ndarray, weights: Sequence[Balance]) -> str:
     start = f"self-locking: with a friction coefficient of {problem.friction:g} "
-    if weights is not None and weights.sliding.max() <= 0.0:
+    if any(each.sliding.max() <= 0.0 for each in weights):
         return start + "no contact forces whose friction opposes the slip can balance the load"
     worst = ""
     for sets in visited:
         closed, signs = sets != OPEN, _signs(problem, sets)
-        if weights is not None:
-            sliding = balance(problem.jacobian, problem.free_motion, problem.friction, signs)
-            locked = locked_nodes(sliding) & closed
-            ratio = np.max(1.0 - sliding.sliding[locked] / sliding.normal[locked], initial=0.0)
+        if weights:
+            balances = [balance(problem.jacobian, each, problem.friction, signs) for each in _free_motions(problem)]
+            locked = closed & np.any([locked_nodes(each) for each in balances], axis=0)
+            ratio = max(np.max(_undone(each)[closed], initial=0.0) for each in balances)
             words = f"the friction undoes {ratio:.3g} times what the normal forces hold"
         else:
             locked = closed & (_own_response(problem, signs) <= 0.0)

@@ -101,11 +101,16 @@ def flank_nodes(
 
 
 def elastic_mesh(
-    flanks: Flanks, grid: ContactGrid, corner: CornerContact | None = None, pairing: CompliancePairing | None = None
+    flanks: Flanks,
+    grid: ContactGrid,
+    corner: CornerContact | None = None,
+    pairing: CompliancePairing | None = None,
+    coast: bool | None = None,
 ) -> Mesh:
-    """Elastic flanks in the plane, whose teeth are all alike; `pairing`: of these flanks, one of its own unless
-    given."""
-    coast = flanks.compliance[0].flanks == 2
+    """Elastic flanks in the plane, whose teeth are all alike; `pairing`: of these flanks, one of its own unless given.
+    `coast`: whether coast flanks touch too, unless given where both bodies have them."""
+    if coast is None:
+        coast = flanks.compliance[0].flanks == 2
 
     def nodes(phases: Sequence[float]) -> list[tuple[PairNodes, ...]]:
         places = [pair_places(flanks.pair, grid, phase, coast, corner) for phase in phases]

@@ -32,8 +32,8 @@ class Equations(NamedTuple):
     friction.
 
     `rows`: address of what forms the rows of nodes that are closed for the first time (`contact.formed_rows`), 0 where
-    all are there. `free_motion` (k,): how the load moves the drivetrain where only contact holds it, in which case one
-    node at least stays closed; empty where the drivetrain holds the load.
+    all are there. `free_motion` (f k,): how the load moves the drivetrain where only the contact of each of f meshes
+    holds it, in which case one node of each at least stays closed; empty where the drivetrain holds the load.
     """
 
     stiffness: np.ndarray

@@ -31,6 +31,8 @@ COUNT, FAILED = len(OUTCOMES), -1
 # Sizes, addresses and settings that the C function takes.
 NUMBERS = 21
 MOST_ITERATIONS = 40
+# Of a free motion that moves other meshes than a node's, mm per mm: round-off.
+LEAST_APPROACH = 1e-9
 # How sets change: every node by its projection; the same with reversals of slip stopping at stick first; or only the
 # first node that wants to change. The last is Murty's least-index rule, which cannot cycle where the matrix is a
 # P-matrix (K. G. Murty, Linear Complementarity, Linear and Nonlinear Programming, 1988, chapter 4).
@@ -71,24 +73,48 @@ def _update_status(equations, iterate, new, r_scale, rule):
 
 
 @njit(cache=True)
+def _approach(equations, free, node):
+    """How fast a free motion, by its number, brings a node to contact, mm per mm."""
+    k = len(equations.load)
+    approach = 0.0
+    for c in range(k):
+        approach += equations.jacobian[node, c] * equations.free_motion[free * k + c]
+    return approach
+
+
+@njit(cache=True)
+def _holds(status, equations, free, meshes):
+    """Whether a closed node stops a free motion; of a single mesh each closed node does."""
+    for j in range(len(status)):
+        if status[j] != OPEN and (meshes == 1 or abs(_approach(equations, free, j)) > LEAST_APPROACH):
+            return True
+    return False
+
+
+@njit(cache=True)
 def _with_one_closed(status, equations, displacement):
-    """Where only contact holds the load and no node is closed, close the one that touches first as the drivetrain moves
-    freely, or else the nearest to contact; returns whether it did."""
-    jacobian, gap, free_motion = equations.jacobian, equations.gap, equations.free_motion
-    if not len(free_motion) or not len(gap):
-        return False
-    for each in status:
-        if each != OPEN:
-            return False
-    first, distance = -1, np.inf
-    for j in range(len(gap)):
-        approach = 0.0
-        for c in range(len(free_motion)):
-            approach += jacobian[j, c] * free_motion[c]
-        if approach > 0.0 and (gap[j] - displacement[j]) / approach < distance:
-            first, distance = j, (gap[j] - displacement[j]) / approach
-    status[first if first >= 0 else np.argmax(displacement[: len(gap)] - gap)] = SLIP_FORWARD
-    return True
+    """Where only contact holds the load and no node of a mesh is closed, close the one that touches first as the
+    drivetrain moves freely, or else the nearest to contact; returns whether it did."""
+    gap = equations.gap
+    closed = False
+    meshes = len(equations.free_motion) // len(equations.load)
+    for free in range(meshes if len(gap) else 0):
+        if _holds(status, equations, free, meshes):
+            continue
+        first, distance, nearest, least = -1, np.inf, -1, np.inf
+        for j in range(len(gap)):
+            approach = _approach(equations, free, j)
+            left = gap[j] - displacement[j]
+            if approach > (0.0 if meshes == 1 else LEAST_APPROACH) and left / approach < distance:
+                first = j
+                distance = left / approach
+            if (meshes == 1 or abs(approach) > LEAST_APPROACH) and left < least:
+                nearest = j
+                least = left
+        if first >= 0 or nearest >= 0:
+            status[first if first >= 0 else nearest] = SLIP_FORWARD
+            closed = True
+    return closed
 
 
 @njit(cache=True)

@@ -39,7 +39,7 @@ def of_full_rank(compliance: np.ndarray) -> tuple[np.ndarray, int]:
 
 
 # A flank of a gear, by its tooth's place and its side.
-_Flank = tuple[int, int]
+Flank = tuple[int, int]
 
 
 class CompliancePairing:
@@ -58,7 +58,7 @@ class CompliancePairing:
             found.append(Response(compliance, before, dependent))
         return found
 
-    def _block(self, gear: int, responding: _Flank, loaded: _Flank) -> tuple[int, int, int]:
+    def _block(self, gear: int, responding: Flank, loaded: Flank) -> tuple[int, int, int]:
         """Address, size and columns of the compliance of one flank under forces on another."""
         body = self.flanks.compliance[gear]
         blocks = self._blocks[gear]
@@ -79,7 +79,7 @@ class CompliancePairing:
         """
         tangential = passages[0].previous is not None
         kinds = 2 if tangential else 1
-        flanks = _FlankTable()
+        flanks = FlankTable()
         found = []
         positions = []
         products = []
@@ -95,20 +95,13 @@ class CompliancePairing:
                 new = self._products(side.number, *(flanks.of(each or (), side.number) for each in passage[:2]))
                 products += [(number, *each) for each in new]
                 back += [side.turn * passage.advance] * len(new)
-        if products:
-            table = np.array(products)
-            responding = flanks.responding(table[:, OWN], np.array(back), tangential)
-            axes = flanks.axes(tangential)
-            compliance_products(
-                (np.array(positions), flanks.table, table), np.concatenate(flanks.near), np.concatenate(flanks.first),
-                axes, responding / self.flanks.pair.face_width,
-            )  # fmt: skip
+        add_products(positions, flanks, (products, back), tangential, self.flanks.pair.face_width)
         return found
 
-    def _products(self, gear: int, now: list[_Numbered], before: list[_Numbered]) -> list[tuple[int, ...]]:
+    def _products(self, gear: int, now: list[Numbered], before: list[Numbered]) -> list[tuple[int, ...]]:
         """What is to be multiplied of a gear at a position, as `compliance_products` takes it: responding flanks by the
         flanks that are loaded now or were a step before."""
-        loads = _matched(now, before)
+        loads = matched(now, before)
         found = []
         for flank, own, place in now:
             for other, loaded, at, loaded_before, at_before in loads:
@@ -121,11 +114,31 @@ class CompliancePairing:
         return found
 
 
-# A flank, its number in a _FlankTable, and the place of its first contact node among all at a position.
-_Numbered = tuple[_Flank, int, int]
+def add_products(
+    positions: list[tuple[int, ...]],
+    flanks: FlankTable,
+    products: tuple[list[tuple[int, ...]], list[float]],
+    tangential: bool,
+    face_width: float,
+) -> None:
+    """Add products of flanks of bodies to compliances at positions, as `compliance_products` takes both; with the
+    products the angles (rad) by which the gears of the responding flanks stood back a step before."""
+    rows, back = products
+    if not rows:
+        return
+    table = np.array(rows)
+    responding = flanks.responding(table[:, OWN], np.array(back), tangential)
+    compliance_products(
+        (np.array(positions), flanks.table, table), np.concatenate(flanks.near), np.concatenate(flanks.first),
+        flanks.axes(tangential), responding / face_width,
+    )  # fmt: skip
 
 
-def _matched(now: list[_Numbered], before: list[_Numbered]) -> list[tuple[_Flank, int, int, int, int]]:
+# A flank, its number in a FlankTable, and the place of its first contact node among all at a position.
+Numbered = tuple[Flank, int, int]
+
+
+def matched(now: list[Numbered], before: list[Numbered]) -> list[tuple[Flank, int, int, int, int]]:
     """Flanks that are loaded now, each with its number and place a step before, or NO_FLANK; and those loaded then
     alone."""
     left = list(before)
@@ -136,7 +149,7 @@ def _matched(now: list[_Numbered], before: list[_Numbered]) -> list[tuple[_Flank
     return found + [(flank, NO_FLANK, 0, *numbers) for flank, *numbers in left]
 
 
-class _FlankTable:
+class FlankTable:
     """Flanks with contact nodes as `compliance_products` takes them, each once, at however many positions it is asked
     for."""
 
@@ -144,10 +157,10 @@ class _FlankTable:
         self.near: list[np.ndarray] = []
         self.first: list[np.ndarray] = []
         self._numbers: dict[int, int] = {}
-        self._known: dict[tuple[int, int], list[_Numbered]] = {}
+        self._known: dict[tuple[int, int], list[Numbered]] = {}
         self._sizes: list[tuple[int, int, float, float]] = []
 
-    def of(self, pairs: Sequence[ToothPair], gear: int) -> list[_Numbered]:
+    def of(self, pairs: Sequence[ToothPair], gear: int) -> list[Numbered]:
         """Flanks of a gear at a position, whose pairs are held as long as this table is."""
         found = self._known.setdefault((id(pairs), gear), [])
         if found:

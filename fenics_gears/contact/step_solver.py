@@ -38,8 +38,9 @@ HOMOTOPY_STEPS = 8
 class StepProblem:
     """The mixed form at one position and time: arrays as of `mixed_form.Equations`.
 
-    `slip_before` is empty without friction; `free_motion` (k,): how the load moves the drivetrain where that alone
-    cannot hold it, else empty; `free_words`: the same for an error's message, "the wheel turns freely under ...".
+    `slip_before` is empty without friction; `free_motion` (f k,): how the load moves the drivetrain where that alone
+    cannot hold it, by each of f meshes, else empty; `free_words`: the same for an error's message, "the wheel turns
+    freely under ...".
     """
 
     stiffness: np.ndarray

@@ -35,7 +35,7 @@ class Motion(NamedTuple):
     """What of the equations of motion is the same at every step: the `method` in time, matrices (k, k) of the
     drivetrain, friction, tolerance of length (mm) and force (N).
 
-    `free_motion` (k,): how a load moves the drivetrain where only contact holds it, else empty; `rigid`: steps are
+    `free_motion` (f k,): how a load moves the drivetrain where only contact holds it, else empty; `rigid`: steps are
     those of `contact.rigid_step`; `modes`: how many of the coordinates, the last ones, are modes of shafts, which
     contact does not move: they are eliminated before each step.
     """
@@ -188,9 +188,12 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
                 contact.rigid_slip, contact.previous_jacobian, contact.previous_columns, contact.rows_before,
                 states[s - 1, 0], forces_before,
             )  # fmt: skip
+        free = turned(motion.free_motion, outer)
+        if motion.modes:
+            free = free[:moved]
         equations = Equations(
             modes.stiffness, _left_load(load, modes), contact.compliance, contact.jacobian, contact.gap,
-            slip_before, motion.friction, _turned(motion.free_motion, outer)[:moved], contact.rows,
+            slip_before, motion.friction, free, contact.rows,
         )  # fmt: skip
         both = slice(kinds * starts[s], kinds * starts[s + 1])
         iterate = Iterate(nodes, steps.forces[both], coordinates[:moved], steps.displacement[both])
@@ -266,9 +269,13 @@ def slip_at_start(rigid_slip, previous_jacobian, columns, rows_before, position,
 
 
 @njit(cache=True)
-def _turned(free_motion, load):
-    """The free motion in the sense in which the load moves the drivetrain."""
-    work = 0.0
-    for c in range(len(free_motion)):
-        work += free_motion[c] * load[c]
-    return -free_motion if work < 0.0 else free_motion
+def turned(free_motions, load):
+    """Free motions (f k,) in the sense in which the load (k,) moves the drivetrain."""
+    k, sensed = len(load), free_motions.copy()
+    for first in range(0, len(free_motions), k):
+        work = 0.0
+        for c in range(k):
+            work += free_motions[first + c] * load[c]
+        if work < 0.0:
+            sensed[first : first + k] *= -1.0
+    return sensed

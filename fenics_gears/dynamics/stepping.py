@@ -18,7 +18,7 @@ from fenics_gears.contact.step_solver import HALVED, StepProblem, StepSolution, 
 
 from .average_acceleration import AverageAcceleration, State
 from .clock import FOLLOWING, Clock, SteadyClock, TimeScales
-from .compiled_march import NO_SETS, Eliminated, begin, eliminated, left_load, slip_at_start, with_modes
+from .compiled_march import NO_SETS, Eliminated, begin, eliminated, left_load, slip_at_start, turned, with_modes
 from .drivetrain import Drivetrain
 from .steps import Record
 
@@ -281,7 +281,9 @@ class Stepper:
     def _problem(self, scheme, operator, modes: Eliminated, load: np.ndarray, slip_before) -> StepProblem:
         """The contact problem under a load (k,) of coordinates of which modes are eliminated."""
         (compliance, rows), (jacobian, _) = operator.stored, operator.stored_jacobians
-        free = self._moved_freely(scheme, load)[: len(modes.stiffness)]
+        free = self._moved_freely(scheme, load)
+        if self.drivetrain.modes:
+            free = free[: len(modes.stiffness)]
         return StepProblem(
             modes.stiffness, left_load(load, modes), compliance, jacobian, operator.gap, slip_before,
             self.friction, free, self.tolerance, self._free_words, rows,
@@ -291,4 +293,4 @@ class Stepper:
         """How a load (k,) moves the drivetrain where only contact holds it; a varying load may change its sign."""
         if scheme.inert or not len(self._free_motion):
             return np.empty(0)
-        return -self._free_motion if self._free_motion @ load < 0.0 else self._free_motion
+        return turned(self._free_motion, load)

@@ -80,12 +80,12 @@ class RunResult:
     def _labelled(self) -> xr.Dataset:
         # All variables at once, attributes in place: a copy of so many variables takes a millisecond.
         return xr.Dataset(
-            {name: (dims, values, labels) for name, dims, values, labels in _variables(self.recorder, self._first)},
-            coords=_coordinates(self.recorder, self._curves),
+            {name: (dims, values, labels) for name, dims, values, labels in variables_of(self.recorder, self._first)},
+            coords=coordinates_of(self.recorder, self._curves),
         )
 
 
-def _variables(recorder: Recorder, first: int):
+def variables_of(recorder: Recorder, first: int):
     """Name, dimensions, values and labels of each variable; `first`: the first settled step."""
     scene = recorder.model.scene
     arrays = recorder.arrays
@@ -113,7 +113,8 @@ def _variables(recorder: Recorder, first: int):
                 yield name, recorder.stored[name][0], arrays[name], {"units": "MPa", "long_name": words}
 
 
-def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str, tuple]:
+def coordinates_of(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str, tuple]:
+    """Dimensions, values and labels of each coordinate."""
     speed_given = recorder.model.scene.motion.speed_given
     time_name = "time" if speed_given else "nominal time, 1 s for a mesh cycle"
     numbered = {

@@ -16,6 +16,9 @@ from .attributes import RESULT_ATTRIBUTES
 
 # Without these nothing can be drawn or said of a result; and what this program writes with them into each.
 REQUIRED = ("time", "mesh_phase", "transmission_error")
+# Of trains: the lag of the last shaft; and what dimensions of meshes are in results of pairs.
+OVERALL = "overall_transmission_error"
+OF_PAIRS = {"step": "time", "contact_step": "contact_time"}
 WRITTEN = (*COORDINATES, "slot", "gear", "normal_force", "pair_normal_force")
 TEXTS = ("title", "scene", "scene_name", "warnings")
 
@@ -26,14 +29,32 @@ def mistake_in(result: xr.Dataset) -> str:
 
 
 def _mistakes(result: xr.Dataset) -> Iterator[str]:
+    if "mesh" in result.dims:
+        yield from _mistakes_of_train(result)
+        return
     needed = [*REQUIRED, *(WRITTEN if "fenics_gears_version" in result.attrs else ())]
     needed += ["face_slice_width"] if "face_position" in result.dims else []
     if missing := [name for name in dict.fromkeys(needed) if name not in result.variables]:
         yield f"it has no {', '.join(missing)}"
+    yield from _mistakes_of_values(result)
+    yield from _mistakes_of_places(result)
+
+
+def _mistakes_of_train(result: xr.Dataset) -> Iterator[str]:
+    """Of the run of a train, whose variables are those of pairs over its meshes."""
+    if missing := [name for name in (*REQUIRED, OVERALL, "mesh") if name not in result.variables]:
+        yield f"it has no {', '.join(missing)}"
+    yield from _mistakes_of_values(result)
+    if (np.diff(result["time"].values) < 0.0).any():
+        yield "time does not go on from step to step"
+
+
+def _mistakes_of_values(result: xr.Dataset) -> Iterator[str]:
+    """Dimensions and kinds of variables and attributes; in trains variables are over meshes too."""
     for name, allowed in _known_dims().items():
         if name not in result.variables:
             continue
-        dims = result[name].dims
+        dims = tuple(OF_PAIRS.get(each, each) for each in result[name].dims if each != "mesh")
         kind = result[name].dtype.kind
         if dims not in allowed:
             yield f"{name} is over ({', '.join(dims)}), not over ({', '.join(allowed[0])})"
@@ -44,7 +65,6 @@ def _mistakes(result: xr.Dataset) -> Iterator[str]:
         kinds = str if name in TEXTS else (int, float, np.number) if name in numbers else object
         if not isinstance(value, kinds):
             yield f"its attribute {name} is {value!r:.60}"
-    yield from _mistakes_of_places(result)
 
 
 @cache

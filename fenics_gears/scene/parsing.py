@@ -69,6 +69,11 @@ def values_of_text(
     tree = parsed(text, source)
     if "sweep" in tree and "gears" not in tree:
         raise SceneError(f"{source}: is a study, not a scene; `gears study {source}` runs it. {NOTHING_DONE}")
+    if "stages" in tree and "gears" not in tree:
+        raise SceneError(
+            f"{source}: is a train of gears. `gears check` and `gears run` take it, fenics_gears.load_train in Python;"
+            f" other commands are of a pair. {NOTHING_DONE}"
+        )
     try:
         values, problems = values_of(tree, text, name, directory)
     except GeometryError as error:

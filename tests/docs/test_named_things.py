@@ -29,7 +29,7 @@ def test_files_that_a_page_names_are_there(page):
 
 
 # Pages to look something up in, and pages for those who change the program.
-REFERENCE = ("scene", "result", "commands", "effects", "rexs", "api", "promises", "hard_cases")
+REFERENCE = ("scene", "trains", "result", "commands", "effects", "rexs", "api", "promises", "hard_cases")
 FOR_AUTHORS = ("reading_the_code", "adding_an_effect", "adding_an_extension")
 GUIDE = [page for page in (ROOT / "docs").glob("*.md") if page.stem not in REFERENCE + FOR_AUTHORS]
 

@@ -6,12 +6,16 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.system.console import print_rows
 from fenics_gears.system.memory import allowed_memory
 
-from .scenes import checked_model
+from .scenes import checked_model, train_in
 
 
 def check(options: argparse.Namespace) -> int:
     """Print the description of a scene and its effects. Raises ComputationError, as a run would, where memory does not
     hold it."""
+    if (train := train_in(options.scene)) is not None:
+        from .train import check_train
+
+        return check_train(train)
     model = checked_model(options.scene)
     # A scene that is refused waits for none of it.
     from fenics_gears.model import cost, description, fitting

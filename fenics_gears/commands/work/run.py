@@ -6,7 +6,7 @@ from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
 from fenics_gears.system.job import Job, led
 
 from ..shared import RUN_FILE
-from .scenes import checked_model_and_directory
+from .scenes import checked_model_and_directory, train_in
 
 
 def run(options: argparse.Namespace) -> int:
@@ -14,6 +14,10 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _run(options: argparse.Namespace, job: Job | None) -> int:
+    if (train := train_in(options.scene)) is not None:
+        from .train import run_train
+
+        return run_train(train, options)
     model, directory = checked_model_and_directory(options, RUN_FILE, *PICTURE_FILES, *FACE_PICTURE_FILES)
     from .kept_run import run_and_keep
 

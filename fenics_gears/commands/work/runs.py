@@ -8,6 +8,7 @@ from pathlib import Path
 from fenics_gears import results
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.results.journal import is_journal
+from fenics_gears.results.layout import OVERALL
 from fenics_gears.simulation.unfinished import unfinished
 
 from ..shared import CASES, JOURNAL, RUN_FILE, STUDY_FILE
@@ -47,6 +48,11 @@ def loaded_run(file: Path, load: Callable | None = None):
             dataset = unfinished(file)
             print(f"{file}: {dataset.attrs['warnings'].splitlines()[0]}", file=sys.stderr)
             return dataset
-        return (load or results.load)(file)
+        dataset = (load or results.load)(file)
     except ComputationError as error:
         raise SceneError(str(error)) from error
+    if OVERALL in dataset:
+        raise SceneError(
+            f"{file} is the run of a train, which this command does not take yet; its pictures stand beside it."
+        )
+    return dataset

@@ -4,7 +4,8 @@ from pathlib import Path
 
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import placed
-from fenics_gears.scene.read import load_scene
+from fenics_gears.scene.parsing import parsed
+from fenics_gears.scene.read import load_scene, text_of
 from fenics_gears.system.output import check_writable
 
 from ..shared import RUN_FILE
@@ -20,6 +21,19 @@ def checked_model(path: Path):
         return model_of(scene)
     except SceneError as error:
         raise type(error)(placed(str(error), scene.written, str(path))) from error
+
+
+def train_in(path: Path):
+    """The train of a scene file, its values and geometry found right; None of another file."""
+    if not path.is_file() or b"stages" not in path.read_bytes():
+        return None
+    from fenics_gears.scene.train_rules import is_train
+
+    if not is_train(parsed(text_of(path, "scene"), str(path))):
+        return None
+    from fenics_gears.scene.train import load_train
+
+    return load_train(path)
 
 
 def checked_model_and_directory(options, *names: str):

@@ -60,7 +60,7 @@ def imported_scene(
     sections |= _error_sections(reading, chosen, sections)
     densities = {name: reading.attempt(first, part, "density") for name, part in chosen.named.items()}
     note_what_is_left_out(reading, chosen)
-    _check_all_found(reading, path)
+    check_all_found(reading, path)
     assumed = [
         f"{section}.{name} = {value.words}: {value.origin}"
         for section, found in sections.items()
@@ -80,7 +80,8 @@ def imported_scene(
     return ImportedScene(text, chosen, tuple(assumed), tuple(reading.left_out))
 
 
-def _check_all_found(reading: Reading, path: Path) -> None:
+def check_all_found(reading: Reading, path: Path) -> None:
+    """Raise SceneError with all that the reading met."""
     if count := len(reading.problems):
         told = [f"{path}: {each}" for each in reading.problems]
         total = f"{count} mistake{'' if count == 1 else 's'} in {path}. Nothing was written."

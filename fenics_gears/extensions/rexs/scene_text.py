@@ -1,6 +1,6 @@
 """A scene's values as TOML, each with its origin in a comment behind it."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from fenics_gears import toml_value
 
@@ -21,21 +21,42 @@ def scene_text(
 ) -> str:
     """The TOML text of a scene; ``file`` is the name of the REXS file, ``notes`` are lists under a heading each."""
     named = stage.stage.name or f"stage {stage.stage.id}"
-    text = _head(file, model, stage, notes) + f"\ntitle = {toml_value(_one_line(f'{named} of {file}')[:500])}\n"
+    who = [f"The pair is {stage.stage}: {stage.pinion.gear} drives {stage.wheel.gear}."]
+    more = [
+        "",
+        "Sections that may be added: [friction], [shafts], [bearings], [inertia], [damping], ... (docs/effects.md).",
+    ]
+    return _head(file, model, who, notes, more) + _body(f"{named} of {file}", sections)
+
+
+def train_text(
+    file: str,
+    model: RexsModel,
+    stages: Sequence[Stage],
+    sections: Mapping[str, Mapping[str, Value]],
+    notes: Mapping[str, Iterable[str]],
+) -> str:
+    """The TOML text of a train's scene, of all stages."""
+    who = [f"{stage.stage}: {stage.pinion.gear} drives {stage.wheel.gear}." for stage in stages]
+    more = ["", "Sections that may be added: [friction], direction of each stage, ... (docs/trains.md)."]
+    return _head(file, model, who, notes, more) + _body(f"gears of {file}", sections)
+
+
+def _body(title: str, sections: Mapping[str, Mapping[str, Value]]) -> str:
+    text = f"\ntitle = {toml_value(_one_line(title)[:500])}\n"
     for section, fields in sections.items():
         text += f"\n[{section}]\n" + "".join(_line(name, value) for name, value in fields.items())
     return text
 
 
-def _head(file: str, model: RexsModel, stage: Stage, notes: Mapping[str, Iterable[str]]) -> str:
+def _head(file: str, model: RexsModel, who: list[str], notes: Mapping[str, Iterable[str]], more: list[str]) -> str:
     program = f"{model.applicationId} {model.applicationVersion}".strip() or "by a program not named"
     lines = [
         f"Made by gears import from {file} (REXS {model.version}, {program}, {model.date or 'without a date'}).",
-        f"The pair is {stage.stage}: {stage.pinion.gear} drives {stage.wheel.gear}.",
+        *who,
         "Behind every value stands where it is from. This is a scene like any other: change what you know better.",
         *(line for heading, items in notes.items() for line in _listed(heading, items)),
-        "",
-        "Sections that may be added: [friction], [shafts], [bearings], [inertia], [damping], ... (docs/effects.md).",
+        *more,
     ]
     return "".join(f"# {_one_line(line)}".rstrip() + "\n" for line in lines)
 

@@ -97,6 +97,48 @@ class Stage:
 def chosen_stage(model: RexsModel, wanted: int | None) -> Stage:
     """The stage with the wanted number, or the only one. Raises ValueProblem, which lists the stages, where it is not
     clear which."""
+    relations = _relations(model)
+    described = {number: _described(model, relation) for number, relation in relations.items()}
+    listed = "\n".join(f"    --stage {number}    {words}" for number, words in described.items())
+    if wanted is None and len(relations) > 1:
+        raise ValueProblem(
+            f"has {len(relations)} pairs of cylindrical gears; a scene has one. Choose it, or all by --train:\n{listed}"
+        )
+    number = next(iter(relations)) if wanted is None else wanted
+    if number not in relations:
+        raise ValueProblem(f"has no stage of cylindrical gears with the number {number}. There are:\n{listed}")
+    return _stage(model, relations[number])
+
+
+def stages_in_a_row(model: RexsModel) -> list[Stage]:
+    """All stages of a gearbox, from the one that is driven on: each drives the next by the shaft of its wheel. Raises
+    ValueProblem where they do not follow each other so."""
+    train = Train(model)
+    stages = [_stage(model, relation) for relation in _relations(model).values()]
+    if planetary := [each.stage for each in stages if each.in_planetary]:
+        raise ValueProblem(f"{planetary[0]} is of a planetary stage, which is not computed in trains.")
+    behind = {
+        one.stage.id: [other for other in stages if train.turn_as_one(one.wheel.gear, other.pinion.gear)]
+        for one in stages
+    }
+    driven = {each.stage.id for following in behind.values() for each in following}
+    first = [each for each in stages if each.stage.id not in driven]
+    if len(first) != 1:
+        raise ValueProblem(f"has {len(first)} stages that no other one drives; a train has one.")
+    found = first
+    while following := behind[found[-1].stage.id]:
+        if len(following) > 1:
+            raise ValueProblem(f"{found[-1].stage} drives {len(following)} stages; in a train each drives one.")
+        if following[0].pinion.gear.id == found[-1].wheel.gear.id:
+            raise ValueProblem(f"{following[0].pinion.gear} is an idler; import its two stages one by one.")
+        found = [*found, following[0]]
+    if len(found) < len(stages):
+        raise ValueProblem(f"only {len(found)} of its {len(stages)} stages follow each other by their shafts.")
+    return found
+
+
+def _relations(model: RexsModel) -> dict[int, Relation]:
+    """Pairs of cylindrical gears by the number of their stage. Raises ValueProblem where there is none."""
     relations = {
         each.roles["stage"]: each
         for each in model.related("stage")
@@ -105,14 +147,7 @@ def chosen_stage(model: RexsModel, wanted: int | None) -> Stage:
     }
     if not relations:
         raise ValueProblem(_no_stage(model))
-    described = {number: _described(model, relation) for number, relation in relations.items()}
-    listed = "\n".join(f"    --stage {number}    {words}" for number, words in described.items())
-    if wanted is None and len(relations) > 1:
-        raise ValueProblem(f"has {len(relations)} pairs of cylindrical gears; a scene has one. Choose it:\n{listed}")
-    number = next(iter(relations)) if wanted is None else wanted
-    if number not in relations:
-        raise ValueProblem(f"has no stage of cylindrical gears with the number {number}. There are:\n{listed}")
-    return _stage(model, relations[number])
+    return relations
 
 
 def _no_stage(model: RexsModel) -> str:

@@ -3,9 +3,10 @@
 import argparse
 from pathlib import Path
 
-from fenics_gears import GeometryError, SceneError, check_geometry, scene_from_text
+from fenics_gears import GeometryError, SceneError, check_geometry, scene_from_text, train_from_text
 from fenics_gears.command_line import file_to_write, write_whole
 
+from .gearbox import imported_train
 from .imported import imported_scene
 
 
@@ -15,13 +16,30 @@ def import_rexs(options: argparse.Namespace) -> int:
     if output.exists():
         # A scene is the user's own work.
         raise SceneError(f"{output} exists already. Name another file with --output SCENE, or remove it.")
+    if options.train:
+        return _import_train(options, output)
     imported = imported_scene(
         options.file, options.stage, options.load_case, options.wheel_torque, options.pinion_speed
     )
     _check_scene(imported, options.file, output)
     write_whole(output, lambda path: path.write_text(imported.text, encoding="utf-8"))
     if not options.quiet:
-        print(_summary(imported, output))
+        first = f"{output}: {imported.stage.pinion.gear} drives {imported.stage.wheel.gear}."
+        print(_summary([first], imported, output))
+    return 0
+
+
+def _import_train(options: argparse.Namespace, output: Path) -> int:
+    """The same of all stages."""
+    for name in ("stage", "wheel_torque", "pinion_speed"):
+        if getattr(options, name) is not None:
+            raise SceneError(f"--{name.replace('_', '-')} is of one pair; leave it out beside --train.")
+    imported = imported_train(options.file, options.load_case)
+    train_from_text(imported.text, output.stem, source=f"{options.file} as a train")
+    write_whole(output, lambda path: path.write_text(imported.text, encoding="utf-8"))
+    if not options.quiet:
+        drives = [f"{each.pinion.gear} drives {each.wheel.gear}." for each in imported.stages]
+        print(_summary([f"{output}:", *drives], imported, output))
     return 0
 
 
@@ -39,8 +57,7 @@ def _check_scene(imported, file: Path, output: Path) -> None:
         raise SceneError(f"{words}\n{gears}{assumed}") from error
 
 
-def _summary(imported, output: Path) -> str:
-    lines = [f"{output}: {imported.stage.pinion.gear} drives {imported.stage.wheel.gear}."]
+def _summary(lines: list[str], imported, output: Path) -> str:
     for heading, listed in (("Assumed:", imported.assumed), ("Left out:", imported.left_out)):
         if listed:
             lines += [heading, *(f"    {each}" for each in listed)]

@@ -1,13 +1,17 @@
 """Torque, speed and direction along a gear train: M2 = M1 z2/z1 and n2 = n1 z1/z2 without losses, equilibrium of what
 turns as one, and the power that comes in where torque and speed have one sign."""
 
+from pathlib import Path
+
 import pytest
 from tests.extensions.rexs import paper_model as rexs
 from tests.extensions.rexs.test_lookups import refused, scene_of
 
+from fenics_gears import load_train
+from fenics_gears.commands.cli import main
 from fenics_gears.extensions.rexs.loads import pinion_speed, wheel_torque
 from fenics_gears.extensions.rexs.model import checked_model
-from fenics_gears.extensions.rexs.stage import chosen_stage
+from fenics_gears.extensions.rexs.stage import chosen_stage, stages_in_a_row
 from fenics_gears.extensions.rexs.values import ValueProblem
 
 TEETH = "number_of_teeth"
@@ -192,3 +196,35 @@ def test_the_scene_says_where_the_torque_is_from(tmp_path):
     assert "torque_around_u_axis of component 35 by the ratio of teeth" in found.text
     braked = rexs.with_value(model, 35, "torque_around_u_axis", None)
     assert "does not say which one is loaded" in refused(tmp_path, braked, wheel_torque="437 N m")
+
+
+@pytest.mark.parametrize("order", [(FIRST, SECOND), (SECOND, FIRST)])
+def test_stages_of_a_train_follow_each_other_by_their_shafts(order):
+    """From the shaft that is driven on, whatever their numbers are."""
+    box = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100)
+    box.stage(order[0], (1, 2), (20, 40)).stage(order[1], (2, 3), (20, 40))
+    model = checked_model({"version": "1.4", "components": box.components, "relations": box.relations})
+    assert [each.stage.id for each in stages_in_a_row(model)] == list(order)
+
+
+def test_stages_that_are_no_train_are_refused():
+    """Two wheels on the shaft of one pinion; two pairs that have nothing in common."""
+    two_wheels = two_stages().stage(300, (2, 4), (20, 40)).shaft(4)
+    apart = Gearbox().shaft(1, 1000).shaft(2).shaft(3).shaft(4).load(10, 1, 100)
+    apart.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (3, 4), (20, 40))
+    for box, said in ((two_wheels, "drives 2 stages"), (apart, "2 stages that no other one drives")):
+        model = checked_model({"version": "1.4", "components": box.components, "relations": box.relations})
+        with pytest.raises(ValueProblem, match=said):
+            stages_in_a_row(model)
+
+
+def test_a_gearbox_is_imported_as_a_train(tmp_path, capsys):
+    """100 N m on the first shaft make 200 N m on the second and 400 N m on the last one."""
+    file = Path(__file__).with_name("two_stages.rexs")
+    assert main(["import", str(file), "--train", "-o", str(tmp_path / "box.toml")]) == 0
+    assert "Next: gears check" in capsys.readouterr().out
+    train = load_train(tmp_path / "box.toml")
+    assert [mesh.scene.load.wheel_torque for mesh in train.meshes] == pytest.approx([200e3, 400e3])
+    assert train.meshes[0].scene.motion.mesh_frequency == pytest.approx(1000.0 / 60.0 * 20)
+    assert main(["import", str(file), "--train", "--stage", "4", "-o", str(tmp_path / "other.toml")]) == 2
+    assert "--stage is of one pair" in capsys.readouterr().err

@@ -1,0 +1,147 @@
+"""What ``gears run`` and ``gears check`` do with a train of gears."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from functools import partial
+from math import pi
+from pathlib import Path
+from typing import Any
+
+from fenics_gears import results
+from fenics_gears.contact.row import begun_at
+from fenics_gears.model.cost import expected_cost
+from fenics_gears.model.model import Model
+from fenics_gears.model.train import TrainModel, train_model_of
+from fenics_gears.scene.train import MeshOfScene, TrainScene
+from fenics_gears.system.console import print_rows
+from fenics_gears.system.output import check_writable, write_whole
+from fenics_gears.system.progress import Interruption
+
+from ..shared import RUN_FILE, WITHOUT_SOMETHING
+from .shared import after_result, plots, shown_progress
+
+PICTURES = ("train.png", "transmission_error.png")
+SCENE_FILE = "scene.toml"
+Row = tuple[str, str, str]
+
+
+def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
+    """Run a train, write its result and pictures, print its numbers; return the exit code."""
+    directory = options.output or Path("results") / scene.name
+    check_writable(directory, RUN_FILE, *PICTURES)
+    model = train_model_of(scene)
+    from fenics_gears.results.train import train_rows
+    from fenics_gears.simulation.train import simulate_train
+
+    file = directory / RUN_FILE
+    pictures: list[Path] | None = []
+    with Interruption(shown_progress(options.quiet)) as interruption:
+        stages: list[tuple[Path, Any]] = []
+        found = simulate_train(model, interruption, keep=lambda mesh, of: stages.append(_stage(directory, mesh, of)))
+        _save(found, file)
+        if not options.no_pictures:
+            interruption.stage("draw pictures")
+            pictures = after_result(file, "pictures", lambda: plots("train").draw_train(scene, found, directory))
+            for own, of in stages:
+                after_result(own / RUN_FILE, "pictures", partial(plots().draw_run, of, own))
+    if not options.quiet:
+        said = [("WARNING", warning, "") for warning in found.attrs["warnings"].splitlines()]
+        print_rows(scene.title, [*train_rows(found), *said])
+        print_rows("Files", [("", str(each), "") for each in (file, *(pictures or []))])
+        if stages:
+            print_rows("Stages as pairs, for all other commands", [("", str(own), "") for own, _ in stages])
+    return WITHOUT_SOMETHING if pictures is None else 0
+
+
+def _stage(directory: Path, mesh: MeshOfScene, found) -> tuple[Path, Any]:
+    """Write the result of a stage, and the scene of its pair, into a folder of its own; the folder and the result."""
+    own = directory / mesh.name
+    own.mkdir(parents=True, exist_ok=True)
+    write_whole(own / RUN_FILE, lambda path: results.save(found, path))
+    write_whole(own / SCENE_FILE, lambda path: Path(path).write_text(mesh.scene.text, encoding="utf-8"))
+    return own, found
+
+
+def _save(found, file: Path) -> None:
+    file.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(file, lambda path: results.save(found, path))
+    for picture in PICTURES:
+        # Those of an earlier run would be taken for pictures of this one.
+        (file.parent / picture).unlink(missing_ok=True)
+
+
+def check_train(scene: TrainScene) -> int:
+    """Print the description of a train: speeds, torques, meshes and their phases."""
+    model = train_model_of(scene)
+    print(f"{scene.title}\n")
+    print_rows("Train", _train_rows(model))
+    print_rows("Shafts", list(_shaft_rows(model)))
+    for row in model.rows:
+        begun = begun_at([mesh.idler for mesh in row.meshes])
+        for mesh, own, (phase, _) in zip(row.meshes, row.models, begun):
+            print_rows(f"Mesh {mesh.name}", _mesh_rows(mesh, own, phase))
+    print_rows("Expected cost", _cost_rows(model))
+    if model.warnings:
+        print_rows("Warnings", [("", said, "") for said in model.warnings])
+    return 0
+
+
+def _train_rows(model: TrainModel) -> list[Row]:
+    scene = model.scene
+    rows = [
+        ("meshes", f"{len(scene.meshes)}", ""),
+        ("turns of the first shaft in one of the last", f"{scene.ratio:.6g}", ""),
+        ("torque on the first shaft, without losses", f"{1e-3 * scene.input_torque:.5g}", "N m"),
+        ("torque on the last shaft", f"{1e-3 * scene.output_torque:.5g}", "N m"),
+    ]
+    if scene.speed_given:
+        first = scene.meshes[0]
+        speed = first.scene.motion.mesh_frequency / first.pair.pinion.teeth
+        rows.append(("power", f"{1e-6 * 2.0 * pi * speed * scene.input_torque:.5g}", "kW"))
+    return rows
+
+
+def _cost_rows(model: TrainModel) -> list[Row]:
+    """Of one stage after the other, each as a pair by itself."""
+    costs = [expected_cost(each) for each in model.models]
+    return [
+        ("meshing and condensing, unless cached", f"{sum(each.condensing or 0.0 for each in costs):.1f}", "s"),
+        ("marching", f"{sum(each.marching for each in costs):.1f}", "s"),
+        ("memory", f"{max(each.memory for each in costs) / 1e6:.0f}", "MB"),
+    ]
+
+
+def _shaft_rows(model: TrainModel) -> Iterator[Row]:
+    """Speed and torque of each shaft; the first one turns counter-clockwise."""
+    sense = 1.0
+    first = model.scene.meshes[0]
+    speed = first.scene.motion.mesh_frequency / first.pair.pinion.teeth
+    torque = model.scene.input_torque
+    for number in range(len(model.scene.meshes) + 1):
+        turning = "counter-clockwise" if sense > 0.0 else "clockwise"
+        rate = f"{60.0 * speed:.5g} rpm, " if model.scene.speed_given else ""
+        yield f"shaft {number + 1}", f"{rate}{turning}, {1e-3 * torque:.5g} N m", ""
+        if number < len(model.scene.meshes):
+            ratio = model.scene.meshes[number].pair.rotation_ratio
+            speed *= ratio
+            torque /= ratio
+            sense = -sense
+
+
+def _mesh_rows(mesh: MeshOfScene, own: Model, phase: float) -> list[Row]:
+    pair = own.pair
+    rows = [
+        ("teeth", f"{pair.pinion.teeth} / {pair.wheel.teeth}", ""),
+        ("centre distance", f"{pair.centre_distance:.6g}", "mm"),
+        ("direction of the wheel from the pinion", f"{180.0 / pi * mesh.direction:.4g}", "deg"),
+        ("contact ratio, with overlap", f"{pair.total_contact_ratio:.4g}", ""),
+        ("torque on its wheel", f"{1e-3 * own.scene.load.wheel_torque:.5g}", "N m"),
+        ("steps in a mesh cycle", f"{own.resolution.steps_per_mesh_cycle}", ""),
+        ("begins at mesh phase", f"{phase:.6g}", ""),
+        ("flank elements", f"{own.resolution.flank_element_size:.3g}", "mm"),
+    ]
+    if own.scene.motion.speed_given:
+        rows.append(("mesh frequency", f"{own.scene.motion.mesh_frequency:.6g}", "Hz"))
+    return rows

@@ -1,0 +1,225 @@
+"""The result of a train: the variables of a pair over steps and meshes, the numbers of each mesh as variables over the
+meshes, and the transmission error of the whole over time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+import fenics_gears
+from fenics_gears.model.train import RowModel, TrainModel
+from fenics_gears.numbers_version import NUMBERS_VERSION
+
+from .attributes import RESULT_ATTRIBUTES
+from .dataset import RunResult
+from .layout import OVERALL
+
+MESH = "mesh"
+# Each mesh has its own steps, in place of the times of a pair.
+STEPS = {"time": "step", "contact_time": "contact_step"}
+# Of a mesh of a row by itself they would leave out what it does through the bodies of its neighbours.
+OF_ENERGY = ("energy", "work_")
+MICROMETRE = 1e-3
+SHARED = ("gear", "path_point", "slot")
+
+
+@dataclass(frozen=True)
+class MeshResult:
+    """A mesh of a train: its variables, as dimensions, values and labels, its numbers, and its warnings."""
+
+    name: str
+    variables: dict[str, tuple]
+    numbers: dict[str, float]
+    warnings: Sequence[str] = ()
+
+    @property
+    def cycle(self) -> np.ndarray:
+        """Transmission error (rad) at the steps of its last mesh cycle."""
+        steps = int(self.numbers["steps_per_mesh_cycle"])
+        return np.asarray(self.variables["transmission_error"][1])[-1 - steps : -1]
+
+
+def mesh_result(name: str, result: RunResult) -> MeshResult:
+    """That of a stage which was run as a pair."""
+    dataset = result.dataset
+    own = {
+        str(each): (of.dims, of.values, of.attrs)
+        for each, of in dataset.variables.items()
+        if not str(each).startswith(OF_ENERGY)
+    }
+    numbers = {
+        each.name: float(dataset.attrs[each.name])
+        for each in RESULT_ATTRIBUTES
+        if each.units and not each.name.startswith("time_") and isinstance(dataset.attrs.get(each.name), float | int)
+    }
+    return MeshResult(name, own, numbers, dataset.attrs["warnings"].splitlines())
+
+
+def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
+    """All meshes side by side, and the lag of the last shaft."""
+    times, overall = overall_error(model, meshes)
+    variables = dict(_over_meshes(meshes))
+    variables[OVERALL] = (
+        "time",
+        overall,
+        {"units": "rad", "long_name": "lag of the last shaft behind the nominal motion of the first"},
+    )
+    variables |= _numbers_of_meshes([each.numbers for each in meshes])
+    most = {name: max((each for each in meshes), key=lambda each: _size(each, name)) for name in SHARED}
+    coordinates = {name: widest.variables[name] for name, widest in most.items() if name in widest.variables}
+    coordinates |= {
+        "time": ("time", times, {"units": "s", "long_name": "time"}),
+        MESH: (MESH, [each.name for each in meshes], {"long_name": "mesh"}),
+    }
+    found = xr.Dataset(variables, coords=coordinates)
+    found.attrs = _attributes(model, meshes, overall)
+    return found
+
+
+def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.ndarray, np.ndarray]:
+    """Times (s) over a cycle of the slowest mesh, at the steps of the fastest; and the lag (rad) of the last shaft
+    there: of each row that of its last gear, through the ratios behind it. Between steps it is linear."""
+    frequencies = [own.scene.motion.mesh_frequency for own in model.models]
+    steps = [frequency * each.numbers["steps_per_mesh_cycle"] for frequency, each in zip(frequencies, meshes)]
+    cycles = model.models[0].scene.motion.mesh_cycles
+    times = np.arange(int(np.ceil(cycles * max(steps) / min(frequencies))) + 1) / max(steps)
+    lag = np.zeros(len(times))
+    first = 0
+    for row in model.rows:
+        for model_of_mesh, each in zip(row.models, meshes[first : first + len(row.models)]):
+            phase = times * model_of_mesh.scene.motion.mesh_frequency
+            curve = each.cycle
+            own = np.interp(phase * len(curve), np.arange(len(curve)), curve, period=len(curve))
+            lag = lag * model_of_mesh.pair.rotation_ratio + own
+        first += len(row.models)
+    return times, lag
+
+
+def _size(mesh: MeshResult, name: str) -> int:
+    return len(mesh.variables[name][1]) if name in mesh.variables else 0
+
+
+def _over_meshes(meshes: Sequence[MeshResult]) -> Iterator[tuple[str, tuple]]:
+    """Name, and dimensions, values and labels of each variable of all meshes, side by side. What only some meshes have
+    over the face stands in its first slice for the others."""
+    own = [{name: of for name, of in each.variables.items() if name not in SHARED} for each in meshes]
+    sizes = _largest_sizes(own)
+    for name in dict.fromkeys(name for each in own for name in each):
+        there = [each.get(name) for each in own]
+        dims = max((_names_of(each[0]) for each in there if each is not None), key=len)
+        values = _side_by_side(
+            [None if each is None else _over(dims, each) for each in there], [sizes[each] for each in dims]
+        )
+        behind = 1 if dims and dims[0] in STEPS else 0
+        renamed = [STEPS.get(each, each) for each in dims]
+        labels = next(each[2] for each in there if each is not None)
+        # Times and places of one mesh are no coordinate of all.
+        known = f"{name}_of_mesh" if name in dims else name
+        yield known, ((*renamed[:behind], MESH, *renamed[behind:]), np.moveaxis(values, 0, behind), labels)
+
+
+def _over(dims: tuple[str, ...], variable: tuple) -> np.ndarray:
+    """The values of a variable with an axis for each of some dimensions."""
+    own = _names_of(variable[0])
+    values = np.asarray(variable[1])
+    return values.reshape([values.shape[own.index(each)] if each in own else 1 for each in dims])
+
+
+def _names_of(dims: str | Sequence[str]) -> tuple[str, ...]:
+    return (dims,) if isinstance(dims, str) else tuple(dims)
+
+
+def _largest_sizes(of_meshes: Sequence[Mapping[str, tuple]]) -> dict[str, int]:
+    """The largest size that any variable of any mesh has over each dimension."""
+    sizes: dict[str, int] = {}
+    for own in of_meshes:
+        for dims, values, _ in own.values():
+            for name, size in zip(_names_of(dims), np.shape(values)):
+                sizes[name] = max(size, sizes.get(name, 0))
+    return sizes
+
+
+def _side_by_side(arrays: Sequence[np.ndarray | None], shape: Sequence[int]) -> np.ndarray:
+    """Arrays of all meshes (meshes, ...): not a number, or 0, where one has less than another."""
+    kind = next(each.dtype for each in arrays if each is not None)
+    values = np.full((len(arrays), *shape), np.nan if kind.kind == "f" else 0, dtype=kind)
+    for own, each in zip(values, arrays):
+        if each is not None:
+            own[tuple(slice(size) for size in each.shape)] = each
+    return values
+
+
+def _numbers_of_meshes(numbers: Sequence[Mapping[str, float]]) -> dict[str, tuple]:
+    described = {each.name: each for each in RESULT_ATTRIBUTES}
+    found = {}
+    for name in dict.fromkeys(name for own in numbers for name in own):
+        values = np.array([own.get(name, np.nan) for own in numbers], dtype=float)
+        labels = {"units": described[name].units or "1", "long_name": described[name].meaning}
+        found[name] = ((MESH,), values, labels)
+    return found
+
+
+def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.ndarray) -> dict[str, Any]:
+    scene = model.scene
+    said = [f"{each.name}: {warning}" for each in meshes for warning in each.warnings]
+    left = 1.0
+    for each in meshes:
+        left *= 1.0 - each.numbers.get("friction_loss", 0.0)
+    losses = {"friction_loss": 1.0 - left} if left != 1.0 else {}
+    mean = 0.0
+    for own, each in zip(model.models, meshes):
+        mean = mean * own.pair.rotation_ratio + each.numbers["mean_transmission_error"]
+    return {
+        "title": scene.title,
+        "scene": scene.text,
+        "scene_name": scene.name,
+        "fenics_gears_version": fenics_gears.__version__,
+        "numbers_version": NUMBERS_VERSION,
+        "complete": 1,
+        "warnings": "\n".join(dict.fromkeys([*said, *_of_rows(model)])),
+        "mean_overall_transmission_error": mean,
+        "peak_to_peak_overall_transmission_error": float(np.ptp(overall)),
+        **losses,
+    }
+
+
+def _of_rows(model: TrainModel) -> list[str]:
+    """Warnings before the run of those meshes that were not run as pairs, which tell their own."""
+    coupled: list[RowModel] = [row for row in model.rows if not row.single]
+    return [
+        f"{mesh.name}: {said}" for row in coupled for mesh, own in zip(row.meshes, row.models) for said in own.warnings
+    ]
+
+
+def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
+    """What is printed of a train: rows of label, value and unit."""
+    attrs = found.attrs
+    rows = [
+        (f"overall transmission error, {label}", f"{attrs[f'{name}_overall_transmission_error']:.5g}", "rad")
+        for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
+    ]
+    if "friction_loss" in attrs:
+        rows.append(("friction loss, all meshes", f"{100.0 * attrs['friction_loss']:.4g}", "%"))
+    for name in found[MESH].values:
+        own = found.sel({MESH: name})
+        radius = float(own["base_radius_wheel"])
+        for number, label in (("peak_to_peak", "peak to peak"), ("mean", "mean")):
+            angle = float(own[f"{number}_transmission_error"])
+            said = f"{angle * radius / MICROMETRE:.4g} um = {angle:.5g} rad"
+            rows.append((f"{name}: transmission error, {label}", said, ""))
+        for number, label, unit in SAID:
+            if number in own and np.isfinite(own[number]):
+                rows.append((f"{name}: {label}", f"{float(own[number]):.4g}", unit))
+    return rows
+
+
+SAID = (
+    ("mean_mesh_stiffness", "mesh stiffness, mean", "N/(mm um)"),
+    ("face_load_factor", "face load factor K_Hbeta", ""),
+    ("largest_pair_force", "largest force of a tooth pair", "N"),
+    ("peak_contact_pressure", "peak contact pressure", "MPa"),
+)

@@ -1,0 +1,165 @@
+"""What the scene of a train may have: its load and motion, the sections of its stages; and mistakes against them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from re import fullmatch
+from typing import Any
+
+from fenics_gears.inputs.fields import quantity, whole_number
+from fenics_gears.inputs.problem import Problem, did_you_mean
+from fenics_gears.inputs.section import Section, fields_of, names_in, read
+from fenics_gears.inputs.written import as_written
+
+PAIR = "pair"
+ROW = "row"
+# Sections that a train may have for all of its stages, and those that a row may have of its own; and a stage of two
+# gears. Others make shafts give way or vibrate, and so couple the stages.
+SHARED = ("friction", "accuracy")
+OF_A_ROW = (*SHARED, "tip_relief", "root_relief", "profile_modifications", "corner_contact")
+OF_A_STAGE = (*OF_A_ROW, "lead_modifications", "misalignment", "coast_flanks", "body_meshes")
+COUPLING = ("shafts", "bearings", "inertia", "damping", "torque_ripple", "speed_ramp", "flank_errors", "eccentricity")
+OF_A_TRAIN = ("title", "stages", "load", "motion", *SHARED)
+MOST_STAGES = 20
+NAMES = r"[A-Za-z0-9_-]{1,60}"
+
+
+@dataclass(frozen=True)
+class TrainLoad(Section):
+    """``[load]`` of a train: by exactly one of these fields; the gears pass it on without losses."""
+
+    alternatives = (("output_torque", "input_torque", "power"),)
+
+    output_torque: float | None = quantity(
+        "0 N m to 1e12 N m",
+        "2 kN m",
+        meaning="torque that resists the rotation of the last shaft",
+        otherwise="from `input_torque` or `power`",
+    )
+    input_torque: float | None = quantity(
+        "0 N m to 1e12 N m",
+        "100 N m",
+        meaning="torque that drives the first shaft",
+        otherwise="`output_torque` or `power` is given",
+    )
+    power: float | None = quantity(
+        "0 kW to 1e9 kW",
+        "20 kW",
+        meaning="power that goes through the train at the speed of `[motion]`, which is then required",
+        otherwise="`output_torque` or `input_torque` is given",
+    )
+
+
+@dataclass(frozen=True)
+class TrainMotion(Section):
+    """``[motion]`` of a train."""
+
+    input_speed: float | None = quantity(
+        "1e-9 rpm to 1e6 rpm",
+        "1500 rpm",
+        meaning="speed of the first shaft",
+        otherwise="a cycle of the first mesh takes 1 s",
+    )
+    mesh_cycles: int | None = whole_number(1, 1000000, 2, meaning="cycles that each mesh is run", otherwise="one")
+
+
+def is_train(tree: Mapping[str, Any]) -> bool:
+    return "stages" in tree and "gears" not in tree
+
+
+def checked_train(tree: Mapping[str, Any]) -> tuple[Any, Any, list[Problem]]:
+    """Load and motion of a parsed train, None where it is wrong, and all that is wrong with it."""
+    problems = [
+        Problem((each,), as_written(tree[each]), f"is not of a train.{did_you_mean(each, OF_A_TRAIN)} {_where(each)}")
+        for each in tree
+        if each not in OF_A_TRAIN
+    ]
+    stages = tree["stages"]
+    if not isinstance(stages, Mapping) or not 0 < len(stages) <= MOST_STAGES:
+        allowed = f"Allowed: 1 to {MOST_STAGES} sections [stages.NAME], each with the gears of a stage."
+        return None, None, [*problems, Problem(("stages",), as_written(stages), f"has no stages. {allowed}")]
+    title = tree.get("title", "")
+    if not isinstance(title, str):
+        problems.append(Problem(("title",), as_written(title), "is no text. Allowed: a text between quotes."))
+    for stage, content in stages.items():
+        if not fullmatch(NAMES, stage):
+            allowed = "Allowed: letters, digits, _ and -; a folder of results has this name."
+            problems.append(Problem(("stages", stage), "", f"is no name of a stage. {allowed}"))
+        problems += _of_stage(("stages", stage), content)
+    found = []
+    for name, section in (("load", TrainLoad), ("motion", TrainMotion)):
+        written = tree.get(name, {})
+        if not isinstance(written, Mapping):
+            problems.append(Problem((name,), as_written(written), f"is not a section with {fields_of(section)}."))
+            continue
+        values, wrong = read(section, written, (name,))
+        found.append(values)
+        problems += [_explained(each, section) for each in wrong]
+    if isinstance(tree.get("load", {}), Mapping) and not {*names_in(TrainLoad)} & {*tree.get("load", {})}:
+        problems.append(Problem(("load",), None, f"is missing. Add the section [load] with {fields_of(TrainLoad)}."))
+    if not problems and found[0].power is not None and found[1].input_speed is None:
+        problems.append(
+            Problem(
+                ("load", "power"), as_written(tree["load"]["power"]), "needs a speed. Allowed: with motion.input_speed."
+            )
+        )
+    return *(found if not problems else (None, None)), problems
+
+
+def _where(name: str) -> str:
+    if name in OF_A_STAGE:
+        return f"Write it within a stage: [stages.NAME.{name}]."
+    if name in COUPLING:
+        return f"It couples the stages, which is not yet computed. Known: {', '.join(OF_A_TRAIN)}."
+    return f"Known: {', '.join(OF_A_TRAIN)}; within a stage {', '.join(OF_A_STAGE)} and all fields of [gears]."
+
+
+def _explained(problem: Problem, section: type[Section]) -> Problem:
+    if not problem.unknown:
+        return problem
+    names = names_in(section)
+    said = f"is not known here.{did_you_mean(problem.path[-1], names)} Known: {', '.join(names)}."
+    return replace(problem, message=said)
+
+
+def _of_stage(path: tuple[str, ...], content: Any) -> Iterator[Problem]:
+    if not isinstance(content, Mapping):
+        yield Problem(path, as_written(content), "is not a section with the gears of a stage.")
+        return
+    kind = content.get("kind", PAIR)
+    if kind not in (PAIR, ROW):
+        said = "is not computed yet." if kind == "planetary" else "is no kind of stage."
+        yield Problem((*path, "kind"), as_written(kind), f'{said} Allowed: "{PAIR}" or "{ROW}".')
+    elif kind == ROW:
+        yield from _of_row(path, content)
+    elif "gears" in content or "directions" in content:
+        wrong = "gears" if "gears" in content else "directions"
+        yield Problem((*path, wrong), as_written(content[wrong]), f'is of a row. Add kind = "{ROW}", or leave it out.')
+    idlers = kind == ROW and isinstance(content.get("gears"), list) and len(content["gears"]) > 2
+    for name in (*COUPLING, *(OF_A_STAGE if idlers else ())):
+        if name in content and name not in OF_A_ROW:
+            what = "in rows with idlers" if name in OF_A_STAGE else "in trains"
+            allowed = f"Allowed: {', '.join(OF_A_ROW if idlers else OF_A_STAGE)}."
+            yield Problem((*path, name), "", f"is not yet computed {what}. {allowed}")
+
+
+def _of_row(path: tuple[str, ...], content: Mapping[str, Any]) -> Iterator[Problem]:
+    gears = content.get("gears")
+    place = (*path, "gears")
+    if not isinstance(gears, list) or len(gears) < 2 or not all(isinstance(each, Mapping) for each in gears):
+        allowed = "Allowed: a list of at least two tables, as [{ teeth = 24 }, { teeth = 31 }, { teeth = 40 }]."
+        yield Problem(place, None if gears is None else as_written(gears), f"has not the gears of a row. {allowed}")
+        return
+    directions = content.get("directions")
+    if directions is not None and (not isinstance(directions, list) or len(directions) != len(gears) - 1):
+        allowed = f"Allowed: {len(gears) - 1} angles, one for each mesh."
+        yield Problem((*path, "directions"), as_written(directions), f"has not one angle for each mesh. {allowed}")
+    for name in ("pinion", "wheel", "direction"):
+        if name in content:
+            yield Problem((*path, name), as_written(content[name]), "is of a pair. A row has gears and directions.")
+    if len(gears) > 2 and "backlash" in content:
+        said = (
+            "would thin the teeth of an idler differently in both of its meshes. Allowed: profile_shift of each gear."
+        )
+        yield Problem((*path, "backlash"), as_written(content["backlash"]), said)

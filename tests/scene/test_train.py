@@ -1,0 +1,62 @@
+"""Mistakes in scenes of trains, told before anything is computed."""
+
+import pytest
+from tests.trains import row, stage
+
+from fenics_gears import GearsError, SceneError, train_from_text
+
+TWO = stage("first", 2.0, (20, 30)) + stage("second", 3.0, (20, 40))
+LOAD = '[load]\noutput_torque = "400 N m"'
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (TWO, r"\[load\]|load\n    is missing"),
+        (f'{TWO}[load]\npower = "3 kW"', "needs a speed"),
+        (f'{TWO}[load]\nwheel_torque = "3 N m"', "is not known here.*output_torque"),
+        (f'{TWO}[load]\noutput_torque = "3 N m"\ninput_torque = "1 N m"', "stands beside output_torque"),
+        (f"{TWO}{LOAD}\n[inertia]\n", "is not of a train"),
+        (f"{TWO}{LOAD}\n[tip_relief]\n", r"\[stages.NAME.tip_relief\]"),
+        (f'[stages.one]\nkind = "planetary"\n{LOAD}', "is not computed yet"),
+        (f'[stages.one]\nkind = "row"\ngears = [{{ teeth = 20 }}]\n{LOAD}', "has not the gears of a row"),
+        (f"[stages]\n{LOAD}", "has no stages"),
+        (f"title = 3\n{TWO}{LOAD}", "is no text"),
+        (stage('".."', 2.0, (20, 30)) + LOAD, "is no name of a stage"),
+        (stage("one", 2.0, (20, 30), 'direction = "3 mm"') + LOAD, "is no angle"),
+        (stage("one", 2.0, (20, 30), "[stages.one.bearings]\nx = 3") + LOAD, "is not yet computed in trains"),
+        (stage("one", 2.0, (20, 30)).replace("teeth = 30", "tooth = 30") + LOAD, "stage one"),
+    ],
+)
+def test_mistakes_are_told(text, said):
+    """Each says where it is and what is allowed."""
+    with pytest.raises(GearsError, match=f"(?s){said}"):
+        train_from_text(text)
+
+
+def test_an_idler_that_both_mates_would_thin_differently_is_refused():
+    """Backlash is shared by both gears of a mesh; an idler has one tooth thickness in two meshes."""
+    with pytest.raises(SceneError, match="would thin the teeth of an idler differently"):
+        train_from_text(row([24, 31, 40], [0, 60], 100).text.replace("[load]", 'backlash = "0.1 mm"\n[load]', 1))
+
+
+def test_an_idler_has_one_tip_circle():
+    """Profile shifts shorten the tips of a mesh; of an idler the shorter tip holds in both of its meshes."""
+    text = row([24, 31, 40], [0, 60], 100).text.replace("profile_shift = 0", "profile_shift = 0.6", 2)
+    first, second = train_from_text(text).meshes
+    assert first.pair.wheel == second.pair.pinion
+
+
+def test_torques_and_speeds_follow_from_the_ratios():
+    """Without losses the torque grows by the ratio; mesh frequencies are those of each shaft's teeth."""
+    train = train_from_text(f'{TWO}[load]\npower = "2 kW"\n[motion]\ninput_speed = "1200 rpm"')
+    assert train.input_torque == pytest.approx(2e6 / (2.0 * 3.141592653589793 * 20.0), rel=1e-12)
+    assert train.output_torque == pytest.approx(3.0 * train.input_torque, rel=1e-12)
+    frequencies = [mesh.scene.motion.mesh_frequency for mesh in train.meshes]
+    assert frequencies == pytest.approx([400.0, 20.0 * 20.0 / 1.5], rel=1e-12)
+
+
+def test_helical_rows_are_refused():
+    """Idlers are computed in the plane; stages of two gears over the face too."""
+    with pytest.raises(SceneError, match="helical gears are not yet computed in rows with idlers"):
+        train_from_text(row([24, 31, 40], [0, 60], 100).text.replace("material", 'helix_angle = "9 deg"\nmaterial', 1))

@@ -1,0 +1,53 @@
+"""Trains of spur gears for tests, with coarse elements."""
+
+from fenics_gears import train_from_text
+from fenics_gears.scene.train import TrainScene
+
+COARSE = 'steps_per_mesh_cycle = 20\nflank_element_size = "0.1 mm"'
+
+
+def row(teeth, directions, torque: float, *, more: str = "", accuracy: str = "") -> TrainScene:
+    """A row of gears of module 3 mm, directions in degrees, under a torque (N m) on the last one."""
+    gears = ", ".join(f'{{ teeth = {each}, profile_shift = 0, bore_diameter = "30 mm" }}' for each in teeth)
+    angles = ", ".join(f'"{each} deg"' for each in directions)
+    return train_from_text(
+        f"""
+        [stages.row]
+        kind = "row"
+        module = "3 mm"
+        pressure_angle = "20 deg"
+        face_width = "30 mm"
+        gears = [{gears}]
+        directions = [{angles}]
+        material = "steel"
+        [load]
+        output_torque = "{torque} N m"
+        [accuracy]
+        {COARSE}
+        {accuracy}
+        {more}
+        """
+    )
+
+
+def stage(name: str, module: float, teeth: tuple[int, int], more: str = "") -> str:
+    """The section of a stage of two gears."""
+    gears = "\n".join(
+        f'{gear} = {{ teeth = {each}, profile_shift = 0.1, bore_diameter = "{module * each / 2} mm" }}'
+        for gear, each in zip(("pinion", "wheel"), teeth)
+    )
+    return f"""
+        [stages.{name}]
+        module = "{module} mm"
+        pressure_angle = "20 deg"
+        face_width = "{10 * module} mm"
+        {gears}
+        material = "steel"
+        {more}
+        """
+
+
+def two_stages(of_first: str = "", more: str = "") -> TrainScene:
+    """Two stages on three shafts under 400 N m on the last one; `of_first`: more of the first stage."""
+    stages = stage("first", 2.0, (20, 30), of_first) + stage("second", 3.0, (20, 40))
+    return train_from_text(f'{stages}\n[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n{more}')
