@@ -24,8 +24,8 @@ def __getattr__(name: str):
     # What BLAS, MPI and VTK read from the environment must stand there before they are loaded.
     importlib.import_module("fenics_gears.system.environment").prepare()
     resolve_name = importlib.import_module("pkgutil").resolve_name
-    found = globals()[name] = resolve_name(f"{_HOMES[name]}.{name}")
-    return found
+    value = globals()[name] = resolve_name(f"{_HOMES[name]}.{name}")
+    return value
 
 
 def __dir__() -> list[str]:

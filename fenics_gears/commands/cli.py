@@ -24,7 +24,7 @@ from fenics_gears.system.console import prepare_streams, printable
 from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.output import check_working_folder
 
-from . import found
+from . import registry
 from .misspelt import in_words
 from .shared import INTERRUPTED, NOBODY_READS
 
@@ -72,7 +72,7 @@ def _carried_out(arguments: Sequence[str]) -> int:
     if arguments[:1] == ["help"]:
         arguments = [*arguments[1:2], "--help"]
     called = next((word for word in arguments if not word.startswith("-")), "")
-    if called in found.UNPARSED:
+    if called in registry.UNPARSED:
         after = arguments.index(called) + 1
         _parser().parse_args(arguments[:after])
         return import_module(f"{__package__}.{called}").carry_out(arguments[after:])
@@ -172,5 +172,5 @@ def _parser(called: str = "") -> argparse.ArgumentParser:
         help="print the version; with -v also those of libraries, and the kernels of BLAS",
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    found.add(commands, shared, called)
+    registry.add(commands, shared, called)
     return parser

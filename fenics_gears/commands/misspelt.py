@@ -12,9 +12,9 @@ _UNKNOWN = "unrecognized arguments: "
 
 def in_words(message: str, parser: argparse.ArgumentParser) -> str:
     """What a parser says of a wrong call, with what may be meant."""
-    if found := _NO_CHOICE.fullmatch(message):
-        known = [name.strip("'") for name in found[2].split(", ")]
-        return f'there is no command "{found[1]}".{did_you_mean(found[1], known)} Commands: {", ".join(known)}'
+    if match := _NO_CHOICE.fullmatch(message):
+        known = [name.strip("'") for name in match[2].split(", ")]
+        return f'there is no command "{match[1]}".{did_you_mean(match[1], known)} Commands: {", ".join(known)}'
     if message.startswith(_UNKNOWN):
         words = message.removeprefix(_UNKNOWN).split()
         options = [word.partition("=")[0] for word in words if word.startswith("-")]

@@ -24,11 +24,11 @@ from .flank_errors_tables import check, files, located
 
 
 def write(errors: FlankErrors) -> dict:
-    found = tree_of(errors)
+    section = tree_of(errors)
     for gear in GEARS:
         for column in getattr(errors, gear).columns:
-            found[gear].pop(column, None)
-    return found
+            section[gear].pop(column, None)
+    return section
 
 
 def gaps(errors: FlankErrors, model):
@@ -42,10 +42,10 @@ def fits(errors: FlankErrors, model) -> None:
 def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
     """The deviations of every tooth, given and drawn; slope and form of measured curves are evaluated by ISO 1328-1."""
     values = {}
-    for gear, found in zip(GEARS, deviations_of(errors, cycle.pair, cycle.face)):
+    for gear, deviations in zip(GEARS, deviations_of(errors, cycle.pair, cycle.face)):
         dimension = (f"{gear}_tooth",)
-        values[f"{gear}_index_deviation"] = dimension, found.index
-        for kind, errors_of_kind in (("profile", found), ("helix", found.helix)):
+        values[f"{gear}_index_deviation"] = dimension, deviations.index
+        for kind, errors_of_kind in (("profile", deviations), ("helix", deviations.helix)):
             if errors_of_kind is not None:
                 slope, form = slope_and_form(errors_of_kind)
                 values |= {f"{gear}_{kind}_slope": (dimension, slope), f"{gear}_{kind}_form": (dimension, form)}

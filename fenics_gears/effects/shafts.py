@@ -59,10 +59,10 @@ def _each_gives_way(both: Tree) -> Broken:
 def located(shafts: Shafts, directory: Path) -> Shafts:
     if not _housings(shafts):
         return shafts
-    from .elastic_shaft_housing import found
+    from .elastic_shaft_housing import located_housing
 
-    own = {name: found(each, directory) for name in SHAFTS if (each := getattr(shafts, name)) is not None}
-    return replace(found(shafts, directory), **own)
+    own = {name: located_housing(each, directory) for name in SHAFTS if (each := getattr(shafts, name)) is not None}
+    return replace(located_housing(shafts, directory), **own)
 
 
 def _housings(shafts: Shafts) -> list[HousingFile]:

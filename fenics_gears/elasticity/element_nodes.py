@@ -75,7 +75,7 @@ def numbers_at(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
     # 50 ms that a run with gears from the cache does not take.
     from scipy.spatial import cKDTree
 
-    distance, found = cKDTree(nodes).query(places, k=2)
+    distance, nearest = cKDTree(nodes).query(places, k=2)
     tolerance = 1e-9 * np.abs(nodes).max()
     for wrong, what in ((distance[:, 0] > tolerance, "no node"), (distance[:, 1] <= tolerance, "more than one node")):
         if wrong.any():
@@ -83,7 +83,7 @@ def numbers_at(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
             raise ComputationError(
                 f"body: {what} at x = {x:.6f}, y = {y:.6f} in the mesh's unit of length, of a part of the boundary"
             )
-    return found[:, 0]
+    return nearest[:, 0]
 
 
 def node_roll_angles(gear: Gear, vertices: np.ndarray, order: int) -> np.ndarray:

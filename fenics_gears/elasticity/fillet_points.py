@@ -78,8 +78,8 @@ def fillet_rows(recovery: GearRecovery, curve: FilletCurve, averages: np.ndarray
     parts = []
     twist = 0.0 if sector.sweep is None else sector.sweep.twist
     for side in (0, 1):
-        nodes, *found = fillet_weights(curve, sector.section, sector.held, side)
-        weights, tangents = (np.nan_to_num(each) for each in found)
+        nodes, *tables = fillet_weights(curve, sector.section, sector.held, side)
+        weights, tangents = (np.nan_to_num(each) for each in tables)
         x, y = (weights @ sector.section.points[nodes]).T
         trace = np.column_stack([-twist * y, twist * x, np.ones(len(x))])
         profile = np.pad(tangents, ((0, 0), (0, 1)))

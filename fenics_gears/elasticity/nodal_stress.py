@@ -76,7 +76,7 @@ class NodalStress:
         between = sparse.csr_matrix((weights[:, :, None] * normal.reshape(-1, 1, 9)).reshape(len(weights), -1))
         chosen = dofs_of(nodes, 9)
         of_height = self.components * len(self.nodes.points)
-        found = sparse.csr_matrix((len(averages) * len(weights), of_height * self._heights))
+        rows = sparse.csr_matrix((len(averages) * len(weights), of_height * self._heights))
         # The same at all these nodes, none of which is of a web.
         meeting = self._layers_at[:, nodes].max(axis=1)
         for heights, gradients in self._layers:
@@ -84,10 +84,10 @@ class NodalStress:
                 own = between @ gradient[chosen]
                 # Columns of the layer's dofs among those of the body.
                 placed = sparse.csr_matrix(
-                    (own.data, own.indices + of_height * heights.start, own.indptr), (len(weights), found.shape[1])
+                    (own.data, own.indices + of_height * heights.start, own.indptr), (len(weights), rows.shape[1])
                 )
-                found = found + sparse.kron(averages[:, [height]] / meeting[height], placed, format="csr")
-        return found
+                rows = rows + sparse.kron(averages[:, [height]] / meeting[height], placed, format="csr")
+        return rows
 
     def _stress(self, gradient: np.ndarray) -> np.ndarray:
         strain = 0.5 * (gradient + gradient.swapaxes(-1, -2))

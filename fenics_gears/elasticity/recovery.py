@@ -129,9 +129,9 @@ class GearRecovery:
         shapes, of_held = spanned(held.T)
         others, of_forces = spanned(forces.T)
         work = self._ring_work(of_held.T, of_forces.T, reach)
-        found = shapes @ work @ others.T
-        found[reach] -= held.T @ loaded
-        return found
+        between = shapes @ work @ others.T
+        between[reach] -= held.T @ loaded
+        return between
 
     def _ring_work(self, responding: np.ndarray, loaded: np.ndarray, reach: int) -> np.ndarray:
         """`ring.ring_work` of forces on the cuts, over the face by those motions of the cuts that they cause."""

@@ -147,7 +147,7 @@ def ring_work(link: np.ndarray, teeth: int, reach: int, responding: np.ndarray, 
     same, ahead = cyclic(link)
     offsets = np.arange(-reach, reach + 1)
     lower, upper = np.vsplit(np.hstack([responding, loaded]), 2)
-    found = np.zeros((len(offsets), responding.shape[1], loaded.shape[1]))
+    works = np.zeros((len(offsets), responding.shape[1], loaded.shape[1]))
     for harmonic in range(teeth // 2 + 1):
         angle, weight = harmonic_of(harmonic, teeth)
         back = np.exp(-1j * angle)
@@ -156,9 +156,9 @@ def ring_work(link: np.ndarray, teeth: int, reach: int, responding: np.ndarray, 
         whitened = ztrsm(1.0, factor, lower + upper * back, trans_a=2)
         one, other = np.split(whitened, [responding.shape[1]], axis=1)
         product = one.conj().T @ other
-        for offset, work in zip(offsets, found):
+        for offset, work in zip(offsets, works):
             work += weight * (np.cos(offset * angle) * product.real - np.sin(offset * angle) * product.imag)
-    return found
+    return works
 
 
 def definite_inverse(matrix: np.ndarray, what: str) -> np.ndarray:

@@ -73,9 +73,9 @@ class Sector:
 
     def free_motion(self, loads: np.ndarray) -> np.ndarray:
         """Displacement (dofs, k) under loads (dofs, k), the cuts free."""
-        found = np.zeros_like(loads)
-        found[self._free] = self._factor.solve(loads[self._free])
-        return found
+        motion = np.zeros_like(loads)
+        motion[self._free] = self._factor.solve(loads[self._free])
+        return motion
 
     def at_cuts(self, vectors: np.ndarray) -> np.ndarray:
         """Rows (2 d, k) of the lower, then of the upper cut."""

@@ -60,11 +60,11 @@ class SliceCompliance:
             by_nodes = np.ascontiguousarray(displaced.transpose(1, 0, 2)).reshape(displaced.shape[1], -1)
             for other in loaded:
                 under, averaged = self._seen[other]
-                found = (averaged @ by_nodes[under]).reshape(size, size, 3, 3).transpose(1, 0, 2, 3)
+                between = (averaged @ by_nodes[under]).reshape(size, size, 3, 3).transpose(1, 0, 2, 3)
                 for add in self._additions:
-                    add(found, ahead, section, other)
-                self.values[number + ahead, section, other] = found.reshape(size, size, 9)
-                self.values[number - ahead, other, section] = found.transpose(1, 0, 3, 2).reshape(size, size, 9)
+                    add(between, ahead, section, other)
+                self.values[number + ahead, section, other] = between.reshape(size, size, 9)
+                self.values[number - ahead, other, section] = between.transpose(1, 0, 3, 2).reshape(size, size, 9)
                 self._there[number + ahead, section, other] = self._there[number - ahead, other, section] = True
 
 

@@ -87,9 +87,9 @@ def compile_ahead(element: Element) -> None:
 def assembled(matrix) -> sparse.csr_matrix:
     """A PETSc matrix as scipy's; the former is given back."""
     starts, columns, values = matrix.getValuesCSR()
-    found = sparse.csr_matrix((values.copy(), columns.copy(), starts.copy()), shape=matrix.getSize())
+    copied = sparse.csr_matrix((values.copy(), columns.copy(), starts.copy()), shape=matrix.getSize())
     matrix.destroy()
-    return found
+    return copied
 
 
 def nodes_at(space, coordinates: np.ndarray) -> np.ndarray:

@@ -140,11 +140,11 @@ def _curves(measured: MeasuredCurves, gear: Gear, ends: tuple[float, float], zer
     """Deviations (z, CURVE_POINTS), mm, at even steps between the ends (rad or mm), the mean curve for a tooth that was
     not measured. `zero`: where each curve is zero, None for its mean."""
     at = np.linspace(*ends, CURVE_POINTS)
-    found = {
+    by_tooth = {
         each.tooth: np.interp(at, _places(each, measured.along, gear), each.deviations) for each in measured.curves
     }
-    mean = np.mean(list(found.values()), axis=0)
-    curves = np.array([found.get(tooth, mean) for tooth in range(1, gear.teeth + 1)])
+    mean = np.mean(list(by_tooth.values()), axis=0)
+    curves = np.array([by_tooth.get(tooth, mean) for tooth in range(1, gear.teeth + 1)])
     if zero is not None:
         return curves - np.array([np.interp(zero, at, curve) for curve in curves])[:, None]
     sums = curves.mean(axis=1) * CURVE_POINTS - 0.5 * (curves[:, 0] + curves[:, -1])

@@ -113,8 +113,8 @@ class GearPairData:
     @property
     def materials(self) -> tuple[Material, Material] | None:
         """Materials of pinion and wheel; None where they are rigid."""
-        found = (self.material_of("pinion"), self.material_of("wheel"))
-        return None if None in found else found
+        both = (self.material_of("pinion"), self.material_of("wheel"))
+        return None if None in both else both
 
     def material_of(self, name: str) -> Material | None:
         """Material of the "pinion" or the "wheel"."""

@@ -100,11 +100,11 @@ class GearPair:
         end, as much as helps to carry: r (1 - exp(-o/r)), with a reach r that grows with the depth of the gear's body.
         """
         module = self.pinion.normal_module
-        found = []
+        widths = []
         for gear, overhangs in zip((self.pinion, self.wheel), self.overhangs):
             reach = module * (REACH_OF_TEETH + REACH_OF_BODY * (1.0 - exp(-gear.body_depth / (DEPTH_OF_BODY * module))))
-            found.append(self.face_width + sum(reach * (1.0 - exp(-each / reach)) for each in overhangs))
-        return found[0], found[1]
+            widths.append(self.face_width + sum(reach * (1.0 - exp(-each / reach)) for each in overhangs))
+        return widths[0], widths[1]
 
     @cached_property
     def slope(self) -> float:

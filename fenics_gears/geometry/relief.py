@@ -166,8 +166,8 @@ def side_by_side(removals: Sequence[Callable | None], counts: Sequence[int]) -> 
     if kinds == {type(None)}:
         return None
     together = getattr(next(iter(kinds)), "side_by_side", None) if len(kinds) == 1 else None
-    found = None if together is None else together(removals, counts)
-    return _one_by_one(removals, counts) if found is None else found
+    joined = None if together is None else together(removals, counts)
+    return _one_by_one(removals, counts) if joined is None else joined
 
 
 def _one_by_one(removals: Sequence[Callable | None], counts: Sequence[int]) -> Callable:

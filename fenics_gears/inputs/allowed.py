@@ -144,8 +144,8 @@ class AllowedEither(Allowed):
     def spelled(self, value: float | Measured | str) -> str:
         if isinstance(value, str):
             return value
-        found = value if isinstance(value, Measured) else Measured(value, self.kind)
-        return units.text_of(found.number, found.kind, self.units[found.kind])
+        measured = value if isinstance(value, Measured) else Measured(value, self.kind)
+        return units.text_of(measured.number, measured.kind, self.units[measured.kind])
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -28,8 +28,8 @@ def in_words(error: tomllib.TOMLDecodeError, text: str, source: str) -> str:
 
 def _said(own: str, written: str, text: str, number: int) -> Iterator[str]:
     """What TOML's `own` words mean in the line that is `written`; nothing where they say it as well."""
-    if found := _HEADER_TWICE.match(own):
-        name = ".".join(re.findall(r"'([^']*)'", found[1]))
+    if match := _HEADER_TWICE.match(own):
+        name = ".".join(re.findall(r"'([^']*)'", match[1]))
         yield f"[{name}] stands twice{_first(text, name, number)}. Put all of its fields below one of them."
     if own.startswith(("Cannot overwrite a value", "Cannot mutate", "Cannot redefine")):
         if field := _FIELD.match(written):
@@ -80,5 +80,5 @@ def _open_quote(lines: list[str]) -> int:
 def _first(text: str, name: str, number: int) -> str:
     """Where a name of a section, or of a field of the section at a line, stands first."""
     before = "\n".join(text.splitlines()[: number - 1])
-    found = [line for path, line in line_numbers(before).items() if ".".join(path) == name or path[-1:] == (name,)]
-    return f", first in line {found[-1]}" if found else ""
+    lines = [line for path, line in line_numbers(before).items() if ".".join(path) == name or path[-1:] == (name,)]
+    return f", first in line {lines[-1]}" if lines else ""

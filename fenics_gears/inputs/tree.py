@@ -25,14 +25,14 @@ def table(tree: Tree, name: str) -> Tree | None:
 
 def value_at(tree: Tree, *path: str) -> Any:
     """What a parsed scene has at a path, in which listed tables have numbers from 1; None where there is nothing."""
-    found: Any = tree
+    value: Any = tree
     for name in path:
         if name.isdigit():
-            listed = found.get(LISTED) if isinstance(found, Mapping) else found
-            found = listed[int(name) - 1] if isinstance(listed, list) and 1 <= int(name) <= len(listed) else None
+            listed = value.get(LISTED) if isinstance(value, Mapping) else value
+            value = listed[int(name) - 1] if isinstance(listed, list) and 1 <= int(name) <= len(listed) else None
         else:
-            found = found.get(name) if isinstance(found, Mapping) else None
-    return found
+            value = value.get(name) if isinstance(value, Mapping) else None
+    return value
 
 
 def with_gears(tree: Tree, name: str) -> dict[Path, Tree]:
@@ -177,8 +177,8 @@ def dotted(path: Path) -> str:
 
 def over_the_face(tree: Tree) -> list[Path]:
     """What of a scene makes it three-dimensional; nothing of a plane one."""
-    found = ((path, value_at(tree, *path)) for path in OVER_THE_FACE)
-    return [path for path, value in found if isinstance(value, Mapping) or len(path) > 1 and value is not None]
+    valued = ((path, value_at(tree, *path)) for path in OVER_THE_FACE)
+    return [path for path, value in valued if isinstance(value, Mapping) or len(path) > 1 and value is not None]
 
 
 NOT_IN_THE_PLANE = (

@@ -180,10 +180,10 @@ def names_by_kind() -> dict[str, list[str]]:
     >>> names_by_kind()["a length"]
     ['mm', 'um', 'cm', 'dm', 'm', 'in', 'ft', 'mil']
     """
-    found: dict[str, list[str]] = {}
+    names: dict[str, list[str]] = {}
     for name in _UNITS:
-        found.setdefault(_unit(name)[1], []).append(name)
-    return found
+        names.setdefault(_unit(name)[1], []).append(name)
+    return names
 
 
 def own_unit(kind: str) -> str:
@@ -221,7 +221,7 @@ def text_of(value: float, kind: str, usual: str) -> str:
 
 def _tidy(written: str) -> str:
     """A unit in plain letters: "µm" as "um", "min⁻¹" as "min^-1", "in-lb" as "lbf in"."""
-    powers = _NEGATIVE_POWER.sub(lambda found: f"^-{found[1].translate(_DIGITS)}", written)
+    powers = _NEGATIVE_POWER.sub(lambda match: f"^-{match[1].translate(_DIGITS)}", written)
     plain = powers.translate(_SPELLINGS).strip()
     pounds = _POUNDS.fullmatch(plain)
     return f"lbf {pounds[1] or pounds[2]}" if pounds else plain
@@ -271,10 +271,12 @@ def _in_base_units(name: str) -> tuple[float, Counter]:
 
 def _kind(powers: Counter) -> str:
     """What a quantity of these powers is called; the powers themselves where they have no name."""
-    found = _sorted_powers(powers)
-    if not found:
+    ordered = _sorted_powers(powers)
+    if not ordered:
         return "a number without unit"
-    return _kinds_by_powers().get(found) or "a quantity in " + " ".join(f"{name}^{power:g}" for name, power in found)
+    return _kinds_by_powers().get(ordered) or "a quantity in " + " ".join(
+        f"{name}^{power:g}" for name, power in ordered
+    )
 
 
 @functools.cache

@@ -175,14 +175,14 @@ def _steep_neighbour(x, y, top, sought, finest):
 @njit(cache=True)
 def _take(x, y, known, count, value, settings):
     """The value found in an interval at a place, which divides it."""
-    interval, place, found = value
-    holds = _holds(x[interval - 1 :], y[interval - 1 :], place, found, AGREES * settings[0])
+    interval, place, height = value
+    holds = _holds(x[interval - 1 :], y[interval - 1 :], place, height, AGREES * settings[0])
     for i in range(count, interval + 1, -1):
         x[i] = x[i - 1]
         y[i] = y[i - 1]
         known[:, i - 1] = known[:, i - 2]
     x[interval + 1] = place
-    y[interval + 1] = found
+    y[interval + 1] = height
     for i in (interval, interval + 1):
         known[:, i] = 0.0
         known[BOUND, i] = -inf
@@ -265,9 +265,9 @@ def _corner(x, y):
 
 
 @njit(cache=True)
-def _holds(x, y, place, found, most):
-    """Whether the cubic through four points x, y (4,), concave in the middle, is `found` at a place, by `most`."""
+def _holds(x, y, place, height, most):
+    """Whether the cubic through four points x, y (4,), concave in the middle, is `height` at a place, by `most`."""
     slope, (one, _), third = differences(x, y)
     after = place - x[1]
     cubic = y[1] + after * (slope + (place - x[2]) * (one + third * (place - x[0])))
-    return is_smooth(x, y) and abs(found - cubic) <= most and abs(after / (x[2] - x[1]) - 0.5) <= MIDDLE
+    return is_smooth(x, y) and abs(height - cubic) <= most and abs(after / (x[2] - x[1]) - 0.5) <= MIDDLE

@@ -66,12 +66,12 @@ def _stiffness(settled: Curves, pair: GearPair) -> dict[str, float]:
     if "mesh_stiffness" not in settled:
         return {}
     secant, tangent, pairs = (settled[name] for name in ("mesh_stiffness", "mesh_stiffness_tangent", "loaded_pairs"))
-    found = {
+    stiffnesses = {
         "mean_mesh_stiffness": mean_where_positive(secant),
         "mean_mesh_stiffness_tangent": mean_where_positive(tangent),
         "single_pair_stiffness": largest_of_one_pair(secant, pairs),
     }
-    return {name: value * MICROMETRE / pair.face_width for name, value in found.items() if np.isfinite(value)}
+    return {name: value * MICROMETRE / pair.face_width for name, value in stiffnesses.items() if np.isfinite(value)}
 
 
 def _pair_force(settled: Curves) -> dict[str, float]:
@@ -100,10 +100,10 @@ def _pressure(settled: Curves, pair: GearPair) -> dict[str, float | str]:
         return {}
     pressure = settled["largest_contact_pressure"]
     place = first_largest(pressure)
-    found: dict[str, float | str] = {"peak_contact_pressure": float(pressure[place])}
+    numbers: dict[str, float | str] = {"peak_contact_pressure": float(pressure[place])}
     for name in ("edge", "kink"):
         if f"largest_{name}_pressure" in settled and settled[f"largest_{name}_pressure"].any():
-            found[f"peak_{name}_pressure"] = float(settled[f"largest_{name}_pressure"].max())
+            numbers[f"peak_{name}_pressure"] = float(settled[f"largest_{name}_pressure"].max())
     if pressure[place] <= NO_FORCE / pair.face_width**2:
         return {"peak_contact_pressure": 0.0}
 
@@ -114,8 +114,8 @@ def _pressure(settled: Curves, pair: GearPair) -> dict[str, float | str]:
     roll = at("largest_contact_pressure_roll_angle")
     if pair.slope:
         if end := end_of_line(pair, pair.pinion.base_radius * roll):
-            found["peak_contact_pressure_beside"] = end
-    return found | {
+            numbers["peak_contact_pressure_beside"] = end
+    return numbers | {
         "peak_contact_pressure_time": at("time"),
         "peak_contact_pressure_mesh_phase": at("mesh_phase"),
         "peak_contact_pressure_pair": int(at("largest_contact_pressure_pair")),
@@ -130,7 +130,7 @@ def largest_root_stress(counted: xr.Dataset) -> dict[str, float | str]:
     if "root_stress_maximum" not in counted:
         return {}
     settled = counted.isel(time=slice(0, max(counted.sizes["time"] - 1, 1)))
-    found: dict[str, float | str] = {}
+    numbers: dict[str, float | str] = {}
     for gear in ("pinion", "wheel"):
         stress = settled["root_stress_maximum"].sel(gear=gear).transpose("time", "slot").values
         if not np.nanmax(stress, initial=0.0):
@@ -139,13 +139,13 @@ def largest_root_stress(counted: xr.Dataset) -> dict[str, float | str]:
         at = settled.isel(time=step, slot=slot)
         sides = at["root_stress_at_30_degrees"].sel(gear=gear)
         name = f"largest_root_stress_{gear}"
-        found |= {
+        numbers |= {
             name: float(stress[step, slot]),
             f"{name}_mesh_phase": float(at["mesh_phase"]),
             f"{name}_pair": int(at["pair_number"]),
             f"{name}_fillet": str(sides["fillet"].values[int(np.nanargmax(sides.values))]),
         }
-    return found
+    return numbers
 
 
 def _power(counted: Curves, loss: float | None, timed: bool) -> dict[str, float]:
@@ -158,12 +158,12 @@ def _power(counted: Curves, loss: float | None, timed: bool) -> dict[str, float]
     if not seconds or not drive or largest_normal_force(counted) <= NO_FORCE:
         return {}
     power = drive / seconds / WATT
-    found = {"input_power": power} if timed else {}
+    numbers = {"input_power": power} if timed else {}
     if loss is not None:
-        found |= {"friction_power": loss * power} if timed else {}
+        numbers |= {"friction_power": loss * power} if timed else {}
         # What wedges the teeth is not the load, and the friction that it makes is no loss of the load's power.
-        found |= {"mesh_efficiency": 1.0 - loss} if loss < 1.0 and not wedged(counted).any() else {}
-    return found
+        numbers |= {"mesh_efficiency": 1.0 - loss} if loss < 1.0 and not wedged(counted).any() else {}
+    return numbers
 
 
 def wedged(curves: Curves) -> np.ndarray:

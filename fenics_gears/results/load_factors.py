@@ -23,17 +23,17 @@ NO_SHARE = 1e-9
 def load_factors(counted: xr.Dataset, pair: GearPair) -> dict[str, float]:
     """Overlap and total contact ratio, and the load factors of the flanks that carry in the settled steps of a result;
     nothing of flanks without load. Factors along the face need contact fields."""
-    found = {"overlap_ratio": pair.overlap_ratio, "total_contact_ratio": pair.total_contact_ratio}
+    factors = {"overlap_ratio": pair.overlap_ratio, "total_contact_ratio": pair.total_contact_ratio}
     side = carrying_side(counted)
     pressed = counted[f"{side}normal_force"].values > NO_FORCE
     if pressed.any():
         of_pairs, of_mesh = (counted[f"{each}{side}normal_force"].values[pressed] for each in ("pair_", ""))
         largest = of_pairs.max(axis=1) / of_mesh
-        found["transverse_load_factor"] = float(largest.max()) / largest_even_share(pair)
+        factors["transverse_load_factor"] = float(largest.max()) / largest_even_share(pair)
     if counted.sizes.get("contact_time"):
         settled = counted.isel(contact_time=counted["contact_time"].values >= counted["time"].values[0])
-        found |= _of_cycle(settled, pair, side) | _of_instants(settled, pair, side)
-    return found
+        factors |= _of_cycle(settled, pair, side) | _of_instants(settled, pair, side)
+    return factors
 
 
 def line_loads(result: xr.Dataset, side: str) -> np.ndarray:
@@ -44,8 +44,8 @@ def _of_cycle(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float
     """Of the line load averaged over whole mesh cycles: its largest mean over a window of the inner face, over that of
     the inner face; nothing where the end zones alone carry."""
     load = mean_line_load(settled, side)
-    found = None if load is None else face_load_factor(load, settled, pair)
-    return {} if found is None else {"face_load_factor": found}
+    factor = None if load is None else face_load_factor(load, settled, pair)
+    return {} if factor is None else {"face_load_factor": factor}
 
 
 def face_load_factor(load: np.ndarray, face: xr.Dataset, pair: GearPair) -> float | None:
@@ -83,13 +83,13 @@ def _of_instants(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, fl
     shares = windows(settled, pair)
     away = np.where(ended @ (shares > BESIDE).T, 0.0, loads @ shares.T)
     edges = np.where(ended | in_end_zone(pair, z), loads, 0.0)
-    found = {}
+    factors = {}
     for name, values in (("largest_line_load_factor", away), ("edge_line_load_factor", edges)):
         # Under a torque of nothing loads are round-off, of either sign.
         largest = float(values.max(initial=0.0))
         if largest > 0.0 and (own := force[np.unravel_index(values.argmax(), values.shape)[0]]) > 0.0:
-            found[name] = largest * shortest_lines(pair) / float(own)
-    return found
+            factors[name] = largest * shortest_lines(pair) / float(own)
+    return factors
 
 
 def at_edges(result: xr.Dataset, pair: GearPair, side: str) -> np.ndarray:

@@ -146,12 +146,12 @@ def stiffness_curves(steps: Steps, faces: np.ndarray = NO_FACES) -> Curves:
 @njit(cache=True)
 def _stiffness(block, faces):
     steps = in_block(block)
-    found = np.zeros((3, len(steps.rows)))
+    stiffnesses = np.zeros((3, len(steps.rows)))
     for s in range(len(steps.rows)):
         forces = steps.forces[forces_at(steps, s)]
         status = steps.status[nodes_at(steps, s)]
-        found[:, s] = mesh_stiffness(operator_at(steps, s), status, forces, steps.states[s, 0], faces)
-    return found
+        stiffnesses[:, s] = mesh_stiffness(operator_at(steps, s), status, forces, steps.states[s, 0], faces)
+    return stiffnesses
 
 
 def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singular: EdgesAndKinks) -> Curves:
@@ -173,11 +173,11 @@ def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singula
         pressure = read_off(fields[f"{side}contact_pressure"], place)
         presses_edge = nodes.by_slice(pressed_edge & (nodes.drive == drive))[..., None] > 0
         kinds = np.where(presses_edge, EDGE, nodes.over_nodes(beside, drive, NOTHING))
-        for kind, found in largest.items():
-            found.append(np.where(kinds == kind, pressure, 0.0).max(axis=-1).reshape(steps, -1))
+        for kind, parts in largest.items():
+            parts.append(np.where(kinds == kind, pressure, 0.0).max(axis=-1).reshape(steps, -1))
         node = np.where(kinds == NOTHING, pressure, 0.0).argmax(axis=-1)[..., None]
         rolls.append(np.take_along_axis(place, node, -1).reshape(steps, -1))
-    pressures = {kind: np.concatenate(found, axis=1) for kind, found in largest.items()}
+    pressures = {kind: np.concatenate(parts, axis=1) for kind, parts in largest.items()}
     repeated = np.repeat(nodes.pair_number, rolls[0].shape[1] // nodes.pair_number.shape[1], axis=1)
     numbers = np.concatenate([repeated] * len(rolls), axis=1)
     off_edge = pressures[NOTHING]
@@ -234,14 +234,14 @@ class EdgesAndKinks:
         return self._last[1]
 
     def _beside(self, nodes: SideBySide) -> np.ndarray:
-        found = np.full(len(nodes.step), NOTHING)
+        kinds = np.full(len(nodes.step), NOTHING)
         arcs = nodes.of("arcs")
         for place in self._places:
             near = np.abs(arcs[place.gear] - place.arc) <= REACH[place.kind] * self.half_width
-            found[near & nodes.drive if place.kind == KINK else near] = place.kind
+            kinds[near & nodes.drive if place.kind == KINK else near] = place.kind
         if self._end_slices is not None:
-            found[self._end_slices[nodes.of("slice")]] = EDGE
-        return found
+            kinds[self._end_slices[nodes.of("slice")]] = EDGE
+        return kinds
 
 
 # Exact for cubic pressure, zero for pressure that changes sign from node to node: (1 + d^2/4)(1 - d^2/4), d^2 the

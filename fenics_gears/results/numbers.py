@@ -68,8 +68,8 @@ def shares_at(positions, phase: np.ndarray, numbers: np.ndarray, forces: np.ndar
     # One pair after the other on a single axis, so that all are interpolated at once.
     apart = np.ptp(passed) + 1.0
     inside = (positions >= lowest[:, None] - ROUNDING) & (positions <= highest[:, None] + ROUNDING)
-    found = np.interp(positions + apart * np.arange(len(first))[:, None], passed + apart * of_pair, share)
-    total = np.where(inside, found, 0.0).sum(axis=0)
+    shares = np.interp(positions + apart * np.arange(len(first))[:, None], passed + apart * of_pair, share)
+    total = np.where(inside, shares, 0.0).sum(axis=0)
     count = inside.sum(axis=0)
     return np.divide(total, count, out=np.full(len(positions), np.nan), where=count > 0)
 
@@ -154,10 +154,10 @@ def _largest_of_cubics(x, y):
         beyond = own[2] - (0.5 * (own[3] - own[1])) ** 2 / (4.0 * other)
         between = max(own[1], own[2])
         if min(above, beyond) - between >= LIKE * (max(above, beyond) - between):
-            at, found = crest_of_cubic(four, own)
-            if found > height:
+            at, value = crest_of_cubic(four, own)
+            if value > height:
                 crest = at
-                height = found
+                height = value
     return (crest, height) if height > largest else (place, largest)
 
 

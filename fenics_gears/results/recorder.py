@@ -54,14 +54,14 @@ def _along_face(model: Model, cycle: Cycle) -> tuple[AlongTheFace, ...]:
 class KnownTouching:
     """Where pairs touch over a mesh cycle, which runs on the same operators have in common (`Cycle.shared`)."""
 
-    found: Touching | None = None
+    touching: Touching | None = None
 
     def of(self, cycle: Cycle) -> Touching:
-        if self.found is None:
-            self.found = touching_at(
+        if self.touching is None:
+            self.touching = touching_at(
                 lambda step: [pair.place for pair in cycle.pairs_at(step)], cycle.steps, cycle.coast_flanks
             )
-        return self.found
+        return self.touching
 
 
 class Recorder:
@@ -152,8 +152,8 @@ class Recorder:
         values |= energies
         for effect in effects_on(scene):
             if any(variable.dims == ("time",) for variable in effect.variables) and effect.results is not None:
-                found = effect.results(getattr(scene, effect.section), scene, cycle, numbers)
-                values |= {name: of for name, (_, of) in found.items()}
+                of_effect = effect.results(getattr(scene, effect.section), scene, cycle, numbers)
+                values |= {name: curve for name, (_, curve) in of_effect.items()}
         fields = {
             "contact_time": times,
             "contact_mesh_phase": values["mesh_phase"],
@@ -168,10 +168,12 @@ class Recorder:
             values |= pressure_curves(nodes, fields, self._singular)
         if self.stress is not None:
             fields |= self.stress.values(nodes)
-        for of_effect in from_effects(scene, "watched", cycle, block):
-            watched |= of_effect
-        found = values | fields
-        kept = {name: self._in_shape(found[name], dims) for name, (dims, _) in self.stored.items() if name in found}
+        for watched_by_effect in from_effects(scene, "watched", cycle, block):
+            watched |= watched_by_effect
+        evaluated = values | fields
+        kept = {
+            name: self._in_shape(evaluated[name], dims) for name, (dims, _) in self.stored.items() if name in evaluated
+        }
         self._room.put(self.steps, kept | {f"{WATCHED}{name}": of for name, of in watched.items()}, march)
         # Last of all: a march that is interrupted before this line evaluates these steps again.
         self._watched = tuple(watched)

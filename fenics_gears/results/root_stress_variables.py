@@ -104,8 +104,8 @@ class RootStress:
                         places = slots[some]
                         for index, slot in zip(teeth.tolist(), places.T):
                             asked[side.number, side.sense * index - sector].append((these, slot, own))
-        for (gear, ahead), found in asked.items():
-            steps, slots, forces = (np.concatenate(each) for each in zip(*found))
+        for (gear, ahead), loads in asked.items():
+            steps, slots, forces = (np.concatenate(each) for each in zip(*loads))
             stress = forces @ self._known(gear, ahead).reshape(slices * points, -1).T
             # At a step a tooth stands so far ahead of one loaded tooth alone: no place is there twice.
             values[steps, gear, slots] += stress.reshape(-1, slices, points)

@@ -49,7 +49,7 @@ def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool)
     at_end = np.abs(offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
     if cycle.grid.inner_length is not None:
         at_end |= _at_inner_end(cycle, offsets, ends, of_flanks)
-    found = {
+    columns = {
         "index": index,
         "node": np.arange(len(offsets)) - np.repeat(ends[:-1], np.diff(ends)),
         "drive": flank == DRIVE,
@@ -60,23 +60,23 @@ def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool)
         "at_end": at_end,
     }
     if cycle.traits.has_pressure:
-        found["on_edge"] = _on_edges(cycle, pairs, ends, of_flanks)
-        found["arcs"] = _arcs(cycle.pair, pairs, rolls, offsets, ends)
+        columns["on_edge"] = _on_edges(cycle, pairs, ends, of_flanks)
+        columns["arcs"] = _arcs(cycle.pair, pairs, rolls, offsets, ends)
     rows = _reaction_rows(operators, pairs, tangential)
     normals, tangents = (np.ascontiguousarray(part) for part in np.split(rows, [len(offsets)], axis=1))
-    return found | {"rows_of_normals": normals, "rows_of_tangents": tangents}
+    return columns | {"rows_of_normals": normals, "rows_of_tangents": tangents}
 
 
 def _at_inner_end(cycle: Cycle, offsets: np.ndarray, ends: np.ndarray, of_flanks: np.ndarray) -> np.ndarray:
     """Nodes (n,) that stand first or last in a window that is shorter than the whole one, and not on the edge of a
     flank."""
-    found = np.zeros(len(offsets), dtype=bool)
+    at_end = np.zeros(len(offsets), dtype=bool)
     round_off = 1e-9 * cycle.grid.length
     first = ends[:-1]
     last = ends[1:] - 1
-    found[first] = offsets[first] > of_flanks[:, 0].max(axis=1) + round_off
-    found[last] = offsets[last] < of_flanks[:, 1].min(axis=1) - round_off
-    return found & (np.abs(np.abs(offsets) - 0.5 * cycle.grid.inner_length) <= cycle.grid.spacing)
+    at_end[first] = offsets[first] > of_flanks[:, 0].max(axis=1) + round_off
+    at_end[last] = offsets[last] < of_flanks[:, 1].min(axis=1) - round_off
+    return at_end & (np.abs(np.abs(offsets) - 0.5 * cycle.grid.inner_length) <= cycle.grid.spacing)
 
 
 def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> np.ndarray:
@@ -85,7 +85,7 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
 
     `ends` (P + 1,): where the nodes of each pair begin and end; `of_flanks` (P, 2, 2): as of `window.ends_of`.
     """
-    found = np.zeros((4, ends[-1]), dtype=bool)
+    on_edge = np.zeros((4, ends[-1]), dtype=bool)
     half = 0.5 * cycle.grid.length * (1.0 - 1e-9)
     cut = (cycle.pair.pinion.undercut, cycle.pair.wheel.undercut)
     of_flanks = of_flanks.copy()
@@ -99,11 +99,11 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
     last = ends[1:] - 1
     below = of_flanks[:, 0].T
     above = of_flanks[:, 1].T
-    found[0, first] = by_line & (below[0] >= below[1]) & (below[0] > -half)
-    found[1, last] = by_line & (above[1] <= above[0]) & (above[1] < half)
-    found[2, last] = cut[0] & (above[0] <= above[1]) & (above[0] < half)
-    found[3, first] = cut[1] & (below[1] >= below[0]) & (below[1] > -half)
-    return found
+    on_edge[0, first] = by_line & (below[0] >= below[1]) & (below[0] > -half)
+    on_edge[1, last] = by_line & (above[1] <= above[0]) & (above[1] < half)
+    on_edge[2, last] = cut[0] & (above[0] <= above[1]) & (above[0] < half)
+    on_edge[3, first] = cut[1] & (below[1] >= below[0]) & (below[1] > -half)
+    return on_edge
 
 
 def _arcs(gears: GearPair, pairs, contact_rolls: np.ndarray, offsets: np.ndarray, ends: np.ndarray) -> np.ndarray:

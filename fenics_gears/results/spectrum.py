@@ -122,12 +122,12 @@ def sidebands(lines: OrderLines, teeth: tuple[int, int], harmonic: int) -> Sideb
     """The first SIDEBANDS on either side of a mesh harmonic, no further than half-way to the next; None where the
     record cannot tell them apart."""
     turns = {"pinion": 1.0, "wheel": teeth[0] / teeth[1]}
-    found = {gear: _beside(teeth[0], harmonic, turn) for gear, turn in turns.items()}
-    every = np.unique(np.round(np.concatenate([*found.values(), [harmonic * teeth[0]]]), 9))
+    at_sides = {gear: _beside(teeth[0], harmonic, turn) for gear, turn in turns.items()}
+    every = np.unique(np.round(np.concatenate([*at_sides.values(), [harmonic * teeth[0]]]), 9))
     if np.diff(every).min() < (2 * lines.spread + 1) * lines.spacing * (1.0 - 1e-6) or every[-1] > lines.orders[-1]:
         return None
     squares = {order: lines.square(order) for order in every}
-    sums = {gear: sum(squares[order] for order in np.round(orders, 9)) for gear, orders in found.items()}
+    sums = {gear: sum(squares[order] for order in np.round(orders, 9)) for gear, orders in at_sides.items()}
     line = squares[float(harmonic * teeth[0])]
     # Of the mesh in a quasi-static force that varies with the load alone, round-off is all there is.
     there = line > (ROUND_OFF * lines.amplitudes.max()) ** 2
@@ -165,14 +165,14 @@ def known_orders(scene: Scene) -> list[tuple[float, str]]:
     """Orders with a known cause, in words: run-out of either gear and waves on its flanks."""
     errors = scene.flank_errors
     run_out = scene.eccentricity
-    found = []
+    known = []
     for name, turns in (("pinion", 1.0), ("wheel", scene.gears.pinion.teeth / scene.gears.wheel.teeth)):
         if run_out is not None and getattr(run_out, name) is not None:
-            found.append((turns, f"run-out of the {name}"))
+            known.append((turns, f"run-out of the {name}"))
         waves = None if errors is None else getattr(errors, name).waviness
         if waves is not None:
-            found.append((waves.waves * turns, f"ghost order: {waves.waves} waves on the {name}"))
-    return found
+            known.append((waves.waves * turns, f"ghost order: {waves.waves} waves on the {name}"))
+    return known
 
 
 def varying_mesh_force(result: xr.Dataset) -> np.ndarray | None:

@@ -114,22 +114,22 @@ def _passed_through(cycle: Cycle, result: RunResult) -> list[str]:
 
 
 def _rotation(result: RunResult) -> list[str]:
-    found = []
+    sentences = []
     for name, rotations in zip(GEARS, result["rotation"].T):
         largest = np.abs(rotations).max(initial=0.0)
         if largest > LARGEST_ROTATION:
-            found.append(
+            sentences.append(
                 f"the {name} turns by {largest:.3g} rad from its nominal motion; the model takes such rotations as"
                 f" small (below {LARGEST_ROTATION} rad): stiffen the shafts or lower the torque"
             )
     tilts = [np.abs(result[name]).max(axis=0, initial=0.0) for name in ("tilt_x", "tilt_y") if name in result]
     for name, largest in zip(GEARS, np.max(tilts, axis=0) if tilts else ()):
         if largest > LARGEST_ROTATION:
-            found.append(
+            sentences.append(
                 f"the {name} tilts by {largest:.3g} rad; the model takes such rotations as small (below"
                 f" {LARGEST_ROTATION} rad): stiffen its bearings, move them apart or lower the torque"
             )
-    return found
+    return sentences
 
 
 def _wedged(cycle: Cycle, result: RunResult) -> list[str]:

@@ -81,17 +81,17 @@ def append(directory: Path, line: Mapping[str, Any]) -> None:
 
 def kept(directory: Path) -> tuple[dict[str, Line], int]:
     """All whole lines by their `key`, and how many more there are of versions of the program with other numbers."""
-    found: dict[str, Line] = {}
+    lines: dict[str, Line] = {}
     others = 0
     for file in sorted(directory.glob(f"*{ENDING}")):
         for text in file.read_bytes().split(b"\n"):
             try:
                 line = json.loads(text)
                 if line.get("numbers_version") == NUMBERS_VERSION:
-                    numbers = found.get(line["key"], {}).get("numbers", {}) | line.get("numbers", {})
-                    found[line["key"]] = line | ({"numbers": numbers} if numbers else {})
+                    numbers = lines.get(line["key"], {}).get("numbers", {}) | line.get("numbers", {})
+                    lines[line["key"]] = line | ({"numbers": numbers} if numbers else {})
                 else:
                     others += 1
             except (ValueError, KeyError, TypeError, AttributeError):
                 continue
-    return found, others
+    return lines, others

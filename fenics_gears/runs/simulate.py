@@ -117,12 +117,12 @@ def settled(scene: Scene | Model, progress: Progress) -> SettledScene:
     begun = time.perf_counter()
     try:
         compile_loops(progress)
-        found = choose(known, target, progress)
+        settings = choose(known, target, progress)
     except MemoryError:
         raise MemoryEnded("before the run was over") from None
-    how: dict[str, Any] = {"target": target, "estimated_error": found.estimated_error}
-    how |= {f"{ESTIMATED}{name}": part for name, part in found.parts.items()}
-    how |= {"target_runs": found.runs, "target_remarks": "", "time_choose": time.perf_counter() - begun}
-    if found.accuracy.slices:
-        how |= {"slices": found.accuracy.slices, "layers": found.accuracy.layers}
-    return SettledScene(replace(known, accuracy=found.accuracy), how)
+    how: dict[str, Any] = {"target": target, "estimated_error": settings.estimated_error}
+    how |= {f"{ESTIMATED}{name}": part for name, part in settings.parts.items()}
+    how |= {"target_runs": settings.runs, "target_remarks": "", "time_choose": time.perf_counter() - begun}
+    if settings.accuracy.slices:
+        how |= {"slices": settings.accuracy.slices, "layers": settings.accuracy.layers}
+    return SettledScene(replace(known, accuracy=settings.accuracy), how)

@@ -63,8 +63,8 @@ def run_sharing(scene: Scene | Model, gears: GearStore, progress: Progress | Non
     cycles = []
 
     def preparation(model: Model, progress: Progress, cache: Cache | None) -> Prepared:
-        found = gears.prepared(model, SilentProgress(), None)
-        cycles.append(found[1])
-        return found
+        prepared = gears.prepared(model, SilentProgress(), None)
+        cycles.append(prepared[1])
+        return prepared
 
     return completed(scene, preparation, progress).dataset, cycles[0]

@@ -188,10 +188,10 @@ class AllowedContactFields(Allowed):
 
     def convert(self, value: Any) -> bool | float:
         """A number of mesh cycles, infinite for true; false as it is."""
-        found = _LAST_CYCLES.fullmatch(value) if isinstance(value, str) else None
-        if found is None and not isinstance(value, bool):
+        match = _LAST_CYCLES.fullmatch(value) if isinstance(value, str) else None
+        if match is None and not isinstance(value, bool):
             raise Refused(f"is {as_written(value)}.")
-        return int(found[1]) if found else value and inf
+        return int(match[1]) if match else value and inf
 
 
 _CONTACT_FIELDS = AllowedContactFields(

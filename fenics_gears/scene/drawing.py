@@ -69,17 +69,17 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
 
 def _in_normal_section(gears: Gears) -> tuple[Gears, list[Derived]]:
     """The section with module and pressure angle, whatever they are given by, and what was derived."""
-    found: dict[str, float | None] = {}
+    normal: dict[str, float | None] = {}
     derived = []
     for names, unit, size in ((MODULES, "mm", 1.0), (PRESSURE_ANGLES, "deg", pi / 180.0)):
         own, *others = names
         name = next(each for each in names if getattr(gears, each) is not None)
         if name != own:
             number = in_normal_section(name, getattr(gears, name), gears.helix_angle or 0.0)
-            found |= {own: number, **dict.fromkeys(others)}
+            normal |= {own: number, **dict.fromkeys(others)}
             words = f"from {name}, in the normal section" if gears.helix_angle else f"from {name}"
             derived.append(Derived(own.replace("_", " "), number / size, unit, words))
-    return replace(gears, **found), derived
+    return replace(gears, **normal), derived
 
 
 def _web(own: GearText, face_width: float) -> Web | None:
@@ -241,7 +241,7 @@ def _tip_shortening(
 def _gear_data(
     pair: Gears, drawn: GearText, name: str, shift: float, cut: float, shortening: float
 ) -> tuple[GearData, list[Derived]]:
-    found = []
+    derived = []
     reference = pair.module * drawn.teeth / cos(pair.helix_angle or 0.0)
     standard = RACKS[_of_rack(pair, drawn, "profile") or "ISO 53 A"]
     addendum, dedendum, radius = (_of_rack(pair, drawn, figure) for figure in ("addendum", "dedendum", "tip_radius"))
@@ -250,17 +250,17 @@ def _gear_data(
     radius = radius if drawn.rack_tip_radius is None else drawn.rack_tip_radius
     if tip is None:
         tip = reference + 2.0 * pair.module * (shift + (standard[0] if addendum is None else addendum) - shortening)
-        found.append(Derived(f"{name} tip diameter", tip, "mm", "d_a = d + 2 m_n (x + h_aP + k)"))
+        derived.append(Derived(f"{name} tip diameter", tip, "mm", "d_a = d + 2 m_n (x + h_aP + k)"))
     if root is None:
         root = reference + 2.0 * pair.module * (cut - (standard[1] if dedendum is None else dedendum))
-        found.append(Derived(f"{name} root diameter", root, "mm", "d_f = d + 2 m_n (x_E - h_fP)"))
+        derived.append(Derived(f"{name} root diameter", root, "mm", "d_f = d + 2 m_n (x_E - h_fP)"))
     beyond, angle = _protuberance(pair, drawn)
     if radius is None:
         room = tip_radius_with_room(replace(pair.rack_gear(drawn.teeth, cut, root), protuberance=beyond))
         less = f"what has room on the rack's tip, less than the usual {standard[2]:g}"
         why = less if room < standard[2] else "that of the rack"
         radius = min(standard[2], room)
-        found.append(Derived(f"{name} tip radius of the rack", radius, "modules", why))
+        derived.append(Derived(f"{name} tip radius of the rack", radius, "modules", why))
     # Bare numbers leave their spelling behind.
     data = GearData(
         drawn.teeth, float(cut), float(tip), float(root), 0.0, float(radius),
@@ -269,7 +269,7 @@ def _gear_data(
     )  # fmt: skip
     if drawn.measure is not None:
         check_measure(drawn, name, pair.in_rotation(data))
-    return data, found
+    return data, derived
 
 
 def _of_rack(pair: Gears, drawn: GearText, figure: str) -> Any:
@@ -284,8 +284,8 @@ def _protuberance(pair: Gears, own: GearText) -> tuple[float, float]:
     """Protuberance left beyond the finished flank, mm, and its angle, rad; of the gear's own rack, else of both."""
 
     def given(figure: str, otherwise: float) -> float:
-        found = (getattr(each, figure) for each in (own.rack, pair.rack) if each is not None)
-        return float(next((each for each in found if each is not None), otherwise))
+        amounts = (getattr(each, figure) for each in (own.rack, pair.rack) if each is not None)
+        return float(next((each for each in amounts if each is not None), otherwise))
 
     beyond = given("protuberance", 0.0) - given("finishing_stock", 0.0)
     return beyond, given("protuberance_angle", 0.5 * pair.pressure_angle) if beyond else 0.0

@@ -69,8 +69,8 @@ def broken_by_numbers(tree: Tree, sections: Iterable[str]) -> list[Problem]:
 
 
 def _problems(tree: Tree, broken: Broken) -> list[Problem]:
-    found = ((path, value_at(tree, *path), message) for path, message in broken)
-    return [Problem(path, None if value is None else as_written(value), message) for path, value, message in found]
+    wrong = ((path, value_at(tree, *path), message) for path, message in broken)
+    return [Problem(path, None if value is None else as_written(value), message) for path, value, message in wrong]
 
 
 def _effects_fit_together(tree: Tree) -> Broken:
@@ -155,9 +155,9 @@ def _teeth_have_a_size(tree: Tree) -> Broken:
             others = ", ".join(names[1:-1]) + " or " * (len(names) > 2) + names[-1]
             yield ("gears", names[0]), f"is missing. Allowed: {allowed.description}; or {others}."
         elif name != names[0] and number:
-            found = in_normal_section(name, number, helix_angle)
-            if not allowed.lowest <= found <= allowed.highest:
-                words = f"{found / units.quantity(f'1 {allowed.unit}')[0]:.4g} {allowed.unit}"
+            size = in_normal_section(name, number, helix_angle)
+            if not allowed.lowest <= size <= allowed.highest:
+                words = f"{size / units.quantity(f'1 {allowed.unit}')[0]:.4g} {allowed.unit}"
                 message = f"makes {names[0]} = {words} in the normal section. Allowed of that: {allowed.description}."
                 yield ("gears", name), message
 
@@ -226,7 +226,7 @@ def _no_figure_is_given_twice(tree: Tree) -> Broken:
 def _protuberance_is_more_than_the_stock(tree: Tree) -> Broken:
     """Finishing takes no more than the protuberance has cut free, or it leaves a step in the root."""
     gears = table(tree, "gears") or {}
-    found = {}
+    wrong = {}
     pressure_angle = pressure_angle_in(tree)
     for gear in GEARS:
         amount, stock, angle = (
@@ -235,12 +235,12 @@ def _protuberance_is_more_than_the_stock(tree: Tree) -> Broken:
         cut = amount[1] if amount else 0.0
         if stock and stock[1] > cut:
             why = f"is more than the protuberance of the {gear}'s rack: finishing would leave a step in the root"
-            found[stock[0]] = f"{why}. Allowed: up to {cut:.4g} mm."
+            wrong[stock[0]] = f"{why}. Allowed: up to {cut:.4g} mm."
         if angle and not cut:
-            found[angle[0]] = "has no meaning without a protuberance. Give protuberance, or leave both out."
+            wrong[angle[0]] = "has no meaning without a protuberance. Give protuberance, or leave both out."
         elif angle and pressure_angle and angle[1] >= pressure_angle:
-            found[angle[0]] = f"must be less than the pressure angle, {degrees(pressure_angle):.6g} deg. Lower it."
-    yield from found.items()
+            wrong[angle[0]] = f"must be less than the pressure angle, {degrees(pressure_angle):.6g} deg. Lower it."
+    yield from wrong.items()
 
 
 def _of_rack(gears: Tree, gear: str, figure: str) -> tuple[tuple[str, ...], float] | None:

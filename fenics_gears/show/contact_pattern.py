@@ -29,11 +29,11 @@ def contact_patterns(run: ShownRun) -> list[Chart]:
     side = carrying_side(run.dataset)
     part = run.last_fields
     pressure, rolls = over_face(part, side)
-    found = pressure[(pressure > 0.0) & np.isfinite(rolls)]
-    if not found.size:
+    pressed = pressure[(pressure > 0.0) & np.isfinite(rolls)]
+    if not pressed.size:
         return []
-    limit = colour_limit(run, found)
-    beyond = f", beyond the colours up to {found.max():.0f} MPa" if found.max() > limit * (1 + 1e-9) else ""
+    limit = colour_limit(run, pressed)
+    beyond = f", beyond the colours up to {pressed.max():.0f} MPa" if pressed.max() > limit * (1 + 1e-9) else ""
     both = (rolls, rolls_on_wheel(run.pair, part, side, rolls))
     return [_pattern(run, gear, side, pressure, of_gear, limit, beyond) for gear, of_gear in enumerate(both)]
 

@@ -122,10 +122,10 @@ def _over_face(run: ShownRun, side: str, loads: np.ndarray, z: np.ndarray) -> Ch
     )  # fmt: skip
 
 
-def _correction(found) -> str:
-    slope = found["proposed_helix_slope"]
-    crowning = found["proposed_crowning"]
-    factor = FACTORS["face_load_factor"].format(found["proposed_face_load_factor"])
+def _correction(numbers) -> str:
+    slope = numbers["proposed_helix_slope"]
+    crowning = numbers["proposed_crowning"]
+    factor = FACTORS["face_load_factor"].format(numbers["proposed_face_load_factor"])
     return f"mesh, as proposed: pinion's helix slope {slope:.1f} µm, crowning {crowning:.1f} µm{factor}"
 
 

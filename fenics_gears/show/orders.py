@@ -113,16 +113,16 @@ def _by_origin(lines: OrderLines, kinds: np.ndarray, seen: np.ndarray, wide: flo
     return curves
 
 
-def mesh_order_chart(run: ShownRun, name: str, unit: str, found: Spectrum) -> Chart:
+def mesh_order_chart(run: ShownRun, name: str, unit: str, spectrum: Spectrum) -> Chart:
     """Amplitudes over mesh orders."""
-    lines = found.lines
+    lines = spectrum.lines
     shown = (lines.orders <= MESH_ORDERS) & (lines.amplitudes > LEAST_PART * lines.amplitudes.max(initial=0.0))
     spacing = lines.orders[0] if len(lines.orders) else 1.0
     width = min(0.12, 0.8 * spacing)
     both = "coast_normal_force" in run.dataset and name == FORCE
     sides = ", drive flanks positive, coast flanks negative" if both else ""
-    note = f"Amplitudes of the harmonics, without the mean{sides}; {found.record}.{_beyond(lines)}"
-    curves = _by_origin(lines, found.origins, shown, width, width)
+    note = f"Amplitudes of the harmonics, without the mean{sides}; {spectrum.record}.{_beyond(lines)}"
+    curves = _by_origin(lines, spectrum.origins, shown, width, width)
     title = "Mesh order (events a mesh cycle)"
     return Chart(name, curves, title, f"Amplitude ({unit})", note, height=320, x_range=(0.0, MESH_ORDERS))
 
@@ -133,12 +133,12 @@ def spectrum(run: ShownRun, values: np.ndarray) -> Spectrum:
     scene = run.scene
     if scene is not None and scene.speed_ramp is None:
         teeth = scene.gears.pinion.teeth, scene.gears.wheel.teeth
-        found = order_lines(values, run.cycles, teeth)
-        if found is not None and found.exact:
+        amplitudes = order_lines(values, run.cycles, teeth)
+        if amplitudes is not None and amplitudes.exact:
             periods = int(run.cycles * (1 + 1e-9)) // lcm(*teeth)
             record = f"of {periods} hunting tooth period{'s' if periods > 1 else ''} ({lcm(*teeth)} mesh cycles each)"
-            origins = np.array([origin(order, teeth) for order in found.orders])
-            return Spectrum(replace(found, orders=found.orders / teeth[0]), origins, record)
+            origins = np.array([origin(order, teeth) for order in amplitudes.orders])
+            return Spectrum(replace(amplitudes, orders=amplitudes.orders / teeth[0]), origins, record)
     lines = order_lines(values, run.cycles, (1, 1))
     origins = np.where(np.abs(lines.orders - np.round(lines.orders)) < 1e-6, MESH, BETWEEN)
     whole = int(run.cycles * (1 + 1e-9))

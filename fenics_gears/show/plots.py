@@ -81,8 +81,8 @@ def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
         pictures = PICTURES | dict(zip(FACE_PICTURE_FILES, charts_over_face(run).items()))
     subjects = {name: (subject, list(charts(run))) for name, (subject, charts) in pictures.items()}
     colour = DARK if run.complete else WARNING
-    found = ((name, *subject) for name, subject in subjects.items())
-    return {name: picture(_heading(run, subject), charts, colour) for name, subject, charts in found if charts}
+    drawn = ((name, *subject) for name, subject in subjects.items())
+    return {name: picture(_heading(run, subject), charts, colour) for name, subject, charts in drawn if charts}
 
 
 def _heading(run: ShownRun, subject: str) -> str:

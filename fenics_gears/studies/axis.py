@@ -90,19 +90,19 @@ def values_in_words(written: str) -> tuple[str, ...]:
     """
     if ".." not in written:
         return (written.strip(),)
-    found = RANGE_IN_WORDS.fullmatch(written.strip())
-    if found is None or not (found["count"] or found["step"]):
+    match = RANGE_IN_WORDS.fullmatch(written.strip())
+    if match is None or not (match["count"] or match["step"]):
         raise AxisError(
             'is a range without the number of its values. Allowed: such as "50 .. 500 N m in 10", "50 .. 500 N m in 10,'
             ' logarithmic", "50 .. 500 N m by 50 N m".'
         )
-    unit = units.unit_of(found["stop"])
+    unit = units.unit_of(match["stop"])
     ends = {
-        name: found[name] if units.unit_of(found[name]) else f"{found[name]} {unit}"
+        name: match[name] if units.unit_of(match[name]) else f"{match[name]} {unit}"
         for name in ("start", "stop", "step")
-        if found[name]
+        if match[name]
     }
-    counted = {"count": int(found["count"]), "spacing": SPACINGS[bool(found["spacing"])]} if found["count"] else {}
+    counted = {"count": int(match["count"]), "spacing": SPACINGS[bool(match["spacing"])]} if match["count"] else {}
     return tuple(map(str, _range({**ends, **counted})))
 
 

@@ -108,10 +108,10 @@ def _have_temporary_files(environment: Environment, say: Callable[[str], None]) 
 
 def _has_room(folder: str) -> bool:
     try:
-        found = os.statvfs(folder)
+        volume = os.statvfs(folder)
     except (OSError, ValueError):
         return False
-    return _can_be_written(Path(folder)) and found.f_bavail * found.f_frsize >= ROOM
+    return _can_be_written(Path(folder)) and volume.f_bavail * volume.f_frsize >= ROOM
 
 
 def cache_folder(environment: Mapping[str, str] = os.environ) -> Path:
@@ -152,8 +152,8 @@ def _own_temporary_folder() -> tuple[str, bool]:
             os.mkdir(folder, 0o700)
             return folder, True
         except FileExistsError:
-            found = os.lstat(folder)
-        if stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o077:
+            state = os.lstat(folder)
+        if stat.S_ISDIR(state.st_mode) and state.st_uid == os.getuid() and not state.st_mode & 0o077:
             return folder, False
         return tempfile.mkdtemp(prefix="fenics_gears-"), True
     except OSError as error:

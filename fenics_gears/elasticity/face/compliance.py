@@ -88,7 +88,7 @@ def _computed(
     meshed = perf_counter()
     sector = condensed_swept_sector(mesh, face.sweep, poissons_ratio, gear.teeth, both)
     blocks = ring_blocks(sector, gear.teeth, farthest)
-    found = sector.timings
+    spent = sector.timings
     del sector
     blocks = _in_mirrored_frame(blocks, gear, both)
     flanks = ("flank", "coast") if both else ("flank",)
@@ -97,7 +97,7 @@ def _computed(
     plane = _in_mirrored_frame(ring_compliance(section, gear.teeth, farthest), gear, both, components=2)
     rolls = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), ELEMENT.order)
     near = near_field(gear, mesh, face.sweep, poissons_ratio, rolls, both)
-    timings = {**found, "time_mesh": meshed - clock, "time_condense": perf_counter() - meshed - found["time_compile"]}
+    timings = {**spent, "time_mesh": meshed - clock, "time_condense": perf_counter() - meshed - spent["time_compile"]}
     arrays = {"roll_angle": rolls, "heights": face.sweep.heights, "blocks": blocks, "plane": plane}
     return arrays | near.arrays, timings
 

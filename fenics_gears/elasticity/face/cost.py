@@ -100,11 +100,11 @@ def _of_outline(gear: Gear, boundary: SectorBoundary, field: SizeField) -> _Sect
 
 def _within(places: np.ndarray, outline: np.ndarray) -> np.ndarray:
     """Whether places (n, 2) are within a closed outline (m, 2): a ray from there crosses it an odd number of times."""
-    found, (x, y) = np.zeros(len(places), dtype=bool), places.T
+    inside, (x, y) = np.zeros(len(places), dtype=bool), places.T
     for (x0, y0), (x1, y1) in zip(outline, np.roll(outline, -1, axis=0)):
         crossed = np.flatnonzero((y0 > y) != (y1 > y))
-        found[crossed] ^= x[crossed] < x0 + (x1 - x0) * (y[crossed] - y0) / (y1 - y0)
-    return found
+        inside[crossed] ^= x[crossed] < x0 + (x1 - x0) * (y[crossed] - y0) / (y1 - y0)
+    return inside
 
 
 def expected_size(gear: Gear, face: FaceDiscretisation, both_flanks: bool = False) -> BodySize:

@@ -52,10 +52,10 @@ class SectionForms:
 
     def material(self, sweep: Sweep) -> np.ndarray:
         """Which nodes of the section (h, n) the body has at each height."""
-        found = np.zeros((len(sweep.heights), len(self.nodes.points)), dtype=bool)
+        present = np.zeros((len(sweep.heights), len(self.nodes.points)), dtype=bool)
         for layer, within in enumerate(sweep.in_web):
-            found[2 * layer : 2 * layer + 3] |= self.in_layer(within)
-        return found
+            present[2 * layer : 2 * layer + 3] |= self.in_layer(within)
+        return present
 
     def in_layer(self, within_web: bool) -> np.ndarray:
         """Which nodes of the section (n,) a layer within the web or beside it has."""
@@ -154,7 +154,7 @@ def layer_stiffness(section: SectionForms, thickness: float, twist: float) -> di
         sparse.csr_matrix((data, own.indices, own.indptr), shape=own.shape)
         for data in np.transpose(factors) @ np.array(entries)
     )
-    found = {divmod(number, 3): matrix for number, matrix in enumerate(added)}
+    blocks = {divmod(number, 3): matrix for number, matrix in enumerate(added)}
     nodes = len(section.nodes.points)
     frames = [sparse.kron(sparse.eye(nodes), rotation(angle, 3), format="csr") for angle in angles]
-    return {(i, j): (frames[i].T @ block @ frames[j]).tocsr() for (i, j), block in found.items()}
+    return {(i, j): (frames[i].T @ block @ frames[j]).tocsr() for (i, j), block in blocks.items()}

@@ -144,8 +144,8 @@ def _standing_angle(points: np.ndarray, gear: Gear) -> float:
     twice = np.concatenate([angle, angle + pitch])
     within = np.searchsorted(twice, angle + window, side="right") - np.arange(len(angle))
     densest = int(np.argmax(within))
-    found = float(np.median(twice[densest : densest + within[densest]]))
-    return (found + 0.5 * pitch) % pitch - 0.5 * pitch
+    median = float(np.median(twice[densest : densest + within[densest]]))
+    return (median + 0.5 * pitch) % pitch - 0.5 * pitch
 
 
 def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float) -> list[np.ndarray]:
@@ -155,7 +155,7 @@ def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float)
     tooth, on_drive_side, off = _off_involute(points[boundary], gear)
     off = np.abs(off)
     known = {tuple(side) for side in sides.tolist()}
-    found = []
+    chains = []
     for each in range(gear.teeth):
         own = on_drive_side & (tooth == each)
         chain, problem = _chain(points, known, boundary[own & (off <= tolerance)], gear, tolerance)
@@ -165,8 +165,8 @@ def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float)
             raise SceneError(
                 f"the drive flank of tooth {each}, counted counter-clockwise, {problem}{_deviation(worst, tolerance)}"
             )
-        found.append(chain)
-    return found
+        chains.append(chain)
+    return chains
 
 
 def _off_involute(points: np.ndarray, gear: Gear) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -148,8 +148,8 @@ def nodes_on(nodes: ElementNodes, sides: np.ndarray) -> np.ndarray:
     count = len(nodes.points)
     keys = np.sort(table[:, :2], axis=1) @ [count, 1]
     order = np.argsort(keys)
-    found = order[np.searchsorted(keys, np.sort(sides, axis=1) @ [count, 1], sorter=order)]
-    return np.unique(np.concatenate([np.unique(sides), table[found, 2]]))
+    numbers = order[np.searchsorted(keys, np.sort(sides, axis=1) @ [count, 1], sorter=order)]
+    return np.unique(np.concatenate([np.unique(sides), table[numbers, 2]]))
 
 
 def _sub_mesh(mesh: BodyMesh, chosen: np.ndarray) -> BodyMesh:

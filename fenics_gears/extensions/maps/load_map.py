@@ -113,34 +113,34 @@ def load_map(file: Path, scene: Scene, loads: Sequence[str], speeds: Sequence[st
         raise SceneError(
             f"{SPEEDS}: has both speeds of the pinion and mesh frequencies. Allowed: one of the two. {NOTHING_DONE}"
         )
-    found = LoadMap(file, scene, torques, written)
-    if found.count > most:
+    planned = LoadMap(file, scene, torques, written)
+    if planned.count > most:
         raise SceneError(
             f"gears map: {len(torques)} loads{f' with {len(written)} speeds each, and at rest,' if written else ''} are"
-            f" {found.count} runs, about {seconds_in_words(found.expected_seconds)} on one core of an idle machine."
-            f" Allowed: up to {most}. Take fewer loads or speeds, or allow more by --most-runs {found.count}."
+            f" {planned.count} runs, about {seconds_in_words(planned.expected_seconds)} on one core of an idle machine."
+            f" Allowed: up to {most}. Take fewer loads or speeds, or allow more by --most-runs {planned.count}."
             f" {NOTHING_DONE}"
         )
-    return found
+    return planned
 
 
 def _values(option: str, written: Sequence[str], *kinds: str, why: str = "") -> tuple[str, ...]:
     """All values of an option, each once. Raises SceneError for one that is none of these kinds of quantities."""
-    found: list[str] = []
+    words: list[str] = []
     for word in written:
         try:
-            found += values_in_words(word)
-            units.of_kind(found[-1], *kinds)
+            words += values_in_words(word)
+            units.of_kind(words[-1], *kinds)
         except (AxisError, units.QuantityError) as error:
             raise SceneError(
                 f'{option} "{word}" {error} Each value stands in quotes with its unit. {why}{NOTHING_DONE}'
             ) from None
-    numbers = [units.of_kind(each, *kinds)[0] for each in found]
+    numbers = [units.of_kind(each, *kinds)[0] for each in words]
     for place, number in enumerate(numbers):
         if not isfinite(number) or number in numbers[:place]:
             why = "is given twice or is not a finite number. Allowed: each value once."
-            raise SceneError(f'{option} "{found[place]}" {why} {NOTHING_DONE}')
-    return tuple(found)
+            raise SceneError(f'{option} "{words[place]}" {why} {NOTHING_DONE}')
+    return tuple(words)
 
 
 def _by_pinion(speed: str) -> bool:
@@ -200,5 +200,5 @@ def shared_accuracy(wanted: LoadMap) -> dict[str, Any]:
         model_of(quasi_static(replace(scene, load=Load(torque)))).resolution
         for torque in (sqrt(min(torques) * max(torques)), max(torques))
     )
-    found = {"flank_element_size": middle.flank_element_size, "contact_length": largest.contact_grid.length}
-    return {f"accuracy.{name}": f"{value:.6g} mm" for name, value in found.items() if getattr(given, name) is None}
+    sizes = {"flank_element_size": middle.flank_element_size, "contact_length": largest.contact_grid.length}
+    return {f"accuracy.{name}": f"{value:.6g} mm" for name, value in sizes.items() if getattr(given, name) is None}

@@ -40,13 +40,13 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
             " of them, or take another window."
         )
     over = f", over {needed} mesh cycles at a time" if ramp else ""
-    found = xr.Dataset(attrs={"window": f"{used}{over}", "references": "amplitudes of 1 um and of 1 N"})
+    figures = xr.Dataset(attrs={"window": f"{used}{over}", "references": "amplitudes of 1 um and of 1 N"})
     for name, values in signals(run).items():
         if ramp:
-            found = found.assign(_followed(name, values, run, used)).set_coords("mesh_frequency")
+            figures = figures.assign(_followed(name, values, run, used)).set_coords("mesh_frequency")
         else:
-            found = found.assign(_steady(name, values, cycles, (gears.pinion.teeth, gears.wheel.teeth), window))
-    return found
+            figures = figures.assign(_steady(name, values, cycles, (gears.pinion.teeth, gears.wheel.teeth), window))
+    return figures
 
 
 def signals(run: xr.Dataset) -> dict[str, np.ndarray]:
@@ -85,8 +85,8 @@ def _steady(
         lines = spectrum.order_lines(values, cycles, (1, 1), window)
         known = False
     orders = lines.orders / (teeth[0] if known else 1)
-    found = {"order": (("order",), orders, _labels("1", "mesh order")), **_levels(name, ("order",), lines.amplitudes)}
-    return found | (_beside(name, lines, teeth) if known else {})
+    figures = {"order": (("order",), orders, _labels("1", "mesh order")), **_levels(name, ("order",), lines.amplitudes)}
+    return figures | (_beside(name, lines, teeth) if known else {})
 
 
 def _beside(name: str, lines: spectrum.OrderLines, teeth: tuple[int, int]) -> dict[str, tuple]:

@@ -113,13 +113,13 @@ def expected_work(design: Design, kept: int, processes: int = 1) -> ExpectedWork
 def at_ends(design: Design) -> list[list[Run]]:
     """The scenes with all variables at the beginning and at the end of their ranges, where they are scenes: each at all
     operating points."""
-    found = []
+    ends = []
     nominal = np.zeros((1, len(design.tolerances.scatters)))
     for end in (0, -1):
         values = {each.name: (each.words or (each.low, each.high))[end] for each in design.variables}
         # All variables at their ends together may be gears that cannot be.
         with suppress(NoScene):
             trees = trees_of(design, design.scene_tree(values), nominal)
-            found.append([model_of_tree(design.name, tree, design.directory) for tree in trees])
-    runs = map(run_of, CommonWindows().of([model for end in found for model in end]))
-    return [[next(runs) for _ in end] for end in found]
+            ends.append([model_of_tree(design.name, tree, design.directory) for tree in trees])
+    runs = map(run_of, CommonWindows().of([model for end in ends for model in end]))
+    return [[next(runs) for _ in end] for end in ends]

@@ -160,10 +160,10 @@ def _look_around(outcome: SearchOutcome, evaluator: Evaluator) -> None:
     trees = [design.before, design.scene_tree(values)]
     outcome.fresh = evaluator.of_trees(trees, [{}, values], samples(design, fresh=True))
     deviations = np.concatenate([nominal, -np.eye(count), np.eye(count)])
-    (found,) = evaluator.of_designs([values], deviations)
-    for place, scatter in enumerate(design.tolerances.scatters if not found.failure else ()):
+    (evaluation,) = evaluator.of_designs([values], deviations)
+    for place, scatter in enumerate(design.tolerances.scatters if not evaluation.failure else ()):
         at = [1 + place, 0, 1 + count + place]
-        outcome.limits[scatter.name] = {name: numbers[at] for name, numbers in found.of_samples.items()}
+        outcome.limits[scatter.name] = {name: numbers[at] for name, numbers in evaluation.of_samples.items()}
 
 
 def _torque_of(design: Design, tree: Tree) -> float:

@@ -222,16 +222,18 @@ def _bore_diameter(part: GearParts, root: Value) -> Value:
 
 
 def _materials(stage: Stage) -> Sections:
-    found = {
+    materials = {
         name: {asked: needed(part, asked) for asked in MATERIAL} for name, part in stage.named.items() if part.material
     }
-    if not found:
+    if not materials:
         why = "no material; that of steel (ISO 6336-1)"
         return {"gears.material": {"name": Value(0.0, '"steel"', why, assumed=True)}}
     try:
-        return {"gears.material": {asked: agreed([each[asked] for each in found.values()], "") for asked in MATERIAL}}
+        return {
+            "gears.material": {asked: agreed([each[asked] for each in materials.values()], "") for asked in MATERIAL}
+        }
     except ValueProblem:
-        return {f"gears.{name}.material": each for name, each in found.items()}
+        return {f"gears.{name}.material": each for name, each in materials.items()}
 
 
 def _check_reference_diameter(part: GearParts, beta: float, module: Value, teeth: Value) -> None:

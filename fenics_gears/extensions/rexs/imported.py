@@ -60,11 +60,11 @@ def imported_scene(
     sections |= _error_sections(reading, chosen, sections)
     densities = {name: reading.attempt(first, part, "density") for name, part in chosen.named.items()}
     note_what_is_left_out(reading, chosen)
-    _check_all_found(reading, path)
+    _check_complete(reading, path)
     assumed = [
         f"{section}.{name} = {value.words}: {value.origin}"
-        for section, found in sections.items()
-        for name, value in found.items()
+        for section, fields in sections.items()
+        for name, value in fields.items()
         if value.assumed
     ] + loaded_flanks(chosen)
     notes = {
@@ -80,7 +80,7 @@ def imported_scene(
     return ImportedScene(text, chosen, tuple(assumed), tuple(reading.left_out))
 
 
-def _check_all_found(reading: Reading, path: Path) -> None:
+def _check_complete(reading: Reading, path: Path) -> None:
     if count := len(reading.problems):
         told = [f"{path}: {each}" for each in reading.problems]
         total = f"{count} mistake{'' if count == 1 else 's'} in {path}. Nothing was written."

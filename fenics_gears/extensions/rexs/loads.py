@@ -52,9 +52,9 @@ def pinion_speed(model: RexsModel, stage: Stage, ratio: float) -> Value:
         for speed in speeds:
             if speed.number != 0.0:
                 return _scaled(speed, factor, RPM, "rpm")
-    found = None if stage.in_planetary else Train(model).speed(stage.pinion.gear)
-    if found is not None:
-        speed, factor, stages = found
+    stated = None if stage.in_planetary else Train(model).speed(stage.pinion.gear)
+    if stated is not None:
+        speed, factor, stages = stated
         return _scaled(_through(speed, stages), abs(factor), RPM, "rpm")
     why = "no rotational_speed; without [inertia] it sets the scale of time only"
     return computed(ASSUMED_SPEED * RPM, RPM, "rpm", why, assumed=True)

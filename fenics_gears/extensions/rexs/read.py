@@ -103,8 +103,8 @@ def _of_xml(content: bytes) -> Any:
     if _name(root) != "model":
         raise ModelError(f"is XML, but no REXS: its root is <{_name(root)}>, not <model>")
     components = [_component(each) for each in _within(root, "components", "component")]
-    found = _within(root, "relations", "relation")
-    relations = [{**each.attrib, "refs": [ref.attrib for ref in _within(each, "ref")]} for each in found]
+    related = _within(root, "relations", "relation")
+    relations = [{**each.attrib, "refs": [ref.attrib for ref in _within(each, "ref")]} for each in related]
     spectra = list(_within(root, "load_spectrum"))
     cases = []
     for spectrum in spectra:

@@ -58,12 +58,13 @@ class GearParts:
 
     def modification(self, side: str, kind: str) -> Component | None:
         """What modifies a flank in this way. Raises ValueProblem where there are two."""
-        found = [each for each in self.modifications[side] if each.type == kind]
-        if len(found) > 1:
+        components = [each for each in self.modifications[side] if each.type == kind]
+        if len(components) > 1:
             raise ValueProblem(
-                f"{self.flanks[side]}: two components {kind}, {found[0].id} and {found[1].id}; a scene has one."
+                f"{self.flanks[side]}: two components {kind}, {components[0].id} and {components[1].id}; a scene has"
+                " one."
             )
-        return found[0] if found else None
+        return components[0] if components else None
 
     def of_loaded_sides(
         self, fields_of: Callable[[str], Fields], same: Callable[[Value, Value], bool], what: str

@@ -120,13 +120,13 @@ class Train:
         beyond = [(own, mesh) for own, mesh in self._meshes_of(turning) if mesh.stage.id != stage.id]
         if not (loads or beyond) or any(TORQUE not in load.attributes for load in loads):
             return None
-        found = [self._own_share(load, turning) for load in loads]
+        shares = [self._own_share(load, turning) for load in loads]
         for own, mesh in beyond:
             through = self._shares(mesh.mate(own), mesh.stage, seen) if mesh.plain else None
             if through is None:
                 return None
-            found += [self._passed_on(share, own, mesh) for share in through]
-        return found
+            shares += [self._passed_on(share, own, mesh) for share in through]
+        return shares
 
     def _own_share(self, load: Component, turning: tuple[Component, ...]) -> Share:
         torque = value_of(load, TORQUE, "N m")
@@ -154,21 +154,21 @@ class Train:
 
     def _turning(self, part: Component) -> tuple[Component, ...]:
         """All that turns as one with a part, the part first."""
-        found = {part.id}
+        turning = {part.id}
         waiting = [part.id]
         while waiting:
-            new = [each for each in self._joined.get(waiting.pop(), ()) if each not in found]
-            found.update(new)
+            new = [each for each in self._joined.get(waiting.pop(), ()) if each not in turning]
+            turning.update(new)
             waiting += new
-        return tuple(self.model.components[each] for each in (part.id, *sorted(found - {part.id})))
+        return tuple(self.model.components[each] for each in (part.id, *sorted(turning - {part.id})))
 
     @cached_property
     def _joined(self) -> dict[int, list[int]]:
-        found: dict[int, list[int]] = {}
+        joined: dict[int, list[int]] = {}
         for one, other in self._joints():
-            found.setdefault(one, []).append(other)
-            found.setdefault(other, []).append(one)
-        return found
+            joined.setdefault(one, []).append(other)
+            joined.setdefault(other, []).append(one)
+        return joined
 
     def _joints(self) -> Iterator[tuple[int, int]]:
         """Pairs of parts that turn as one: a shaft and what is on it, and what joints that are no bearings join."""
@@ -186,7 +186,7 @@ class Train:
     @cached_property
     def _meshes(self) -> list[_Mesh]:
         components = self.model.components
-        found = []
+        meshes = []
         for relation in self.model.related("stage"):
             if {"stage", "gear_1", "gear_2"} <= relation.roles.keys():
                 stage, *gears = (components[relation.roles[role]] for role in ("stage", "gear_1", "gear_2"))
@@ -194,8 +194,8 @@ class Train:
                 counted = all("number_of_teeth" in gear.attributes for gear in gears)
                 plain = counted and stage.type in PLAIN_STAGES
                 plain = plain and not any(holder.type == "planetary_stage" for holder in holders)
-                found.append(_Mesh(stage, (gears[0], gears[1]), plain))
-        return found
+                meshes.append(_Mesh(stage, (gears[0], gears[1]), plain))
+        return meshes
 
     def _meshes_of(self, turning: tuple[Component, ...]) -> list[tuple[Component, _Mesh]]:
         """The meshes of all gears that turn as one, each with its own gear."""

@@ -53,15 +53,15 @@ Answer = dict[str, np.ndarray]
 def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> Answer:
     """All measures of a run. `window` (mm): length over which pressures are compared. `root_stress`: MPa, peak at a
     material point (`root_point`), which is not in a result; None where it is not known."""
-    found = {**judged_answer(run), DEFECT: np.array([_defect(run)])}
+    measures = {**judged_answer(run), DEFECT: np.array([_defect(run)])}
     if "energy_teeth" in run:
-        found[STIFFNESS] = np.array([stiffness_by_energy(run)])
+        measures[STIFFNESS] = np.array([stiffness_by_energy(run)])
     if "contact_pressure" in run:
-        found[PRESSURE] = _pressure(run, window)
-        found[PEAK] = np.array([run.attrs["peak_contact_pressure"]])
+        measures[PRESSURE] = _pressure(run, window)
+        measures[PEAK] = np.array([run.attrs["peak_contact_pressure"]])
     if root_stress is not None:
-        found[ROOT] = np.array([root_stress])
-    return found
+        measures[ROOT] = np.array([root_stress])
+    return measures
 
 
 def judged_answer(run: xr.Dataset) -> Answer:
@@ -70,21 +70,21 @@ def judged_answer(run: xr.Dataset) -> Answer:
     curve = run["transmission_error"].values[_last_cycle(run)]
     height = run.attrs["peak_to_peak_transmission_error"]
     radius = run.attrs["base_radius_wheel"]
-    found = {CURVE: (curve - curve.mean()) * radius, SPAN: np.array([height * radius])}
-    return found | _over_face(run) if "face_position" in run.dims else found
+    measures = {CURVE: (curve - curve.mean()) * radius, SPAN: np.array([height * radius])}
+    return measures | _over_face(run) if "face_position" in run.dims else measures
 
 
 def _over_face(run: xr.Dataset) -> Answer:
     """Mean T_E, mm; line load, N/mm, of all tooth pairs together, averaged over the mesh cycle, at places along the
     face; and the load factors."""
     names = {FACE_LOAD: "face_load_factor", LARGEST_LOAD: "largest_line_load_factor"}
-    found = {measure: np.array([run.attrs[name]]) for measure, name in names.items() if name in run.attrs}
-    found[MEAN] = np.array([run.attrs["mean_transmission_error"] * run.attrs["base_radius_wheel"]])
+    measures = {measure: np.array([run.attrs[name]]) for measure, name in names.items() if name in run.attrs}
+    measures[MEAN] = np.array([run.attrs["mean_transmission_error"] * run.attrs["base_radius_wheel"]])
     load = mean_line_load(run, carrying_side(run)) if run.sizes.get("contact_time") else None
     if load is not None:
         places = np.linspace(-0.5, 0.5, PLACES) * PART_OF_FACE * run["face_slice_width"].values.sum()
-        found[LINE_LOAD] = np.interp(places, run["face_position"].values, load)
-    return found
+        measures[LINE_LOAD] = np.interp(places, run["face_position"].values, load)
+    return measures
 
 
 def comparable(values: Sequence[np.ndarray], name: str) -> list[np.ndarray]:
@@ -101,13 +101,13 @@ def comparable(values: Sequence[np.ndarray], name: str) -> list[np.ndarray]:
     if common < FEWEST_PHASES:
         common = min(counts)
     phases = np.arange(1, common + 1) / common
-    found = [
+    curves = [
         value[count // common - 1 :: count // common]
         if count % common == 0
         else np.interp(phases, np.arange(1, count + 1) / count, value)
         for value, count in zip(values, counts)
     ]
-    return [value - value.mean() for value in found]
+    return [value - value.mean() for value in curves]
 
 
 def stiffness_by_energy(run: xr.Dataset) -> float:

@@ -85,14 +85,14 @@ def settings_of(
     scene: Scene, targets: tuple[float, ...], progress: Progress, failures: list[tuple[str, str]]
 ) -> dict[str, tuple[Setting, float]]:
     """By name the settings that targets choose, with the targets; those that none reaches join the failures."""
-    found = {}
+    settings = {}
     for target in targets:
         name = f"target {100.0 * target:g} %"
         try:
-            found[name] = choose(scene, target, progress).setting, target
+            settings[name] = choose(scene, target, progress).setting, target
         except ComputationError as error:
             failures.append((name, str(error).splitlines()[0]))
-    return found
+    return settings
 
 
 def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
@@ -258,18 +258,18 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
 
 
 def _finer(sizes: Sizes, errors: Errors) -> list[Sizes]:
-    found = {
+    finer = {
         MESH: replace(sizes, mesh=sizes.mesh / RATIO),
         STEPS: replace(sizes, steps=round_steps(RATIO * sizes.steps)),
         SLICES: replace(sizes, slices=sizes.slices + 2),
     }
-    return [found[name] for name in errors]
+    return [finer[name] for name in errors]
 
 
 def _coarser(sizes: Sizes, coarsest: Sizes) -> list[Sizes]:
-    found = [
+    coarser = [
         replace(sizes, mesh=min(RATIO * sizes.mesh, coarsest.mesh)),
         replace(sizes, steps=max(sizes.steps - ROUND_STEPS, coarsest.steps)),
         replace(sizes, slices=max(sizes.slices - 2, coarsest.slices)),
     ]
-    return [each for each in found if each != sizes]
+    return [each for each in coarser if each != sizes]

@@ -101,12 +101,12 @@ class TrialRuns:
     def expected(self) -> dict[str, float]:
         """By setting the largest error over the face that the defaults are expected to have in what is judged."""
         errors = expected_errors(model_of(self._whole))
-        found = {MESH: 0.0, SLICES: 0.0}
+        expected = {MESH: 0.0, SLICES: 0.0}
         for name, scale in ((SPAN, LEAST_SPAN), (FACE_LOAD, 1.0), (LINE_LOAD, 1.0)):
             parts = errors[name]
-            found[MESH] = max(found[MESH], parts[FLANK] / scale)
-            found[SLICES] = max(found[SLICES], *(parts[size] / scale for size in OF_SLICES if size in parts))
-        return found
+            expected[MESH] = max(expected[MESH], parts[FLANK] / scale)
+            expected[SLICES] = max(expected[SLICES], *(parts[size] / scale for size in OF_SLICES if size in parts))
+        return expected
 
     @property
     def fewest_steps(self) -> int:

@@ -30,8 +30,8 @@ def face(run: ShownRun) -> PageSection | None:
     if not run.has_curves:
         return sentence("face", HEADING, TOO_FEW, True)
     charts = [chart for draw in charts_over_face(run).values() for chart in draw(run)]
-    found = run.dataset.attrs
-    said = [Words(words.format(found[name])) for name, words in FACTORS.items() if name in found]
+    numbers = run.dataset.attrs
+    said = [Words(words.format(numbers[name])) for name, words in FACTORS.items() if name in numbers]
     if not charts and not said:
         none = "There are none: no contact fields are stored (`[output] contact_fields`), or no flank is loaded."
         return sentence("face", HEADING, none)

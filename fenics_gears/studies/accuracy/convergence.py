@@ -98,20 +98,20 @@ def limit_of(refinement: Refinement, ran: Sequence[tuple[Level, Answer]], base: 
     if len(ran) < 2 or (refinement.expected is None and refinement.name != LENGTH):
         return Limit(base[name], None, 0.0)
     last = ran[-LAST_TERMS:]
-    values = comparable([found[name] for _, found in last], name)
+    values = comparable([answer[name] for _, answer in last], name)
     if refinement.expected is None:
         return last_of(values)
     return richardson(values, [level.size for level, _ in last], refinement.expected)
 
 
-def error_from(limits: Mapping[str, Limit], found: Answer, name: str) -> float:
+def error_from(limits: Mapping[str, Limit], answer: Answer, name: str) -> float:
     """Relative distance of a measure from its limit; at least `least_error`."""
-    if name not in limits or name not in found:
+    if name not in limits or name not in answer:
         return float("nan")
     limit = limits[name]
     scale = float(np.linalg.norm(limit.value))
     least = limit.least_error / scale if scale and name != DEFECT else 0.0
-    return max(distance(found, {name: limit.value}, name), least)
+    return max(distance(answer, {name: limit.value}, name), least)
 
 
 def together(base: np.ndarray, changes: Sequence[tuple[Limit, np.ndarray]], name: str) -> Limit:

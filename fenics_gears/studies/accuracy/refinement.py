@@ -165,10 +165,12 @@ def _setting(scene: Scene, values: dict[str, float]) -> Setting:
     default = default_setting(scene)
     flank = unit / values[FLANK]
     spacing = unit / values[NODES] if NODES in values else NODE_SPACING * flank
-    found = Setting("P2", flank, spacing, values.get(LENGTH, 1.0) * default.length, values[BODY], values[STEPS])
+    setting = Setting("P2", flank, spacing, values.get(LENGTH, 1.0) * default.length, values[BODY], values[STEPS])
     if default.slices is None:
-        return found
-    return replace(found, slices=_whole(values[SLICES], default.slices), layers=_whole(values[LAYERS], default.layers))
+        return setting
+    return replace(
+        setting, slices=_whole(values[SLICES], default.slices), layers=_whole(values[LAYERS], default.layers)
+    )
 
 
 def _whole(part: float, default: int) -> int:
@@ -199,18 +201,18 @@ def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
     sizes |= {field: [{field: each} for each in options] for field, options in plan.choices.items()}
     if plan.elastic_teeth:
         sizes["elastic teeth"] = [{"elastic_teeth": each} for each in plan.elastic_teeth]
-    found = []
+    settings = []
     for name, levels in sizes.items():
         base = _setting(scene, plan.fine | plan.beside.get(name, {}))
         expected = orders.get(name, (None, "a choice"))
-        found.append(
+        settings.append(
             Refinement(name, tuple(levels[0]), tuple(_level(base, each, unit) for each in levels), *expected, base)
         )
     # The remeshed route has nodes on the drive flanks and on the path of contact alone.
     if plan.remeshed and scene.coast_flanks is None and scene.corner_contact is None:
-        found.append(condensation(scene))
+        settings.append(condensation(scene))
     mine = {SCENE: own_setting(scene), DEFAULT: default_setting(scene)}
-    return tuple(_with_own(each, mine, unit) for each in found)
+    return tuple(_with_own(each, mine, unit) for each in settings)
 
 
 def condensation(scene: Scene) -> Refinement:

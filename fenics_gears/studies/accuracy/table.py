@@ -135,7 +135,7 @@ def _best(report: AccuracyReport) -> str:
 
 
 def remarks(report: AccuracyReport) -> list[str]:
-    found = [
+    sentences = [
         (
             f"the reference (Richardson's limits of all settings together) is uncertain by {percent(report.floor)} % in"
             f" {judged_by(report)}; smaller errors cannot be assessed"
@@ -150,32 +150,32 @@ def remarks(report: AccuracyReport) -> list[str]:
         if result.refinement.expected is None:
             continue
         if max(each.errors["T_E"] for each in result.levels) < NO_INFLUENCE:
-            found.append(
+            sentences.append(
                 f"{result.refinement.name}: T_E at the steps does not depend on it ({result.refinement.why}); T_EPP is"
                 " located between the steps"
             )
         elif order is None:
-            found.append(
+            sentences.append(
                 f"{result.refinement.name}: no order in T_E, expected {result.refinement.expected:g}"
                 f" ({result.refinement.why}); the error of its finest value is taken to be its last change"
             )
         elif abs(order - result.refinement.expected) > ORDER_OFF:
-            found.append(
+            sentences.append(
                 f"{result.refinement.name}: order {order:.2f} in T_E, expected {result.refinement.expected:g}"
                 f" ({result.refinement.why})"
             )
     if any(result.refinement.name == CONDENSATION for result in report.refinements):
-        found.append(
+        sentences.append(
             'condensation "every step" is another model, not a finer one: normal forces have the lever arms of their'
             " nodes in place of the base radius. Its difference does not vanish with refinement"
         )
     peak = report.uncertainty["peak pressure"]
     if peak > 0.1:
-        found.append(
+        sentences.append(
             f"the peak pressure does not converge in these runs (it is uncertain by {percent(peak)} %); contact at a"
             " sharp tip edge is a usual cause"
         )
-    return found
+    return sentences
 
 
 def timed(report: AccuracyReport) -> str:

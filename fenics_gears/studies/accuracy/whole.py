@@ -68,26 +68,26 @@ def path(
     def setting() -> Setting:
         return reduce(lambda whole, name: moving[name].moved(whole, levels[name][at[name]]), at, base)
 
-    found = []
+    settings = []
     last = float("inf")
     while at and allowed(setting()):
         parts = {name: errors[name, levels[name][place]] for name, place in at.items()}
         if sum(parts.values()) <= KEPT_PART * last:
             last = sum(parts.values())
-            found.append(setting())
+            settings.append(setting())
         worst = largest_part({name: error * WAITS.get(name, 1.0) for name, error in parts.items()})
         if at[worst] + 1 == len(levels[worst]) or sum(parts.values()) <= enough:
             break
         at[worst] += 1
-    if found and found[-1] != setting() and allowed(setting()):
-        found.append(setting())
-    return _thinned(found)
+    if settings and settings[-1] != setting() and allowed(setting()):
+        settings.append(setting())
+    return _thinned(settings)
 
 
-def _thinned(found: list[Setting]) -> list[Setting]:
-    if len(found) <= MOST_KEPT:
-        return found
-    return [found[round(place * (len(found) - 1) / (MOST_KEPT - 1))] for place in range(MOST_KEPT)]
+def _thinned(settings: list[Setting]) -> list[Setting]:
+    if len(settings) <= MOST_KEPT:
+        return settings
+    return [settings[round(place * (len(settings) - 1) / (MOST_KEPT - 1))] for place in range(MOST_KEPT)]
 
 
 def fits(scene: Scene, setting: Setting) -> bool:

@@ -207,7 +207,7 @@ class Bench:
 
 
 def _remarks(subset: Subset, run: xr.Dataset) -> list[str]:
-    found = [subset.note] if subset.note else []
+    sentences = [subset.note] if subset.note else []
     if subset.scene.inertia is not None and subset.scene.damping is None:
-        found.append("undamped: the vibration of the start rings on in the answer")
-    return found + run.attrs["warnings"].splitlines()
+        sentences.append("undamped: the vibration of the start rings on in the answer")
+    return sentences + run.attrs["warnings"].splitlines()

@@ -25,7 +25,7 @@ UNPARSED = ("python", "test")
 CORE = ("check", "run", "study", "effects", "accuracy", "plot", "picture", "report", "export", "cache", *UNPARSED)
 
 
-class Found(NamedTuple):
+class CommandModule(NamedTuple):
     """A module of commands: what messages call it, what imports it, its commands, and its summary."""
 
     label: str
@@ -55,32 +55,33 @@ def add(commands, shared: argparse.ArgumentParser, called: str) -> None:
             print(f"The extension {label} cannot be loaded and is left out: {why}", file=sys.stderr)
 
 
-def _of_the_core() -> Iterator[Found]:
+def _of_the_core() -> Iterator[CommandModule]:
     for name in CORE:
-        yield _found(name, partial(import_module, f"{__package__}.{name}"), HERE / f"{name}.py")
+        yield _module(name, partial(import_module, f"{__package__}.{name}"), HERE / f"{name}.py")
 
 
-def _of_the_folder() -> Iterator[Found]:
+def _of_the_folder() -> Iterator[CommandModule]:
     for file in sorted(HERE.parent.glob("extensions/*/command.py")):
         name = file.parent.name
-        yield _found(name, partial(import_module, f"{GROUP}.{name}.command"), file)
+        yield _module(name, partial(import_module, f"{GROUP}.{name}.command"), file)
 
 
-def _of_installed_packages() -> Iterator[Found]:
+def _of_installed_packages() -> Iterator[CommandModule]:
     if not any(map(_names_the_group, sys.path)):
         return
     from importlib.metadata import entry_points
 
     for each in sorted(entry_points(group=GROUP), key=lambda each: each.name):
-        yield _found(f"{each.name} ({each.value})", each.load, _file(each.module))
+        yield _module(f"{each.name} ({each.value})", each.load, _file(each.module))
 
 
-def _found(label: str, load: Callable, file: str | Path) -> Found:
+def _module(label: str, load: Callable, file: str | Path) -> CommandModule:
     """The module by its docstring, which is read, not imported."""
     docstring = re.match(rb'"""(.*?)"""', _content(file), re.DOTALL)
     words = " ".join(docstring[1].decode(errors="replace").split()) if docstring else ""
     first = re.match(r"``gears [^`]+``: (.+?)\.(?: |$)", words)
-    return Found(label, load, re.findall(r"``gears ([\w-]+)", words) if first else [], first[1] if first else "")
+    names = re.findall(r"``gears ([\w-]+)", words) if first else []
+    return CommandModule(label, load, names, first[1] if first else "")
 
 
 def _file(module: str) -> str:
