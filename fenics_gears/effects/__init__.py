@@ -66,7 +66,7 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ),
 )
 
-# What a run has besides where the flanks are resolved over the face. Moments are about the gears' mid-widths.
+# Further variables of runs whose flanks are resolved over the face. Moments are about the gears' mid-widths.
 FACE_VARIABLES: tuple[ResultVariable, ...] = (
     *variables(
         OF_SLICES,
@@ -165,7 +165,7 @@ def missing_needs(sections: Collection[str]) -> list[tuple[Effect, str]]:
 
 
 def conflicts(sections: Collection[str]) -> list[tuple[Effect, str]]:
-    """Pairs of an effect among the named sections and a section beside it that it excludes."""
+    """Pairs of an effect among the named sections and another one of them that it excludes."""
     return [(each, other) for each in _among(sections) for other in each.excludes if other in sections]
 
 

@@ -27,8 +27,8 @@ BESIDE_ROLLING = ("radial_stiffness", "tilting_stiffness")
 
 
 def rules_of_elastic_shafts(tree: Tree) -> Broken:
-    """A shaft with sections says where gear and torque are, has bearings of its own and, beside [inertia], a
-    density."""
+    """A shaft with sections says where gear and torque are. It has bearings of its own and, in a scene with [inertia],
+    a density."""
     both = table(tree, "shafts") or {}
     if "torsional_stiffness" in both:
         message = (
@@ -67,7 +67,7 @@ def _has_no_density(tree: Tree, shaft: str, gear: str) -> bool:
 
 
 def rules_of_listed_bearings(tree: Tree, both: Tree, listed: Sequence[str]) -> Broken:
-    """Bearings that are listed are those of a shaft with sections, and the only ones of that gear."""
+    """Only shafts with sections have listed bearings, and such a gear has no others."""
     for gear in listed:
         shaft = SHAFTS[GEARS.index(gear)]
         own = table(both, gear) or {}
@@ -181,7 +181,7 @@ def _sections_are_solid(elastic: ElasticShaft, shaft: str) -> Iterator[str]:
 
 
 def _places_are_on_the_shaft(elastic: ElasticShaft, shaft: str) -> Iterator[str]:
-    """The gear's whole face and the coupling are on the shaft, and bearings beside the gear."""
+    """The gear's whole face and the coupling are on the shaft; bearings are outside the gear's face."""
     length = elastic.length
     half = 0.5 * elastic.seat
     width = f"{elastic.seat:g} mm"

@@ -83,7 +83,8 @@ def under_the_face(sections: Sequence[ShaftSection], face: tuple[float, float]) 
 
 
 def wrong_with_seat(scene: Any, pair: Any, elastic: ElasticShaft, shaft: str) -> Iterator[str]:
-    """The shaft fits within the root circle; a gear cut into it is of one piece with it and coupled beside its face."""
+    """The shaft fits within the root circle; a gear cut into it is of the same material, and its coupling is outside
+    the face."""
     own = scene.shafts.sections[elastic.gear]
     gear = getattr(pair, elastic.gear)
     root = 2.0 * gear.root_radius
@@ -110,7 +111,7 @@ def wrong_with_seat(scene: Any, pair: Any, elastic: ElasticShaft, shaft: str) ->
 
 
 def _is_a_cylinder(own: Any, elastic: ElasticShaft, bore: float, named: str) -> Iterator[str]:
-    """The shaft in a hub that gives way is as thick as its bore, and bored alike."""
+    """The shaft in an elastic hub is as thick as the hub's bore, and has one bore itself."""
     under = [part for part, within in _cut_at(own.sections, elastic.seat_ends) if within]
     ends = [each for part in under for each in (part.diameter, part.right_diameter)]
     off = [each for each in ends if abs(each - bore) > OFF_THE_BORE * bore]

@@ -100,7 +100,7 @@ EFFECT = Effect(
     variables=(
         ResultVariable("shaft_end_rotation", "rad", "rotation of the far end of the output shaft"),
         ResultVariable("energy_shafts", "N mm", "elastic energy of the shafts"),
-        # Departures of the axes are those of [misalignment], and as large over the common face.
+        # Departures of the axes have the signs of [misalignment] and, like it, are lengths over the common face.
         *variables(
             OF_TIME,
             field="sections",

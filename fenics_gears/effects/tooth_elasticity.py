@@ -37,7 +37,7 @@ class MaterialText(Section):
 
 @dataclass(frozen=True)
 class OwnMaterialText(Section):
-    """``[gears.pinion.material]`` and ``[gears.wheel.material]``; fields that are left out are those of
+    """``[gears.pinion.material]`` and ``[gears.wheel.material]``; fields that are left out are taken from
     ``[gears.material]``."""
 
     name: str | None = material_name("from `[gears.material]`")

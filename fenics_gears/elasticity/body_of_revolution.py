@@ -2,9 +2,9 @@
 axis as a whole.
 
 A motion is ``u_r = u cos(n t)``, ``u_t = v sin(n t)``, ``u_z = w cos(n t)`` over the angle t, with u, v, w of second
-order on the rectangles of a grid. Harmonic 1 has displacements along x and tilts about y, those along y and tilts about
-x by a quarter of a turn; in harmonic 0 v is a twist by itself, and u, w stretch the body. O. C. Zienkiewicz, The Finite
-Element Method (1977), chapter 15.
+order on the rectangles of a grid. Harmonic 1 has displacements along x and tilts about y; a quarter of a turn makes
+displacements along y and tilts about x of them. In harmonic 0 v is a twist by itself, and u, w stretch the body. O. C.
+Zienkiewicz, The Finite Element Method (1977), chapter 15.
 """
 
 from collections.abc import Sequence

@@ -18,7 +18,7 @@ from .element_nodes import ElementNodes
 from .face.layers import Sweep, shapes
 from .ring import rotation
 
-# Of the reference triangle and square: corners counter-clockwise, middles of sides, middle, as of ElementNodes.
+# Of the reference triangle and square: corners counter-clockwise, middles of sides, middle, as in ElementNodes.
 REFERENCE = {
     3: np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]]),
     4: np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0], [1, 0.5], [0.5, 1], [0, 0.5], [0.5, 0.5]]),
@@ -39,7 +39,7 @@ class NodalStress:
         self.sweep = sweep
         self.components, self._heights = (2, 1) if sweep is None else (3, len(sweep.heights))
         whole, self.weight = _averaged_slopes(nodes)
-        # Of layers in a web, or of all of a body without one, and of those beside.
+        # First of layers in a web, or of all layers of a body without one; then of layers outside the web.
         self._slopes = {True: whole}
         self._there = {True: np.ones(len(nodes.points))}
         if sweep is not None and sweep.web is not None:

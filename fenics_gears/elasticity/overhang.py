@@ -21,7 +21,7 @@ Section = FlankCompliance | WholeBodyCompliance
 
 
 def with_overhang(body: Section, gear: Gear, material: Material, share: float) -> Section:
-    """The body as a line load over the common face sees it: `share` A + (1 - `share`) L. `share`: common width over the
+    """The body under a line load over the common face: `share` A + (1 - `share`) L. `share`: common width over the
     width that counts, 1 without overhang."""
     if share == 1.0:
         return body

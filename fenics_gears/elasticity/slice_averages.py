@@ -10,8 +10,8 @@ from scipy import sparse
 from .face.layers import shapes
 
 GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
-# Of a slice, in which a line of contact stays at one height of the profile: with half as many the mean transmission
-# error is 0.03 % less (slices of half a module, 28 degrees).
+# Parts of a slice, in each of which a line of contact stays at one height of the profile. With half as many the mean
+# transmission error is 0.03 % less (slices of half a module, 28 degrees).
 PIECES = 8
 
 
@@ -67,9 +67,9 @@ def oblique_averages(
 
 
 def oblique_sections(blocks: np.ndarray, rolls: np.ndarray, rises: Sequence[float], width: float) -> np.ndarray:
-    """Compliance blocks (k, d, d) of a section in plane strain, x and y of the nodes of one flank after the other, as
-    the averages of `oblique_averages` over a slice of a `width` (mm) see a load that goes on along its line. `rises`:
-    of each flank."""
+    """Compliance blocks (k, d, d) of a section in plane strain, x and y of the nodes of one flank after the other,
+    under a load that goes on along its line, averaged by `oblique_averages` over a slice of a `width` (mm). `rises`: of
+    each flank."""
     places = _pieces(any(rises))
     averaged = np.zeros_like(blocks)
     for place in places:

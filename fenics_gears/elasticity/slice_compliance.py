@@ -16,8 +16,8 @@ Addition = Callable[[np.ndarray, int, int, int], None]
 
 
 class SliceCompliance:
-    """Compliance between flank nodes in sections, each a flank in a slice: `values` (2 k - 1, F S, F S, n, n, 9), mm/N,
-    of every tooth from k - 1 behind to k - 1 ahead, by components of either node; zero where nobody asked.
+    """Compliance between flank nodes in sections, each a flank in a slice. `values` (2 k - 1, F S, F S, n, n, 9), mm/N:
+    of every tooth from k - 1 behind to k - 1 ahead, by components of either node; zero where it was not asked for.
 
     `blocks` (k, D, D): of teeth on the nodes of layers, dofs by flank, then height, node, x, y, z. `averages`: of each
     flank (S n, h n), of `slice_averages.oblique_averages`. `additions`: to what these give.
@@ -77,8 +77,8 @@ def _columns_in_use(weights: sparse.csr_matrix) -> tuple[slice, np.ndarray]:
 def along_normals(
     averages: sparse.csr_matrix, compliance: sparse.csr_matrix, normals: np.ndarray, first: int
 ) -> Addition:
-    """Adds, to a tooth under its own load, a compliance (H n, H n) of one of its flanks along `normals` (n, 3), as
-    averages (S n, H n) of slices see it. `first`: section of the flank."""
+    """Adds, to a tooth under its own load, a compliance (H n, H n) of one of its flanks along `normals` (n, 3),
+    averaged (S n, H n) over slices. `first`: section of the flank."""
     nodes = len(normals)
     entries = (averages @ compliance @ averages.T).tobsr((nodes, nodes))
     rows = np.repeat(np.arange(len(entries.indptr) - 1), np.diff(entries.indptr))

@@ -93,7 +93,7 @@ def assembled(matrix) -> sparse.csr_matrix:
 
 
 def nodes_at(space, coordinates: np.ndarray) -> np.ndarray:
-    """Numbers (k,) of the space's nodes at coordinates (k, 2), as of `numbers_at`."""
+    """Numbers (k,) of the space's nodes at coordinates (k, 2), by `numbers_at`."""
     return numbers_at(adapter.node_coordinates(space), coordinates)
 
 

@@ -14,7 +14,7 @@ LONGEST_FILE_NAME = 4096
 Matrix = tuple[tuple[float, ...], ...]
 # Parts of the largest entry that a matrix may depart by from a symmetric, positive one.
 ROUND_OFF = 1e-9
-# N, mm and rad of a matrix: as of a tilting stiffness.
+# N, mm and rad of a matrix, such as a tilting stiffness.
 LARGEST_ENTRY = 1e24
 
 

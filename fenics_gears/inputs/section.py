@@ -132,7 +132,7 @@ def _missing(section: type[Section], name: str, place: Path) -> Iterator[Problem
 
 
 def fields_of(section: type[Section]) -> str:
-    """What a section may have, those of which at most one is given together."""
+    """The fields that a section may have; of those in one group at most one is given."""
     others = {name: group[0] for group in section.alternatives for name in group[1:]}
     groups = {name: [name] for name in names_in(section) if name not in others}
     for name, first in others.items():

@@ -15,7 +15,7 @@ _NUMBER = re.compile(r"[+-]?[\d.,_]+(?:[eE][+-]?\d*)?")
 
 
 def in_words(error: tomllib.TOMLDecodeError, text: str, source: str) -> str:
-    """Two lines for people, as of any other mistake: file, line and what stands there; what to write."""
+    """Two lines for people, as for any other mistake: file, line and its text; what to write."""
     lines = text.splitlines()
     place = _PLACE.search(str(error))
     own = _PLACE.sub("", str(error))

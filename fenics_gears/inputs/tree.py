@@ -42,8 +42,7 @@ def with_gears(tree: Tree, name: str) -> dict[Path, Tree]:
 
 
 def given_for(both: Tree, gear: str) -> set[str]:
-    """Names that a section gives for the "pinion" or the "wheel": those for both, and those of the gear's own
-    section."""
+    """Names that a section gives for the "pinion" or the "wheel": for both gears, and in the gear's own section."""
     return {*both, *(table(both, gear) or {})}
 
 
@@ -128,7 +127,7 @@ def module_in(tree: Tree) -> float | None:
 
 
 def pressure_angle_in(tree: Tree) -> float | None:
-    """The pressure angle (rad) of the normal section of a parsed scene, as of ``module_in``."""
+    """The pressure angle (rad) of the normal section of a parsed scene, like ``module_in``."""
     return _of_teeth(tree, PRESSURE_ANGLES)
 
 

@@ -145,8 +145,8 @@ def quantity(text: str) -> tuple[float, str]:
 
 
 def of_kind(text: str, *kinds: str) -> tuple[float, str]:
-    """The number and its kind as of ``quantity``, one of some kinds; where an angular speed is wanted, 1/min is
-    revolutions a minute.
+    """The number and its kind, as ``quantity`` gives them, of one of some kinds. Where an angular speed is wanted,
+    1/min is revolutions a minute.
 
     1/s is not taken for one: it stands for revolutions in some papers and for radians in others. Raises QuantityError
     for another kind too.
@@ -210,7 +210,7 @@ def text_of(value: float, kind: str, usual: str) -> str:
     own = own_unit(kind)
     for unit in (usual, own):
         quotient = float(value) / quantity(f"1 {unit}")[0]
-        # The quotient and then the product with the factor are rounded: a number beside it may be the one.
+        # The quotient and then the product with the factor are rounded: the number may be a neighbour of the quotient.
         for number in (quotient, math.nextafter(quotient, math.inf), math.nextafter(quotient, -math.inf)):
             for digits in DIGITS:
                 text = f"{number:.{digits}g} {unit}"

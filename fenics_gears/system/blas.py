@@ -122,7 +122,7 @@ def libraries() -> list[dict]:
 
 
 def exact(file: str) -> bool:
-    """Whether a library's products of small integers, which have no round-off, are those of whole numbers."""
+    """Whether a library's products of small integers, which have no round-off, are exact."""
     import numpy as np
 
     product, integer = _product(ctypes.CDLL(file))

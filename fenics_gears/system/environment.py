@@ -37,8 +37,8 @@ def prepare(environment=os.environ):
 def defaults(environment):
     """Variables and their values where the user has not set them; `environment` shows how the process was started."""
     # PETSc would take a reader of the output that has gone for a crash, and abort.
-    # OpenBLAS's threads look for work for so many cycles (a power of two) before they sleep: by default some 25 ms
-    # after every product, which costs a core the time of a short run's march.
+    # OpenBLAS's threads look for work for so many cycles (a power of two) before they sleep. By default that is some 25
+    # ms after every product, on one core as long as the march of a short run.
     values = {"PETSC_OPTIONS": "-no_signal_handler", "OPENBLAS_THREAD_TIMEOUT": "18"}
     if os.geteuid() == 0:
         # Containers run as root, where the mpirun started by this process (Open MPI 4, then 5) refuses to work without.

@@ -39,8 +39,8 @@ def face_compliance(
     """Flank compliance of a gear over its face, from the cache or by condensing one swept tooth sector, hub held, end
     faces free.
 
-    gear: its transverse section. With `reach.across` the coast flank's dofs follow the drive flank's, in the tooth's
-    frame mirrored at its centreline at that height: x and y as of the mirrored section, heights and z as they are.
+    gear: its transverse section. With `reach.across` the coast flank's dofs follow the drive flank's. They are in the
+    tooth's frame mirrored at its centreline at that height: x and y of the mirrored section, heights and z unchanged.
     process: that does the work, this one unless given. Raises SceneError for an impossible size, ComputationError when
     a stage fails.
     """

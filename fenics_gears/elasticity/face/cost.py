@@ -46,7 +46,7 @@ class BodySize(NamedTuple):
 
 @dataclass(frozen=True)
 class BodyCost:
-    """What condensing takes beside the program: bytes at most, and multiplications of dense matrices."""
+    """The cost of condensing: bytes at most, not counting the program's own, and multiplications of dense matrices."""
 
     memory: float
     operations: float

@@ -58,7 +58,7 @@ class SectionForms:
         return present
 
     def in_layer(self, within_web: bool) -> np.ndarray:
-        """Which nodes of the section (n,) a layer within the web or beside it has."""
+        """Which nodes of the section (n,) a layer has, within the web or outside it."""
         nodes = len(self.nodes.points)
         if within_web or self.beside_web is None:
             return np.ones(nodes, dtype=bool)

@@ -36,8 +36,8 @@ GROWTH, LARGEST = 1.4, 0.5
 
 
 def webbed_section(gear: Gear, sizes: ElementSizes) -> BodyMesh:
-    """Section of a sector whose mesh has lines along the circles of hub and rim: teeth and rim as of a gear whose bore
-    is the rim's, and inwards rows of cells on the nodes of that bore."""
+    """Section of a sector whose mesh has lines along the circles of hub and rim. Teeth and rim are meshed as a gear
+    whose bore is the rim's; rows of cells follow inwards from the nodes of that bore."""
     # Imported here: to tell the size of a section needs no gmsh.
     from ..sector_mesh import sector_mesh
 
@@ -89,7 +89,7 @@ def _cells(grid: np.ndarray) -> np.ndarray:
 
 
 def beside_web(mesh: BodyMesh, web: SweptWeb) -> BodyMesh:
-    """The section of a body beside its web: rim and hub."""
+    """The section of a body outside its web: rim and hub."""
     cells = mesh.cells[web.beside(mesh.points[mesh.cells].mean(axis=1))]
     used = np.unique(cells)
     return BodyMesh(mesh.points[used], np.searchsorted(used, cells), {})

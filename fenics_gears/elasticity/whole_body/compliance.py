@@ -38,7 +38,7 @@ class WholeBodyCompliance:
 
     def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
         """Compliance (2n', 2n) of the flank of one tooth under forces on another; any whole numbers, teeth repeat after
-        a turn. sides: as of `FlankCompliance`. Raises ComputationError for coast flanks, and for teeth further apart
+        a turn. sides: as in `FlankCompliance`. Raises ComputationError for coast flanks, and for teeth further apart
         than `offsets`."""
         if any(sides):
             raise ComputationError(

@@ -1,9 +1,9 @@
 """Flank compliance of a gear meshed as a whole: each tooth's part is condensed by PETSc, the parts are joined exactly.
 
-With F the flank dofs of part t and I the interface dofs of all parts, block inversion gives the compliance between
-flanks as ``A[s, t] = d_st S_FF[t]^-1 + X_s J^-1 X_t^T``, where ``X_t = S_FF^-1 S_FI`` of part t and ``J = sum_t (S_II -
-S_IF S_FF^-1 S_FI)`` is the interfaces' own stiffness. For a gear of equal sectors that is `elasticity.ring` without its
-Fourier transform.
+F are the flank dofs of part t, I the interface dofs of all parts. Block inversion gives the compliance between flanks,
+``A[s, t] = d_st S_FF[t]^-1 + X_s J^-1 X_t^T``, with ``X_t = S_FF^-1 S_FI`` of part t. ``J = sum_t (S_II - S_IF S_FF^-1
+S_FI)`` is the stiffness of the interfaces. For a gear of equal sectors that is `elasticity.ring` without its Fourier
+transform.
 """
 
 from dataclasses import asdict, dataclass

@@ -170,8 +170,8 @@ def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float)
 
 
 def _off_involute(points: np.ndarray, gear: Gear) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of points (k, 2): the tooth they belong to, whether they are on its counter-clockwise side, and how far
-    counter-clockwise off its drive flank, mm: an involute turned by an angle stands off by that of its base circle."""
+    """Of points (k, 2): the tooth they belong to, whether they are on its counter-clockwise side, and their distance
+    (mm), counter-clockwise, from its drive flank. An involute that is turned moves by the arc of its base circle."""
     angle = np.arctan2(points[:, 1], points[:, 0])
     ahead = np.mod(angle - centreline_angle(gear), 2.0 * np.pi) / gear.angular_pitch
     tooth = np.floor(ahead + 0.5).astype(int) % gear.teeth
