@@ -1,10 +1,15 @@
 """The command ``gears``. Logging is configured here and nowhere else; what the commands do is in ``commands``.
 
-Exit codes: 0 done, 2 the scene or the call is wrong (nothing written), 3 the computation failed (the steps computed are
-kept, marked incomplete) or cannot fit into memory, 4 the run ended with a result that has no meaning (it is kept, with
-the reason), 5 the result is whole and kept, but something that follows it failed (proposals, factors, pictures, the
-summary: a warning says what), 130 interrupted by Ctrl-C (the steps computed are kept), 141 the standard output could
-not be written, as when the program that reads it closed the pipe.
+Exit codes:
+
+* 0: done.
+* 2: the scene or the call is wrong. Nothing is written.
+* 3: the computation failed or cannot fit into memory. The steps computed are kept, marked incomplete.
+* 4: the run ended with a result that has no meaning. It is kept, with the reason.
+* 5: the result is complete and kept, but a later stage failed: proposals, factors, pictures, the summary. A warning says
+  which.
+* 130: interrupted by Ctrl-C. The steps computed are kept.
+* 141: the standard output could not be written, as when the program that reads it closed the pipe.
 """
 
 import argparse

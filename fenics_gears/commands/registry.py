@@ -1,5 +1,5 @@
-"""Finds the commands: those of this folder, then those of extensions. These are in the folder
-``fenics_gears/extensions``, or in installed packages that name themselves in the entry point group of the same name.
+"""Finds the commands: first of this folder, then of extensions. These are in the folder ``fenics_gears/extensions``, or
+in installed packages that name themselves in the entry point group of the same name.
 
 Each is a module with a function ``add(commands, shared)``: `commands` takes parsers of commands by
 `commands.add_parser`, `shared` is the parser of -v and -q (docs/adding_an_extension.md). Its docstring begins with
@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 GROUP = "fenics_gears.extensions"
 HERE = Path(__file__).parent
-# Their options are those of Python and pytest.
+# Their options belong to Python and pytest.
 UNPARSED = ("python", "test")
 # In the order of their use.
 CORE = ("check", "run", "study", "effects", "accuracy", "plot", "picture", "report", "export", "cache", *UNPARSED)
@@ -35,7 +35,7 @@ class CommandModule(NamedTuple):
 
 
 def add(commands, shared: argparse.ArgumentParser, called: str) -> None:
-    """Add all commands, with arguments only those of modules that have the one that is called.
+    """Add all commands; only modules that have the one that is called add arguments.
 
     An extension that fails is left out, which the standard error says: no other command needs it.
     """

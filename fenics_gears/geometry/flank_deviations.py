@@ -1,9 +1,9 @@
 """Deviations of every tooth of a gear: as a scene gives them, or drawn within a flank tolerance class.
 
-A pitch deviation belongs to the reference circle. Slope and form are deviations from the mean of the used flank, from
-the start of active profile to the tip, or of the face: slope rises by its value from end to end, form is one wave, as
-wide as its value. A measured curve stands in place of both, and is zero at the V point of the profile or at mid-width
-of the helix, unless in its mean: the pitch deviation says where the flank stands.
+A pitch deviation belongs to the reference circle. Slope and form are deviations from the mean of the face, or of the
+used flank from the start of active profile to the tip. Slope rises by its value from end to end; form is one wave, as
+wide as its value. A measured curve replaces both. It is zero at the V point of the profile or at mid-width of the
+helix, or else in its mean: the pitch deviation says where the flank is.
 """
 
 from __future__ import annotations

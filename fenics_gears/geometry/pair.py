@@ -19,8 +19,8 @@ from .pair_checks import check_pair
 from .remedies import advice
 
 WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
-# Reach, in normal modules, into a face that stands out beyond the mate: of teeth on a thin rim, what a solid body has
-# more, and the depth over which this grows; found against three dimensions (docs/third_dimension.md).
+# Reach, in normal modules, into a face that extends beyond the mate: of teeth on a thin rim, the additional reach of a
+# solid body, and the depth over which this grows. Fitted to runs in three dimensions (docs/third_dimension.md).
 REACH_OF_TEETH = 1.1
 REACH_OF_BODY = 1.6
 DEPTH_OF_BODY = 7.0
@@ -96,8 +96,8 @@ class GearPair:
 
     @property
     def effective_face_widths(self) -> tuple[float, float]:
-        """Width (mm) of pinion and wheel that counts in the plane. It is the common one and, of an overhang o at either
-        end, as much as helps to carry: r (1 - exp(-o/r)), with a reach r that grows with the depth of the gear's body.
+        """Width (mm) of pinion and wheel that counts in the plane. It is the common width and, of an overhang o at
+        either end, the part r (1 - exp(-o/r)) that helps to carry. The reach r grows with the depth of the gear's body.
         """
         module = self.pinion.normal_module
         widths = []
@@ -232,8 +232,8 @@ class GearPair:
 
     @property
     def backlash(self) -> float:
-        """Gap (mm) along the line of action between the coast flanks while the drive flanks touch: base pitch less both
-        base-circle thicknesses at the operating pressure angle; negative when teeth overlap."""
+        """Gap (mm) along the line of action between the coast flanks while the drive flanks touch; negative when teeth
+        overlap. It is the base pitch less both base-circle thicknesses at the operating pressure angle."""
         swept = involute_function(tan(self.operating_pressure_angle))
         halves = (gear.base_radius * (gear.tooth_half_angle_at_base - swept) for gear in (self.pinion, self.wheel))
         return self.base_pitch - 2.0 * sum(halves)

@@ -191,7 +191,7 @@ def _corners(gear: Gear) -> list[tuple[float, float]]:
 
 def _clearance_along_circles(gear: Gear, mate: Gear, centre_distance: float, corner: tuple[float, float]) -> float:
     """Least arc (mm) about the gear's centre from its fillet and involute to the path of the mate's tip corner below
-    the gear's tip: an undercut fillet has up to two points at a polar angle, but one at a radius."""
+    the gear's tip. Arcs are taken at a radius, since an undercut fillet has up to two points at one polar angle."""
     above = acos((centre_distance**2 + corner[0] ** 2 - gear.tip_radius**2) / (2.0 * centre_distance * corner[0]))
     radius, angle = _tip_corner_path(
         gear, mate, centre_distance, np.linspace(above + corner[1], corner[1], SAMPLES), corner
@@ -212,7 +212,7 @@ def _tip_corner_path(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Radius (mm) and polar angle from straight down (rad) of a corner of the mate's tip in the gear's tooth frame.
 
-    ``mate_angle`` (n,), rad: of the end of the mate's involute from the line of centres, seen from the mate's centre.
+    ``mate_angle`` (n,), rad: of the end of the mate's involute from the line of centres, about the mate's centre.
     """
     operating = _operating_angle(gear, mate, centre_distance)
     contact_roll = np.tan(operating) * (1.0 + mate.base_radius / gear.base_radius)

@@ -54,7 +54,7 @@ def length_field(measured: str) -> Any:
 
 @dataclass(frozen=True)
 class Relief(Section):
-    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are those of ``[tip_relief]``, and
+    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are taken from ``[tip_relief]``, and
     the defaults hold if that section leaves them out too."""
 
     alternatives = (STARTS, GROWTH)
@@ -110,7 +110,7 @@ class Relief(Section):
 
 @dataclass(frozen=True)
 class RootReliefOfGear(Relief):
-    """``[root_relief.pinion]`` and ``[root_relief.wheel]``; fields that are left out are those of ``[root_relief]``,
+    """``[root_relief.pinion]`` and ``[root_relief.wheel]``; fields that are left out are taken from ``[root_relief]``,
     and the defaults hold if that section leaves them out too."""
 
     start: float | Measured | str | None = start_field("LPSTC", "lowest point of single tooth contact")

@@ -117,8 +117,8 @@ class BentShafts(AlongTheFace):
         return super().numbers(counted) | numbers | self._rolling_elements(counted) | self._vibrations(counted)
 
     def _seat(self, system: ShaftSystem, shaft: ElasticShaft) -> BentBySeat:
-        """What a seat does under loads (S, 6) in the slices of the face, at their own heights: of its teeth, motions
-        (5, S, 6) of the straight axis that is nearest to them over the common face, in the middle of the gear."""
+        """Response of a seat to loads (S, 6) in the slices of the face, at their own heights. Of its teeth: motions (5,
+        S, 6), in the middle of the gear, of the straight axis that is nearest to them over the common face."""
         slices = len(self.face.positions)
         bent = system.bent_by_seat(shaft, self._heights(shaft), self.points(shaft.length))
         teeth, line, bearings = (each.reshape(*each.shape[:-2], 2, slices, SIX).mean(axis=-3) for each in bent)

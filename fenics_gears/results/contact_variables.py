@@ -154,7 +154,8 @@ def node_variables(scene: Scene, nodes: SideBySide) -> Values:
 
 
 def watched_contact(nodes: SideBySide) -> Values:
-    """What the warnings need of consecutive steps: contact at the window's ends and on tips, rank of the compliance."""
+    """Values of consecutive steps for the warnings: contact at the window's ends and on tips, rank of the
+    compliance."""
     steps = nodes.steps
     watched = {
         "window reached": nodes.any(nodes.of("at_end") & nodes.closed),

@@ -4,7 +4,7 @@ Where a cubic through four steps agrees with the value in the middle of the inne
 and its crest is the largest value. Elsewhere the curve is taken to stay, between two steps, below the straight lines
 through the steps on either side, as at corners where a tooth pair enters or leaves contact. Lines through further
 points replace these, until no crossing lies above the largest value found. All places are multiples of a part of a
-step, so that the runs of a search ask for the same ones; between two of them the curve is a cubic or, at a corner, a
+step, so that the runs of a search ask for the same ones. Between two of them the curve is a cubic or, at a corner, a
 parabola on either side. Of a smooth curve that is known at the steps alone the largest value is that of the cubics,
 which is of fourth order.
 """
@@ -20,8 +20,8 @@ from .numbers import LIKE, SAME, crest_of_cubic, differences, is_smooth
 MOST_SOLVED = 20
 # How far down from the largest value a curve is followed, in parts of what is sought.
 NEAR = 25.0
-# A cubic holds where it differs from a value between its steps by at most so many parts of what is sought; the value is
-# asked for at most this part of the interval from its middle.
+# A cubic holds where it differs from a value between its steps by at most so many parts of what is sought. The value is
+# asked for near the middle of the interval, at most this part of it away.
 AGREES = 2.0
 MIDDLE = 0.25
 # A position is sought no nearer to a step than this part of the distance to the next.
@@ -35,9 +35,9 @@ COUNTED = COUNT, LEFT, AT = range(3)
 
 
 class Searches:
-    """Searches for the largest values of curves (c, s) that are given at `steps` (s,), side by side: each asks for
-    values of its curve between them, at multiples of the `finest` part of a step, until these say what is `sought` (c,)
-    of its largest value. `corners`: between two places a curve may be higher than both at a corner.
+    """Searches for the largest values of curves (c, s) that are given at `steps` (s,), side by side. Each asks for
+    values of its curve between steps, at multiples of the `finest` part of a step. It ends when its largest value is
+    known to `sought` (c,). `corners`: between two places a curve may be higher than both at a corner.
 
     `asked` (c,): the places asked for now, not a number where a search has ended; `tops` (c, 2): place and largest
     value, as far as they are known.
@@ -151,9 +151,9 @@ def _next(x, y, known, top, settings):
 
 @njit(cache=True)
 def _steep_neighbour(x, y, top, sought, finest):
-    """The steeper of the two intervals beside the largest value, at the point `top`, where the curve falls by more than
-    NEAR times what is sought within a step. 0 where neither falls so far, none has a place between, or both are at an
-    end."""
+    """The steeper of the two intervals next to the largest value, at the point `top`, where the curve falls by more
+    than NEAR times what is sought within a step. 0 where neither falls so far, none has a place between, or both are at
+    an end."""
     near = NEAR * sought
     steepest = 0
     fall = -inf

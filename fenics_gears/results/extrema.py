@@ -203,8 +203,8 @@ Numbers = dict[str, float | str]
 def extremes(
     extrema: Extrema, runs: Sequence[tuple[int, Mapping[str, np.ndarray], bool]]
 ) -> list[tuple[Numbers, Numbers]]:
-    """Of each run, by its number and curves: numbers of the extremes of the transmission error, and of the largest
-    normal force of a tooth pair where it is asked for."""
+    """The extremes of each run, given by its number and curves: of the transmission error and, where asked for, of the
+    largest normal force of a tooth pair."""
     of = extrema.transmission_error
     quantities = []
     for run, curves, force in runs:

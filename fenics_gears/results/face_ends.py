@@ -1,5 +1,5 @@
-"""Where the face of a result ends: its slices, and the zone at either end whose line load and pressure are those of an
-edge."""
+"""Where the face of a result ends: its slices, and the zone at either end whose line load and pressure are an
+edge's."""
 
 import numpy as np
 import xarray as xr

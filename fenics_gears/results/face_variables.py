@@ -20,7 +20,7 @@ FEWEST_TOUCHING = 3
 
 
 class AlongTheFace:
-    """What the result of a mesh cycle over a face of many slices has beside that of one slice."""
+    """Further results of a mesh cycle over a face of many slices."""
 
     def __init__(self, cycle: Cycle):
         self.face = cycle.face
@@ -57,7 +57,7 @@ class AlongTheFace:
         }
 
     def words(self, words: Mapping[str, str]) -> dict[str, str]:
-        """Long names of root stress, from those of one slice."""
+        """Long names of root stress over the face, made of the names for one slice."""
         section = words["root_stress_at_30_degrees"]
         return {**words, "root_stress_at_30_degrees": f"largest {section}", "root_stress_over_face": section}
 

@@ -35,8 +35,8 @@ STUDIED = (
 def key_numbers(
     counted: Mapping[str, np.ndarray], pair: GearPair, friction_loss: float | None, timed: bool
 ) -> dict[str, float | str]:
-    """All numbers of the settled steps of a result but those of root stress, as far as their curves are among those
-    `counted`. `friction_loss`: its attribute. `timed`: the scene has a speed, without which there is no power."""
+    """All numbers of the settled steps of a result except of root stress, as far as their curves are `counted`.
+    `friction_loss`: its attribute. `timed`: the scene has a speed, without which there is no power."""
     # The last step begins the next cycle.
     last = max(len(counted["time"]) - 1, 1)
     settled = {name: values[:last] for name, values in counted.items()}
@@ -46,7 +46,7 @@ def key_numbers(
 
 def _harmonics(settled: Curves, pair: GearPair) -> dict[str, float]:
     """Harmonics and r.m.s. of the transmission error as a length at the wheel's base circle, um, and r.m.s. of the mesh
-    force, N, of the last whole mesh cycles; nothing of less than one, or on a ramp."""
+    force, N, of the last whole mesh cycles. Nothing for less than one cycle, or on a ramp."""
     phase = settled["mesh_phase"]
     if len(phase) < 2 or "mesh_frequency" in settled:
         return {}

@@ -49,7 +49,8 @@ def _mistakes(result: xr.Dataset) -> Iterator[str]:
 
 @cache
 def _known_dims() -> dict[str, list[tuple[str, ...]]]:
-    """Dimensions that variables of numbers may have, by name; over a face those of contact nodes are of slices too."""
+    """Dimensions that variables of numbers may have, by name; over a face variables of contact nodes have slices
+    too."""
     of_effects = (variable for effect in every_effect() for variable in effect.variables)
     variables = [*COMMON_VARIABLES, *FACE_VARIABLES, *of_effects]
     known = {

@@ -1,7 +1,7 @@
 """How unevenly a mesh carries along the face and between its tooth pairs, read off the computed contact.
 
-Face and transverse load factor are those of ISO 6336-1 by its own definitions (method A). None has the dynamic factor
-in it: each compares loads of the same steps.
+Face and transverse load factor follow the definitions of ISO 6336-1 (method A). None has the dynamic factor in it: each
+compares loads of the same steps.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ from fenics_gears.geometry.pair import GearPair
 from .face_ends import end_depth, in_end_zone, inner_widths, windows
 from .pairs import carrying_side
 
-# Mesh cycles beside a phase at which the lines of contact change.
+# Mesh cycles before and after a phase at which the lines of contact change.
 BESIDE = 1e-9
 # Share of a force that is round-off.
 NO_SHARE = 1e-9
@@ -152,8 +152,8 @@ def shortest_lines(pair: GearPair) -> float:
 
 
 def _lengths_where_they_turn(pair: GearPair) -> np.ndarray:
-    """Lengths (phases, pairs), mm, beside the phases at which a line begins or ends to reach an end of the face:
-    between them lengths are linear and shares monotonic."""
+    """Lengths (phases, pairs), mm, just before and after the phases at which a line begins or ends to reach an end of
+    the face. Between them lengths are linear and shares monotonic."""
     lead = 0.5 * pair.face_width * abs(pair.slope)
     ends = [end + side * lead for end in (pair.path_start, pair.path_end) for side in (-1.0, 1.0)]
     phases = np.mod(np.array(ends) / pair.base_pitch, 1.0)[:, None] + [-BESIDE, BESIDE]

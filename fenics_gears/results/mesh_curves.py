@@ -1,12 +1,12 @@
-"""Curves of an elastic mesh besides its forces: its stiffness, and its largest pressure with where that is.
+"""Stiffness of an elastic mesh, and its largest pressure with where that is.
 
 Deflection delta (mm): overlap of the undeformed flanks along the line of action. Secant stiffness F/delta (N/mm) is the
-mesh stiffness of ISO 6336-1; the tangent dF/ddelta is the spring that small vibrations meet: closed contact nodes stay
-closed and friction forces stay as they are.
+mesh stiffness of ISO 6336-1. The tangent dF/ddelta is the spring of small vibrations: closed contact nodes stay closed
+and friction forces constant.
 
-Place alone decides which contact nodes are beside an edge or a kink of the flanks, where linear elasticity has infinite
+Place alone decides which contact nodes are near an edge or a kink of the flanks, where linear elasticity has infinite
 pressure. These change the pressure about as far as half of the contact is wide (Johnson, Contact Mechanics, 1985, 5.1
-to 5.3): lengths are counted in the Hertz half-width under full load on one pair, from either side along the flank.
+to 5.3). So lengths are counted in the Hertz half-width under full load on one pair, from either side along the flank.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ def mesh_stiffness(contact, status, forces, coordinates, faces):
     carry there. All are zero where nothing touches; the secant is not a number where the flanks do not approach.
 
     `contact`: the `addresses.Arrays` of elastic flanks; `faces` (2, f, f): stiffness and flexibility of faces that bend
-    by coordinates of their own, the last of those that contact moves: flanks give way by them as by the seats of
-    others. The rest as of StepSolution.
+    by coordinates of their own, which are the last that contact moves. Flanks yield by them as others do by their
+    seats. The rest as in StepSolution.
     """
     # Taken out of the record once: in a loop that would cost more than the numbers.
     jacobian = contact.jacobian
@@ -71,8 +71,8 @@ def mesh_stiffness(contact, status, forces, coordinates, faces):
         if on_drive_flanks[node] == side:
             overlap[node] = product(jacobian[node], rigid) - gap[node]
     deflection = _highest(overlap, node_pair)
-    # Of a gear so heavy that it does not move, the deflection is below the last digit of its rotation; wedged teeth may
-    # be pressed by friction where they do not approach.
+    # Where a gear is so heavy that it does not move, the deflection is below the last digit of its rotation. Wedged
+    # teeth may be pressed by friction where they do not approach.
     secant = force / deflection if deflection > 0.0 else np.nan
     return np.array([secant, _tangent(contact, closed[:count], faces), pairs])
 
@@ -137,7 +137,7 @@ NO_FACES = np.zeros((2, 0, 0))
 
 
 def stiffness_curves(steps: Steps, faces: np.ndarray = NO_FACES) -> Curves:
-    """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive steps; `faces`: as of
+    """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive steps; `faces`: as in
     `mesh_stiffness`."""
     secant, tangent, pairs = _stiffness(steps.in_memory, faces)
     return {"mesh_stiffness": secant, "mesh_stiffness_tangent": tangent, "loaded_pairs": pairs}
@@ -157,9 +157,9 @@ def _stiffness(block, faces):
 def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singular: EdgesAndKinks) -> Curves:
     """The largest pressure of consecutive steps, its tooth pair and its place, from their contact `fields`.
 
-    What is beside an edge or a kink has a largest pressure of its own, as have pairs that press with the sharp edge of
-    a tip, or of an undercut involute, and slices near the ends of the face: there the number grows as contact nodes
-    come closer.
+    Nodes near an edge or a kink have a largest pressure of their own. So have pairs that press with the sharp edge of a
+    tip, or of an undercut involute, and slices near the ends of the face. There the number grows as contact nodes come
+    closer.
     """
     pressed_edge = nodes.of("on_edge").any(axis=0) & (nodes.normal > NO_FORCE)
     beside = singular.beside(nodes)
@@ -192,7 +192,7 @@ def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singula
     }
 
 
-# What a node is beside; where it is beside several, the last.
+# What is near a node; of several, the last.
 NOTHING, KINK, EDGE = range(3)
 # In half-widths: the infinite pressure of a kink is in the contact itself. An edge makes the whole contact softer whose
 # border comes within a half-width of it; its peak is another half-width away.
@@ -228,7 +228,7 @@ class EdgesAndKinks:
         self._last: tuple[Layouts | None, np.ndarray] = None, np.empty(0)
 
     def beside(self, nodes: SideBySide) -> np.ndarray:
-        """What each contact node (N,) is beside: NOTHING, KINK or EDGE. Reliefs are of drive flanks alone."""
+        """What is near each contact node (N,): NOTHING, KINK or EDGE. Reliefs are of drive flanks alone."""
         if self._last[0] is not nodes.layouts:
             self._last = nodes.layouts, self._beside(nodes)
         return self._last[1]

@@ -47,8 +47,8 @@ def shown(result: xr.Dataset) -> xr.Dataset:
 
 
 def contact_times(result: xr.Dataset) -> xr.Dataset:
-    """A result with those of its steps whose contact fields are stored: `time` and `contact_time` go together. Raises
-    SceneError without any."""
+    """A result with the steps whose contact fields are stored: `time` and `contact_time` go together. Raises SceneError
+    without any."""
     if not result.sizes.get("contact_time", 0):
         raise SceneError(
             'the result holds no contact fields. [output] contact_fields = true or "last 2 cycles" in the scene stores'

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from .journal import JournalPlace, Recorded
     from .root_stress_variables import RootStress
 
-# How the names of what the warnings need begin, beside those of the result.
+# Begin of the names of values that the warnings need and the result does not have.
 WATCHED = "watched: "
 
 
@@ -52,7 +52,7 @@ def _along_face(model: Model, cycle: Cycle) -> tuple[AlongTheFace, ...]:
 
 
 class KnownTouching:
-    """Where pairs touch over a mesh cycle, which runs on the same operators have in common (`Cycle.shared`)."""
+    """Where pairs touch over a mesh cycle; runs on the same operators share it (`Cycle.shared`)."""
 
     touching: Touching | None = None
 

@@ -21,12 +21,12 @@ from .side_by_side import SideBySide
 Rows = tuple[RootStressRows, RootStressRows]
 SIDES = ("drive", "coast")
 # Largest tensions are of points whose tangent's angle is at least so much of that at 30 degrees in the normal section.
-# The points beyond are beside the involute, where the stress may be that of the contact, which is not resolved.
+# The points beyond are near the involute, where the stress may be that of the contact, which is not resolved.
 OF_BENDING = 0.5
 
 
-# Of a gear: the teeth loaded at a position, as of a Place, and the forces on the nodes of their flanks per contact
-# force (teeth f, n or 2 n). A contact node loads a few of hundreds of flank nodes.
+# Of a gear: the teeth loaded at a position, numbered as in a Place, and the forces on the nodes of their flanks per
+# contact force (teeth f, n or 2 n). A contact node loads a few of hundreds of flank nodes.
 OnFlanks = tuple[list[int], sparse.csc_array]
 
 

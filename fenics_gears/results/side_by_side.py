@@ -28,8 +28,8 @@ from fenics_gears.geometry.pair import GearPair
 
 
 def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool) -> dict[str, np.ndarray]:
-    """What belongs to the contact nodes (n,) of some positions, in the order of the positions, at any step. All
-    positions are done at once: a loop over them would take several times as long.
+    """Properties of the contact nodes (n,) of some positions, in the order of the positions, that do not depend on the
+    step. All positions are done at once: a loop over them would take several times as long.
 
     `index`: of the node's tooth pair at the position. `node`: its place in that pair. `drive`: whether it is on a drive
     flank. `slice`: of the face. `at_end`: whether it stands on an end of the window. `on_edge` (4, n): on the edge of
@@ -83,7 +83,7 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
     """Nodes (4, n) that stand on the edge that ends a flank: the pinion's tip and the wheel's form circle below the
     line of action, the others above.
 
-    `ends` (P + 1,): where the nodes of each pair begin and end; `of_flanks` (P, 2, 2): as of `window.ends_of`.
+    `ends` (P + 1,): where the nodes of each pair begin and end; `of_flanks` (P, 2, 2): as in `window.ends_of`.
     """
     on_edge = np.zeros((4, ends[-1]), dtype=bool)
     half = 0.5 * cycle.grid.length * (1.0 - 1e-9)
@@ -238,7 +238,7 @@ class SideBySide:
         return other
 
     def slot_of(self, place: int | np.ndarray, index: int | np.ndarray) -> np.ndarray:
-        """Slot of the tooth pair of that index at a step, given by its place; or those of many."""
+        """Slot of the tooth pair of that index at a step, given by its place; or of many pairs."""
         return (self.cycles[place] - index + self.first_number) % self.slots
 
     @property

@@ -1,7 +1,7 @@
 """Orders of a record, their sources (the mesh, a turn of either gear, waves on the flanks), and the sidebands of mesh
 harmonics.
 
-Windows are those of `scipy.signal.windows`; their figures after F. J. Harris, On the use of windows for harmonic
+Windows are taken from `scipy.signal.windows`, their figures from F. J. Harris, On the use of windows for harmonic
 analysis, Proc. IEEE 66 (1978).
 """
 
@@ -69,8 +69,8 @@ class OrderLines:
 
 @dataclass(frozen=True)
 class Sidebands:
-    """A mesh harmonic with its sidebands: the square of its own amplitude, and the sums of squares of those at shaft
-    orders beside it. One that belongs to either gear counts with both, and once in `all`."""
+    """A mesh harmonic with its sidebands: the square of its own amplitude, and the sums of squares of the amplitudes at
+    shaft orders around it. One that belongs to either gear counts with both, and once in `all`."""
 
     line: float
     pinion: float

@@ -36,8 +36,8 @@ STAGES = {
 
 
 def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[Row]:
-    """Rows of label, value, unit: results, solver, times (of `stages`, names and seconds, else those of the result),
-    warnings; warnings that make the numbers wrong stand first."""
+    """Rows of label, value, unit: results, solver, times, warnings. Warnings that make the numbers wrong are first.
+    `stages`: names and seconds, in place of the times of the result."""
     said = dataset.attrs.get("warnings", "").splitlines()
     first = [warning for warning in said if NO_MEANING in warning or FEWER_THAN_THE_PERIOD in warning]
     spent = [(name, seconds_in_words(seconds), "") for name, seconds in stages] or stage_rows(dataset)

@@ -1,5 +1,5 @@
 """The numbers of runs that are marched together, where a few numbers and no dataset are asked for. The functions are
-those of `results.dataset`.
+the same as in `results.dataset`.
 
 A run that would have a warning is run by itself: where contact is lost, gears pass through each other, or steps are
 divided or have no solution.

@@ -29,8 +29,8 @@ Line = dict[str, Any]
 
 @dataclass(frozen=True)
 class FolderOfLines:
-    """A folder of lines, each what `line_of` makes of a run and its result, with at least the `numbers` that are
-    `asked` for; with `failure` why there is nothing, also of a result that has no meaning."""
+    """A folder of lines, each made by `line_of` of a run and its result, with at least the `numbers` that are `asked`
+    for. `failure` says why there are none, also where the result has no meaning."""
 
     directory: Path
     line_of: Callable[[Run, RunResult | NumbersOfRun], Line]

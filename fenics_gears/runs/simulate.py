@@ -24,7 +24,7 @@ from fenics_gears.system.progress import Progress, SilentProgress
 if TYPE_CHECKING:
     from fenics_gears.results.journal import JournalPlace
 
-# The remedy where a warning recommends a setting, for settings may not stand beside a target.
+# The remedy where a warning recommends a setting, for a scene may not have both settings and a target.
 OTHER_SETTINGS = (
     "a warning names settings of [accuracy]: take a smaller target, or change the chosen settings, which the result's"
     " scene has"

@@ -14,7 +14,7 @@ def seconds_of(result: RunResult) -> tuple[float, float, float]:
 @dataclass
 class Spent:
     """How many runs were `computed`, in how many `seconds` by the clock on so many `processes`; `of_runs`: seconds of
-    all, as of `seconds_of`."""
+    all, as in `seconds_of`."""
 
     processes: int = 1
     computed: int = 0

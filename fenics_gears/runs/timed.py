@@ -29,7 +29,7 @@ class Times:
     march: tuple[float, ...] = ()
 
     def and_also(self, run: xr.Dataset) -> Times:
-        """These times with those of one more run."""
+        """These times and the times of one more run."""
         return Times(*((*getattr(self, stage), float(run.attrs[f"time_{stage}"])) for stage in STAGES))
 
     @property

@@ -2,9 +2,9 @@
 centre distance, tip radius of the rack, tooth thickness.
 
 ISO 21771 (DIN 3960), in normal modules: d_a = d + 2 m_n (x + h_aP + k), d_f = d + 2 m_n (x_E - h_fP), inv(alpha_wt) =
-inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2). x is the profile shift of the drawing and x_E that of the thickness,
-at which the rack cuts flanks and root; they differ by the allowance where a thickness or a backlash is given beside x.
-k shortens the tips, so that their clearance stays the rack's when a is less than a_d + (x1 + x2) m_n.
+inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2). x is the profile shift of the drawing. x_E is that of the thickness,
+at which the rack cuts flanks and root. They differ by the allowance where a thickness or a backlash is given as well as
+x. k shortens the tips, so that their clearance stays the rack's when a is less than a_d + (x1 + x2) m_n.
 """
 
 from collections.abc import Iterable, Sequence

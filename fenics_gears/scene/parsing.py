@@ -63,7 +63,7 @@ def _of_no_field(path: tuple[str, ...], value: Any) -> Iterator[Problem]:
 def values_of_text(
     text: str, name: str, *, source: str | None = None, directory: Path = Path(), with_lines: bool = True
 ) -> dict[str, Any]:
-    """The fields of the scene that a TOML text describes, by name; arguments and errors are those of
+    """The fields of the scene that a TOML text describes, by name; arguments and errors as in
     `read.scene_from_text`."""
     source = source or name
     tree = parsed(text, source)
@@ -117,8 +117,9 @@ def _measured_over(drawn) -> tuple[int | None, float | None]:
 def _motion(checked) -> Motion:
     """A turn of the pinion has as many mesh cycles as it has teeth.
 
-    Cycles that are run, unless given: one, or a whole hunting tooth period where cycles differ, after those of a
-    settling time. Cycles that are recorded, unless given: the last two; of a speed ramp or a whole period all that fit.
+    Cycles that are run, unless given: one, or a whole hunting tooth period where cycles differ; the cycles of a
+    settling time come before them. Cycles that are recorded, unless given: the last two; of a speed ramp or a whole
+    period all that fit.
     """
     motion = checked.motion
     gears = checked.gears

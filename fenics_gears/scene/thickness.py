@@ -13,7 +13,7 @@ from .gear_schema import Gear as GearText
 from .schema import Derived
 
 # Largest difference, in modules, of the profile shift of a thickness from that of the drawing, and largest profile
-# shift that a thickness alone may stand for: one spanned tooth more or less is a shift of 4.3 at 20 deg.
+# shift that a thickness alone may mean. One spanned tooth more or less is a shift of 4.3 at 20 deg.
 LARGEST_ALLOWANCE = 0.5
 LARGEST_SHIFT = 2.0
 

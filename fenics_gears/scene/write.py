@@ -113,7 +113,7 @@ def _web(web: Web, face_width: float) -> dict[str, Any]:
 
 def _length_of(share: float, whole: float) -> float:
     product = share * whole
-    # The quotient is rounded too: a number beside the product may be the one that gives the share.
+    # The quotient is rounded too: a neighbour of the product may be the number that gives the share.
     near = (product, math.nextafter(product, math.inf), math.nextafter(product, -math.inf))
     return next((each for each in near if each / whole == share), product)
 

@@ -16,7 +16,7 @@ from .run import ShownRun
 
 ACROSS = "Distance along the axes from the middle of the common face (mm)"
 ROWS = 200
-# Times the pressure of the step beside it, from which a peak is that of an edge and not of the flank.
+# A peak is an edge's and not the flank's from this many times the pressure of a neighbouring step.
 EDGE_PEAK = 2.0
 NOTE = "Averaged over five contact nodes; between steps the peak is interpolated along the flank."
 GEARS = ("pinion", "wheel")

@@ -58,7 +58,7 @@ def face_picture(
     mesh: GearsInMesh, dataset: xr.Dataset, scale: float, limit: float, beyond: bool, dpi: float
 ) -> Figure:
     """Both gears in mesh, and the loaded teeth of each alone; `scale`: of the displacements of the teeth from the hubs.
-    limit, beyond: as of `stress_picture`. Raises ComputationError without pyvista."""
+    limit, beyond: as in `stress_picture`. Raises ComputationError without pyvista."""
     figure = Figure(figsize=(16.0, 9.0), dpi=dpi)
     tiles = [pressed_tiles(mesh, dataset, gear, scale) for gear in (0, 1)]
     highest = rounded_up(dataset.attrs.get("peak_contact_pressure", 0.0) or float(tiles[0].pressure.max(initial=0.0)))

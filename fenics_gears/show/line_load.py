@@ -61,7 +61,7 @@ def _of_pair(run: ShownRun, side: str, loads: np.ndarray, phase: np.ndarray, sli
     first = int(since[known].min())
     own = np.zeros((int(since[known].max()) - first + 1, loads.shape[2]))
     np.maximum.at(own, since[known] - first, loads[known])
-    # Phases of the steps are those of the last one and whole steps before it.
+    # Phases of the steps are whole steps before that of the last one.
     positions = pair.path_start, pair.pitch_point, pair.path_end
     start, pitch, end = sorted(passing(pair, position, side) for position in positions)
     last = float(phase[-1]) - step * round(float(phase[-1]) / step)

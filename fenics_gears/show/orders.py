@@ -92,7 +92,7 @@ def order_spectrum(run: ShownRun) -> Chart | None:
 
 
 def _flags(lines: OrderLines, teeth: int, known: list[tuple[float, str]], bottom: float, highest: float) -> list[Flag]:
-    """Mesh orders, orders that one cause is known for, and a turn of the pinion beside the mesh order where it stands
+    """Mesh orders, orders with one known cause, and orders a turn of the pinion from a mesh order where they stand
     out."""
     flags = [
         Flag(each * teeth, lines.at(each * teeth), "mesh" if each == 1 else f"{each} × mesh", PALETTE[0])
@@ -128,8 +128,8 @@ def mesh_order_chart(run: ShownRun, name: str, unit: str, spectrum: Spectrum) ->
 
 
 def spectrum(run: ShownRun, values: np.ndarray) -> Spectrum:
-    """The mesh orders of values (time,): of whole hunting tooth periods where these are stored at a steady speed, so
-    that what comes with a turn of either gear stands apart; else of whole mesh cycles."""
+    """The mesh orders of values (time,). Where whole hunting tooth periods are stored at a steady speed, they are
+    taken, so that orders of either gear's rotation are separate; else whole mesh cycles."""
     scene = run.scene
     if scene is not None and scene.speed_ramp is None:
         teeth = scene.gears.pinion.teeth, scene.gears.wheel.teeth

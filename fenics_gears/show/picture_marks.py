@@ -44,7 +44,7 @@ def _note(axes: Axes, words: str, point, offset) -> None:
 
 
 def name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
-    """Names in the bores, or above or beside too small ones; which gear drives, and the sense in which either turns."""
+    """Names in the bores, or above or next to small ones; which gear drives, and the sense in which either turns."""
     bottom, top = axes.get_ylim()
     height = axes.get_position().height * axes.figure.get_figheight() * 72.0
     point = (top - bottom) / height

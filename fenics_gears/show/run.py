@@ -184,7 +184,7 @@ class ShownRun:
 
 
 def _with_ends(there: np.ndarray) -> np.ndarray:
-    """Where there are values (time,), and beside these, so that curves begin and end at zero."""
+    """Where there are values (time,), and one step before and after, so that curves begin and end at zero."""
     near = there.copy()
     near[1:] |= there[:-1]
     near[:-1] |= there[1:]

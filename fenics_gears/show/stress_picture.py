@@ -44,8 +44,8 @@ FRAME_WIDTH = 9.6
 
 
 def colour_limit(meshes: list[GearsInMesh]) -> float:
-    """Stress (MPa) at which the colours end: the largest, or a multiple of that in the fillets where contact exceeds it
-    by far; over the face the largest in the roots."""
+    """Stress (MPa) at which the colours end: the largest or, where contact exceeds it by far, a multiple of the largest
+    in the fillets. Over the face it is the largest in the roots."""
     roots = max(_stress_of_roots(mesh) for mesh in meshes)
     if meshes[0].over_face:
         return rounded_up(roots)
@@ -63,7 +63,7 @@ def still(mesh: GearsInMesh, dataset: xr.Dataset, scale: float | None = None) ->
 
 
 def charts_of(mesh: GearsInMesh) -> tuple[str, list[Chart]]:
-    """What the picture of one time shows, in words, and charts beside it."""
+    """What the picture of one time shows, in words, and the charts next to it."""
     if not mesh.over_face:
         return "Von Mises stress", []
     return "Contact pressure and von Mises stress", [root_tension(mesh)]

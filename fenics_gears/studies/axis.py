@@ -62,7 +62,7 @@ def unit_of(values: tuple[Any, ...]) -> str:
 
 
 def values_of(path: Path, written: Any) -> tuple[Any, ...]:
-    """The values of a swept field: those listed, or those of a range. Raises AxisError."""
+    """The values of a swept field, listed or from a range. Raises AxisError."""
     if isinstance(written, Mapping):
         values = _range(written)
     elif isinstance(written, list):

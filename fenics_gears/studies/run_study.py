@@ -42,7 +42,7 @@ def run_study(
 ) -> Outcome | None:
     """Run what is missing of a study and write its dataset; None on every rank of an MPI job but 0.
 
-    output: as of `index.directory_of`; meanwhile: as in `ranks`. Raises SceneError, before anything is computed or
+    output: as in `index.directory_of`; meanwhile: as in `ranks`. Raises SceneError, before anything is computed or
     written, where the study is wrong; ComputationError where its directory cannot be used.
     """
     with ranks(meanwhile) as team:

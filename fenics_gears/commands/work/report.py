@@ -54,7 +54,7 @@ def run_or_study_file(path: Path) -> tuple[Path, bool]:
 
 
 def output_file(asked: Path | None, file: Path, is_study: bool) -> Path:
-    """The page's file: as asked for, in the directory asked for, or beside the result; a study's case has its own
+    """The page's file: as asked for, in the directory asked for, or in that of the result; a study's case has its own
     name."""
     own = file.name in (RUN_FILE, STUDY_FILE, JOURNAL)
     name = REPORT_FILE if own else f"{file.stem}.html"

@@ -23,10 +23,10 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
     `mesh_frequency` and `order` of a ramp.
 
     `..._sideband_energy` over `harmonic` and `gear`: sum of squares of the sidebands of a mesh harmonic at whole turns
-    of a gear; `..._sideband_ratio`: of those of both gears, each once, to the square of the harmonic, NaN where that
-    is round-off; both NaN where the record cannot tell them apart. window: one of `spectrum.WINDOWS`; None: none, over
-    whole hunting tooth periods or else whole mesh cycles, and the flat top for a ramp. Raises ComputationError for a
-    record too short to have mesh orders apart.
+    of a gear. `..._sideband_ratio`: the sum over the sidebands of both gears, each once, over the square of the
+    harmonic; NaN where that is round-off. Both are NaN where the record cannot tell them apart. window: one of
+    `spectrum.WINDOWS`; None: none, over whole hunting tooth periods or else whole mesh cycles, and the flat top for a
+    ramp. Raises ComputationError for a record too short to have mesh orders apart.
     """
     gears = carried_scene(result).gears
     ramp = "mesh_frequency" in result

@@ -63,9 +63,9 @@ def optimize(
     """Search the best design and look at it from all sides; None on every rank of an MPI job but 0. Finished runs are
     kept in `runs` of the directory, `results/<name of the design file>` unless `output`.
 
-    Raises SceneError, before anything is computed, where the design file is wrong or the work takes more than
-    `expected.MOST_HOURS`, unless `any_time`; ComputationError where the directory cannot be used or no design keeps the
-    constraints; KeyboardInterrupt at Ctrl-C.
+    Raises SceneError, before anything is computed, where the design file is wrong, or where the work takes more than
+    `expected.MOST_HOURS` and not `any_time`. Raises ComputationError where the directory cannot be used or no design
+    keeps the constraints, and KeyboardInterrupt at Ctrl-C.
     """
     with ranks() as team:
         if team is None:

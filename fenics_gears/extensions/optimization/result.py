@@ -97,7 +97,7 @@ def harris_dataset(outcome: SearchOutcome) -> xr.Dataset:
 
 
 def best_scene(outcome: SearchOutcome) -> str:
-    """The chosen design as the text of a scene file beside the result."""
+    """The chosen design as the text of a scene file in the folder of the result."""
     tree = outcome.design.scene_tree(outcome.chosen.values)
     for path, is_section in known_paths().items():
         name = None if is_section else value_at(tree, *path)

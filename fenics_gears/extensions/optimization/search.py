@@ -1,4 +1,4 @@
-"""The search for the best designs, by samplers of Optuna: for one goal over ranges CMA-ES (covariance matrix
+"""The search for the best designs, by samplers of Optuna. For one goal over ranges it is CMA-ES (covariance matrix
 adaptation), else TPE (tree-structured Parzen estimators), which takes words and several goals too.
 
 Designs are asked for and told in whole populations and in order. So the same seed tries the same designs whatever the

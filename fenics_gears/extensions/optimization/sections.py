@@ -224,7 +224,7 @@ class Sections:
         return self._own("search", Search)
 
     def _own(self, table: str, section: type[Section]) -> Any:
-        """What a section has of its own beside paths; its defaults, with mistakes noted, where it is wrong."""
+        """A section's own fields, without paths; its defaults, with mistakes noted, where it is wrong."""
         own = {name: value for name, value in self.table(table).items() if name in names_in(section)}
         part, problems = read(section, own, (table,))
         for problem in problems:

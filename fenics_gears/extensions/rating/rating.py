@@ -199,7 +199,7 @@ def _flash(operation: Operation, result: xr.Dataset) -> list[RatingRow]:
     places = pair.path_start + since * pair.base_pitch
     # Teeth that bend touch a little before and after the path of contact, where the formula's speeds are not theirs.
     on_path = (places >= pair.path_start) & (places <= pair.path_end) & np.isfinite(forces)
-    # The standard's line force is in the transverse section; those of the run are along the contact normal.
+    # The standard's line force is in the transverse section; line forces of the run are along the contact normal.
     transverse = pair.cosine * forces[on_path] / pair.face_width
     computed = flash_temperature(pair, operation.materials, places[on_path], transverse, *at_work)
     return [RatingRow("flash temperature", "K", float(standard.max()), float(computed.max(initial=0.0)))]

@@ -90,8 +90,8 @@ def _pressure_angle(stage: Stage) -> Value:
 
 
 def _face_widths(stage: Stage) -> list[Value]:
-    """One for both gears, or that of each: where the common width is less than both, the file does not say at which
-    ends they stand out, and it holds for both."""
+    """One for both gears, or one of each. Where the common width is less than both, the file does not say at which ends
+    they are wider, and the common width holds for both."""
     common = first(stage, "common_face_width")
     own = [first(part, "face_width") for part in stage.named.values()]
     widths = [width for width in own if width is not None]

@@ -1,9 +1,9 @@
 """Lead modifications of the loaded flanks: crowning, helix slope and end relief.
 
 A modification's component has amounts at the datum face and at the opposite one, and coordinates from mid-width,
-negative towards the datum face. Left and right flank are those that an observer at the datum face sees (ISO 21771). The
-scene's +z looks on a pinion that turns counter-clockwise, so that both loaded flanks are left ones from there: the
-datum face is the scene's right end where the left flank is loaded, its left end where the right one is.
+negative towards the datum face. Left and right flank are those that an observer at the datum face sees (ISO 21771).
+From the scene's +z the pinion turns counter-clockwise, so that both loaded flanks are left ones from there. The datum
+face is the scene's right end where the left flank is loaded, its left end where the right one is.
 """
 
 from math import isclose

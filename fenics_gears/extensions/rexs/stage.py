@@ -204,7 +204,7 @@ def _first_drives(train: Train, stage: Component, first: GearParts, second: Gear
 
 
 def _side_by_torque(train: Train, stage: Component, gear: Component) -> str | None:
-    """The side of a gear's teeth that its torque loads, as seen from its datum face with the tooth upwards; None where
+    """The side of a gear's teeth that its torque loads, looking from its datum face with the tooth upwards; None where
     that does not follow."""
     if "datum_face_orientation" not in gear.attributes:
         return None

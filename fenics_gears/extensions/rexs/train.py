@@ -47,9 +47,10 @@ class _Mesh:
 
 @dataclass(frozen=True)
 class Share:
-    """What one load brings to a gear: the torque (N mm) about the axis of what turns with it, whose sign is known or
-    not; the power it puts into the train, by the speed of its own shaft, None where the file does not say that (signs
-    of shafts that turn the other way are often not meant); where it is from; the stages on the way."""
+    """The part of one load in a gear: the torque (N mm) about the gear's axis, whose sign is known or not; the power
+    that the load puts into the train; its origin; and the stages on the way. The power follows from the speed of the
+    load's own shaft, None where the file does not give it: signs of shafts that turn the other way are often not
+    meant."""
 
     number: float
     signed: bool
@@ -96,8 +97,8 @@ class Train:
         return None
 
     def torque(self, gear: Component, stage: Component) -> float | None:
-        """Torque (N mm) about a gear's own axis, with its sign, that comes to a stage from this gear's side; None where
-        that does not follow: by the loads there, or by those beyond the mate."""
+        """Torque (N mm) about a gear's own axis, with its sign, that comes to a stage from this gear's side. It follows
+        from the loads there or from the loads beyond the mate; None where it does not."""
         mesh = next((each for each in self._meshes if each.stage.id == stage.id), None)
         if mesh is None or not mesh.plain:
             return None
@@ -212,8 +213,9 @@ class Train:
         )
 
     def _sense(self, mesh: _Mesh) -> float | None:
-        """1 where torques of both gears about their axes have one sign: of external gears whose axes point alike, of
-        bevel gears whose axes both point to where they cross; -1 where they have not; None where that is not known."""
+        """1 where torques of both gears about their axes have one sign, -1 where they have two, None where that is not
+        known. One sign have external gears whose axes point alike, and bevel gears whose axes both point to where they
+        cross."""
         one, other = (self._axis_of(self._turning(gear)) for gear in mesh.gears)
         if mesh.stage.type == "cylindrical_stage":
             alike = _alike(one, other)

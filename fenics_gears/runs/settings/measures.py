@@ -29,15 +29,15 @@ FACE_LOAD = "face load factor"
 LARGEST_LOAD = "largest line load"
 OVER_FACE = (LINE_LOAD, FACE_LOAD, LARGEST_LOAD)
 # And the mean transmission error, by which nothing is judged: modifications shift it, and may leave nothing of it. At a
-# whole overlap next to nothing of the curve is left: where its height is below this part of the mean, errors of curve
-# and height count in parts of a sine of that height.
+# whole overlap the curve is nearly flat. Where its height is below this part of the mean, errors of curve and height
+# count in parts of a sine of that height.
 MEAN = "mean T_E"
 LEAST_SPAN = 0.1
 # Settings are judged by both of these: a curve may have the right height and the wrong shape. Over the face they are
 # judged by its measures too.
 JUDGED = (CURVE, SPAN)
-# Places at which line loads are compared, and the part of the face that these take: further out line loads are those
-# of edges.
+# Places at which line loads are compared, and the part of the face that these take: further out line loads are of
+# edges.
 PLACES = 41
 PART_OF_FACE = 0.8
 # Curves are compared at the phases that all of them have, unless these are fewer.
@@ -65,8 +65,8 @@ def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> 
 
 
 def judged_answer(run: xr.Dataset) -> Answer:
-    """The measures that settings are judged by: the curve (n,), mm at the wheel's base circle, is T_E at the steps of
-    the last mesh cycle, of which the last has phase 1, its mean removed; and T_EPP."""
+    """The measures that settings are judged by: a curve (n,) and T_EPP, mm at the wheel's base circle. The curve is T_E
+    less its mean at the steps of the last mesh cycle, of which the last has phase 1."""
     curve = run["transmission_error"].values[_last_cycle(run)]
     height = run.attrs["peak_to_peak_transmission_error"]
     radius = run.attrs["base_radius_wheel"]
@@ -91,8 +91,9 @@ def comparable(values: Sequence[np.ndarray], name: str) -> list[np.ndarray]:
     """The same measure of several runs as arrays of one shape: curves at their common phases, their means over these
     removed.
 
-    Curves (n_i,) have the phases k/n_i of the greatest common divisor of all n_i in common; where it is below
-    FEWEST_PHASES, all are taken at the phases of the one with fewest steps, straight between the steps of the others.
+    Curves (n_i,) are compared at their common phases k/n, with n the greatest common divisor of all n_i. Where n is
+    below FEWEST_PHASES, all are taken at the phases of the one with fewest steps, straight between the steps of the
+    others.
     """
     counts = [len(value) for value in values]
     if name != CURVE or len(set(counts)) == 1:
@@ -148,7 +149,7 @@ def measures_of(names: Container[str]) -> tuple[str, ...]:
 
 
 def judged(errors: dict[str, float]) -> float:
-    """The one number by which settings are compared; the plane beside a face is not charged for what it lacks."""
+    """The one number by which settings are compared; a plane model of a face is not charged for what it lacks."""
     over_face = [errors[name] for name in OVER_FACE if not np.isnan(errors.get(name, np.nan))]
     return max([errors[name] for name in JUDGED] + over_face)
 

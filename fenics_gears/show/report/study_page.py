@@ -85,7 +85,7 @@ def _failures(cases: Cases) -> PageSection:
 
 
 def _warnings(cases: Cases) -> PageSection:
-    """Each kind of warning once, with the cases it is said of; numbers in it are those of the first."""
+    """Each kind of warning once, with its cases; numbers in it are of the first case."""
     said: dict[str, list[tuple[int, str]]] = {}
     for case, text in enumerate(cases.texts("warnings")):
         for line in text.splitlines():

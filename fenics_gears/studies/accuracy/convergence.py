@@ -1,9 +1,9 @@
 """Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy`.
 
 Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: the error of the finest
-run is the last change over r^p - 1, with r the ratio of sizes and p the order, times a safety factor: 1.25 for three
-runs and more, which show their order; without an observed order the error is three times the last change: 1.25 times
-the 2.4 that h^0.5 leaves where sizes halve.
+run is the last change over r^p - 1 times a safety factor, with r the ratio of sizes and p the order. The factor is 1.25
+for three runs and more, which show their order. Without an observed order the error is three times the last change:
+1.25 times the 2.4 of h^0.5 where sizes halve.
 """
 
 from collections.abc import Mapping, Sequence
@@ -25,12 +25,12 @@ MOST_ORDER = 10.0
 # order than this.
 LEAST_TRUSTED = 0.5
 MOST_ABOVE_EXPECTED = 1.0
-# A limit and its order are found from so many of the finest terms.
+# A limit and its order follow from so many of the finest terms.
 LAST_TERMS = 3
 ROUND_OFF = 1e-10
-# Cosine of the angle between the last two changes: above the first the limit is extrapolated; kinks that move between
-# steps give changes in any direction whose length still falls with an order; below the second, where changes turn back,
-# there is no order.
+# Cosine of the angle between the last two changes. Above the first the limit is extrapolated. Between them changes have
+# any direction, as by kinks that move between steps, but their length still falls with an order. Below the second
+# changes turn back, and there is no order.
 LEAST_COSINE = 0.5
 TURNED_BACK = -0.5
 
@@ -38,8 +38,8 @@ TURNED_BACK = -0.5
 @dataclass(frozen=True)
 class Limit:
     """The limit of a sequence: `value`, shaped as its terms; observed `order`, None without one; `uncertainty`, L2 norm
-    of its error; `least_error`: of the last term where that is taken as the limit: by its order, or the last difference
-    without one."""
+    of its error; `least_error`: error of the last term where that is taken as the limit, by its order or, without one,
+    the last difference."""
 
     value: np.ndarray
     order: float | None

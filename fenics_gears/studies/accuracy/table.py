@@ -53,7 +53,7 @@ def table_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
 
 
 def whole_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
-    """A row for each combination of settings and each cheaper model; those of the Pareto front are marked."""
+    """A row for each combination of settings and each cheaper model; rows of the Pareto front are marked."""
     front = report.front
     rows = []
     for each in (*report.settings, *report.targets, *report.models):

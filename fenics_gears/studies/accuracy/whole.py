@@ -1,6 +1,6 @@
 """Whole settings: a path of them from coarse to fine, and the Pareto front. Errors may cancel in one run and add up at
-another load or speed: the total error of a whole setting is the sum of its parts' errors, each measured with the others
-fine, or its own distance from the reference where that is larger."""
+another load or speed. So the total error of a whole setting is the sum of its parts' errors, each measured with the
+others fine, or its own distance from the reference where that is larger."""
 
 from collections.abc import Mapping, Sequence
 from functools import reduce
@@ -53,7 +53,7 @@ def path(
 ) -> list[Setting]:
     """Whole settings from the coarsest on: from one to the next the setting with the largest error, weighed by WAITS,
     goes one level finer. The path ends where the sum of errors is below `enough`, or where that setting has no finer
-    level that is `allowed`; its end is kept. Choices, such as the element, are those of `base`."""
+    level that is `allowed`; its end is kept. Choices, such as the element, are taken from `base`."""
     moving = {
         each.name: each
         for each in refinements

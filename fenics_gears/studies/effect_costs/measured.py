@@ -78,7 +78,7 @@ class EffectReport:
 
     @property
     def of_face(self) -> tuple[str, ...]:
-        """The numbers that a report tells beside the others where runs have a load over their face."""
+        """The numbers that a report adds where runs have a load over their face."""
         return () if all(isnan(row.face_load_factor) for row in self.rows) else ("face_load_factor", "peak_pressure")
 
     def row(self, kind: str, effect: str = "") -> MeasuredRow | None:
