@@ -6,8 +6,8 @@ Exit codes:
 * 2: the scene or the call is wrong. Nothing is written.
 * 3: the computation failed or cannot fit into memory. The steps computed are kept, marked incomplete.
 * 4: the run ended with a result that has no meaning. It is kept, with the reason.
-* 5: the result is complete and kept, but a later stage failed: proposals, factors, pictures, the summary. A warning says
-  which.
+* 5: the result is complete and kept, but a later stage failed: proposals, factors, pictures, the summary. A
+  warning says which.
 * 130: interrupted by Ctrl-C. The steps computed are kept.
 * 141: the standard output could not be written, as when the program that reads it closed the pipe.
 """
