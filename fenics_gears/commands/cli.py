@@ -144,7 +144,7 @@ def _configure_logging(verbose: bool) -> None:
 
 
 class Parser(argparse.ArgumentParser):
-    """Of the command line, and of each command: argparse makes those of the same class."""
+    """Of the command line, and of each command: argparse makes their parsers of the same class."""
 
     def error(self, message: str) -> NoReturn:
         super().error(in_words(message, self))

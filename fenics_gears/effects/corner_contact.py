@@ -38,7 +38,7 @@ class CornerContact(Edge):
 
 
 def route_has_corners(tree: Tree) -> Broken:
-    """Remeshing at every step has no nodes beside the path of contact."""
+    """Remeshing at every step has no nodes off the path of contact."""
     if "corner_contact" in tree and value_at(tree, "accuracy", "condensation") == "every step":
         message = (
             'has no contact of tips off the line of action. Take "once", or leave the section [corner_contact] out.'

@@ -66,7 +66,8 @@ class Effect:
 
     ``removal(data, pair)``: material removed from pinion and wheel, two functions of the roll angle (rad), mm.
     ``gaps(data, model)``: a function of a step and its position: additional gaps of the contact nodes (n,), mm.
-    ``load(data, model)``: a function of a step: forces on the centre coordinates (k,), N, besides the constant load.
+    ``load(data, model)``: a function of a step: forces on the centre coordinates (k,), N, in addition to the constant
+    load.
     ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
     ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of
     teeth; None for that of equal teeth.

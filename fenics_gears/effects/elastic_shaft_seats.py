@@ -24,7 +24,7 @@ OFF_THE_BORE = 0.01
 
 
 def seated(shaft: ElasticShaft, seat: str, gear: Gear, material: Material) -> ElasticShaft:
-    """A shaft with a gear of a material on a seat that gives way."""
+    """A shaft with a gear of a material on an elastic seat."""
     if seat == PRESS_FIT:
         return replace(shaft, hub=hub_of(shaft, gear, material))
     face = shaft.seat_ends

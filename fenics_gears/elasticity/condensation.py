@@ -77,7 +77,7 @@ def by_radius(points: np.ndarray) -> np.ndarray:
 
 
 def line_of(mesh: BodyMesh, name: str, order: int) -> np.ndarray:
-    """Nodes (k, 2) of an element of that order on a part of a mesh's boundary, those of the hub excepted, by radius."""
+    """Nodes (k, 2) of an element of that order on a part of a mesh's boundary without the hub, by radius."""
     return by_radius(without(mesh.edge_nodes(name, order), mesh.edge_nodes("hub", order)))
 
 

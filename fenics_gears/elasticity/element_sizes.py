@@ -25,7 +25,7 @@ class ElementSizes:
     along the coast flank and the tip. body: largest size in the tooth and the rim below it; further inside elements go
     on growing. growth: increase of size per distance. both_flanks: the coast flank works too, meshed as the drive
     flank's mirror image. hub_angle: largest angle (rad) of an edge along the bore. mate_tip: roll angles (rad) between
-    which the mate's tip edge may press on the flank; there, and beside the flank's own tip, elements are finer.
+    which the mate's tip edge may press on the flank; there, and near the flank's own tip, elements are finer.
     """
 
     flank: float

@@ -2,7 +2,7 @@
 accurate, averaged where elements meet.
 
 That is (Barlow, International Journal for Numerical Methods in Engineering 10, 1976) the middle of first-order cells
-and the 2 x 2 Gauss points of Q2; of P2 it is linear and taken at the nodes. Swept elements are those of
+and the 2 x 2 Gauss points of Q2; of P2 it is linear and taken at the nodes. Swept elements are as in
 `face.swept_stiffness`.
 """
 
@@ -82,7 +82,7 @@ class NodalStress:
         for heights, gradients in self._layers:
             for height, gradient in zip(heights, gradients):
                 own = between @ gradient[chosen]
-                # Columns of the layer's dofs among those of the body.
+                # Columns of the layer's dofs among the body's.
                 placed = sparse.csr_matrix(
                     (own.data, own.indices + of_height * heights.start, own.indptr), (len(weights), rows.shape[1])
                 )

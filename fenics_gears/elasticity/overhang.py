@@ -42,7 +42,7 @@ def with_overhang(body: Section, gear: Gear, material: Material, share: float) -
 
 
 def near_field(gear: Gear, material: Material, roll_angle: np.ndarray) -> np.ndarray:
-    """L (2n, 2n), mm per N/mm: how flank nodes give way down to NEAR_DEPTH, by the half-plane's 2 (1 - nu^2)/(pi E)
+    """L (2n, 2n), mm per N/mm: compliance of flank nodes against NEAR_DEPTH, by the half-plane's 2 (1 - nu^2)/(pi E)
     ln(depth/distance), averaged over what each node stands for.
 
     As a convex function that falls to zero the logarithm, cut off at that depth, is positive definite (Polya's

@@ -33,7 +33,7 @@ class RecoveredSectors:
 
     sectors: numbers, pitches counter-clockwise of the first. displacement: (sectors, h, n, 2) in the plane, (sectors,
     h, n, 3) over the face, mm. stress: (sectors, h, n, 3, 3), MPa, averaged over the elements that meet at a node,
-    those of a neighbouring sector included that is there.
+    including elements of a neighbouring sector if it is recovered too.
     """
 
     sectors: tuple[int, ...]

@@ -66,7 +66,7 @@ def joined_blocks(held: np.ndarray, to_cuts: np.ndarray, link: np.ndarray, teeth
 
 def between_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Of a sector the flank's compliance with the cuts held, (minus) its motion per motion of the cuts, and the
-    stiffness between these, the flank free; frames as of `sector_cuts`."""
+    stiffness between these, the flank free; frames as in `sector_cuts`."""
     cuts, turn = sector_cuts(sector, teeth)
     coupling = sector.stiffness[np.ix_(sector.dofs("flank"), cuts)] @ turn
     held = definite_inverse(sector.between("flank", "flank"), "a flank")
@@ -85,7 +85,7 @@ def sector_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarr
 
 
 def sector_response(joint: CutResponse, offset: int) -> np.ndarray:
-    """Response (2 c, 2 c) of the cuts of the sector `offset` pitches ahead to forces on those of a sector; frames as of
+    """Response (2 c, 2 c) of the cuts of the sector `offset` pitches ahead to forces on a sector's cuts; frames as in
     `sector_cuts`."""
     return np.block([[joint(offset), joint(offset - 1)], [joint(offset + 1), joint(offset)]])
 
@@ -142,7 +142,7 @@ def harmonic_of(number: int, teeth: int) -> tuple[float, float]:
 
 def ring_work(link: np.ndarray, teeth: int, reach: int, responding: np.ndarray, loaded: np.ndarray) -> np.ndarray:
     """Reciprocal work (2 reach + 1, k, j) in a ring of forces (2 c, k) on the cuts of the sector m pitches ahead, m
-    from -reach to reach, and of forces (2 c, j) on those of a sector. `link`: a sector between its cuts. By harmonics,
+    from -reach to reach, and of forces (2 c, j) on a sector's cuts. `link`: a sector between its cuts. By harmonics,
     whose inverses need not be made: with ``U^H U`` the stiffness of one, its forces f enter by ``U^-H f``."""
     same, ahead = cyclic(link)
     offsets = np.arange(-reach, reach + 1)

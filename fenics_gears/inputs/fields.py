@@ -72,7 +72,7 @@ def number(
 def quantities(
     limits: str, *examples: str, meaning: str, otherwise: str, count: int | None = None, **marks: bool
 ) -> Any:
-    """A list of quantities, optional; limits of each entry as of a quantity.
+    """An optional list of quantities; each entry has limits as a quantity has.
 
     ``examples``: of two entries, or one for both; ``count``: of the entries, where it is fixed.
     """

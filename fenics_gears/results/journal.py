@@ -98,7 +98,7 @@ class Journal(ArraysInMemory):
         return _read(self._files[name], self.kinds[name], steps) if self._files else super().get(name, steps)
 
     def _write(self, first: int, count: int, values: Values) -> None:
-        """Write values of so many steps from `first` on, of contact fields those of the last of them, and their check
+        """Write values of so many steps from `first` on, contact fields of the last ones alone, and their check
         sums."""
         own = {name: np.ascontiguousarray(each, self.kinds[name].type) for name, each in values.items()}
         for name, each in own.items():

@@ -16,7 +16,7 @@ from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 
-# How many mesh cycles of the same gears are kept, such as of torques with other elements or contact nodes. The part of
+# How many mesh cycles of the same gears are kept, such as for torques with other elements or contact nodes. The part of
 # the memory for contact operators that they and their bodies may take in addition to another one.
 MOST_CYCLES = 8
 SHARE_OF_OTHERS = 0.35

@@ -165,7 +165,7 @@ def _a_target_chooses_alone(tree: Tree) -> Broken:
             message = f"{_NOT_BESIDE_A_TARGET.get(name, 'is chosen by accuracy.target')}. Leave one of the two out."
             yield ("accuracy", name), message
     if gears and not material_sections(tree):
-        yield place, "needs teeth that give way. Add [gears.material], or leave the target out."
+        yield place, "needs elastic teeth. Add [gears.material], or leave the target out."
     load = load_in(tree)
     if load is not None and load[1] == 0.0:
         home = ".".join(load[0])
@@ -180,7 +180,7 @@ def _root_stress_has_its_teeth(tree: Tree) -> Broken:
     if value_at(tree, *place) is not True:
         return
     if table(tree, "gears") is not None and not material_sections(tree):
-        yield place, "needs teeth that give way. Add [gears.material], or leave root_stress out."
+        yield place, "needs elastic teeth. Add [gears.material], or leave root_stress out."
     if accuracy.get("model", ELASTIC) != ELASTIC:
         yield place, f'needs teeth of finite elements. Take accuracy.model = "{ELASTIC}", or leave root_stress out.'
     if accuracy.get("condensation") == EVERY_STEP:

@@ -53,7 +53,7 @@ def _faces_are_resolved_by_elastic_contact(tree: Tree, reasons: Sequence[Path]) 
         beside = f"cannot stand beside {dotted(of_scene)}: flanks are then resolved over the face"
         yield ("body_meshes",), f"{beside}, and the mesh of a plane section is not. Leave one of the two out."
     if not material_sections(tree):
-        yield of_scene, "needs teeth that give way. Add [gears.material], or leave it out."
+        yield of_scene, "needs elastic teeth. Add [gears.material], or leave it out."
 
 
 def _class_is_for_the_faces(tree: Tree) -> Broken:

@@ -36,8 +36,8 @@ class Curve:
     """Values (n,) over places (n,) of the first axis, numbers or words; a band has values (2, n), its lower and upper
     edge.
 
-    width: of the line in pixels, or of bars along the first axis. fill: colour inside a closed line. words: beside each
-    place, on the side `beside` ("right", "top right").
+    width: of the line in pixels, or of bars along the first axis. fill: colour inside a closed line. words: next to
+    each place, on the side `beside` ("right", "top right").
     """
 
     name: str

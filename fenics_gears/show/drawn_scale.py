@@ -18,8 +18,7 @@ STEPS = (1.0, 2.0, 5.0)
 
 
 def automatic_scale(meshes: list[GearsInMesh]) -> float:
-    """The largest of 1, 2, 5, 10, ... at which displacements are well seen and no tooth is visibly drawn into
-    another."""
+    """The largest of 1, 2, 5, 10, ... at which displacements are visible and no tooth is visibly drawn into another."""
     module = meshes[0].pair.pinion.module
     wanted = SHOWN_MOVEMENT * module / max(max(largest_movement(mesh) for mesh in meshes), 1e-9 * module)
     scales = [step * 10.0**power for power in range(9) for step in STEPS if step * 10.0**power <= wanted]

@@ -105,7 +105,7 @@ REFUSED = [
     (HELICAL + '[body_meshes]\npinion = "a.msh"\n', "[body_meshes]", ["beside gears.helix_angle"]),
     (SPUR + LEAD + '[body_meshes]\npinion = "a.msh"\n', "[lead_modifications]", ["beside [body_meshes]"]),
     (HELICAL.replace('[gears.material]\nyoungs_modulus = "206 GPa"\npoissons_ratio = 0.3\n', ""),
-     'gears.helix_angle = "15 deg"', ["needs teeth that give way", "Add [gears.material]"]),
+     'gears.helix_angle = "15 deg"', ["needs elastic teeth", "Add [gears.material]"]),
     (HELICAL.replace('"15 deg"', '"0 deg"'), 'gears.helix_angle = "0 deg"', ["is zero",
      "For spur gears, leave it out"]),
     (HELICAL.replace('"left"', '"both"'), 'gears.pinion_hand = "both"', ["is not known", '"right", "left"']),

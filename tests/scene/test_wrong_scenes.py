@@ -138,7 +138,7 @@ SECTIONS = [
     ("damping", '[damping]\nratios = ["5 %"]', ["damping.ratios", "at place 1", "is a text, not a bare number"]),
     ("damping", "[damping]\nratios = [0, 0.0]", ["damping.ratios", "damps nothing"]),
     ("gears.material", '[gears.pinion.material]\nyoungs_modulus = "100 GPa"\npoissons_ratio = 0.3',
-     ["gears.wheel.material\n", "both give way or none", "[gears.material] for both"]),
+     ["gears.wheel.material\n", "both gears are elastic or none", "[gears.material] for both"]),
     ("gears.material",
      '[gears.pinion.material]\nyoungs_modulus = "100 GPa"\n[gears.wheel.material]\npoissons_ratio = 0.3',
      ["gears.pinion.material.poissons_ratio\n", "gears.wheel.material.youngs_modulus\n", "what both gears share"]),

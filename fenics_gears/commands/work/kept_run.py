@@ -38,7 +38,7 @@ def run_and_keep(model: Model, directory: Path, options: argparse.Namespace, job
             last_words = "" if kept.complete else f"Interrupted. {_incomplete(kept)}"
         except ComputationError as error:
             if getattr(error, "partial", None) is None or not error.partial.sizes["time"]:
-                # Nothing was done that an earlier result in the directory should give way to.
+                # Nothing was done that should replace an earlier result in the directory.
                 if is_journal(journal.directory):
                     said = f"What was done until then is in {journal.directory}; `gears plot {directory}` draws it."
                     raise ComputationError(f"{error}\n{said}") from error

@@ -79,7 +79,7 @@ class _CondensedPart:
 
     The surface is the flank (`flank` dofs), then the faces of cracks, all in the tooth's frame. own: (F, F), S_FF^-1.
     to_interface: (F, I), X. link: (I, I), stiffness of the interface, the surface free. dofs: (I,), the interface's
-    among those of all parts.
+    among the dofs of all parts.
     """
 
     own: np.ndarray

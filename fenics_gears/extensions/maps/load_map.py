@@ -148,8 +148,8 @@ def _by_pinion(speed: str) -> bool:
 
 
 def _frequencies(wanted: LoadMap) -> list[float | None]:
-    """Mesh frequencies (Hz) at which a load has torques of its own: None for the scene's, of a power also those of the
-    speeds."""
+    """Mesh frequencies (Hz) at which a load has a torque each: None for the scene's; a power has one at each speed
+    too."""
     speeds = wanted.speeds if wanted.scene.load.given == "power" else ()
     per_turn = wanted.scene.gears.pinion.teeth / (2.0 * pi)
     return [None, *(units.of_kind(each, *SPEED_KINDS)[0] * (per_turn if _by_pinion(each) else 1.0) for each in speeds)]
@@ -188,8 +188,8 @@ def _over_speed(wanted: LoadMap) -> dict[str, Any]:
 
 def shared_accuracy(wanted: LoadMap) -> dict[str, Any]:
     """Settings that the scene leaves to the program and that depend on the load: the same for all, so that all loads
-    share gears and contact operators. Flank elements are those of the geometric mean of the loads, the contact length
-    is that of the largest."""
+    share gears and contact operators. Flank elements suit the geometric mean of the loads, the contact length suits the
+    largest."""
     scene = wanted.scene
     given = wanted.scene.accuracy
     every = (wanted.wheel_torque(each, speed) for each in wanted.loads for speed in _frequencies(wanted))

@@ -131,7 +131,7 @@ def _relief_of(relief: Component, base: float, tip: float) -> Fields:
 
 def _start(relief: Component, base: float, tip: float) -> tuple[str, Value, float | None]:
     """Where a relief starts, as the field that a scene has for it: by the diameter, or by its length of roll (L_C, ISO
-    21771). The diameter (mm) of a tip relief's start beside it: a flank rolls through s = sqrt(d^2 - d_b^2)/2.
+    21771). The diameter (mm) of a tip relief's start comes with it: a flank rolls through s = sqrt(d^2 - d_b^2)/2.
     """
     where = (relief, f"{relief.type}_datum_diameter", "mm")
     by_length = (relief, f"{relief.type}_datum_length", "mm")

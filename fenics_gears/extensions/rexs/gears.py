@@ -1,4 +1,4 @@
-"""The gears of a stage: teeth, circles and material, given by the file, computed from it, or those of the standard."""
+"""The gears of a stage: teeth, circles and material, given by the file, computed from it, or the standard's."""
 
 from functools import partial
 from math import acos, atan, cos, hypot, isclose, tan

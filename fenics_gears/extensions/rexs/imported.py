@@ -38,8 +38,8 @@ def imported_scene(
 ) -> ImportedScene:
     """A pair of a REXS file as the text of a scene. Raises SceneError with all that is wrong.
 
-    `stage`, `load_case`: which stage and load case are meant, None for the only one; `wheel_torque`
-    and `pinion_speed`, of the driven and the driving gear, stand before those of the file.
+    `stage`, `load_case`: which stage and load case are meant, None for the only one; `wheel_torque` and `pinion_speed`,
+    of the driven and the driving gear, replace the file's.
     """
     by_call = _by_call("--wheel-torque", wheel_torque, "437 N m"), _by_call("--pinion-speed", pinion_speed, "750 rpm")
     model = read_model(path)

@@ -27,8 +27,8 @@ def loaded_model(model: RexsModel, case: str | None) -> RexsModel:
 
 
 def wheel_torque(model: RexsModel, stage: Stage, ratio: float) -> Value:
-    """The torque on the driven gear; ``ratio``: its teeth over those of the driving one. Raises ValueProblem where the
-    file gives none."""
+    """The torque on the driven gear; ``ratio``: its number of teeth over the driving gear's. Raises ValueProblem where
+    the file gives none."""
     for part, factor in ((stage.wheel, 1.0), (stage.pinion, ratio)):
         torque = first(part, "torque") or _torque_of_train(model, stage, part)
         if torque is not None:

@@ -61,7 +61,7 @@ def _start(content: bytes) -> bytes:
 
 
 def _packed(content: bytes) -> bytes:
-    """The one model in an archive; systems put files of their own beside it, whose names begin with a dot."""
+    """The one model in an archive. Operating systems add files of their own, whose names begin with a dot."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
             every = (name for name in archive.namelist() if name.endswith(ENDINGS))

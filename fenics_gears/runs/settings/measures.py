@@ -160,8 +160,8 @@ def _last_cycle(run: xr.Dataset) -> np.ndarray:
 
 
 def _pressure(run: xr.Dataset, window: float) -> np.ndarray:
-    """Pressure (phases, pairs, points), MPa, at common phases, those of the nearest steps, and offsets, in the middle
-    of the face; zero beyond a run's contact nodes."""
+    """Pressure (phases, pairs, points), MPa, in the middle of the face at common offsets and common phases, taken from
+    the nearest steps; zero beyond a run's contact nodes."""
     run = in_middle_slice(run)
     phase = run["contact_mesh_phase"].values
     numbers = run["contact_pair_number"]

@@ -15,7 +15,7 @@ LISTED_ORDERS = 10
 
 
 def motion(run: ShownRun) -> PageSection:
-    """Curves of all motions; first, which of the result's cycles are seen here and in what follows."""
+    """Curves of all motions; first, which of the result's cycles are drawn in this section and the next ones."""
     section = _section("motion", "Transmission error and motion", run, motion_charts)
     return replace(section, blocks=[*_cycles_shown(run), *section.blocks]) if run.has_curves else section
 

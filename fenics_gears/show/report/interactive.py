@@ -152,7 +152,8 @@ def escaped(text: str) -> str:
 
 
 def numbers(values: np.ndarray, digits: int = DIGITS) -> list:
-    """Values (n,) as a list of numbers with as many digits as are seen, None where there is none; words stay words."""
+    """Values (n,) as a list of numbers with as many digits as a chart shows, None where there is none; words stay
+    words."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiub":
         return [escaped(str(each)) for each in array]

@@ -26,11 +26,14 @@ REMESHED_FINE = {FLANK: 2.0, NODES: 2.0, BODY: 1.0, STEPS: 20}
 
 @dataclass(frozen=True)
 class Plan:
-    """What is refined and compared: `values` of the settings that are numbers, elements and contact nodes in a
-    half-width, body elements and the window in parts of their defaults, steps in a cycle; `choices` of the others; all
-    settings when another one is refined (`fine`, changed `beside` some); `elastic_teeth` that are compared; whether
-    gears `remeshed` at every step and `root_stress` are; `models`: cheaper ones; `targets` whose settings are run;
-    `rounds` of timing; `columns` of a legend."""
+    """What is refined and compared.
+
+    `values`: of the settings that are numbers: elements and contact nodes in a half-width, body elements and the window
+    in parts of their defaults, steps in a cycle. `choices`: of the other settings. `fine`: all settings while another
+    one is refined; `beside`: changes of these for some. `elastic_teeth` that are compared. `remeshed`, `root_stress`:
+    whether gears meshed at every step and root stress are compared. `models`: cheaper ones. `targets` whose settings
+    are run. `rounds` of timing. `columns` of a legend.
+    """
 
     values: dict[str, tuple[float, ...]]
     fine: dict[str, float]

@@ -190,7 +190,7 @@ def test_no_load_and_rigid_teeth_have_no_target(text):
     with pytest.raises(SceneError, match="has no meaning without a load"):
         scene_from_text(text.replace('"437 N m"', '"0 N m"'))
     rigid = text.partition("[gears.material]")
-    with pytest.raises(SceneError, match="needs teeth that give way"):
+    with pytest.raises(SceneError, match="needs elastic teeth"):
         scene_from_text(rigid[0] + "[load]" + rigid[2].partition("[load]")[2])
 
 
