@@ -88,9 +88,9 @@ def meshes_are_given_and_used(tree: Tree) -> Broken:
         return
     for gear in GEARS:
         if gear in section and value_at(tree, "gears", gear, "web") is not None:
-            message = f"cannot stand beside body_meshes.{gear}, which says where the body is. Leave one of the two out."
+            message = f"cannot be combined with body_meshes.{gear}, which says where the body is. Leave one out."
             yield ("gears", gear, "web"), message
-    beside = "cannot stand beside [body_meshes]"
+    beside = "cannot be combined with [body_meshes]"
     for name, allowed in (("model", "elastic"), ("condensation", "once")):
         written = value_at(tree, "accuracy", name)
         if written != allowed and isinstance(written, str):

@@ -32,13 +32,13 @@ def rules_of_elastic_shafts(tree: Tree) -> Broken:
     both = table(tree, "shafts") or {}
     if "torsional_stiffness" in both:
         message = (
-            "stands beside a shaft with sections, so that it is not clear whose it is. Leave it out, or give it to"
-            " [shafts.input] or [shafts.output]."
+            "is given together with a shaft with sections, so that it is not clear whose it is. Leave it out, or give"
+            " it to [shafts.input] or [shafts.output]."
         )
         yield ("shafts", "torsional_stiffness"), message
     for shaft in shafts_with_sections(tree):
         if "housing" in both and "housing" in (table(both, shaft) or {}):
-            message = "stands beside the housing of [shafts], which is that of both shafts. Leave one out."
+            message = "is given together with the housing of [shafts], which is that of both shafts. Leave one out."
             yield ("shafts", shaft, "housing"), message
         for name in ("gear_at", "torque_at"):
             if name not in (table(both, shaft) or {}):
@@ -53,7 +53,7 @@ def rules_of_elastic_shafts(tree: Tree) -> Broken:
             yield ("bearings", gear), message
         if "inertia" in tree and _has_no_density(tree, shaft, gear):
             message = (
-                "is missing: beside [inertia] the shaft's own mass counts, and nothing tells how dense it is. Allowed:"
+                "is missing: with [inertia] the shaft's own mass counts, and nothing gives its density. Allowed:"
                 ' such as "7.85 g/cm^3", here or as density of [inertia] or of the gear in it.'
             )
             yield ("shafts", shaft, "material", "density"), message
@@ -80,14 +80,13 @@ def rules_of_listed_bearings(tree: Tree, both: Tree, listed: Sequence[str]) -> B
         beside = [(gear, name) for name in names_in(Stiffnesses) if name in own]
         beside += [("places", gear)] if gear in (table(both, "places") or {}) else []
         for path in beside:
-            message = f"stands beside [[bearings.{gear}]], which are all of the {gear}'s bearings. Leave one out."
+            message = f"is given together with [[bearings.{gear}]], all of the {gear}'s bearings. Leave one out."
             yield ("bearings", *path), message
     for name in names_in(Stiffnesses) if listed else ():
         if name in both:
             other = next((gear for gear in GEARS if gear not in listed), "")
-            message = f"stands beside [[bearings.{listed[0]}]], so that it is not clear whose it is. Leave it out" + (
-                f", or give it to [bearings.{other}]." if other else "."
-            )
+            unclear = f"is given together with [[bearings.{listed[0]}]], so that it is not clear whose it is"
+            message = f"{unclear}. Leave it out" + (f", or give it to [bearings.{other}]." if other else ".")
             yield ("bearings", name), message
 
 

@@ -107,7 +107,7 @@ def wrong_with_seat(scene: Any, pair: Any, elastic: ElasticShaft, shaft: str) ->
         web = f"gears.{elastic.gear}.web"
         yield f'{named}: {web} stands between teeth and shaft; leave one out, or seat = "{RIGID_SEAT}"'
     if abs(elastic.torque_at - elastic.gear_at) < 0.5 * elastic.seat - ROUND_OFF:
-        yield f"{named}: torque_at = {elastic.torque_at:g} mm is within the face; move the coupling beside it"
+        yield f"{named}: torque_at = {elastic.torque_at:g} mm is within the face; move the coupling out of it"
 
 
 def _is_a_cylinder(own: Any, elastic: ElasticShaft, bore: float, named: str) -> Iterator[str]:
@@ -121,4 +121,4 @@ def _is_a_cylinder(own: Any, elastic: ElasticShaft, bore: float, named: str) -> 
             f" as gears.{elastic.gear}.bore_diameter, {bore:g} mm"
         )
     elif len({part.bore for part in under}) > 1:
-        yield f"{named}: the shaft's bore changes under the {elastic.gear}'s face; let it change beside it"
+        yield f"{named}: the shaft's bore changes under the {elastic.gear}'s face; let it change outside the face"

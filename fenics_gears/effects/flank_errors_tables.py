@@ -89,7 +89,7 @@ def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str,
             continue
         for replaced in REPLACED[name]:
             if getattr(errors, replaced) is not None:
-                return name, f"stands beside {replaced}, which the curves replace. Leave one of the two out."
+                return name, f"is given together with {replaced}, which the curves replace. Leave one of the two out."
         whole = "active profile" if measured == "measured_profile" else "face"
         for curve in curves.curves:
             if problem := _problem_of_curve(curve, curves.along, module, pair, gear, whole):

@@ -107,7 +107,7 @@ def _beside_another(section: type[Section], tree: Mapping[str, Any], path: Path)
         first, *others = [name for name in group if name in tree] or ("",)
         allowed = f"one of {'the two' if len(group) == 2 else ', '.join(group)}"
         for name in others:
-            message = f"stands beside {first}; allowed is {allowed}. Leave one out."
+            message = f"is given together with {first}; allowed is {allowed}. Leave one out."
             yield Problem((*path, name), as_written(tree[name]), message)
 
 

@@ -181,7 +181,7 @@ def over_the_face(tree: Tree) -> list[Path]:
 
 
 NOT_IN_THE_PLANE = (
-    f"is of three-dimensional scenes: allowed beside {', '.join(map(dotted, OVER_THE_FACE[:-1]))} or"
+    f"is of three-dimensional scenes: allowed with {', '.join(map(dotted, OVER_THE_FACE[:-1]))} or"
     f" {dotted(OVER_THE_FACE[-1])}. Leave it out."
 )
 

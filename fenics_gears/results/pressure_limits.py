@@ -86,7 +86,7 @@ def _kink(scene: Scene, numbers: Mapping) -> list[str]:
     starts = " or ".join(f"the linear {words} of the {' or the '.join(gears)}" for words, gears in named)
     remedies = ", ".join(f'{section}.shape = "parabolic"' for section, gears in linear.items() if gears)
     return [
-        f"beside the kink where {starts} starts the pressure reaches {largest:.4g} MPa and does not converge with the"
+        f"near the kink where {starts} starts the pressure reaches {largest:.4g} MPa and does not converge with the"
         f" mesh; forces and transmission error do. The peak contact pressure, {elsewhere:.4g} MPa, is without it;"
         f" {remedies} starts without a kink"
     ]

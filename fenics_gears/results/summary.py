@@ -171,7 +171,7 @@ def _pressure(numbers) -> Said:
         return
     flank = ", coast flank" if numbers["peak_contact_pressure_flank"] == "coast" else ""
     if end := numbers.get("peak_contact_pressure_beside"):
-        flank += f", beside the {end} of its active profile, where lines of contact end"
+        flank += f", near the {end} of its active profile, where lines of contact end"
     apart = [words for name, words in APART.items() if f"peak_{name}_pressure" in numbers]
     yield (
         "peak contact pressure" + (f", without {' and '.join(apart)}" if apart else ""),

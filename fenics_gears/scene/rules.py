@@ -87,7 +87,7 @@ def _effects_fit_together(tree: Tree) -> Broken:
             remedy = f"Add {missing}, or leave [{effect.section}] out."
             yield (effect.section,), f"needs the section {missing}, which is missing. {remedy}"
     for effect, other in effects.conflicts(sections):
-        yield (effect.section,), f"cannot stand beside [{other}]. Leave one of the two out."
+        yield (effect.section,), f"cannot be combined with [{other}]. Leave one of the two out."
 
 
 def _both_gears_have_a_width(tree: Tree) -> Broken:
@@ -199,8 +199,8 @@ def _backlash_has_its_place(tree: Tree) -> Broken:
     if measured and (len({name.split(".")[1] for name in measured}) == 1 or "centre_distance" in gears):
         beside = measured[0] if "centre_distance" not in gears else f"{measured[0]} and gears.centre_distance"
         message = (
-            f"stands beside {beside}, of which it follows. Allowed: profile shifts of both gears alone, or measured"
-            " tooth thicknesses of both without centre_distance."
+            f"is given together with {beside}, from which it follows. Allowed: profile shifts of both gears alone, or"
+            " measured tooth thicknesses of both without centre_distance."
         )
         yield ("gears", "backlash"), message
 
@@ -208,7 +208,10 @@ def _backlash_has_its_place(tree: Tree) -> Broken:
 def _no_figure_is_given_twice(tree: Tree) -> Broken:
     gears = table(tree, "gears") or {}
     if "tip_shortening" in gears and all("tip_diameter" in (table(gears, gear) or {}) for gear in GEARS):
-        message = "stands beside the tip diameters of both gears, which say the same. Leave it out, or a tip diameter."
+        message = (
+            "is given together with the tip diameters of both gears, which say the same. Leave it out, or a tip"
+            " diameter."
+        )
         yield ("gears", "tip_shortening"), message
     for gear in GEARS:
         own = table(gears, gear) or {}
@@ -219,7 +222,7 @@ def _no_figure_is_given_twice(tree: Tree) -> Broken:
             ("tip_radius", "rack_tip_radius"),
         ):
             if name in rack and diameter in own:
-                message = f"stands beside gears.{gear}.{diameter}, which says the same. Leave one of the two out."
+                message = f"is given together with gears.{gear}.{diameter}, which says the same. Leave one out."
                 yield ("gears", gear, "rack", name), message
 
 
@@ -267,7 +270,7 @@ def _load_is_given_once(tree: Tree) -> Broken:
         message = 'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or mesh_frequency, or give a torque.'
         yield ("load", "power"), message
     if "speed_ramp" in tree:
-        yield ("load", "power"), "has no one torque beside [speed_ramp]. Give wheel_torque or pinion_torque."
+        yield ("load", "power"), "has no constant torque with [speed_ramp]. Give wheel_torque or pinion_torque."
 
 
 _RULES = (

@@ -107,7 +107,7 @@ def root_tension(mesh: GearsInMesh) -> Chart:
         f"Largest tension in the roots along the face at mesh phase {mesh.mesh_phase:.3f}", curves, ACROSS,
         "Largest principal stress (MPa)",
         y_range=(0.0, 1.08 * max(float(curve.y.max()) for curve in curves) or 1.0),
-        note="At the nodes of the bodies' mesh, the loaded teeth and those beside them.",
+        note="At the nodes of the bodies' mesh, the loaded teeth and their neighbours.",
     )  # fmt: skip
 
 

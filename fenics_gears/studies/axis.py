@@ -171,7 +171,7 @@ def _ends(given: Mapping[str, Any]) -> tuple[list[float], str]:
     else:
         for name, value in given.items():
             if not isinstance(value, str):
-                wrong = f"has {name} = {as_written(value)} beside a text with a unit"
+                wrong = f"has {name} = {as_written(value)} next to a text with a unit"
                 raise AxisError(f"{wrong}. Allowed: all with units, or all bare numbers.")
         try:
             quantities = [units.quantity(value) for value in given.values()]

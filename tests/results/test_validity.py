@@ -88,7 +88,7 @@ def test_the_kink_of_linear_relief_is_named_where_it_presses_hardest(coarse, sha
     found = [
         said
         for said in result.attrs["warnings"].splitlines()
-        if "beside the kink where the linear tip relief of the pinion or the wheel starts" in said
+        if "near the kink where the linear tip relief of the pinion or the wheel starts" in said
     ]
     assert len(found) == kinked
     printed = {label: value for label, value, _ in summary_rows(result)}

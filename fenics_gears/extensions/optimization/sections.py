@@ -147,7 +147,7 @@ class Sections:
         if weights is None:
             return loads
         if loads.combine == WORST:
-            message = 'stands beside combine = "worst", where all operating points count alike. Leave one out.'
+            message = 'is given together with combine = "worst", where all operating points count alike. Leave one out.'
             self.wrong("loads", "weights", weights, message)
         numbers = isinstance(weights, list) and all(is_number(each) and each >= 0 for each in weights)
         if not (numbers and len(weights) in lengths and sum(weights) > 0):

@@ -9,7 +9,7 @@ HEADING = "Contact over the face"
 FACTORS = {
     "face_load_factor": (
         "Face load factor {:.3f}: averaged over the mesh cycle, the most loaded place of the face, away from its ends,"
-        " carries so many times the mean. This stands beside ISO's K_Hβ."
+        " carries so many times the mean. Compare it with ISO's K_Hβ."
     ),
     "largest_line_load_factor": (
         "Largest line load {:.3f}: at the worst moment, away from edges, a tooth carries so many times the even load."

@@ -162,8 +162,9 @@ def test_choosing_can_be_interrupted_within_a_run(scene, monkeypatch):
 
 @pytest.mark.parametrize("line, reason", [
     ('element = "P1"', "is chosen by accuracy.target"), ("contact_nodes = 20", "is chosen by accuracy.target"),
-    ('model = "rigid teeth"', "cannot stand beside accuracy.target, which is for the full contact of elastic teeth"),
-    ('condensation = "once"', "cannot stand beside accuracy.target, which condenses once"),
+    ('model = "rigid teeth"',
+     "cannot be combined with accuracy.target, which is for the full contact of elastic teeth"),
+    ('condensation = "once"', "cannot be combined with accuracy.target, which condenses once"),
 ])  # fmt: skip
 def test_a_setting_beside_a_target_is_refused(text, line, reason):
     """Two answers to one question."""
