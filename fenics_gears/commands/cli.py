@@ -16,6 +16,7 @@ import argparse
 import gc
 import logging
 import os
+import re
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -24,14 +25,18 @@ from typing import NoReturn
 
 from fenics_gears import __version__
 from fenics_gears.errors import GearsError, MemoryEnded
+from fenics_gears.inputs.problem import did_you_mean
 from fenics_gears.system import environment
 from fenics_gears.system.console import prepare_streams, printable
 from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.output import check_working_folder
 
 from . import registry
-from .misspelt import in_words
 from .shared import INTERRUPTED, NOBODY_READS
+
+# Messages of argparse on a command and on options that there are not.
+_NO_CHOICE = re.compile(r"argument COMMAND: invalid choice: '(.*)' \(choose from (.*)\)", re.DOTALL)
+_UNKNOWN = "unrecognized arguments: "
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -147,7 +152,28 @@ class Parser(argparse.ArgumentParser):
     """Of the command line, and of each command: argparse makes their parsers of the same class."""
 
     def error(self, message: str) -> NoReturn:
-        super().error(in_words(message, self))
+        super().error(_with_what_is_meant(message, self))
+
+
+def _with_what_is_meant(message: str, parser: argparse.ArgumentParser) -> str:
+    """What a parser says of a wrong call, with what may be meant."""
+    if match := _NO_CHOICE.fullmatch(message):
+        known = [name.strip("'") for name in match[2].split(", ")]
+        return f'there is no command "{match[1]}".{did_you_mean(match[1], known)} Commands: {", ".join(known)}'
+    if message.startswith(_UNKNOWN):
+        words = message.removeprefix(_UNKNOWN).split()
+        options = [word.partition("=")[0] for word in words if word.startswith("-")]
+        return f"{message}." + "".join(did_you_mean(each, _options(parser)) for each in options)
+    return message
+
+
+def _options(parser: argparse.ArgumentParser) -> Iterator[str]:
+    """The options of a parser, and of the commands that are added to it."""
+    for action in parser._actions:
+        yield from action.option_strings
+        if isinstance(action, argparse._SubParsersAction):
+            for each in action.choices.values():
+                yield from _options(each)
 
 
 def _parser(called: str = "") -> argparse.ArgumentParser:

@@ -3,6 +3,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from types import ModuleType
 
 from fenics_gears.dynamics.shafts import HousingFile, Shaft, Shafts
 from fenics_gears.inputs.problem import Broken
@@ -17,7 +18,7 @@ def shafts_are_complete(tree: Tree) -> Broken:
     both = table(tree, "shafts")
     if both is None:
         return
-    yield from _each_gives_way(both)
+    yield from _each_has_a_stiffness(both)
     bent = shafts_with_sections(tree)
     if "housing" in both and len(bent) < len(SHAFTS):
         message = (
@@ -26,9 +27,7 @@ def shafts_are_complete(tree: Tree) -> Broken:
         )
         yield ("shafts", "housing"), message
     if bent:
-        from .elastic_shaft_rules import rules_of_elastic_shafts
-
-        yield from rules_of_elastic_shafts(tree)
+        yield from _rules_of_bent().rules_of_elastic_shafts(tree)
         return
     if "torsional_stiffness" in both:
         return
@@ -42,7 +41,14 @@ def shafts_are_complete(tree: Tree) -> Broken:
         yield path, f"is missing: only the other shaft has one. {example}, or torsional_stiffness of [shafts] for both."
 
 
-def _each_gives_way(both: Tree) -> Broken:
+def _rules_of_bent() -> ModuleType:
+    """Rules of shafts that bend, which load beams and bearings."""
+    from . import elastic_shaft_rules
+
+    return elastic_shaft_rules
+
+
+def _each_has_a_stiffness(both: Tree) -> Broken:
     for shaft in SHAFTS:
         own = table(both, shaft)
         if own is None or "sections" in own:
@@ -77,17 +83,11 @@ def files(shafts: Shafts) -> dict[str, str]:
 def check(shafts: Shafts, scene, pair) -> None:
     """Raise SceneError where gears, couplings and bearings do not fit their shafts."""
     if shafts.sections is not None:
-        from .elastic_shaft_rules import check_shafts
-
-        check_shafts(scene, pair)
+        _rules_of_bent().check_shafts(scene, pair)
 
 
 def warnings(shafts: Shafts, model) -> list[str]:
-    if shafts.sections is None:
-        return []
-    from .elastic_shaft_rules import shaft_warnings
-
-    return shaft_warnings(model.scene, model.pair)
+    return [] if shafts.sections is None else _rules_of_bent().shaft_warnings(model.scene, model.pair)
 
 
 EFFECT = Effect(

@@ -17,7 +17,7 @@ from fenics_gears.geometry.gear_data import Material
 
 from .element_sizes import Discretisation
 from .elements import element_named
-from .face.compliance import swept_section
+from .face.computed import swept_section
 from .face.cut_motions import cut_motions, loads_over_motions, over_motions
 from .face.discretisation import FaceDiscretisation
 from .nodal_stress import NodalStress

@@ -16,7 +16,6 @@ from .gear_checks import Impossible, check_gear
 from .gear_data import GearPairData
 from .involute import inverse_involute, involute_function
 from .pair_checks import check_pair
-from .remedies import advice
 
 WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
 # Reach, in normal modules, into a face that extends beyond the mate: of teeth on a thin rim, the additional reach of a
@@ -272,6 +271,8 @@ def gear_pair(data: GearPairData) -> GearPair:
     try:
         return _built(data)
     except Impossible as problem:
+        from .remedies import advice
+
         raise GeometryError(f"{problem}{advice(data, problem.remedies, _built)}") from None
 
 

@@ -6,8 +6,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from .synonyms import SYNONYMS
-
 Path = tuple[str, ...]
 # By this name a section has the tables that a file may also list in its place.
 LISTED = "each"
@@ -133,6 +131,8 @@ def meant(section: Iterable[str], word: str, known: Iterable[str]) -> str | None
     >>> meant(["tip_relief", "pinion"], "amount", ["depth", "start"])
     'depth'
     """
+    from .synonyms import SYNONYMS
+
     section = tuple(section)
     known = tuple(known)
     homes = [section, *([section[:-1], (*section[:-1], "pinion")] if section[-1:] in (("pinion",), ("wheel",)) else [])]

@@ -1,6 +1,7 @@
 """Shafts that bend in the result: what their deflection does to the axes, the bearings' loads, and deflection lines."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -8,6 +9,7 @@ import xarray as xr
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_seat import BentBySeat
+from fenics_gears.dynamics.frequencies import vibrations
 from fenics_gears.dynamics.shaft_elements import SIX, carried
 from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.inputs.tree import GEARS
@@ -24,6 +26,11 @@ GAUSS = 0.5 / np.sqrt(3.0)
 # What MOTIONS are called in the result.
 OF_GEARS = ("centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y")
 LOADS = ("bearing_force_x", "bearing_force_y", "bearing_force_z", "bearing_moment_x", "bearing_moment_y")
+
+
+def along_face(model: Model, cycle: Cycle) -> AlongTheFace:
+    """The further results of a mesh cycle over a face."""
+    return BentShafts(cycle, model) if model.drivetrain.elastic else AlongTheFace(cycle)
 
 
 class BentShafts(AlongTheFace):
@@ -107,14 +114,14 @@ class BentShafts(AlongTheFace):
             "shaft_place": (("gear", "shaft_point"), points, from_end),
         }
 
-    def numbers(self, counted: xr.Dataset) -> dict[str, float | str]:
+    def numbers(self, counted: xr.Dataset, known: Mapping[str, Any]) -> dict[str, float | str]:
         """Of the settled steps of a result: means of the axes' departures, the largest force of a bearing, and natural
         frequencies."""
         named = [f"axis_{kind}_{plane}" for kind in ("inclination", "offset") for plane in ("in_plane", "out_of_plane")]
         numbers: dict[str, float | str] = {f"mean_{name}": float(counted[name].mean()) for name in named}
         forces = np.sqrt(sum(counted[name] ** 2 for name in LOADS[:3]))
         numbers |= {"largest_bearing_force": float(forces.max())}
-        return super().numbers(counted) | numbers | self._rolling_elements(counted) | self._vibrations(counted)
+        return super().numbers(counted, known) | numbers | self._rolling_elements(counted) | self._vibrations(counted)
 
     def _seat(self, system: ShaftSystem, shaft: ElasticShaft) -> BentBySeat:
         """Response of a seat to loads (S, 6) in the slices of the face, at their own heights. Of its teeth: motions (5,
@@ -163,8 +170,6 @@ class BentShafts(AlongTheFace):
 
     def _vibrations(self, counted: xr.Dataset) -> dict[str, str]:
         """Natural frequencies with the mesh as it was, a line each; nothing without inertia or contact."""
-        from fenics_gears.dynamics.frequencies import vibrations
-
         if self.drivetrain.mass is None or "mesh_stiffness_tangent" not in counted:
             return {}
         stiffness = mean_where_positive(counted["mesh_stiffness_tangent"].values)

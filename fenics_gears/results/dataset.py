@@ -201,7 +201,7 @@ def _numbers(recorder: Recorder, march: March, result: RunResult, first: int) ->
         labelled = result.dataset.isel(time=slice(first, None))
         numbers |= largest_root_stress(labelled)
         for along in recorder.along_face:
-            numbers |= along.numbers(labelled)
+            numbers |= along.numbers(labelled, numbers)
     return numbers | of_force
 
 

@@ -12,7 +12,6 @@ from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, slidin
 from fenics_gears.scene.data import Scene
 
 from .contact_variables import Curves, largest_normal_force, mesh_force, transmitted
-from .load_factors import end_of_line
 from .numbers import HARMONICS, first_largest, harmonics, largest_of_one_pair, mean_where_positive, shares_at
 
 MICROMETRE = 1e-3  # mm
@@ -112,9 +111,6 @@ def _pressure(settled: Curves, pair: GearPair) -> dict[str, float | str]:
 
     on_coast = "coast_normal_force" in settled and at("coast_normal_force") > at("normal_force")
     roll = at("largest_contact_pressure_roll_angle")
-    if pair.slope:
-        if end := end_of_line(pair, pair.pinion.base_radius * roll):
-            numbers["peak_contact_pressure_beside"] = end
     return numbers | {
         "peak_contact_pressure_time": at("time"),
         "peak_contact_pressure_mesh_phase": at("mesh_phase"),

@@ -20,7 +20,6 @@ from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import ArraysInMemory, KeptArrays, sizes, stored_arrays
 
-from .bent_shafts import BentShafts
 from .contact_variables import (
     energy_variables,
     mesh_variables,
@@ -29,7 +28,6 @@ from .contact_variables import (
     watched_contact,
     work_variables,
 )
-from .face_variables import AlongTheFace
 from .journal import Journal
 from .mesh_curves import EdgesAndKinks, pressure_curves, stiffness_curves
 from .side_by_side import KnownLayouts, SideBySide
@@ -46,9 +44,10 @@ WATCHED = "watched: "
 def _along_face(model: Model, cycle: Cycle) -> tuple[AlongTheFace, ...]:
     if cycle.face.slices == 1:
         return ()
-    if not model.drivetrain.elastic:
-        return (AlongTheFace(cycle),)
-    return (BentShafts(cycle, model),)
+    # Runs in the plane load neither a face nor shafts that bend.
+    from .bent_shafts import along_face
+
+    return (along_face(model, cycle),)
 
 
 class KnownTouching:

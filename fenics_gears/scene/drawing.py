@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import chain
 from math import cos, pi, tan
+from types import ModuleType
 from typing import Any
 
 from fenics_gears.effects.tooth_elasticity import material_of
@@ -24,7 +25,6 @@ from . import unusual
 from .gear_schema import Gear as GearText
 from .gear_schema import Gears
 from .schema import Derived, Load, LoadText, Motion
-from .thickness import asked_measures, check_measure, shift_of_thickness
 
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
@@ -137,17 +137,24 @@ def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Deriv
     return distance, gears, [*chain(*of_thickness, of_distance, of_backlash, of_tips, *of_gears, *asked)]
 
 
+def _thickness() -> ModuleType:
+    """Measured tooth thicknesses, which few drawings give."""
+    from . import thickness
+
+    return thickness
+
+
 def _shift(pair: Gears, drawn: GearText, name: str) -> tuple[float, list[Derived]]:
     """The profile shift of the tooth's thickness."""
     if drawn.measure is None:
         return drawn.profile_shift, []
-    return shift_of_thickness(pair, drawn, name)
+    return _thickness().shift_of_thickness(pair, drawn, name)
 
 
 def _asked_measures(pair: Gears, drawn: GearText, name: str, cut: float) -> Iterable[Derived]:
     if drawn.spanned_teeth is None and drawn.ball_diameter is None:
         return ()
-    return asked_measures(pair, drawn, name, cut)
+    return _thickness().asked_measures(pair, drawn, name, cut)
 
 
 def _rack_pair(pair: Gears, shifts: list[float], distance: float) -> GearPair:
@@ -268,7 +275,7 @@ def _gear_data(
         nominal_profile_shift=None if shift == cut else float(shift),
     )  # fmt: skip
     if drawn.measure is not None:
-        check_measure(drawn, name, pair.in_rotation(data))
+        _thickness().check_measure(drawn, name, pair.in_rotation(data))
     return data, derived
 
 

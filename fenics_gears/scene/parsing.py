@@ -11,7 +11,6 @@ from typing import Any
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem, line_numbers, listed, placed
-from fenics_gears.inputs.toml_mistakes import in_words
 from fenics_gears.inputs.tree import MOST_NESTED, nested_too_deeply, written_out
 from fenics_gears.inputs.written import WrittenFloat, as_written
 from fenics_gears.system.console import control_character
@@ -31,6 +30,8 @@ def parsed(text: str, source: str) -> dict[str, Any]:
     try:
         tree = tomllib.loads(text, parse_float=WrittenFloat)
     except tomllib.TOMLDecodeError as error:
+        from fenics_gears.inputs.toml_mistakes import in_words
+
         raise SceneError(f"{in_words(error, text, source)}\n{NOTHING_DONE}") from None
     except (ValueError, RecursionError) as error:
         why = "is nested too deeply" if isinstance(error, RecursionError) else "a number has thousands of digits"

@@ -44,7 +44,6 @@ from .accuracy_rules import (
     recorded_cycles_are_run,
     settling_is_of_vibrations,
 )
-from .face_rules import rules_over_the_face
 from .gear_schema import MEASURES, Gear, Gears
 from .schema import LoadText, scene_text
 
@@ -122,6 +121,8 @@ def _errors_are_small(tree: Tree) -> Broken:
 def _flanks_are_resolved_over_the_face(tree: Tree) -> Broken:
     """Fields of faces belong to three-dimensional scenes, which have rules of their own, and a hand to a helix."""
     if reasons := over_the_face(tree):
+        from .face_rules import rules_over_the_face
+
         yield from rules_over_the_face(tree, reasons)
     else:
         for path, allowed, _ in given(scene_text(tree), tree):

@@ -1,5 +1,5 @@
-"""The tooth thickness of a gear as a drawing has it, measured by caliper, span or balls. Most drawings give profile
-shifts and do not load it."""
+"""The tooth thickness of a gear as a drawing has it, measured by caliper, span or balls. Loaded where a drawing has a
+measure."""
 
 from collections.abc import Iterator
 
