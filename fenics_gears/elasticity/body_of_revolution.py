@@ -95,8 +95,8 @@ class BodyOfRevolution:
         return sparse.csc_matrix((blocks.ravel(), places), shape=(3 * len(self.nodes),) * 2)
 
     def of_section(self, height: float, outer: float, order: int) -> np.ndarray:
-        """Rows (2, d) of the mean motions of a cross section as far out as a radius: of harmonic 1 displacement along x
-        and tilt about y, of harmonic 0 displacement along the axis and twist."""
+        """Rows (2, d) of the mean motions of a cross section within a radius. Harmonic 1: displacement along x and tilt
+        about y; harmonic 0: displacement along the axis and twist."""
         radii, heights = self.nodes.T
         within = radii < outer + ROUND_OFF
         rows = np.zeros((2, 3 * len(self.nodes)))

@@ -68,8 +68,8 @@ def section_angle(gear: Gear) -> float:
 
 
 def fillet_rows(recovery: GearRecovery, curve: FilletCurve, averages: np.ndarray = WHOLE) -> sparse.csr_matrix:
-    """Stress (S 2 p, dofs) at the points of the drive side's fillet, then the coast side's, slice by slice, per
-    displacement of a sector in modules, E = 1 MPa; zero where the fillet has no such point.
+    """Stress (S 2 p, dofs) at the points of the drive side's fillet, then the coast side's, slice by slice; zero where
+    the fillet has no such point. It is per displacement of a sector in modules, for E = 1 MPa.
 
     Along the fillet's profile and across the tooth's trace, as in a section normal to the tooth. averages: (S, h), of
     slices over the sector's heights.
@@ -96,7 +96,7 @@ def fillet_weights(
     curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Nodes (k,) along the root on the drive (0) or coast side (1), their weights (p, k) at the fillet's points, and
-    the tangents (p, 2) there; not a number where the fillet has no such point. `held`: nodes of the sector's cuts and
+    the tangents (p, 2) there. Not a number where the fillet has no such point. `held`: nodes of the sector's cuts and
     hub."""
     root, place = _root_nodes(curve, nodes, held, side)
     tangents = curve.tangents if side == 0 else curve.outline.coast(curve.tangents)

@@ -2,7 +2,7 @@
 accurate, averaged where elements meet.
 
 That is (Barlow, International Journal for Numerical Methods in Engineering 10, 1976) the middle of first-order cells
-and the 2 x 2 Gauss points of Q2; of P2 it is linear and taken at the nodes. Swept elements are as in
+and the 2 x 2 Gauss points of Q2. Of P2 it is linear and taken at the nodes. Swept elements are as in
 `face.swept_stiffness`.
 """
 

@@ -18,8 +18,8 @@ from .involute import inverse_involute, involute_function
 from .pair_checks import check_pair
 
 WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
-# Reach, in normal modules, into a face that extends beyond the mate: of teeth on a thin rim, the additional reach of a
-# solid body, and the depth over which this grows. Fitted to runs in three dimensions (docs/third_dimension.md).
+# Reach, in normal modules, into a face that extends beyond the mate: of teeth on a thin rim, the addition for a solid
+# body, and the depth over which it grows. Fitted to runs in three dimensions (docs/third_dimension.md).
 REACH_OF_TEETH = 1.1
 REACH_OF_BODY = 1.6
 DEPTH_OF_BODY = 7.0

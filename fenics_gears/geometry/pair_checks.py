@@ -157,8 +157,8 @@ def _less_undercut(pair: GearPair, name: str) -> str:
 
 def fillet_clearance(gear: Gear, mate: Gear, centre_distance: float) -> float:
     """Least radial distance (mm) from the path of the mate's tip corner down to the gear's fillet, drive flanks in
-    contact; infinite where it never comes over the fillet, negative where it would cut in. Of an undercut gear the
-    least arc."""
+    contact. Infinite where the corner never comes over the fillet, negative where it would cut in. Of an undercut gear
+    the least arc."""
     clearance = _clearance_along_circles if gear.undercut else _clearance_of_corner
     return min(clearance(gear, mate, centre_distance, corner) for corner in _corners(mate))
 

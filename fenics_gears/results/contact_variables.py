@@ -1,5 +1,5 @@
 """Contact and energy in the result: forces of the mesh, of tooth pairs and contact nodes, their reactions on the
-shafts; stored energies, and the work that supplies and takes them."""
+shafts. Stored energies, and the work that supplies and takes them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

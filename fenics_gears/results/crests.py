@@ -27,8 +27,8 @@ MIDDLE = 0.25
 # A position is sought no nearer to a step than this part of the distance to the next.
 NEAREST = 0.02
 
-# Of an interval between two points: how high the curve may be there and where that is, whether a value was asked for,
-# whether a cubic holds; and its crest, place and height, where a cubic holds or no place is between.
+# Of an interval between two points: how high the curve may be there and where that is; whether a value was asked for,
+# whether a cubic holds. Place and height of its crest, where a cubic holds or no place is between.
 KNOWN = BOUND, PLACE, ASKED, CUBIC, CREST, HEIGHT = range(6)
 # Of a search: its points, values that it may still ask for (-1 before it begins), interval of the one asked for now.
 COUNTED = COUNT, LEFT, AT = range(3)
@@ -244,8 +244,8 @@ def _bound(x, y):
 
 @njit(cache=True)
 def _corner(x, y):
-    """Place and height of the crossing of the parabolas through the first and the last three of six points x, y (6,)
-    between them; no height where they do not cross there, the first from below."""
+    """Place and height where two parabolas cross: through the first and the last three of six points x, y (6,), between
+    the two groups. No height where they do not cross there, the first from below."""
     h = x[3] - x[2]
     before = (y[2] - y[1]) / (x[2] - x[1])
     after = (y[4] - y[3]) / (x[4] - x[3])

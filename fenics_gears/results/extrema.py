@@ -161,8 +161,8 @@ class Extrema:
         return value + float(np.interp(step, ends, apart)) if apart else value
 
     def _last_period(self, curves: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Steps from the first of a period and values (c, ...) of the last one, with a step before and after it as it
-        repeats; of all steps where none is whole."""
+        """Steps from the first of a period, and values (c, ...) of the last period with a step before and after it, as
+        it repeats. Of all steps where no period is whole."""
         if not self._whole:
             return self._steps.astype(float), curves
         steps = self._steps[-self._period - 1 :] - self.first

@@ -174,8 +174,8 @@ def path_point_values(
 ) -> dict[str, np.ndarray]:
     """What the points A to E of the path of contact have: place, sliding by the nominal motion, share of the load.
 
-    Of settled steps: `phase` (steps,), mesh cycles, the pairs' `numbers` (steps, slots), 0 for none, of which
-    `first_number` reaches the start of contact at phase 0, and their `forces` (steps, slots), N.
+    Of settled steps: `phase` (steps,), mesh cycles; the pairs' `numbers` (steps, slots), 0 for none, and their `forces`
+    (steps, slots), N. Pair `first_number` reaches the start of contact at phase 0.
     """
     points = contact_points(pair)
     rolls = pair.pinion_roll_angle(points), pair.wheel_roll_angle(points)

@@ -41,16 +41,16 @@ def line_loads(result: xr.Dataset, side: str) -> np.ndarray:
 
 
 def _of_cycle(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float]:
-    """Of the line load averaged over whole mesh cycles: its largest mean over a window of the inner face, over that of
-    the inner face; nothing where the end zones alone carry."""
+    """Of the line load averaged over whole mesh cycles: its largest mean over a window of the inner face, divided by
+    its mean over the inner face. Nothing where the end zones alone carry."""
     load = mean_line_load(settled, side)
     factor = None if load is None else face_load_factor(load, settled, pair)
     return {} if factor is None else {"face_load_factor": factor}
 
 
 def face_load_factor(load: np.ndarray, face: xr.Dataset, pair: GearPair) -> float | None:
-    """Largest mean of a line load (S,) over a window of the inner face, over that of the inner face, hence at least 1;
-    None where the end zones alone carry."""
+    """Largest mean of a line load (S,) over a window of the inner face, divided by its mean over the inner face, hence
+    at least 1. None where the end zones alone carry."""
     widths = inner_widths(face, pair)
     inner = float(load @ widths)
     if inner <= NO_SHARE * float(load @ face["face_slice_width"].values):

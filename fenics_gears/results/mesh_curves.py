@@ -255,7 +255,7 @@ def without_oscillation(pressure: np.ndarray) -> np.ndarray:
 
     Where contact nodes are closer than the flank's elements, the pressure has an error that changes sign from node to
     node. Peaks of this average are within 2.5, 0.8, 0.2 % of Hertz's for half-widths of 2, 4, 8 elements and contact
-    nodes 0.5 to 0.7 elements apart; nodal values err by up to 17, 2, 3 %.
+    nodes 0.5 to 0.7 elements apart. Nodal values err by up to 17, 2, 3 %.
     """
     result = np.array(pressure, dtype=float)
     beyond = result.shape[-1] - len(WEIGHTS) + 1

@@ -26,8 +26,8 @@ ROUNDING = 1e-9  # mesh cycles
 # Of the largest of some values: what differs by less is the same.
 SAME = 1e-9
 # A curve has not jumped where it falls in the next step by at least this part of the fall before. A crest is smooth
-# where the lower of the parabolas from either side is above the steps by at least this part of the higher one; between
-# steps, where the lower of their curvatures is at least this part of the other.
+# where the lower of the parabolas from either side is above the steps by at least this part of the higher one. Between
+# steps it is smooth where the lower of their curvatures is at least this part of the other.
 LIKE = 0.5
 
 

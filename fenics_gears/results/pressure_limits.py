@@ -13,8 +13,8 @@ from fenics_gears.scene.data import Scene
 if TYPE_CHECKING:
     from fenics_gears.geometry.relief import Reliefs
 
-# Peak pressure of a line contact over yield strength at which the material below yields by Tresca's criterion,
-# whose largest shear stress is 0.300 of the pressure (Johnson, Contact Mechanics, 1985, eq. 6.4).
+# Peak pressure of a line contact over yield strength at which the material below yields by Tresca's criterion. The
+# largest shear stress is 0.300 of the pressure (Johnson, Contact Mechanics, 1985, eq. 6.4).
 LINE_CONTACT = 1.67
 
 

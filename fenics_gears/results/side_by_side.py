@@ -34,7 +34,7 @@ def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool)
     `index`: of the node's tooth pair at the position. `node`: its place in that pair. `drive`: whether it is on a drive
     flank. `slice`: of the face. `at_end`: whether it stands on an end of the window. `on_edge` (4, n): on the edge of
     the pinion's tip, of the wheel's tip, and at the form circle of an undercut pinion or wheel. `arcs` (2, n): where it
-    touches the pinion's and the wheel's flank, mm along the involute from the base circle; `rows_of_normals` (6, n) and
+    touches the pinion's and the wheel's flank, mm along the involute from the base circle. `rows_of_normals` (6, n) and
     `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm.
     Over a face (12, n): then the axial force, N, and the moments about x and y, N mm, of both gears.
     """

@@ -16,8 +16,8 @@ from ..sector_boundary import SectorBoundary, sector_boundary
 from .discretisation import FaceDiscretisation
 from .near_field import thin_layers
 
-# Nodes of a section by points of its outline, and by its area in squares of its elements' size: within 18 % of 110
-# sections from 0.1 to 1.4 modules, of 18 to 110 teeth, with thin rims too.
+# Nodes of a section by points of its outline, and by its area in squares of its elements' size. They are within 18 %
+# for 110 sections from 0.1 to 1.4 modules, of 18 to 110 teeth, with thin rims too.
 BY_OUTLINE, BY_AREA = 4.2, 3.9
 # Of a section on either side, where its area is measured. Modules from the root circle to a tooth's neck, which is two
 # wide.
@@ -54,8 +54,8 @@ class BodyCost:
 
 @dataclass(frozen=True)
 class _Section:
-    """Nodes of a section, second order: of all, of the tooth's part, on a flank, a cut, the bore; of them in a web's
-    layers alone, all and on a cut."""
+    """Nodes of a section, second order: all, of the tooth's part, on a flank, a cut, the bore. In a web's layers alone:
+    all and on a cut."""
 
     nodes: float
     tooth: float

@@ -1,14 +1,14 @@
 """A gear with a web over its face: rim and hub as wide as the face, between them a web that is thinner. Loaded by gears
 with a web alone.
 
-The body is no prism, but each of its layers is. With W the cells of the section between hub and rim, and the web from
-z_1 to z_2, layers between z_1 and z_2 are swept from the whole section, the others from the section without W:
+The body is no prism, but each of its layers is. W are the cells of the section between hub and rim; the web reaches
+from z_1 to z_2. Layers between z_1 and z_2 are swept from the whole section, the others from the section without W:
 
     K = sum over layers of K_layer(whole section)           where the layer is in the web
                         or K_layer(section without W)       where it is not
 
 z_1 and z_2 are boundaries of layers, and the circles of hub and rim are lines of the section's mesh. Cuts have their
-nodes where there is material. Turning by a pitch still maps one cut on the other, so that the ring of sectors
+nodes where there is material. Turning by a pitch still maps one cut on the other. So the ring of sectors
 (`elasticity.ring`) joins the sectors exactly, and the Schur complement is that of any gear:
 
     A = flank block of the inverse of (sum over sectors of S),  S = K_aa - K_ad K_dd^-1 K_da,  a = flanks and cuts

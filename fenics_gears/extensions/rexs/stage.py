@@ -17,9 +17,9 @@ Fields = dict[str, Value]
 
 @dataclass(frozen=True)
 class GearParts:
-    """The components of one gear of a stage: itself, its flanks by their side and what modifies them, its tools and how
-    they were set, bodies, materials and shafts, and its data in this stage. ``by_torque``: the side that the torque
-    loads, where that follows from the train."""
+    """The components of one gear of a stage: itself, its flanks by side, their modifications, its tools and their
+    settings, bodies, materials, shafts, and its data in this stage. ``by_torque``: the side that the torque loads,
+    where that follows from the train."""
 
     gear: Component
     flanks: dict[str, Component]

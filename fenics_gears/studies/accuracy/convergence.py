@@ -1,6 +1,6 @@
 """Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy`.
 
-Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: the error of the finest
+Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5. The error of the finest
 run is the last change over r^p - 1 times a safety factor, with r the ratio of sizes and p the order. The factor is 1.25
 for three runs and more, which show their order. Without an observed order the error is three times the last change:
 1.25 times the 2.4 of h^0.5 where sizes halve.
@@ -38,7 +38,7 @@ TURNED_BACK = -0.5
 @dataclass(frozen=True)
 class Limit:
     """The limit of a sequence: `value`, shaped as its terms; observed `order`, None without one; `uncertainty`, L2 norm
-    of its error; `least_error`: error of the last term where that is taken as the limit, by its order or, without one,
+    of its error. `least_error`: error of the last term where that is taken as the limit, by its order or, without one,
     the last difference."""
 
     value: np.ndarray
@@ -48,7 +48,7 @@ class Limit:
 
 
 def observed_order(values: Sequence[np.ndarray], sizes: Sequence[float]) -> float | None:
-    """Order p of u(h) = u(0) + C h^p through the last three terms of a sequence, by their distances in L2; None where
+    """Order p of u(h) = u(0) + C h^p through the last three terms of a sequence, by their distances in L2. None where
     no p fits, or differences are round-off, do not fall, or turn back. `sizes` fall and need not halve."""
     if len(values) < 3:
         return None

@@ -1,5 +1,5 @@
-"""What `gears accuracy` refines of flanks that are resolved over the face, where a run takes ten times as long as in
-the plane; and the plane model to compare with."""
+"""What `gears accuracy` refines of flanks that are resolved over the face, and the plane model to compare with. A run
+takes ten times as long as in the plane."""
 
 from dataclasses import replace
 from math import atan, cos, tan

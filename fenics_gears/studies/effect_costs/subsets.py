@@ -35,8 +35,7 @@ Valid = Callable[[Sections], str]
 @dataclass(frozen=True)
 class Subset:
     """A scene with some of its effects: `kind` of subset, the `effect` that is added or left out ("" for none), the
-    `sections` that are on, and `beside`: further effects that
-    had to be added or left out with it."""
+    `sections` that are on. `beside`: further effects that had to be added or left out with it."""
 
     kind: str
     effect: str
