@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 LOGGER = logging.getLogger(__name__)
 # The attribute with the names of what failed after a march, such as factors, proposals and pictures, a line each.
 FAILED = "failed_afterwards"
-Outcome = TypeVar("Outcome")
+Value = TypeVar("Value")
 
 
 class GearsError(Exception):
@@ -42,7 +42,7 @@ class MemoryEnded(ComputationError):
         )
 
 
-def attempted(attributes: dict[str, Any], what: str, carry_out: Callable[[], Outcome]) -> Outcome | None:
+def attempted(attributes: dict[str, Any], what: str, carry_out: Callable[[], Value]) -> Value | None:
     """What `carry_out` finds; where it fails, None, a warning in the attributes of the result, and `what` in their
     `failed_afterwards`."""
     try:

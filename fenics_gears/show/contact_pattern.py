@@ -33,9 +33,10 @@ def contact_patterns(run: ShownRun) -> list[Chart]:
     if not pressed.size:
         return []
     limit = colour_limit(run, pressed)
-    beyond = f", beyond the colours up to {pressed.max():.0f} MPa" if pressed.max() > limit * (1 + 1e-9) else ""
+    peak = pressed.max()
+    above = f": colours end at {limit:.0f} MPa, the peak is {peak:.0f} MPa" if peak > limit * (1 + 1e-9) else ""
     both = (rolls, rolls_on_wheel(run.pair, part, side, rolls))
-    return [_pattern(run, gear, side, pressure, of_gear, limit, beyond) for gear, of_gear in enumerate(both)]
+    return [_pattern(run, gear, side, pressure, of_gear, limit, above) for gear, of_gear in enumerate(both)]
 
 
 def over_face(part: xr.Dataset, side: str) -> tuple[np.ndarray, np.ndarray]:
@@ -57,7 +58,7 @@ def rolls_on_wheel(pair: GearPair, part: xr.Dataset, side: str, rolls: np.ndarra
     return np.sqrt(np.maximum(of_wheel**2 - 2.0 * along / pair.wheel.base_radius, 0.0))
 
 
-def _pattern(run: ShownRun, gear: int, side: str, pressure, rolls, limit: float, beyond: str) -> Chart:
+def _pattern(run: ShownRun, gear: int, side: str, pressure, rolls, limit: float, above: str) -> Chart:
     pair = run.pair
     name = GEARS[gear]
     data = getattr(pair, name)
@@ -70,7 +71,7 @@ def _pattern(run: ShownRun, gear: int, side: str, pressure, rolls, limit: float,
     lines = [("pitch cylinder", pitch, DARK, "dash"), ("start of the active profile", active, GREY, "dot")]
     flank = " (coast flank)" if side else ""
     return Chart(
-        f"Largest contact pressure on the {name}'s flank{flank}{beyond}",
+        f"Largest contact pressure on the {name}'s flank{flank}{above}",
         [Curve(words, face, np.full(2, d), colour, dash, 1.0) for words, d, colour, dash in lines],
         ACROSS, f"Diameter on the {name} (mm)", x_range=pair.common_face,
         y_range=(2.0 * data.radius(ends[0]), 2.0 * data.radius(ends[1])),

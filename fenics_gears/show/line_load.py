@@ -116,7 +116,7 @@ def _over_face(run: ShownRun, side: str, loads: np.ndarray, z: np.ndarray) -> Ch
     return Chart(
         "Line load along the face", drawn + ends, ACROSS, TITLE,
         x_range=run.pair.common_face, y_range=(0.0, highest),
-        note="Face load factor: largest over mean along the face. Even load: that of rigid gears when their lines of"
+        note="Face load factor: largest over mean along the face. Even load: of rigid gears when their lines of"
         " contact are shortest. Edges: the ends of the face, and tips and form circles where a line of contact ends."
         " The factors away from edges are of means over half a module.",
     )  # fmt: skip

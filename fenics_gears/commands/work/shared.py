@@ -12,7 +12,7 @@ from math import inf
 from pathlib import Path
 from types import ModuleType
 
-from fenics_gears.errors import Outcome, SceneError, attempted
+from fenics_gears.errors import Value, SceneError, attempted
 from fenics_gears.inputs import units
 from fenics_gears.system.console import on_terminal, printable
 from fenics_gears.system.output import check_writable
@@ -96,7 +96,7 @@ def file_to_write(options: argparse.Namespace, default: Path, what: str) -> Path
     return output
 
 
-def after_result(kept: Path, what: str, carry_out: Callable[[], Outcome]) -> Outcome | None:
+def after_result(kept: Path, what: str, carry_out: Callable[[], Value]) -> Value | None:
     """What `carry_out` makes of a result that is kept in a file already; None where it fails, which the error output
     says."""
     said: dict[str, str] = {}

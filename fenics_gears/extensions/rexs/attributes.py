@@ -12,7 +12,7 @@ from .model import Component
 from .stage import GearParts, Stage
 from .values import COUNT, MODULES, NUMBER, SPEED, Value, ValueProblem, place, together, value_of
 
-Outcome = TypeVar("Outcome")
+LookedUp = TypeVar("LookedUp")
 Place = tuple[Component, str, str]
 # By what a scene asks for: component (a field of GearParts or Stage), attribute, unit or kind of value.
 ATTRIBUTES: dict[str, tuple[tuple[str, str, str], ...]] = {
@@ -103,7 +103,7 @@ class Reading:
         self.problems: list[str] = []
         self.left_out: list[str] = []
 
-    def attempt(self, look_up: Callable[..., Outcome], *arguments) -> Outcome | None:
+    def attempt(self, look_up: Callable[..., LookedUp], *arguments) -> LookedUp | None:
         """What a look-up finds; None where it raises a ValueProblem, which is kept, or where one of its arguments was
         not found."""
         if any(argument is None for argument in arguments):
