@@ -12,7 +12,7 @@ from math import inf
 from pathlib import Path
 from types import ModuleType
 
-from fenics_gears.errors import Value, SceneError, attempted
+from fenics_gears.errors import SceneError, Value, attempted
 from fenics_gears.inputs import units
 from fenics_gears.system.console import on_terminal, printable
 from fenics_gears.system.output import check_writable
