@@ -24,7 +24,7 @@ class Edge(Section):
 
 
 @dataclass(frozen=True)
-class CornerContact(Edge):
+class EdgeRadii(Edge):
     """``[corner_contact]``: the edge radius of both gears."""
 
     pinion: Edge | None = None
@@ -50,7 +50,7 @@ EFFECT = Effect(
     section="corner_contact",
     description="contact of tip edges before and after the path of contact, along the normal of the mating flank",
     absent="tip edges touch along the line of action only",
-    fields=CornerContact,
+    fields=EdgeRadii,
     terms=("contact of tip edges off the line of action",),
     needs=("tooth_elasticity",),
     rules=route_has_corners,

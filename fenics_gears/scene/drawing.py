@@ -22,8 +22,7 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, LOADS, MODULES, PRESSURE_ANGLES, in_normal_section, wheel_torque
 
 from . import unusual
-from .gear_schema import Gear as GearText
-from .gear_schema import Gears
+from .gear_schema import Gears, GearText
 from .schema import Derived, Load, LoadText, Motion
 
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.

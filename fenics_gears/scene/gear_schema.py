@@ -94,7 +94,7 @@ class WebText(Section):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Gear(Section):
+class GearText(Section):
     """``[gears.pinion]`` and ``[gears.wheel]``: the pinion drives; both are external gears. The tooth thickness is
     given by `profile_shift`, or measured (`tooth_thickness`, `base_tangent_length` or `dimension_over_balls`). With
     both, the measured thickness holds, and root circle with it, since one rack cuts both; tip circle and centre
@@ -268,8 +268,8 @@ class Gears(Section):
         " plane runs one to three modules of the wider gear's overhang count as carrying (`gears check` says how much)",
         "each gear has its own `face_width`",
     )
-    pinion: Gear
-    wheel: Gear
+    pinion: GearText
+    wheel: GearText
     rack: RackText | None = None
     material: MaterialText | None = None
 

@@ -44,7 +44,7 @@ from .accuracy_rules import (
     recorded_cycles_are_run,
     settling_is_of_vibrations,
 )
-from .gear_schema import MEASURES, Gear, Gears
+from .gear_schema import MEASURES, Gears, GearText
 from .schema import LoadText, scene_text
 
 TEETH = "tooth_elasticity"
@@ -182,12 +182,12 @@ def _thickness_is_given_once(tree: Tree) -> Broken:
             continue
         measures = [name for name in MEASURES if name in own]
         if not measures and "profile_shift" not in own:
-            allowed = allowed_in(Gear, "profile_shift").description
+            allowed = allowed_in(GearText, "profile_shift").description
             yield ("gears", gear, "profile_shift"), f"is missing. Allowed: {allowed}; or one of {', '.join(MEASURES)}."
         for name in measures:
             beside = MEASURES[name]
             if beside is not None and beside not in own:
-                allowed = allowed_in(Gear, beside).description
+                allowed = allowed_in(GearText, beside).description
                 yield ("gears", gear, beside), f"is missing. Allowed: {allowed}; {name} has no meaning without it."
 
 

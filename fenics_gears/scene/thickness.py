@@ -8,8 +8,7 @@ from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse
 
 from . import unusual
-from .gear_schema import MEASURES, Gears
-from .gear_schema import Gear as GearText
+from .gear_schema import MEASURES, Gears, GearText
 from .schema import Derived
 
 # Largest difference, in modules, of the profile shift of a thickness from that of the drawing, and largest profile

@@ -88,14 +88,14 @@ def _gears(pair: GearPairData) -> dict[str, Any]:
     for name, width, offset in zip(GEARS, pair.face_widths, pair.axial_offsets):
         tree[name] = _gear(getattr(pair, name), width, own_width)
         if offset:
-            tree[name]["axial_offset"] = field_of(gear_schema.Gear, "axial_offset", offset)
+            tree[name]["axial_offset"] = field_of(gear_schema.GearText, "axial_offset", offset)
     return tree
 
 
 def _gear(gear: GearData, width: float, own_width: bool) -> dict[str, Any]:
-    tree = tree_of(gear, gear_schema.Gear, ("face_width", "web"))
+    tree = tree_of(gear, gear_schema.GearText, ("face_width", "web"))
     if own_width:
-        tree["face_width"] = field_of(gear_schema.Gear, "face_width", width)
+        tree["face_width"] = field_of(gear_schema.GearText, "face_width", width)
     if gear.protuberance:
         tree["rack"] = tree_of(gear, gear_schema.RackText)
     if gear.web is not None:
