@@ -51,7 +51,7 @@ def attempted(attributes: dict[str, Any], what: str, carry_out: Callable[[], Val
         if isinstance(error.__cause__, KeyboardInterrupt):  # compiled code that Ctrl-C hit in the middle
             raise KeyboardInterrupt from error
         LOGGER.debug("%s failed", what, exc_info=True)
-        warning = f"{what}: failed, and the result stands without: {reason(error)}"
+        warning = f"{what}: failed, and the result is without it: {reason(error)}"
         for name, line in (("warnings", warning), (FAILED, what)):
             attributes[name] = "\n".join(filter(None, [attributes.get(name, ""), line]))
         return None

@@ -44,12 +44,7 @@ def paper_scene(accuracy: Accuracy = ACCURACY) -> Scene:
     path of contact too."""
     scene = load_scene(Path(__file__).parents[1] / "lundvall2004.toml")
     return replace(
-        scene,
-        inertia=None,
-        damping=None,
-        corner_contact=EdgeRadii(0.0),
-        accuracy=accuracy,
-        motion=Motion(200.0, 1, 1),
+        scene, inertia=None, damping=None, corner_contact=EdgeRadii(0.0), accuracy=accuracy, motion=Motion(200.0, 1, 1)
     )
 
 

@@ -96,7 +96,7 @@ EFFECT = Effect(
     absent="the prescribed rotation acts on the pinion and the load torque on the wheel directly",
     fields=Shafts,
     unknowns=("rotation of the pinion", "rotation of the far end of the output shaft"),
-    terms=("torsional springs; of shafts with sections also those of bending and stretching",),
+    terms=("torsional springs; of shafts with sections also springs of bending and stretching",),
     variables=(
         ResultVariable("shaft_end_rotation", "rad", "rotation of the far end of the output shaft"),
         ResultVariable("energy_shafts", "N mm", "elastic energy of the shafts"),

@@ -30,7 +30,7 @@ def _said(own: str, written: str, text: str, number: int) -> Iterator[str]:
     """What TOML's `own` words mean in the line that is `written`; nothing where they say it as well."""
     if match := _HEADER_TWICE.match(own):
         name = ".".join(re.findall(r"'([^']*)'", match[1]))
-        yield f"[{name}] stands twice{_first(text, name, number)}. Put all of its fields below one of them."
+        yield f"[{name}] is there twice{_first(text, name, number)}. Put all of its fields below one of them."
     if own.startswith(("Cannot overwrite a value", "Cannot mutate", "Cannot redefine")):
         if field := _FIELD.match(written):
             yield f"{field[1]} is given twice{_first(text, field[1], number)}. Leave one out."
@@ -65,7 +65,7 @@ def _value(own: str, written: str) -> Iterator[str]:
     elif value.lower() in ("true", "false"):
         yield f"is written {value.lower()}."
     elif value[0] not in "[{":
-        yield f'lacks quotes: a word, or a number with its unit, stands between them. Write {name} = "{value}".'
+        yield f'lacks quotes: a word, or a number with its unit, goes between them. Write {name} = "{value}".'
 
 
 def _open_quote(lines: list[str]) -> int:

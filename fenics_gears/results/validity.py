@@ -97,8 +97,8 @@ def _rank(watched: Watched) -> list[str]:
     rows = watched["rows"][worst]
     return [
         f"the contact compliance is singular in {np.count_nonzero(dependent)} of {len(dependent)} steps (rank"
-        f" {rows - dependent[worst]} of {rows} at worst): contact nodes stand closer than the elements can tell apart;"
-        " forces hold, the pressure does not: lower accuracy.contact_nodes or accuracy.flank_element_size"
+        f" {rows - dependent[worst]} of {rows} at worst): contact nodes are closer than the elements resolve;"
+        " forces are right, the pressure is not: lower accuracy.contact_nodes or accuracy.flank_element_size"
     ]
 
 
@@ -173,8 +173,8 @@ def _separation(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock
     )
     if "settled_from" in result.attrs and clock.time(march.separations[-1][0]) < result.attrs["settled_from"]:
         return [
-            f"{beyond}. The cycles that the numbers are taken from are in contact throughout; [coast_flanks] would give"
-            " what comes before them"
+            f"{beyond}. The cycles that the numbers are taken from are in contact throughout; [coast_flanks] would"
+            " compute the cycles before them"
         ]
     return [f"{beyond}, and {NO_MEANING} from that time on; add [coast_flanks]"]
 

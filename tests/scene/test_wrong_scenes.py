@@ -145,7 +145,7 @@ SECTIONS = [
     ("", ('face_width = "15 mm"\n', ""), ["gears.face_width\n", "is missing",
      "face_width of [gears.pinion] and of [gears.wheel]"]),
     ("", ("[gears]", "[gears"), [":7: [gears", "is no name of a section", "[gears.pinion]"]),
-    ("", "[friction]\ncoefficient = 0.2", [":68: [friction]", "[friction] stands twice, first in line"]),
+    ("", "[friction]\ncoefficient = 0.2", [":68: [friction]", "[friction] is there twice, first in line"]),
     ("", ('module = "4.5 mm"', "module = 4.5 mm"), [":8: module = 4.5 mm\n", 'lacks quotes', 'module = "4.5 mm"']),
     ("", ('module = "4.5 mm"', "module = “4.5 mm”"), [":8: module = ", "typographic quotes"]),
     ("", ('module = "4.5 mm"', "module = '4.5 mm"), [":8: module = ", "quotes that do not end"]),

@@ -48,7 +48,7 @@ def run_and_keep(model: Model, directory: Path, options: argparse.Namespace, job
         except KeyboardInterrupt:
             if kept.dataset is None:
                 raise
-            missing = "without what would have followed the march"
+            missing = "without the stages after the march"
             last_words = f"Interrupted after the march. The result is whole, {missing}: {kept.file}."
         pictures: list[Path] | None = []
         if not last_words and not options.no_pictures:

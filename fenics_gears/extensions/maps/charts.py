@@ -216,7 +216,7 @@ def _waterfall(map_data: xr.Dataset, amplitudes: np.ndarray, signal: str, refere
     words = [f"{ray} × mesh" for ray in rays]
     curves.append(Curve("orders", x, y, DARK, mode=WORDS, listed=False, words=words, beside="top left"))
     caption = (
-        f"{signal}: base lines stand at their speed; height is the level of the amplitude, {DECIBELS:g} dB up to the"
+        f"{signal}: base lines are at their speed; height is the level of the amplitude, {DECIBELS:g} dB up to the"
         f" highest line, {highest:.1f} dB re {reference}; dashed: natural frequencies"
     )
     ranges = {"x_range": (0.0, widest), "y_range": (max(0.0, speeds[0] - 0.3 * high), top + 0.5 * high)}

@@ -133,7 +133,7 @@ def _values(option: str, written: Sequence[str], *kinds: str, why: str = "") -> 
             units.of_kind(words[-1], *kinds)
         except (AxisError, units.QuantityError) as error:
             raise SceneError(
-                f'{option} "{word}" {error} Each value stands in quotes with its unit. {why}{NOTHING_DONE}'
+                f'{option} "{word}" {error} Write each value in quotes with its unit. {why}{NOTHING_DONE}'
             ) from None
     numbers = [units.of_kind(each, *kinds)[0] for each in words]
     for place, number in enumerate(numbers):

@@ -50,7 +50,7 @@ def _lead(part: GearParts, width: Value) -> Fields:
     if not isclose(own.number, width.number, rel_tol=SAME):
         raise ValueProblem(
             f"{part.gear}: lead modifications over its face of {own.words}, but common_face_width is {width.words} and"
-            " the file does not say which ends stand out. Allowed with lead modifications: no common_face_width, or"
+            " the file does not say at which ends. Allowed with lead modifications: no common_face_width, or"
             " the width of the narrower gear."
         )
     return part.of_loaded_sides(

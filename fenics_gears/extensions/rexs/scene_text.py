@@ -32,7 +32,7 @@ def _head(file: str, model: RexsModel, stage: Stage, notes: Mapping[str, Iterabl
     lines = [
         f"Made by gears import from {file} (REXS {model.version}, {program}, {model.date or 'without a date'}).",
         f"The pair is {stage.stage}: {stage.pinion.gear} drives {stage.wheel.gear}.",
-        "Behind every value stands where it is from. This is a scene like any other: change what you know better.",
+        "Each value is followed by its origin. This is a scene like any other: change what you know better.",
         *(line for heading, items in notes.items() for line in _listed(heading, items)),
         "",
         "Sections that may be added: [friction], [shafts], [bearings], [inertia], [damping], ... (docs/effects.md).",

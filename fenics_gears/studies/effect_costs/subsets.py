@@ -55,7 +55,7 @@ class Subset:
         others = " and ".join(self.beside)
         if not others:
             return ""
-        return f"{self.effect} needs {others}" if self.kind == ALONE else f"{others} cannot stand without {self.effect}"
+        return f"{self.effect} needs {others}" if self.kind == ALONE else f"{others} cannot be without {self.effect}"
 
 
 @dataclass(frozen=True)
