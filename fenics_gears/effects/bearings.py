@@ -10,7 +10,7 @@ from .effect import OF_GEARS, Effect, ResultVariable, variables
 
 DIRECTIONS = ("x", "y")
 STIFFNESSES = ("stiffness", "stiffness_x", "stiffness_y")
-# Bearings nearer to each other than so many modules stand on one spot: nothing would hold the tilt.
+# Bearings nearer to each other than so many modules are on one spot: nothing would hold the tilt.
 LEAST_SPAN = 0.1
 
 
@@ -85,7 +85,7 @@ def warnings(bearings: Bearings, model) -> list[str]:
 
 
 def within_gears(bearings: Bearings, model) -> list[str]:
-    """A sentence on each bearing that stands within its gear's own face."""
+    """A sentence on each bearing within its gear's own face."""
     sentences = []
     for gear, width in zip(GEARS, model.pair.face_widths):
         inside = [place for place in bearings.places_of(gear) or () if abs(place) < 0.5 * width]

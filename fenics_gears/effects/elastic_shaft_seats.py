@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from fenics_gears.geometry.gear import Gear
     from fenics_gears.geometry.gear_data import Material
 
-# Bearings of a shaft (mm) that are no further apart, and ends that stand out by as little, are so by round-off.
+# Bearings of a shaft (mm) that are no further apart, and ends that protrude by as little, are so by round-off.
 ROUND_OFF = 1e-9
 # Part of a bore by which the shaft in it may be thinner or thicker without a word: a press fit's.
 OFF_THE_BORE = 0.01

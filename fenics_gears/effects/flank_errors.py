@@ -3,9 +3,9 @@
 
 Signs follow ISO 1328-1. A pitch deviation is positive where the pitch is too long. A profile slope is positive where
 the flank has material in excess towards the tip. A profile form, which has no sign in the standard, is positive where
-the middle of the flank stands out. Those of the helix are the like along the face, positive towards the right end,
-whatever the hand. Teeth are counted in the order in which they mesh, from the tooth of either gear that meshes first; a
-pitch is that from the tooth before.
+the middle of the flank has material in excess. Those of the helix are the like along the face, positive towards the
+right end, whatever the hand. Teeth are counted in the order in which they mesh, from the tooth of either gear that
+meshes first; a pitch is that from the tooth before.
 """
 
 from collections.abc import Sequence

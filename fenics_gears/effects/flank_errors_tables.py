@@ -19,7 +19,7 @@ LEAST_MEASURED = 0.8
 
 
 def located(errors: FlankErrors, directory: Path) -> FlankErrors:
-    """The errors with those that stand in tables, found from a directory on."""
+    """The errors with the values of their tables, whose paths start at a directory."""
     return replace(errors, pinion=_with_table(errors.pinion, directory), wheel=_with_table(errors.wheel, directory))
 
 

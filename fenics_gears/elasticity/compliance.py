@@ -21,8 +21,8 @@ class Reach:
     """Distances, in pitches, between teeth whose flanks interact.
 
     same: the largest between two drive flanks, or two coast flanks. across: least and largest between a drive and a
-    coast flank, positive where the tooth of the drive flank stands counter-clockwise; None where coast flanks are not
-    loaded.
+    coast flank, positive where the tooth of the drive flank is ahead, counter-clockwise; None where coast flanks are
+    not loaded.
     """
 
     same: int

@@ -88,7 +88,7 @@ def numbers_at(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
 
 def node_roll_angles(gear: Gear, vertices: np.ndarray, order: int) -> np.ndarray:
     """Roll angles (n,), rad, of the flank's nodes from its element vertices (k, 2), form circle to tip; a node between
-    two vertices stands midway in arc length."""
+    two vertices is midway in arc length."""
     radius = np.linalg.norm(vertices, axis=1)
     # Round-off may put the first vertex a hair below the base circle, where the form circle can lie.
     vertex_angles = gear.roll_angle(np.maximum(radius, gear.base_radius))

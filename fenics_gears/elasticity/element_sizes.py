@@ -167,8 +167,8 @@ def arc_lengths(curve: np.ndarray) -> np.ndarray:
 
 
 def divided(curve: np.ndarray, size: np.ndarray, fewest: int, multiple: int = 2) -> np.ndarray:
-    """Fractions of the arc length of a curve (m, 2) at which nodes of the wanted size (m,) stand, both ends included: a
-    multiple of ``multiple`` divisions, at least ``fewest``."""
+    """Fractions of the arc length of a curve (m, 2) of the nodes for a wanted size (m,), both ends included: a multiple
+    of ``multiple`` divisions, at least ``fewest``."""
     length = arc_lengths(curve)
     steps = np.linalg.norm(np.diff(curve, axis=0), axis=1)
     density = np.concatenate([[0.0], np.cumsum(steps * 0.5 * (1.0 / size[1:] + 1.0 / size[:-1]))])

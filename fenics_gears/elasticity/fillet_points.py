@@ -18,7 +18,7 @@ from .sector_boundary import root_curve
 if TYPE_CHECKING:
     from .recovery import GearRecovery
 
-# Points of one fillet, without the one where the tangent stands at 30 degrees to the tooth's centreline, in the section
+# Points of one fillet, without the one where the tangent is at 30 degrees to the tooth's centreline, in the section
 # normal to the tooth.
 POINTS = 24
 # The same where flanks are resolved over the face, on sections with fewer elements.

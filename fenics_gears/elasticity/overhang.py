@@ -1,4 +1,4 @@
-"""Flank compliance of a gear that stands out beyond its mate: near the contact the load spreads over the common face,
+"""Flank compliance of a gear that is wider than its mate: near the contact the load spreads over the common face,
 further away over more."""
 
 from dataclasses import replace

@@ -1,9 +1,9 @@
 """A gear as a ring of equal tooth sectors, joined exactly.
 
-Sector s + 1 stands one pitch counter-clockwise of sector s; in the sectors' own frames its lower cut moves as
-``u_upper[s] = R u_lower[s + 1]`` with ``R`` the rotation by one pitch. A discrete Fourier transform over the sectors,
-``u[s] = U_k exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1. In gears with
-many teeth runs of sectors are joined instead (`elasticity.cut_chain`).
+Sector s + 1 is one pitch counter-clockwise of sector s; in the sectors' own frames its lower cut moves as ``u_upper[s]
+= R u_lower[s + 1]`` with ``R`` the rotation by one pitch. A discrete Fourier transform over the sectors, ``u[s] = U_k
+exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1. In gears with many teeth runs
+of sectors are joined instead (`elasticity.cut_chain`).
 """
 
 import numpy as np

@@ -116,7 +116,7 @@ def _of_gear(
         return HelixDeviations(slope, form, width, middle)
 
     pitch = values(own.pitch, lambda: drawn_pitch(limits(), draws(PITCH)))
-    # The mean, left by rounding of the values, is taken off, so that after a turn the first tooth stands where it was.
+    # The mean, left by rounding of the values, is taken off, so that after a turn the first tooth is where it was.
     index = np.cumsum(pitch - pitch.mean())
     zero = None if own.in_the_mean else v_roll_angle(gear)
     return FlankDeviations(

@@ -85,7 +85,7 @@ class GearPair:
 
     @property
     def overhangs(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """How far (mm) pinion and wheel stand out of the common face, at its left and its right end."""
+        """Overhang (mm) of pinion and wheel beyond the common face, at its left and its right end."""
         low, high = self.common_face
         pinion, wheel = (
             (max(low - middle + 0.5 * width, 0.0), max(middle + 0.5 * width - high, 0.0))

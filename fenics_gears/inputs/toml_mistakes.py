@@ -78,7 +78,7 @@ def _open_quote(lines: list[str]) -> int:
 
 
 def _first(text: str, name: str, number: int) -> str:
-    """Where a name of a section, or of a field of the section at a line, stands first."""
+    """Where a name of a section, or of a field of the section at a line, comes first."""
     before = "\n".join(text.splitlines()[: number - 1])
     lines = [line for path, line in line_numbers(before).items() if ".".join(path) == name or path[-1:] == (name,)]
     return f", first in line {lines[-1]}" if lines else ""

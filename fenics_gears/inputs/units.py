@@ -14,7 +14,7 @@ from .problem import did_you_mean
 # What the units of the program measure.
 # A ratio is a dimension too, so that a percentage is no bare number.
 _BASE = {"mm": "length", "N": "force", "s": "time", "rad": "angle", "ratio": "ratio"}
-# Each further unit as a number of units that stand before it.
+# Each further unit as a number of units above it.
 _UNITS = {
     "mm": (1.0, "mm"),
     "um": (0.001, "mm"),

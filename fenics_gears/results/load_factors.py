@@ -128,8 +128,8 @@ def passing(pair: GearPair, position, side: str):
 
 
 def contact_line_lengths(pair: GearPair, positions) -> np.ndarray:
-    """Length (mm) along the axes of the line of contact of pairs that stand at positions (mm from T1, any shape) in the
-    middle of the face."""
+    """Length (mm) along the axes of the line of contact of pairs at positions (mm from T1, any shape) in the middle of
+    the face."""
     positions = np.asarray(positions, dtype=float)
     half = 0.5 * pair.face_width
     slope = abs(pair.slope)

@@ -224,7 +224,7 @@ class EdgesAndKinks:
             rolls += [(gear.form_roll_angle, EDGE)] if gear.undercut else []
             self._places += [_Place(number, 0.5 * gear.base_radius * roll**2, kind) for roll, kind in rolls]
         self._places.sort(key=lambda place: place.kind)
-        # Most blocks of a march stand at the same positions.
+        # Most blocks of a march have the same positions.
         self._last: tuple[Layouts | None, np.ndarray] = None, np.empty(0)
 
     def beside(self, nodes: SideBySide) -> np.ndarray:

@@ -107,7 +107,7 @@ class RootStress:
         for (gear, ahead), loads in asked.items():
             steps, slots, forces = (np.concatenate(each) for each in zip(*loads))
             stress = forces @ self._known(gear, ahead).reshape(slices * points, -1).T
-            # At a step a tooth stands so far ahead of one loaded tooth alone: no place is there twice.
+            # At a step a tooth is so far ahead of one loaded tooth only: no place is there twice.
             values[steps, gear, slots] += stress.reshape(-1, slices, points)
         return self._variables(values.reshape(*values.shape[:4], 2, points // 2))
 

@@ -32,8 +32,8 @@ def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool)
     step. All positions are done at once: a loop over them would take several times as long.
 
     `index`: of the node's tooth pair at the position. `node`: its place in that pair. `drive`: whether it is on a drive
-    flank. `slice`: of the face. `at_end`: whether it stands on an end of the window. `on_edge` (4, n): on the edge of
-    the pinion's tip, of the wheel's tip, and at the form circle of an undercut pinion or wheel. `arcs` (2, n): where it
+    flank. `slice`: of the face. `at_end`: whether it is an end of the window. `on_edge` (4, n): on the edge of the
+    pinion's tip, of the wheel's tip, and at the form circle of an undercut pinion or wheel. `arcs` (2, n): where it
     touches the pinion's and the wheel's flank, mm along the involute from the base circle. `rows_of_normals` (6, n) and
     `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm.
     Over a face (12, n): then the axial force, N, and the moments about x and y, N mm, of both gears.
@@ -68,7 +68,7 @@ def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool)
 
 
 def _at_inner_end(cycle: Cycle, offsets: np.ndarray, ends: np.ndarray, of_flanks: np.ndarray) -> np.ndarray:
-    """Nodes (n,) that stand first or last in a window that is shorter than the whole one, and not on the edge of a
+    """Nodes (n,) that are first or last in a window that is shorter than the whole one, and not on the edge of a
     flank."""
     at_end = np.zeros(len(offsets), dtype=bool)
     round_off = 1e-9 * cycle.grid.length
@@ -80,8 +80,8 @@ def _at_inner_end(cycle: Cycle, offsets: np.ndarray, ends: np.ndarray, of_flanks
 
 
 def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> np.ndarray:
-    """Nodes (4, n) that stand on the edge that ends a flank: the pinion's tip and the wheel's form circle below the
-    line of action, the others above.
+    """Nodes (4, n) on the edge that ends a flank: the pinion's tip and the wheel's form circle below the line of
+    action, the others above.
 
     `ends` (P + 1,): where the nodes of each pair begin and end; `of_flanks` (P, 2, 2): as in `window.ends_of`.
     """
@@ -142,7 +142,7 @@ class Layouts:
         self.starts = np.concatenate(([0], np.cumsum(counts)))
         self.dependent_rows = dependent_rows
         self.step = np.repeat(np.arange(len(counts)), counts)
-        # Where the normal forces stand among all forces, a step's normals before its tangents.
+        # Places of the normal forces among all forces, a step's normals before its tangents.
         self.normal = np.arange(len(self.step)) + (kinds - 1) * np.repeat(self.starts[:-1], counts)
         self.tangential = self.normal + np.repeat(counts, counts)
         self.places = np.arange(len(self.step)) + np.repeat(parts[:, 0] - self.starts[:-1], counts)
@@ -231,7 +231,7 @@ class SideBySide:
         self.tangential = steps.forces[self.layouts.tangential] if steps.kinds == 2 else None
 
     def with_forces(self, steps: Steps) -> SideBySide:
-        """The same nodes with the forces of another run, whose steps stand at the same positions."""
+        """The same nodes with the forces of another run, whose steps have the same positions."""
         other = copy(self)
         other.__dict__.pop("closed", None)
         other._take(steps)

@@ -42,7 +42,7 @@ ROUND_OFF = 1e-9
 class OrderLines:
     """Amplitudes of a signal (n,) by order (n,), turns of the pinion being order 1; without the mean.
 
-    `exact`: of whole hunting tooth periods without a window, so that each line stands alone; else a line spreads over
+    `exact`: of whole hunting tooth periods without a window, so that each line is in one bin; else a line spreads over
     `spread` bins on either side. `bandwidth`: the window's equivalent noise bandwidth in bins.
     """
 

@@ -42,7 +42,7 @@ class StoredVariable:
 
 
 class Attributes(Mapping[str, Any]):
-    """Numbers and texts that stand at a place in an open file."""
+    """Numbers and texts at a place in an open file."""
 
     def __init__(self, place: h5py.h5g.GroupID | h5py.h5d.DatasetID):
         self._place = place

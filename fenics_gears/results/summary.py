@@ -22,7 +22,7 @@ ROUND_OFF = 1e-6
 Row = tuple[str, str, str]
 # A row whose words have their units.
 Said = Iterator[tuple[str, str]]
-# Where pressure stands apart from the peak contact pressure, as it does not converge there.
+# Where pressure is told apart from the peak contact pressure, as it does not converge there.
 APART = {"edge": "edges", "kink": "kinks of relief"}
 
 # The stages of a run whose wall time the result carries, and what they are called.

@@ -93,8 +93,8 @@ def simulate(
 
 @dataclass(frozen=True)
 class SettledScene:
-    """A scene, or its model, whose settings stand; `chosen`: what the result says of their choice, nothing where
-    the scene has its own."""
+    """A scene, or its model, with settled settings; `chosen`: attributes of the result on their choice, none where the
+    scene has its own."""
 
     scene: Scene | Model
     chosen: dict[str, Any] = field(default_factory=dict)

@@ -1,6 +1,6 @@
 """``[accuracy]`` and ``[output]``: how a scene is computed, and results that not every run has.
 
-None: the program chooses (``model.resolution``, ``model.face_resolution``) by the numbers that stand first here.
+None: the program chooses (``model.resolution``, ``model.face_resolution``) by the numbers at the top of this file.
 """
 
 import re

@@ -279,7 +279,7 @@ def _gear_data(
 
 
 def _of_rack(pair: Gears, drawn: GearText, figure: str) -> Any:
-    """A figure of the gear's own rack, else of both; None where a profile stands before it, or nothing."""
+    """A figure of the gear's own rack, else of both; None where a profile has precedence, or there is none."""
     for section in (drawn.rack, pair.rack):
         if section is not None and (getattr(section, figure) is not None or section.profile is not None):
             return getattr(section, figure)

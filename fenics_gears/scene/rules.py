@@ -135,7 +135,7 @@ def _flanks_are_resolved_over_the_face(tree: Tree) -> Broken:
 
 
 def _remeshed_gears_have_one_width(tree: Tree) -> Broken:
-    """What stands out beyond the mate helps to carry, by a law for flanks that are condensed once."""
+    """An overhang beyond the mate helps to carry, by a law for flanks that are condensed once."""
     asked = value_at(tree, "accuracy", "condensation")
     common = quantity_at(tree, "gears", "face_width")
     widths = {quantity_at(tree, "gears", gear, "face_width") or common for gear in GEARS}

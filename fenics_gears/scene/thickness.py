@@ -51,7 +51,7 @@ def shift_of_thickness(pair: Gears, drawn: GearText, name: str) -> tuple[float, 
 
 
 def check_measure(drawn: GearText, name: str, gear: Gear) -> None:
-    """Caliper and balls touch the involute, and balls stand out of the tip circle and clear of the root."""
+    """Caliper and balls touch the involute, and balls protrude from the tip circle and clear the root."""
     lowest = gear.form_radius
     measure = drawn.measure
     if measure == "tooth_thickness":

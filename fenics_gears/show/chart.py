@@ -137,8 +137,7 @@ class Chart:
 
     @property
     def flag_rows(self) -> list[int]:
-        """The row above the curves in which each flag's words stand right of its line: no words over others or
-        another's line."""
+        """The row above the curves for each flag's words, right of its line: no words over others or another's line."""
         first, last = self.x_range
         rows = [0] * len(self.flags)
         order = sorted(range(len(self.flags)), key=lambda each: self.flags[each].x)

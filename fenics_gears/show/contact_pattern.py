@@ -47,7 +47,7 @@ def over_face(part: xr.Dataset, side: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def rolls_on_wheel(pair: GearPair, part: xr.Dataset, side: str, rolls: np.ndarray) -> np.ndarray:
-    """Roll angles (rad) on the wheel's flank of contact nodes from those on the pinion's: they stand as far from the
+    """Roll angles (rad) on the wheel's flank of contact nodes from those on the pinion's: they are as far from the
     point of contact, on the other side."""
     numbers = part["contact_pair_number"]
     since = part["contact_mesh_phase"].values[:, None] - (numbers.values - numbers.attrs["number_at_phase_0"])

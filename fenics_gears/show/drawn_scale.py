@@ -37,7 +37,7 @@ def overlap(mesh: GearsInMesh, scale: float) -> float:
         reached = own[np.linalg.norm(own - centre, axis=1) < np.linalg.norm(other - centre, axis=1).max()]
         inside = reached[Path(other).contains_points(reached)]
         if len(inside):
-            # Depth from the sides, not from the nodes alone: these stand apart by up to an element.
+            # Depth from the sides, not from the nodes alone: these are up to an element apart.
             deepest = max(deepest, float(_distance_to_line(inside, other).max()))
     return deepest
 

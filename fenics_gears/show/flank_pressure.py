@@ -16,7 +16,7 @@ from .contact_pattern import over_face, rolls_on_wheel
 from .loaded_contact import stored_place
 from .pressure import node_edges
 
-# Tiles stand off the flank by this part of a module, so that the facets of the bodies' mesh do not cover them.
+# Tiles are off the flank by this part of a module, so that the facets of the bodies' mesh do not cover them.
 STAND_OFF = 0.02
 NEAREST = 3
 

@@ -180,7 +180,7 @@ def _fields(body: GearInSpace, number: int, over_face: bool) -> dict[str, np.nda
 
 
 def in_tooth_order(mesh: GearsInMesh, gear: int) -> GearInSpace:
-    """A plane gear whose sectors stand in the order of its teeth: tooth j is the one that tooth pair j loads.
+    """A plane gear whose sectors are in the order of its teeth: tooth j is the one that tooth pair j loads.
 
     The sectors of a `GearInSpace` begin anew in each mesh cycle, with the tooth that last reached the start of contact.
     """

@@ -86,8 +86,8 @@ CACHES = ("numba", "fenics", "matplotlib", "fenics_gears")
 
 
 def have_folders(environment: Environment, aloud: bool) -> None:
-    """Set TMPDIR, XDG_CACHE_HOME and MPLCONFIGDIR where what stands there cannot be used; `aloud`: say so on the
-    standard error.
+    """Set TMPDIR, XDG_CACHE_HOME and MPLCONFIGDIR where their values cannot be used; `aloud`: say so on the standard
+    error.
 
     Raises SceneError where compiled code can be kept nowhere.
     """

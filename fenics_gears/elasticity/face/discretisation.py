@@ -12,7 +12,7 @@ from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear
 from ..element_sizes import ElementSizes
 from .layers import Sweep, SweptWeb, layers_of_face, layers_with_web
 
-# Rad, of a layer: its nodes' heights stand on a helix, and parabolas are between them.
+# Rad, of a layer: its nodes lie on a helix, with parabolas between them.
 LARGEST_TURN = 0.5
 
 

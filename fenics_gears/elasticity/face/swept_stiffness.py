@@ -1,11 +1,11 @@
 """Stiffness of a section swept along a gear's face: wedges, products of the section's triangles and of layers, second
 order in both.
 
-A section's point X (a complex number X + iY) stands at ``x = w(z) X`` at height z, where ``w`` interpolates ``exp(i
-twist z_k)`` between the three heights z_k of a layer's nodes: the element is isoparametric, so that rigid motions and
-uniform strains are exact. The displacement is ``sum_k N_k(z) u_k(X)``. Its gradient has the columns ``grad_X(u) W^-1``
-and ``sum_k N_k'(z) u_k - grad_X(u) V X``, where W and V multiply by ``w`` and ``w'/w``: at a height, forms over the
-plane section, whose products with N and N' give the layer. Layers of one thickness are alike but for a rotation.
+A section's point X (a complex number X + iY) is at ``x = w(z) X`` at height z, where ``w`` interpolates ``exp(i twist
+z_k)`` between the three heights z_k of a layer's nodes: the element is isoparametric, so that rigid motions and uniform
+strains are exact. The displacement is ``sum_k N_k(z) u_k(X)``. Its gradient has the columns ``grad_X(u) W^-1`` and
+``sum_k N_k'(z) u_k - grad_X(u) V X``, where W and V multiply by ``w`` and ``w'/w``: at a height, forms over the plane
+section, whose products with N and N' give the layer. Layers of one thickness are alike but for a rotation.
 """
 
 from __future__ import annotations

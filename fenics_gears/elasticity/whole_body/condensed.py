@@ -106,7 +106,7 @@ def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Elemen
 
 
 def _condensed(part: Part, body: DividedBody, element: Element, poissons_ratio: float, angle: float) -> _CondensedPart:
-    """A part whose tooth stands turned by an angle (rad)."""
+    """A part whose tooth is turned by an angle (rad)."""
     groups = {name: body.nodes.points[getattr(part, name)] for name in ("flank", "faces", "interface", "hub")}
     condensed = condense(part.mesh, element, poissons_ratio, groups, cells_of={"faces": part.face_cells})
     surface = np.concatenate([condensed.dofs("flank"), condensed.dofs("faces")])

@@ -1,7 +1,7 @@
 """Bore, tips and drive flanks on the boundary of a meshed gear, found by their position: the mesh needs no names.
 
-The gear's centre is the origin; the mesh is turned so that the tooth whose drive flank stands nearest to the body frame
-of a tooth (`geometry.involute`) is tooth 0. Drive flanks are the counter-clockwise sides of the teeth.
+The gear's centre is the origin; the mesh is turned so that the tooth whose drive flank is nearest to the body frame of
+a tooth (`geometry.involute`) is tooth 0. Drive flanks are the counter-clockwise sides of the teeth.
 """
 
 from dataclasses import dataclass
@@ -130,8 +130,7 @@ def _check_whole(points: np.ndarray, bore: np.ndarray) -> None:
 
 
 def _standing_angle(points: np.ndarray, gear: Gear) -> float:
-    """Angle (rad) by which the mesh stands turned: that of the points (k, 2) of all drive flanks, up to whole
-    pitches."""
+    """Angle (rad) by which the mesh is turned, from the points (k, 2) of all drive flanks, up to whole pitches."""
     radius = np.linalg.norm(points, axis=1)
     tolerance = OUTLINE_TOLERANCE * gear.module
     between = (radius > gear.form_radius) & (radius < gear.tip_form_radius - tolerance)

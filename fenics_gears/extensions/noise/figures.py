@@ -1,7 +1,7 @@
 """Noise figures of a run: levels of mesh orders, sideband energy, and the orders followed over a speed ramp.
 
 Levels are of amplitudes (peak, not r.m.s.): of the transmission error re 1 um along the line of action, of the mesh
-force re 1 N. Steps stand at equal phases of the mesh also where the speed changes, so that a spectrum over steps is one
+force re 1 N. Steps are at equal phases of the mesh also where the speed changes, so that a spectrum over steps is one
 over orders without resampling.
 """
 

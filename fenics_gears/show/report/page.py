@@ -82,7 +82,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Listing:
-    """Text as it stands in a file."""
+    """Text as it is in a file."""
 
     text: str
 

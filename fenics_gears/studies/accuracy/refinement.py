@@ -16,8 +16,8 @@ from .over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, PLANE, SLICES, STEPS
 
 NODES = "contact node spacing"
 CONDENSATION = "condensation"
-# Flank elements and contact nodes, which stand at NODE_SPACING elements. Their errors interact: nodes refined alone
-# converge to what fixed elements give. So whole settings and the reference take both together.
+# Flank elements, and contact nodes at NODE_SPACING elements. Their errors interact: nodes refined alone converge to
+# what fixed elements give. So whole settings and the reference take both together.
 OF_FAMILY = (FLANK, NODES)
 # Gears meshed anew at every step take a hundred times as long, so that both ways of condensing are compared at a
 # coarser setting.
@@ -119,7 +119,7 @@ class Refinement:
     base: Setting
 
     def level_of(self, setting: Setting) -> int | None:
-        """On which level a whole setting stands; None for none."""
+        """The level of a whole setting; None for none."""
 
         def same(other: Setting) -> bool:
             return all(_same(getattr(setting, field), getattr(other, field)) for field in self.fields)

@@ -38,7 +38,7 @@ def judged_by(report: AccuracyReport) -> str:
 
 
 def table_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
-    """A row for each level; a setting's name and orders stand in its first."""
+    """A row for each level; a setting's name and orders are in its first."""
     rows = []
     for result in report.refinements:
         for place, each in enumerate(result.levels):
