@@ -21,11 +21,11 @@ def __getattr__(name: str):
     """Load a name of ``__all__`` on first use."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    # What BLAS, MPI and VTK read from the environment must stand there before they are loaded.
+    # What BLAS, MPI and VTK read from the environment must be there before they are loaded.
     importlib.import_module("fenics_gears.system.environment").prepare()
     resolve_name = importlib.import_module("pkgutil").resolve_name
-    found = globals()[name] = resolve_name(f"{_HOMES[name]}.{name}")
-    return found
+    value = globals()[name] = resolve_name(f"{_HOMES[name]}.{name}")
+    return value
 
 
 def __dir__() -> list[str]:

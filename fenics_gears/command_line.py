@@ -1,5 +1,5 @@
-"""What a command of its own takes from the program: arguments that several commands have, the runs and scenes that they
-name, progress, and files that are written whole or not at all.
+"""What a new command takes from the program: arguments that several commands have, the runs and scenes that they name,
+progress, and files that are written completely or not at all.
 
 docs/adding_an_extension.md shows a command.
 """

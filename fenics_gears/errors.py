@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 LOGGER = logging.getLogger(__name__)
 # The attribute with the names of what failed after a march, such as factors, proposals and pictures, a line each.
 FAILED = "failed_afterwards"
-Found = TypeVar("Found")
+Value = TypeVar("Value")
 
 
 class GearsError(Exception):
@@ -42,7 +42,7 @@ class MemoryEnded(ComputationError):
         )
 
 
-def attempted(attributes: dict[str, Any], what: str, carry_out: Callable[[], Found]) -> Found | None:
+def attempted(attributes: dict[str, Any], what: str, carry_out: Callable[[], Value]) -> Value | None:
     """What `carry_out` finds; where it fails, None, a warning in the attributes of the result, and `what` in their
     `failed_afterwards`."""
     try:
@@ -51,7 +51,7 @@ def attempted(attributes: dict[str, Any], what: str, carry_out: Callable[[], Fou
         if isinstance(error.__cause__, KeyboardInterrupt):  # compiled code that Ctrl-C hit in the middle
             raise KeyboardInterrupt from error
         LOGGER.debug("%s failed", what, exc_info=True)
-        warning = f"{what}: failed, and the result stands without: {reason(error)}"
+        warning = f"{what}: failed, and the result is without it: {reason(error)}"
         for name, line in (("warnings", warning), (FAILED, what)):
             attributes[name] = "\n".join(filter(None, [attributes.get(name, ""), line]))
         return None

@@ -1,4 +1,4 @@
-"""Pages like those of ``gears report``: blocks of words, numbers, tables and pictures, written as one HTML file.
+"""Pages like the report of ``gears report``: blocks of words, numbers, tables and pictures, written as one HTML file.
 
 >>> from fenics_gears.pages import Page, PageSection, Words, rendered
 >>> sections = [PageSection("pairs", "What was compared", [Words("A pair with relief and one without.")])]

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears import load_scene, simulate
-from fenics_gears.effects.corner_contact import CornerContact
+from fenics_gears.effects.corner_contact import EdgeRadii
 from fenics_gears.geometry.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.geometry.pair import GearPair
@@ -44,12 +44,7 @@ def paper_scene(accuracy: Accuracy = ACCURACY) -> Scene:
     path of contact too."""
     scene = load_scene(Path(__file__).parents[1] / "lundvall2004.toml")
     return replace(
-        scene,
-        inertia=None,
-        damping=None,
-        corner_contact=CornerContact(0.0),
-        accuracy=accuracy,
-        motion=Motion(200.0, 1, 1),
+        scene, inertia=None, damping=None, corner_contact=EdgeRadii(0.0), accuracy=accuracy, motion=Motion(200.0, 1, 1)
     )
 
 

@@ -1,16 +1,22 @@
 """The command ``gears``. Logging is configured here and nowhere else; what the commands do is in ``commands``.
 
-Exit codes: 0 done, 2 the scene or the call is wrong (nothing written), 3 the computation failed (the steps computed are
-kept, marked incomplete) or cannot fit into memory, 4 the run ended with a result that has no meaning (it is kept, with
-the reason), 5 the result is whole and kept, but something that follows it failed (proposals, factors, pictures, the
-summary: a warning says what), 130 interrupted by Ctrl-C (the steps computed are kept), 141 the standard output could
-not be written, as when the program that reads it closed the pipe.
+Exit codes:
+
+* 0: done.
+* 2: the scene or the call is wrong. Nothing is written.
+* 3: the computation failed or cannot fit into memory. The steps computed are kept, marked incomplete.
+* 4: the run ended with a result that has no meaning. It is kept, with the reason.
+* 5: the result is complete and kept, but a later stage failed: proposals, factors, pictures, the summary. A
+  warning says which.
+* 130: interrupted by Ctrl-C. The steps computed are kept.
+* 141: the standard output could not be written, as when the program that reads it closed the pipe.
 """
 
 import argparse
 import gc
 import logging
 import os
+import re
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -19,14 +25,18 @@ from typing import NoReturn
 
 from fenics_gears import __version__
 from fenics_gears.errors import GearsError, MemoryEnded
+from fenics_gears.inputs.problem import did_you_mean
 from fenics_gears.system import environment
 from fenics_gears.system.console import prepare_streams, printable
 from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.output import check_working_folder
 
-from . import found
-from .misspelt import in_words
+from . import registry
 from .shared import INTERRUPTED, NOBODY_READS
+
+# Messages of argparse on a command and on options that there are not.
+_NO_CHOICE = re.compile(r"argument COMMAND: invalid choice: '(.*)' \(choose from (.*)\)", re.DOTALL)
+_UNKNOWN = "unrecognized arguments: "
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -72,7 +82,7 @@ def _carried_out(arguments: Sequence[str]) -> int:
     if arguments[:1] == ["help"]:
         arguments = [*arguments[1:2], "--help"]
     called = next((word for word in arguments if not word.startswith("-")), "")
-    if called in found.UNPARSED:
+    if called in registry.UNPARSED:
         after = arguments.index(called) + 1
         _parser().parse_args(arguments[:after])
         return import_module(f"{__package__}.{called}").carry_out(arguments[after:])
@@ -139,10 +149,31 @@ def _configure_logging(verbose: bool) -> None:
 
 
 class Parser(argparse.ArgumentParser):
-    """Of the command line, and of each command: argparse makes those of the same class."""
+    """Of the command line, and of each command: argparse makes their parsers of the same class."""
 
     def error(self, message: str) -> NoReturn:
-        super().error(in_words(message, self))
+        super().error(_with_what_is_meant(message, self))
+
+
+def _with_what_is_meant(message: str, parser: argparse.ArgumentParser) -> str:
+    """What a parser says of a wrong call, with what may be meant."""
+    if match := _NO_CHOICE.fullmatch(message):
+        known = [name.strip("'") for name in match[2].split(", ")]
+        return f'there is no command "{match[1]}".{did_you_mean(match[1], known)} Commands: {", ".join(known)}'
+    if message.startswith(_UNKNOWN):
+        words = message.removeprefix(_UNKNOWN).split()
+        options = [word.partition("=")[0] for word in words if word.startswith("-")]
+        return f"{message}." + "".join(did_you_mean(each, _options(parser)) for each in options)
+    return message
+
+
+def _options(parser: argparse.ArgumentParser) -> Iterator[str]:
+    """The options of a parser, and of the commands that are added to it."""
+    for action in parser._actions:
+        yield from action.option_strings
+        if isinstance(action, argparse._SubParsersAction):
+            for each in action.choices.values():
+                yield from _options(each)
 
 
 def _parser(called: str = "") -> argparse.ArgumentParser:
@@ -172,5 +203,5 @@ def _parser(called: str = "") -> argparse.ArgumentParser:
         help="print the version; with -v also those of libraries, and the kernels of BLAS",
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    found.add(commands, shared, called)
+    registry.add(commands, shared, called)
     return parser

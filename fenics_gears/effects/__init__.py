@@ -66,7 +66,7 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ),
 )
 
-# What a run has besides where the flanks are resolved over the face. Moments are about the gears' mid-widths.
+# Further variables of runs whose flanks are resolved over the face. Moments are about the gears' mid-widths.
 FACE_VARIABLES: tuple[ResultVariable, ...] = (
     *variables(
         OF_SLICES,
@@ -132,16 +132,16 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
             and (over_face or not variable.over_face)
         )
 
-    found = list(COMMON_VARIABLES)
-    found += [each for effect in on for each in effect.variables if is_there(each, getattr(scene, effect.section))]
+    declared = list(COMMON_VARIABLES)
+    declared += [each for effect in on for each in effect.variables if is_there(each, getattr(scene, effect.section))]
     if over_face:
         along_face = (*OF_SLICES, "contact_node")
-        found = [replace(each, dims=along_face) if each.dims == OF_NODES else each for each in found]
-        found += FACE_VARIABLES
+        declared = [replace(each, dims=along_face) if each.dims == OF_NODES else each for each in declared]
+        declared += FACE_VARIABLES
     left_out = () if scene.resolves_contact else OVER_CONTACT_NODES
     left_out += () if scene.motion.speed_given else ("sliding_speed",)
     # Two effects may have a variable in common.
-    return tuple(dict.fromkeys(each for each in found if each.name not in left_out))
+    return tuple(dict.fromkeys(each for each in declared if each.name not in left_out))
 
 
 def common_period(scene) -> float:
@@ -165,7 +165,7 @@ def missing_needs(sections: Collection[str]) -> list[tuple[Effect, str]]:
 
 
 def conflicts(sections: Collection[str]) -> list[tuple[Effect, str]]:
-    """Pairs of an effect among the named sections and a section beside it that it excludes."""
+    """Pairs of an effect among the named sections and another one of them that it excludes."""
     return [(each, other) for each in _among(sections) for other in each.excludes if other in sections]
 
 

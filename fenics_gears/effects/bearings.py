@@ -10,7 +10,7 @@ from .effect import OF_GEARS, Effect, ResultVariable, variables
 
 DIRECTIONS = ("x", "y")
 STIFFNESSES = ("stiffness", "stiffness_x", "stiffness_y")
-# Bearings nearer to each other than so many modules stand on one spot: nothing would hold the tilt.
+# Bearings nearer to each other than so many modules are on one spot: nothing would hold the tilt.
 LEAST_SPAN = 0.1
 
 
@@ -53,8 +53,8 @@ def _bearings_stand_apart(tree: Tree, both: Tree) -> Broken:
     module = module_in(tree) or 0.0
     for gear in GEARS:
         written = places.get(gear)
-        found = [quantity_in(value) for value in written] if isinstance(written, list) else []
-        if len(found) == 2 and None not in found and abs(found[1] - found[0]) < LEAST_SPAN * module:
+        spots = [quantity_in(value) for value in written] if isinstance(written, list) else []
+        if len(spots) == 2 and None not in spots and abs(spots[1] - spots[0]) < LEAST_SPAN * module:
             message = (
                 "has both bearings on one spot, where nothing holds the tilt. Allowed: places at least"
                 f" {LEAST_SPAN * module:g} mm apart, a tenth of the module."
@@ -85,18 +85,18 @@ def warnings(bearings: Bearings, model) -> list[str]:
 
 
 def within_gears(bearings: Bearings, model) -> list[str]:
-    """A sentence on each bearing that stands within its gear's own face."""
-    found = []
+    """A sentence on each bearing within its gear's own face."""
+    sentences = []
     for gear, width in zip(GEARS, model.pair.face_widths):
         inside = [place for place in bearings.places_of(gear) or () if abs(place) < 0.5 * width]
         if inside:
             places = " and ".join(f"{place:g} mm" for place in inside)
             said = f"the bearing at {places} stands" if len(inside) == 1 else f"the bearings at {places} stand"
-            found.append(
+            sentences.append(
                 f"bearings.places.{gear}: {said} within the gear, which reaches {0.5 * width:g} mm to either side of"
                 " its mid-width, from which places are counted: move the bearing out, unless the gear turns on it"
             )
-    return found
+    return sentences
 
 
 EFFECT = Effect(

@@ -88,9 +88,9 @@ def meshes_are_given_and_used(tree: Tree) -> Broken:
         return
     for gear in GEARS:
         if gear in section and value_at(tree, "gears", gear, "web") is not None:
-            message = f"cannot stand beside body_meshes.{gear}, which says where the body is. Leave one of the two out."
+            message = f"cannot be combined with body_meshes.{gear}, which says where the body is. Leave one out."
             yield ("gears", gear, "web"), message
-    beside = "cannot stand beside [body_meshes]"
+    beside = "cannot be combined with [body_meshes]"
     for name, allowed in (("model", "elastic"), ("condensation", "once")):
         written = value_at(tree, "accuracy", name)
         if written != allowed and isinstance(written, str):
@@ -110,17 +110,17 @@ def check(meshes: BodyMeshes, scene, pair) -> None:
 
 def warnings(meshes: BodyMeshes, model) -> list[str]:
     wanted = model.resolution.flank_element_size
-    found = []
+    sentences = []
     for name in GEARS:
         if getattr(meshes, name) is None:
             continue
         size = meshes.body_of(name, model.pair, model.resolution.element).coarsest_flank
         if size > COARSE * wanted:
-            found.append(
+            sentences.append(
                 f"body_meshes.{name}: elements along its flanks are up to {size:.3g} mm long, the contact asks for"
                 f" {wanted:.3g} mm (accuracy.flank_element_size): it is not resolved"
             )
-    return found
+    return sentences
 
 
 def elasticity(meshes: BodyMeshes, model, name: str, reach, cache):

@@ -24,7 +24,7 @@ class Edge(Section):
 
 
 @dataclass(frozen=True)
-class CornerContact(Edge):
+class EdgeRadii(Edge):
     """``[corner_contact]``: the edge radius of both gears."""
 
     pinion: Edge | None = None
@@ -38,7 +38,7 @@ class CornerContact(Edge):
 
 
 def route_has_corners(tree: Tree) -> Broken:
-    """Remeshing at every step has no nodes beside the path of contact."""
+    """Remeshing at every step has no nodes off the path of contact."""
     if "corner_contact" in tree and value_at(tree, "accuracy", "condensation") == "every step":
         message = (
             'has no contact of tips off the line of action. Take "once", or leave the section [corner_contact] out.'
@@ -50,7 +50,7 @@ EFFECT = Effect(
     section="corner_contact",
     description="contact of tip edges before and after the path of contact, along the normal of the mating flank",
     absent="tip edges touch along the line of action only",
-    fields=CornerContact,
+    fields=EdgeRadii,
     terms=("contact of tip edges off the line of action",),
     needs=("tooth_elasticity",),
     rules=route_has_corners,

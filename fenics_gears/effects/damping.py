@@ -16,7 +16,7 @@ def damping_acts(tree: Tree) -> Broken:
     modal, rayleigh = ([name for name in names if name in damping] for names in (MODAL, (*RAYLEIGH, *GEARS)))
     if modal:
         for name in rayleigh:
-            message = f"stands beside {modal[0]}; allowed is one of the two. Leave one out."
+            message = f"is given together with {modal[0]}; allowed is one of the two. Leave one out."
             yield ("damping", name), message
         ratios = damping.get("ratios")
         if isinstance(ratios, list) and ratios and not any(ratios):

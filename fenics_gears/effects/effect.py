@@ -58,7 +58,7 @@ class Effect:
 
     ``needs`` and ``excludes``: section names. ``absent``: what the model is without it; ``unknowns``, ``terms`` and
     ``variables``: what it adds. ``fields``, a class of this module or of the physics that takes it, declares the
-    section and is its data; where the data are something else, ``read`` makes them of the section, and ``write`` a
+    section and is its data. Where the data are another class, ``read`` makes them of the section, and ``write`` makes a
     section (a dictionary) of them. ``rules`` finds what is wrong between fields: each place, and what to do about it.
     ``within``: the section's path where it is not at the top; the scene's attribute is ``section`` all the same.
 
@@ -66,16 +66,17 @@ class Effect:
 
     ``removal(data, pair)``: material removed from pinion and wheel, two functions of the roll angle (rad), mm.
     ``gaps(data, model)``: a function of a step and its position: additional gaps of the contact nodes (n,), mm.
-    ``load(data, model)``: a function of a step: forces on the centre coordinates (k,), N, besides the constant load.
+    ``load(data, model)``: a function of a step: forces on the centre coordinates (k,), N, in addition to the constant
+    load.
     ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
     ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of
     teeth; None for that of equal teeth.
-    ``located(data, directory)``: the data with their files found from the scene file's directory on.
+    ``located(data, directory)``: the data with paths of their files, from the scene file's directory on.
     ``files(data)``: the names of these files, each with a hash of what was read.
     ``check(data, scene, pair)``: raises SceneError where those files, or this load and speed, are wrong.
     ``fits(data, model)``: raises SceneError where the run's settings, given or chosen, are too coarse for it.
     ``warnings(data, model)``: sentences to read before the run.
-    ``watched(data, cycle, steps)``: what the findings need of ``dynamics.steps.Steps``, name to values (steps,).
+    ``watched(data, cycle, steps)``: values (steps,) of ``dynamics.steps.Steps`` that the findings need, by name.
     ``findings(data, watched)``: sentences on where a run violates what the effect assumes.
     ``results(data, scene, cycle, steps)``: its own variables at steps (time,), name to (dimensions, values).
     ``period(data, scene)``: mesh cycles after which what it does repeats, infinite where never; 1 unless given.

@@ -29,7 +29,7 @@ ROUNDING = 1e-6
 Housed = TypeVar("Housed", Shaft, Shafts)
 
 
-def found(housed: Housed, directory: Path) -> Housed:
+def located_housing(housed: Housed, directory: Path) -> Housed:
     """A shaft, or both, with the matrix of the housing, whose file is looked for from a directory on."""
     if housed.housing is None:
         return housed

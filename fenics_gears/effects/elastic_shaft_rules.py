@@ -27,18 +27,18 @@ BESIDE_ROLLING = ("radial_stiffness", "tilting_stiffness")
 
 
 def rules_of_elastic_shafts(tree: Tree) -> Broken:
-    """A shaft with sections says where gear and torque are, has bearings of its own and, beside [inertia], a
-    density."""
+    """A shaft with sections says where gear and torque are. It has bearings of its own and, in a scene with [inertia],
+    a density."""
     both = table(tree, "shafts") or {}
     if "torsional_stiffness" in both:
         message = (
-            "stands beside a shaft with sections, so that it is not clear whose it is. Leave it out, or give it to"
-            " [shafts.input] or [shafts.output]."
+            "is given together with a shaft with sections, so that it is not clear whose it is. Leave it out, or give"
+            " it to [shafts.input] or [shafts.output]."
         )
         yield ("shafts", "torsional_stiffness"), message
     for shaft in shafts_with_sections(tree):
         if "housing" in both and "housing" in (table(both, shaft) or {}):
-            message = "stands beside the housing of [shafts], which is that of both shafts. Leave one out."
+            message = "is given together with the housing of [shafts], which is that of both shafts. Leave one out."
             yield ("shafts", shaft, "housing"), message
         for name in ("gear_at", "torque_at"):
             if name not in (table(both, shaft) or {}):
@@ -53,7 +53,7 @@ def rules_of_elastic_shafts(tree: Tree) -> Broken:
             yield ("bearings", gear), message
         if "inertia" in tree and _has_no_density(tree, shaft, gear):
             message = (
-                "is missing: beside [inertia] the shaft's own mass counts, and nothing tells how dense it is. Allowed:"
+                "is missing: with [inertia] the shaft's own mass counts, and nothing gives its density. Allowed:"
                 ' such as "7.85 g/cm^3", here or as density of [inertia] or of the gear in it.'
             )
             yield ("shafts", shaft, "material", "density"), message
@@ -67,7 +67,7 @@ def _has_no_density(tree: Tree, shaft: str, gear: str) -> bool:
 
 
 def rules_of_listed_bearings(tree: Tree, both: Tree, listed: Sequence[str]) -> Broken:
-    """Bearings that are listed are those of a shaft with sections, and the only ones of that gear."""
+    """Only shafts with sections have listed bearings, and such a gear has no others."""
     for gear in listed:
         shaft = SHAFTS[GEARS.index(gear)]
         own = table(both, gear) or {}
@@ -80,14 +80,13 @@ def rules_of_listed_bearings(tree: Tree, both: Tree, listed: Sequence[str]) -> B
         beside = [(gear, name) for name in names_in(Stiffnesses) if name in own]
         beside += [("places", gear)] if gear in (table(both, "places") or {}) else []
         for path in beside:
-            message = f"stands beside [[bearings.{gear}]], which are all of the {gear}'s bearings. Leave one out."
+            message = f"is given together with [[bearings.{gear}]], all of the {gear}'s bearings. Leave one out."
             yield ("bearings", *path), message
     for name in names_in(Stiffnesses) if listed else ():
         if name in both:
             other = next((gear for gear in GEARS if gear not in listed), "")
-            message = f"stands beside [[bearings.{listed[0]}]], so that it is not clear whose it is. Leave it out" + (
-                f", or give it to [bearings.{other}]." if other else "."
-            )
+            unclear = f"is given together with [[bearings.{listed[0]}]], so that it is not clear whose it is"
+            message = f"{unclear}. Leave it out" + (f", or give it to [bearings.{other}]." if other else ".")
             yield ("bearings", name), message
 
 
@@ -100,10 +99,10 @@ def check_shafts(scene: Any, pair: Any) -> None:
         if gear in scene.shafts.sections:
             own = scene.shafts.sections[gear].housing
             check_housing(own, f"shafts.{shaft}.housing", len(scene.bearings.each_of(gear)), of_both)
-            found = elastic_shaft(scene, pair, gear)
-            wrong += [*_sections_are_solid(found, shaft), *_places_are_on_the_shaft(found, shaft)]
-            wrong += [*_bearings_brace(found)] if not wrong else []
-            wrong += wrong_with_seat(scene, pair, found, shaft)
+            elastic = elastic_shaft(scene, pair, gear)
+            wrong += [*_sections_are_solid(elastic, shaft), *_places_are_on_the_shaft(elastic, shaft)]
+            wrong += [*_bearings_brace(elastic)] if not wrong else []
+            wrong += wrong_with_seat(scene, pair, elastic, shaft)
     if not wrong:
         wrong += [said for system in shaft_systems(scene, pair) for said in _bearings_hold(system)]
     if wrong:
@@ -112,13 +111,13 @@ def check_shafts(scene: Any, pair: Any) -> None:
 
 def systems_at_work(scene: Any, pair: Any) -> tuple[ShaftSystem, ...]:
     """The shafts of a scene that have sections, with rolling bearings as stiff as they are under an even line load."""
-    found = []
+    systems = []
     for system in shaft_systems(scene, pair):
         if system.in_rolling:
             loads = [even_load(shaft, pair, scene.load.wheel_torque) for shaft in system.shafts]
             system = at_work(system, np.concatenate(loads))
-        found.append(system)
-    return tuple(found)
+        systems.append(system)
+    return tuple(systems)
 
 
 def shaft_systems(scene: Any, pair: Any) -> tuple[ShaftSystem, ...]:
@@ -138,16 +137,16 @@ def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
     constants = shaft.material.constants(material)
     width = pair.face_widths[number]
     bearings = scene.bearings.each_of(gear)
-    found = ElasticShaft(
+    elastic = ElasticShaft(
         gear, shaft.sections, constants, shaft.gear_at, width, shaft.torque_at, bearings,
         in_housing=shaft.housing is not None or scene.shafts.housing is not None,
     )  # fmt: skip
-    return found if shaft.seat == RIGID_SEAT else seated(found, shaft.seat, getattr(pair, gear), material)
+    return elastic if shaft.seat == RIGID_SEAT else seated(elastic, shaft.seat, getattr(pair, gear), material)
 
 
 def shaft_warnings(scene: Any, pair: Any) -> list[str]:
     """A sentence on each gear whose bore is not as wide as the shaft in it is thick."""
-    found = []
+    sentences = []
     for gear, shaft in scene.shafts.sections.items():
         bore = 2.0 * getattr(pair, gear).bore_radius
         name = SHAFTS[GEARS.index(gear)]
@@ -156,17 +155,17 @@ def shaft_warnings(scene: Any, pair: Any) -> list[str]:
         under = under_the_face(shaft.sections, elastic_shaft(scene, pair, gear).seat_ends)
         off = [each for each in under if abs(each - bore) > OFF_THE_BORE * bore]
         if off:
-            found.append(
+            sentences.append(
                 f"shafts.{name}.sections: the shaft is {off[0]:g} mm thick under the {gear}'s face, whose bore is"
-                f" {bore:g} mm wide: the seat is rigid all the same, and what of shaft or gear is missing between them"
-                f" counts nowhere. Let the sections there and gears.{gear}.bore_diameter agree, or take seat ="
+                f" {bore:g} mm wide: the seat is rigid all the same, and the material between them is in neither"
+                f" body. Let the sections there and gears.{gear}.bore_diameter agree, or take seat ="
                 f' "{INTEGRAL}" where the teeth are cut into the shaft'
             )
-    return found
+    return sentences
 
 
-def _sections_are_solid(found: ElasticShaft, shaft: str) -> Iterator[str]:
-    for number, section in enumerate(found.sections, 1):
+def _sections_are_solid(elastic: ElasticShaft, shaft: str) -> Iterator[str]:
+    for number, section in enumerate(elastic.sections, 1):
         thin, thick = sorted((section.diameter, section.right_diameter))
         if section.bore >= thin:
             yield (
@@ -180,31 +179,31 @@ def _sections_are_solid(found: ElasticShaft, shaft: str) -> Iterator[str]:
             )
 
 
-def _places_are_on_the_shaft(found: ElasticShaft, shaft: str) -> Iterator[str]:
-    """The gear's whole face and the coupling are on the shaft, and bearings beside the gear."""
-    length = found.length
-    half = 0.5 * found.seat
-    width = f"{found.seat:g} mm"
-    if length < found.seat - ROUND_OFF:
+def _places_are_on_the_shaft(elastic: ElasticShaft, shaft: str) -> Iterator[str]:
+    """The gear's whole face and the coupling are on the shaft; bearings are outside the gear's face."""
+    length = elastic.length
+    half = 0.5 * elastic.seat
+    width = f"{elastic.seat:g} mm"
+    if length < elastic.seat - ROUND_OFF:
         yield (
-            f"shafts.{shaft}.sections: are {length:g} mm long in all, shorter than the {found.gear}'s face of {width};"
-            " lengthen them"
+            f"shafts.{shaft}.sections: are {length:g} mm long in all, shorter than the {elastic.gear}'s face of"
+            f" {width}; lengthen them"
         )
-    elif not half - ROUND_OFF <= found.gear_at <= length - half + ROUND_OFF:
+    elif not half - ROUND_OFF <= elastic.gear_at <= length - half + ROUND_OFF:
         yield (
-            f"shafts.{shaft}.gear_at = {found.gear_at:g} mm: the {found.gear}'s face of {width} reaches beyond the"
+            f"shafts.{shaft}.gear_at = {elastic.gear_at:g} mm: the {elastic.gear}'s face of {width} reaches beyond the"
             f" shaft, which is {length:g} mm long; allowed is {half:g} mm to {length - half:g} mm"
         )
-    if found.torque_at > length + ROUND_OFF:
-        yield f"shafts.{shaft}.torque_at = {found.torque_at:g} mm: is beyond the shaft, which is {length:g} mm long"
-    for number, bearing in enumerate(found.bearings, 1):
-        name = f"bearings.{found.gear}: the bearing at {bearing.at:g} mm, place {number},"
+    if elastic.torque_at > length + ROUND_OFF:
+        yield f"shafts.{shaft}.torque_at = {elastic.torque_at:g} mm: is beyond the shaft, which is {length:g} mm long"
+    for number, bearing in enumerate(elastic.bearings, 1):
+        name = f"bearings.{elastic.gear}: the bearing at {bearing.at:g} mm, place {number},"
         if bearing.at > length + ROUND_OFF:
             yield f"{name} is beyond the shaft, which is {length:g} mm long"
-        elif abs(bearing.at - found.gear_at) < half - ROUND_OFF:
+        elif abs(bearing.at - elastic.gear_at) < half - ROUND_OFF:
             yield (
-                f"{name} overlaps the gear, whose face reaches from {found.gear_at - half:g} mm to"
-                f" {found.gear_at + half:g} mm; move it out"
+                f"{name} overlaps the gear, whose face reaches from {elastic.gear_at - half:g} mm to"
+                f" {elastic.gear_at + half:g} mm; move it out"
             )
         yield from _stiffness_is_given_once(bearing, name)
 
@@ -220,13 +219,13 @@ def _stiffness_is_given_once(bearing: Bearing, name: str) -> Iterator[str]:
         yield from (f"{name} {said}" for said in _rolling_elements_fit(bearing.rolling))
 
 
-def _bearings_brace(found: ElasticShaft) -> Iterator[str]:
+def _bearings_brace(elastic: ElasticShaft) -> Iterator[str]:
     """Preloads of a shaft's bearings are each other's."""
-    braced = [each.rolling.bracing for each in found.bearings if each.rolling is not None and each.rolling.preload]
+    braced = [each.rolling.bracing for each in elastic.bearings if each.rolling is not None and each.rolling.preload]
     if abs(sum(braced)) > ROUND_OFF * sum(map(abs, braced)):
         yield (
-            f"bearings.{found.gear}: preloads push the shaft with {sum(braced):g} N along its axis; bearings that brace"
-            " each other have the same preload, and contact angles of opposite signs"
+            f"bearings.{elastic.gear}: preloads push the shaft with {sum(braced):g} N along its axis; bearings that"
+            " brace each other have the same preload, and contact angles of opposite signs"
         )
 
 
@@ -253,9 +252,9 @@ def _bearings_hold(system: ShaftSystem) -> Iterator[str]:
 def _rolling_elements_fit(rolling: RollingBearing) -> Iterator[str]:
     """What does not fit within a rolling bearing, to be read after its name."""
     for names, without in ((OF_ROLLERS, BALLS), (OF_BALLS, ROLLERS)):
-        found = [name for name in names if getattr(rolling, name) is not None]
-        if rolling.elements == without and found:
-            yield f"has {found[0]}, which {without} do not have; leave it out"
+        given = [name for name in names if getattr(rolling, name) is not None]
+        if rolling.elements == without and given:
+            yield f"has {given[0]}, which {without} do not have; leave it out"
     if rolling.rollers and rolling.length is None:
         yield 'has rollers without length; allowed is such as "14 mm"'
     needed = rolling.number * rolling.diameter / pi

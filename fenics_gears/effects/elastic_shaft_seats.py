@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from fenics_gears.geometry.gear import Gear
     from fenics_gears.geometry.gear_data import Material
 
-# Bearings of a shaft (mm) that are no further apart, and ends that stand out by as little, are so by round-off.
+# Bearings of a shaft (mm) that are no further apart, and ends that protrude by as little, are so by round-off.
 ROUND_OFF = 1e-9
 # Part of a bore by which the shaft in it may be thinner or thicker without a word: a press fit's.
 OFF_THE_BORE = 0.01
 
 
 def seated(shaft: ElasticShaft, seat: str, gear: Gear, material: Material) -> ElasticShaft:
-    """A shaft with a gear of a material on a seat that gives way."""
+    """A shaft with a gear of a material on an elastic seat."""
     if seat == PRESS_FIT:
         return replace(shaft, hub=hub_of(shaft, gear, material))
     face = shaft.seat_ends
@@ -82,40 +82,43 @@ def under_the_face(sections: Sequence[ShaftSection], face: tuple[float, float]) 
     return [diameter for part in parts for diameter in (part.diameter, part.right_diameter)]
 
 
-def wrong_with_seat(scene: Any, pair: Any, found: ElasticShaft, shaft: str) -> Iterator[str]:
-    """The shaft fits within the root circle; a gear cut into it is of one piece with it and coupled beside its face."""
-    own = scene.shafts.sections[found.gear]
-    gear = getattr(pair, found.gear)
+def wrong_with_seat(scene: Any, pair: Any, elastic: ElasticShaft, shaft: str) -> Iterator[str]:
+    """The shaft fits within the root circle; a gear cut into it is of the same material, and its coupling is outside
+    the face."""
+    own = scene.shafts.sections[elastic.gear]
+    gear = getattr(pair, elastic.gear)
     root = 2.0 * gear.root_radius
-    thickest = max(under_the_face(own.sections, found.seat_ends), default=0.0)
+    thickest = max(under_the_face(own.sections, elastic.seat_ends), default=0.0)
     if thickest > root:
         yield (
-            f"shafts.{shaft}.sections: the shaft is {thickest:g} mm thick under the {found.gear}'s face, more than the"
-            f" root diameter of {root:g} mm; allowed are smaller ones"
+            f"shafts.{shaft}.sections: the shaft is {thickest:g} mm thick under the {elastic.gear}'s face, more than"
+            f" the root diameter of {root:g} mm; allowed are smaller ones"
         )
-    if not found.yields_within:
+    if not elastic.yields_within:
         return
     named = f'shafts.{shaft}.seat = "{own.seat}"'
-    material = scene.gears.materials[GEARS.index(found.gear)]
-    if found.hub is not None:
-        yield from _is_a_cylinder(own, found, 2.0 * gear.bore_radius, named)
-    elif found.material != (material.youngs_modulus, material.poissons_ratio):
-        yield f"{named}: {found.gear} and shaft are one piece, but of two materials; leave shafts.{shaft}.material out"
-    if gear.web is not None and found.integral:
-        yield f'{named}: gears.{found.gear}.web stands between teeth and shaft; leave one out, or seat = "{RIGID_SEAT}"'
-    if abs(found.torque_at - found.gear_at) < 0.5 * found.seat - ROUND_OFF:
-        yield f"{named}: torque_at = {found.torque_at:g} mm is within the face; move the coupling beside it"
+    material = scene.gears.materials[GEARS.index(elastic.gear)]
+    if elastic.hub is not None:
+        yield from _is_a_cylinder(own, elastic, 2.0 * gear.bore_radius, named)
+    elif elastic.material != (material.youngs_modulus, material.poissons_ratio):
+        made_of = f"{elastic.gear} and shaft are one piece, but of two materials"
+        yield f"{named}: {made_of}; leave shafts.{shaft}.material out"
+    if gear.web is not None and elastic.integral:
+        web = f"gears.{elastic.gear}.web"
+        yield f'{named}: {web} stands between teeth and shaft; leave one out, or seat = "{RIGID_SEAT}"'
+    if abs(elastic.torque_at - elastic.gear_at) < 0.5 * elastic.seat - ROUND_OFF:
+        yield f"{named}: torque_at = {elastic.torque_at:g} mm is within the face; move the coupling out of it"
 
 
-def _is_a_cylinder(own: Any, found: ElasticShaft, bore: float, named: str) -> Iterator[str]:
-    """The shaft in a hub that gives way is as thick as its bore, and bored alike."""
-    under = [part for part, within in _cut_at(own.sections, found.seat_ends) if within]
+def _is_a_cylinder(own: Any, elastic: ElasticShaft, bore: float, named: str) -> Iterator[str]:
+    """The shaft in an elastic hub is as thick as the hub's bore, and has one bore itself."""
+    under = [part for part, within in _cut_at(own.sections, elastic.seat_ends) if within]
     ends = [each for part in under for each in (part.diameter, part.right_diameter)]
     off = [each for each in ends if abs(each - bore) > OFF_THE_BORE * bore]
     if off:
         yield (
-            f"{named}: the shaft is {off[0]:g} mm thick under the {found.gear}'s face; allowed is a cylinder as thick"
-            f" as gears.{found.gear}.bore_diameter, {bore:g} mm"
+            f"{named}: the shaft is {off[0]:g} mm thick under the {elastic.gear}'s face; allowed is a cylinder as thick"
+            f" as gears.{elastic.gear}.bore_diameter, {bore:g} mm"
         )
     elif len({part.bore for part in under}) > 1:
-        yield f"{named}: the shaft's bore changes under the {found.gear}'s face; let it change beside it"
+        yield f"{named}: the shaft's bore changes under the {elastic.gear}'s face; let it change outside the face"

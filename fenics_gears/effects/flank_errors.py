@@ -1,11 +1,11 @@
 """``[flank_errors]``: pitch, profile, helix and waviness deviations of single teeth (``geometry.flank_deviations``,
 ``contact.flank_gaps``).
 
-Signs are those of ISO 1328-1. A pitch deviation is positive where the pitch is too long; a profile slope where the
-flank has material in excess towards the tip; a profile form, which the standard gives no sign, where the middle of the
-flank stands out. Those of the helix are the like along the face, positive towards the right end, whatever the hand.
-Teeth are counted in the order in which they mesh, from the tooth of either gear that meshes first; a pitch is that from
-the tooth before.
+Signs follow ISO 1328-1. A pitch deviation is positive where the pitch is too long. A profile slope is positive where
+the flank has material in excess towards the tip. A profile form, which has no sign in the standard, is positive where
+the middle of the flank has material in excess. Those of the helix are the like along the face, positive towards the
+right end, whatever the hand. Teeth are counted in the order in which they mesh, from the tooth of either gear that
+meshes first; a pitch is that from the tooth before.
 """
 
 from collections.abc import Sequence
@@ -24,11 +24,11 @@ from .flank_errors_tables import check, files, located
 
 
 def write(errors: FlankErrors) -> dict:
-    found = tree_of(errors)
+    section = tree_of(errors)
     for gear in GEARS:
         for column in getattr(errors, gear).columns:
-            found[gear].pop(column, None)
-    return found
+            section[gear].pop(column, None)
+    return section
 
 
 def gaps(errors: FlankErrors, model):
@@ -42,10 +42,10 @@ def fits(errors: FlankErrors, model) -> None:
 def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
     """The deviations of every tooth, given and drawn; slope and form of measured curves are evaluated by ISO 1328-1."""
     values = {}
-    for gear, found in zip(GEARS, deviations_of(errors, cycle.pair, cycle.face)):
+    for gear, deviations in zip(GEARS, deviations_of(errors, cycle.pair, cycle.face)):
         dimension = (f"{gear}_tooth",)
-        values[f"{gear}_index_deviation"] = dimension, found.index
-        for kind, errors_of_kind in (("profile", found), ("helix", found.helix)):
+        values[f"{gear}_index_deviation"] = dimension, deviations.index
+        for kind, errors_of_kind in (("profile", deviations), ("helix", deviations.helix)):
             if errors_of_kind is not None:
                 slope, form = slope_and_form(errors_of_kind)
                 values |= {f"{gear}_{kind}_slope": (dimension, slope), f"{gear}_{kind}_form": (dimension, form)}

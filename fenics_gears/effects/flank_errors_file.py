@@ -48,18 +48,18 @@ def deviations_in(path: Path, names: Sequence[str]) -> dict[str, tuple[float, ..
     they are parted by commas, semicolons or tabs. Empty lines and those that begin with # are passed over.
     """
     columns, rows = _table(path, dict.fromkeys(names, LENGTH), "tooth, pitch (um), profile_slope (um)")
-    found: dict[int, tuple[float, ...]] = {}
+    by_tooth: dict[int, tuple[float, ...]] = {}
     for row in rows:
-        if row.tooth in found:
+        if row.tooth in by_tooth:
             raise FileProblem(f"{row.place}: has tooth {row.tooth} again. Allowed: each tooth once.")
-        found[row.tooth] = tuple(_deviation(row.place, name, value) for name, value in zip(columns, row.values))
-    missing = sorted(set(range(1, len(found) + 1)) - set(found))
+        by_tooth[row.tooth] = tuple(_deviation(row.place, name, value) for name, value in zip(columns, row.values))
+    missing = sorted(set(range(1, len(by_tooth) + 1)) - set(by_tooth))
     if missing:
         raise FileProblem(
-            f"{path}: has {len(found)} teeth, but none of number {missing[0]}. Allowed: each tooth once, counted"
+            f"{path}: has {len(by_tooth)} teeth, but none of number {missing[0]}. Allowed: each tooth once, counted"
             " from 1."
         )
-    return dict(zip(columns, zip(*(found[tooth] for tooth in sorted(found)))))
+    return dict(zip(columns, zip(*(by_tooth[tooth] for tooth in sorted(by_tooth)))))
 
 
 def curves_in(path: Path, along: Mapping[str, str]) -> MeasuredCurves:

@@ -29,7 +29,7 @@ def errors_fit_the_gears(tree: Tree) -> Broken:
         own = table(errors, gear) or {}
         yield from _lists_fit_the_teeth(own, teeth_in(tree, gear), gear)
         if "anchor" in own and not any(name in own for name in CURVES):
-            message = f"has no curves to hold. Allowed: beside {' or '.join(CURVES)}; leave anchor out."
+            message = f"has no curves to hold. Allowed: with {' or '.join(CURVES)}; leave anchor out."
             yield ("flank_errors", gear, "anchor"), message
 
 

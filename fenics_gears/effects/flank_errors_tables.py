@@ -19,7 +19,7 @@ LEAST_MEASURED = 0.8
 
 
 def located(errors: FlankErrors, directory: Path) -> FlankErrors:
-    """The errors with those that stand in tables, found from a directory on."""
+    """The errors with the values of their tables, whose paths start at a directory."""
     return replace(errors, pinion=_with_table(errors.pinion, directory), wheel=_with_table(errors.wheel, directory))
 
 
@@ -30,36 +30,36 @@ def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
     name = "file"
     try:
         if errors.file is not None:
-            found = tables.deviations_in(_found(directory, errors.file), LISTS)
-            twice = next((each for each in LISTS if each in found and getattr(errors, each) is not None), None)
+            lists = tables.deviations_in(_in_folder(directory, errors.file), LISTS)
+            twice = next((each for each in LISTS if each in lists and getattr(errors, each) is not None), None)
             if twice is not None:
                 raise tables.FileProblem(f"the table has {twice}, which the scene has, too. Leave one of the two out.")
-            errors = replace(errors, columns=tuple(found), **found)
+            errors = replace(errors, columns=tuple(lists), **lists)
         for name, (measured, along) in CURVES.items():
             if getattr(errors, name) is not None:
-                curves = tables.curves_in(_found(directory, getattr(errors, name)), getattr(tables, along))
+                curves = tables.curves_in(_in_folder(directory, getattr(errors, name)), getattr(tables, along))
                 errors = replace(errors, **{measured: curves})
     except tables.FileProblem as problem:
         return replace(errors, problem=(name, str(problem)))
     return errors
 
 
-def _found(directory: Path, name: str) -> Path:
+def _in_folder(directory: Path, name: str) -> Path:
     # `Path.resolve` raises where a link leads to itself.
     return Path(os.path.realpath(directory / name))
 
 
 def files(errors: FlankErrors) -> dict[str, str]:
-    found: dict[str, str] = {}
+    hashes: dict[str, str] = {}
     for own in (errors.pinion, errors.wheel):
         said = {"file": {name: getattr(own, name) for name in own.columns}}
         said |= {name: repr(getattr(own, measured)) for name, (measured, _) in CURVES.items()}
-        found |= {
+        hashes |= {
             getattr(own, name): sha256(repr(said[name]).encode()).hexdigest()
             for name in TABLES
             if getattr(own, name) is not None
         }
-    return found
+    return hashes
 
 
 def check(errors: FlankErrors, scene, pair) -> None:
@@ -89,7 +89,7 @@ def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str,
             continue
         for replaced in REPLACED[name]:
             if getattr(errors, replaced) is not None:
-                return name, f"stands beside {replaced}, which the curves replace. Leave one of the two out."
+                return name, f"is given together with {replaced}, which the curves replace. Leave one of the two out."
         whole = "active profile" if measured == "measured_profile" else "face"
         for curve in curves.curves:
             if problem := _problem_of_curve(curve, curves.along, module, pair, gear, whole):

@@ -4,7 +4,6 @@ formula."""
 from dataclasses import dataclass
 
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.friction_formulas import FORMULAS, OutOfRange
 from fenics_gears.inputs.fields import choice, number, quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section, allowed_in
@@ -56,6 +55,8 @@ class Friction(Section):
         """The coefficient in a scene. Raises SceneError for a formula that is not for its load and speed."""
         if self.formula is None:
             return self.coefficient
+        from fenics_gears.geometry.friction_formulas import FORMULAS, OutOfRange
+
         force = abs(scene.load.wheel_torque) / pair.wheel.base_radius
         speed = 60.0 * scene.motion.mesh_frequency / pair.pinion.teeth
         try:

@@ -46,7 +46,8 @@ def _density_stands_alone(tree: Tree) -> Broken:
         beside = [name for name in LUMPED if name in section]
         if "density" in section and beside:
             others = " and ".join(beside)
-            yield (*path, "density"), f"stands beside {others}, which follow from it. Leave density out, or {others}."
+            message = f"is given together with {others}, which follow from it. Leave density out, or {others}."
+            yield (*path, "density"), message
 
 
 def _what_tilts_has_places(tree: Tree) -> Broken:

@@ -3,6 +3,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from types import ModuleType
 
 from fenics_gears.dynamics.shafts import HousingFile, Shaft, Shafts
 from fenics_gears.inputs.problem import Broken
@@ -17,7 +18,7 @@ def shafts_are_complete(tree: Tree) -> Broken:
     both = table(tree, "shafts")
     if both is None:
         return
-    yield from _each_gives_way(both)
+    yield from _each_has_a_stiffness(both)
     bent = shafts_with_sections(tree)
     if "housing" in both and len(bent) < len(SHAFTS):
         message = (
@@ -26,9 +27,7 @@ def shafts_are_complete(tree: Tree) -> Broken:
         )
         yield ("shafts", "housing"), message
     if bent:
-        from .elastic_shaft_rules import rules_of_elastic_shafts
-
-        yield from rules_of_elastic_shafts(tree)
+        yield from _rules_of_bent().rules_of_elastic_shafts(tree)
         return
     if "torsional_stiffness" in both:
         return
@@ -42,7 +41,14 @@ def shafts_are_complete(tree: Tree) -> Broken:
         yield path, f"is missing: only the other shaft has one. {example}, or torsional_stiffness of [shafts] for both."
 
 
-def _each_gives_way(both: Tree) -> Broken:
+def _rules_of_bent() -> ModuleType:
+    """Rules of shafts that bend, which load beams and bearings."""
+    from . import elastic_shaft_rules
+
+    return elastic_shaft_rules
+
+
+def _each_has_a_stiffness(both: Tree) -> Broken:
     for shaft in SHAFTS:
         own = table(both, shaft)
         if own is None or "sections" in own:
@@ -59,10 +65,10 @@ def _each_gives_way(both: Tree) -> Broken:
 def located(shafts: Shafts, directory: Path) -> Shafts:
     if not _housings(shafts):
         return shafts
-    from .elastic_shaft_housing import found
+    from .elastic_shaft_housing import located_housing
 
-    own = {name: found(each, directory) for name in SHAFTS if (each := getattr(shafts, name)) is not None}
-    return replace(found(shafts, directory), **own)
+    own = {name: located_housing(each, directory) for name in SHAFTS if (each := getattr(shafts, name)) is not None}
+    return replace(located_housing(shafts, directory), **own)
 
 
 def _housings(shafts: Shafts) -> list[HousingFile]:
@@ -77,17 +83,11 @@ def files(shafts: Shafts) -> dict[str, str]:
 def check(shafts: Shafts, scene, pair) -> None:
     """Raise SceneError where gears, couplings and bearings do not fit their shafts."""
     if shafts.sections is not None:
-        from .elastic_shaft_rules import check_shafts
-
-        check_shafts(scene, pair)
+        _rules_of_bent().check_shafts(scene, pair)
 
 
 def warnings(shafts: Shafts, model) -> list[str]:
-    if shafts.sections is None:
-        return []
-    from .elastic_shaft_rules import shaft_warnings
-
-    return shaft_warnings(model.scene, model.pair)
+    return [] if shafts.sections is None else _rules_of_bent().shaft_warnings(model.scene, model.pair)
 
 
 EFFECT = Effect(
@@ -96,11 +96,11 @@ EFFECT = Effect(
     absent="the prescribed rotation acts on the pinion and the load torque on the wheel directly",
     fields=Shafts,
     unknowns=("rotation of the pinion", "rotation of the far end of the output shaft"),
-    terms=("torsional springs; of shafts with sections also those of bending and stretching",),
+    terms=("torsional springs; of shafts with sections also springs of bending and stretching",),
     variables=(
         ResultVariable("shaft_end_rotation", "rad", "rotation of the far end of the output shaft"),
         ResultVariable("energy_shafts", "N mm", "elastic energy of the shafts"),
-        # Departures of the axes are those of [misalignment], and as large over the common face.
+        # Departures of the axes have the signs of [misalignment] and, like it, are lengths over the common face.
         *variables(
             OF_TIME,
             field="sections",

@@ -1,4 +1,4 @@
-"""``[gears.material]``: teeth and gear bodies that give way (``elasticity``); without it the flanks are rigid
+"""``[gears.material]``: elastic teeth and gear bodies (``elasticity``); without it the flanks are rigid
 (``contact.rigid_mesh``)."""
 
 from collections.abc import Sequence
@@ -37,7 +37,7 @@ class MaterialText(Section):
 
 @dataclass(frozen=True)
 class OwnMaterialText(Section):
-    """``[gears.pinion.material]`` and ``[gears.wheel.material]``; fields that are left out are those of
+    """``[gears.pinion.material]`` and ``[gears.wheel.material]``; fields that are left out are taken from
     ``[gears.material]``."""
 
     name: str | None = material_name("from `[gears.material]`")
@@ -72,7 +72,7 @@ def _yield_strength_of(texts: Sequence[MaterialText | OwnMaterialText]) -> float
 
 
 def materials_are_complete(tree: Tree) -> Broken:
-    """Where one gear gives way so does the other, and each has both constants."""
+    """Both gears are elastic or none, and an elastic one has both constants."""
     gears = table(tree, "gears") or {}
     shared = table(gears, "material")
     for name in CONSTANTS if shared is not None and "name" not in shared else ():
@@ -85,7 +85,7 @@ def materials_are_complete(tree: Tree) -> Broken:
     for gear in GEARS:
         own = table(gears, gear)
         if own is None or not any(path[1] == gear for path in material_sections(tree)):
-            message = "is missing: both give way or none. Add it, or [gears.material] for both gears."
+            message = "is missing: both gears are elastic or none. Add it, or [gears.material] for both gears."
             yield ("gears", gear, "material"), message
             continue
         written = table(own, "material")

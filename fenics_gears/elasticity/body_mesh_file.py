@@ -22,24 +22,24 @@ def read_body_mesh(path) -> BodyMesh:
     named edges. Raises SceneError for a file that cannot be read, is not plane, has other cells or inverted ones."""
     if not Path(path).is_file():
         raise SceneError(f"body mesh {path}: there is no such file")
-    found = mesh_content(path)
-    if found.solids:
+    content = mesh_content(path)
+    if content.solids:
         raise SceneError(f"body mesh {path}: has cells in space; a gear body is meshed in its plane")
-    if len(found.kinds) != 1 or found.kinds[0] not in CORNERS_BY_TYPE:
+    if len(content.kinds) != 1 or content.kinds[0] not in CORNERS_BY_TYPE:
         raise SceneError(
-            f"body mesh {path}: has {_kinds(found.kind_names)}; its cells must all be 3-node triangles or "
+            f"body mesh {path}: has {_kinds(content.kind_names)}; its cells must all be 3-node triangles or "
             "all 4-node quadrilaterals (in gmsh Mesh.ElementOrder = 1)"
         )
-    cells = found.cells.astype(int).reshape(-1, CORNERS_BY_TYPE[found.kinds[0]])
+    cells = content.cells.astype(int).reshape(-1, CORNERS_BY_TYPE[content.kinds[0]])
     used = np.unique(cells)
-    tags = found.tags.astype(int)
+    tags = content.tags.astype(int)
     order = np.argsort(tags, kind="stable")
-    points = found.points[order][np.minimum(np.searchsorted(tags[order], used), len(tags) - 1)]
+    points = content.points[order][np.minimum(np.searchsorted(tags[order], used), len(tags) - 1)]
     if not np.isin(used, tags).all() or not np.isfinite(points).all():
         raise SceneError(f"body mesh {path}: is damaged: it has cells of nodes that are missing. Write it again")
     _check_plane(points, path)
     points = np.ascontiguousarray(points[:, :2])
-    named = {str(name): found.lines[found.curves == name] for name in dict.fromkeys(found.curves)}
+    named = {str(name): content.lines[content.curves == name] for name in dict.fromkeys(content.curves)}
     edges = {name: np.searchsorted(used, lines) for name, lines in named.items() if np.isin(lines, used).all()}
     return BodyMesh(points, _facing_one_way(points, np.searchsorted(used, cells), path), edges)
 

@@ -2,9 +2,9 @@
 axis as a whole.
 
 A motion is ``u_r = u cos(n t)``, ``u_t = v sin(n t)``, ``u_z = w cos(n t)`` over the angle t, with u, v, w of second
-order on the rectangles of a grid. Harmonic 1 has displacements along x and tilts about y, those along y and tilts about
-x by a quarter of a turn; in harmonic 0 v is a twist by itself, and u, w stretch the body. O. C. Zienkiewicz, The Finite
-Element Method (1977), chapter 15.
+order on the rectangles of a grid. Harmonic 1 has displacements along x and tilts about y; a quarter of a turn makes
+displacements along y and tilts about x of them. In harmonic 0 v is a twist by itself, and u, w stretch the body. O. C.
+Zienkiewicz, The Finite Element Method (1977), chapter 15.
 """
 
 from collections.abc import Sequence
@@ -64,7 +64,7 @@ class BodyOfRevolution:
 
     def stiffness(self, order: int) -> sparse.csc_matrix:
         """Stiffness (d, d), N/mm, of a harmonic."""
-        found = np.zeros((len(self.cells), 27, 27))
+        blocks = np.zeros((len(self.cells), 27, 27))
         law = np.zeros((len(self.cells), 6, 6))
         law[:, :3, :3] = self.lame[:, None, None]
         law[:, range(6), range(6)] += self.shear[:, None] * np.array([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
@@ -89,17 +89,17 @@ class BodyOfRevolution:
             strains[:, 5, :, 2] = by_r
             strains = strains.reshape(-1, 6, 27)
             volume = (pi if order else 2.0 * pi) * of_x * of_y * (across * along * radius)[:, :, None]
-            found += np.swapaxes(strains, 1, 2) @ (law * volume) @ strains
+            blocks += np.swapaxes(strains, 1, 2) @ (law * volume) @ strains
         dofs = (3 * self.cells[:, :, None] + np.arange(3)).reshape(-1, 27)
         places = np.repeat(dofs, 27, axis=1).ravel(), np.tile(dofs, 27).ravel()
-        return sparse.csc_matrix((found.ravel(), places), shape=(3 * len(self.nodes),) * 2)
+        return sparse.csc_matrix((blocks.ravel(), places), shape=(3 * len(self.nodes),) * 2)
 
     def of_section(self, height: float, outer: float, order: int) -> np.ndarray:
-        """Rows (2, d) of the mean motions of a cross section as far out as a radius: of harmonic 1 displacement along x
-        and tilt about y, of harmonic 0 displacement along the axis and twist."""
+        """Rows (2, d) of the mean motions of a cross section within a radius. Harmonic 1: displacement along x and tilt
+        about y; harmonic 0: displacement along the axis and twist."""
         radii, heights = self.nodes.T
         within = radii < outer + ROUND_OFF
-        found = np.zeros((2, 3 * len(self.nodes)))
+        rows = np.zeros((2, 3 * len(self.nodes)))
         z = np.unique(heights[within])
         for place, share in zip(*_shares(z, height)):
             nodes = np.flatnonzero((heights == z[place]) & within)
@@ -109,30 +109,30 @@ class BodyOfRevolution:
             for first in range(0, len(nodes) - 2, 2):
                 weights[first : first + 3] += (r[first + 2] - r[first]) * SIMPSON
             moved = weights * r / (weights @ r), weights * r**2 / (weights @ r**3)
-            found += share * self._rows(nodes, *moved, order)
-        return found
+            rows += share * self._rows(nodes, *moved, order)
+        return rows
 
     def of_circles(self, radius: float, heights: np.ndarray, order: int) -> np.ndarray:
         """The same (2 h, d) of circles at heights (h,) on the cylinder of a radius."""
         nodes = np.flatnonzero(abs(self.nodes[:, 0] - radius) < ROUND_OFF)
         nodes = nodes[np.argsort(self.nodes[nodes, 1])]
         z = self.nodes[nodes, 1]
-        found = []
+        rows = []
         for height in heights:
             places, shares = _shares(z, height)
-            found.append(self._rows(nodes[places], shares, shares / radius, order))
-        return np.concatenate(found)
+            rows.append(self._rows(nodes[places], shares, shares / radius, order))
+        return np.concatenate(rows)
 
     def _rows(self, nodes: np.ndarray, along: np.ndarray, turned: np.ndarray, order: int) -> np.ndarray:
-        found = np.zeros((2, 3 * len(self.nodes)))
+        rows = np.zeros((2, 3 * len(self.nodes)))
         if order:
-            found[0, 3 * nodes] = 0.5 * along
-            found[0, 3 * nodes + 1] = -0.5 * along
-            found[1, 3 * nodes + 2] = -turned
+            rows[0, 3 * nodes] = 0.5 * along
+            rows[0, 3 * nodes + 1] = -0.5 * along
+            rows[1, 3 * nodes + 2] = -turned
         else:
-            found[0, 3 * nodes + 2] = along
-            found[1, 3 * nodes + 1] = turned
-        return found
+            rows[0, 3 * nodes + 2] = along
+            rows[1, 3 * nodes + 1] = turned
+        return rows
 
 
 def flexibility(stiffness: sparse.csc_matrix, held: np.ndarray, loaded: np.ndarray) -> np.ndarray:
@@ -140,15 +140,15 @@ def flexibility(stiffness: sparse.csc_matrix, held: np.ndarray, loaded: np.ndarr
     rows = sparse.csc_matrix(held)
     size = len(held)
     factor = splu(sparse.bmat([[stiffness, rows.T], [rows, None]], format="csc"))
-    found = loaded @ factor.solve(np.vstack([loaded.T, np.zeros((size, len(loaded)))]))[:-size]
-    return 0.5 * (found + found.T)
+    motions = loaded @ factor.solve(np.vstack([loaded.T, np.zeros((size, len(loaded)))]))[:-size]
+    return 0.5 * (motions + motions.T)
 
 
 def flexibility_outside(stiffness: sparse.csc_matrix, fixed: np.ndarray, loaded: np.ndarray) -> np.ndarray:
     """As `flexibility`, of a body whose nodes `fixed` (n,) do not move at all."""
     free = np.flatnonzero(~np.repeat(fixed, 3))
-    found = loaded[:, free] @ splu(stiffness[free][:, free].tocsc()).solve(loaded[:, free].T)
-    return 0.5 * (found + found.T)
+    motions = loaded[:, free] @ splu(stiffness[free][:, free].tocsc()).solve(loaded[:, free].T)
+    return 0.5 * (motions + motions.T)
 
 
 def _divided(stops: np.ndarray, size: float) -> np.ndarray:

@@ -129,31 +129,31 @@ class Cache:
 
     def entries(self) -> list[Entry]:
         """The complete entries, the longest unused first."""
-        found = []
+        entries = []
         for path in Path(self.directory).glob("*.h5"):
             try:
                 if path.is_file():
-                    found.append(Entry(path, (status := path.stat()).st_size, status.st_mtime))
+                    entries.append(Entry(path, (status := path.stat()).st_size, status.st_mtime))
             except OSError:
                 # Another run has removed it meanwhile.
                 continue
-        return sorted(found, key=lambda entry: entry.used)
+        return sorted(entries, key=lambda entry: entry.used)
 
     def clear(self) -> list[Entry]:
         """Remove all complete entries and what killed runs left; returns the removed entries."""
-        found = self.entries()
-        for entry in found:
+        entries = self.entries()
+        for entry in entries:
             _remove(entry.path)
         remove_left_over(self.directory)
-        return found
+        return entries
 
     def _keep_within_limit(self, stored: Path) -> None:
         if self.limit is None:
             return
         remove_left_over(self.directory)
-        found = self.entries()
-        size = sum(entry.size for entry in found)
-        for entry in found:
+        entries = self.entries()
+        size = sum(entry.size for entry in entries)
+        for entry in entries:
             if size <= self.limit:
                 return
             # A run that has the file open reads on; another run may remove it at the same time.

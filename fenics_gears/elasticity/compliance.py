@@ -21,8 +21,8 @@ class Reach:
     """Distances, in pitches, between teeth whose flanks interact.
 
     same: the largest between two drive flanks, or two coast flanks. across: least and largest between a drive and a
-    coast flank, positive where the tooth of the drive flank stands counter-clockwise; None where coast flanks are not
-    loaded.
+    coast flank, positive where the tooth of the drive flank is ahead, counter-clockwise; None where coast flanks are
+    not loaded.
     """
 
     same: int
@@ -43,9 +43,9 @@ class FlankCompliance:
     (offsets + 1, 2n, 2n), mm per N/mm (plane strain, unit thickness). blocks[m] is the displacement of the flank m
     pitches ahead (counter-clockwise) of the loaded one. Dofs are interleaved x0, y0, x1, y1, ..., in each tooth's own
     canonical frame. blocks[0] is symmetric positive definite. alike: all teeth are alike. flanks: 1, or 2 where the
-    coast flank is known too: its 2n dofs then follow the drive flank's, in the tooth's frame mirrored at its
-    centreline, in which the coast flank has the drive flank's place. timings: time_mesh, time_compile, time_condense
-    (s), from_cache and the like.
+    coast flank is known too. Its 2n dofs then follow the drive flank's. They are in the tooth's frame mirrored at its
+    centreline, where the coast flank lies as the drive flank does. timings: time_mesh, time_compile, time_condense (s),
+    from_cache and the like.
     """
 
     roll_angle: np.ndarray
@@ -67,7 +67,7 @@ class FlankCompliance:
 
     @property
     def farthest(self) -> int:
-        """The same of any flanks of two teeth."""
+        """Largest distance, in pitches, between two teeth of which any flanks' interaction is known."""
         return self.offsets
 
     def block(self, offset: int) -> np.ndarray:
@@ -102,8 +102,8 @@ class FlankCompliance:
 
 @dataclass(frozen=True)
 class BothFlanksCompliance(FlankCompliance):
-    """Compliance of drive and coast flanks; by symmetry about the tooth's centreline half of the blocks give the
-    others: in the mirror a coast flank is a drive flank, and a tooth ahead is one behind.
+    """Compliance of drive and coast flanks. Half of the blocks give the others by symmetry about the tooth's
+    centreline: in the mirror a coast flank is a drive flank, and a tooth ahead is one behind.
 
     blocks: (offsets + 1, 2n, 2n): of the drive flanks alone. across: (k, 2n, 2n), each symmetric: across[m -
     first_across] is the displacement of the drive flank m pitches ahead of a loaded coast flank.
@@ -115,7 +115,8 @@ class BothFlanksCompliance(FlankCompliance):
 
     @property
     def farthest(self) -> int:
-        """The same of any flanks of two teeth: drive and coast flank of a gap are a pitch further apart."""
+        """Largest distance, in pitches, between two teeth of which any flanks' interaction is known; drive and coast
+        flank of one gap are a pitch further apart."""
         return max(self.offsets, -self.first_across, self.first_across + len(self.across) - 1)
 
     def block(self, offset: int) -> np.ndarray:
@@ -133,8 +134,8 @@ class BothFlanksCompliance(FlankCompliance):
 
 @dataclass(frozen=True)
 class Body:
-    """A gear: flank compliance of its `section` in plane strain, and where flanks are resolved over the face that of
-    the `solid` in three dimensions. timings: seconds that both took, by stage."""
+    """A gear: the flank compliance of its `section` in plane strain and, where flanks are resolved over the face, of
+    its `solid` in three dimensions. timings: seconds that both took, by stage."""
 
     section: FlankCompliance | WholeBodyCompliance
     solid: FaceCompliance | None = None

@@ -51,12 +51,12 @@ def _slice_loads(sector, averages: np.ndarray, coast_flank: bool) -> sparse.csr_
 def _moved(sector, loads: sparse.csc_matrix, averaged: sparse.csr_matrix) -> tuple[np.ndarray, np.ndarray]:
     """Of loads (dofs, k) on a sector with free cuts: the displacement (d, k) on average over `averaged` (dofs, d), and
     that of the cuts (2 c, k)."""
-    found = np.empty((averaged.shape[1], loads.shape[1]))
+    displacement = np.empty((averaged.shape[1], loads.shape[1]))
     at_cuts = []
     columns = averaged.T.tocsr()
     for first in range(0, loads.shape[1], COLUMNS):
         part = slice(first, first + COLUMNS)
         moved = sector.free_motion(loads[:, part].toarray())
-        found[:, part] = columns @ moved
+        displacement[:, part] = columns @ moved
         at_cuts.append(sector.at_cuts(moved))
-    return found, np.hstack(at_cuts)
+    return displacement, np.hstack(at_cuts)

@@ -58,7 +58,7 @@ def condense(
 
 
 def _nodes(space, points: dict[str, np.ndarray], cells_of: dict[str, np.ndarray]) -> np.ndarray:
-    """Numbers (K,) of all groups' nodes; one search for those of unique places, each of which makes a search tree."""
+    """Numbers (K,) of all groups' nodes; unique places are searched for at once, since each search makes a tree."""
     places = {name: group for name, group in points.items() if name not in cells_of}
     ends = np.cumsum([len(group) for group in places.values()])
     nodes = dict(zip(places, np.split(nodes_at(space, np.vstack([*places.values()])), ends[:-1])))
@@ -77,7 +77,7 @@ def by_radius(points: np.ndarray) -> np.ndarray:
 
 
 def line_of(mesh: BodyMesh, name: str, order: int) -> np.ndarray:
-    """Nodes (k, 2) of an element of that order on a part of a mesh's boundary, those of the hub excepted, by radius."""
+    """Nodes (k, 2) of an element of that order on a part of a mesh's boundary without the hub, by radius."""
     return by_radius(without(mesh.edge_nodes(name, order), mesh.edge_nodes("hub", order)))
 
 

@@ -68,8 +68,8 @@ def closed_ring(parts: Sequence[np.ndarray], cut: int) -> np.ndarray:
 
 
 def chain_is_quicker(teeth: int, reach: int) -> bool:
-    """Whether joining runs takes less than half of the Fourier transform's operations, both in cubes of a cut's dofs;
-    else the transform is kept, whose every bit is the same whatever the reach."""
+    """Whether joining runs takes less than half of the Fourier transform's operations, both in cubes of a cut's dofs.
+    Else the transform is kept: its result is the same to the last bit for any reach."""
     chain = (reach + 1) ** 3 / 3.0 + 2.0 * (reach + 1) ** 2 + 6.0 * log2(teeth)
     # A complex inverse, of four real operations each, for half of the harmonics, and its share in every response.
     fourier = 2.5 * teeth

@@ -123,8 +123,8 @@ def quiet_compiler():
 
 
 def with_compiled(build):
-    """Call ``build()``, which compiles. Where a compile was once killed halfway, remove what it left and call it again:
-    the form compiler takes it for under way, waits 10 s and names the source file in its error."""
+    """Call ``build()``, which compiles. Where a compile was killed halfway, remove what it left and call it again. The
+    form compiler takes it for under way, waits 10 s and names the source file in its error."""
     try:
         return build()
     except TimeoutError as error:

@@ -75,7 +75,7 @@ def numbers_at(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
     # 50 ms that a run with gears from the cache does not take.
     from scipy.spatial import cKDTree
 
-    distance, found = cKDTree(nodes).query(places, k=2)
+    distance, nearest = cKDTree(nodes).query(places, k=2)
     tolerance = 1e-9 * np.abs(nodes).max()
     for wrong, what in ((distance[:, 0] > tolerance, "no node"), (distance[:, 1] <= tolerance, "more than one node")):
         if wrong.any():
@@ -83,12 +83,12 @@ def numbers_at(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
             raise ComputationError(
                 f"body: {what} at x = {x:.6f}, y = {y:.6f} in the mesh's unit of length, of a part of the boundary"
             )
-    return found[:, 0]
+    return nearest[:, 0]
 
 
 def node_roll_angles(gear: Gear, vertices: np.ndarray, order: int) -> np.ndarray:
     """Roll angles (n,), rad, of the flank's nodes from its element vertices (k, 2), form circle to tip; a node between
-    two vertices stands midway in arc length."""
+    two vertices is midway in arc length."""
     radius = np.linalg.norm(vertices, axis=1)
     # Round-off may put the first vertex a hair below the base circle, where the form circle can lie.
     vertex_angles = gear.roll_angle(np.maximum(radius, gear.base_radius))

@@ -21,9 +21,9 @@ class FaceCompliance:
     element, and along the face. heights: (h,), mm from the gear's mid-width, increasing, of the nodes of the layers.
     blocks: (offsets + 1, 3 n h, 3 n h), mm/N: blocks[m] is the displacement of the flank m pitches ahead
     (counter-clockwise) of the loaded one. Dofs by height, then flank node, then component (x, y, z) in the tooth's own
-    frame at that height. plane: the plane-strain compliance of the section's mesh. seat: (h, 6, h, 6), mm, rad, N, how
-    the axis of a gear that is cut into its shaft gives way: x, y, z, tilts about x and y, turn; None where the hub is
-    rigid. near: what the layers leave out near a load; None where nothing is.
+    frame at that height. plane: the plane-strain compliance of the section's mesh. seat: (h, 6, h, 6), mm, rad, N,
+    compliance of the axis of a gear that is cut into its shaft; None where the hub is rigid. Its motions are x, y, z,
+    tilts about x and y, and turn. near: what the layers leave out near a load; None where nothing is.
     """
 
     roll_angle: np.ndarray

@@ -18,7 +18,7 @@ from .sector_boundary import root_curve
 if TYPE_CHECKING:
     from .recovery import GearRecovery
 
-# Points of one fillet, without the one where the tangent stands at 30 degrees to the tooth's centreline, in the section
+# Points of one fillet, without the one where the tangent is at 30 degrees to the tooth's centreline, in the section
 # normal to the tooth.
 POINTS = 24
 # The same where flanks are resolved over the face, on sections with fewer elements.
@@ -68,8 +68,8 @@ def section_angle(gear: Gear) -> float:
 
 
 def fillet_rows(recovery: GearRecovery, curve: FilletCurve, averages: np.ndarray = WHOLE) -> sparse.csr_matrix:
-    """Stress (S 2 p, dofs) at the points of the drive side's fillet, then the coast side's, slice by slice, per
-    displacement of a sector in modules, E = 1 MPa; zero where the fillet has no such point.
+    """Stress (S 2 p, dofs) at the points of the drive side's fillet, then the coast side's, slice by slice; zero where
+    the fillet has no such point. It is per displacement of a sector in modules, for E = 1 MPa.
 
     Along the fillet's profile and across the tooth's trace, as in a section normal to the tooth. averages: (S, h), of
     slices over the sector's heights.
@@ -78,8 +78,8 @@ def fillet_rows(recovery: GearRecovery, curve: FilletCurve, averages: np.ndarray
     parts = []
     twist = 0.0 if sector.sweep is None else sector.sweep.twist
     for side in (0, 1):
-        nodes, *found = fillet_weights(curve, sector.section, sector.held, side)
-        weights, tangents = (np.nan_to_num(each) for each in found)
+        nodes, *tables = fillet_weights(curve, sector.section, sector.held, side)
+        weights, tangents = (np.nan_to_num(each) for each in tables)
         x, y = (weights @ sector.section.points[nodes]).T
         trace = np.column_stack([-twist * y, twist * x, np.ones(len(x))])
         profile = np.pad(tangents, ((0, 0), (0, 1)))
@@ -96,7 +96,7 @@ def fillet_weights(
     curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Nodes (k,) along the root on the drive (0) or coast side (1), their weights (p, k) at the fillet's points, and
-    the tangents (p, 2) there; not a number where the fillet has no such point. `held`: nodes of the sector's cuts and
+    the tangents (p, 2) there. Not a number where the fillet has no such point. `held`: nodes of the sector's cuts and
     hub."""
     root, place = _root_nodes(curve, nodes, held, side)
     tangents = curve.tangents if side == 0 else curve.outline.coast(curve.tangents)

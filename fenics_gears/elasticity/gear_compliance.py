@@ -37,10 +37,10 @@ def flank_compliance(
     for name in {"blocks", "across"} & arrays.keys():
         arrays[name] *= 1.0 / material.youngs_modulus
     own = arrays["roll_angle"], chosen.order, arrays["blocks"], timings
-    found = FlankCompliance(*own)
+    compliance = FlankCompliance(*own)
     if sizes.both_flanks:
-        found = BothFlanksCompliance(*own, across=arrays["across"], first_across=int(arrays["first_across"]))
-    return found if coupled == reach else _with_uncoupled_teeth(found, reach.farthest)
+        compliance = BothFlanksCompliance(*own, across=arrays["across"], first_across=int(arrays["first_across"]))
+    return compliance if coupled == reach else _with_uncoupled_teeth(compliance, reach.farthest)
 
 
 def similar_inputs(kind: str, gear: Gear, material: Material, discretisation, both_flanks: bool = True) -> dict:

@@ -37,7 +37,7 @@ def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float) -> C
 def both_flanks_compliance(
     half: CondensedBody, axis: np.ndarray, teeth: int, reach: Reach
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Compliance of the ring, hub held, Young's modulus 1 MPa, as of `ring.ring_compliance`: `blocks` and `across` of
+    """Compliance of the ring, hub held, Young's modulus 1 MPa, like `ring.ring_compliance`: `blocks` and `across` of
     `BothFlanksCompliance`. axis: (2,), unit vector along the centreline."""
     along = np.asarray(axis)
     parts = [

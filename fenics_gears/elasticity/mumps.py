@@ -73,8 +73,8 @@ class Factor:
                 result[:, part] = left.getDenseArray()
             except PETSc.Error as error:
                 raise ComputationError(
-                    f"PETSc could not solve with the factor of {self._what}: what is left on its outer dofs is not"
-                    " positive definite, as of a body that nothing holds or that cannot change its volume (Poisson's"
+                    f"PETSc could not solve with the factor of {self._what}: the stiffness of its outer dofs is not"
+                    " positive definite, as where nothing holds a body or where it cannot change its volume (Poisson's"
                     f" ratio near 0.5): {error}"
                 ) from error
             finally:

@@ -2,7 +2,7 @@
 accurate, averaged where elements meet.
 
 That is (Barlow, International Journal for Numerical Methods in Engineering 10, 1976) the middle of first-order cells
-and the 2 x 2 Gauss points of Q2; of P2 it is linear and taken at the nodes. Swept elements are those of
+and the 2 x 2 Gauss points of Q2. Of P2 it is linear and taken at the nodes. Swept elements are as in
 `face.swept_stiffness`.
 """
 
@@ -18,7 +18,7 @@ from .element_nodes import ElementNodes
 from .face.layers import Sweep, shapes
 from .ring import rotation
 
-# Of the reference triangle and square: corners counter-clockwise, middles of sides, middle, as of ElementNodes.
+# Of the reference triangle and square: corners counter-clockwise, middles of sides, middle, as in ElementNodes.
 REFERENCE = {
     3: np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]]),
     4: np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0], [1, 0.5], [0.5, 1], [0, 0.5], [0.5, 0.5]]),
@@ -39,7 +39,7 @@ class NodalStress:
         self.sweep = sweep
         self.components, self._heights = (2, 1) if sweep is None else (3, len(sweep.heights))
         whole, self.weight = _averaged_slopes(nodes)
-        # Of layers in a web, or of all of a body without one, and of those beside.
+        # First of layers in a web, or of all layers of a body without one; then of layers outside the web.
         self._slopes = {True: whole}
         self._there = {True: np.ones(len(nodes.points))}
         if sweep is not None and sweep.web is not None:
@@ -76,18 +76,18 @@ class NodalStress:
         between = sparse.csr_matrix((weights[:, :, None] * normal.reshape(-1, 1, 9)).reshape(len(weights), -1))
         chosen = dofs_of(nodes, 9)
         of_height = self.components * len(self.nodes.points)
-        found = sparse.csr_matrix((len(averages) * len(weights), of_height * self._heights))
+        rows = sparse.csr_matrix((len(averages) * len(weights), of_height * self._heights))
         # The same at all these nodes, none of which is of a web.
         meeting = self._layers_at[:, nodes].max(axis=1)
         for heights, gradients in self._layers:
             for height, gradient in zip(heights, gradients):
                 own = between @ gradient[chosen]
-                # Columns of the layer's dofs among those of the body.
+                # Columns of the layer's dofs among the body's.
                 placed = sparse.csr_matrix(
-                    (own.data, own.indices + of_height * heights.start, own.indptr), (len(weights), found.shape[1])
+                    (own.data, own.indices + of_height * heights.start, own.indptr), (len(weights), rows.shape[1])
                 )
-                found = found + sparse.kron(averages[:, [height]] / meeting[height], placed, format="csr")
-        return found
+                rows = rows + sparse.kron(averages[:, [height]] / meeting[height], placed, format="csr")
+        return rows
 
     def _stress(self, gradient: np.ndarray) -> np.ndarray:
         strain = 0.5 * (gradient + gradient.swapaxes(-1, -2))

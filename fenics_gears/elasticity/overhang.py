@@ -1,4 +1,4 @@
-"""Flank compliance of a gear that stands out beyond its mate: near the contact the load spreads over the common face,
+"""Flank compliance of a gear that is wider than its mate: near the contact the load spreads over the common face,
 further away over more."""
 
 from dataclasses import replace
@@ -21,7 +21,7 @@ Section = FlankCompliance | WholeBodyCompliance
 
 
 def with_overhang(body: Section, gear: Gear, material: Material, share: float) -> Section:
-    """The body as a line load over the common face sees it: `share` A + (1 - `share`) L. `share`: common width over the
+    """The body under a line load over the common face: `share` A + (1 - `share`) L. `share`: common width over the
     width that counts, 1 without overhang."""
     if share == 1.0:
         return body
@@ -42,7 +42,7 @@ def with_overhang(body: Section, gear: Gear, material: Material, share: float) -
 
 
 def near_field(gear: Gear, material: Material, roll_angle: np.ndarray) -> np.ndarray:
-    """L (2n, 2n), mm per N/mm: how flank nodes give way down to NEAR_DEPTH, by the half-plane's 2 (1 - nu^2)/(pi E)
+    """L (2n, 2n), mm per N/mm: compliance of flank nodes against NEAR_DEPTH, by the half-plane's 2 (1 - nu^2)/(pi E)
     ln(depth/distance), averaged over what each node stands for.
 
     As a convex function that falls to zero the logarithm, cut off at that depth, is positive definite (Polya's

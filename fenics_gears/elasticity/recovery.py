@@ -17,7 +17,7 @@ from fenics_gears.geometry.gear_data import Material
 
 from .element_sizes import Discretisation
 from .elements import element_named
-from .face.compliance import swept_section
+from .face.computed import swept_section
 from .face.cut_motions import cut_motions, loads_over_motions, over_motions
 from .face.discretisation import FaceDiscretisation
 from .nodal_stress import NodalStress
@@ -33,7 +33,7 @@ class RecoveredSectors:
 
     sectors: numbers, pitches counter-clockwise of the first. displacement: (sectors, h, n, 2) in the plane, (sectors,
     h, n, 3) over the face, mm. stress: (sectors, h, n, 3, 3), MPa, averaged over the elements that meet at a node,
-    those of a neighbouring sector included that is there.
+    including elements of a neighbouring sector if it is recovered too.
     """
 
     sectors: tuple[int, ...]
@@ -129,9 +129,9 @@ class GearRecovery:
         shapes, of_held = spanned(held.T)
         others, of_forces = spanned(forces.T)
         work = self._ring_work(of_held.T, of_forces.T, reach)
-        found = shapes @ work @ others.T
-        found[reach] -= held.T @ loaded
-        return found
+        between = shapes @ work @ others.T
+        between[reach] -= held.T @ loaded
+        return between
 
     def _ring_work(self, responding: np.ndarray, loaded: np.ndarray, reach: int) -> np.ndarray:
         """`ring.ring_work` of forces on the cuts, over the face by those motions of the cuts that they cause."""

@@ -49,9 +49,9 @@ class RemeshedGear:
     def stiffness(self, teeth: tuple[LoadedTooth, ...]) -> np.ndarray:
         """Stiffness (2 K + 3, 2 K + 3), N/mm per mm of face width, over all teeth's nodes and the centre (dx, dy, phi).
 
-        teeth: by rising angle, whole pitches apart. A tooth's nodes come in the order of its `rolls`, for second-order
-        elements with the node between each two of them; dofs x, y interleaved, in the frame in which the angles are
-        counted. Raises ComputationError when a stage fails.
+        teeth: by rising angle, whole pitches apart. A tooth's nodes are in the order of its `rolls`; second-order
+        elements have a node between each two. Dofs x, y are interleaved, in the frame in which the angles are counted.
+        Raises ComputationError when a stage fails.
         """
         ends = [tooth.angle for tooth in teeth[1:]] + [teeth[0].angle + 2.0 * np.pi]
         between = [round((end - tooth.angle) / self.gear.angular_pitch) - 1 for tooth, end in zip(teeth, ends)]

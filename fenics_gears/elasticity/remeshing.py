@@ -48,8 +48,10 @@ def remeshed_stiffness(
 
     def compute() -> tuple[dict, dict]:
         shares = together(job, _computed, gear, material, discretisation, positions, report=report)
-        found = {str(i): stiffness / material.youngs_modulus for share, _ in shares for i, stiffness in share.items()}
-        return found, {name: max(times[name] for _, times in shares) for name in shares[0][1]}
+        stiffnesses = {
+            str(i): stiffness / material.youngs_modulus for share, _ in shares for i, stiffness in share.items()
+        }
+        return stiffnesses, {name: max(times[name] for _, times in shares) for name in shares[0][1]}
 
     arrays, timings = kept(cache, inputs, compute)
     return RemeshedStiffness([material.youngs_modulus * arrays[str(i)] for i in range(len(positions))], timings)
@@ -62,9 +64,9 @@ def _computed(gear, material, discretisation, positions, comm, report=None) -> t
 
     body = RemeshedGear(gear, material, element_named(discretisation.element), discretisation.sizes(gear))
     mine = range(len(positions)) if comm is None else range(comm.rank, len(positions), comm.size)
-    found = {}
+    stiffnesses = {}
     for done, index in enumerate(mine, 1):
-        found[index] = body.stiffness(positions[index])
+        stiffnesses[index] = body.stiffness(positions[index])
         if report is not None:
             report(done, len(mine))
-    return found, body.timings
+    return stiffnesses, body.timings

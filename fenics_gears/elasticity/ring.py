@@ -1,9 +1,9 @@
 """A gear as a ring of equal tooth sectors, joined exactly.
 
-Sector s + 1 stands one pitch counter-clockwise of sector s; in the sectors' own frames its lower cut moves as
-``u_upper[s] = R u_lower[s + 1]`` with ``R`` the rotation by one pitch. A discrete Fourier transform over the sectors,
-``u[s] = U_k exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1. In gears with
-many teeth runs of sectors are joined instead (`elasticity.cut_chain`).
+Sector s + 1 is one pitch counter-clockwise of sector s; in the sectors' own frames its lower cut moves as ``u_upper[s]
+= R u_lower[s + 1]`` with ``R`` the rotation by one pitch. A discrete Fourier transform over the sectors, ``u[s] = U_k
+exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1. In gears with many teeth runs
+of sectors are joined instead (`elasticity.cut_chain`).
 """
 
 import numpy as np
@@ -66,7 +66,7 @@ def joined_blocks(held: np.ndarray, to_cuts: np.ndarray, link: np.ndarray, teeth
 
 def between_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Of a sector the flank's compliance with the cuts held, (minus) its motion per motion of the cuts, and the
-    stiffness between these, the flank free; frames as of `sector_cuts`."""
+    stiffness between these, the flank free; frames as in `sector_cuts`."""
     cuts, turn = sector_cuts(sector, teeth)
     coupling = sector.stiffness[np.ix_(sector.dofs("flank"), cuts)] @ turn
     held = definite_inverse(sector.between("flank", "flank"), "a flank")
@@ -85,7 +85,7 @@ def sector_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarr
 
 
 def sector_response(joint: CutResponse, offset: int) -> np.ndarray:
-    """Response (2 c, 2 c) of the cuts of the sector `offset` pitches ahead to forces on those of a sector; frames as of
+    """Response (2 c, 2 c) of the cuts of the sector `offset` pitches ahead to forces on a sector's cuts; frames as in
     `sector_cuts`."""
     return np.block([[joint(offset), joint(offset - 1)], [joint(offset + 1), joint(offset)]])
 
@@ -142,12 +142,12 @@ def harmonic_of(number: int, teeth: int) -> tuple[float, float]:
 
 def ring_work(link: np.ndarray, teeth: int, reach: int, responding: np.ndarray, loaded: np.ndarray) -> np.ndarray:
     """Reciprocal work (2 reach + 1, k, j) in a ring of forces (2 c, k) on the cuts of the sector m pitches ahead, m
-    from -reach to reach, and of forces (2 c, j) on those of a sector. `link`: a sector between its cuts. By harmonics,
+    from -reach to reach, and of forces (2 c, j) on a sector's cuts. `link`: a sector between its cuts. By harmonics,
     whose inverses need not be made: with ``U^H U`` the stiffness of one, its forces f enter by ``U^-H f``."""
     same, ahead = cyclic(link)
     offsets = np.arange(-reach, reach + 1)
     lower, upper = np.vsplit(np.hstack([responding, loaded]), 2)
-    found = np.zeros((len(offsets), responding.shape[1], loaded.shape[1]))
+    works = np.zeros((len(offsets), responding.shape[1], loaded.shape[1]))
     for harmonic in range(teeth // 2 + 1):
         angle, weight = harmonic_of(harmonic, teeth)
         back = np.exp(-1j * angle)
@@ -156,9 +156,9 @@ def ring_work(link: np.ndarray, teeth: int, reach: int, responding: np.ndarray, 
         whitened = ztrsm(1.0, factor, lower + upper * back, trans_a=2)
         one, other = np.split(whitened, [responding.shape[1]], axis=1)
         product = one.conj().T @ other
-        for offset, work in zip(offsets, found):
+        for offset, work in zip(offsets, works):
             work += weight * (np.cos(offset * angle) * product.real - np.sin(offset * angle) * product.imag)
-    return found
+    return works
 
 
 def definite_inverse(matrix: np.ndarray, what: str) -> np.ndarray:

@@ -1,5 +1,5 @@
-"""Stress in a tooth's fillets per force on the flanks, in the plane or over the face in slices: a row for each fillet
-point and slice, so that a time step's stress is one small product.
+"""Stress in a tooth's fillets per force on the flanks, in the plane or over the face in slices. There is a row for each
+fillet point and slice, so that a time step's stress is one small product.
 
 The rows come by reciprocity (Betti): one solve serves a fillet point in a slice, and one a dof of a flank in a slice. A
 swept section has few elements along a fillet; what it errs by hardly depends on the load, so that a finer section in
@@ -26,8 +26,8 @@ class RootStressRows:
     """Stress along the surface at the fillet points of a tooth per force on flank nodes: MPa per N/mm in the plane,
     where there is one slice, MPa/N over the face.
 
-    rows: (2 reach + 1, S, 2 p, d): rows[reach + m] are those of the tooth m pitches ahead (counter-clockwise) of the
-    loaded one; the drive side's p points, then the coast side's; d dofs of the loaded tooth by flank, slice, node and
+    rows: (2 reach + 1, S, 2 p, d): rows[reach + m]: the tooth m pitches ahead (counter-clockwise) of the loaded one.
+    First the drive side's p points, then the coast side's. The d dofs of the loaded tooth are by flank, slice, node and
     component in its own frame, not mirrored. tangent_angle: (p,), rad, between the fillet's tangent and the tooth's
     centreline; the last point is the one at 30 degrees.
     """

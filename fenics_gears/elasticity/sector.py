@@ -18,7 +18,7 @@ class Sector:
 
     Nodes go by height, then by the section's (ElementNodes); a plane sector has one height. Dofs are interleaved: x, y
     and of a swept sector z, in the section's frame turned with it. cuts: (c,) nodes of the lower and of the upper cut
-    by height and radius; hub: (h,); there: (nodes,), which nodes there are, all unless given; the others do not move,
+    by height and radius. hub: (h,). there: (nodes,), which nodes there are, all unless given. The others do not move,
     and are in no link. link: stiffness (2 d, 2 d) between the dofs of both cuts off the hub. Release the factor by
     `close`.
     """
@@ -73,9 +73,9 @@ class Sector:
 
     def free_motion(self, loads: np.ndarray) -> np.ndarray:
         """Displacement (dofs, k) under loads (dofs, k), the cuts free."""
-        found = np.zeros_like(loads)
-        found[self._free] = self._factor.solve(loads[self._free])
-        return found
+        motion = np.zeros_like(loads)
+        motion[self._free] = self._factor.solve(loads[self._free])
+        return motion
 
     def at_cuts(self, vectors: np.ndarray) -> np.ndarray:
         """Rows (2 d, k) of the lower, then of the upper cut."""

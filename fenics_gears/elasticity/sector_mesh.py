@@ -26,7 +26,7 @@ def sector_mesh(
 ) -> BodyMesh:
     """Mesh of one tooth sector, its two cuts congruent node for node.
 
-    With both flanks working it is symmetric about the tooth's centreline. Flank vertices stand on the exact involute,
+    With both flanks working it is symmetric about the tooth's centreline. Flank vertices are on the exact involute,
     even in arc length or at `flank_rolls` (rad, see sector_boundary). Quadrilaterals come from a mesh of twice the size
     whose every cell is split, so that no triangle is left over. gmsh works in modules: similar gears get similar
     meshes. Raises ComputationError when gmsh fails, a cell is folded, or quadrilaterals meet an odd number of flank

@@ -10,8 +10,8 @@ from scipy import sparse
 from .face.layers import shapes
 
 GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
-# Of a slice, in which a line of contact stays at one height of the profile: with half as many the mean transmission
-# error is 0.03 % less (slices of half a module, 28 degrees).
+# Parts of a slice, in each of which a line of contact stays at one height of the profile. With half as many the mean
+# transmission error is 0.03 % less (slices of half a module, 28 degrees).
 PIECES = 8
 
 
@@ -54,27 +54,29 @@ def oblique_averages(
     The line through the flank node at `rolls` (n,), rad, in the middle of a slice rises along the profile by `rise` rad
     per mm along the face. Beyond the flank's ends it stays there.
     """
-    found = 0.0
+    weights = 0.0
     places = _pieces(rise)
     for place in places:
         along = slice_averages(heights, 2, positions + place * widths, widths / len(places))
         for width in np.unique(widths):
             own = np.where(widths == width, 1.0 / len(places), 0.0)[:, None] * along
-            found = found + sparse.kron(sparse.csr_matrix(own), _at_rolls(rolls, rise * place * width), format="csr")
-    return found
+            weights = weights + sparse.kron(
+                sparse.csr_matrix(own), _at_rolls(rolls, rise * place * width), format="csr"
+            )
+    return weights
 
 
 def oblique_sections(blocks: np.ndarray, rolls: np.ndarray, rises: Sequence[float], width: float) -> np.ndarray:
-    """Compliance blocks (k, d, d) of a section in plane strain, x and y of the nodes of one flank after the other, as
-    the averages of `oblique_averages` over a slice of a `width` (mm) see a load that goes on along its line. `rises`:
-    of each flank."""
+    """Compliance blocks (k, d, d) of a section in plane strain, x and y of the nodes of one flank after the other,
+    under a load that goes on along its line, averaged by `oblique_averages` over a slice of a `width` (mm). `rises`: of
+    each flank."""
     places = _pieces(any(rises))
-    found = np.zeros_like(blocks)
+    averaged = np.zeros_like(blocks)
     for place in places:
         shifted = sparse.block_diag([_at_rolls(rolls, rise * place * width) for rise in rises])
         at = sparse.kron(shifted, sparse.eye(2)).toarray()
-        found += at @ blocks @ at.T / len(places)
-    return found
+        averaged += at @ blocks @ at.T / len(places)
+    return averaged
 
 
 def _pieces(rise: float) -> np.ndarray:

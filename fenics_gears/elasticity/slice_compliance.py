@@ -16,8 +16,8 @@ Addition = Callable[[np.ndarray, int, int, int], None]
 
 
 class SliceCompliance:
-    """Compliance between flank nodes in sections, each a flank in a slice: `values` (2 k - 1, F S, F S, n, n, 9), mm/N,
-    of every tooth from k - 1 behind to k - 1 ahead, by components of either node; zero where nobody asked.
+    """Compliance between flank nodes in sections, each a flank in a slice. `values` (2 k - 1, F S, F S, n, n, 9), mm/N:
+    of every tooth from k - 1 behind to k - 1 ahead, by components of either node; zero where it was not asked for.
 
     `blocks` (k, D, D): of teeth on the nodes of layers, dofs by flank, then height, node, x, y, z. `averages`: of each
     flank (S n, h n), of `slice_averages.oblique_averages`. `additions`: to what these give.
@@ -60,11 +60,11 @@ class SliceCompliance:
             by_nodes = np.ascontiguousarray(displaced.transpose(1, 0, 2)).reshape(displaced.shape[1], -1)
             for other in loaded:
                 under, averaged = self._seen[other]
-                found = (averaged @ by_nodes[under]).reshape(size, size, 3, 3).transpose(1, 0, 2, 3)
+                between = (averaged @ by_nodes[under]).reshape(size, size, 3, 3).transpose(1, 0, 2, 3)
                 for add in self._additions:
-                    add(found, ahead, section, other)
-                self.values[number + ahead, section, other] = found.reshape(size, size, 9)
-                self.values[number - ahead, other, section] = found.transpose(1, 0, 3, 2).reshape(size, size, 9)
+                    add(between, ahead, section, other)
+                self.values[number + ahead, section, other] = between.reshape(size, size, 9)
+                self.values[number - ahead, other, section] = between.transpose(1, 0, 3, 2).reshape(size, size, 9)
                 self._there[number + ahead, section, other] = self._there[number - ahead, other, section] = True
 
 
@@ -77,8 +77,8 @@ def _columns_in_use(weights: sparse.csr_matrix) -> tuple[slice, np.ndarray]:
 def along_normals(
     averages: sparse.csr_matrix, compliance: sparse.csr_matrix, normals: np.ndarray, first: int
 ) -> Addition:
-    """Adds, to a tooth under its own load, a compliance (H n, H n) of one of its flanks along `normals` (n, 3), as
-    averages (S n, H n) of slices see it. `first`: section of the flank."""
+    """Adds, to a tooth under its own load, a compliance (H n, H n) of one of its flanks along `normals` (n, 3),
+    averaged (S n, H n) over slices. `first`: section of the flank."""
     nodes = len(normals)
     entries = (averages @ compliance @ averages.T).tobsr((nodes, nodes))
     rows = np.repeat(np.arange(len(entries.indptr) - 1), np.diff(entries.indptr))

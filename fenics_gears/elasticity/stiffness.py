@@ -87,13 +87,13 @@ def compile_ahead(element: Element) -> None:
 def assembled(matrix) -> sparse.csr_matrix:
     """A PETSc matrix as scipy's; the former is given back."""
     starts, columns, values = matrix.getValuesCSR()
-    found = sparse.csr_matrix((values.copy(), columns.copy(), starts.copy()), shape=matrix.getSize())
+    copied = sparse.csr_matrix((values.copy(), columns.copy(), starts.copy()), shape=matrix.getSize())
     matrix.destroy()
-    return found
+    return copied
 
 
 def nodes_at(space, coordinates: np.ndarray) -> np.ndarray:
-    """Numbers (k,) of the space's nodes at coordinates (k, 2), as of `numbers_at`."""
+    """Numbers (k,) of the space's nodes at coordinates (k, 2), by `numbers_at`."""
     return numbers_at(adapter.node_coordinates(space), coordinates)
 
 

@@ -1,1 +1,1 @@
-"""What the program offers beside its core: each folder is an extension with its command, its physics, its pictures."""
+"""What the program offers beyond its core: each folder is an extension with its command, its physics, its pictures."""

@@ -54,8 +54,8 @@ def _helix_rows(pair: GearPair) -> list[tuple[str, float, str]]:
 
 
 def contact_by_fewest(pair: GearPair) -> tuple[str, str]:
-    """What contact by the fewest pairs is called, and the letters that LPSTC and HPSTC have in its place: "single tooth
-    contact", "STC"; above a contact ratio of 2 no pair is ever alone."""
+    """Name of contact by the fewest pairs, and its letters in LPSTC and HPSTC: "single tooth contact", "STC". Above a
+    contact ratio of 2 no pair is ever alone."""
     pairs = max(pair.fewest_pairs, 1)
     known = {1: ("single tooth contact", "STC"), 2: ("double tooth contact", "DTC")}
     return known.get(pairs, (f"contact by {pairs} pairs", f"{pairs}TC"))

@@ -43,8 +43,8 @@ def lead_removal(modification: LeadModification, place, face_width: float) -> np
     """Material (mm, along the line of action) that a lead modification removes from a gear at places (mm, any shape)
     from its mid-width, over its own face width b (ISO 21771).
 
-    Crowning is the parabola C (2 z/b)^2; the helix slope grows with z from nothing at the left end (right, where
-    negative); end relief with the distance from its start or with its square.
+    Crowning is the parabola C (2 z/b)^2. The helix slope grows with z from nothing at the left end (right, where
+    negative). End relief grows with the distance from its start or with its square.
     """
     share = np.asarray(place, dtype=float) / face_width
     removed = modification.crowning * (2.0 * share) ** 2
@@ -75,9 +75,9 @@ def misalignment_opening(
 
     The wheel turns by small angles, the scene's amounts over the common face width, about the pitch point in the middle
     of the common face. About another point all gaps of a helical pair would also open or close alike, which only turns
-    the wheel. The point of contact, (position - pitch point, 0, z) from there, moves along the contact normal (c, 0, -c
-    tau) by c (z + tau (position - pitch point)) for an angle of 1 in the plane of action, and by nothing for an angle
-    out of it. Terms of second order are left out.
+    the wheel. The point of contact is at (position - pitch point, 0, z) from there, the contact normal is (c, 0, -c
+    tau). Along it the point moves by c (z + tau (position - pitch point)) for an angle of 1 in the plane of action, and
+    not at all for an angle out of it. Terms of second order are left out.
     """
     slope = pair.slope if slope is None else slope
     leaning = slope * (np.asarray(position, dtype=float) - pair.pitch_point)

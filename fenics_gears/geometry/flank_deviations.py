@@ -1,9 +1,9 @@
 """Deviations of every tooth of a gear: as a scene gives them, or drawn within a flank tolerance class.
 
-A pitch deviation belongs to the reference circle. Slope and form are deviations from the mean of the used flank, from
-the start of active profile to the tip, or of the face: slope rises by its value from end to end, form is one wave, as
-wide as its value. A measured curve stands in place of both, and is zero at the V point of the profile or at mid-width
-of the helix, unless in its mean: the pitch deviation says where the flank stands.
+A pitch deviation belongs to the reference circle. Slope and form are deviations from the mean of the face, or of the
+used flank from the start of active profile to the tip. Slope rises by its value from end to end; form is one wave, as
+wide as its value. A measured curve replaces both. It is zero at the V point of the profile or at mid-width of the
+helix, or else in its mean: the pitch deviation says where the flank is.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ def _of_gear(
         return HelixDeviations(slope, form, width, middle)
 
     pitch = values(own.pitch, lambda: drawn_pitch(limits(), draws(PITCH)))
-    # The mean, left by rounding of the values, is taken off, so that after a turn the first tooth stands where it was.
+    # The mean, left by rounding of the values, is taken off, so that after a turn the first tooth is where it was.
     index = np.cumsum(pitch - pitch.mean())
     zero = None if own.in_the_mean else v_roll_angle(gear)
     return FlankDeviations(
@@ -140,11 +140,11 @@ def _curves(measured: MeasuredCurves, gear: Gear, ends: tuple[float, float], zer
     """Deviations (z, CURVE_POINTS), mm, at even steps between the ends (rad or mm), the mean curve for a tooth that was
     not measured. `zero`: where each curve is zero, None for its mean."""
     at = np.linspace(*ends, CURVE_POINTS)
-    found = {
+    by_tooth = {
         each.tooth: np.interp(at, _places(each, measured.along, gear), each.deviations) for each in measured.curves
     }
-    mean = np.mean(list(found.values()), axis=0)
-    curves = np.array([found.get(tooth, mean) for tooth in range(1, gear.teeth + 1)])
+    mean = np.mean(list(by_tooth.values()), axis=0)
+    curves = np.array([by_tooth.get(tooth, mean) for tooth in range(1, gear.teeth + 1)])
     if zero is not None:
         return curves - np.array([np.interp(zero, at, curve) for curve in curves])[:, None]
     sums = curves.mean(axis=1) * CURVE_POINTS - 0.5 * (curves[:, 0] + curves[:, -1])

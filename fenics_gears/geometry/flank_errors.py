@@ -130,8 +130,8 @@ class GearErrors(Section):
         otherwise=f'"{REFERENCE_POINT}"',
     )
     waviness: Waviness | None = None
-    # What the tables say: the columns of `file`, whose values are in the fields of these names; the measured curves;
-    # the field that names a wrong table, and what is wrong in words.
+    # Read from the tables: the columns of `file`, whose values are in the fields of these names, and the measured
+    # curves. `problem`: the field that names a wrong table, and what is wrong.
     columns: tuple[str, ...] = ()
     measured_profile: MeasuredCurves | None = None
     measured_helix: MeasuredCurves | None = None

@@ -1,7 +1,7 @@
 """Flank tolerances of ISO 1328-1:2013, formulas (5) to (12), not rounded as the standard prints them.
 
-Taken from published programs that cite the formulas by number, and checked against the values that another such program
-is tested by (module 3 mm, 40 teeth, class 6: single pitch 8.94 um, total cumulative pitch 28.80 um).
+Taken from published programs that cite the formulas by number. Checked against the test values of another such program:
+for module 3 mm, 40 teeth and class 6 a single pitch of 8.94 um and a total cumulative pitch of 28.80 um.
 """
 
 from dataclasses import dataclass

@@ -13,7 +13,7 @@ LEAST_LINE_LOAD = 150.0
 POINTS = 400
 _MICROINCH = 0.0254
 # Pitch line speeds (m/s) of the gears that the law was fitted to (ISO/TR 13989-2, whose coefficient is the same law
-# with other factors): below, friction is higher, by an amount that it does not say; above, it counts as the largest.
+# with other factors). Below, friction is higher by an unknown amount; a speed above counts as the largest.
 PITCH_LINE_SPEEDS = (1.0, 50.0)
 
 
@@ -53,7 +53,7 @@ def benedict_kelley(
     """Mean over the path of contact of the coefficient after Benedict and Kelley (1961): 0.0127 (50 / (50 - S))
     log10(29.66e3 w / (eta v_s v_r^2)).
 
-    Arguments as of `schlenk`; w in N/mm, sliding and rolling speed in m/s, S the roughness in microinches, of at most
+    Arguments as in `schlenk`; w in N/mm, sliding and rolling speed in m/s, S the roughness in microinches, of at most
     30. Raises OutOfRange where the logarithm is not positive: beyond the mixed lubrication of the tests.
     """
     path = pair.path_start + (np.arange(POINTS) + 0.5) / POINTS * (pair.path_end - pair.path_start)

@@ -23,7 +23,7 @@ class Gear:
     """A gear cut by a straight-sided rack with a rounded tip; lengths in mm, angles in rad.
 
     Module, pressure angle and profile shift are of the transverse section; `helix_angle` at the reference cylinder,
-    without sign. `rack_tip_radius`, `protuberance` (by which the rack's rounding stands out beyond the flank, normal to
+    without sign. `rack_tip_radius`, `protuberance` (by which the rack's rounding protrudes beyond the flank, normal to
     it) and `protuberance_angle` (at which it goes back) are of the normal section. `tip_chamfer`: radial height.
     """
 

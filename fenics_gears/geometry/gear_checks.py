@@ -15,7 +15,7 @@ from .outline import fillet_point
 # name in the checks of one gear).
 Remedy = tuple[str, str]
 # What is wrong, and what may mend it; nothing where the words say what to do.
-Found = Iterator[tuple[str, tuple[Remedy, ...]]]
+Mistakes = Iterator[tuple[str, tuple[Remedy, ...]]]
 
 # Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
 ROUNDING = 1e-6
@@ -84,7 +84,7 @@ def _numbers(gear: Gear, section: str) -> Iterator[str]:
         yield f"{section}.rack_tip_radius must be zero or a positive number, not {tip_radius:.4g}"
 
 
-def _circles(gear: Gear, section: str) -> Found:
+def _circles(gear: Gear, section: str) -> Mistakes:
     radii = gear.tip_radius, gear.root_radius, gear.bore_radius, gear.base_radius
     tip, root, bore, base = (2.0 * radius for radius in radii)
     if tip <= root:
@@ -126,7 +126,7 @@ def _web(gear: Gear, section: str) -> Iterator[str]:
         )
 
 
-def _rack(gear: Gear, section: str) -> Found:
+def _rack(gear: Gear, section: str) -> Mistakes:
     module = gear.normal_module
     dedendum = gear.dedendum / gear.normal_module
     if gear.dedendum <= 0.0 or gear.rack_depth <= 0.0:
@@ -150,7 +150,7 @@ def _rack(gear: Gear, section: str) -> Found:
         )
 
 
-def _undercut(gear: Gear, section: str) -> Found:
+def _undercut(gear: Gear, section: str) -> Mistakes:
     if not gear.undercut:
         return
     x, y = fillet_point(gear, np.linspace(0.0, gear.fillet_end, NECK_SAMPLES)).T
@@ -164,7 +164,7 @@ def _undercut(gear: Gear, section: str) -> Found:
         )
 
 
-def _tip(gear: Gear, section: str) -> Found:
+def _tip(gear: Gear, section: str) -> Mistakes:
     above_form = gear.tip_radius - gear.form_radius
     if above_form <= 0.0:
         cuts, change = (" cuts off the involute", "raise") if gear.undercut else (" reaches", "lower")

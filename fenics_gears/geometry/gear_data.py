@@ -95,8 +95,8 @@ class GearPairData:
     """The pair: module and centre distance in mm, pressure angle in rad; rigid without a material.
 
     `face_width`, mm: over which both gears meet. `helix_angle`, rad, at the reference cylinder, 0 for spur gears;
-    module, pressure angle and what is given in modules are those of the normal section. `pinion_hand`: "right" or
-    "left", the wheel has the other. `axial_offsets`, mm: of the mid-widths of pinion and wheel from a common place.
+    module, pressure angle and figures in modules are of the normal section. `pinion_hand`: "right" or "left", the wheel
+    has the other. `axial_offsets`, mm: of the mid-widths of pinion and wheel from a common place.
     """
 
     module: float
@@ -113,8 +113,8 @@ class GearPairData:
     @property
     def materials(self) -> tuple[Material, Material] | None:
         """Materials of pinion and wheel; None where they are rigid."""
-        found = (self.material_of("pinion"), self.material_of("wheel"))
-        return None if None in found else found
+        both = (self.material_of("pinion"), self.material_of("wheel"))
+        return None if None in both else both
 
     def material_of(self, name: str) -> Material | None:
         """Material of the "pinion" or the "wheel"."""
@@ -132,8 +132,8 @@ _PLASTICS = (
     "Encyclopedia of Physical Science and Technology, Plastics Engineering, Table I: short term, room temperature"
 )
 # Young's modulus, MPa, Poisson's ratio, yield strength, MPa, of named grades alone, and where they are from. The least
-# yield strengths are of quenched and tempered steel more than 40 and up to 100 mm thick; those of case-hardened steels
-# would be the core's, not the flanks'.
+# yield strengths are of quenched and tempered steel more than 40 and up to 100 mm thick; strengths of case-hardened
+# steels would be the core's, not the flanks'.
 MATERIALS: dict[str, tuple[Material, str]] = {
     "steel": (Material(206e3, 0.3), "ISO 6336-1"),
     "C45 QT": (Material(206e3, 0.3, 370.0), "ISO 6336-1; yield strength EN ISO 683-1"),

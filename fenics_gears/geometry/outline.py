@@ -34,8 +34,7 @@ class ToothOutline:
     """Drive side of one tooth; the coast side is its mirror image about the centreline.
 
     fillet: (n, 2), mm, from the root circle to the form circle, evenly spaced along the curve. centreline_angle,
-    space_angle: polar angles (rad) of the tooth's centreline and of the centre of the tooth space beside the drive
-    flank.
+    space_angle: polar angles (rad) of the tooth's centreline and of the centre of the tooth space at the drive flank.
     """
 
     gear: Gear

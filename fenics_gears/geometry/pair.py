@@ -16,11 +16,10 @@ from .gear_checks import Impossible, check_gear
 from .gear_data import GearPairData
 from .involute import inverse_involute, involute_function
 from .pair_checks import check_pair
-from .remedies import advice
 
 WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
-# Reach, in normal modules, into a face that stands out beyond the mate: of teeth on a thin rim, what a solid body has
-# more, and the depth over which this grows; found against three dimensions (docs/third_dimension.md).
+# Reach, in normal modules, into a face that extends beyond the mate: of teeth on a thin rim, the addition for a solid
+# body, and the depth over which it grows. Fitted to runs in three dimensions (docs/third_dimension.md).
 REACH_OF_TEETH = 1.1
 REACH_OF_BODY = 1.6
 DEPTH_OF_BODY = 7.0
@@ -86,7 +85,7 @@ class GearPair:
 
     @property
     def overhangs(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """How far (mm) pinion and wheel stand out of the common face, at its left and its right end."""
+        """Overhang (mm) of pinion and wheel beyond the common face, at its left and its right end."""
         low, high = self.common_face
         pinion, wheel = (
             (max(low - middle + 0.5 * width, 0.0), max(middle + 0.5 * width - high, 0.0))
@@ -96,15 +95,15 @@ class GearPair:
 
     @property
     def effective_face_widths(self) -> tuple[float, float]:
-        """Width (mm) of pinion and wheel that counts in the plane. It is the common one and, of an overhang o at either
-        end, as much as helps to carry: r (1 - exp(-o/r)), with a reach r that grows with the depth of the gear's body.
+        """Width (mm) of pinion and wheel that counts in the plane. It is the common width and, of an overhang o at
+        either end, the part r (1 - exp(-o/r)) that helps to carry. The reach r grows with the depth of the gear's body.
         """
         module = self.pinion.normal_module
-        found = []
+        widths = []
         for gear, overhangs in zip((self.pinion, self.wheel), self.overhangs):
             reach = module * (REACH_OF_TEETH + REACH_OF_BODY * (1.0 - exp(-gear.body_depth / (DEPTH_OF_BODY * module))))
-            found.append(self.face_width + sum(reach * (1.0 - exp(-each / reach)) for each in overhangs))
-        return found[0], found[1]
+            widths.append(self.face_width + sum(reach * (1.0 - exp(-each / reach)) for each in overhangs))
+        return widths[0], widths[1]
 
     @cached_property
     def slope(self) -> float:
@@ -232,8 +231,8 @@ class GearPair:
 
     @property
     def backlash(self) -> float:
-        """Gap (mm) along the line of action between the coast flanks while the drive flanks touch: base pitch less both
-        base-circle thicknesses at the operating pressure angle; negative when teeth overlap."""
+        """Gap (mm) along the line of action between the coast flanks while the drive flanks touch; negative when teeth
+        overlap. It is the base pitch less both base-circle thicknesses at the operating pressure angle."""
         swept = involute_function(tan(self.operating_pressure_angle))
         halves = (gear.base_radius * (gear.tooth_half_angle_at_base - swept) for gear in (self.pinion, self.wheel))
         return self.base_pitch - 2.0 * sum(halves)
@@ -272,6 +271,8 @@ def gear_pair(data: GearPairData) -> GearPair:
     try:
         return _built(data)
     except Impossible as problem:
+        from .remedies import advice
+
         raise GeometryError(f"{problem}{advice(data, problem.remedies, _built)}") from None
 
 

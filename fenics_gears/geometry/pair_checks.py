@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .gear import Gear
-from .gear_checks import ROUNDING, Found, Impossible, Remedy, in_degrees
+from .gear_checks import ROUNDING, Impossible, Mistakes, Remedy, in_degrees
 from .involute import involute_function
 from .outline import fillet_point
 
@@ -36,25 +36,25 @@ def check_pair(pair: GearPair) -> None:
 
 def design_warnings(pair: GearPair) -> list[str]:
     """Warnings of unusual design that can be computed all the same."""
-    found = []
+    sentences = []
     for name, _ in NAMES:
         gear = getattr(pair, name)
         if gear.tip_thickness < THIN_TIP * gear.normal_module:
-            found.append(
+            sentences.append(
                 f"{name}: thin tip: {gear.tip_thickness:.4g} mm at the tip circle, less than {THIN_TIP} modules "
                 f"= {THIN_TIP * gear.normal_module:.4g} mm; lower gears.{name}.tip_diameter, or profile_shift with it"
             )
     whole = (pair.tip_positions[1] - pair.tip_positions[0]) / pair.base_pitch
     for name, other, lowest in _shortened(pair):
-        found.append(
+        sentences.append(
             f"{name}: undercut: the {other}'s tip would be in contact down to roll angle {in_degrees(lowest)}, but the"
             f" involute is cut away below {in_degrees(getattr(pair, name).form_roll_angle)} (form circle): contact"
             f" ratio {pair.contact_ratio:.4g} instead of {whole:.4g}; {_less_undercut(pair, name)}"
         )
-    return found
+    return sentences
 
 
-def _centres(pair: GearPair) -> Found:
+def _centres(pair: GearPair) -> Mistakes:
     bases = pair.pinion.base_radius + pair.wheel.base_radius
     if not (isfinite(pair.centre_distance) and pair.centre_distance > bases):
         yield (
@@ -74,7 +74,7 @@ def _centres(pair: GearPair) -> Found:
         yield f"pair: gears.face_width must be a positive length, not {pair.face_width}", ()
 
 
-def _backlash(pair: GearPair) -> Found:
+def _backlash(pair: GearPair) -> Mistakes:
     if pair.backlash < -PRINTED_DIGITS * pair.pinion.module:
         yield (
             f"pair: no backlash: the teeth overlap by {-pair.backlash:.4g} mm along the line of action at centre"
@@ -84,7 +84,7 @@ def _backlash(pair: GearPair) -> Found:
         )
 
 
-def _tip_clearance(pair: GearPair) -> Found:
+def _tip_clearance(pair: GearPair) -> Mistakes:
     for (name, other), clearance in zip(NAMES, pair.tip_clearances):
         if clearance < -ROUNDING:
             yield (
@@ -93,7 +93,7 @@ def _tip_clearance(pair: GearPair) -> Found:
             )
 
 
-def _contact_ratio(pair: GearPair) -> Found:
+def _contact_ratio(pair: GearPair) -> Mistakes:
     if pair.contact_ratio < 1.0:
         short = [name for name, *_ in _shortened(pair) if getattr(pair, name).undercut]
         cut = "".join(f", shortened by the undercut {name}" for name in short)
@@ -112,7 +112,7 @@ def _contact_ratio(pair: GearPair) -> Found:
         )
 
 
-def _interference(pair: GearPair) -> Found:
+def _interference(pair: GearPair) -> Mistakes:
     for name, other, lowest in _shortened(pair):
         gear = getattr(pair, name)
         if not gear.undercut:
@@ -123,7 +123,7 @@ def _interference(pair: GearPair) -> Found:
             )
 
 
-def _fillet_clearance(pair: GearPair) -> Found:
+def _fillet_clearance(pair: GearPair) -> Mistakes:
     for name, other in NAMES:
         clearance = fillet_clearance(getattr(pair, name), getattr(pair, other), pair.centre_distance)
         if clearance < -ROUNDING:
@@ -157,8 +157,8 @@ def _less_undercut(pair: GearPair, name: str) -> str:
 
 def fillet_clearance(gear: Gear, mate: Gear, centre_distance: float) -> float:
     """Least radial distance (mm) from the path of the mate's tip corner down to the gear's fillet, drive flanks in
-    contact; infinite where it never comes over the fillet, negative where it would cut in. Of an undercut gear the
-    least arc."""
+    contact. Infinite where the corner never comes over the fillet, negative where it would cut in. Of an undercut gear
+    the least arc."""
     clearance = _clearance_along_circles if gear.undercut else _clearance_of_corner
     return min(clearance(gear, mate, centre_distance, corner) for corner in _corners(mate))
 
@@ -191,7 +191,7 @@ def _corners(gear: Gear) -> list[tuple[float, float]]:
 
 def _clearance_along_circles(gear: Gear, mate: Gear, centre_distance: float, corner: tuple[float, float]) -> float:
     """Least arc (mm) about the gear's centre from its fillet and involute to the path of the mate's tip corner below
-    the gear's tip: an undercut fillet has up to two points at a polar angle, but one at a radius."""
+    the gear's tip. Arcs are taken at a radius, since an undercut fillet has up to two points at one polar angle."""
     above = acos((centre_distance**2 + corner[0] ** 2 - gear.tip_radius**2) / (2.0 * centre_distance * corner[0]))
     radius, angle = _tip_corner_path(
         gear, mate, centre_distance, np.linspace(above + corner[1], corner[1], SAMPLES), corner
@@ -212,7 +212,7 @@ def _tip_corner_path(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Radius (mm) and polar angle from straight down (rad) of a corner of the mate's tip in the gear's tooth frame.
 
-    ``mate_angle`` (n,), rad: of the end of the mate's involute from the line of centres, seen from the mate's centre.
+    ``mate_angle`` (n,), rad: of the end of the mate's involute from the line of centres, about the mate's centre.
     """
     operating = _operating_angle(gear, mate, centre_distance)
     contact_roll = np.tan(operating) * (1.0 + mate.base_radius / gear.base_radius)

@@ -54,7 +54,7 @@ def length_field(measured: str) -> Any:
 
 @dataclass(frozen=True)
 class Relief(Section):
-    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are those of ``[tip_relief]``, and
+    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are taken from ``[tip_relief]``, and
     the defaults hold if that section leaves them out too."""
 
     alternatives = (STARTS, GROWTH)
@@ -110,7 +110,7 @@ class Relief(Section):
 
 @dataclass(frozen=True)
 class RootReliefOfGear(Relief):
-    """``[root_relief.pinion]`` and ``[root_relief.wheel]``; fields that are left out are those of ``[root_relief]``,
+    """``[root_relief.pinion]`` and ``[root_relief.wheel]``; fields that are left out are taken from ``[root_relief]``,
     and the defaults hold if that section leaves them out too."""
 
     start: float | Measured | str | None = start_field("LPSTC", "lowest point of single tooth contact")
@@ -166,8 +166,8 @@ def side_by_side(removals: Sequence[Callable | None], counts: Sequence[int]) -> 
     if kinds == {type(None)}:
         return None
     together = getattr(next(iter(kinds)), "side_by_side", None) if len(kinds) == 1 else None
-    found = None if together is None else together(removals, counts)
-    return _one_by_one(removals, counts) if found is None else found
+    joined = None if together is None else together(removals, counts)
+    return _one_by_one(removals, counts) if joined is None else joined
 
 
 def _one_by_one(removals: Sequence[Callable | None], counts: Sequence[int]) -> Callable:

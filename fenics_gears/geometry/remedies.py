@@ -34,13 +34,13 @@ def advice(data: GearPairData, remedies: Sequence[Remedy], build: Callable[[Gear
             return False
         return True
 
-    found = []
+    helpful = []
     for each in remedies:
-        found += [words for words in (_tried(data, *each, runs),) if words]
-        if len(found) == MOST_TOLD:
+        helpful += [words for words in (_tried(data, *each, runs),) if words]
+        if len(helpful) == MOST_TOLD:
             break
-    if found:
-        return ": " + ", or ".join(found)
+    if helpful:
+        return ": " + ", or ".join(helpful)
     fields = dict.fromkeys(f"gears.{field}" for _, field in remedies)
     return (
         f". No change of one figure alone mends it (tried: {', '.join(fields)}): check gears.module, the teeth and all"

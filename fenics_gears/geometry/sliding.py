@@ -18,8 +18,8 @@ def contact_points(pair: GearPair) -> np.ndarray:
 
 
 def sliding_per_rotation(pair: GearPair, position):
-    """Sliding speed over the pinion's angular speed, mm: v_g / omega1 = rho1 - rho2 z1/z2, of the pinion's flank over
-    the wheel's, towards the pinion's tip: negative before the pitch point."""
+    """Sliding speed over the pinion's angular speed, mm: v_g / omega1 = rho1 - rho2 z1/z2. It is of the pinion's flank
+    over the wheel's, positive towards the pinion's tip: negative before the pitch point."""
     return position - pair.rotation_ratio * (pair.line_of_action_length - position)
 
 

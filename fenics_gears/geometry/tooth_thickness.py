@@ -2,7 +2,7 @@
 them and the profile shift, in normal modules.
 
 Angles in rad, lengths in mm. All measure the half angle psi_b of a tooth at the base circle (DIN 3960, ISO 21771): W_k
-= cos(beta_b) [(k - 1) p_bt + d_b psi_b], and for the centre of a ball between two teeth inv(alpha_K) = D_M/(d_b
+= cos(beta_b) [(k - 1) p_bt + d_b psi_b]. For the centre of a ball between two teeth inv(alpha_K) = D_M/(d_b
 cos(beta_b)) + psi_b - pi/z.
 """
 

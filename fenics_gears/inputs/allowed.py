@@ -14,7 +14,7 @@ LONGEST_FILE_NAME = 4096
 Matrix = tuple[tuple[float, ...], ...]
 # Parts of the largest entry that a matrix may depart by from a symmetric, positive one.
 ROUND_OFF = 1e-9
-# N, mm and rad of a matrix: as of a tilting stiffness.
+# N, mm and rad of a matrix, such as a tilting stiffness.
 LARGEST_ENTRY = 1e24
 
 
@@ -144,8 +144,8 @@ class AllowedEither(Allowed):
     def spelled(self, value: float | Measured | str) -> str:
         if isinstance(value, str):
             return value
-        found = value if isinstance(value, Measured) else Measured(value, self.kind)
-        return units.text_of(found.number, found.kind, self.units[found.kind])
+        measured = value if isinstance(value, Measured) else Measured(value, self.kind)
+        return units.text_of(measured.number, measured.kind, self.units[measured.kind])
 
 
 @dataclass(frozen=True, kw_only=True)

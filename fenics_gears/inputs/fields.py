@@ -1,7 +1,7 @@
 """The kinds of fields that a section has (``inputs.section``).
 
-Each function declares a field of a frozen dataclass: range and unit, meaning in one sentence, and what holds where a
-scene leaves it out (``default``, and ``otherwise`` in words; a field with neither is required). ``marks``: further
+Each function declares a field of a frozen dataclass: range, unit, and meaning in one sentence. ``default``, and
+``otherwise`` in words, say what holds where a scene leaves it out; a field with neither is required. ``marks``: further
 fields of ``Allowed``.
 """
 
@@ -72,7 +72,7 @@ def number(
 def quantities(
     limits: str, *examples: str, meaning: str, otherwise: str, count: int | None = None, **marks: bool
 ) -> Any:
-    """A list of quantities, optional; limits of each entry as those of a quantity.
+    """An optional list of quantities; each entry has limits as a quantity has.
 
     ``examples``: of two entries, or one for both; ``count``: of the entries, where it is fixed.
     """

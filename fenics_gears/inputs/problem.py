@@ -6,8 +6,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from .synonyms import SYNONYMS
-
 Path = tuple[str, ...]
 # By this name a section has the tables that a file may also list in its place.
 LISTED = "each"
@@ -79,7 +77,7 @@ _KEY = re.compile(rf"\s*({_DOTTED})\s*=")
 
 def line_numbers(text: str) -> dict[tuple[str, ...], int]:
     """The line, counted from 1, of each section header and each key that begins a line, by its path."""
-    found: dict[tuple[str, ...], int] = {}
+    numbers: dict[tuple[str, ...], int] = {}
     section: tuple[str, ...] = ()
     within_text = False
     for number, line in enumerate(text.splitlines(), 1):
@@ -90,10 +88,10 @@ def line_numbers(text: str) -> dict[tuple[str, ...], int]:
             continue
         if header := _HEADER.match(line):
             section = _path(header[1])
-            found.setdefault(section, number)
+            numbers.setdefault(section, number)
         elif key := _KEY.match(line):
-            found.setdefault((*section, *_path(key[1])), number)
-    return found
+            numbers.setdefault((*section, *_path(key[1])), number)
+    return numbers
 
 
 def _path(dotted: str) -> tuple[str, ...]:
@@ -117,8 +115,8 @@ def _nearest(word: str, names: tuple[str, ...], likeness: float) -> str | None:
     by_lower_case = {name.lower(): name for name in names}
     if word.lower() in by_lower_case:
         return by_lower_case[word.lower()]
-    found = difflib.get_close_matches(word.lower(), by_lower_case, n=1, cutoff=likeness)
-    return by_lower_case[found[0]] if found else None
+    near = difflib.get_close_matches(word.lower(), by_lower_case, n=1, cutoff=likeness)
+    return by_lower_case[near[0]] if near else None
 
 
 def did_you_mean(word: str, names: Iterable[str], likeness: float = 0.6) -> str:
@@ -133,6 +131,8 @@ def meant(section: Iterable[str], word: str, known: Iterable[str]) -> str | None
     >>> meant(["tip_relief", "pinion"], "amount", ["depth", "start"])
     'depth'
     """
+    from .synonyms import SYNONYMS
+
     section = tuple(section)
     known = tuple(known)
     homes = [section, *([section[:-1], (*section[:-1], "pinion")] if section[-1:] in (("pinion",), ("wheel",)) else [])]

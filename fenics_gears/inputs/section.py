@@ -53,8 +53,8 @@ def _allowed(section: type[Section]) -> dict[str, Allowed]:
 @functools.cache
 def _sections(section: type[Section]) -> dict[str, type[Section]]:
     hints = get_type_hints(section).items()
-    found = {name: _section_of(hint) for name, hint in hints if name not in _allowed(section)}
-    return {name: kind for name, kind in found.items() if kind is not None}
+    kinds = {name: _section_of(hint) for name, hint in hints if name not in _allowed(section)}
+    return {name: kind for name, kind in kinds.items() if kind is not None}
 
 
 def _section_of(hint: Any) -> type[Section] | None:
@@ -88,8 +88,8 @@ def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tu
             except Refused as reason:
                 problems.append(Problem(place, as_written(written), f"{reason} Allowed: {allowed.description}."))
         elif isinstance(written, Mapping):
-            values[name], found = read(inner, written, place)
-            problems += found
+            values[name], wrong = read(inner, written, place)
+            problems += wrong
         else:
             message = f"is not a section. Write a line [{'.'.join(place)}], and below it {fields_of(inner)}."
             problems.append(Problem(place, as_written(written), message))
@@ -107,7 +107,7 @@ def _beside_another(section: type[Section], tree: Mapping[str, Any], path: Path)
         first, *others = [name for name in group if name in tree] or ("",)
         allowed = f"one of {'the two' if len(group) == 2 else ', '.join(group)}"
         for name in others:
-            message = f"stands beside {first}; allowed is {allowed}. Leave one out."
+            message = f"is given together with {first}; allowed is {allowed}. Leave one out."
             yield Problem((*path, name), as_written(tree[name]), message)
 
 
@@ -132,7 +132,7 @@ def _missing(section: type[Section], name: str, place: Path) -> Iterator[Problem
 
 
 def fields_of(section: type[Section]) -> str:
-    """What a section may have, those of which at most one is given together."""
+    """The fields that a section may have; of those in one group at most one is given."""
     others = {name: group[0] for group in section.alternatives for name in group[1:]}
     groups = {name: [name] for name in names_in(section) if name not in others}
     for name, first in others.items():
@@ -162,7 +162,7 @@ class AllowedTables(Allowed):
         if not isinstance(entry, Mapping):
             listed = f"{', '.join(names[:-1])} and {names[-1]}"
             raise Refused(f"has the entry {as_written(entry)} at place {place}, which is no table of {listed}.")
-        found, problems = read(self.section, entry)
+        part, problems = read(self.section, entry)
         # An unknown name first: it may be what is missing.
         for problem in sorted(problems, key=lambda each: not each.unknown):
             name = ".".join(problem.path)
@@ -172,7 +172,7 @@ class AllowedTables(Allowed):
             if problem.written is None:
                 raise Refused(f"has no {name} {where}.")
             raise PartRefused(f"has {name} = {problem.written} {where}, which {problem.message}")
-        return found
+        return part
 
     def spelled(self, value: Any) -> list[dict[str, Any]]:
         return [tree_of(each) for each in value]
@@ -184,7 +184,7 @@ def tree_of(values: Any, section: type[Section] | None = None, leaving: Collecti
     Left out are None, defaults and the fields ``leaving``; but a section that may not be empty has one of its fields.
     """
     section = section or type(values)
-    found: dict[str, Any] = {}
+    tree: dict[str, Any] = {}
     usual: dict[str, Any] = {}
     for each in fields(values):
         name = each.name
@@ -195,10 +195,10 @@ def tree_of(values: Any, section: type[Section] | None = None, leaving: Collecti
             usual.setdefault(name, value)
             continue
         inner = section_within(section, name)
-        found[name] = field_of(section, name, value) if inner is None else tree_of(value, inner)
-    if section.empty and not found and not leaving:
-        found = {name: field_of(section, name, value) for name, value in [*usual.items()][:1]}
-    return found
+        tree[name] = field_of(section, name, value) if inner is None else tree_of(value, inner)
+    if section.empty and not tree and not leaving:
+        tree = {name: field_of(section, name, value) for name, value in [*usual.items()][:1]}
+    return tree
 
 
 def field_of(section: type[Section], name: str, value: Any) -> Any:

@@ -15,7 +15,7 @@ _NUMBER = re.compile(r"[+-]?[\d.,_]+(?:[eE][+-]?\d*)?")
 
 
 def in_words(error: tomllib.TOMLDecodeError, text: str, source: str) -> str:
-    """Two lines for people, as of any other mistake: file, line and what stands there; what to write."""
+    """Two lines for people, as for any other mistake: file, line and its text; what to write."""
     lines = text.splitlines()
     place = _PLACE.search(str(error))
     own = _PLACE.sub("", str(error))
@@ -28,9 +28,9 @@ def in_words(error: tomllib.TOMLDecodeError, text: str, source: str) -> str:
 
 def _said(own: str, written: str, text: str, number: int) -> Iterator[str]:
     """What TOML's `own` words mean in the line that is `written`; nothing where they say it as well."""
-    if found := _HEADER_TWICE.match(own):
-        name = ".".join(re.findall(r"'([^']*)'", found[1]))
-        yield f"[{name}] stands twice{_first(text, name, number)}. Put all of its fields below one of them."
+    if match := _HEADER_TWICE.match(own):
+        name = ".".join(re.findall(r"'([^']*)'", match[1]))
+        yield f"[{name}] is there twice{_first(text, name, number)}. Put all of its fields below one of them."
     if own.startswith(("Cannot overwrite a value", "Cannot mutate", "Cannot redefine")):
         if field := _FIELD.match(written):
             yield f"{field[1]} is given twice{_first(text, field[1], number)}. Leave one out."
@@ -65,7 +65,7 @@ def _value(own: str, written: str) -> Iterator[str]:
     elif value.lower() in ("true", "false"):
         yield f"is written {value.lower()}."
     elif value[0] not in "[{":
-        yield f'lacks quotes: a word, or a number with its unit, stands between them. Write {name} = "{value}".'
+        yield f'lacks quotes: a word, or a number with its unit, goes between them. Write {name} = "{value}".'
 
 
 def _open_quote(lines: list[str]) -> int:
@@ -78,7 +78,7 @@ def _open_quote(lines: list[str]) -> int:
 
 
 def _first(text: str, name: str, number: int) -> str:
-    """Where a name of a section, or of a field of the section at a line, stands first."""
+    """Where a name of a section, or of a field of the section at a line, comes first."""
     before = "\n".join(text.splitlines()[: number - 1])
-    found = [line for path, line in line_numbers(before).items() if ".".join(path) == name or path[-1:] == (name,)]
-    return f", first in line {found[-1]}" if found else ""
+    lines = [line for path, line in line_numbers(before).items() if ".".join(path) == name or path[-1:] == (name,)]
+    return f", first in line {lines[-1]}" if lines else ""

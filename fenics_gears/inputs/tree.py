@@ -25,14 +25,14 @@ def table(tree: Tree, name: str) -> Tree | None:
 
 def value_at(tree: Tree, *path: str) -> Any:
     """What a parsed scene has at a path, in which listed tables have numbers from 1; None where there is nothing."""
-    found: Any = tree
+    value: Any = tree
     for name in path:
         if name.isdigit():
-            listed = found.get(LISTED) if isinstance(found, Mapping) else found
-            found = listed[int(name) - 1] if isinstance(listed, list) and 1 <= int(name) <= len(listed) else None
+            listed = value.get(LISTED) if isinstance(value, Mapping) else value
+            value = listed[int(name) - 1] if isinstance(listed, list) and 1 <= int(name) <= len(listed) else None
         else:
-            found = found.get(name) if isinstance(found, Mapping) else None
-    return found
+            value = value.get(name) if isinstance(value, Mapping) else None
+    return value
 
 
 def with_gears(tree: Tree, name: str) -> dict[Path, Tree]:
@@ -42,8 +42,7 @@ def with_gears(tree: Tree, name: str) -> dict[Path, Tree]:
 
 
 def given_for(both: Tree, gear: str) -> set[str]:
-    """Names that a section gives for the "pinion" or the "wheel": those for both, and those of the gear's own
-    section."""
+    """Names that a section gives for the "pinion" or the "wheel": for both gears, and in the gear's own section."""
     return {*both, *(table(both, gear) or {})}
 
 
@@ -128,7 +127,7 @@ def module_in(tree: Tree) -> float | None:
 
 
 def pressure_angle_in(tree: Tree) -> float | None:
-    """The pressure angle (rad) of the normal section of a parsed scene, as of ``module_in``."""
+    """The pressure angle (rad) of the normal section of a parsed scene, like ``module_in``."""
     return _of_teeth(tree, PRESSURE_ANGLES)
 
 
@@ -177,12 +176,12 @@ def dotted(path: Path) -> str:
 
 def over_the_face(tree: Tree) -> list[Path]:
     """What of a scene makes it three-dimensional; nothing of a plane one."""
-    found = ((path, value_at(tree, *path)) for path in OVER_THE_FACE)
-    return [path for path, value in found if isinstance(value, Mapping) or len(path) > 1 and value is not None]
+    valued = ((path, value_at(tree, *path)) for path in OVER_THE_FACE)
+    return [path for path, value in valued if isinstance(value, Mapping) or len(path) > 1 and value is not None]
 
 
 NOT_IN_THE_PLANE = (
-    f"is of three-dimensional scenes: allowed beside {', '.join(map(dotted, OVER_THE_FACE[:-1]))} or"
+    f"is of three-dimensional scenes: allowed with {', '.join(map(dotted, OVER_THE_FACE[:-1]))} or"
     f" {dotted(OVER_THE_FACE[-1])}. Leave it out."
 )
 

@@ -14,7 +14,7 @@ from .problem import did_you_mean
 # What the units of the program measure.
 # A ratio is a dimension too, so that a percentage is no bare number.
 _BASE = {"mm": "length", "N": "force", "s": "time", "rad": "angle", "ratio": "ratio"}
-# Each further unit as a number of units that stand before it.
+# Each further unit as a number of units above it.
 _UNITS = {
     "mm": (1.0, "mm"),
     "um": (0.001, "mm"),
@@ -145,8 +145,8 @@ def quantity(text: str) -> tuple[float, str]:
 
 
 def of_kind(text: str, *kinds: str) -> tuple[float, str]:
-    """The number and its kind as of ``quantity``, one of some kinds; where an angular speed is wanted, 1/min is
-    revolutions a minute.
+    """The number and its kind, as ``quantity`` gives them, of one of some kinds. Where an angular speed is wanted,
+    1/min is revolutions a minute.
 
     1/s is not taken for one: it stands for revolutions in some papers and for radians in others. Raises QuantityError
     for another kind too.
@@ -180,10 +180,10 @@ def names_by_kind() -> dict[str, list[str]]:
     >>> names_by_kind()["a length"]
     ['mm', 'um', 'cm', 'dm', 'm', 'in', 'ft', 'mil']
     """
-    found: dict[str, list[str]] = {}
+    names: dict[str, list[str]] = {}
     for name in _UNITS:
-        found.setdefault(_unit(name)[1], []).append(name)
-    return found
+        names.setdefault(_unit(name)[1], []).append(name)
+    return names
 
 
 def own_unit(kind: str) -> str:
@@ -210,7 +210,7 @@ def text_of(value: float, kind: str, usual: str) -> str:
     own = own_unit(kind)
     for unit in (usual, own):
         quotient = float(value) / quantity(f"1 {unit}")[0]
-        # The quotient and then the product with the factor are rounded: a number beside it may be the one.
+        # The quotient and then the product with the factor are rounded: the number may be a neighbour of the quotient.
         for number in (quotient, math.nextafter(quotient, math.inf), math.nextafter(quotient, -math.inf)):
             for digits in DIGITS:
                 text = f"{number:.{digits}g} {unit}"
@@ -221,7 +221,7 @@ def text_of(value: float, kind: str, usual: str) -> str:
 
 def _tidy(written: str) -> str:
     """A unit in plain letters: "µm" as "um", "min⁻¹" as "min^-1", "in-lb" as "lbf in"."""
-    powers = _NEGATIVE_POWER.sub(lambda found: f"^-{found[1].translate(_DIGITS)}", written)
+    powers = _NEGATIVE_POWER.sub(lambda match: f"^-{match[1].translate(_DIGITS)}", written)
     plain = powers.translate(_SPELLINGS).strip()
     pounds = _POUNDS.fullmatch(plain)
     return f"lbf {pounds[1] or pounds[2]}" if pounds else plain
@@ -271,10 +271,12 @@ def _in_base_units(name: str) -> tuple[float, Counter]:
 
 def _kind(powers: Counter) -> str:
     """What a quantity of these powers is called; the powers themselves where they have no name."""
-    found = _sorted_powers(powers)
-    if not found:
+    ordered = _sorted_powers(powers)
+    if not ordered:
         return "a number without unit"
-    return _kinds_by_powers().get(found) or "a quantity in " + " ".join(f"{name}^{power:g}" for name, power in found)
+    return _kinds_by_powers().get(ordered) or "a quantity in " + " ".join(
+        f"{name}^{power:g}" for name, power in ordered
+    )
 
 
 @functools.cache

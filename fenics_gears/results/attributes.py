@@ -35,7 +35,7 @@ OVER_FACE_WITH_LOAD = "the flanks are resolved over the face and loaded"
 OVER_FACE_WITH_FIELDS = "as `transverse_load_factor`, and contact fields are stored"
 WITH_SECTIONS = "a shaft has `sections`"
 WITH_ROLLING = "a bearing is `rolling`"
-WITH_VIBRATIONS = "a shaft has `sections`, beside `[inertia]`"
+WITH_VIBRATIONS = "a shaft has `sections`, with `[inertia]`"
 PROPOSED = (
     "a torque, and `[misalignment]` in the plane of action, bearings along the shafts or a web off mid-width, where a"
     " mesh cycle run with the proposal confirms a lower factor; not in studies"
@@ -184,7 +184,7 @@ _ROWS = (
         (f"proposed_{name}", unit, meaning, PROPOSED)
         for name, unit, meaning in (
             ("helix_slope", "um", "helix slope modification of the pinion, in place of its own"),
-            ("crowning", "um", "crowning of the pinion beside it, in place of its own"),
+            ("crowning", "um", "crowning of the pinion with it, in place of its own"),
             (
                 "face_load_factor",
                 "1",

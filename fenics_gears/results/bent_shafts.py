@@ -1,6 +1,7 @@
 """Shafts that bend in the result: what their deflection does to the axes, the bearings' loads, and deflection lines."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -8,6 +9,7 @@ import xarray as xr
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_seat import BentBySeat
+from fenics_gears.dynamics.frequencies import vibrations
 from fenics_gears.dynamics.shaft_elements import SIX, carried
 from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.inputs.tree import GEARS
@@ -24,6 +26,11 @@ GAUSS = 0.5 / np.sqrt(3.0)
 # What MOTIONS are called in the result.
 OF_GEARS = ("centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y")
 LOADS = ("bearing_force_x", "bearing_force_y", "bearing_force_z", "bearing_moment_x", "bearing_moment_y")
+
+
+def along_face(model: Model, cycle: Cycle) -> AlongTheFace:
+    """The further results of a mesh cycle over a face."""
+    return BentShafts(cycle, model) if model.drivetrain.elastic else AlongTheFace(cycle)
 
 
 class BentShafts(AlongTheFace):
@@ -81,7 +88,7 @@ class BentShafts(AlongTheFace):
     def fields(self, nodes: SideBySide) -> dict[str, np.ndarray]:
         """Deflection of both shafts (steps, gears, points), mm; not a number where a shaft has no sections."""
         states = nodes.steps.states[:, 0]
-        found = np.full((2, len(states), len(NUMBERS), SHAFT_POINTS), np.nan)
+        deflection = np.full((2, len(states), len(NUMBERS), SHAFT_POINTS), np.nan)
         for system in self.drivetrain.systems:
             values = self._values(system, states)
             for each in system.shafts:
@@ -89,8 +96,8 @@ class BentShafts(AlongTheFace):
                 if each.gear in self._seats:
                     line = self._seats[each.gear].line[:, :2]
                     lines += np.einsum("pmzi,szi->msp", line, self._loads(nodes, each.gear), optimize=True)
-                found[:, :, GEARS.index(each.gear)] = lines
-        return super().fields(nodes) | {"shaft_deflection_x": found[0], "shaft_deflection_y": found[1]}
+                deflection[:, :, GEARS.index(each.gear)] = lines
+        return super().fields(nodes) | {"shaft_deflection_x": deflection[0], "shaft_deflection_y": deflection[1]}
 
     def coordinates(self) -> dict[str, tuple]:
         """Where bearings and points of the shafts are."""
@@ -107,21 +114,21 @@ class BentShafts(AlongTheFace):
             "shaft_place": (("gear", "shaft_point"), points, from_end),
         }
 
-    def numbers(self, counted: xr.Dataset) -> dict[str, float | str]:
+    def numbers(self, counted: xr.Dataset, known: Mapping[str, Any]) -> dict[str, float | str]:
         """Of the settled steps of a result: means of the axes' departures, the largest force of a bearing, and natural
         frequencies."""
         named = [f"axis_{kind}_{plane}" for kind in ("inclination", "offset") for plane in ("in_plane", "out_of_plane")]
-        found: dict[str, float | str] = {f"mean_{name}": float(counted[name].mean()) for name in named}
+        numbers: dict[str, float | str] = {f"mean_{name}": float(counted[name].mean()) for name in named}
         forces = np.sqrt(sum(counted[name] ** 2 for name in LOADS[:3]))
-        found |= {"largest_bearing_force": float(forces.max())}
-        return super().numbers(counted) | found | self._rolling_elements(counted) | self._vibrations(counted)
+        numbers |= {"largest_bearing_force": float(forces.max())}
+        return super().numbers(counted, known) | numbers | self._rolling_elements(counted) | self._vibrations(counted)
 
     def _seat(self, system: ShaftSystem, shaft: ElasticShaft) -> BentBySeat:
-        """What a seat does under loads (S, 6) in the slices of the face, at their own heights: of its teeth, motions
-        (5, S, 6) of the straight axis that is nearest to them over the common face, in the middle of the gear."""
+        """Response of a seat to loads (S, 6) in the slices of the face, at their own heights. Of its teeth: motions (5,
+        S, 6), in the middle of the gear, of the straight axis that is nearest to them over the common face."""
         slices = len(self.face.positions)
-        found = system.bent_by_seat(shaft, self._heights(shaft), self.points(shaft.length))
-        teeth, line, bearings = (each.reshape(*each.shape[:-2], 2, slices, SIX).mean(axis=-3) for each in found)
+        bent = system.bent_by_seat(shaft, self._heights(shaft), self.points(shaft.length))
+        teeth, line, bearings = (each.reshape(*each.shape[:-2], 2, slices, SIX).mean(axis=-3) for each in bent)
         return BentBySeat(self._nearest(teeth, shaft), line, bearings)
 
     def _heights(self, shaft: ElasticShaft) -> np.ndarray:
@@ -156,22 +163,20 @@ class BentShafts(AlongTheFace):
         if nodes.tangential is not None:
             forces += nodes.of("rows_of_tangents")[rows][:, loaded] * nodes.tangential[loaded]
         size = len(nodes.steps) * self.face.slices
-        found = np.stack([np.bincount(place, each, minlength=size) for each in forces], axis=1)
-        found = found.reshape(-1, self.face.slices, SIX)
+        loads = np.stack([np.bincount(place, each, minlength=size) for each in forces], axis=1)
+        loads = loads.reshape(-1, self.face.slices, SIX)
         heights = self.face.positions - self.pair.gear_middles[number]
-        return np.einsum("szi,zij->szj", found, [carried(-each) for each in heights])
+        return np.einsum("szi,zij->szj", loads, [carried(-each) for each in heights])
 
     def _vibrations(self, counted: xr.Dataset) -> dict[str, str]:
         """Natural frequencies with the mesh as it was, a line each; nothing without inertia or contact."""
-        from fenics_gears.dynamics.frequencies import vibrations
-
         if self.drivetrain.mass is None or "mesh_stiffness_tangent" not in counted:
             return {}
         stiffness = mean_where_positive(counted["mesh_stiffness_tangent"].values)
         if not np.isfinite(stiffness):
             return {}
-        found = vibrations(self.drivetrain, stiffness, self.model.scene.friction is not None)
-        lines = (f"{each.frequency:.6g} {each.motion}".rstrip() for each in found)
+        modes = vibrations(self.drivetrain, stiffness, self.model.scene.friction is not None)
+        lines = (f"{each.frequency:.6g} {each.motion}".rstrip() for each in modes)
         return {"natural_frequencies": "\n".join(lines)}
 
     def _rolling_elements(self, counted: xr.Dataset) -> dict[str, float]:

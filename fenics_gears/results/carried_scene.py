@@ -15,16 +15,16 @@ LOGGER = logging.getLogger(__name__)
 
 
 def scene_attributes(scene: Scene) -> dict[str, str]:
-    """The text and the name of a scene; of one that names files also the folder from which they are looked for, and a
-    hash of what was read from each."""
-    found = {"scene": scene.text, "scene_name": scene.name}
+    """The text and the name of a scene; where the scene names files, also the folder to look for them from, and a hash
+    of each file's content."""
+    attributes = {"scene": scene.text, "scene_name": scene.name}
     files = _files(scene)
     if files:
-        found |= {
+        attributes |= {
             "scene_folder": scene.folder,
             "scene_files": "\n".join(f"{digest} {name}" for name, digest in files.items()),
         }
-    return found
+    return attributes
 
 
 def carried_scene(result: xr.Dataset) -> Scene:

@@ -1,5 +1,5 @@
 """Contact and energy in the result: forces of the mesh, of tooth pairs and contact nodes, their reactions on the
-shafts; stored energies, and the work that supplies and takes them."""
+shafts. Stored energies, and the work that supplies and takes them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -123,7 +123,7 @@ def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
     the force."""
     gap = np.concatenate([position.operator.gap for position in nodes.steps.positions])
     steps = len(nodes.steps)
-    found = {}
+    forces = {}
     for name, drive in (("pair_normal_force", True), ("pair_coast_normal_force", False)):
         if not drive and scene.coast_flanks is None:
             break
@@ -135,8 +135,8 @@ def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
         largest_gap[nodes.step[loaded]] = gap[loaded] + SAME_GAP
         touching = nodes.by_slot(of_side & (gap <= largest_gap[nodes.step])) > 0
         force[touching.sum(axis=1) > 1] = np.nan
-        found[name] = np.where(touching, force[:, None], 0.0)
-    return found
+        forces[name] = np.where(touching, force[:, None], 0.0)
+    return forces
 
 
 def node_variables(scene: Scene, nodes: SideBySide) -> Values:
@@ -154,9 +154,10 @@ def node_variables(scene: Scene, nodes: SideBySide) -> Values:
 
 
 def watched_contact(nodes: SideBySide) -> Values:
-    """What the warnings need of consecutive steps: contact at the window's ends and on tips, rank of the compliance."""
+    """Values of consecutive steps for the warnings: contact at the window's ends and on tips, rank of the
+    compliance."""
     steps = nodes.steps
-    found = {
+    watched = {
         "window reached": nodes.any(nodes.of("at_end") & nodes.closed),
         "dependent rows": nodes.layouts.dependent_rows,
         "rows": steps.kinds * np.diff(steps.starts),
@@ -164,8 +165,8 @@ def watched_contact(nodes: SideBySide) -> Values:
     if nodes.cycle.traits.has_pressure:
         pressed = nodes.normal > NO_FORCE
         edges = [f"on the {gear}'s {edge}" for edge in ("tip", "form circle") for gear in ("pinion", "wheel")]
-        found |= {name: nodes.any(on & pressed) for name, on in zip(edges, nodes.of("on_edge"))}
-    return found
+        watched |= {name: nodes.any(on & pressed) for name, on in zip(edges, nodes.of("on_edge"))}
+    return watched
 
 
 def energy_variables(scene: Scene, drivetrain: Drivetrain, steps: Steps) -> dict:

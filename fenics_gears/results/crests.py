@@ -4,7 +4,7 @@ Where a cubic through four steps agrees with the value in the middle of the inne
 and its crest is the largest value. Elsewhere the curve is taken to stay, between two steps, below the straight lines
 through the steps on either side, as at corners where a tooth pair enters or leaves contact. Lines through further
 points replace these, until no crossing lies above the largest value found. All places are multiples of a part of a
-step, so that the runs of a search ask for the same ones; between two of them the curve is a cubic or, at a corner, a
+step, so that the runs of a search ask for the same ones. Between two of them the curve is a cubic or, at a corner, a
 parabola on either side. Of a smooth curve that is known at the steps alone the largest value is that of the cubics,
 which is of fourth order.
 """
@@ -20,24 +20,24 @@ from .numbers import LIKE, SAME, crest_of_cubic, differences, is_smooth
 MOST_SOLVED = 20
 # How far down from the largest value a curve is followed, in parts of what is sought.
 NEAR = 25.0
-# A cubic holds where it differs from a value between its steps by at most so many parts of what is sought; the value is
-# asked for at most this part of the interval from its middle.
+# A cubic holds where it differs from a value between its steps by at most so many parts of what is sought. The value is
+# asked for near the middle of the interval, at most this part of it away.
 AGREES = 2.0
 MIDDLE = 0.25
 # A position is sought no nearer to a step than this part of the distance to the next.
 NEAREST = 0.02
 
-# Of an interval between two points: how high the curve may be there and where that is, whether a value was asked for,
-# whether a cubic holds; and its crest, place and height, where a cubic holds or no place is between.
+# Of an interval between two points: how high the curve may be there and where that is; whether a value was asked for,
+# whether a cubic holds. Place and height of its crest, where a cubic holds or no place is between.
 KNOWN = BOUND, PLACE, ASKED, CUBIC, CREST, HEIGHT = range(6)
 # Of a search: its points, values that it may still ask for (-1 before it begins), interval of the one asked for now.
 COUNTED = COUNT, LEFT, AT = range(3)
 
 
 class Searches:
-    """Searches for the largest values of curves (c, s) that are given at `steps` (s,), side by side: each asks for
-    values of its curve between them, at multiples of the `finest` part of a step, until these say what is `sought` (c,)
-    of its largest value. `corners`: between two places a curve may be higher than both at a corner.
+    """Searches for the largest values of curves (c, s) that are given at `steps` (s,), side by side. Each asks for
+    values of its curve between steps, at multiples of the `finest` part of a step. It ends when its largest value is
+    known to `sought` (c,). `corners`: between two places a curve may be higher than both at a corner.
 
     `asked` (c,): the places asked for now, not a number where a search has ended; `tops` (c, 2): place and largest
     value, as far as they are known.
@@ -151,9 +151,9 @@ def _next(x, y, known, top, settings):
 
 @njit(cache=True)
 def _steep_neighbour(x, y, top, sought, finest):
-    """The steeper of the two intervals beside the largest value, at the point `top`, where the curve falls by more than
-    NEAR times what is sought within a step. 0 where neither falls so far, none has a place between, or both are at an
-    end."""
+    """The steeper of the two intervals next to the largest value, at the point `top`, where the curve falls by more
+    than NEAR times what is sought within a step. 0 where neither falls so far, none has a place between, or both are at
+    an end."""
     near = NEAR * sought
     steepest = 0
     fall = -inf
@@ -175,14 +175,14 @@ def _steep_neighbour(x, y, top, sought, finest):
 @njit(cache=True)
 def _take(x, y, known, count, value, settings):
     """The value found in an interval at a place, which divides it."""
-    interval, place, found = value
-    holds = _holds(x[interval - 1 :], y[interval - 1 :], place, found, AGREES * settings[0])
+    interval, place, height = value
+    holds = _holds(x[interval - 1 :], y[interval - 1 :], place, height, AGREES * settings[0])
     for i in range(count, interval + 1, -1):
         x[i] = x[i - 1]
         y[i] = y[i - 1]
         known[:, i - 1] = known[:, i - 2]
     x[interval + 1] = place
-    y[interval + 1] = found
+    y[interval + 1] = height
     for i in (interval, interval + 1):
         known[:, i] = 0.0
         known[BOUND, i] = -inf
@@ -244,8 +244,8 @@ def _bound(x, y):
 
 @njit(cache=True)
 def _corner(x, y):
-    """Place and height of the crossing of the parabolas through the first and the last three of six points x, y (6,)
-    between them; no height where they do not cross there, the first from below."""
+    """Place and height where two parabolas cross: through the first and the last three of six points x, y (6,), between
+    the two groups. No height where they do not cross there, the first from below."""
     h = x[3] - x[2]
     before = (y[2] - y[1]) / (x[2] - x[1])
     after = (y[4] - y[3]) / (x[4] - x[3])
@@ -265,9 +265,9 @@ def _corner(x, y):
 
 
 @njit(cache=True)
-def _holds(x, y, place, found, most):
-    """Whether the cubic through four points x, y (4,), concave in the middle, is `found` at a place, by `most`."""
+def _holds(x, y, place, height, most):
+    """Whether the cubic through four points x, y (4,), concave in the middle, is `height` at a place, by `most`."""
     slope, (one, _), third = differences(x, y)
     after = place - x[1]
     cubic = y[1] + after * (slope + (place - x[2]) * (one + third * (place - x[0])))
-    return is_smooth(x, y) and abs(found - cubic) <= most and abs(after / (x[2] - x[1]) - 0.5) <= MIDDLE
+    return is_smooth(x, y) and abs(height - cubic) <= most and abs(after / (x[2] - x[1]) - 0.5) <= MIDDLE

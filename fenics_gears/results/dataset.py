@@ -48,21 +48,21 @@ class RunResult:
         said: dict[str, str] = {}
         numbers = attempted(said, "numbers of the run", lambda: _numbers(recorder, march, self, counted.first))
         self.attrs.update(numbers or {})
-        found = [counted.warning] if counted.warning else []
-        found += attempted(said, "judgement of the run", lambda: self._judged(march)) or []
-        self.attrs.update(said, warnings="\n".join([*found, *said.get("warnings", "").splitlines()]))
+        sentences = [counted.warning] if counted.warning else []
+        sentences += attempted(said, "judgement of the run", lambda: self._judged(march)) or []
+        self.attrs.update(said, warnings="\n".join([*sentences, *said.get("warnings", "").splitlines()]))
         self.seconds = time.perf_counter() - begun
 
     def _judged(self, march: March) -> list[str]:
         """A sentence for each assumption of the model that the march breaks."""
         recorder = self.recorder
         scene = recorder.model.scene
-        found = warnings_of(recorder, march, self)
-        found += warnings_of_energy(scene, self, recorder.cycle.steps, shown_steps(self))
-        found += _undetermined_shares(self)
+        warnings = warnings_of(recorder, march, self)
+        warnings += warnings_of_energy(scene, self, recorder.cycle.steps, shown_steps(self))
+        warnings += _undetermined_shares(self)
         for sentences in from_effects(scene, "findings", recorder.watched):
-            found += sentences
-        return found
+            warnings += sentences
+        return warnings
 
     def __getitem__(self, name: str) -> np.ndarray:
         return self._curves[name]
@@ -93,8 +93,8 @@ def variables_of(recorder: Recorder, first: int):
     for name, variable in described.items():
         if name in arrays:
             yield name, variable.dims, arrays[name], variable.labels
-    for found in from_effects(scene, "results", scene, recorder.cycle, np.empty(0)):
-        for name, (dims, values) in found.items():
+    for of_effect in from_effects(scene, "results", scene, recorder.cycle, np.empty(0)):
+        for name, (dims, values) in of_effect.items():
             if dims[:1] != ("time",):
                 yield name, dims, values, described[name].labels
     forces = arrays["pair_normal_force"][first:]
@@ -202,7 +202,7 @@ def _numbers(recorder: Recorder, march: March, result: RunResult, first: int) ->
         labelled = result.dataset.isel(time=slice(first, None))
         numbers |= largest_root_stress(labelled)
         for along in recorder.along_face:
-            numbers |= along.numbers(labelled)
+            numbers |= along.numbers(labelled, numbers)
     return numbers | of_force
 
 

@@ -111,13 +111,13 @@ class Extrema:
             ]
         # The first of all that differ by round-off: cycles repeat.
         firsts = self._steps[np.argmax(curves >= (tops - round_off)[:, None], axis=1)]
-        found = []
+        extrema = []
         for (step, value, way), top, least, first in zip(located, tops.tolist(), round_off.tolist(), firsts.tolist()):
             if value <= top + least:
                 step = float(first)
                 value = top
-            found.append(Extremum(value, step / self._cycle.steps, way))
-        return found
+            extrema.append(Extremum(value, step / self._cycle.steps, way))
+        return extrema
 
     def _solved(
         self, quantities: Sequence[Quantity], curves: np.ndarray, round_off: np.ndarray
@@ -161,8 +161,8 @@ class Extrema:
         return value + float(np.interp(step, ends, apart)) if apart else value
 
     def _last_period(self, curves: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Steps from the first of a period and values (c, ...) of the last one, with a step before and after it as it
-        repeats; of all steps where none is whole."""
+        """Steps from the first of a period, and values (c, ...) of the last period with a step before and after it, as
+        it repeats. Of all steps where no period is whole."""
         if not self._whole:
             return self._steps.astype(float), curves
         steps = self._steps[-self._period - 1 :] - self.first
@@ -181,8 +181,8 @@ def _is_marched(model: Model, transmission_error: np.ndarray, first: int, same: 
     `first`; any has where `same` is infinite."""
     if same == np.inf:
         return True
-    found = float(model.transmission_error(record.state.position))
-    return abs(found - transmission_error[int(record.step) + first]) <= same
+    error = float(model.transmission_error(record.state.position))
+    return abs(error - transmission_error[int(record.step) + first]) <= same
 
 
 def _held(march: March | None, first: int, step: int) -> Record | None:
@@ -203,16 +203,16 @@ Numbers = dict[str, float | str]
 def extremes(
     extrema: Extrema, runs: Sequence[tuple[int, Mapping[str, np.ndarray], bool]]
 ) -> list[tuple[Numbers, Numbers]]:
-    """Of each run, by its number and curves: numbers of the extremes of the transmission error, and of the largest
-    normal force of a tooth pair where it is asked for."""
+    """The extremes of each run, given by its number and curves: of the transmission error and, where asked for, of the
+    largest normal force of a tooth pair."""
     of = extrema.transmission_error
     quantities = []
     for run, curves, force in runs:
         error = curves["transmission_error"]
         quantities += [Quantity(error, of, run), Quantity(-error, lambda record: -of(record), run)]
         quantities += [pair_force(curves, run)] if force else []
-    found = iter(extrema.largest(quantities))
-    return [(_of_error(next(found), next(found)), _of_force(next(found)) if force else {}) for *_, force in runs]
+    largest = iter(extrema.largest(quantities))
+    return [(_of_error(next(largest), next(largest)), _of_force(next(largest)) if force else {}) for *_, force in runs]
 
 
 def _of_error(largest: Extremum, least: Extremum) -> Numbers:
@@ -224,11 +224,11 @@ def _of_error(largest: Extremum, least: Extremum) -> Numbers:
     }
 
 
-def _of_force(found: Extremum) -> Numbers:
+def _of_force(largest: Extremum) -> Numbers:
     return {
-        "largest_pair_force": found.value,
-        "largest_pair_force_mesh_phase": found.mesh_phase,
-        "largest_pair_force_from": found.found_by,
+        "largest_pair_force": largest.value,
+        "largest_pair_force_mesh_phase": largest.mesh_phase,
+        "largest_pair_force_from": largest.found_by,
     }
 
 

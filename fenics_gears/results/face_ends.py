@@ -1,5 +1,5 @@
-"""Where the face of a result ends: its slices, and the zone at either end whose line load and pressure are those of an
-edge."""
+"""Where the face of a result ends: its slices, and the zone at either end whose line load and pressure are an
+edge's."""
 
 import numpy as np
 import xarray as xr
@@ -39,7 +39,7 @@ def slice_ends(result: xr.Dataset) -> np.ndarray:
 
 
 def window_depth(pair: GearPair) -> float:
-    """Depth (mm) of the windows of the inner face over which means are compared: about that of an end zone, and a whole
+    """Depth (mm) of the windows of the inner face over which means are compared, about that of an end zone. A whole
     number of them makes the inner face, so that no largest mean is below the mean of the inner face."""
     low, high = inner_face(pair)
     return (high - low) / round((high - low) / end_depth(pair))

@@ -2,6 +2,8 @@
 the face does not touch."""
 
 from collections.abc import Mapping
+from math import sqrt
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -9,7 +11,7 @@ import xarray as xr
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
 
-from .load_factors import load_factors
+from .load_factors import end_of_line, load_factors
 from .pairs import carrying_side
 from .side_by_side import SideBySide
 
@@ -20,7 +22,7 @@ FEWEST_TOUCHING = 3
 
 
 class AlongTheFace:
-    """What the result of a mesh cycle over a face of many slices has beside that of one slice."""
+    """Further results of a mesh cycle over a face of many slices."""
 
     def __init__(self, cycle: Cycle):
         self.face = cycle.face
@@ -57,12 +59,20 @@ class AlongTheFace:
         }
 
     def words(self, words: Mapping[str, str]) -> dict[str, str]:
-        """Long names of root stress, from those of one slice."""
+        """Long names of root stress over the face, made of the names for one slice."""
         section = words["root_stress_at_30_degrees"]
         return {**words, "root_stress_at_30_degrees": f"largest {section}", "root_stress_over_face": section}
 
-    def numbers(self, counted: xr.Dataset) -> dict[str, float | str]:
-        return {**load_factors(counted, self.pair)}
+    def numbers(self, counted: xr.Dataset, known: Mapping[str, Any]) -> dict[str, float | str]:
+        """Load factors, and at which end of its line of contact a helical pair has its largest pressure; `known`: the
+        numbers that runs in the plane have, too."""
+        return {**load_factors(counted, self.pair), **self._end_of_peak(known.get("peak_contact_pressure_diameter"))}
+
+    def _end_of_peak(self, diameter: float | None) -> dict[str, str]:
+        if diameter is None or not self.pair.slope:
+            return {}
+        end = end_of_line(self.pair, sqrt((0.5 * diameter) ** 2 - self.pair.pinion.base_radius**2))
+        return {"peak_contact_pressure_beside": end} if end else {}
 
     def numbers_of_curves(
         self, curves: Mapping[str, np.ndarray], nodes: SideBySide, first: int, contact_steps: int

@@ -36,8 +36,7 @@ SECONDS_WITHOUT = 2.0
 HEADER = "journal.json"
 STATE = "state.json"
 DAMAGED = "it does not hold what was written into it"
-# Places beside those of the last steps: values that a reader still needs are not overwritten while a block or two are
-# written.
+# Additional places, so that values that a reader still needs are not overwritten while a block or two are written.
 SPARE = 4 * LONGEST_BLOCK
 # Names of the check sums of a step's values, and whether they are of contact fields.
 CHECKS = {"check: curves": False, "check: fields": True}
@@ -99,7 +98,7 @@ class Journal(ArraysInMemory):
         return _read(self._files[name], self.kinds[name], steps) if self._files else super().get(name, steps)
 
     def _write(self, first: int, count: int, values: Values) -> None:
-        """Write values of so many steps from `first` on, of contact fields those of the last of them, and their check
+        """Write values of so many steps from `first` on, contact fields of the last ones alone, and their check
         sums."""
         own = {name: np.ascontiguousarray(each, self.kinds[name].type) for name, each in values.items()}
         for name, each in own.items():
@@ -178,7 +177,7 @@ class Journal(ArraysInMemory):
 
 @dataclass(frozen=True)
 class Recorded:
-    """What a journal holds of a run: its `scene`, how many `steps` it was to have beside the start, the `march` so far,
+    """The content of a journal: the run's `scene`, how many `steps` it was to have after the start, the `march` so far,
     and `values` by name."""
 
     scene: Scene

@@ -12,7 +12,6 @@ from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, slidin
 from fenics_gears.scene.data import Scene
 
 from .contact_variables import Curves, largest_normal_force, mesh_force, transmitted
-from .load_factors import end_of_line
 from .numbers import HARMONICS, first_largest, harmonics, largest_of_one_pair, mean_where_positive, shares_at
 
 MICROMETRE = 1e-3  # mm
@@ -35,8 +34,8 @@ STUDIED = (
 def key_numbers(
     counted: Mapping[str, np.ndarray], pair: GearPair, friction_loss: float | None, timed: bool
 ) -> dict[str, float | str]:
-    """All numbers of the settled steps of a result but those of root stress, as far as their curves are among those
-    `counted`. `friction_loss`: its attribute. `timed`: the scene has a speed, without which there is no power."""
+    """All numbers of the settled steps of a result except of root stress, as far as their curves are `counted`.
+    `friction_loss`: its attribute. `timed`: the scene has a speed, without which there is no power."""
     # The last step begins the next cycle.
     last = max(len(counted["time"]) - 1, 1)
     settled = {name: values[:last] for name, values in counted.items()}
@@ -46,7 +45,7 @@ def key_numbers(
 
 def _harmonics(settled: Curves, pair: GearPair) -> dict[str, float]:
     """Harmonics and r.m.s. of the transmission error as a length at the wheel's base circle, um, and r.m.s. of the mesh
-    force, N, of the last whole mesh cycles; nothing of less than one, or on a ramp."""
+    force, N, of the last whole mesh cycles. Nothing for less than one cycle, or on a ramp."""
     phase = settled["mesh_phase"]
     if len(phase) < 2 or "mesh_frequency" in settled:
         return {}
@@ -66,12 +65,12 @@ def _stiffness(settled: Curves, pair: GearPair) -> dict[str, float]:
     if "mesh_stiffness" not in settled:
         return {}
     secant, tangent, pairs = (settled[name] for name in ("mesh_stiffness", "mesh_stiffness_tangent", "loaded_pairs"))
-    found = {
+    stiffnesses = {
         "mean_mesh_stiffness": mean_where_positive(secant),
         "mean_mesh_stiffness_tangent": mean_where_positive(tangent),
         "single_pair_stiffness": largest_of_one_pair(secant, pairs),
     }
-    return {name: value * MICROMETRE / pair.face_width for name, value in found.items() if np.isfinite(value)}
+    return {name: value * MICROMETRE / pair.face_width for name, value in stiffnesses.items() if np.isfinite(value)}
 
 
 def _pair_force(settled: Curves) -> dict[str, float]:
@@ -100,10 +99,10 @@ def _pressure(settled: Curves, pair: GearPair) -> dict[str, float | str]:
         return {}
     pressure = settled["largest_contact_pressure"]
     place = first_largest(pressure)
-    found: dict[str, float | str] = {"peak_contact_pressure": float(pressure[place])}
+    numbers: dict[str, float | str] = {"peak_contact_pressure": float(pressure[place])}
     for name in ("edge", "kink"):
         if f"largest_{name}_pressure" in settled and settled[f"largest_{name}_pressure"].any():
-            found[f"peak_{name}_pressure"] = float(settled[f"largest_{name}_pressure"].max())
+            numbers[f"peak_{name}_pressure"] = float(settled[f"largest_{name}_pressure"].max())
     if pressure[place] <= NO_FORCE / pair.face_width**2:
         return {"peak_contact_pressure": 0.0}
 
@@ -112,10 +111,7 @@ def _pressure(settled: Curves, pair: GearPair) -> dict[str, float | str]:
 
     on_coast = "coast_normal_force" in settled and at("coast_normal_force") > at("normal_force")
     roll = at("largest_contact_pressure_roll_angle")
-    if pair.slope:
-        if end := end_of_line(pair, pair.pinion.base_radius * roll):
-            found["peak_contact_pressure_beside"] = end
-    return found | {
+    return numbers | {
         "peak_contact_pressure_time": at("time"),
         "peak_contact_pressure_mesh_phase": at("mesh_phase"),
         "peak_contact_pressure_pair": int(at("largest_contact_pressure_pair")),
@@ -130,7 +126,7 @@ def largest_root_stress(counted: xr.Dataset) -> dict[str, float | str]:
     if "root_stress_maximum" not in counted:
         return {}
     settled = counted.isel(time=slice(0, max(counted.sizes["time"] - 1, 1)))
-    found: dict[str, float | str] = {}
+    numbers: dict[str, float | str] = {}
     for gear in ("pinion", "wheel"):
         stress = settled["root_stress_maximum"].sel(gear=gear).transpose("time", "slot").values
         if not np.nanmax(stress, initial=0.0):
@@ -139,13 +135,13 @@ def largest_root_stress(counted: xr.Dataset) -> dict[str, float | str]:
         at = settled.isel(time=step, slot=slot)
         sides = at["root_stress_at_30_degrees"].sel(gear=gear)
         name = f"largest_root_stress_{gear}"
-        found |= {
+        numbers |= {
             name: float(stress[step, slot]),
             f"{name}_mesh_phase": float(at["mesh_phase"]),
             f"{name}_pair": int(at["pair_number"]),
             f"{name}_fillet": str(sides["fillet"].values[int(np.nanargmax(sides.values))]),
         }
-    return found
+    return numbers
 
 
 def _power(counted: Curves, loss: float | None, timed: bool) -> dict[str, float]:
@@ -158,12 +154,12 @@ def _power(counted: Curves, loss: float | None, timed: bool) -> dict[str, float]
     if not seconds or not drive or largest_normal_force(counted) <= NO_FORCE:
         return {}
     power = drive / seconds / WATT
-    found = {"input_power": power} if timed else {}
+    numbers = {"input_power": power} if timed else {}
     if loss is not None:
-        found |= {"friction_power": loss * power} if timed else {}
+        numbers |= {"friction_power": loss * power} if timed else {}
         # What wedges the teeth is not the load, and the friction that it makes is no loss of the load's power.
-        found |= {"mesh_efficiency": 1.0 - loss} if loss < 1.0 and not wedged(counted).any() else {}
-    return found
+        numbers |= {"mesh_efficiency": 1.0 - loss} if loss < 1.0 and not wedged(counted).any() else {}
+    return numbers
 
 
 def wedged(curves: Curves) -> np.ndarray:
@@ -178,8 +174,8 @@ def path_point_values(
 ) -> dict[str, np.ndarray]:
     """What the points A to E of the path of contact have: place, sliding by the nominal motion, share of the load.
 
-    Of settled steps: `phase` (steps,), mesh cycles, the pairs' `numbers` (steps, slots), 0 for none, of which
-    `first_number` reaches the start of contact at phase 0, and their `forces` (steps, slots), N.
+    Of settled steps: `phase` (steps,), mesh cycles; the pairs' `numbers` (steps, slots), 0 for none, and their `forces`
+    (steps, slots), N. Pair `first_number` reaches the start of contact at phase 0.
     """
     points = contact_points(pair)
     rolls = pair.pinion_roll_angle(points), pair.wheel_roll_angle(points)

@@ -69,16 +69,17 @@ def _mistakes_of_values(result: xr.Dataset) -> Iterator[str]:
 
 @cache
 def _known_dims() -> dict[str, list[tuple[str, ...]]]:
-    """Dimensions that variables of numbers may have, by name; over a face those of contact nodes are of slices too."""
+    """Dimensions that variables of numbers may have, by name; over a face variables of contact nodes have slices
+    too."""
     of_effects = (variable for effect in every_effect() for variable in effect.variables)
     variables = [*COMMON_VARIABLES, *FACE_VARIABLES, *of_effects]
-    found = {
+    known = {
         each.name: [each.dims, *([(*OF_SLICES, "contact_node")] if each.dims == OF_NODES else [])] for each in variables
     }
     for own in (COORDINATES, CONTACT_COORDINATES, {"slot": ("slot",)}, ROOT_STRESS, ROOT_STRESS_OVER_FACE):
         for name, dims in own.items():
-            found.setdefault(name, []).append(dims)
-    return found
+            known.setdefault(name, []).append(dims)
+    return known
 
 
 def _mistakes_of_places(result: xr.Dataset) -> Iterator[str]:

@@ -1,7 +1,7 @@
 """How unevenly a mesh carries along the face and between its tooth pairs, read off the computed contact.
 
-Face and transverse load factor are those of ISO 6336-1 by its own definitions (method A). None has the dynamic factor
-in it: each compares loads of the same steps.
+Face and transverse load factor follow the definitions of ISO 6336-1 (method A). None has the dynamic factor in it: each
+compares loads of the same steps.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ from fenics_gears.geometry.pair import GearPair
 from .face_ends import end_depth, in_end_zone, inner_widths, windows
 from .pairs import carrying_side
 
-# Mesh cycles beside a phase at which the lines of contact change.
+# Mesh cycles before and after a phase at which the lines of contact change.
 BESIDE = 1e-9
 # Share of a force that is round-off.
 NO_SHARE = 1e-9
@@ -23,17 +23,17 @@ NO_SHARE = 1e-9
 def load_factors(counted: xr.Dataset, pair: GearPair) -> dict[str, float]:
     """Overlap and total contact ratio, and the load factors of the flanks that carry in the settled steps of a result;
     nothing of flanks without load. Factors along the face need contact fields."""
-    found = {"overlap_ratio": pair.overlap_ratio, "total_contact_ratio": pair.total_contact_ratio}
+    factors = {"overlap_ratio": pair.overlap_ratio, "total_contact_ratio": pair.total_contact_ratio}
     side = carrying_side(counted)
     pressed = counted[f"{side}normal_force"].values > NO_FORCE
     if pressed.any():
         of_pairs, of_mesh = (counted[f"{each}{side}normal_force"].values[pressed] for each in ("pair_", ""))
         largest = of_pairs.max(axis=1) / of_mesh
-        found["transverse_load_factor"] = float(largest.max()) / largest_even_share(pair)
+        factors["transverse_load_factor"] = float(largest.max()) / largest_even_share(pair)
     if counted.sizes.get("contact_time"):
         settled = counted.isel(contact_time=counted["contact_time"].values >= counted["time"].values[0])
-        found |= _of_cycle(settled, pair, side) | _of_instants(settled, pair, side)
-    return found
+        factors |= _of_cycle(settled, pair, side) | _of_instants(settled, pair, side)
+    return factors
 
 
 def line_loads(result: xr.Dataset, side: str) -> np.ndarray:
@@ -41,16 +41,16 @@ def line_loads(result: xr.Dataset, side: str) -> np.ndarray:
 
 
 def _of_cycle(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float]:
-    """Of the line load averaged over whole mesh cycles: its largest mean over a window of the inner face, over that of
-    the inner face; nothing where the end zones alone carry."""
+    """Of the line load averaged over whole mesh cycles: its largest mean over a window of the inner face, divided by
+    its mean over the inner face. Nothing where the end zones alone carry."""
     load = mean_line_load(settled, side)
-    found = None if load is None else face_load_factor(load, settled, pair)
-    return {} if found is None else {"face_load_factor": found}
+    factor = None if load is None else face_load_factor(load, settled, pair)
+    return {} if factor is None else {"face_load_factor": factor}
 
 
 def face_load_factor(load: np.ndarray, face: xr.Dataset, pair: GearPair) -> float | None:
-    """Largest mean of a line load (S,) over a window of the inner face, over that of the inner face, hence at least 1;
-    None where the end zones alone carry."""
+    """Largest mean of a line load (S,) over a window of the inner face, divided by its mean over the inner face, hence
+    at least 1. None where the end zones alone carry."""
     widths = inner_widths(face, pair)
     inner = float(load @ widths)
     if inner <= NO_SHARE * float(load @ face["face_slice_width"].values):
@@ -83,13 +83,13 @@ def _of_instants(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, fl
     shares = windows(settled, pair)
     away = np.where(ended @ (shares > BESIDE).T, 0.0, loads @ shares.T)
     edges = np.where(ended | in_end_zone(pair, z), loads, 0.0)
-    found = {}
+    factors = {}
     for name, values in (("largest_line_load_factor", away), ("edge_line_load_factor", edges)):
         # Under a torque of nothing loads are round-off, of either sign.
         largest = float(values.max(initial=0.0))
         if largest > 0.0 and (own := force[np.unravel_index(values.argmax(), values.shape)[0]]) > 0.0:
-            found[name] = largest * shortest_lines(pair) / float(own)
-    return found
+            factors[name] = largest * shortest_lines(pair) / float(own)
+    return factors
 
 
 def at_edges(result: xr.Dataset, pair: GearPair, side: str) -> np.ndarray:
@@ -128,8 +128,8 @@ def passing(pair: GearPair, position, side: str):
 
 
 def contact_line_lengths(pair: GearPair, positions) -> np.ndarray:
-    """Length (mm) along the axes of the line of contact of pairs that stand at positions (mm from T1, any shape) in the
-    middle of the face."""
+    """Length (mm) along the axes of the line of contact of pairs at positions (mm from T1, any shape) in the middle of
+    the face."""
     positions = np.asarray(positions, dtype=float)
     half = 0.5 * pair.face_width
     slope = abs(pair.slope)
@@ -152,8 +152,8 @@ def shortest_lines(pair: GearPair) -> float:
 
 
 def _lengths_where_they_turn(pair: GearPair) -> np.ndarray:
-    """Lengths (phases, pairs), mm, beside the phases at which a line begins or ends to reach an end of the face:
-    between them lengths are linear and shares monotonic."""
+    """Lengths (phases, pairs), mm, just before and after the phases at which a line begins or ends to reach an end of
+    the face. Between them lengths are linear and shares monotonic."""
     lead = 0.5 * pair.face_width * abs(pair.slope)
     ends = [end + side * lead for end in (pair.path_start, pair.path_end) for side in (-1.0, 1.0)]
     phases = np.mod(np.array(ends) / pair.base_pitch, 1.0)[:, None] + [-BESIDE, BESIDE]

@@ -1,12 +1,12 @@
-"""Curves of an elastic mesh besides its forces: its stiffness, and its largest pressure with where that is.
+"""Stiffness of an elastic mesh, and its largest pressure with where that is.
 
 Deflection delta (mm): overlap of the undeformed flanks along the line of action. Secant stiffness F/delta (N/mm) is the
-mesh stiffness of ISO 6336-1; the tangent dF/ddelta is the spring that small vibrations meet: closed contact nodes stay
-closed and friction forces stay as they are.
+mesh stiffness of ISO 6336-1. The tangent dF/ddelta is the spring of small vibrations: closed contact nodes stay closed
+and friction forces constant.
 
-Place alone decides which contact nodes are beside an edge or a kink of the flanks, where linear elasticity has infinite
+Place alone decides which contact nodes are near an edge or a kink of the flanks, where linear elasticity has infinite
 pressure. These change the pressure about as far as half of the contact is wide (Johnson, Contact Mechanics, 1985, 5.1
-to 5.3): lengths are counted in the Hertz half-width under full load on one pair, from either side along the flank.
+to 5.3). So lengths are counted in the Hertz half-width under full load on one pair, from either side along the flank.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ def mesh_stiffness(contact, status, forces, coordinates, faces):
     carry there. All are zero where nothing touches; the secant is not a number where the flanks do not approach.
 
     `contact`: the `addresses.Arrays` of elastic flanks; `faces` (2, f, f): stiffness and flexibility of faces that bend
-    by coordinates of their own, the last of those that contact moves: flanks give way by them as by the seats of
-    others. The rest as of StepSolution.
+    by coordinates of their own, which are the last that contact moves. Flanks yield by them as others do by their
+    seats. The rest as in StepSolution.
     """
     # Taken out of the record once: in a loop that would cost more than the numbers.
     jacobian = contact.jacobian
@@ -71,8 +71,8 @@ def mesh_stiffness(contact, status, forces, coordinates, faces):
         if on_drive_flanks[node] == side:
             overlap[node] = product(jacobian[node], rigid) - gap[node]
     deflection = _highest(overlap, node_pair)
-    # Of a gear so heavy that it does not move, the deflection is below the last digit of its rotation; wedged teeth may
-    # be pressed by friction where they do not approach.
+    # Where a gear is so heavy that it does not move, the deflection is below the last digit of its rotation. Wedged
+    # teeth may be pressed by friction where they do not approach.
     secant = force / deflection if deflection > 0.0 else np.nan
     return np.array([secant, _tangent(contact, closed[:count], faces), pairs])
 
@@ -137,7 +137,7 @@ NO_FACES = np.zeros((2, 0, 0))
 
 
 def stiffness_curves(steps: Steps, faces: np.ndarray = NO_FACES) -> Curves:
-    """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive steps; `faces`: as of
+    """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive steps; `faces`: as in
     `mesh_stiffness`."""
     secant, tangent, pairs = _stiffness(steps.in_memory, faces)
     return {"mesh_stiffness": secant, "mesh_stiffness_tangent": tangent, "loaded_pairs": pairs}
@@ -146,20 +146,20 @@ def stiffness_curves(steps: Steps, faces: np.ndarray = NO_FACES) -> Curves:
 @njit(cache=True)
 def _stiffness(block, faces):
     steps = in_block(block)
-    found = np.zeros((3, len(steps.rows)))
+    stiffnesses = np.zeros((3, len(steps.rows)))
     for s in range(len(steps.rows)):
         forces = steps.forces[forces_at(steps, s)]
         status = steps.status[nodes_at(steps, s)]
-        found[:, s] = mesh_stiffness(operator_at(steps, s), status, forces, steps.states[s, 0], faces)
-    return found
+        stiffnesses[:, s] = mesh_stiffness(operator_at(steps, s), status, forces, steps.states[s, 0], faces)
+    return stiffnesses
 
 
 def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singular: EdgesAndKinks) -> Curves:
     """The largest pressure of consecutive steps, its tooth pair and its place, from their contact `fields`.
 
-    What is beside an edge or a kink has a largest pressure of its own, as have pairs that press with the sharp edge of
-    a tip, or of an undercut involute, and slices near the ends of the face: there the number grows as contact nodes
-    come closer.
+    Nodes near an edge or a kink have a largest pressure of their own. So have pairs that press with the sharp edge of a
+    tip, or of an undercut involute, and slices near the ends of the face. There the number grows as contact nodes come
+    closer.
     """
     pressed_edge = nodes.of("on_edge").any(axis=0) & (nodes.normal > NO_FORCE)
     beside = singular.beside(nodes)
@@ -173,11 +173,11 @@ def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singula
         pressure = read_off(fields[f"{side}contact_pressure"], place)
         presses_edge = nodes.by_slice(pressed_edge & (nodes.drive == drive))[..., None] > 0
         kinds = np.where(presses_edge, EDGE, nodes.over_nodes(beside, drive, NOTHING))
-        for kind, found in largest.items():
-            found.append(np.where(kinds == kind, pressure, 0.0).max(axis=-1).reshape(steps, -1))
+        for kind, parts in largest.items():
+            parts.append(np.where(kinds == kind, pressure, 0.0).max(axis=-1).reshape(steps, -1))
         node = np.where(kinds == NOTHING, pressure, 0.0).argmax(axis=-1)[..., None]
         rolls.append(np.take_along_axis(place, node, -1).reshape(steps, -1))
-    pressures = {kind: np.concatenate(found, axis=1) for kind, found in largest.items()}
+    pressures = {kind: np.concatenate(parts, axis=1) for kind, parts in largest.items()}
     repeated = np.repeat(nodes.pair_number, rolls[0].shape[1] // nodes.pair_number.shape[1], axis=1)
     numbers = np.concatenate([repeated] * len(rolls), axis=1)
     off_edge = pressures[NOTHING]
@@ -192,7 +192,7 @@ def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singula
     }
 
 
-# What a node is beside; where it is beside several, the last.
+# What is near a node; of several, the last.
 NOTHING, KINK, EDGE = range(3)
 # In half-widths: the infinite pressure of a kink is in the contact itself. An edge makes the whole contact softer whose
 # border comes within a half-width of it; its peak is another half-width away.
@@ -224,24 +224,24 @@ class EdgesAndKinks:
             rolls += [(gear.form_roll_angle, EDGE)] if gear.undercut else []
             self._places += [_Place(number, 0.5 * gear.base_radius * roll**2, kind) for roll, kind in rolls]
         self._places.sort(key=lambda place: place.kind)
-        # Most blocks of a march stand at the same positions.
+        # Most blocks of a march have the same positions.
         self._last: tuple[Layouts | None, np.ndarray] = None, np.empty(0)
 
     def beside(self, nodes: SideBySide) -> np.ndarray:
-        """What each contact node (N,) is beside: NOTHING, KINK or EDGE. Reliefs are of drive flanks alone."""
+        """What is near each contact node (N,): NOTHING, KINK or EDGE. Reliefs are of drive flanks alone."""
         if self._last[0] is not nodes.layouts:
             self._last = nodes.layouts, self._beside(nodes)
         return self._last[1]
 
     def _beside(self, nodes: SideBySide) -> np.ndarray:
-        found = np.full(len(nodes.step), NOTHING)
+        kinds = np.full(len(nodes.step), NOTHING)
         arcs = nodes.of("arcs")
         for place in self._places:
             near = np.abs(arcs[place.gear] - place.arc) <= REACH[place.kind] * self.half_width
-            found[near & nodes.drive if place.kind == KINK else near] = place.kind
+            kinds[near & nodes.drive if place.kind == KINK else near] = place.kind
         if self._end_slices is not None:
-            found[self._end_slices[nodes.of("slice")]] = EDGE
-        return found
+            kinds[self._end_slices[nodes.of("slice")]] = EDGE
+        return kinds
 
 
 # Exact for cubic pressure, zero for pressure that changes sign from node to node: (1 + d^2/4)(1 - d^2/4), d^2 the
@@ -255,7 +255,7 @@ def without_oscillation(pressure: np.ndarray) -> np.ndarray:
 
     Where contact nodes are closer than the flank's elements, the pressure has an error that changes sign from node to
     node. Peaks of this average are within 2.5, 0.8, 0.2 % of Hertz's for half-widths of 2, 4, 8 elements and contact
-    nodes 0.5 to 0.7 elements apart; nodal values err by up to 17, 2, 3 %.
+    nodes 0.5 to 0.7 elements apart. Nodal values err by up to 17, 2, 3 %.
     """
     result = np.array(pressure, dtype=float)
     beyond = result.shape[-1] - len(WEIGHTS) + 1

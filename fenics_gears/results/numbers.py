@@ -1,6 +1,6 @@
 """The numbers that a pair is judged by, as plain functions of curves; `results.key_numbers` applies them to a result.
 
-Curves (steps,) are those of whole settled mesh cycles, one value a step, without the end that begins the next cycle.
+Curves (steps,) are of whole settled mesh cycles, one value a step, without the end that begins the next cycle.
 """
 
 from collections.abc import Sequence
@@ -26,14 +26,14 @@ ROUNDING = 1e-9  # mesh cycles
 # Of the largest of some values: what differs by less is the same.
 SAME = 1e-9
 # A curve has not jumped where it falls in the next step by at least this part of the fall before. A crest is smooth
-# where the lower of the parabolas from either side is above the steps by at least this part of the higher one; between
-# steps where their curvatures are as much alike.
+# where the lower of the parabolas from either side is above the steps by at least this part of the higher one. Between
+# steps it is smooth where the lower of their curvatures is at least this part of the other.
 LIKE = 0.5
 
 
 def harmonics(curve: np.ndarray, cycles: int, count: int = HARMONICS) -> np.ndarray:
     """Amplitudes (count,) of the first harmonics of the mesh frequency in a curve over `cycles` whole mesh cycles, in
-    the curve's unit; not a number above half of the steps a cycle, where steps do not sample them.
+    the curve's unit. Not a number above half of the steps a cycle, which steps do not sample.
 
     The curve is mean + sum over n of amplitude_n cos(2 pi n phase + shift_n) and what lies between the harmonics.
     """
@@ -45,7 +45,8 @@ def harmonics(curve: np.ndarray, cycles: int, count: int = HARMONICS) -> np.ndar
 
 def shares_at(positions, phase: np.ndarray, numbers: np.ndarray, forces: np.ndarray) -> np.ndarray:
     """Share (len(positions),) of the mesh's force that a pair carries at positions on its path, in mesh cycles since
-    the start of contact: straight between steps, the mean over the pairs that pass; not a number where none does.
+    the start of contact. It is the mean over the pairs that pass, straight between steps; not a number where none
+    passes.
 
     `phase` (steps,): mesh cycles; `numbers`, `forces` (steps, pairs): the pairs' numbers and their forces, N; a pair
     with number n is at position `phase - n`.
@@ -68,8 +69,8 @@ def shares_at(positions, phase: np.ndarray, numbers: np.ndarray, forces: np.ndar
     # One pair after the other on a single axis, so that all are interpolated at once.
     apart = np.ptp(passed) + 1.0
     inside = (positions >= lowest[:, None] - ROUNDING) & (positions <= highest[:, None] + ROUNDING)
-    found = np.interp(positions + apart * np.arange(len(first))[:, None], passed + apart * of_pair, share)
-    total = np.where(inside, found, 0.0).sum(axis=0)
+    shares = np.interp(positions + apart * np.arange(len(first))[:, None], passed + apart * of_pair, share)
+    total = np.where(inside, shares, 0.0).sum(axis=0)
     count = inside.sum(axis=0)
     return np.divide(total, count, out=np.full(len(positions), np.nan), where=count > 0)
 
@@ -131,8 +132,8 @@ def crest_of_cubic(x, y):
 
 def largest_of_cubics(steps: np.ndarray, values: np.ndarray) -> tuple[float, float]:
     """Place and largest value of the cubics through each four consecutive `values` (s,) at whole `steps`, between the
-    middle two; only where the parabolas through three of them, either way, have crests alike: at a corner the curve is
-    no cubic."""
+    middle two. Cubics count only where the parabolas through three of them, either way, have crests alike: at a corner
+    the curve is no cubic."""
     return _largest_of_cubics(*(np.asarray(each, dtype=float) for each in (steps, values)))
 
 
@@ -154,10 +155,10 @@ def _largest_of_cubics(x, y):
         beyond = own[2] - (0.5 * (own[3] - own[1])) ** 2 / (4.0 * other)
         between = max(own[1], own[2])
         if min(above, beyond) - between >= LIKE * (max(above, beyond) - between):
-            at, found = crest_of_cubic(four, own)
-            if found > height:
+            at, value = crest_of_cubic(four, own)
+            if value > height:
                 crest = at
-                height = found
+                height = value
     return (crest, height) if height > largest else (place, largest)
 
 

@@ -47,8 +47,8 @@ def shown(result: xr.Dataset) -> xr.Dataset:
 
 
 def contact_times(result: xr.Dataset) -> xr.Dataset:
-    """A result with those of its steps whose contact fields are stored: `time` and `contact_time` go together. Raises
-    SceneError without any."""
+    """A result with the steps whose contact fields are stored: `time` and `contact_time` go together. Raises SceneError
+    without any."""
     if not result.sizes.get("contact_time", 0):
         raise SceneError(
             'the result holds no contact fields. [output] contact_fields = true or "last 2 cycles" in the scene stores'
@@ -70,13 +70,13 @@ def words_of_slice(result: xr.Dataset) -> str:
 
 def lives(numbers: np.ndarray) -> Iterator[Life]:
     """Every tooth pair of pair numbers (time, slot), in the order in which they enter."""
-    found = []
+    every = []
     for slot, column in enumerate(np.asarray(numbers).T):
         ends = np.flatnonzero(np.diff(column)) + 1
         for first, last in zip([0, *ends], [*ends, len(column)]):
             if last > first and column[first]:
-                found.append(Life(int(column[first]), slot, slice(int(first), int(last))))
-    yield from sorted(found, key=lambda life: life.number)
+                every.append(Life(int(column[first]), slot, slice(int(first), int(last))))
+    yield from sorted(every, key=lambda life: life.number)
 
 
 def by_pair(variable: xr.DataArray, absent: float = np.nan) -> xr.DataArray:
@@ -92,8 +92,8 @@ def by_pair(variable: xr.DataArray, absent: float = np.nan) -> xr.DataArray:
     for place, life in enumerate(pairs):
         own[life.steps, place] = values[life.steps, life.slot]
     kept = {name: each for name, each in variable.coords.items() if "slot" not in each.dims}
-    found = xr.DataArray(
+    of_pairs = xr.DataArray(
         own, {**kept, "pair": [life.number for life in pairs]}, (time, "pair", *rest), variable.name, variable.attrs
     )
-    found["pair"].attrs["long_name"] = "tooth pair, in the order in which they enter"
-    return found.transpose(*("pair" if each == "slot" else each for each in variable.dims))
+    of_pairs["pair"].attrs["long_name"] = "tooth pair, in the order in which they enter"
+    return of_pairs.transpose(*("pair" if each == "slot" else each for each in variable.dims))

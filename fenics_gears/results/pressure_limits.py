@@ -13,8 +13,8 @@ from fenics_gears.scene.data import Scene
 if TYPE_CHECKING:
     from fenics_gears.geometry.relief import Reliefs
 
-# Peak pressure of a line contact over yield strength at which the material below yields by Tresca's criterion,
-# whose largest shear stress is 0.300 of the pressure (Johnson, Contact Mechanics, 1985, eq. 6.4).
+# Peak pressure of a line contact over yield strength at which the material below yields by Tresca's criterion. The
+# largest shear stress is 0.300 of the pressure (Johnson, Contact Mechanics, 1985, eq. 6.4).
 LINE_CONTACT = 1.67
 
 
@@ -38,21 +38,21 @@ def _sharp_edge(scene: Scene, watched: Mapping[str, np.ndarray]) -> list[str]:
 
 
 def _undercut_edge(watched: Mapping[str, np.ndarray]) -> list[str]:
-    found = []
+    sentences = []
     for gear in GEARS:
         at = watched[f"on the {gear}'s form circle"]
         if at.any():
-            found.append(
+            sentences.append(
                 f"contact reaches the edge at the form circle of the undercut {gear} in {int(at.sum())} of {len(at)}"
                 " steps: the pressure there does not converge with the mesh, forces and transmission error do;"
                 f" [root_relief.{gear}] takes the load off the edge"
             )
-    return found
+    return sentences
 
 
 def yielding(scene: Scene, numbers: Mapping) -> list[str]:
     """Stresses above what the materials bear without yielding, where their yield strength is known."""
-    found = []
+    sentences = []
     pressure = numbers.get("peak_contact_pressure", 0.0)
     for gear, material in zip(GEARS, scene.gears.materials):
         strength = material.yield_strength
@@ -61,17 +61,17 @@ def yielding(scene: Scene, numbers: Mapping) -> list[str]:
         limit = LINE_CONTACT * strength
         root = numbers.get(f"largest_root_stress_{gear}", 0.0)
         if pressure > limit:
-            found.append(
+            sentences.append(
                 f"the peak contact pressure, {pressure:.4g} MPa, is above what the {gear}'s material bears below the"
                 f" flank without yielding, {limit:.4g} MPa: {LINE_CONTACT:g} times its yield strength of {strength:g}"
                 " MPa (Johnson, Contact Mechanics, 1985, eq. 6.4); the model is elastic"
             )
         if root > strength:
-            found.append(
+            sentences.append(
                 f"the largest root stress of the {gear}, {root:.4g} MPa, is above its yield strength of {strength:g}"
                 " MPa; the model is elastic"
             )
-    return found
+    return sentences
 
 
 def _kink(scene: Scene, numbers: Mapping) -> list[str]:
@@ -86,7 +86,7 @@ def _kink(scene: Scene, numbers: Mapping) -> list[str]:
     starts = " or ".join(f"the linear {words} of the {' or the '.join(gears)}" for words, gears in named)
     remedies = ", ".join(f'{section}.shape = "parabolic"' for section, gears in linear.items() if gears)
     return [
-        f"beside the kink where {starts} starts the pressure reaches {largest:.4g} MPa and does not converge with the"
+        f"near the kink where {starts} starts the pressure reaches {largest:.4g} MPa and does not converge with the"
         f" mesh; forces and transmission error do. The peak contact pressure, {elsewhere:.4g} MPa, is without it;"
         f" {remedies} starts without a kink"
     ]

@@ -20,7 +20,6 @@ from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import ArraysInMemory, KeptArrays, sizes, stored_arrays
 
-from .bent_shafts import BentShafts
 from .contact_variables import (
     energy_variables,
     mesh_variables,
@@ -29,7 +28,6 @@ from .contact_variables import (
     watched_contact,
     work_variables,
 )
-from .face_variables import AlongTheFace
 from .journal import Journal
 from .mesh_curves import EdgesAndKinks, pressure_curves, stiffness_curves
 from .side_by_side import KnownLayouts, SideBySide
@@ -39,29 +37,30 @@ if TYPE_CHECKING:
     from .journal import JournalPlace, Recorded
     from .root_stress_variables import RootStress
 
-# How the names of what the warnings need begin, beside those of the result.
+# Begin of the names of values that the warnings need and the result does not have.
 WATCHED = "watched: "
 
 
 def _along_face(model: Model, cycle: Cycle) -> tuple[AlongTheFace, ...]:
     if cycle.face.slices == 1:
         return ()
-    if not model.drivetrain.elastic:
-        return (AlongTheFace(cycle),)
-    return (BentShafts(cycle, model),)
+    # Runs in the plane load neither a face nor shafts that bend.
+    from .bent_shafts import along_face
+
+    return (along_face(model, cycle),)
 
 
 class KnownTouching:
-    """Where pairs touch over a mesh cycle, which runs on the same operators have in common (`Cycle.shared`)."""
+    """Where pairs touch over a mesh cycle; runs on the same operators share it (`Cycle.shared`)."""
 
-    found: Touching | None = None
+    touching: Touching | None = None
 
     def of(self, cycle: Cycle) -> Touching:
-        if self.found is None:
-            self.found = touching_at(
+        if self.touching is None:
+            self.touching = touching_at(
                 lambda step: [pair.place for pair in cycle.pairs_at(step)], cycle.steps, cycle.coast_flanks
             )
-        return self.found
+        return self.touching
 
 
 class Recorder:
@@ -152,8 +151,8 @@ class Recorder:
         values |= energies
         for effect in effects_on(scene):
             if any(variable.dims == ("time",) for variable in effect.variables) and effect.results is not None:
-                found = effect.results(getattr(scene, effect.section), scene, cycle, numbers)
-                values |= {name: of for name, (_, of) in found.items()}
+                of_effect = effect.results(getattr(scene, effect.section), scene, cycle, numbers)
+                values |= {name: curve for name, (_, curve) in of_effect.items()}
         fields = {
             "contact_time": times,
             "contact_mesh_phase": values["mesh_phase"],
@@ -168,10 +167,12 @@ class Recorder:
             values |= pressure_curves(nodes, fields, self._singular)
         if self.stress is not None:
             fields |= self.stress.values(nodes)
-        for of_effect in from_effects(scene, "watched", cycle, block):
-            watched |= of_effect
-        found = values | fields
-        kept = {name: self._in_shape(found[name], dims) for name, (dims, _) in self.stored.items() if name in found}
+        for watched_by_effect in from_effects(scene, "watched", cycle, block):
+            watched |= watched_by_effect
+        evaluated = values | fields
+        kept = {
+            name: self._in_shape(evaluated[name], dims) for name, (dims, _) in self.stored.items() if name in evaluated
+        }
         self._room.put(self.steps, kept | {f"{WATCHED}{name}": of for name, of in watched.items()}, march)
         # Last of all: a march that is interrupted before this line evaluates these steps again.
         self._watched = tuple(watched)

@@ -21,12 +21,12 @@ from .side_by_side import SideBySide
 Rows = tuple[RootStressRows, RootStressRows]
 SIDES = ("drive", "coast")
 # Largest tensions are of points whose tangent's angle is at least so much of that at 30 degrees in the normal section.
-# The points beyond are beside the involute, where the stress may be that of the contact, which is not resolved.
+# The points beyond are near the involute, where the stress may be that of the contact, which is not resolved.
 OF_BENDING = 0.5
 
 
-# Of a gear: the teeth loaded at a position, as of a Place, and the forces on the nodes of their flanks per contact
-# force (teeth f, n or 2 n). A contact node loads a few of hundreds of flank nodes.
+# Of a gear: the teeth loaded at a position, numbered as in a Place, and the forces on the nodes of their flanks per
+# contact force (teeth f, n or 2 n). A contact node loads a few of hundreds of flank nodes.
 OnFlanks = tuple[list[int], sparse.csc_array]
 
 
@@ -104,10 +104,10 @@ class RootStress:
                         places = slots[some]
                         for index, slot in zip(teeth.tolist(), places.T):
                             asked[side.number, side.sense * index - sector].append((these, slot, own))
-        for (gear, ahead), found in asked.items():
-            steps, slots, forces = (np.concatenate(each) for each in zip(*found))
+        for (gear, ahead), loads in asked.items():
+            steps, slots, forces = (np.concatenate(each) for each in zip(*loads))
             stress = forces @ self._known(gear, ahead).reshape(slices * points, -1).T
-            # At a step a tooth stands so far ahead of one loaded tooth alone: no place is there twice.
+            # At a step a tooth is so far ahead of one loaded tooth only: no place is there twice.
             values[steps, gear, slots] += stress.reshape(-1, slices, points)
         return self._variables(values.reshape(*values.shape[:4], 2, points // 2))
 

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
     from .dataset import RunResult
 
-# The start has died down when so much is left of the slowest vibration that it has set off; where the run is long
-# enough, less is left: at high speed the start may be twenty times as large as the settled motion.
+# The start has died down when at most this part of its slowest vibration is left. Where the run is long enough, less is
+# left: at high speed the start may be twenty times as large as the settled motion.
 DIED_DOWN = 0.01
 QUIET = 0.001
 

@@ -28,13 +28,13 @@ from fenics_gears.geometry.pair import GearPair
 
 
 def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool) -> dict[str, np.ndarray]:
-    """What belongs to the contact nodes (n,) of some positions, in the order of the positions, at any step. All
-    positions are done at once: a loop over them would take several times as long.
+    """Properties of the contact nodes (n,) of some positions, in the order of the positions, that do not depend on the
+    step. All positions are done at once: a loop over them would take several times as long.
 
     `index`: of the node's tooth pair at the position. `node`: its place in that pair. `drive`: whether it is on a drive
-    flank. `slice`: of the face. `at_end`: whether it stands on an end of the window. `on_edge` (4, n): on the edge of
-    the pinion's tip, of the wheel's tip, and at the form circle of an undercut pinion or wheel. `arcs` (2, n): where it
-    touches the pinion's and the wheel's flank, mm along the involute from the base circle; `rows_of_normals` (6, n) and
+    flank. `slice`: of the face. `at_end`: whether it is an end of the window. `on_edge` (4, n): on the edge of the
+    pinion's tip, of the wheel's tip, and at the form circle of an undercut pinion or wheel. `arcs` (2, n): where it
+    touches the pinion's and the wheel's flank, mm along the involute from the base circle. `rows_of_normals` (6, n) and
     `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm.
     Over a face (12, n): then the axial force, N, and the moments about x and y, N mm, of both gears.
     """
@@ -49,7 +49,7 @@ def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool)
     at_end = np.abs(offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
     if cycle.grid.inner_length is not None:
         at_end |= _at_inner_end(cycle, offsets, ends, of_flanks)
-    found = {
+    columns = {
         "index": index,
         "node": np.arange(len(offsets)) - np.repeat(ends[:-1], np.diff(ends)),
         "drive": flank == DRIVE,
@@ -60,32 +60,32 @@ def layout(operators: Sequence[ContactOperator], cycle: Cycle, tangential: bool)
         "at_end": at_end,
     }
     if cycle.traits.has_pressure:
-        found["on_edge"] = _on_edges(cycle, pairs, ends, of_flanks)
-        found["arcs"] = _arcs(cycle.pair, pairs, rolls, offsets, ends)
+        columns["on_edge"] = _on_edges(cycle, pairs, ends, of_flanks)
+        columns["arcs"] = _arcs(cycle.pair, pairs, rolls, offsets, ends)
     rows = _reaction_rows(operators, pairs, tangential)
     normals, tangents = (np.ascontiguousarray(part) for part in np.split(rows, [len(offsets)], axis=1))
-    return found | {"rows_of_normals": normals, "rows_of_tangents": tangents}
+    return columns | {"rows_of_normals": normals, "rows_of_tangents": tangents}
 
 
 def _at_inner_end(cycle: Cycle, offsets: np.ndarray, ends: np.ndarray, of_flanks: np.ndarray) -> np.ndarray:
-    """Nodes (n,) that stand first or last in a window that is shorter than the whole one, and not on the edge of a
+    """Nodes (n,) that are first or last in a window that is shorter than the whole one, and not on the edge of a
     flank."""
-    found = np.zeros(len(offsets), dtype=bool)
+    at_end = np.zeros(len(offsets), dtype=bool)
     round_off = 1e-9 * cycle.grid.length
     first = ends[:-1]
     last = ends[1:] - 1
-    found[first] = offsets[first] > of_flanks[:, 0].max(axis=1) + round_off
-    found[last] = offsets[last] < of_flanks[:, 1].min(axis=1) - round_off
-    return found & (np.abs(np.abs(offsets) - 0.5 * cycle.grid.inner_length) <= cycle.grid.spacing)
+    at_end[first] = offsets[first] > of_flanks[:, 0].max(axis=1) + round_off
+    at_end[last] = offsets[last] < of_flanks[:, 1].min(axis=1) - round_off
+    return at_end & (np.abs(np.abs(offsets) - 0.5 * cycle.grid.inner_length) <= cycle.grid.spacing)
 
 
 def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> np.ndarray:
-    """Nodes (4, n) that stand on the edge that ends a flank: the pinion's tip and the wheel's form circle below the
-    line of action, the others above.
+    """Nodes (4, n) on the edge that ends a flank: the pinion's tip and the wheel's form circle below the line of
+    action, the others above.
 
-    `ends` (P + 1,): where the nodes of each pair begin and end; `of_flanks` (P, 2, 2): as of `window.ends_of`.
+    `ends` (P + 1,): where the nodes of each pair begin and end; `of_flanks` (P, 2, 2): as in `window.ends_of`.
     """
-    found = np.zeros((4, ends[-1]), dtype=bool)
+    on_edge = np.zeros((4, ends[-1]), dtype=bool)
     half = 0.5 * cycle.grid.length * (1.0 - 1e-9)
     cut = (cycle.pair.pinion.undercut, cycle.pair.wheel.undercut)
     of_flanks = of_flanks.copy()
@@ -99,11 +99,11 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
     last = ends[1:] - 1
     below = of_flanks[:, 0].T
     above = of_flanks[:, 1].T
-    found[0, first] = by_line & (below[0] >= below[1]) & (below[0] > -half)
-    found[1, last] = by_line & (above[1] <= above[0]) & (above[1] < half)
-    found[2, last] = cut[0] & (above[0] <= above[1]) & (above[0] < half)
-    found[3, first] = cut[1] & (below[1] >= below[0]) & (below[1] > -half)
-    return found
+    on_edge[0, first] = by_line & (below[0] >= below[1]) & (below[0] > -half)
+    on_edge[1, last] = by_line & (above[1] <= above[0]) & (above[1] < half)
+    on_edge[2, last] = cut[0] & (above[0] <= above[1]) & (above[0] < half)
+    on_edge[3, first] = cut[1] & (below[1] >= below[0]) & (below[1] > -half)
+    return on_edge
 
 
 def _arcs(gears: GearPair, pairs, contact_rolls: np.ndarray, offsets: np.ndarray, ends: np.ndarray) -> np.ndarray:
@@ -142,7 +142,7 @@ class Layouts:
         self.starts = np.concatenate(([0], np.cumsum(counts)))
         self.dependent_rows = dependent_rows
         self.step = np.repeat(np.arange(len(counts)), counts)
-        # Where the normal forces stand among all forces, a step's normals before its tangents.
+        # Places of the normal forces among all forces, a step's normals before its tangents.
         self.normal = np.arange(len(self.step)) + (kinds - 1) * np.repeat(self.starts[:-1], counts)
         self.tangential = self.normal + np.repeat(counts, counts)
         self.places = np.arange(len(self.step)) + np.repeat(parts[:, 0] - self.starts[:-1], counts)
@@ -231,14 +231,14 @@ class SideBySide:
         self.tangential = steps.forces[self.layouts.tangential] if steps.kinds == 2 else None
 
     def with_forces(self, steps: Steps) -> SideBySide:
-        """The same nodes with the forces of another run, whose steps stand at the same positions."""
+        """The same nodes with the forces of another run, whose steps have the same positions."""
         other = copy(self)
         other.__dict__.pop("closed", None)
         other._take(steps)
         return other
 
     def slot_of(self, place: int | np.ndarray, index: int | np.ndarray) -> np.ndarray:
-        """Slot of the tooth pair of that index at a step, given by its place; or those of many."""
+        """Slot of the tooth pair of that index at a step, given by its place; or of many pairs."""
         return (self.cycles[place] - index + self.first_number) % self.slots
 
     @property

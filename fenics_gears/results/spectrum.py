@@ -1,7 +1,7 @@
 """Orders of a record, their sources (the mesh, a turn of either gear, waves on the flanks), and the sidebands of mesh
 harmonics.
 
-Windows are those of `scipy.signal.windows`; their figures after F. J. Harris, On the use of windows for harmonic
+Windows are taken from `scipy.signal.windows`, their figures from F. J. Harris, On the use of windows for harmonic
 analysis, Proc. IEEE 66 (1978).
 """
 
@@ -42,7 +42,7 @@ ROUND_OFF = 1e-9
 class OrderLines:
     """Amplitudes of a signal (n,) by order (n,), turns of the pinion being order 1; without the mean.
 
-    `exact`: of whole hunting tooth periods without a window, so that each line stands alone; else a line spreads over
+    `exact`: of whole hunting tooth periods without a window, so that each line is in one bin; else a line spreads over
     `spread` bins on either side. `bandwidth`: the window's equivalent noise bandwidth in bins.
     """
 
@@ -69,8 +69,8 @@ class OrderLines:
 
 @dataclass(frozen=True)
 class Sidebands:
-    """A mesh harmonic with its sidebands: the square of its own amplitude, and the sums of squares of those at shaft
-    orders beside it. One that belongs to either gear counts with both, and once in `all`."""
+    """A mesh harmonic with its sidebands: the square of its own amplitude, and the sums of squares of the amplitudes at
+    shaft orders around it. One that belongs to either gear counts with both, and once in `all`."""
 
     line: float
     pinion: float
@@ -122,12 +122,12 @@ def sidebands(lines: OrderLines, teeth: tuple[int, int], harmonic: int) -> Sideb
     """The first SIDEBANDS on either side of a mesh harmonic, no further than half-way to the next; None where the
     record cannot tell them apart."""
     turns = {"pinion": 1.0, "wheel": teeth[0] / teeth[1]}
-    found = {gear: _beside(teeth[0], harmonic, turn) for gear, turn in turns.items()}
-    every = np.unique(np.round(np.concatenate([*found.values(), [harmonic * teeth[0]]]), 9))
+    at_sides = {gear: _beside(teeth[0], harmonic, turn) for gear, turn in turns.items()}
+    every = np.unique(np.round(np.concatenate([*at_sides.values(), [harmonic * teeth[0]]]), 9))
     if np.diff(every).min() < (2 * lines.spread + 1) * lines.spacing * (1.0 - 1e-6) or every[-1] > lines.orders[-1]:
         return None
     squares = {order: lines.square(order) for order in every}
-    sums = {gear: sum(squares[order] for order in np.round(orders, 9)) for gear, orders in found.items()}
+    sums = {gear: sum(squares[order] for order in np.round(orders, 9)) for gear, orders in at_sides.items()}
     line = squares[float(harmonic * teeth[0])]
     # Of the mesh in a quasi-static force that varies with the load alone, round-off is all there is.
     there = line > (ROUND_OFF * lines.amplitudes.max()) ** 2
@@ -165,14 +165,14 @@ def known_orders(scene: Scene) -> list[tuple[float, str]]:
     """Orders with a known cause, in words: run-out of either gear and waves on its flanks."""
     errors = scene.flank_errors
     run_out = scene.eccentricity
-    found = []
+    known = []
     for name, turns in (("pinion", 1.0), ("wheel", scene.gears.pinion.teeth / scene.gears.wheel.teeth)):
         if run_out is not None and getattr(run_out, name) is not None:
-            found.append((turns, f"run-out of the {name}"))
+            known.append((turns, f"run-out of the {name}"))
         waves = None if errors is None else getattr(errors, name).waviness
         if waves is not None:
-            found.append((waves.waves * turns, f"ghost order: {waves.waves} waves on the {name}"))
-    return found
+            known.append((waves.waves * turns, f"ghost order: {waves.waves} waves on the {name}"))
+    return known
 
 
 def varying_mesh_force(result: xr.Dataset) -> np.ndarray | None:

@@ -42,15 +42,15 @@ class StoredVariable:
 
 
 class Attributes(Mapping[str, Any]):
-    """Numbers and texts that stand at a place in an open file."""
+    """Numbers and texts at a place in an open file."""
 
     def __init__(self, place: h5py.h5g.GroupID | h5py.h5d.DatasetID):
         self._place = place
 
     def __getitem__(self, name: str) -> Any:
         # HDF5's own call, which raises KeyError too: hundreds of attributes take a third of the time.
-        found = _read(h5py.h5a.open(self._place, name.encode()))
-        value = found[0] if found.shape == (1,) else found[()]
+        array = _read(h5py.h5a.open(self._place, name.encode()))
+        value = array[0] if array.shape == (1,) else array[()]
         return value.decode() if isinstance(value, bytes) else value
 
     def __contains__(self, name: object) -> bool:
@@ -64,9 +64,9 @@ class Attributes(Mapping[str, Any]):
 
 
 def _read(held: h5py.h5d.DatasetID | h5py.h5a.AttrID, *spaces: Any) -> np.ndarray:
-    found = np.empty(held.shape, held.dtype)
-    held.read(*spaces, found)
-    return found
+    array = np.empty(held.shape, held.dtype)
+    held.read(*spaces, array)
+    return array
 
 
 @contextmanager

@@ -1,5 +1,5 @@
 """The numbers of runs that are marched together, where a few numbers and no dataset are asked for. The functions are
-those of `results.dataset`.
+the same as in `results.dataset`.
 
 A run that would have a warning is run by itself: where contact is lost, gears pass through each other, or steps are
 divided or have no solution.
@@ -66,8 +66,8 @@ class _Extrema(Extrema):
 
     def _values(self, asked: Sequence[tuple[Quantity, float]]) -> list[float]:
         records = self.marches.at((quantity.run, step) for quantity, step in asked)
-        found = [(quantity, records[quantity.run, step]) for quantity, step in asked]
-        return [np.nan if record is None else quantity.of(record) for quantity, record in found]
+        solved = [(quantity, records[quantity.run, step]) for quantity, step in asked]
+        return [np.nan if record is None else quantity.of(record) for quantity, record in solved]
 
 
 def numbers_together(
@@ -87,9 +87,9 @@ def numbers_together(
     touch = drive_flanks_touch(marches.block).reshape(count, -1)[:, 1:].all(axis=1)
     whole = marches.solved & touch & (np.abs(errors).max(axis=1) <= cycle.pair.wheel.angular_pitch)
     runs = np.flatnonzero(whole).tolist()
-    found: list[NumbersOfRun | None] = [None] * count
+    of_runs: list[NumbersOfRun | None] = [None] * count
     if not runs:
-        return found
+        return of_runs
     first = settled(model, model.steps).first
     curves, factors = _curves(models, marches, errors, (runs, first), asked)
     counted = [{name: values[first:] for name, values in of_run.items()} for of_run in curves]
@@ -116,20 +116,20 @@ def numbers_together(
             "time_march": marched / count,
             "wall_time": seconds,
         }
-        found[run] = NumbersOfRun(numbers, curves[place], seconds - marched / count)
-    return found
+        of_runs[run] = NumbersOfRun(numbers, curves[place], seconds - marched / count)
+    return of_runs
 
 
 def _equations(models: Sequence[Model]) -> list:
     """What each run solves for, made once for runs with the same load: they are alike in all else."""
-    found = []
+    equations = []
     known = {}
     for model in models:
         load = model.drivetrain.load.tobytes()
         if load not in known:
             known[load] = model.equations_of_motion
-        found.append(known[load])
-    return found
+        equations.append(known[load])
+    return equations
 
 
 Curves = dict[str, np.ndarray]
@@ -151,7 +151,7 @@ def _curves(
     on."""
     runs, first = counted
     model = models[0]
-    found = []
+    of_runs = []
     factors = []
     numbers = np.arange(model.steps + 1)
     common = {"time": model.clock.times(numbers), "mesh_phase": numbers / model.resolution.steps_per_mesh_cycle}
@@ -161,9 +161,9 @@ def _curves(
         steps = marches.of(run)
         nodes = _nodes(marches.cycle, steps) if nodes is None else nodes.with_forces(steps)
         curves = common | {"transmission_error": errors[run]} | _of_nodes(models[run], marches.cycle, nodes, asked)
-        found.append(curves)
+        of_runs.append(curves)
         factors.append(_load_factors(models[run], nodes, curves, first) if over_face else {})
-    return found, factors
+    return of_runs, factors
 
 
 def _load_factors(model: Model, nodes: SideBySide, curves: Curves, first: int) -> dict[str, float]:

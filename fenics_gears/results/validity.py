@@ -97,8 +97,8 @@ def _rank(watched: Watched) -> list[str]:
     rows = watched["rows"][worst]
     return [
         f"the contact compliance is singular in {np.count_nonzero(dependent)} of {len(dependent)} steps (rank"
-        f" {rows - dependent[worst]} of {rows} at worst): contact nodes stand closer than the elements can tell apart;"
-        " forces hold, the pressure does not: lower accuracy.contact_nodes or accuracy.flank_element_size"
+        f" {rows - dependent[worst]} of {rows} at worst): contact nodes are closer than the elements resolve;"
+        " forces are right, the pressure is not: lower accuracy.contact_nodes or accuracy.flank_element_size"
     ]
 
 
@@ -114,22 +114,22 @@ def _passed_through(cycle: Cycle, result: RunResult) -> list[str]:
 
 
 def _rotation(result: RunResult) -> list[str]:
-    found = []
+    sentences = []
     for name, rotations in zip(GEARS, result["rotation"].T):
         largest = np.abs(rotations).max(initial=0.0)
         if largest > LARGEST_ROTATION:
-            found.append(
+            sentences.append(
                 f"the {name} turns by {largest:.3g} rad from its nominal motion; the model takes such rotations as"
                 f" small (below {LARGEST_ROTATION} rad): stiffen the shafts or lower the torque"
             )
     tilts = [np.abs(result[name]).max(axis=0, initial=0.0) for name in ("tilt_x", "tilt_y") if name in result]
     for name, largest in zip(GEARS, np.max(tilts, axis=0) if tilts else ()):
         if largest > LARGEST_ROTATION:
-            found.append(
+            sentences.append(
                 f"the {name} tilts by {largest:.3g} rad; the model takes such rotations as small (below"
                 f" {LARGEST_ROTATION} rad): stiffen its bearings, move them apart or lower the torque"
             )
-    return found
+    return sentences
 
 
 def _wedged(cycle: Cycle, result: RunResult) -> list[str]:
@@ -173,8 +173,8 @@ def _separation(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock
     )
     if "settled_from" in result.attrs and clock.time(march.separations[-1][0]) < result.attrs["settled_from"]:
         return [
-            f"{beyond}. The cycles that the numbers are taken from are in contact throughout; [coast_flanks] would give"
-            " what comes before them"
+            f"{beyond}. The cycles that the numbers are taken from are in contact throughout; [coast_flanks] would"
+            " compute the cycles before them"
         ]
     return [f"{beyond}, and {NO_MEANING} from that time on; add [coast_flanks]"]
 

@@ -1,5 +1,4 @@
-"""One window of contact nodes for runs over a face that differ in what opens their flanks, so that they share contact
-operators."""
+"""One window of contact nodes for runs over a face that differ in gaps alone, so that they share contact operators."""
 
 from collections.abc import Sequence
 from dataclasses import replace

@@ -41,22 +41,22 @@ class Folder:
         """Records of the runs whose whole and undamaged files are there."""
         files = {path.stem.rpartition("-")[2]: path for path in sorted(self.directory.glob(f"*{ENDING}"))}
         there = [(run, path) for run in runs if (path := files.get(run.name.rpartition("-")[2])) is not None]
-        found = {}
+        records = {}
         for (run, path), opened in zip(there, _opened(path for _, path in there)):
             record = _undamaged(path, run, opened)
             if record is not None:
-                found[run.key] = record
+                records[run.key] = record
                 if path.stem != run.name:
                     os.replace(path, self._file(run, ENDING))
-        return found
+        return records
 
-    def keep(self, run: Run, found: RunResult) -> RunRecord:
+    def keep(self, run: Run, ran: RunResult) -> RunRecord:
         """Write the result and return its record; a note on an earlier failure goes."""
-        result = found.dataset
+        result = ran.dataset
         said = {"case_key": run.key, "case_values": json.dumps(run.values)}
         results.save(result.assign_attrs(said), self._file(run, ENDING))
         self._file(run, FAILED_ENDING).unlink(missing_ok=True)
-        return replace(record_of(result), seconds=seconds_of(found))
+        return replace(record_of(result), seconds=seconds_of(ran))
 
     def seconds(self, known: RunRecord) -> tuple[float, ...]:
         return known.seconds

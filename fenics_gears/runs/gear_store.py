@@ -16,8 +16,8 @@ from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 
-# Mesh cycles of the same gears that are kept, as of torques with other elements or contact nodes, and the part of the
-# memory for contact operators that they and their bodies may take beside another one.
+# How many mesh cycles of the same gears are kept, such as for torques with other elements or contact nodes. The part of
+# the memory for contact operators that they and their bodies may take in addition to another one.
 MOST_CYCLES = 8
 SHARE_OF_OTHERS = 0.35
 NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
@@ -47,16 +47,16 @@ class GearStore:
             return self._made(model, progress, cache)
         key = operators_key(model)
         of_cycle = cycle_key(model, key)
-        found = self._operators.pop(key, None)
-        shared = found is not None
-        if found is None:
+        operators = self._operators.pop(key, None)
+        shared = operators is not None
+        if operators is None:
             # Frees memory before the next is made.
             self._cycle_key = self._cycle = None
             self._make_room(key)
-            found = self._made(model, progress, cache)
+            operators = self._made(model, progress, cache)
         # Last in the dictionary, last to be given up.
-        self._operators[key] = found
-        bodies, cycle = found
+        self._operators[key] = operators
+        bodies, cycle = operators
         cycle.kept.others = self._taken - cycle.kept.taken - _bytes_of(bodies)
         if of_cycle != self._cycle_key:
             self._cycle = cycle.with_gaps(gaps_of(model, cycle)) if shared else cycle
@@ -87,9 +87,9 @@ class GearStore:
         """The "pinion" or the "wheel", kept, from the cache, or condensed."""
         key = body_key(model, name)
         # Last in the dictionary, last to be given up.
-        self._gears[key] = found = self._gears.pop(key, None) or gear_body(model, name, cache)
+        self._gears[key] = body = self._gears.pop(key, None) or gear_body(model, name, cache)
         self._give_up_oldest()
-        return found
+        return body
 
     def bodies(self, model: Model, progress: Progress, cache: Cache | None) -> Bodies:
         """Pinion and wheel; where neither is kept, both are condensed at once where that pays."""

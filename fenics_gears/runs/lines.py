@@ -29,8 +29,8 @@ Line = dict[str, Any]
 
 @dataclass(frozen=True)
 class FolderOfLines:
-    """A folder of lines, each what `line_of` makes of a run and its result, with at least the `numbers` that are
-    `asked` for; with `failure` why there is nothing, also of a result that has no meaning."""
+    """A folder of lines, each made by `line_of` of a run and its result, with at least the `numbers` that are `asked`
+    for. `failure` says why there are none, also where the result has no meaning."""
 
     directory: Path
     line_of: Callable[[Run, RunResult | NumbersOfRun], Line]
@@ -81,17 +81,17 @@ def append(directory: Path, line: Mapping[str, Any]) -> None:
 
 def kept(directory: Path) -> tuple[dict[str, Line], int]:
     """All whole lines by their `key`, and how many more there are of versions of the program with other numbers."""
-    found: dict[str, Line] = {}
+    lines: dict[str, Line] = {}
     others = 0
     for file in sorted(directory.glob(f"*{ENDING}")):
         for text in file.read_bytes().split(b"\n"):
             try:
                 line = json.loads(text)
                 if line.get("numbers_version") == NUMBERS_VERSION:
-                    numbers = found.get(line["key"], {}).get("numbers", {}) | line.get("numbers", {})
-                    found[line["key"]] = line | ({"numbers": numbers} if numbers else {})
+                    numbers = lines.get(line["key"], {}).get("numbers", {}) | line.get("numbers", {})
+                    lines[line["key"]] = line | ({"numbers": numbers} if numbers else {})
                 else:
                     others += 1
             except (ValueError, KeyError, TypeError, AttributeError):
                 continue
-    return found, others
+    return lines, others

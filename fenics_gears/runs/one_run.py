@@ -16,7 +16,7 @@ Tick = Callable[[], None]
 def completed(
     scene: Scene | Model, preparation: Preparation, progress: Progress | None = None, ended: Ended | None = None
 ) -> RunResult:
-    """The whole result of a run and its `wall_time`, s; `ended`: as of `solved`. Raises KeyboardInterrupt on Ctrl-C."""
+    """The whole result of a run and its `wall_time`, s; `ended`: as in `solved`. Raises KeyboardInterrupt on Ctrl-C."""
     begun = time.perf_counter()
     result = solved(scene, progress=progress, preparation=preparation, ended=ended)
     if not result.attrs["complete"]:

@@ -36,9 +36,9 @@ CURVES = (
 class RunRecord:
     """Numbers and curves of one run.
 
-    `numbers`: by name, also those of `STUDIED` that the run has. `curves`: (steps,) or (steps, 2), in the units of the
-    run. `mesh_phase` (steps,): mesh cycles since the first recorded step. `base_radius`: of the wheel, mm. `labels`:
-    units and long name of each curve. `seconds`: as of `spent.seconds_of`, of a run that was computed here.
+    `numbers`: by name, including the ones of `STUDIED` that the run has. `curves`: (steps,) or (steps, 2), in the units
+    of the run. `mesh_phase` (steps,): mesh cycles since the first recorded step. `base_radius`: of the wheel, mm.
+    `labels`: units and long name of each curve. `seconds`: as in `spent.seconds_of`, of a run that was computed here.
     """
 
     numbers: dict[str, float]

@@ -93,16 +93,16 @@ class Runs:
         self._team.run(condense, tasks, finished, lambda: progress.update(done, len(tasks)))
         progress.update(done, len(tasks))
 
-    def compute(self, missing: list[Run], tick: Tick, finished: Finished = lambda run, found: None) -> None:
+    def compute(self, missing: list[Run], tick: Tick, finished: Finished = lambda run, outcome: None) -> None:
         """Compute runs in this order; each is `known` when `finished` is called. `tick` is called often and may raise
         KeyboardInterrupt."""
 
         together = 1 if self._store.asked is None else most_together(len(missing), self._team.size)
         tasks = in_tasks(missing, together)
 
-        def take(index: int, found: Any) -> None:
+        def take(index: int, outcome: Any) -> None:
             # An exception is one that the worker could not even report, such as an MPI error.
-            every = [failure_of(found)] * len(tasks[index]) if isinstance(found, Exception) else found
+            every = [failure_of(outcome)] * len(tasks[index]) if isinstance(outcome, Exception) else outcome
             for run, known in zip(tasks[index], every):
                 self.known[run.key] = known
                 self.spent.count(() if isinstance(known, Failure) else self._store.seconds(known))
@@ -150,9 +150,9 @@ def in_tasks(runs: Iterable[Run], most: int) -> list[list[Run]]:
 def computed(store: Store, runs: Sequence[Run], tick: Tick | None = None) -> list[Any]:
     """Compute runs and keep them, or why they failed; return what is known of each. Raises KeyboardInterrupt on
     Ctrl-C."""
-    found = {} if store.asked is None else _together(runs, store.asked)
+    together = {} if store.asked is None else _together(runs, store.asked)
     ticking = Ticking(tick)
-    return [_kept(store, run, found.get(run.key), ticking) for run in runs]
+    return [_kept(store, run, together.get(run.key), ticking) for run in runs]
 
 
 def _kept(store: Store, run: Run, result: Any, progress: Progress) -> Any:
@@ -183,13 +183,13 @@ def _together(runs: Sequence[Run], asked: Collection[str]) -> dict[str, Any]:
             group.append((run.key, model))
         elif can_be_solved_together(model, asked):
             groups.append([(run.key, model)])
-    found: dict[str, Any] = {}
+    by_key: dict[str, Any] = {}
     for group in groups:
         # What fails together fails by itself, or does not.
         with contextlib.suppress(GearsError):
             results = solved_together([model for _, model in group], own_gear_store().prepared, asked)
-            found |= {key: result for (key, _), result in zip(group, results)}
-    return found
+            by_key |= {key: result for (key, _), result in zip(group, results)}
+    return by_key
 
 
 def failure_of(error: Exception) -> Failure:

@@ -24,7 +24,7 @@ from fenics_gears.system.progress import Progress, SilentProgress
 if TYPE_CHECKING:
     from fenics_gears.results.journal import JournalPlace
 
-# The remedy where a warning recommends a setting, for settings may not stand beside a target.
+# The remedy where a warning recommends a setting, for a scene may not have both settings and a target.
 OTHER_SETTINGS = (
     "a warning names settings of [accuracy]: take a smaller target, or change the chosen settings, which the result's"
     " scene has"
@@ -93,8 +93,8 @@ def simulate(
 
 @dataclass(frozen=True)
 class SettledScene:
-    """A scene, or its model, whose settings stand; `chosen`: what the result says of their choice, nothing where
-    the scene has its own."""
+    """A scene, or its model, with settled settings; `chosen`: attributes of the result on their choice, none where the
+    scene has its own."""
 
     scene: Scene | Model
     chosen: dict[str, Any] = field(default_factory=dict)
@@ -117,12 +117,12 @@ def settled(scene: Scene | Model, progress: Progress) -> SettledScene:
     begun = time.perf_counter()
     try:
         compile_loops(progress)
-        found = choose(known, target, progress)
+        settings = choose(known, target, progress)
     except MemoryError:
         raise MemoryEnded("before the run was over") from None
-    how: dict[str, Any] = {"target": target, "estimated_error": found.estimated_error}
-    how |= {f"{ESTIMATED}{name}": part for name, part in found.parts.items()}
-    how |= {"target_runs": found.runs, "target_remarks": "", "time_choose": time.perf_counter() - begun}
-    if found.accuracy.slices:
-        how |= {"slices": found.accuracy.slices, "layers": found.accuracy.layers}
-    return SettledScene(replace(known, accuracy=found.accuracy), how)
+    how: dict[str, Any] = {"target": target, "estimated_error": settings.estimated_error}
+    how |= {f"{ESTIMATED}{name}": part for name, part in settings.parts.items()}
+    how |= {"target_runs": settings.runs, "target_remarks": "", "time_choose": time.perf_counter() - begun}
+    if settings.accuracy.slices:
+        how |= {"slices": settings.accuracy.slices, "layers": settings.accuracy.layers}
+    return SettledScene(replace(known, accuracy=settings.accuracy), how)

@@ -14,7 +14,7 @@ def seconds_of(result: RunResult) -> tuple[float, float, float]:
 @dataclass
 class Spent:
     """How many runs were `computed`, in how many `seconds` by the clock on so many `processes`; `of_runs`: seconds of
-    all, as of `seconds_of`."""
+    all, as in `seconds_of`."""
 
     processes: int = 1
     computed: int = 0
@@ -36,7 +36,7 @@ class Spent:
             beside = max(1.0 - whole / (self.processes * self.seconds), 0.0)
             words = (
                 f"{1e3 * whole / self.computed:.3g} ms: march {march / whole:.0%}, numbers {numbers / whole:.0%},"
-                f" contact equations and bearings the rest; {beside:.0%} of the time is beside runs"
+                f" contact equations and bearings the rest; {beside:.0%} of the time is outside runs"
             )
             rows.append(("a run", words, ""))
         return rows

@@ -42,7 +42,7 @@ class Alone:
 
 
 class Together:
-    """All ranks of a job, seen from rank 0."""
+    """All ranks of a job, as rank 0 directs them."""
 
     def __init__(self, executor, size: int, meanwhile: Meanwhile | None = None):
         self._executor = executor

@@ -29,7 +29,7 @@ class Times:
     march: tuple[float, ...] = ()
 
     def and_also(self, run: xr.Dataset) -> Times:
-        """These times with those of one more run."""
+        """These times and the times of one more run."""
         return Times(*((*getattr(self, stage), float(run.attrs[f"time_{stage}"])) for stage in STAGES))
 
     @property
@@ -63,8 +63,8 @@ def run_sharing(scene: Scene | Model, gears: GearStore, progress: Progress | Non
     cycles = []
 
     def preparation(model: Model, progress: Progress, cache: Cache | None) -> Prepared:
-        found = gears.prepared(model, SilentProgress(), None)
-        cycles.append(found[1])
-        return found
+        prepared = gears.prepared(model, SilentProgress(), None)
+        cycles.append(prepared[1])
+        return prepared
 
     return completed(scene, preparation, progress).dataset, cycles[0]

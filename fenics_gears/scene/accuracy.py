@@ -1,6 +1,6 @@
-"""``[accuracy]`` and ``[output]``: how a scene is computed, and results besides those of every run.
+"""``[accuracy]`` and ``[output]``: how a scene is computed, and results that not every run has.
 
-None: the program chooses (``model.resolution``, ``model.face_resolution``) by the numbers that stand first here.
+None: the program chooses (``model.resolution``, ``model.face_resolution``) by the numbers at the top of this file.
 """
 
 import re
@@ -22,9 +22,9 @@ class Fineness(NamedTuple):
     steps_per_mesh_cycle: int
 
 
-# Three elements: the paper's pair is within 0.15 % of its limit in the transmission error, 0.1 % in the peak pressure;
-# two would do, but for rounded edges of a sixtieth of the module (2 %). Between steps curves are straight lines, 0.4 %
-# off in L2. Over a face a step costs more, and helical pairs are smoother.
+# With three elements the paper's pair is within 0.15 % of its limit in the transmission error, 0.1 % in the peak
+# pressure. Two would do except for rounded edges of a sixtieth of the module (2 %). Between steps curves are straight
+# lines, 0.4 % off in L2. Over a face a step costs more, and helical pairs are smoother.
 IN_THE_PLANE = Fineness(3.0, 200)
 OVER_THE_FACE = Fineness(2.0, 100)
 # Flank elements stay between these parts of the module, whatever the load: a vanishing load has no half-width.
@@ -39,15 +39,16 @@ NODE_SPACING = 0.7
 STEPS_PER_PERIOD = 20
 MOST_STEPS_PER_MESH_CYCLE = 1000
 # Largest elements of the body's section and largest layers of it over the common face, in normal modules. What they
-# leave out near a load is added (contact.face_pairing, elasticity.face.near_field): elements of 0.3 modules change the
-# mean transmission error by 0.04 %, K_Hbeta and line loads away from edges by 0.5 %, layers by less than 0.05 %.
+# leave out near a load is added (contact.face_pairing, elasticity.face.near_field). Elements of 0.3 modules change the
+# mean transmission error by 0.04 %, K_Hbeta and line loads away from edges by 0.5 %. Layers change them by less than
+# 0.05 %.
 SECTION_SIZE = 0.5
 LAYER_THICKNESS = 1.75
 FEWEST_LAYERS = 4
 LARGEST_LAYER_TURN = 0.3
 # Widest slices, in normal modules and by how far the line of contact of a helical pair moves along the path of contact
-# within one, in base pitches: the mean transmission error is then 0.1 to 0.2 % too small (28 and 30 degrees), and at a
-# whole overlap its peak-to-peak value too large by 0.15 % of the mean.
+# within one, in base pitches. The mean transmission error is then 0.1 to 0.2 % too small (28 and 30 degrees). At a
+# whole overlap its peak-to-peak value is too large by 0.15 % of the mean.
 SLICE_WIDTH = 0.65
 SLICE_RISE = 0.08
 FEWEST_SLICES = 8
@@ -188,10 +189,10 @@ class AllowedContactFields(Allowed):
 
     def convert(self, value: Any) -> bool | float:
         """A number of mesh cycles, infinite for true; false as it is."""
-        found = _LAST_CYCLES.fullmatch(value) if isinstance(value, str) else None
-        if found is None and not isinstance(value, bool):
+        match = _LAST_CYCLES.fullmatch(value) if isinstance(value, str) else None
+        if match is None and not isinstance(value, bool):
             raise Refused(f"is {as_written(value)}.")
-        return int(found[1]) if found else value and inf
+        return int(match[1]) if match else value and inf
 
 
 _CONTACT_FIELDS = AllowedContactFields(

@@ -83,7 +83,7 @@ def contact_fields_are_of_cycles_that_run(tree: Tree) -> Broken:
     motion = table(tree, "motion") or {}
     place = ("output", "contact_fields")
     if written is not None and "recorded_cycles" in motion:
-        yield place, "stands beside motion.recorded_cycles, which says the same. Leave one of the two out."
+        yield place, "is given together with motion.recorded_cycles, which says the same. Leave one of the two out."
     asked = re.fullmatch(r"last (\d{1,7}) cycles?", written) if isinstance(written, str) else None
     run = _cycles(tree, motion.get("mesh_cycles"))
     if asked and type(run) is int and int(asked[1]) > run > 0:
@@ -127,7 +127,7 @@ def _remeshing_has_its_own_nodes(tree: Tree) -> Broken:
         return
     for name in ("interpolation", "elastic_teeth"):
         if name in accuracy:
-            yield ("accuracy", name), f'has no meaning beside condensation = "{EVERY_STEP}". Leave one of the two out.'
+            yield ("accuracy", name), f'has no meaning with condensation = "{EVERY_STEP}". Leave one of the two out.'
 
 
 def _cheaper_models_have_what_they_need(tree: Tree) -> Broken:
@@ -139,18 +139,18 @@ def _cheaper_models_have_what_they_need(tree: Tree) -> Broken:
     if chosen != RIGID_TEETH and not material_sections(tree):
         yield place, "needs the section [gears.material], which is missing. Add it, or leave accuracy.model out."
     if accuracy.get("condensation") == EVERY_STEP:
-        yield place, f'cannot stand beside condensation = "{EVERY_STEP}". Leave one of the two out.'
+        yield place, f'cannot be combined with condensation = "{EVERY_STEP}". Leave one of the two out.'
     if value_at(tree, "output", "root_stress") is True:
-        yield place, 'has no stresses for output.root_stress. Allowed beside it: "elastic". Leave one of the two out.'
+        yield place, 'has no stresses for output.root_stress. Allowed with it: "elastic". Leave one of the two out.'
     if chosen != STIFFNESS_TABLE and "corner_contact" in tree:
-        yield place, "cannot stand beside [corner_contact], which it knows nothing of. Leave one of the two out."
+        yield place, "cannot be combined with [corner_contact], which it knows nothing of. Leave one of the two out."
 
 
 _NOT_BESIDE_A_TARGET = {
-    "model": "cannot stand beside accuracy.target, which is for the full contact of elastic teeth",
-    "condensation": "cannot stand beside accuracy.target, which condenses once",
-    "elastic_teeth": "cannot stand beside accuracy.target, which keeps all teeth elastic",
-    "interpolation": "cannot stand beside accuracy.target, which averages",
+    "model": "cannot be combined with accuracy.target, which is for the full contact of elastic teeth",
+    "condensation": "cannot be combined with accuracy.target, which condenses once",
+    "elastic_teeth": "cannot be combined with accuracy.target, which keeps all teeth elastic",
+    "interpolation": "cannot be combined with accuracy.target, which averages",
 }
 
 
@@ -165,7 +165,7 @@ def _a_target_chooses_alone(tree: Tree) -> Broken:
             message = f"{_NOT_BESIDE_A_TARGET.get(name, 'is chosen by accuracy.target')}. Leave one of the two out."
             yield ("accuracy", name), message
     if gears and not material_sections(tree):
-        yield place, "needs teeth that give way. Add [gears.material], or leave the target out."
+        yield place, "needs elastic teeth. Add [gears.material], or leave the target out."
     load = load_in(tree)
     if load is not None and load[1] == 0.0:
         home = ".".join(load[0])
@@ -180,11 +180,11 @@ def _root_stress_has_its_teeth(tree: Tree) -> Broken:
     if value_at(tree, *place) is not True:
         return
     if table(tree, "gears") is not None and not material_sections(tree):
-        yield place, "needs teeth that give way. Add [gears.material], or leave root_stress out."
+        yield place, "needs elastic teeth. Add [gears.material], or leave root_stress out."
     if accuracy.get("model", ELASTIC) != ELASTIC:
         yield place, f'needs teeth of finite elements. Take accuracy.model = "{ELASTIC}", or leave root_stress out.'
     if accuracy.get("condensation") == EVERY_STEP:
-        yield place, f'cannot stand beside condensation = "{EVERY_STEP}". Take "once", or leave root_stress out.'
+        yield place, f'cannot be combined with condensation = "{EVERY_STEP}". Take "once", or leave root_stress out.'
 
 
 def _module(tree: Tree) -> float | None:

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from fenics_gears.dynamics.torque_ripple import TorqueRipple
     from fenics_gears.effects.body_meshes import BodyMeshes
     from fenics_gears.effects.coast_flanks import CoastFlanks
-    from fenics_gears.effects.corner_contact import CornerContact
+    from fenics_gears.effects.corner_contact import EdgeRadii
     from fenics_gears.effects.friction import Friction
     from fenics_gears.effects.root_relief import RootRelief
     from fenics_gears.effects.speed_ramp import SpeedRamp
@@ -80,7 +80,7 @@ class Scene:
     flank_errors: FlankErrors | None = None
     eccentricity: Eccentricity | None = None
     coast_flanks: CoastFlanks | None = None
-    corner_contact: CornerContact | None = None
+    corner_contact: EdgeRadii | None = None
     torque_ripple: TorqueRipple | None = None
     speed_ramp: SpeedRamp | None = None
     profile_modifications: ProfileModifications | None = None

@@ -2,15 +2,16 @@
 centre distance, tip radius of the rack, tooth thickness.
 
 ISO 21771 (DIN 3960), in normal modules: d_a = d + 2 m_n (x + h_aP + k), d_f = d + 2 m_n (x_E - h_fP), inv(alpha_wt) =
-inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2). x is the profile shift of the drawing and x_E that of the thickness,
-at which the rack cuts flanks and root; they differ by the allowance where a thickness or a backlash is given beside x.
-k shortens the tips, so that their clearance stays the rack's when a is less than a_d + (x1 + x2) m_n.
+inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2). x is the profile shift of the drawing. x_E is that of the thickness,
+at which the rack cuts flanks and root. They differ by the allowance where a thickness or a backlash is given as well as
+x. k shortens the tips, so that their clearance stays the rack's when a is less than a_d + (x1 + x2) m_n.
 """
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import chain
 from math import cos, pi, tan
+from types import ModuleType
 from typing import Any
 
 from fenics_gears.effects.tooth_elasticity import material_of
@@ -21,10 +22,8 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, LOADS, MODULES, PRESSURE_ANGLES, in_normal_section, wheel_torque
 
 from . import unusual
-from .gear_schema import Gear as GearText
-from .gear_schema import Gears
+from .gear_schema import Gears, GearText
 from .schema import Derived, Load, LoadText, Motion
-from .thickness import asked_measures, check_measure, shift_of_thickness
 
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
@@ -69,17 +68,17 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
 
 def _in_normal_section(gears: Gears) -> tuple[Gears, list[Derived]]:
     """The section with module and pressure angle, whatever they are given by, and what was derived."""
-    found: dict[str, float | None] = {}
+    normal: dict[str, float | None] = {}
     derived = []
     for names, unit, size in ((MODULES, "mm", 1.0), (PRESSURE_ANGLES, "deg", pi / 180.0)):
         own, *others = names
         name = next(each for each in names if getattr(gears, each) is not None)
         if name != own:
             number = in_normal_section(name, getattr(gears, name), gears.helix_angle or 0.0)
-            found |= {own: number, **dict.fromkeys(others)}
+            normal |= {own: number, **dict.fromkeys(others)}
             words = f"from {name}, in the normal section" if gears.helix_angle else f"from {name}"
             derived.append(Derived(own.replace("_", " "), number / size, unit, words))
-    return replace(gears, **found), derived
+    return replace(gears, **normal), derived
 
 
 def _web(own: GearText, face_width: float) -> Web | None:
@@ -137,17 +136,24 @@ def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Deriv
     return distance, gears, [*chain(*of_thickness, of_distance, of_backlash, of_tips, *of_gears, *asked)]
 
 
+def _thickness() -> ModuleType:
+    """Measured tooth thicknesses, which few drawings give."""
+    from . import thickness
+
+    return thickness
+
+
 def _shift(pair: Gears, drawn: GearText, name: str) -> tuple[float, list[Derived]]:
     """The profile shift of the tooth's thickness."""
     if drawn.measure is None:
         return drawn.profile_shift, []
-    return shift_of_thickness(pair, drawn, name)
+    return _thickness().shift_of_thickness(pair, drawn, name)
 
 
 def _asked_measures(pair: Gears, drawn: GearText, name: str, cut: float) -> Iterable[Derived]:
     if drawn.spanned_teeth is None and drawn.ball_diameter is None:
         return ()
-    return asked_measures(pair, drawn, name, cut)
+    return _thickness().asked_measures(pair, drawn, name, cut)
 
 
 def _rack_pair(pair: Gears, shifts: list[float], distance: float) -> GearPair:
@@ -241,7 +247,7 @@ def _tip_shortening(
 def _gear_data(
     pair: Gears, drawn: GearText, name: str, shift: float, cut: float, shortening: float
 ) -> tuple[GearData, list[Derived]]:
-    found = []
+    derived = []
     reference = pair.module * drawn.teeth / cos(pair.helix_angle or 0.0)
     standard = RACKS[_of_rack(pair, drawn, "profile") or "ISO 53 A"]
     addendum, dedendum, radius = (_of_rack(pair, drawn, figure) for figure in ("addendum", "dedendum", "tip_radius"))
@@ -250,17 +256,17 @@ def _gear_data(
     radius = radius if drawn.rack_tip_radius is None else drawn.rack_tip_radius
     if tip is None:
         tip = reference + 2.0 * pair.module * (shift + (standard[0] if addendum is None else addendum) - shortening)
-        found.append(Derived(f"{name} tip diameter", tip, "mm", "d_a = d + 2 m_n (x + h_aP + k)"))
+        derived.append(Derived(f"{name} tip diameter", tip, "mm", "d_a = d + 2 m_n (x + h_aP + k)"))
     if root is None:
         root = reference + 2.0 * pair.module * (cut - (standard[1] if dedendum is None else dedendum))
-        found.append(Derived(f"{name} root diameter", root, "mm", "d_f = d + 2 m_n (x_E - h_fP)"))
+        derived.append(Derived(f"{name} root diameter", root, "mm", "d_f = d + 2 m_n (x_E - h_fP)"))
     beyond, angle = _protuberance(pair, drawn)
     if radius is None:
         room = tip_radius_with_room(replace(pair.rack_gear(drawn.teeth, cut, root), protuberance=beyond))
         less = f"what has room on the rack's tip, less than the usual {standard[2]:g}"
         why = less if room < standard[2] else "that of the rack"
         radius = min(standard[2], room)
-        found.append(Derived(f"{name} tip radius of the rack", radius, "modules", why))
+        derived.append(Derived(f"{name} tip radius of the rack", radius, "modules", why))
     # Bare numbers leave their spelling behind.
     data = GearData(
         drawn.teeth, float(cut), float(tip), float(root), 0.0, float(radius),
@@ -268,12 +274,12 @@ def _gear_data(
         nominal_profile_shift=None if shift == cut else float(shift),
     )  # fmt: skip
     if drawn.measure is not None:
-        check_measure(drawn, name, pair.in_rotation(data))
-    return data, found
+        _thickness().check_measure(drawn, name, pair.in_rotation(data))
+    return data, derived
 
 
 def _of_rack(pair: Gears, drawn: GearText, figure: str) -> Any:
-    """A figure of the gear's own rack, else of both; None where a profile stands before it, or nothing."""
+    """A figure of the gear's own rack, else of both; None where a profile has precedence, or there is none."""
     for section in (drawn.rack, pair.rack):
         if section is not None and (getattr(section, figure) is not None or section.profile is not None):
             return getattr(section, figure)
@@ -284,8 +290,8 @@ def _protuberance(pair: Gears, own: GearText) -> tuple[float, float]:
     """Protuberance left beyond the finished flank, mm, and its angle, rad; of the gear's own rack, else of both."""
 
     def given(figure: str, otherwise: float) -> float:
-        found = (getattr(each, figure) for each in (own.rack, pair.rack) if each is not None)
-        return float(next((each for each in found if each is not None), otherwise))
+        amounts = (getattr(each, figure) for each in (own.rack, pair.rack) if each is not None)
+        return float(next((each for each in amounts if each is not None), otherwise))
 
     beyond = given("protuberance", 0.0) - given("finishing_stock", 0.0)
     return beyond, given("protuberance_angle", 0.5 * pair.pressure_angle) if beyond else 0.0

@@ -41,7 +41,7 @@ def rules_over_the_face(tree: Tree, reasons: Sequence[Path]) -> Broken:
 
 
 def _faces_are_resolved_by_elastic_contact(tree: Tree, reasons: Sequence[Path]) -> Broken:
-    why = f"cannot stand beside {dotted(reasons[0])}: flanks are then resolved over the face"
+    why = f"cannot be combined with {dotted(reasons[0])}: flanks are then resolved over the face"
     accuracy = table(tree, "accuracy") or {}
     for name, refused in PLANE_ONLY.items():
         if accuracy.get(name) in refused:
@@ -50,10 +50,10 @@ def _faces_are_resolved_by_elastic_contact(tree: Tree, reasons: Sequence[Path]) 
     if of_scene is None:
         return
     if "body_meshes" in tree:
-        beside = f"cannot stand beside {dotted(of_scene)}: flanks are then resolved over the face"
+        beside = f"cannot be combined with {dotted(of_scene)}: flanks are then resolved over the face"
         yield ("body_meshes",), f"{beside}, and the mesh of a plane section is not. Leave one of the two out."
     if not material_sections(tree):
-        yield of_scene, "needs teeth that give way. Add [gears.material], or leave it out."
+        yield of_scene, "needs elastic teeth. Add [gears.material], or leave it out."
 
 
 def _class_is_for_the_faces(tree: Tree) -> Broken:

@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
-from fenics_gears.geometry.gear import Gear as InRotation
-from fenics_gears.geometry.gear import transverse_gear
+from fenics_gears.geometry.gear import Gear, transverse_gear
 from fenics_gears.geometry.gear_data import RACKS, GearData
 from fenics_gears.inputs.fields import choice, number, quantity, whole_number
 from fenics_gears.inputs.section import Section
@@ -94,7 +93,7 @@ class WebText(Section):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Gear(Section):
+class GearText(Section):
     """``[gears.pinion]`` and ``[gears.wheel]``: the pinion drives; both are external gears. The tooth thickness is
     given by `profile_shift`, or measured (`tooth_thickness`, `base_tangent_length` or `dimension_over_balls`). With
     both, the measured thickness holds, and root circle with it, since one rack cuts both; tip circle and centre
@@ -268,15 +267,15 @@ class Gears(Section):
         " plane runs one to three modules of the wider gear's overhang count as carrying (`gears check` says how much)",
         "each gear has its own `face_width`",
     )
-    pinion: Gear
-    wheel: Gear
+    pinion: GearText
+    wheel: GearText
     rack: RackText | None = None
     material: MaterialText | None = None
 
-    def in_rotation(self, gear: GearData) -> InRotation:
+    def in_rotation(self, gear: GearData) -> Gear:
         """A gear in the section of rotation."""
         return transverse_gear(gear, self.module, self.pressure_angle, self.helix_angle or 0.0)
 
-    def rack_gear(self, teeth: int, shift: float, root_diameter: float = UNKNOWN) -> InRotation:
+    def rack_gear(self, teeth: int, shift: float, root_diameter: float = UNKNOWN) -> Gear:
         """A gear of which only rack, teeth and profile shift are known, and perhaps the root."""
         return self.in_rotation(GearData(teeth, shift, UNKNOWN, root_diameter, UNKNOWN, UNKNOWN))

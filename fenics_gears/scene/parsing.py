@@ -11,7 +11,6 @@ from typing import Any
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem, line_numbers, listed, placed
-from fenics_gears.inputs.toml_mistakes import in_words
 from fenics_gears.inputs.tree import MOST_NESTED, nested_too_deeply, written_out
 from fenics_gears.inputs.written import WrittenFloat, as_written
 from fenics_gears.system.console import control_character
@@ -31,6 +30,8 @@ def parsed(text: str, source: str) -> dict[str, Any]:
     try:
         tree = tomllib.loads(text, parse_float=WrittenFloat)
     except tomllib.TOMLDecodeError as error:
+        from fenics_gears.inputs.toml_mistakes import in_words
+
         raise SceneError(f"{in_words(error, text, source)}\n{NOTHING_DONE}") from None
     except (ValueError, RecursionError) as error:
         why = "is nested too deeply" if isinstance(error, RecursionError) else "a number has thousands of digits"
@@ -63,7 +64,7 @@ def _of_no_field(path: tuple[str, ...], value: Any) -> Iterator[Problem]:
 def values_of_text(
     text: str, name: str, *, source: str | None = None, directory: Path = Path(), with_lines: bool = True
 ) -> dict[str, Any]:
-    """The fields of the scene that a TOML text describes, by name; arguments and errors are those of
+    """The fields of the scene that a TOML text describes, by name; arguments and errors as in
     `read.scene_from_text`."""
     source = source or name
     tree = parsed(text, source)
@@ -122,8 +123,9 @@ def _measured_over(drawn) -> tuple[int | None, float | None]:
 def _motion(checked) -> Motion:
     """A turn of the pinion has as many mesh cycles as it has teeth.
 
-    Cycles that are run, unless given: one, or a whole hunting tooth period where cycles differ, after those of a
-    settling time. Cycles that are recorded, unless given: the last two; of a speed ramp or a whole period all that fit.
+    Cycles that are run, unless given: one, or a whole hunting tooth period where cycles differ; the cycles of a
+    settling time come before them. Cycles that are recorded, unless given: the last two; of a speed ramp or a whole
+    period all that fit.
     """
     motion = checked.motion
     gears = checked.gears

@@ -44,8 +44,7 @@ from .accuracy_rules import (
     recorded_cycles_are_run,
     settling_is_of_vibrations,
 )
-from .face_rules import rules_over_the_face
-from .gear_schema import MEASURES, Gear, Gears
+from .gear_schema import MEASURES, Gears, GearText
 from .schema import LoadText, scene_text
 
 TEETH = "tooth_elasticity"
@@ -69,8 +68,8 @@ def broken_by_numbers(tree: Tree, sections: Iterable[str]) -> list[Problem]:
 
 
 def _problems(tree: Tree, broken: Broken) -> list[Problem]:
-    found = ((path, value_at(tree, *path), message) for path, message in broken)
-    return [Problem(path, None if value is None else as_written(value), message) for path, value, message in found]
+    wrong = ((path, value_at(tree, *path), message) for path, message in broken)
+    return [Problem(path, None if value is None else as_written(value), message) for path, value, message in wrong]
 
 
 def _effects_fit_together(tree: Tree) -> Broken:
@@ -87,7 +86,7 @@ def _effects_fit_together(tree: Tree) -> Broken:
             remedy = f"Add {missing}, or leave [{effect.section}] out."
             yield (effect.section,), f"needs the section {missing}, which is missing. {remedy}"
     for effect, other in effects.conflicts(sections):
-        yield (effect.section,), f"cannot stand beside [{other}]. Leave one of the two out."
+        yield (effect.section,), f"cannot be combined with [{other}]. Leave one of the two out."
 
 
 def _both_gears_have_a_width(tree: Tree) -> Broken:
@@ -122,6 +121,8 @@ def _errors_are_small(tree: Tree) -> Broken:
 def _flanks_are_resolved_over_the_face(tree: Tree) -> Broken:
     """Fields of faces belong to three-dimensional scenes, which have rules of their own, and a hand to a helix."""
     if reasons := over_the_face(tree):
+        from .face_rules import rules_over_the_face
+
         yield from rules_over_the_face(tree, reasons)
     else:
         for path, allowed, _ in given(scene_text(tree), tree):
@@ -134,7 +135,7 @@ def _flanks_are_resolved_over_the_face(tree: Tree) -> Broken:
 
 
 def _remeshed_gears_have_one_width(tree: Tree) -> Broken:
-    """What stands out beyond the mate helps to carry, by a law for flanks that are condensed once."""
+    """An overhang beyond the mate helps to carry, by a law for flanks that are condensed once."""
     asked = value_at(tree, "accuracy", "condensation")
     common = quantity_at(tree, "gears", "face_width")
     widths = {quantity_at(tree, "gears", gear, "face_width") or common for gear in GEARS}
@@ -155,9 +156,9 @@ def _teeth_have_a_size(tree: Tree) -> Broken:
             others = ", ".join(names[1:-1]) + " or " * (len(names) > 2) + names[-1]
             yield ("gears", names[0]), f"is missing. Allowed: {allowed.description}; or {others}."
         elif name != names[0] and number:
-            found = in_normal_section(name, number, helix_angle)
-            if not allowed.lowest <= found <= allowed.highest:
-                words = f"{found / units.quantity(f'1 {allowed.unit}')[0]:.4g} {allowed.unit}"
+            size = in_normal_section(name, number, helix_angle)
+            if not allowed.lowest <= size <= allowed.highest:
+                words = f"{size / units.quantity(f'1 {allowed.unit}')[0]:.4g} {allowed.unit}"
                 message = f"makes {names[0]} = {words} in the normal section. Allowed of that: {allowed.description}."
                 yield ("gears", name), message
 
@@ -181,12 +182,12 @@ def _thickness_is_given_once(tree: Tree) -> Broken:
             continue
         measures = [name for name in MEASURES if name in own]
         if not measures and "profile_shift" not in own:
-            allowed = allowed_in(Gear, "profile_shift").description
+            allowed = allowed_in(GearText, "profile_shift").description
             yield ("gears", gear, "profile_shift"), f"is missing. Allowed: {allowed}; or one of {', '.join(MEASURES)}."
         for name in measures:
             beside = MEASURES[name]
             if beside is not None and beside not in own:
-                allowed = allowed_in(Gear, beside).description
+                allowed = allowed_in(GearText, beside).description
                 yield ("gears", gear, beside), f"is missing. Allowed: {allowed}; {name} has no meaning without it."
 
 
@@ -199,8 +200,8 @@ def _backlash_has_its_place(tree: Tree) -> Broken:
     if measured and (len({name.split(".")[1] for name in measured}) == 1 or "centre_distance" in gears):
         beside = measured[0] if "centre_distance" not in gears else f"{measured[0]} and gears.centre_distance"
         message = (
-            f"stands beside {beside}, of which it follows. Allowed: profile shifts of both gears alone, or measured"
-            " tooth thicknesses of both without centre_distance."
+            f"is given together with {beside}, from which it follows. Allowed: profile shifts of both gears alone, or"
+            " measured tooth thicknesses of both without centre_distance."
         )
         yield ("gears", "backlash"), message
 
@@ -208,7 +209,10 @@ def _backlash_has_its_place(tree: Tree) -> Broken:
 def _no_figure_is_given_twice(tree: Tree) -> Broken:
     gears = table(tree, "gears") or {}
     if "tip_shortening" in gears and all("tip_diameter" in (table(gears, gear) or {}) for gear in GEARS):
-        message = "stands beside the tip diameters of both gears, which say the same. Leave it out, or a tip diameter."
+        message = (
+            "is given together with the tip diameters of both gears, which say the same. Leave it out, or a tip"
+            " diameter."
+        )
         yield ("gears", "tip_shortening"), message
     for gear in GEARS:
         own = table(gears, gear) or {}
@@ -219,14 +223,14 @@ def _no_figure_is_given_twice(tree: Tree) -> Broken:
             ("tip_radius", "rack_tip_radius"),
         ):
             if name in rack and diameter in own:
-                message = f"stands beside gears.{gear}.{diameter}, which says the same. Leave one of the two out."
+                message = f"is given together with gears.{gear}.{diameter}, which says the same. Leave one out."
                 yield ("gears", gear, "rack", name), message
 
 
 def _protuberance_is_more_than_the_stock(tree: Tree) -> Broken:
     """Finishing takes no more than the protuberance has cut free, or it leaves a step in the root."""
     gears = table(tree, "gears") or {}
-    found = {}
+    wrong = {}
     pressure_angle = pressure_angle_in(tree)
     for gear in GEARS:
         amount, stock, angle = (
@@ -235,12 +239,12 @@ def _protuberance_is_more_than_the_stock(tree: Tree) -> Broken:
         cut = amount[1] if amount else 0.0
         if stock and stock[1] > cut:
             why = f"is more than the protuberance of the {gear}'s rack: finishing would leave a step in the root"
-            found[stock[0]] = f"{why}. Allowed: up to {cut:.4g} mm."
+            wrong[stock[0]] = f"{why}. Allowed: up to {cut:.4g} mm."
         if angle and not cut:
-            found[angle[0]] = "has no meaning without a protuberance. Give protuberance, or leave both out."
+            wrong[angle[0]] = "has no meaning without a protuberance. Give protuberance, or leave both out."
         elif angle and pressure_angle and angle[1] >= pressure_angle:
-            found[angle[0]] = f"must be less than the pressure angle, {degrees(pressure_angle):.6g} deg. Lower it."
-    yield from found.items()
+            wrong[angle[0]] = f"must be less than the pressure angle, {degrees(pressure_angle):.6g} deg. Lower it."
+    yield from wrong.items()
 
 
 def _of_rack(gears: Tree, gear: str, figure: str) -> tuple[tuple[str, ...], float] | None:
@@ -267,7 +271,7 @@ def _load_is_given_once(tree: Tree) -> Broken:
         message = 'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or mesh_frequency, or give a torque.'
         yield ("load", "power"), message
     if "speed_ramp" in tree:
-        yield ("load", "power"), "has no one torque beside [speed_ramp]. Give wheel_torque or pinion_torque."
+        yield ("load", "power"), "has no constant torque with [speed_ramp]. Give wheel_torque or pinion_torque."
 
 
 _RULES = (

@@ -185,12 +185,12 @@ def known_paths() -> dict[tuple[str, ...], bool]:
 
 @functools.cache
 def _paths(section: type[Section], home: tuple[str, ...]) -> dict[tuple[str, ...], bool]:
-    found: dict[tuple[str, ...], bool] = {}
+    paths: dict[tuple[str, ...], bool] = {}
     for name in names_in(section):
         inner = section_within(section, name)
         path = (*home, name)
-        found |= {path: inner is not None} | (_paths(inner, path) if inner is not None else {})
-    return found
+        paths |= {path: inner is not None} | (_paths(inner, path) if inner is not None else {})
+    return paths
 
 
 def checked_sections(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:
@@ -217,7 +217,7 @@ def without_echoes(problems: Iterable[Problem]) -> list[Problem]:
     by_path: dict[Path, list[Problem]] = {}
     for problem in problems:
         by_path.setdefault(problem.path, []).append(problem)
-    first = {path: next((each for each in found if not each.unknown), found[0]) for path, found in by_path.items()}
+    first = {path: next((each for each in alike if not each.unknown), alike[0]) for path, alike in by_path.items()}
     unknown = [problem.path for problem in first.values() if problem.unknown]
     return [
         problem for problem in first.values() if problem.written is not None or not _is_misspelt(problem.path, unknown)

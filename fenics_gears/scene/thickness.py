@@ -1,5 +1,5 @@
-"""The tooth thickness of a gear as a drawing has it, measured by caliper, span or balls. Most drawings give profile
-shifts and do not load it."""
+"""The tooth thickness of a gear as a drawing has it, measured by caliper, span or balls. Loaded where a drawing has a
+measure."""
 
 from collections.abc import Iterator
 
@@ -8,12 +8,11 @@ from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse
 
 from . import unusual
-from .gear_schema import MEASURES, Gears
-from .gear_schema import Gear as GearText
+from .gear_schema import MEASURES, Gears, GearText
 from .schema import Derived
 
 # Largest difference, in modules, of the profile shift of a thickness from that of the drawing, and largest profile
-# shift that a thickness alone may stand for: one spanned tooth more or less is a shift of 4.3 at 20 deg.
+# shift that a thickness alone may mean. One spanned tooth more or less is a shift of 4.3 at 20 deg.
 LARGEST_ALLOWANCE = 0.5
 LARGEST_SHIFT = 2.0
 
@@ -52,7 +51,7 @@ def shift_of_thickness(pair: Gears, drawn: GearText, name: str) -> tuple[float, 
 
 
 def check_measure(drawn: GearText, name: str, gear: Gear) -> None:
-    """Caliper and balls touch the involute, and balls stand out of the tip circle and clear of the root."""
+    """Caliper and balls touch the involute, and balls protrude from the tip circle and clear the root."""
     lowest = gear.form_radius
     measure = drawn.measure
     if measure == "tooth_thickness":

@@ -5,7 +5,7 @@ from math import tan
 
 from .gear_schema import Gears
 
-# Modules. Charts for the choice of profile shifts, such as those of DIN 3992 and ISO/TR 4467, stay within about these.
+# Modules. Charts for the choice of profile shifts, as in DIN 3992 and ISO/TR 4467, stay within about these.
 USUAL_SHIFTS = (-0.5, 1.0)
 # Modules; profile shifts of 1.2 in sum need 0.18 with 40 teeth in sum, and less with more teeth.
 LARGEST_SHORTENING = 0.2

@@ -41,11 +41,11 @@ def text_of(scene: Scene) -> str:
 def why_another(scene: Scene, text: str) -> str:
     """Why a text does not give a scene's data, in words; empty where it does."""
     try:
-        found = values_of_text(text, scene.name, directory=Path(scene.folder), with_lines=False)
+        values = values_of_text(text, scene.name, directory=Path(scene.folder), with_lines=False)
     except GearsError as error:
         return " ".join(str(error).removesuffix("Nothing was computed or written.").split())
     names = (each.name for each in fields(scene) if each.name not in WORDS)
-    differing = [name for name in names if found.get(name) != getattr(scene, name)]
+    differing = [name for name in names if values.get(name) != getattr(scene, name)]
     if not differing:
         return ""
     verb = "is" if len(differing) == 1 else "are"
@@ -54,7 +54,7 @@ def why_another(scene: Scene, text: str) -> str:
 
 def section_trees(scene: Scene) -> dict[str, Any]:
     """All sections of a scene file, by their names, from the data alone."""
-    found = {
+    trees = {
         "title": scene.title or None,
         "gears": _gears(scene.gears),
         "load": tree_of(scene.load, schema.LoadText),
@@ -63,44 +63,44 @@ def section_trees(scene: Scene) -> dict[str, Any]:
         "output": tree_of(scene.output) or None,
     }
     own = (effect for effect in effects_on(scene) if not effect.within)
-    found |= {effect.section: effect.as_section(getattr(scene, effect.section)) for effect in own}
-    return {name: tree for name, tree in found.items() if tree is not None}
+    trees |= {effect.section: effect.as_section(getattr(scene, effect.section)) for effect in own}
+    return {name: tree for name, tree in trees.items() if tree is not None}
 
 
 def _as_read_where_the_same(scene: Scene, sections: dict[str, Any]) -> dict[str, Any]:
     read = values_of_text(scene.written, scene.name, directory=Path(scene.folder))
     written = parsed(scene.written, "")
-    found = {}
+    chosen = {}
     for name in written | sections:
         if read.get(name) != getattr(scene, name):
-            found[name] = sections.get(name)
+            chosen[name] = sections.get(name)
         elif name in written:
-            found[name] = written[name]
-    return found
+            chosen[name] = written[name]
+    return chosen
 
 
 def _gears(pair: GearPairData) -> dict[str, Any]:
     section = gear_schema.Gears
     own_width = any(getattr(pair, name).face_width is not None for name in GEARS)
-    found = tree_of(pair, section, ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ())))
+    tree = tree_of(pair, section, ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ())))
     if pair.helix_angle:
-        found["pinion_hand"] = pair.pinion_hand
+        tree["pinion_hand"] = pair.pinion_hand
     for name, width, offset in zip(GEARS, pair.face_widths, pair.axial_offsets):
-        found[name] = _gear(getattr(pair, name), width, own_width)
+        tree[name] = _gear(getattr(pair, name), width, own_width)
         if offset:
-            found[name]["axial_offset"] = field_of(gear_schema.Gear, "axial_offset", offset)
-    return found
+            tree[name]["axial_offset"] = field_of(gear_schema.GearText, "axial_offset", offset)
+    return tree
 
 
 def _gear(gear: GearData, width: float, own_width: bool) -> dict[str, Any]:
-    found = tree_of(gear, gear_schema.Gear, ("face_width", "web"))
+    tree = tree_of(gear, gear_schema.GearText, ("face_width", "web"))
     if own_width:
-        found["face_width"] = field_of(gear_schema.Gear, "face_width", width)
+        tree["face_width"] = field_of(gear_schema.GearText, "face_width", width)
     if gear.protuberance:
-        found["rack"] = tree_of(gear, gear_schema.RackText)
+        tree["rack"] = tree_of(gear, gear_schema.RackText)
     if gear.web is not None:
-        found["web"] = _web(gear.web, width)
-    return found
+        tree["web"] = _web(gear.web, width)
+    return tree
 
 
 def _web(web: Web, face_width: float) -> dict[str, Any]:
@@ -113,7 +113,7 @@ def _web(web: Web, face_width: float) -> dict[str, Any]:
 
 def _length_of(share: float, whole: float) -> float:
     product = share * whole
-    # The quotient is rounded too: a number beside the product may be the one that gives the share.
+    # The quotient is rounded too: a neighbour of the product may be the number that gives the share.
     near = (product, math.nextafter(product, math.inf), math.nextafter(product, -math.inf))
     return next((each for each in near if each / whole == share), product)
 
@@ -121,18 +121,18 @@ def _length_of(share: float, whole: float) -> float:
 def _motion(scene: Scene) -> dict[str, Any]:
     motion = scene.motion
     period = math.lcm(scene.gears.pinion.teeth, scene.gears.wheel.teeth)
-    found: dict[str, Any] = {}
+    tree: dict[str, Any] = {}
     if motion.speed_given:
-        found["mesh_frequency"] = field_of(schema.MotionText, "mesh_frequency", motion.mesh_frequency)
+        tree["mesh_frequency"] = field_of(schema.MotionText, "mesh_frequency", motion.mesh_frequency)
     if not motion.fewer_where_too_large:
-        return found | {"mesh_cycles": motion.mesh_cycles, "recorded_cycles": motion.recorded_cycles}
+        return tree | {"mesh_cycles": motion.mesh_cycles, "recorded_cycles": motion.recorded_cycles}
     # As many as fit are recorded of a ramp, of a whole hunting tooth period, and of one after a settling time.
     if scene.speed_ramp is not None:
-        return found | {"mesh_cycles": motion.mesh_cycles}
+        return tree | {"mesh_cycles": motion.mesh_cycles}
     if motion.mesh_cycles == period:
-        return found | {"mesh_cycles": HUNTING_TOOTH_PERIOD}
+        return tree | {"mesh_cycles": HUNTING_TOOTH_PERIOD}
     settling = (motion.mesh_cycles - max(period, LAST_CYCLES)) / motion.mesh_frequency
-    return found | {"settling_time": field_of(schema.MotionText, "settling_time", settling)}
+    return tree | {"settling_time": field_of(schema.MotionText, "settling_time", settling)}
 
 
 MOST_LETTERS = 80

@@ -85,15 +85,15 @@ class Cases:
     def fields(self) -> list[SweptField]:
         """The swept fields, the last one turning fastest."""
         shape = self.dataset["failed"]
-        found = []
+        swept = []
         for name, coordinate in self.dataset.coords.items():
             if name in ("case", "mesh_phase", "gear") or not set(coordinate.dims) <= set(shape.dims):
                 continue
             values = coordinate.broadcast_like(shape).transpose(*shape.dims).values.ravel()
             unit, path = (str(coordinate.attrs.get(*each)) for each in (("units", ""), ("long_name", name)))
-            found.append(SweptField(str(name), path, "" if unit == "1" else unit.replace("um", "µm"), values))
+            swept.append(SweptField(str(name), path, "" if unit == "1" else unit.replace("um", "µm"), values))
         order = {dimension: place for place, dimension in enumerate(shape.dims)}
-        return sorted(found, key=lambda field: order.get(field.name, 0))
+        return sorted(swept, key=lambda field: order.get(field.name, 0))
 
     def numbers(self, name: str) -> np.ndarray:
         """A number of each case (n,), not a number where there is none."""
@@ -150,10 +150,10 @@ class Cases:
             return ""
         file = self.file.parent / name
         page = file.with_suffix(".html")
-        found = next((each for each in (page, file) if each.is_file()), None)
-        if found is None:
+        target = next((each for each in (page, file) if each.is_file()), None)
+        if target is None:
             return ""
-        return urllib.parse.quote(os.path.relpath(found.resolve(), self.output.parent.resolve()))
+        return urllib.parse.quote(os.path.relpath(target.resolve(), self.output.parent.resolve()))
 
     @cached_property
     def error_scale(self) -> tuple[float, str]:

@@ -36,8 +36,8 @@ class Curve:
     """Values (n,) over places (n,) of the first axis, numbers or words; a band has values (2, n), its lower and upper
     edge.
 
-    width: of the line in pixels, or of bars along the first axis. fill: colour inside a closed line. words: beside each
-    place, on the side `beside` ("right", "top right").
+    width: of the line in pixels, or of bars along the first axis. fill: colour inside a closed line. words: next to
+    each place, on the side `beside` ("right", "top right").
     """
 
     name: str
@@ -109,7 +109,7 @@ class Chart:
 
     @property
     def has_legend(self) -> bool:
-        """Whether names are to be listed: those of more than one curve, or of what lies on a field."""
+        """Whether names are to be listed: of more than one curve, or of curves on a field."""
         return sum(curve.listed for curve in self.curves) > (self.field is None)
 
     @property
@@ -137,8 +137,7 @@ class Chart:
 
     @property
     def flag_rows(self) -> list[int]:
-        """The row above the curves in which each flag's words stand right of its line: no words over others or
-        another's line."""
+        """The row above the curves for each flag's words, right of its line: no words over others or another's line."""
         first, last = self.x_range
         rows = [0] * len(self.flags)
         order = sorted(range(len(self.flags)), key=lambda each: self.flags[each].x)
@@ -166,8 +165,9 @@ def of_variables(
     least: float = 0.0,
     **options,
 ) -> list[Chart]:
-    """A chart of those of these variables, by name and words, that a run's result has, in this unit; none without any.
-    Those of both gears have a curve for either. least: the smallest span shown, else a part of the largest value."""
+    """A chart of the variables, by name and words, that a run's result has, in this unit; none where it has none of
+    them. Those of both gears have a curve for either. least: the smallest span shown, else a part of the largest
+    value."""
     curves: list[Curve] = []
     for (name, words), colour in zip(names.items(), colours):
         if name in run.dataset:
@@ -204,7 +204,7 @@ LINE = 0.22
 LEGEND_ROW = 0.265
 FLAG_ROW = 0.236
 TICK_ROW = 0.33
-# Widths of a letter at a tick, in a flag and in a legend, and of what a legend's entry has besides.
+# Widths of a letter at a tick, in a flag and in a legend, and of the rest of a legend's entry.
 LETTER = 0.106
 FLAG_LETTER = 0.092
 LEGEND_LETTER = 0.092
@@ -264,7 +264,7 @@ class Panel:
 
     @property
     def legend_columns(self) -> int:
-        """Names beside each other, as wide as the widest where they are not all in one row."""
+        """Names in rows, as wide as the widest where they are not all in one row."""
         widths = [LEGEND_HANDLE + LEGEND_LETTER * len(curve.name) for curve in self.chart.curves if curve.listed]
         return len(widths) if sum(widths) <= 0.82 * WIDTH else max(1, int(0.82 * WIDTH / max(widths)))
 
@@ -286,7 +286,7 @@ class Scale:
 
     @property
     def label_width(self) -> float:
-        """Room of ticks and labels beside an upright axis."""
+        """Width of ticks and labels of an upright axis."""
         return 2 * TICK + LETTER * max(map(len, self.labels), default=0)
 
     @property

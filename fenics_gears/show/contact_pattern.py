@@ -16,7 +16,7 @@ from .run import ShownRun
 
 ACROSS = "Distance along the axes from the middle of the common face (mm)"
 ROWS = 200
-# Times the pressure of the step beside it, from which a peak is that of an edge and not of the flank.
+# A peak is an edge's and not the flank's from this many times the pressure of a neighbouring step.
 EDGE_PEAK = 2.0
 NOTE = "Averaged over five contact nodes; between steps the peak is interpolated along the flank."
 GEARS = ("pinion", "wheel")
@@ -29,13 +29,14 @@ def contact_patterns(run: ShownRun) -> list[Chart]:
     side = carrying_side(run.dataset)
     part = run.last_fields
     pressure, rolls = over_face(part, side)
-    found = pressure[(pressure > 0.0) & np.isfinite(rolls)]
-    if not found.size:
+    pressed = pressure[(pressure > 0.0) & np.isfinite(rolls)]
+    if not pressed.size:
         return []
-    limit = colour_limit(run, found)
-    beyond = f", beyond the colours up to {found.max():.0f} MPa" if found.max() > limit * (1 + 1e-9) else ""
+    limit = colour_limit(run, pressed)
+    peak = pressed.max()
+    above = f": colours end at {limit:.0f} MPa, the peak is {peak:.0f} MPa" if peak > limit * (1 + 1e-9) else ""
     both = (rolls, rolls_on_wheel(run.pair, part, side, rolls))
-    return [_pattern(run, gear, side, pressure, of_gear, limit, beyond) for gear, of_gear in enumerate(both)]
+    return [_pattern(run, gear, side, pressure, of_gear, limit, above) for gear, of_gear in enumerate(both)]
 
 
 def over_face(part: xr.Dataset, side: str) -> tuple[np.ndarray, np.ndarray]:
@@ -46,7 +47,7 @@ def over_face(part: xr.Dataset, side: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def rolls_on_wheel(pair: GearPair, part: xr.Dataset, side: str, rolls: np.ndarray) -> np.ndarray:
-    """Roll angles (rad) on the wheel's flank of contact nodes from those on the pinion's: they stand as far from the
+    """Roll angles (rad) on the wheel's flank of contact nodes from those on the pinion's: they are as far from the
     point of contact, on the other side."""
     numbers = part["contact_pair_number"]
     since = part["contact_mesh_phase"].values[:, None] - (numbers.values - numbers.attrs["number_at_phase_0"])
@@ -57,7 +58,7 @@ def rolls_on_wheel(pair: GearPair, part: xr.Dataset, side: str, rolls: np.ndarra
     return np.sqrt(np.maximum(of_wheel**2 - 2.0 * along / pair.wheel.base_radius, 0.0))
 
 
-def _pattern(run: ShownRun, gear: int, side: str, pressure, rolls, limit: float, beyond: str) -> Chart:
+def _pattern(run: ShownRun, gear: int, side: str, pressure, rolls, limit: float, above: str) -> Chart:
     pair = run.pair
     name = GEARS[gear]
     data = getattr(pair, name)
@@ -70,7 +71,7 @@ def _pattern(run: ShownRun, gear: int, side: str, pressure, rolls, limit: float,
     lines = [("pitch cylinder", pitch, DARK, "dash"), ("start of the active profile", active, GREY, "dot")]
     flank = " (coast flank)" if side else ""
     return Chart(
-        f"Largest contact pressure on the {name}'s flank{flank}{beyond}",
+        f"Largest contact pressure on the {name}'s flank{flank}{above}",
         [Curve(words, face, np.full(2, d), colour, dash, 1.0) for words, d, colour, dash in lines],
         ACROSS, f"Diameter on the {name} (mm)", x_range=pair.common_face,
         y_range=(2.0 * data.radius(ends[0]), 2.0 * data.radius(ends[1])),

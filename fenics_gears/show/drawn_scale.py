@@ -18,8 +18,7 @@ STEPS = (1.0, 2.0, 5.0)
 
 
 def automatic_scale(meshes: list[GearsInMesh]) -> float:
-    """The largest of 1, 2, 5, 10, ... at which displacements are well seen and no tooth is visibly drawn into
-    another."""
+    """The largest of 1, 2, 5, 10, ... at which displacements are visible and no tooth is visibly drawn into another."""
     module = meshes[0].pair.pinion.module
     wanted = SHOWN_MOVEMENT * module / max(max(largest_movement(mesh) for mesh in meshes), 1e-9 * module)
     scales = [step * 10.0**power for power in range(9) for step in STEPS if step * 10.0**power <= wanted]
@@ -38,7 +37,7 @@ def overlap(mesh: GearsInMesh, scale: float) -> float:
         reached = own[np.linalg.norm(own - centre, axis=1) < np.linalg.norm(other - centre, axis=1).max()]
         inside = reached[Path(other).contains_points(reached)]
         if len(inside):
-            # Depth from the sides, not from the nodes alone: these stand apart by up to an element.
+            # Depth from the sides, not from the nodes alone: these are up to an element apart.
             deepest = max(deepest, float(_distance_to_line(inside, other).max()))
     return deepest
 

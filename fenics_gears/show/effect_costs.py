@@ -102,7 +102,7 @@ def _bars(axes: Axes, report: EffectReport, places: np.ndarray, name: str, facto
 
 
 def _number(value: float, largest: float) -> str:
-    """A value with three digits or more; round-off beside the largest is zero."""
+    """A value with three digits or more; round-off of the largest is zero."""
     if abs(value) < 1e-9 * abs(largest):
         return "0"
     return f"{value:,.0f}" if value >= 1e3 else f"{value:.3g}"

@@ -58,7 +58,7 @@ def face_picture(
     mesh: GearsInMesh, dataset: xr.Dataset, scale: float, limit: float, beyond: bool, dpi: float
 ) -> Figure:
     """Both gears in mesh, and the loaded teeth of each alone; `scale`: of the displacements of the teeth from the hubs.
-    limit, beyond: as of `stress_picture`. Raises ComputationError without pyvista."""
+    limit, beyond: as in `stress_picture`. Raises ComputationError without pyvista."""
     figure = Figure(figsize=(16.0, 9.0), dpi=dpi)
     tiles = [pressed_tiles(mesh, dataset, gear, scale) for gear in (0, 1)]
     highest = rounded_up(dataset.attrs.get("peak_contact_pressure", 0.0) or float(tiles[0].pressure.max(initial=0.0)))
@@ -107,7 +107,7 @@ def root_tension(mesh: GearsInMesh) -> Chart:
         f"Largest tension in the roots along the face at mesh phase {mesh.mesh_phase:.3f}", curves, ACROSS,
         "Largest principal stress (MPa)",
         y_range=(0.0, 1.08 * max(float(curve.y.max()) for curve in curves) or 1.0),
-        note="At the nodes of the bodies' mesh, the loaded teeth and those beside them.",
+        note="At the nodes of the bodies' mesh, the loaded teeth and their neighbours.",
     )  # fmt: skip
 
 

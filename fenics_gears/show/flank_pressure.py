@@ -16,7 +16,7 @@ from .contact_pattern import over_face, rolls_on_wheel
 from .loaded_contact import stored_place
 from .pressure import node_edges
 
-# Tiles stand off the flank by this part of a module, so that the facets of the bodies' mesh do not cover them.
+# Tiles are off the flank by this part of a module, so that the facets of the bodies' mesh do not cover them.
 STAND_OFF = 0.02
 NEAREST = 3
 
@@ -80,5 +80,7 @@ def _displacement(mesh: GearsInMesh, gear: int, points: np.ndarray) -> np.ndarra
     teeth = mesh.gears[gear]
     distance, node = cKDTree(teeth.points.reshape(-1, 3)).query(points.reshape(-1, 3), NEAREST)
     weight = 1.0 / np.maximum(distance, 1e-9)
-    found = (weight[..., None] * teeth.elastic.reshape(-1, 3)[node]).sum(axis=1) / weight.sum(axis=1, keepdims=True)
-    return found.reshape(points.shape)
+    displacement = (weight[..., None] * teeth.elastic.reshape(-1, 3)[node]).sum(axis=1) / weight.sum(
+        axis=1, keepdims=True
+    )
+    return displacement.reshape(points.shape)

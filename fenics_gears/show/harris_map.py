@@ -27,7 +27,7 @@ def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "") -> Chart:
     cycles), in um along the line of action.
 
     result: a variable in a unit of length; or a dataset with `transmission_error` in a unit of length, or in rad of the
-    wheel beside the attribute `base_radius_wheel` (mm). The coordinate `load` has units. Curves of one mesh cycle are
+    wheel with the attribute `base_radius_wheel` (mm). The coordinate `load` has units. Curves of one mesh cycle are
     drawn twice; of more than two the first two; a load without a result (not a number) has no curve. Raises
     ComputationError for a result without these dimensions and units.
     """
@@ -84,7 +84,7 @@ def _names(curves: list[Curve]) -> list[Curve]:
 
 
 def words_apart(ends: Sequence[tuple[float, float, str]], apart: float, beside: str) -> Curve:
-    """Words beside places of a chart, those that would lie on each other moved up until they are apart."""
+    """Words next to places of a chart; words that would overlap are moved up until they are apart."""
     ends = sorted(ends, key=lambda end: end[1])
     heights = np.array([height for _, height, _ in ends])
     for place in range(1, len(heights)):

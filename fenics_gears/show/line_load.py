@@ -61,7 +61,7 @@ def _of_pair(run: ShownRun, side: str, loads: np.ndarray, phase: np.ndarray, sli
     first = int(since[known].min())
     own = np.zeros((int(since[known].max()) - first + 1, loads.shape[2]))
     np.maximum.at(own, since[known] - first, loads[known])
-    # Phases of the steps are those of the last one and whole steps before it.
+    # Phases of the steps are whole steps before that of the last one.
     positions = pair.path_start, pair.pitch_point, pair.path_end
     start, pitch, end = sorted(passing(pair, position, side) for position in positions)
     last = float(phase[-1]) - step * round(float(phase[-1]) / step)
@@ -116,16 +116,16 @@ def _over_face(run: ShownRun, side: str, loads: np.ndarray, z: np.ndarray) -> Ch
     return Chart(
         "Line load along the face", drawn + ends, ACROSS, TITLE,
         x_range=run.pair.common_face, y_range=(0.0, highest),
-        note="Face load factor: largest over mean along the face. Even load: that of rigid gears when their lines of"
+        note="Face load factor: largest over mean along the face. Even load: of rigid gears when their lines of"
         " contact are shortest. Edges: the ends of the face, and tips and form circles where a line of contact ends."
         " The factors away from edges are of means over half a module.",
     )  # fmt: skip
 
 
-def _correction(found) -> str:
-    slope = found["proposed_helix_slope"]
-    crowning = found["proposed_crowning"]
-    factor = FACTORS["face_load_factor"].format(found["proposed_face_load_factor"])
+def _correction(numbers) -> str:
+    slope = numbers["proposed_helix_slope"]
+    crowning = numbers["proposed_crowning"]
+    factor = FACTORS["face_load_factor"].format(numbers["proposed_face_load_factor"])
     return f"mesh, as proposed: pinion's helix slope {slope:.1f} µm, crowning {crowning:.1f} µm{factor}"
 
 

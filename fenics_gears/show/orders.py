@@ -92,7 +92,7 @@ def order_spectrum(run: ShownRun) -> Chart | None:
 
 
 def _flags(lines: OrderLines, teeth: int, known: list[tuple[float, str]], bottom: float, highest: float) -> list[Flag]:
-    """Mesh orders, orders that one cause is known for, and a turn of the pinion beside the mesh order where it stands
+    """Mesh orders, orders with one known cause, and orders a turn of the pinion from a mesh order where they stand
     out."""
     flags = [
         Flag(each * teeth, lines.at(each * teeth), "mesh" if each == 1 else f"{each} × mesh", PALETTE[0])
@@ -113,32 +113,32 @@ def _by_origin(lines: OrderLines, kinds: np.ndarray, seen: np.ndarray, wide: flo
     return curves
 
 
-def mesh_order_chart(run: ShownRun, name: str, unit: str, found: Spectrum) -> Chart:
+def mesh_order_chart(run: ShownRun, name: str, unit: str, spectrum: Spectrum) -> Chart:
     """Amplitudes over mesh orders."""
-    lines = found.lines
+    lines = spectrum.lines
     shown = (lines.orders <= MESH_ORDERS) & (lines.amplitudes > LEAST_PART * lines.amplitudes.max(initial=0.0))
     spacing = lines.orders[0] if len(lines.orders) else 1.0
     width = min(0.12, 0.8 * spacing)
     both = "coast_normal_force" in run.dataset and name == FORCE
     sides = ", drive flanks positive, coast flanks negative" if both else ""
-    note = f"Amplitudes of the harmonics, without the mean{sides}; {found.record}.{_beyond(lines)}"
-    curves = _by_origin(lines, found.origins, shown, width, width)
+    note = f"Amplitudes of the harmonics, without the mean{sides}; {spectrum.record}.{_beyond(lines)}"
+    curves = _by_origin(lines, spectrum.origins, shown, width, width)
     title = "Mesh order (events a mesh cycle)"
     return Chart(name, curves, title, f"Amplitude ({unit})", note, height=320, x_range=(0.0, MESH_ORDERS))
 
 
 def spectrum(run: ShownRun, values: np.ndarray) -> Spectrum:
-    """The mesh orders of values (time,): of whole hunting tooth periods where these are stored at a steady speed, so
-    that what comes with a turn of either gear stands apart; else of whole mesh cycles."""
+    """The mesh orders of values (time,). Where whole hunting tooth periods are stored at a steady speed, they are
+    taken, so that orders of either gear's rotation are separate; else whole mesh cycles."""
     scene = run.scene
     if scene is not None and scene.speed_ramp is None:
         teeth = scene.gears.pinion.teeth, scene.gears.wheel.teeth
-        found = order_lines(values, run.cycles, teeth)
-        if found is not None and found.exact:
+        amplitudes = order_lines(values, run.cycles, teeth)
+        if amplitudes is not None and amplitudes.exact:
             periods = int(run.cycles * (1 + 1e-9)) // lcm(*teeth)
             record = f"of {periods} hunting tooth period{'s' if periods > 1 else ''} ({lcm(*teeth)} mesh cycles each)"
-            origins = np.array([origin(order, teeth) for order in found.orders])
-            return Spectrum(replace(found, orders=found.orders / teeth[0]), origins, record)
+            origins = np.array([origin(order, teeth) for order in amplitudes.orders])
+            return Spectrum(replace(amplitudes, orders=amplitudes.orders / teeth[0]), origins, record)
     lines = order_lines(values, run.cycles, (1, 1))
     origins = np.where(np.abs(lines.orders - np.round(lines.orders)) < 1e-6, MESH, BETWEEN)
     whole = int(run.cycles * (1 + 1e-9))

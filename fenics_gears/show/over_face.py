@@ -11,10 +11,10 @@ from .run import ShownRun
 
 def charts_over_face(run: ShownRun) -> dict[str, Callable[[ShownRun], list[Chart]]]:
     """What draws them, by subject."""
-    found: dict[str, Callable[[ShownRun], list[Chart]]] = {
+    charts: dict[str, Callable[[ShownRun], list[Chart]]] = {
         "Contact pattern": contact_patterns,
         "Line load along the face": line_loads,
     }
     if "bearing" in run.dataset.dims:
-        found["Shafts under load"] = bent_shafts
-    return found
+        charts["Shafts under load"] = bent_shafts
+    return charts

@@ -117,8 +117,8 @@ MOST_POINTS = 2000
 
 def thinned(values: np.ndarray, most: int = MOST_POINTS) -> np.ndarray:
     """Indices (k,) of the values (n,) that a curve is drawn through: all of them up to `most`. Of longer curves they
-    are both ends and, of each of most/2 slices, the smallest and the largest value and a value that is not a number,
-    where there is one."""
+    are both ends and, of each of most/2 slices, the smallest and the largest value, and one that is not a number where
+    there is any."""
     count = len(values)
     if count <= most:
         return np.arange(count)

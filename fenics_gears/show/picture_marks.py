@@ -44,7 +44,7 @@ def _note(axes: Axes, words: str, point, offset) -> None:
 
 
 def name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
-    """Names in the bores, or above or beside too small ones; which gear drives, and the sense in which either turns."""
+    """Names in the bores, or above or next to small ones; which gear drives, and the sense in which either turns."""
     bottom, top = axes.get_ylim()
     height = axes.get_position().height * axes.figure.get_figheight() * 72.0
     point = (top - bottom) / height
@@ -65,7 +65,7 @@ def name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
 
 
 def place_of_name(gear, point: float) -> tuple[np.ndarray, str, str]:
-    """Where a gear's name stands from its centre (mm), with its alignment."""
+    """Place of a gear's name from its centre (mm), with its alignment."""
     if gear.bore_radius >= LEAST_BORE * point:
         return np.zeros(2), "center", "center"
     if gear.root_radius - gear.bore_radius > 2.0 * LEAST_BORE * point:

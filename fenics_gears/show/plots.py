@@ -29,7 +29,6 @@ from .motion import (
     wheels_shaft,
 )
 from .orders import OF_ERROR, order_spectrum
-from .over_face import charts_over_face
 from .panels import DARK, DOTS_PER_INCH, WARNING, styled
 from .pressure import pressure_maps
 from .run import ShownRun, conditions
@@ -78,11 +77,14 @@ def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
     _check_steps(run)
     pictures = PICTURES
     if run.over_face:
+        # Runs in the plane load none of these charts.
+        from .over_face import charts_over_face
+
         pictures = PICTURES | dict(zip(FACE_PICTURE_FILES, charts_over_face(run).items()))
     subjects = {name: (subject, list(charts(run))) for name, (subject, charts) in pictures.items()}
     colour = DARK if run.complete else WARNING
-    found = ((name, *subject) for name, subject in subjects.items())
-    return {name: picture(_heading(run, subject), charts, colour) for name, subject, charts in found if charts}
+    drawn = ((name, *subject) for name, subject in subjects.items())
+    return {name: picture(_heading(run, subject), charts, colour) for name, subject, charts in drawn if charts}
 
 
 def _heading(run: ShownRun, subject: str) -> str:

@@ -11,8 +11,8 @@ from .run import ShownRun
 # Which side of the teeth: how the result's variables of that side begin, and what it is called.
 APART_NOTE = " The pressure at edges and kinks does not converge with the mesh."
 SIDES = {"": "drive flanks", "coast_": "coast flanks"}
-# Edges press with several times as much as flanks, which would leave one colour for these: colours end at this part of
-# the peak pressure away from edges, in which single nodes scatter.
+# Edges press several times as much as flanks, which would leave one colour for the flanks. So colours end at this
+# multiple of the peak pressure away from edges, within which single nodes scatter.
 ABOVE_PEAK = 1.1
 # Where that is not known: per cent of the cells that the colours span; times that, from which they end there.
 COMMON_SHARE = 98.0
@@ -91,7 +91,7 @@ def _map(
 
 
 def _peaks(run: ShownRun) -> str:
-    """The settled run's peak pressures, which are not those of single nodes."""
+    """The settled run's peak pressures, averaged over several nodes."""
     attributes = run.dataset.attrs
     if "peak_contact_pressure" not in attributes:
         return ""
@@ -104,7 +104,7 @@ def _peaks(run: ShownRun) -> str:
 
 def pressure_field(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, limit: float) -> Field:
     """The largest pressure (MPa) in each cell of a raster over steps and flank, from pressure and roll angle (step,
-    pair, node) and the steps' mesh cycles (step,): nodes reach half-way to their neighbours and to the steps before and
+    pair, node) and the steps' mesh cycles (step,). Nodes reach half-way to their neighbours and to the steps before and
     after. `limit`: where the colours end."""
     low, high = node_edges(place)
     known = (pressure > 0.0) & np.isfinite(low) & np.isfinite(high)

@@ -174,7 +174,7 @@ class ShownRun:
 
     def fields(self, side: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Contact pressure (MPa) and the pinion's roll angle (deg) of the contact nodes, both (step, slot, node), in
-        the middle of the face if they are resolved over it; the steps' mesh cycles (step,) and the pairs' numbers
+        the middle of the face if they are resolved over it. Then the steps' mesh cycles (step,) and the pairs' numbers
         (step, slot). side: how the result's variables of that side begin."""
         part = in_middle_slice(self.last_fields)
         order = ("contact_time", "slot", "contact_node")
@@ -184,7 +184,7 @@ class ShownRun:
 
 
 def _with_ends(there: np.ndarray) -> np.ndarray:
-    """Where there are values (time,), and beside these, so that curves begin and end at zero."""
+    """Where there are values (time,), and one step before and after, so that curves begin and end at zero."""
     near = there.copy()
     near[1:] |= there[:-1]
     near[:-1] |= there[1:]

@@ -73,8 +73,8 @@ def _image(figure: Figure) -> np.ndarray:
 def _write_gif(frames: list[np.ndarray], path: Path) -> None:
     from PIL import Image
 
-    # One palette for all frames, or flat colours would flicker; made of the colours of stress and greys, since one made
-    # from the frames would spend itself on the pale bodies.
+    # One palette for all frames, or flat colours would flicker. It is made of the colours of stress and greys: one made
+    # from the frames would mostly have colours of the pale bodies.
     greys = np.linspace(0.0, 1.0, 256 - STRESS_COLOURS)[:, None] * np.ones(3)
     colours = np.vstack([COLOURS(np.linspace(0.0, 1.0, STRESS_COLOURS))[:, :3], greys])
     palette = Image.new("P", (1, 1))
@@ -100,8 +100,8 @@ def _write_mp4(frames: list[np.ndarray], path: Path) -> None:
 
 
 def save_series(runs: RunStresses, dataset: xr.Dataset, collection: Path, report: Callable[[int, int], None]) -> None:
-    """Write a .pvd file and the .vtu files that it lists, beside it and named after it, of the moving picture's steps;
-    `report(done, all)` is called for each. Raises what `save_vtu` raises."""
+    """Write a .pvd file and, in its folder and named after it, the .vtu files that it lists, of the moving picture's
+    steps; `report(done, all)` is called for each. Raises what `save_vtu` raises."""
     root = ElementTree.Element("VTKFile", {"type": "Collection", "version": "0.1"})
     listed = ElementTree.SubElement(root, "Collection")
     steps = frame_steps(dataset)

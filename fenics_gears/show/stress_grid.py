@@ -173,14 +173,14 @@ def _fields(body: GearInSpace, number: int, over_face: bool) -> dict[str, np.nda
         fields["elastic_displacement"] = body.elastic
     fields |= {f"stress_{name}": body.stress[..., i, j] for name, (i, j) in components.items()}
     fields["von_mises_stress"] = body.von_mises
-    found = {name: values.reshape(-1, *values.shape[3:]) for name, values in fields.items()}
-    found["gear"] = np.full(body.von_mises.size, number)
-    found["sector" if over_face else "tooth"] = np.repeat(body.sectors, body.points[0, ..., 0].size)
-    return found
+    flat = {name: values.reshape(-1, *values.shape[3:]) for name, values in fields.items()}
+    flat["gear"] = np.full(body.von_mises.size, number)
+    flat["sector" if over_face else "tooth"] = np.repeat(body.sectors, body.points[0, ..., 0].size)
+    return flat
 
 
 def in_tooth_order(mesh: GearsInMesh, gear: int) -> GearInSpace:
-    """A plane gear whose sectors stand in the order of its teeth: tooth j is the one that tooth pair j loads.
+    """A plane gear whose sectors are in the order of its teeth: tooth j is the one that tooth pair j loads.
 
     The sectors of a `GearInSpace` begin anew in each mesh cycle, with the tooth that last reached the start of contact.
     """

@@ -26,7 +26,7 @@ from .picture_marks import frame_in, length_bar, line_of_action, name_gears
 from .stress_grid import View, fitted, shown_points, teeth_view, whole_view
 from .stress_heading import COLOURS, colour_bar, heading, rounded_up
 
-# Triangles of a gear in a panel, at least: with fewer their edges are seen in the colours.
+# Triangles of a gear in a panel, at least: with fewer their edges are visible in the colours.
 LEAST_TRIANGLES = 20_000
 # The colours end at this multiple of the largest stress in the fillets: what touches would else leave no colour for the
 # roots.
@@ -44,8 +44,8 @@ FRAME_WIDTH = 9.6
 
 
 def colour_limit(meshes: list[GearsInMesh]) -> float:
-    """Stress (MPa) at which the colours end: the largest, or a multiple of that in the fillets where contact exceeds it
-    by far; over the face the largest in the roots."""
+    """Stress (MPa) at which the colours end: the largest or, where contact exceeds it by far, a multiple of the largest
+    in the fillets. Over the face it is the largest in the roots."""
     roots = max(_stress_of_roots(mesh) for mesh in meshes)
     if meshes[0].over_face:
         return rounded_up(roots)
@@ -63,7 +63,7 @@ def still(mesh: GearsInMesh, dataset: xr.Dataset, scale: float | None = None) ->
 
 
 def charts_of(mesh: GearsInMesh) -> tuple[str, list[Chart]]:
-    """What the picture of one time shows, in words, and charts beside it."""
+    """What the picture of one time shows, in words, and the charts next to it."""
     if not mesh.over_face:
         return "Von Mises stress", []
     return "Contact pressure and von Mises stress", [root_tension(mesh)]
@@ -161,7 +161,7 @@ def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float,
 
 
 def _triangles(points: np.ndarray, cells: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Cells as triangles (k, 3, 3), at each corner x, y and value; divided until their edges are not seen in the
+    """Cells as triangles (k, 3, 3), at each corner x, y and value; divided until their edges are not visible in the
     colours."""
     # Four corners are two triangles.
     triangles = np.vstack([cells[:, [0, second, second + 1]] for second in range(1, cells.shape[1] - 1)])

@@ -42,7 +42,7 @@ def effort_charts(cases: Cases) -> list[Chart]:
 
 
 def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note: str = "") -> Chart:
-    """Values (n,) of all cases over the study's parameters; a note of the caller stands before the plot's own."""
+    """Values (n,) of all cases over the study's parameters; a note of the caller comes before the plot's own."""
     axis = main_field(cases)
     others = [field for field in cases.fields if field is not axis and not _zipped(cases)]
     lines = _lines(cases, axis, others)

@@ -12,7 +12,8 @@ from .study_charts import result_charts
 
 
 def draw_study(file: Path) -> list[Path]:
-    """Draw what a study's cases are compared by over its parameters, as PNG beside its file, and return the files."""
+    """Draw the numbers of a study's cases over its parameters, as PNG in the folder of its file, and return the
+    files."""
     cases = Cases(load_combined(file), file)
     title = str(cases.dataset.attrs.get("title", "")) or file.parent.name
     figures = {

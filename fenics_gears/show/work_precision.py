@@ -26,8 +26,9 @@ LEAST_SHOWN = 1e-6
 
 @styled
 def work_precision(report: AccuracyReport) -> Figure:
-    """Left: whole settings with the front labelled, the scene's own, those of targets, cheaper models. Right: each
-    setting alone, the others fine. Over the face, in the middle, also single numbers of the whole settings."""
+    """Left: whole settings with the front labelled, the scene's own settings, settings of targets, cheaper models.
+    Right: each setting alone, the others fine. Over the face, in the middle, also single numbers of the whole
+    settings."""
     over_face = report.scene.three_dimensional
     figure = Figure(figsize=(20.5 if over_face else 15.0, 9.2), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1, rect=(0, 0.09, 1, 0.91))

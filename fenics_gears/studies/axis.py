@@ -62,7 +62,7 @@ def unit_of(values: tuple[Any, ...]) -> str:
 
 
 def values_of(path: Path, written: Any) -> tuple[Any, ...]:
-    """The values of a swept field: those listed, or those of a range. Raises AxisError."""
+    """The values of a swept field, listed or from a range. Raises AxisError."""
     if isinstance(written, Mapping):
         values = _range(written)
     elif isinstance(written, list):
@@ -90,19 +90,19 @@ def values_in_words(written: str) -> tuple[str, ...]:
     """
     if ".." not in written:
         return (written.strip(),)
-    found = RANGE_IN_WORDS.fullmatch(written.strip())
-    if found is None or not (found["count"] or found["step"]):
+    match = RANGE_IN_WORDS.fullmatch(written.strip())
+    if match is None or not (match["count"] or match["step"]):
         raise AxisError(
             'is a range without the number of its values. Allowed: such as "50 .. 500 N m in 10", "50 .. 500 N m in 10,'
             ' logarithmic", "50 .. 500 N m by 50 N m".'
         )
-    unit = units.unit_of(found["stop"])
+    unit = units.unit_of(match["stop"])
     ends = {
-        name: found[name] if units.unit_of(found[name]) else f"{found[name]} {unit}"
+        name: match[name] if units.unit_of(match[name]) else f"{match[name]} {unit}"
         for name in ("start", "stop", "step")
-        if found[name]
+        if match[name]
     }
-    counted = {"count": int(found["count"]), "spacing": SPACINGS[bool(found["spacing"])]} if found["count"] else {}
+    counted = {"count": int(match["count"]), "spacing": SPACINGS[bool(match["spacing"])]} if match["count"] else {}
     return tuple(map(str, _range({**ends, **counted})))
 
 
@@ -171,7 +171,7 @@ def _ends(given: Mapping[str, Any]) -> tuple[list[float], str]:
     else:
         for name, value in given.items():
             if not isinstance(value, str):
-                wrong = f"has {name} = {as_written(value)} beside a text with a unit"
+                wrong = f"has {name} = {as_written(value)} next to a text with a unit"
                 raise AxisError(f"{wrong}. Allowed: all with units, or all bare numbers.")
         try:
             quantities = [units.quantity(value) for value in given.values()]

@@ -59,7 +59,7 @@ def _variables(
     known = {name for record in records.values() for name in record.numbers}
     studied = (each for each in RESULT_ATTRIBUTES if each.name in known.intersection(STUDIED))
     numbers = NUMBERS | {each.name: (each.units, each.meaning) for each in studied}
-    found: dict[str, tuple[Mapping, Any, dict]] = {
+    variables: dict[str, tuple[Mapping, Any, dict]] = {
         name: (
             {i: each.numbers[name] for i, each in records.items() if name in each.numbers},
             np.nan,
@@ -68,7 +68,7 @@ def _variables(
         for name, (units, words) in numbers.items()
     }
     without_meaning = {i: int(NO_MEANING in each.warnings) for i, each in records.items()}
-    return found | {
+    return variables | {
         "failed": (dict.fromkeys(failures, 1), 0, {"units": "1", "long_name": "whether the case failed"}),
         "meaningless": (without_meaning, 0, {"units": "1", "long_name": "whether the case's result has no meaning"}),
         "failure": (failures, "", {"long_name": "why the case failed"}),

@@ -19,17 +19,17 @@ PRESENT = "present"
 
 def is_section(path: Path) -> bool:
     """Whether the path names a section of the scene, or a table that is listed in one."""
-    found = _found_at(path)
-    return found is not None and found[1] is None
+    field = _field_at(path)
+    return field is not None and field[1] is None
 
 
 def has_parts(path: Path) -> bool:
     """Whether paths go on behind that of a section or of a list of tables."""
-    found = _found_at(path)
-    return found is not None and (found[1] is None or isinstance(found[1], AllowedTables))
+    field = _field_at(path)
+    return field is not None and (field[1] is None or isinstance(field[1], AllowedTables))
 
 
-def _found_at(path: Path) -> tuple[type[Section] | None, Allowed | None] | None:
+def _field_at(path: Path) -> tuple[type[Section] | None, Allowed | None] | None:
     """The section at a path, or what its field allows; None where a scene has nothing of that name."""
     section: type[Section] | None = scene_text()
     allowed: Allowed | None = None
@@ -50,7 +50,7 @@ def _found_at(path: Path) -> tuple[type[Section] | None, Allowed | None] | None:
 
 def why_unknown(path: Path) -> str | None:
     """Why a path is unknown, with the nearest known one; None for a known path."""
-    if _found_at(path) is not None:
+    if _field_at(path) is not None:
         return None
     dotted = [".".join(each) for each in known_paths()]
     hint = did_you_mean(".".join(path), dotted)
@@ -108,7 +108,7 @@ def with_section(tree: Mapping[str, Any], path: Path) -> dict[str, Any]:
 def allowed_at(path: Path) -> tuple[Allowed | None, float, float]:
     """What a field allows, None for a section; and its least and largest number in N, mm, s, rad, infinite without
     bounds."""
-    _, allowed = _found_at(path) or (None, None)
+    _, allowed = _field_at(path) or (None, None)
     if isinstance(allowed, AllowedEither):
         return allowed, min(low for low, _ in allowed.ranges.values()), max(high for _, high in allowed.ranges.values())
     if isinstance(allowed, AllowedNumber):

@@ -59,7 +59,7 @@ def changed_since(study: Study, directory: Path) -> str:
 def _read(directory: Path) -> dict[str, Any]:
     """What the index says; nothing where there is none."""
     try:
-        found = json.loads((directory / INDEX).read_text(encoding="utf-8"))
+        index = json.loads((directory / INDEX).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
-    return found if isinstance(found, dict) else {}
+    return index if isinstance(index, dict) else {}

@@ -22,8 +22,8 @@ def machine() -> dict[str, str]:
     }
 
 
-def in_words(found: Mapping[str, str]) -> str:
-    return f"{found['processor']}, load {found['load']}; threads: {found['threads']}; {found['versions']}"
+def in_words(machine: Mapping[str, str]) -> str:
+    return f"{machine['processor']}, load {machine['load']}; threads: {machine['threads']}; {machine['versions']}"
 
 
 def processor() -> str:
@@ -54,13 +54,13 @@ def threads() -> str:
 def versions(packages: Sequence[str] = PACKAGES) -> str:
     """Versions of this program, Python and packages, those that compute unless others are named; one that is not
     installed is left out."""
-    found = [f"fenics_gears {fenics_gears.__version__}", f"Python {platform.python_version()}"]
+    named = [f"fenics_gears {fenics_gears.__version__}", f"Python {platform.python_version()}"]
     for package in packages:
         try:
-            found.append(f"{package.removeprefix('fenics-')} {importlib.metadata.version(package)}")
+            named.append(f"{package.removeprefix('fenics-')} {importlib.metadata.version(package)}")
         except importlib.metadata.PackageNotFoundError:
             continue
-    return ", ".join(found)
+    return ", ".join(named)
 
 
 def write_lines(file: Path, lines: Sequence[Mapping[str, object]], machine: Mapping[str, str]) -> None:

@@ -42,7 +42,7 @@ def run_study(
 ) -> Outcome | None:
     """Run what is missing of a study and write its dataset; None on every rank of an MPI job but 0.
 
-    output: as of `index.directory_of`; meanwhile: as in `ranks`. Raises SceneError, before anything is computed or
+    output: as in `index.directory_of`; meanwhile: as in `ranks`. Raises SceneError, before anything is computed or
     written, where the study is wrong; ComputationError where its directory cannot be used.
     """
     with ranks(meanwhile) as team:
@@ -87,11 +87,11 @@ def _run(runs: Runs, study: Study, directory: Path, progress: Progress, quiet: b
             outcome.interrupted = True
         interruption.ignore()
         for case in study.cases:
-            found = runs.known.get(case.key)
-            if isinstance(found, Failure):
-                outcome.failures[case.index] = str(found)
-            elif found is not None:
-                outcome.records[case.index] = found
+            known = runs.known.get(case.key)
+            if isinstance(known, Failure):
+                outcome.failures[case.index] = str(known)
+            elif known is not None:
+                outcome.records[case.index] = known
         outcome.file = save_study(combined(study, outcome.records, outcome.failures), directory)
     return outcome
 
@@ -111,12 +111,12 @@ def _compute(runs: Runs, missing: list[Run], progress: Interruption) -> None:
     def count() -> None:
         progress.update(done, len(missing), f"{failed} failed" if failed else "")
 
-    def finished(case: Run, found: Any) -> None:
+    def finished(case: Run, outcome: Any) -> None:
         nonlocal done, failed
         done += 1
-        if isinstance(found, Failure):
+        if isinstance(outcome, Failure):
             failed += 1
-            LOGGER.warning("%s failed: %s", case, found.splitlines()[0])
+            LOGGER.warning("%s failed: %s", case, outcome.splitlines()[0])
 
     runs.compute(missing, count, finished)
     count()

@@ -129,7 +129,7 @@ def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Model:
         if values is None:
             raise NoScene(problems)
         scene = Scene(**values)
-        # It gives this scene, which need not be written and read again to see whether it does.
+        # It gives this scene, which need not be written and read again to be sure.
         scene.__dict__["text"] = text
         return model_of(scene)
     except NoScene:

@@ -143,7 +143,7 @@ def entries(
 ) -> list[tuple[fields.Path, Any]]:
     """Paths and values below [set], [sweep] or another `table` less its `own` keys, however the dotted path is
     spelt."""
-    found: list[tuple[fields.Path, Any]] = []
+    paths: list[tuple[fields.Path, Any]] = []
 
     def walk(home: fields.Path, values: Mapping[str, Any]) -> None:
         for key, value in values.items():
@@ -153,11 +153,11 @@ def entries(
             elif isinstance(value, Mapping) and value and fields.has_parts(path):
                 walk(path, value)
             else:
-                found.append((path, value))
+                paths.append((path, value))
 
     if isinstance(tree.get(table), Mapping):
         walk((), {key: value for key, value in tree[table].items() if key not in own})
-    return found
+    return paths
 
 
 def _shown(value: Any) -> str:

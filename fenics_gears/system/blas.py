@@ -71,16 +71,16 @@ def choice() -> Choice:
         known = json.loads(file.read_text(encoding="utf-8"))
         if known["key"] == key:
             return Choice(**known["choice"])
-    found = _found()
+    chosen = _measured()
     # Not imported by the process that runs this file as a script.
     from .output import whole_file
 
     with contextlib.suppress(OSError), whole_file(file) as kept:
-        kept.write(json.dumps({"key": key, "choice": asdict(found)}).encode())
-    return found
+        kept.write(json.dumps({"key": key, "choice": asdict(chosen)}).encode())
+    return chosen
 
 
-def _found() -> Choice:
+def _measured() -> Choice:
     libraries = in_another_process(None)
     unsuitable = [each for each in libraries if each["kernels"] not in QUICK or not each["exact"]]
     if not unsuitable:
@@ -112,17 +112,17 @@ def libraries() -> list[dict]:
 
     with contextlib.suppress(OSError):
         ctypes.CDLL(SYSTEM_LIBRARY)
-    found = []
+    described = []
     for each in ThreadpoolController().lib_controllers:
         if each.internal_api == "openblas":
             told = each.info()
             names = {"file": "filepath", "version": "version", "kernels": "architecture", "threads": "num_threads"}
-            found.append({name: told[key] for name, key in names.items()} | {"exact": exact(told["filepath"])})
-    return found
+            described.append({name: told[key] for name, key in names.items()} | {"exact": exact(told["filepath"])})
+    return described
 
 
 def exact(file: str) -> bool:
-    """Whether a library's products of small integers, which have no round-off, are those of whole numbers."""
+    """Whether a library's products of small integers, which have no round-off, are exact."""
     import numpy as np
 
     product, integer = _product(ctypes.CDLL(file))
@@ -132,18 +132,18 @@ def exact(file: str) -> bool:
         for turned in ("NN", "NT", "TN", "TT"):
             given = (each.T if turn == "T" else each for each, turn in zip((left, right), turned))
             first, second = (np.array(each, dtype=float, order="F") for each in given)
-            found = np.full((rows, columns), np.nan, order="F")
+            result = np.full((rows, columns), np.nan, order="F")
             sizes = [ctypes.byref(integer(size)) for size in (rows, columns, inner)]
             one, nothing = (ctypes.byref(ctypes.c_double(value)) for value in (1.0, 0.0))
             # Each array with its leading dimension.
             arrays = [
                 (each.ctypes.data_as(ctypes.c_void_p), ctypes.byref(integer(len(each))))
-                for each in (first, second, found)
+                for each in (first, second, result)
             ]
             turns = (turn.encode() for turn in turned)
             product(*turns, *sizes, one, *arrays[0], *arrays[1], nothing, *arrays[2])
             # NumPy multiplies integers without BLAS.
-            if not np.array_equal(found, left @ right):
+            if not np.array_equal(result, left @ right):
                 return False
     return True
 

@@ -18,8 +18,8 @@ _BYTES = re.compile("[\ud800-\udfff]")
 
 def control_character(text: str) -> str:
     """The first control character of a text as Unicode writes it, "U+001B"; empty where there is none."""
-    found = _CONTROL.search(text)
-    return f"U+{ord(found[0]):04X}" if found else ""
+    match = _CONTROL.search(text)
+    return f"U+{ord(match[0]):04X}" if match else ""
 
 
 def printable(text: str) -> str:

@@ -37,8 +37,8 @@ def prepare(environment=os.environ):
 def defaults(environment):
     """Variables and their values where the user has not set them; `environment` shows how the process was started."""
     # PETSc would take a reader of the output that has gone for a crash, and abort.
-    # OpenBLAS's threads look for work for so many cycles (a power of two) before they sleep: by default some 25 ms
-    # after every product, which costs a core the time of a short run's march.
+    # OpenBLAS's threads look for work for so many cycles (a power of two) before they sleep. By default that is some 25
+    # ms after every product, on one core as long as the march of a short run.
     values = {"PETSC_OPTIONS": "-no_signal_handler", "OPENBLAS_THREAD_TIMEOUT": "18"}
     if os.geteuid() == 0:
         # Containers run as root, where the mpirun started by this process (Open MPI 4, then 5) refuses to work without.
@@ -86,8 +86,8 @@ CACHES = ("numba", "fenics", "matplotlib", "fenics_gears")
 
 
 def have_folders(environment: Environment, aloud: bool) -> None:
-    """Set TMPDIR, XDG_CACHE_HOME and MPLCONFIGDIR where what stands there cannot be used; `aloud`: say so on the
-    standard error.
+    """Set TMPDIR, XDG_CACHE_HOME and MPLCONFIGDIR where their values cannot be used; `aloud`: say so on the standard
+    error.
 
     Raises SceneError where compiled code can be kept nowhere.
     """
@@ -108,10 +108,10 @@ def _have_temporary_files(environment: Environment, say: Callable[[str], None]) 
 
 def _has_room(folder: str) -> bool:
     try:
-        found = os.statvfs(folder)
+        volume = os.statvfs(folder)
     except (OSError, ValueError):
         return False
-    return _can_be_written(Path(folder)) and found.f_bavail * found.f_frsize >= ROOM
+    return _can_be_written(Path(folder)) and volume.f_bavail * volume.f_frsize >= ROOM
 
 
 def cache_folder(environment: Mapping[str, str] = os.environ) -> Path:
@@ -152,8 +152,8 @@ def _own_temporary_folder() -> tuple[str, bool]:
             os.mkdir(folder, 0o700)
             return folder, True
         except FileExistsError:
-            found = os.lstat(folder)
-        if stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o077:
+            state = os.lstat(folder)
+        if stat.S_ISDIR(state.st_mode) and state.st_uid == os.getuid() and not state.st_mode & 0o077:
             return folder, False
         return tempfile.mkdtemp(prefix="fenics_gears-"), True
     except OSError as error:

@@ -32,12 +32,12 @@ MOST_KEPT = 200e6
 
 def size_in_bytes(size: str, name: str, example: str) -> float:
     """Bytes of a size such as "8 GB"; raises SceneError, which names where it was given."""
-    found = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*([MGT]B)\s*", size)
-    if not found:
+    match = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*([MGT]B)\s*", size)
+    if not match:
         raise SceneError(
             f'{name} = {size!r} is no size. Allowed: a number of {", ".join(BYTES)} from 0 MB on, such as "{example}".'
         )
-    return float(found[1]) * BYTES[found[2]]
+    return float(match[1]) * BYTES[match[2]]
 
 
 def allowed_memory() -> float:
@@ -102,10 +102,10 @@ def free_memory() -> float:
 
 def _of_machine() -> float:
     try:
-        found = re.search(r"^MemAvailable:\s*(\d+) kB", Path("/proc/meminfo").read_text(encoding="ascii"), re.MULTILINE)
+        match = re.search(r"^MemAvailable:\s*(\d+) kB", Path("/proc/meminfo").read_text(encoding="ascii"), re.MULTILINE)
     except OSError:
         return UNKNOWN
-    return 1024.0 * int(found[1]) if found else UNKNOWN
+    return 1024.0 * int(match[1]) if match else UNKNOWN
 
 
 def _of_container() -> float:

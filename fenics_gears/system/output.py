@@ -29,7 +29,7 @@ LOGGER = logging.getLogger(__name__)
 UNFINISHED = ".unfinished-"
 # What another machine has not changed for longer (s) was left by a process that was killed.
 LONGEST_WRITING = 24 * 3600.0
-# Bytes that have to find room before anything is computed: those of a small result.
+# Bytes that have to find room before anything is computed: the size of a small result.
 TRIED = 200_000
 ANOTHER = "choose another directory with --output DIR."
 
@@ -122,8 +122,8 @@ def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
 
 
 def remove_left_over(directory: Path) -> None:
-    """Remove from a directory, not from those in it, what killed processes were writing: of this machine those that are
-    no more, else those of more than a day ago."""
+    """Remove from a directory, not from its subdirectories, what killed processes were writing: processes of this
+    machine that have ended, or of others more than a day ago."""
     own = f"{UNFINISHED}{_machine()}-"
     for left in directory.glob(f"{UNFINISHED}*"):
         # Another run may remove it at the same time.
@@ -162,7 +162,7 @@ def _is_recent(path: Path) -> bool:
 
 
 def write_whole(file: Path, write: Callable[[Path], object]) -> Path:
-    """Write a file, and what belongs beside it, by `write(path)`: its name holds the whole file or none. Raises as
+    """Write a file, and others that belong to it, by `write(path)`: its name holds the whole file or none. Raises as
     `written_aside` does."""
     with written_aside(file.parent, []) as aside:
         write(aside / file.name)

@@ -38,7 +38,7 @@ class Progress:
         """Tell what no stage says, such as why the present one takes its time."""
 
     def counted(self, parts: Sequence[Part], name: Callable[[Part], str] = lambda part: "") -> Iterator[Part]:
-        """The parts of the present stage one after the other, counted; `name`: the note beside the count."""
+        """The parts of the present stage one after the other, counted; `name`: the note after the count."""
         for done, part in enumerate(parts):
             self.update(done, len(parts), name(part))
             yield part

@@ -23,18 +23,18 @@ class Missing(Unreadable):
 def check_file(path: str | Path, largest: int) -> None:
     """Raise Unreadable for what is no file, or has more than `largest` bytes."""
     try:
-        found = os.stat(path)
+        state = os.stat(path)
     except FileNotFoundError:
         raise Missing("there is no such file") from None
     # A ValueError is of a name that the file system cannot have.
     except (OSError, ValueError) as error:
         raise Unreadable(f"cannot be read: {_reason(error)}") from None
-    if stat.S_ISDIR(found.st_mode):
+    if stat.S_ISDIR(state.st_mode):
         raise Unreadable("cannot be read: it is a folder")
-    if not stat.S_ISREG(found.st_mode):
+    if not stat.S_ISREG(state.st_mode):
         raise Unreadable("it is a device or a pipe, not a file")
-    if found.st_size > largest:
-        size = round(found.st_size / MEGABYTE)
+    if state.st_size > largest:
+        size = round(state.st_size / MEGABYTE)
         most = largest // MEGABYTE
         raise Unreadable(f"has {size} MB; a file of more than {most} MB is not read")
 

@@ -126,7 +126,7 @@ def test_ctrl_c_after_the_march_leaves_a_whole_result(simulation, capsys, tmp_pa
 
     simulation.afterwards = afterwards
     assert main(["run", str(DEMO), "--output", "here"]) == 130
-    assert "The result is whole, without what would have followed the march: here/run.nc" in capsys.readouterr().err
+    assert "The result is whole, without the stages after the march: here/run.nc" in capsys.readouterr().err
     assert files(tmp_path) == ["here/run.nc"]
 
 

@@ -55,6 +55,30 @@ def test_folders_stand_in_the_order_of_imports():
     assert named == [name for name in reversed(layers) if name not in files]
 
 
+def length(name):
+    return len((ROOT / name).read_text(encoding="utf-8").splitlines())
+
+
+def test_what_is_to_be_read_is_as_long_as_the_page_says():
+    """The files, to a sixth: they grow."""
+    rows = [row for row in reading_table("you add") if row[3]]
+    assert len(rows) > 10
+    for added, change, read, lines in rows:
+        files = re.findall(r"`(fenics_gears/[\w/]+\.pyi?)`", change if read.startswith("the same") else read)
+        assert sum(map(length, files)) == pytest.approx(int(lines), rel=1 / 6), added
+
+
+def test_names_are_in_the_files_that_the_page_gives_for_them():
+    """The files: nouns, and `NAME` of `file` or in it."""
+    page = (ROOT / "docs" / "reading_the_code.md").read_text(encoding="utf-8")
+    named = [(row[0].strip("`"), row[2].partition(",")[0].strip("`")) for row in reading_table("noun")]
+    named += re.findall(r"`(\w+)` (?:of|in) `(fenics_gears/[\w/]+\.py)`", page)
+    assert len(named) > 15
+    for name, file in named:
+        declared = rf"^ *(class|def) {name}\b|^{name}\b.* = "
+        assert re.search(declared, (ROOT / file).read_text(encoding="utf-8"), re.M), (name, file)
+
+
 @pytest.mark.nightly
 def test_the_page_on_studies_names_all_that_a_studys_dataset_holds(readers_folder):
     """A study of frequencies with friction and without."""

@@ -107,7 +107,7 @@ def test_how_much_contact_undercut_takes():
 def test_how_thin_a_rim_may_be(paper_pair):
     """The program's law, which tests/model/test_rim.py holds."""
     words = "From a bore of about N root diameters on a warning says how far off that is. "
-    words += "At that size a flank gives way by N %"
+    words += "At that size the deflection of a flank is N %"
     bore, off = told("docs/drawing.md", words)
     gear = replace(paper_pair.wheel, bore_radius=bore * paper_pair.wheel.root_radius)
     assert too_stiff(gear) == pytest.approx(off, abs=0.5)

@@ -61,18 +61,18 @@ def test_a_run_says_where_its_crack_would_be_closed(turn):
     ("change", "message"),
     [
         (lambda text: text.replace('pinion = "own.msh"', ""), r"\[body_meshes\]\n +names no file. Add pinion ="),
-        (lambda text: text + "\n[coast_flanks]\n", r"\[body_meshes\]\n +cannot stand beside \[coast_flanks\]"),
+        (lambda text: text + "\n[coast_flanks]\n", r"\[body_meshes\]\n +cannot be combined with \[coast_flanks\]"),
         (
             lambda text: text.replace('element = "P1"', 'element = "P1"\nelastic_teeth = 1'),
-            "elastic_teeth = 1\n +cannot stand beside",
+            "elastic_teeth = 1\n +cannot be combined with",
         ),
         (
             lambda text: text.replace('element = "P1"', 'model = "rigid teeth"'),
-            'model = "rigid teeth"\n +cannot stand beside .* Take "elastic"',
+            'model = "rigid teeth"\n +cannot be combined with .* Take "elastic"',
         ),
         (
             lambda text: text.replace('element = "P1"', 'condensation = "every step"'),
-            'condensation = "every step"\n +cannot stand beside .* Take "once"',
+            'condensation = "every step"\n +cannot be combined with .* Take "once"',
         ),
         (lambda text: text + "\n[output]\nroot_stress = true\n", r"root_stress = true\n +knows equal teeth only"),
     ],

@@ -6,7 +6,7 @@ import pytest
 from tests.coarse import COARSE, teeth_alone
 
 from fenics_gears import GeometryError, SceneError, model_of, scene_from_text
-from fenics_gears.effects.corner_contact import CornerContact, Edge
+from fenics_gears.effects.corner_contact import Edge, EdgeRadii
 from fenics_gears.model.modification import corner
 from fenics_gears.scene.data import Motion
 
@@ -32,7 +32,7 @@ def test_each_gear_has_its_own_radius(paper_scene):
 def test_edges_that_do_not_fit_are_refused(paper_scene, paper_pair):
     """A radius of more than half the tip's thickness leaves no tip."""
     with pytest.raises(GeometryError, match="corner_contact.edge_radius"):
-        corner(replace(paper_scene, corner_contact=CornerContact(pinion=Edge(2.0))), paper_pair)
+        corner(replace(paper_scene, corner_contact=EdgeRadii(pinion=Edge(2.0))), paper_pair)
     text = paper_scene.text.replace("[accuracy]", '[corner_contact]\n[accuracy]\ncondensation = "every step"').replace(
         'condensation = "once"', ""
     )
@@ -46,9 +46,9 @@ def test_edges_that_leave_the_flanks_no_overlap_are_warned_of(paper_scene):
     short = replace(
         gears, pinion=replace(gears.pinion, tip_diameter=80.4), wheel=replace(gears.wheel, tip_diameter=116.0)
     )
-    sharp = replace(paper_scene, gears=short, corner_contact=CornerContact(0.0))
+    sharp = replace(paper_scene, gears=short, corner_contact=EdgeRadii(0.0))
     assert not [said for said in model_of(sharp).warnings if "contact ratio" in said]
-    rounded = replace(sharp, corner_contact=CornerContact(1.3))
+    rounded = replace(sharp, corner_contact=EdgeRadii(1.3))
     (said,) = [said for said in model_of(rounded).warnings if "contact ratio" in said]
     pair = model_of(sharp).pair
     taken = sum(

@@ -199,7 +199,7 @@ CLASS = "[flank_errors]\ntolerance_class = 6\n"
         (
             WOBBLE,
             (
-                'eccentricity.wheel.wobble = "10 um"\n    is of three-dimensional scenes: allowed beside'
+                'eccentricity.wheel.wobble = "10 um"\n    is of three-dimensional scenes: allowed with'
                 " gears.helix_angle, [lead_modifications], [misalignment], bearings.places,"
                 " shafts.input.sections or shafts.output.sections."
             ),

@@ -72,7 +72,7 @@ def test_a_formula_outside_its_range_is_refused_by_name(tmp_path):
     ("lines", "motion", "said"),
     [
         ("", SPEED, "friction.coefficient\n    is missing"),
-        (f'coefficient = 0.1\nformula = "Schlenk"\n{OIL}', SPEED, "stands beside coefficient"),
+        (f'coefficient = 0.1\nformula = "Schlenk"\n{OIL}', SPEED, "is given together with coefficient"),
         ('formula = "Schlenk"\nviscosity = "13 mPa s"\n', SPEED, "friction.roughness\n    is missing"),
         ('coefficient = 0.1\nroughness = "1 um"\n', SPEED, "is for a formula"),
         (f'formula = "Benedict and Kelley"\n{OIL}', "", "needs a speed"),

@@ -93,7 +93,7 @@ def test_a_housing_of_both_shafts_that_is_given_to_one_is_told_where_it_belongs(
         (
             ELASTIC.replace("torque_at", 'housing = "housing.txt"\ntorque_at', 1),
             24,
-            "shafts.input.housing .* stands beside the housing of \\[shafts\\]",
+            "shafts.input.housing .* is given together with the housing of \\[shafts\\]",
         ),
         (ELASTIC.replace('axial_stiffness = "0.1e6 N/mm"', ""), 24, "bearings.pinion: 2 bearings hold .* its axis"),
     ],

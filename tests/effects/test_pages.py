@@ -142,7 +142,7 @@ def test_the_guides_rule_refuses_with_place_value_and_remedy(printed):
     """The guide."""
     code, _, said = printed[1][2]
     assert code == 2
-    assert "load.wheel_torque" in said and "-437 N m" in said and "cannot stand beside a brake" in said
+    assert "load.wheel_torque" in said and "-437 N m" in said and "cannot be combined with a brake" in said
 
 
 @pytest.mark.nightly

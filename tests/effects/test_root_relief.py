@@ -107,7 +107,7 @@ def test_a_start_means_one_place(paper_scene, section, word):
     ):
         relief(depth + diameter)
     with pytest.raises(
-        SceneError, match="stands beside start; allowed is one of start, length_on_path, length_on_flank"
+        SceneError, match="is given together with start; allowed is one of start, length_on_path, length_on_flank"
     ):
         relief(f'{depth}start = "{word}"\nlength_on_path = "3 mm"')
     with pytest.raises(SceneError, match=f'{section}.start\n *is missing. Allowed: such as "{word}".*length_on_flank'):
@@ -222,7 +222,7 @@ def test_exponents_of_one_and_two_are_the_shapes(paper_pair):
         ("[profile_modifications]\n", "modifies neither gear"),
         ("[profile_modifications.pinion]\n", "names no modification. Add crowning or slope"),
         ('[profile_modifications.wheel]\nslope = "1 mm"\n', "is too large an error of manufacture"),
-        ('[tip_relief]\ndepth = "20 um"\nstart = "HPSTC"\nshape = "linear"\nexponent = 1.5\n', "stands beside shape"),
+        ('[tip_relief]\ndepth = "20 um"\nstart = "HPSTC"\nshape = "linear"\nexponent = 1.5\n', "together with shape"),
     ],
 )
 def test_wrong_modifications_are_refused(section, words):

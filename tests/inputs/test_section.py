@@ -36,7 +36,7 @@ def test_a_default_is_written_with_its_unit_and_held_in_the_programs():
         (
             {"stiffness": "2 N/mm", "turns": 4},
             ("spring", "turns"),
-            "stands beside stiffness; allowed is one of the two.",
+            "is given together with stiffness; allowed is one of the two.",
         ),
         ({"stiffness": "2 N"}, ("spring", "stiffness"), "is a force, not a stiffness."),
         ({"turns": 4, "length": "2 m"}, ("spring", "length"), "is too large. Allowed: a length from 0 mm to 1 m"),

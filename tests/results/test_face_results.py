@@ -53,7 +53,7 @@ def test_a_peak_pressure_beside_the_end_of_a_line_of_contact_is_told():
     assert result.attrs.get("peak_contact_pressure_beside") == said
     printed = dict(row[:2] for row in summary_rows(result))
     row = next(value for label, value in printed.items() if label.startswith("peak contact pressure"))
-    assert (f"beside the {said} of its active profile" in row) == (said is not None)
+    assert (f"near the {said} of its active profile" in row) == (said is not None)
 
 
 def test_measures_of_accuracy_are_of_the_middle_slice():

@@ -8,7 +8,7 @@ from tests.coarse import COARSE
 
 from fenics_gears import simulate
 from fenics_gears.dynamics.torque_ripple import Harmonic, TorqueRipple
-from fenics_gears.effects.corner_contact import CornerContact
+from fenics_gears.effects.corner_contact import EdgeRadii
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.geometry.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.results.pressure_limits import yielding
@@ -46,7 +46,7 @@ def test_an_ordinary_run_has_nothing_to_say_but_of_its_sharp_tips(coarse):
             ["[tip_relief] takes", "[tip_relief.pinion]"],
         ),
         (
-            {"tip_relief": TipRelief(*[Relief(0.002, shape=PARABOLIC)] * 2), "corner_contact": CornerContact(0.0)},
+            {"tip_relief": TipRelief(*[Relief(0.002, shape=PARABOLIC)] * 2), "corner_contact": EdgeRadii(0.0)},
             ["deeper", "[corner_contact] with"],
             ["shape"],
         ),
@@ -88,7 +88,7 @@ def test_the_kink_of_linear_relief_is_named_where_it_presses_hardest(coarse, sha
     found = [
         said
         for said in result.attrs["warnings"].splitlines()
-        if "beside the kink where the linear tip relief of the pinion or the wheel starts" in said
+        if "near the kink where the linear tip relief of the pinion or the wheel starts" in said
     ]
     assert len(found) == kinked
     printed = {label: value for label, value, _ in summary_rows(result)}

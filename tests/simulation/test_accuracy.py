@@ -139,5 +139,5 @@ def test_studies_keep_apart_what_differs(change, paper_scene):
 def test_remeshing_refuses_what_it_does_not_have(line, paper_scene):
     """House rule: no option is ignored silently."""
     text = paper_scene.text.replace('condensation = "once"', f'condensation = "every step"\n{line}')
-    with pytest.raises(SceneError, match='has no meaning beside condensation = "every step"'):
+    with pytest.raises(SceneError, match='has no meaning with condensation = "every step"'):
         scene_from_text(text)

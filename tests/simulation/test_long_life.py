@@ -12,7 +12,7 @@ from tests.programs import python
 
 from fenics_gears import Load, simulate
 from fenics_gears.effects.coast_flanks import CoastFlanks
-from fenics_gears.effects.corner_contact import CornerContact
+from fenics_gears.effects.corner_contact import EdgeRadii
 
 # Bytes beside what is held after the first pair (30 pairs in the plane: 12e6). When operators stayed, five pairs took
 # half a gigabyte more.
@@ -24,7 +24,7 @@ def kinds(scene):
     return {
         "quasi-static with friction": (still, in_the_plane),
         "in time": (scene, in_the_plane),
-        "corners": (replace(still, friction=None, corner_contact=CornerContact(0.0)), in_the_plane),
+        "corners": (replace(still, friction=None, corner_contact=EdgeRadii(0.0)), in_the_plane),
         "coast flanks": (replace(still, coast_flanks=CoastFlanks(), load=Load(-1e5)), in_the_plane),
         "over the face": (helical_scene(), over_the_face),
     }

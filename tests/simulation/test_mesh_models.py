@@ -174,10 +174,10 @@ start = "HPSTC"
 @pytest.mark.parametrize(
     "name, line, said",
     [
-        (STIFFNESS_TABLE, 'condensation = "every step"', "cannot stand beside condensation"),
+        (STIFFNESS_TABLE, 'condensation = "every step"', "cannot be combined with condensation"),
         (ISO_6336, "[output]\nroot_stress = true", "has no stresses"),
-        (RIGID_TEETH, "[corner_contact]", "cannot stand beside [corner_contact]"),
-        (ISO_6336, "[corner_contact]", "cannot stand beside [corner_contact]"),
+        (RIGID_TEETH, "[corner_contact]", "cannot be combined with [corner_contact]"),
+        (ISO_6336, "[corner_contact]", "cannot be combined with [corner_contact]"),
     ],
 )
 def test_what_a_model_lacks_is_refused(name, line, said, paper_scene):

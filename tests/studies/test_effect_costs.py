@@ -45,7 +45,7 @@ def test_the_papers_scene_is_run_bare_with_each_effect_and_without_each():
         "all": {*PAPER},
     }
     assert found["+ damping, inertia"].note == "damping needs inertia"
-    assert found["all - inertia, damping"].note == "damping cannot stand without inertia"
+    assert found["all - inertia, damping"].note == "damping cannot be without inertia"
 
 
 def test_the_scenes_own_rules_decide_what_a_subset_may_be():

@@ -80,12 +80,12 @@ def test_ranks_of_a_study_condense_each_body_over_the_face_once(folder):
     program = (
         "import sys\n"
         "from fenics_gears.commands.cli import main\n"
-        "from fenics_gears.elasticity.face import compliance\n"
-        "computed = compliance._computed\n"
+        "from fenics_gears.elasticity.face import computed as of_face\n"
+        "computed = of_face.computed_body\n"
         "def counted(*arguments):\n"
         "    with open('computed', 'a') as out: out.write('a body\\n')\n"
         "    return computed(*arguments)\n"
-        "compliance._computed = counted\n"
+        "of_face.computed_body = counted\n"
         "sys.exit(main(['study', 'study.toml', '--output', 'here']))\n"
     )
     Path("program.py").write_text(program)

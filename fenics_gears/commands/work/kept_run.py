@@ -38,7 +38,7 @@ def run_and_keep(model: Model, directory: Path, options: argparse.Namespace, job
             last_words = "" if kept.complete else f"Interrupted. {_incomplete(kept)}"
         except ComputationError as error:
             if getattr(error, "partial", None) is None or not error.partial.sizes["time"]:
-                # Nothing was done that an earlier result in the directory should give way to.
+                # Nothing was done that should replace an earlier result in the directory.
                 if is_journal(journal.directory):
                     said = f"What was done until then is in {journal.directory}; `gears plot {directory}` draws it."
                     raise ComputationError(f"{error}\n{said}") from error
@@ -48,7 +48,7 @@ def run_and_keep(model: Model, directory: Path, options: argparse.Namespace, job
         except KeyboardInterrupt:
             if kept.dataset is None:
                 raise
-            missing = "without what would have followed the march"
+            missing = "without the stages after the march"
             last_words = f"Interrupted after the march. The result is whole, {missing}: {kept.file}."
         pictures: list[Path] | None = []
         if not last_words and not options.no_pictures:

@@ -30,7 +30,7 @@ def scene_to_measure(options, command: str):
 
 def report_of(options, command: str, measure: Callable, write_csv: Callable, draw: Callable, tell: Callable) -> int:
     """Carry a command out that measures times: `measure(scene, progress)` makes the report, `write_csv` and `draw` its
-    files as of `write_report`, `tell(report, files)` prints it. Returns the exit code."""
+    files as in `write_report`, `tell(report, files)` prints it. Returns the exit code."""
     scene, directory = scene_to_measure(options, command)
     with closing(shown_progress(options.quiet)) as progress:
         report = measure(scene, progress)

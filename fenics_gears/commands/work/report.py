@@ -28,7 +28,7 @@ ENDINGS = (".html", ".htm")
 
 
 def report(options: argparse.Namespace) -> int:
-    file, is_study = found_file(options.run)
+    file, is_study = run_or_study_file(options.run)
     output = output_file(options.output, file, is_study)
     _check(options, file, output, is_study)
     with closing(shown_progress(options.quiet)) as progress:
@@ -37,7 +37,7 @@ def report(options: argparse.Namespace) -> int:
     return 0
 
 
-def found_file(path: Path) -> tuple[Path, bool]:
+def run_or_study_file(path: Path) -> tuple[Path, bool]:
     """The result's file that is meant, and whether it is a study's. Raises SceneError where there is none."""
     run = run_or_journal(path)
     if exists(run):
@@ -54,7 +54,7 @@ def found_file(path: Path) -> tuple[Path, bool]:
 
 
 def output_file(asked: Path | None, file: Path, is_study: bool) -> Path:
-    """The page's file: as asked for, in the directory asked for, or beside the result; a study's case has its own
+    """The page's file: as asked for, in the directory asked for, or in that of the result; a study's case has its own
     name."""
     own = file.name in (RUN_FILE, STUDY_FILE, JOURNAL)
     name = REPORT_FILE if own else f"{file.stem}.html"

@@ -41,8 +41,8 @@ def run_or_journal(path: Path) -> Path:
 
 
 def loaded_run(file: Path, load: Callable | None = None):
-    """The dataset of a run's file, by `load` where it is another kind of result; of a run that has not ended that of
-    its journal, and the standard error says what is missing. Raises SceneError where it cannot be read."""
+    """The dataset of a run's file, by `load` where it is another kind of result. Where the run has not ended it is that
+    of its journal, and the standard error says what is missing. Raises SceneError where it cannot be read."""
     try:
         if file.name == JOURNAL:
             dataset = unfinished(file)

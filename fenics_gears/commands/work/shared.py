@@ -12,7 +12,7 @@ from math import inf
 from pathlib import Path
 from types import ModuleType
 
-from fenics_gears.errors import Found, SceneError, attempted
+from fenics_gears.errors import SceneError, Value, attempted
 from fenics_gears.inputs import units
 from fenics_gears.system.console import on_terminal, printable
 from fenics_gears.system.output import check_writable
@@ -96,14 +96,14 @@ def file_to_write(options: argparse.Namespace, default: Path, what: str) -> Path
     return output
 
 
-def after_result(kept: Path, what: str, carry_out: Callable[[], Found]) -> Found | None:
+def after_result(kept: Path, what: str, carry_out: Callable[[], Value]) -> Value | None:
     """What `carry_out` makes of a result that is kept in a file already; None where it fails, which the error output
     says."""
     said: dict[str, str] = {}
-    found = attempted(said, what, carry_out)
+    made = attempted(said, what, carry_out)
     if said:
         print(printable(f"{said['warnings']}. The result is kept: {kept}"), file=sys.stderr)
-    return found
+    return made
 
 
 def print_files(files: Iterable[Path], quiet: bool) -> None:

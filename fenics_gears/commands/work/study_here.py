@@ -1,4 +1,4 @@
-"""A study in this process, or in all those of its job: its outcome and what is said of it."""
+"""A study in this process, or in all processes of its job: its outcome and what is said of it."""
 
 import argparse
 import sys

@@ -22,9 +22,9 @@ class SweptSector:
     """A swept sector with its hub held, Young's modulus 1 MPa, condensed onto its flank (or its drive and coast flank),
     its lower and its upper cut.
 
-    stiffness: (f + 2 c, f + 2 c), N/mm; dofs by height, radius, then x, y, z in the section's frame turned with it, of
-    the upper cut in the next sector's. lower: (c / 3, 3), X, Y, z of the lower cut's nodes. profile: nodes of a flank
-    at a height.
+    stiffness: (f + 2 c, f + 2 c), N/mm; dofs by height, radius, then x, y, z in the section's frame that turns with it.
+    Dofs of the upper cut are in the next sector's frame. lower: (c / 3, 3), X, Y, z of the lower cut's nodes. profile:
+    nodes of a flank at a height.
     """
 
     stiffness: np.ndarray

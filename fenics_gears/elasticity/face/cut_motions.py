@@ -59,15 +59,15 @@ def over_motions(stiffness: np.ndarray, motions: np.ndarray) -> np.ndarray:
     if dofs == size:
         return stiffness
     others = len(stiffness) - 2 * dofs
-    found = np.empty((others + 2 * size,) * 2)
-    found[:others, :others] = stiffness[:others, :others]
+    reduced = np.empty((others + 2 * size,) * 2)
+    reduced[:others, :others] = stiffness[:others, :others]
     for number in (0, 1):
         own = slice(others + number * size, others + (number + 1) * size)
         moved = motions.T @ stiffness[others + number * dofs : others + (number + 1) * dofs]
-        found[own, :others] = moved[:, :others]
-        found[:others, own] = moved[:, :others].T
-        found[own, others:] = loads_over_motions(moved[:, others:].T, motions).T
-    return found
+        reduced[own, :others] = moved[:, :others]
+        reduced[:others, own] = moved[:, :others].T
+        reduced[own, others:] = loads_over_motions(moved[:, others:].T, motions).T
+    return reduced
 
 
 def loads_over_motions(loads: np.ndarray, motions: np.ndarray) -> np.ndarray:
@@ -103,7 +103,7 @@ def smooth_motions(places: np.ndarray, web: SweptWeb | None) -> np.ndarray:
     circles = [] if web is None else [web.hub_radius * (1.0 + ROUND_OFF), web.rim_radius * (1.0 - ROUND_OFF)]
     part = np.searchsorted(circles, radius)
     share = OF_NODES if web is None else OF_NODES_WITH_WEB
-    found = []
+    parts = []
     for number in np.unique(part):
         own = np.flatnonzero(part == number)
         along_radius = _by_degree(radius[own])
@@ -113,8 +113,8 @@ def smooth_motions(places: np.ndarray, web: SweptWeb | None) -> np.ndarray:
         orthonormal = np.linalg.qr(products)[0]
         shapes = np.zeros((len(places), orthonormal.shape[1]))
         shapes[own] = orthonormal
-        found.append(np.kron(shapes, np.eye(3)))
-    return np.hstack(found)
+        parts.append(np.kron(shapes, np.eye(3)))
+    return np.hstack(parts)
 
 
 def _by_degree(values: np.ndarray, share: float = 0.0) -> np.ndarray:

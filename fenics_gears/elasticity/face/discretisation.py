@@ -12,7 +12,7 @@ from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear
 from ..element_sizes import ElementSizes
 from .layers import Sweep, SweptWeb, layers_of_face, layers_with_web
 
-# Rad, of a layer: its nodes' heights stand on a helix, and parabolas are between them.
+# Rad, of a layer: its nodes lie on a helix, with parabolas between them.
 LARGEST_TURN = 0.5
 
 
@@ -21,9 +21,9 @@ class FaceDiscretisation:
     """A section of elements, second order, that is swept along the face in layers.
 
     section_size: mm, of the elements along the flanks. layers: over the face. face_width: mm. twist: rad/mm, of the
-    section along z, counter-clockwise positive. overhang: mm, at either end of the face, beyond that on which the mate
-    touches; it has overhang_layers of the layers, which are of one thickness in it and beside it. web: lengths in mm,
-    its sides are boundaries of layers too.
+    section along z, counter-clockwise positive. overhang: mm, at either end of the face, beyond the part that the mate
+    touches. It has overhang_layers of the layers, all of one thickness; the layers of the rest are of one thickness
+    too. web: lengths in mm, its sides are boundaries of layers too.
     """
 
     section_size: float
@@ -66,7 +66,7 @@ class FaceDiscretisation:
         return replace(self, section_size=size, face_width=width, twist=twist, overhang=overhang, web=web)
 
     def inputs(self, gear: Gear, both_flanks: bool = True) -> dict:
-        """What a gear's mesh follows from besides the gear, with lengths in modules."""
+        """The inputs of a gear's mesh other than the gear, with lengths in modules."""
         scaled = self.in_modules_of(gear)
         # The rule that lays the layers may change while their number does not.
         boundaries = scaled.sweep.boundaries.tolist()

@@ -24,7 +24,7 @@ def fine_over_swept(gear: Gear, swept: ElementSizes, poissons_ratio: float, curv
     0.5 % where stress is large."""
     # A web is in the swept body; both sections of the ratio are without it.
     gear = replace(gear, web=None)
-    angle, found = curve.outline.centreline_angle, []
+    angle, stresses = curve.outline.centreline_angle, []
     for sizes in (Discretisation(ELEMENT, FLANK_SIZE).sizes(gear, both_flanks=True), swept):
         sector = plane_sector(sector_mesh(gear, sizes), element_named(ELEMENT), poissons_ratio)
         with GearRecovery(gear, Material(1.0, poissons_ratio), sector) as recovery:
@@ -32,5 +32,5 @@ def fine_over_swept(gear: Gear, swept: ElementSizes, poissons_ratio: float, curv
             forces = np.zeros((len(flank), 2))
             tip = np.linalg.norm(sector.section.points[flank], axis=1).argmax()
             forces[tip] = -np.sin(angle), np.cos(angle)
-            found.append(fillet_rows(recovery, curve) @ recovery.recovered({0: forces}, [0]).displacement.ravel())
-    return np.divide(*found, out=np.ones(len(found[0])), where=found[1] != 0.0)
+            stresses.append(fillet_rows(recovery, curve) @ recovery.recovered({0: forces}, [0]).displacement.ravel())
+    return np.divide(*stresses, out=np.ones(len(stresses[0])), where=stresses[1] != 0.0)

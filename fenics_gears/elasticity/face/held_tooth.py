@@ -84,8 +84,8 @@ class _HeldTooth:
         along = sparse.kron(sparse.eye(heights), self._along, format="csr")
         stiffness = along.T @ swept_stiffness(self._section, sweep)[free][:, free] @ along
         on_flank = 3 * (nodes * np.arange(heights)[:, None] + self._flank).ravel()
-        found = cho_solve(cho_factor(schur_complement(stiffness.tocsr(), on_flank)), np.eye(len(on_flank)))
-        return 0.5 * (found + found.T)
+        compliance = cho_solve(cho_factor(schur_complement(stiffness.tocsr(), on_flank)), np.eye(len(on_flank)))
+        return 0.5 * (compliance + compliance.T)
 
 
 def _along_normals(nodes: int, flank: np.ndarray, normals: np.ndarray) -> sparse.csr_matrix:
@@ -102,7 +102,7 @@ def _joined(tooth: _HeldTooth, thick: list[float]) -> sparse.csr_matrix:
     """D of a whole face, of layers of some thicknesses: of each with its neighbours."""
     parts = np.array([thin_layers(each) for each in thick])
     first, heights = 2 * (np.cumsum(parts) - parts), 2 * int(parts.sum()) + 1
-    found = sparse.csr_matrix((heights * tooth.nodes,) * 2)
+    joined = sparse.csr_matrix((heights * tooth.nodes,) * 2)
     for layer in range(len(thick)):
         low, high = max(layer - 1, 0), min(layer + 2, len(thick))
         missing = tooth.missing(tuple(thick[low:high]), layer - low)
@@ -111,5 +111,5 @@ def _joined(tooth: _HeldTooth, thick: list[float]) -> sparse.csr_matrix:
         share[[0, -1]] = 1.0 if layer == 0 else 0.5, 1.0 if layer == len(thick) - 1 else 0.5
         block = sparse.coo_matrix(np.repeat(share, tooth.nodes)[:, None] * missing)
         places = block.row + first[layer] * tooth.nodes, block.col + first[low] * tooth.nodes
-        found = found + sparse.csr_matrix((block.data, places), shape=found.shape)
-    return (0.5 * (found + found.T)).tocsr()
+        joined = joined + sparse.csr_matrix((block.data, places), shape=joined.shape)
+    return (0.5 * (joined + joined.T)).tocsr()

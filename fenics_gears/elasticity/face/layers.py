@@ -70,8 +70,8 @@ class Sweep:
 
 
 def layers_of_face(layers: int, width: float, overhang_layers: int = 0, overhang: float = 0.0) -> np.ndarray:
-    """Boundaries, mm from mid-width, each the exact opposite of another, of layers of one thickness over a width (mm),
-    and of `overhang_layers` over an `overhang` (mm) beyond it at either end."""
+    """Boundaries, mm from mid-width, each the exact opposite of another: of layers of one thickness over a width (mm),
+    and of `overhang_layers` over an `overhang` (mm) at either end."""
     inner = 0.5 * width * (np.arange(-layers, layers + 1, 2) / layers)
     beyond = 0.5 * width + overhang * np.arange(1, overhang_layers + 1) / max(overhang_layers, 1)
     return np.concatenate([-beyond[::-1], inner, beyond])

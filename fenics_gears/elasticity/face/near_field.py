@@ -40,11 +40,11 @@ class NearField:
     @property
     def arrays(self) -> dict[str, np.ndarray]:
         """For the cache."""
-        found = {"near_heights": self.heights, "near_normals": self.normals}
+        arrays = {"near_heights": self.heights, "near_normals": self.normals}
         for number, each in enumerate(self.compliance):
             parts = {"data": each.data, "indices": each.indices, "indptr": each.indptr}
-            found |= {f"near_{name}_{number}": part for name, part in parts.items()}
-        return found
+            arrays |= {f"near_{name}_{number}": part for name, part in parts.items()}
+        return arrays
 
     @classmethod
     def of_arrays(cls, arrays: dict[str, np.ndarray]) -> NearField:

@@ -1,11 +1,11 @@
 """Stiffness of a section swept along a gear's face: wedges, products of the section's triangles and of layers, second
 order in both.
 
-A section's point X (a complex number X + iY) stands at ``x = w(z) X`` at height z, where ``w`` interpolates ``exp(i
-twist z_k)`` between the three heights z_k of a layer's nodes: the element is isoparametric, so that rigid motions and
-uniform strains are exact. The displacement is ``sum_k N_k(z) u_k(X)``. Its gradient has the columns ``grad_X(u) W^-1``
-and ``sum_k N_k'(z) u_k - grad_X(u) V X``, where W and V multiply by ``w`` and ``w'/w``: at a height, forms over the
-plane section, whose products with N and N' give the layer. Layers of one thickness are alike but for a rotation.
+A section's point X (a complex number X + iY) is at ``x = w(z) X`` at height z, where ``w`` interpolates ``exp(i twist
+z_k)`` between the three heights z_k of a layer's nodes: the element is isoparametric, so that rigid motions and uniform
+strains are exact. The displacement is ``sum_k N_k(z) u_k(X)``. Its gradient has the columns ``grad_X(u) W^-1`` and
+``sum_k N_k'(z) u_k - grad_X(u) V X``, where W and V multiply by ``w`` and ``w'/w``: at a height, forms over the plane
+section, whose products with N and N' give the layer. Layers of one thickness are alike but for a rotation.
 """
 
 from __future__ import annotations
@@ -52,13 +52,13 @@ class SectionForms:
 
     def material(self, sweep: Sweep) -> np.ndarray:
         """Which nodes of the section (h, n) the body has at each height."""
-        found = np.zeros((len(sweep.heights), len(self.nodes.points)), dtype=bool)
+        present = np.zeros((len(sweep.heights), len(self.nodes.points)), dtype=bool)
         for layer, within in enumerate(sweep.in_web):
-            found[2 * layer : 2 * layer + 3] |= self.in_layer(within)
-        return found
+            present[2 * layer : 2 * layer + 3] |= self.in_layer(within)
+        return present
 
     def in_layer(self, within_web: bool) -> np.ndarray:
-        """Which nodes of the section (n,) a layer within the web or beside it has."""
+        """Which nodes of the section (n,) a layer has, within the web or outside it."""
         nodes = len(self.nodes.points)
         if within_web or self.beside_web is None:
             return np.ones(nodes, dtype=bool)
@@ -154,7 +154,7 @@ def layer_stiffness(section: SectionForms, thickness: float, twist: float) -> di
         sparse.csr_matrix((data, own.indices, own.indptr), shape=own.shape)
         for data in np.transpose(factors) @ np.array(entries)
     )
-    found = {divmod(number, 3): matrix for number, matrix in enumerate(added)}
+    blocks = {divmod(number, 3): matrix for number, matrix in enumerate(added)}
     nodes = len(section.nodes.points)
     frames = [sparse.kron(sparse.eye(nodes), rotation(angle, 3), format="csr") for angle in angles]
-    return {(i, j): (frames[i].T @ block @ frames[j]).tocsr() for (i, j), block in found.items()}
+    return {(i, j): (frames[i].T @ block @ frames[j]).tocsr() for (i, j), block in blocks.items()}

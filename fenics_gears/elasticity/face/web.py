@@ -1,14 +1,14 @@
 """A gear with a web over its face: rim and hub as wide as the face, between them a web that is thinner. Loaded by gears
 with a web alone.
 
-The body is no prism, but each of its layers is. With W the cells of the section between hub and rim, and the web from
-z_1 to z_2, layers between z_1 and z_2 are swept from the whole section, the others from the section without W:
+The body is no prism, but each of its layers is. W are the cells of the section between hub and rim; the web reaches
+from z_1 to z_2. Layers between z_1 and z_2 are swept from the whole section, the others from the section without W:
 
     K = sum over layers of K_layer(whole section)           where the layer is in the web
                         or K_layer(section without W)       where it is not
 
 z_1 and z_2 are boundaries of layers, and the circles of hub and rim are lines of the section's mesh. Cuts have their
-nodes where there is material. Turning by a pitch still maps one cut on the other, so that the ring of sectors
+nodes where there is material. Turning by a pitch still maps one cut on the other. So the ring of sectors
 (`elasticity.ring`) joins the sectors exactly, and the Schur complement is that of any gear:
 
     A = flank block of the inverse of (sum over sectors of S),  S = K_aa - K_ad K_dd^-1 K_da,  a = flanks and cuts
@@ -36,8 +36,8 @@ GROWTH, LARGEST = 1.4, 0.5
 
 
 def webbed_section(gear: Gear, sizes: ElementSizes) -> BodyMesh:
-    """Section of a sector whose mesh has lines along the circles of hub and rim: teeth and rim as of a gear whose bore
-    is the rim's, and inwards rows of cells on the nodes of that bore."""
+    """Section of a sector whose mesh has lines along the circles of hub and rim. Teeth and rim are meshed as a gear
+    whose bore is the rim's; rows of cells follow inwards from the nodes of that bore."""
     # Imported here: to tell the size of a section needs no gmsh.
     from ..sector_mesh import sector_mesh
 
@@ -89,7 +89,7 @@ def _cells(grid: np.ndarray) -> np.ndarray:
 
 
 def beside_web(mesh: BodyMesh, web: SweptWeb) -> BodyMesh:
-    """The section of a body beside its web: rim and hub."""
+    """The section of a body outside its web: rim and hub."""
     cells = mesh.cells[web.beside(mesh.points[mesh.cells].mean(axis=1))]
     used = np.unique(cells)
     return BodyMesh(mesh.points[used], np.searchsorted(used, cells), {})

@@ -14,8 +14,9 @@ class WholeBodyCompliance:
 
     Teeth are counted counter-clockwise. roll_angles: of each tooth's flank nodes (n,), rad, increasing. element_order:
     1 or 2. blocks: blocks[t][m] (2n', 2n), mm per N/mm (plane strain, unit thickness), is the displacement of the flank
-    m pitches ahead of tooth t under forces on tooth t; dofs as in `FlankCompliance`. openings: of a body with cracks,
-    by the loaded tooth within `offsets` of one, (k, 2n), mm per N/mm: how far the faces are moved apart at k places.
+    m pitches ahead of tooth t under forces on tooth t. Dofs are as in `FlankCompliance`. openings: of a body with
+    cracks, by the loaded tooth within `offsets` of one, (k, 2n), mm per N/mm: how far the faces are moved apart at k
+    places.
     """
 
     roll_angles: tuple[np.ndarray, ...]
@@ -38,7 +39,7 @@ class WholeBodyCompliance:
 
     def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
         """Compliance (2n', 2n) of the flank of one tooth under forces on another; any whole numbers, teeth repeat after
-        a turn. sides: as of `FlankCompliance`. Raises ComputationError for coast flanks, and for teeth further apart
+        a turn. sides: as in `FlankCompliance`. Raises ComputationError for coast flanks, and for teeth further apart
         than `offsets`."""
         if any(sides):
             raise ComputationError(

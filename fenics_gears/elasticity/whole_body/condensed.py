@@ -1,9 +1,9 @@
 """Flank compliance of a gear meshed as a whole: each tooth's part is condensed by PETSc, the parts are joined exactly.
 
-With F the flank dofs of part t and I the interface dofs of all parts, block inversion gives the compliance between
-flanks as ``A[s, t] = d_st S_FF[t]^-1 + X_s J^-1 X_t^T``, where ``X_t = S_FF^-1 S_FI`` of part t and ``J = sum_t (S_II -
-S_IF S_FF^-1 S_FI)`` is the interfaces' own stiffness. For a gear of equal sectors that is `elasticity.ring` without its
-Fourier transform.
+F are the flank dofs of part t, I the interface dofs of all parts. Block inversion gives the compliance between flanks,
+``A[s, t] = d_st S_FF[t]^-1 + X_s J^-1 X_t^T``, with ``X_t = S_FF^-1 S_FI`` of part t. ``J = sum_t (S_II - S_IF S_FF^-1
+S_FI)`` is the stiffness of the interfaces. For a gear of equal sectors that is `elasticity.ring` without its Fourier
+transform.
 """
 
 from dataclasses import asdict, dataclass
@@ -79,7 +79,7 @@ class _CondensedPart:
 
     The surface is the flank (`flank` dofs), then the faces of cracks, all in the tooth's frame. own: (F, F), S_FF^-1.
     to_interface: (F, I), X. link: (I, I), stiffness of the interface, the surface free. dofs: (I,), the interface's
-    among those of all parts.
+    among the dofs of all parts.
     """
 
     own: np.ndarray
@@ -106,19 +106,19 @@ def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Elemen
 
 
 def _condensed(part: Part, body: DividedBody, element: Element, poissons_ratio: float, angle: float) -> _CondensedPart:
-    """A part whose tooth stands turned by an angle (rad)."""
+    """A part whose tooth is turned by an angle (rad)."""
     groups = {name: body.nodes.points[getattr(part, name)] for name in ("flank", "faces", "interface", "hub")}
-    found = condense(part.mesh, element, poissons_ratio, groups, cells_of={"faces": part.face_cells})
-    surface = np.concatenate([found.dofs("flank"), found.dofs("faces")])
-    interface = found.dofs("interface")
-    stiffness = _in_frame(_in_frame(found.stiffness[np.ix_(surface, surface)], angle).T, angle)
-    coupling = _in_frame(found.stiffness[np.ix_(surface, interface)], angle)
+    condensed = condense(part.mesh, element, poissons_ratio, groups, cells_of={"faces": part.face_cells})
+    surface = np.concatenate([condensed.dofs("flank"), condensed.dofs("faces")])
+    interface = condensed.dofs("interface")
+    stiffness = _in_frame(_in_frame(condensed.stiffness[np.ix_(surface, surface)], angle).T, angle)
+    coupling = _in_frame(condensed.stiffness[np.ix_(surface, interface)], angle)
     own = definite_inverse(0.5 * (stiffness + stiffness.T), "a tooth's flank")
     to_interface = own @ coupling
-    link = found.between("interface", "interface") - coupling.T @ to_interface
+    link = condensed.between("interface", "interface") - coupling.T @ to_interface
     dofs = dofs_of(np.searchsorted(body.interface, part.interface))
     return _CondensedPart(
-        own, to_interface, 0.5 * (link + link.T), dofs, 2 * len(part.flank), found.timings["time_compile"]
+        own, to_interface, 0.5 * (link + link.T), dofs, 2 * len(part.flank), condensed.timings["time_compile"]
     )
 
 
@@ -133,13 +133,13 @@ def _blocks(gear: Gear, body: DividedBody, parts: list[_CondensedPart], tooth_of
     places = np.hstack([[np.repeat(part.dofs, len(part.dofs)), np.tile(part.dofs, len(part.dofs))] for part in parts])
     joined = sparse.coo_matrix((np.concatenate([part.link.ravel() for part in parts]), places), shape=(size, size))
     factor = Factor(joined.tocsr(), "the interfaces of a gear's teeth")
-    found = {}
+    blocks = {}
 
     def opened(by: int, at: int, motion: np.ndarray) -> None:
         """Add how far apart a force on the flank of a tooth moves the faces of cracks in the part at a tooth, from
         their motion (2 c, 2 f)."""
         if len(motion):
-            rows = found.setdefault(f"opening_{by}", np.zeros((len(body.cracks.one), motion.shape[1])))
+            rows = blocks.setdefault(f"opening_{by}", np.zeros((len(body.cracks.one), motion.shape[1])))
             _add_openings(rows, body, at, motion, rotation(at * gear.angular_pitch))
 
     try:
@@ -153,14 +153,14 @@ def _blocks(gear: Gear, body: DividedBody, parts: list[_CondensedPart], tooth_of
                 block = other.to_interface @ response[other.dofs] @ part.to_interface.T
                 if ahead == 0:
                     block = part.own + 0.5 * (block + block.T)
-                found[_block_name(tooth, ahead)] = np.ascontiguousarray(block[: other.flank, : part.flank])
+                blocks[_block_name(tooth, ahead)] = np.ascontiguousarray(block[: other.flank, : part.flank])
                 opened(tooth, beside, block[other.flank :, : part.flank])
                 if ahead:
                     # By reciprocity.
                     opened(beside, tooth, block[: other.flank, part.flank :].T)
     finally:
         factor.close()
-    return found
+    return blocks
 
 
 def _add_openings(rows: np.ndarray, body: DividedBody, part: int, motion: np.ndarray, frame: np.ndarray) -> None:

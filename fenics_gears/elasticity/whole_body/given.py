@@ -35,7 +35,7 @@ def _why_not_read(path: Path) -> str:
     except user_file.Unreadable as problem:
         return f"{problem}."
     near = sorted(each.name for each in path.parent.glob("*.msh")) if path.parent.is_dir() else []
-    listed = f" Meshes beside it: {', '.join(near)}." if near else ""
+    listed = f" Meshes in its folder: {', '.join(near)}." if near else ""
     return f"there is no such file, or it cannot be read.{listed}"
 
 

@@ -1,7 +1,7 @@
 """Bore, tips and drive flanks on the boundary of a meshed gear, found by their position: the mesh needs no names.
 
-The gear's centre is the origin; the mesh is turned so that the tooth whose drive flank stands nearest to the body frame
-of a tooth (`geometry.involute`) is tooth 0. Drive flanks are the counter-clockwise sides of the teeth.
+The gear's centre is the origin; the mesh is turned so that the tooth whose drive flank is nearest to the body frame of
+a tooth (`geometry.involute`) is tooth 0. Drive flanks are the counter-clockwise sides of the teeth.
 """
 
 from dataclasses import dataclass
@@ -130,8 +130,7 @@ def _check_whole(points: np.ndarray, bore: np.ndarray) -> None:
 
 
 def _standing_angle(points: np.ndarray, gear: Gear) -> float:
-    """Angle (rad) by which the mesh stands turned: that of the points (k, 2) of all drive flanks, up to whole
-    pitches."""
+    """Angle (rad) by which the mesh is turned, from the points (k, 2) of all drive flanks, up to whole pitches."""
     radius = np.linalg.norm(points, axis=1)
     tolerance = OUTLINE_TOLERANCE * gear.module
     between = (radius > gear.form_radius) & (radius < gear.tip_form_radius - tolerance)
@@ -144,8 +143,8 @@ def _standing_angle(points: np.ndarray, gear: Gear) -> float:
     twice = np.concatenate([angle, angle + pitch])
     within = np.searchsorted(twice, angle + window, side="right") - np.arange(len(angle))
     densest = int(np.argmax(within))
-    found = float(np.median(twice[densest : densest + within[densest]]))
-    return (found + 0.5 * pitch) % pitch - 0.5 * pitch
+    median = float(np.median(twice[densest : densest + within[densest]]))
+    return (median + 0.5 * pitch) % pitch - 0.5 * pitch
 
 
 def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float) -> list[np.ndarray]:
@@ -155,7 +154,7 @@ def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float)
     tooth, on_drive_side, off = _off_involute(points[boundary], gear)
     off = np.abs(off)
     known = {tuple(side) for side in sides.tolist()}
-    found = []
+    chains = []
     for each in range(gear.teeth):
         own = on_drive_side & (tooth == each)
         chain, problem = _chain(points, known, boundary[own & (off <= tolerance)], gear, tolerance)
@@ -165,13 +164,13 @@ def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float)
             raise SceneError(
                 f"the drive flank of tooth {each}, counted counter-clockwise, {problem}{_deviation(worst, tolerance)}"
             )
-        found.append(chain)
-    return found
+        chains.append(chain)
+    return chains
 
 
 def _off_involute(points: np.ndarray, gear: Gear) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of points (k, 2): the tooth they belong to, whether they are on its counter-clockwise side, and how far
-    counter-clockwise off its drive flank, mm: an involute turned by an angle stands off by that of its base circle."""
+    """Of points (k, 2): the tooth they belong to, whether they are on its counter-clockwise side, and their distance
+    (mm), counter-clockwise, from its drive flank. An involute that is turned moves by the arc of its base circle."""
     angle = np.arctan2(points[:, 1], points[:, 0])
     ahead = np.mod(angle - centreline_angle(gear), 2.0 * np.pi) / gear.angular_pitch
     tooth = np.floor(ahead + 0.5).astype(int) % gear.teeth

@@ -23,8 +23,8 @@ from ..mesh_data import BodyMesh
 class Part:
     """One part of a body: its mesh, and nodes of the whole body that are kept of it.
 
-    flank: (f,), by radius; interface: (i,), those shared with other parts, not on the hub; hub: (h,); faces: (c,),
-    those on the faces of cracks, with the centres (c, 2) of a cell of each.
+    flank: (f,), by radius. interface: (i,), shared with other parts, not on the hub. hub: (h,). faces: (c,), on the
+    faces of cracks, with the centres (c, 2) of a cell of each.
     """
 
     mesh: BodyMesh
@@ -37,8 +37,8 @@ class Part:
 
 @dataclass(frozen=True)
 class CrackNodes:
-    """Nodes (k,) on one face of a body's cracks, those that face them (k,), and the normals (k, 2) out of the first
-    face: the faces stand apart by (u[other] - u[one]) . normal."""
+    """Nodes (k,) on one face of a body's cracks, the opposite nodes (k,), and the normals (k, 2) out of the first face.
+    A crack is open by (u[other] - u[one]) . normal."""
 
     one: np.ndarray
     other: np.ndarray
@@ -148,8 +148,8 @@ def nodes_on(nodes: ElementNodes, sides: np.ndarray) -> np.ndarray:
     count = len(nodes.points)
     keys = np.sort(table[:, :2], axis=1) @ [count, 1]
     order = np.argsort(keys)
-    found = order[np.searchsorted(keys, np.sort(sides, axis=1) @ [count, 1], sorter=order)]
-    return np.unique(np.concatenate([np.unique(sides), table[found, 2]]))
+    numbers = order[np.searchsorted(keys, np.sort(sides, axis=1) @ [count, 1], sorter=order)]
+    return np.unique(np.concatenate([np.unique(sides), table[numbers, 2]]))
 
 
 def _sub_mesh(mesh: BodyMesh, chosen: np.ndarray) -> BodyMesh:

@@ -42,51 +42,53 @@ WORDS_APART = 0.035
 MOST_DAMPED = 0.5**0.5
 
 
-def map_pictures(found: xr.Dataset) -> dict[str, tuple[str, list[Chart]]]:
+def map_pictures(map_data: xr.Dataset) -> dict[str, tuple[str, list[Chart]]]:
     """Subject and charts of each picture for which a map (`map_results`) has data, by file name."""
-    several = found.sizes["load"] > 1
+    several = map_data.sizes["load"] > 1
     pictures: dict[str, tuple[str, list[Chart]]] = {}
-    if "transmission_error" in found:
-        error = found["transmission_error"]
+    if "transmission_error" in map_data:
+        error = map_data["transmission_error"]
         without_mean = (error - error.mean("mesh_phase")).assign_attrs(error.attrs)
-        whole = harris_map(error, f"Transmission error by {found['load'].attrs['long_name']}")
+        whole = harris_map(error, f"Transmission error by {map_data['load'].attrs['long_name']}")
         charts = [whole, harris_map(without_mean, "The same, each curve without its mean")]
         pictures["harris_map.png"] = ("Harris map", charts)
     if several:
-        pictures["over_load.png"] = ("Quasi-static, over the load", over_load(found))
-    if "mesh_frequency" in found.coords:
-        if found.sizes["mesh_frequency"] > 1:
-            pictures["over_speed.png"] = ("Steady speeds", over_speed(found))
-        pictures["campbell.png"] = ("Campbell diagram", [campbell(found)])
-        unit = found["load"].attrs["units"]
-        for load in found["load"].values if found.sizes["mesh_frequency"] > 1 else ():
+        pictures["over_load.png"] = ("Quasi-static, over the load", over_load(map_data))
+    if "mesh_frequency" in map_data.coords:
+        if map_data.sizes["mesh_frequency"] > 1:
+            pictures["over_speed.png"] = ("Steady speeds", over_speed(map_data))
+        pictures["campbell.png"] = ("Campbell diagram", [campbell(map_data)])
+        unit = map_data["load"].attrs["units"]
+        for load in map_data["load"].values if map_data.sizes["mesh_frequency"] > 1 else ():
             name = f"waterfall_{load:g}_{unit.replace(' ', '_')}.png"
-            charts = waterfall(found.sel(load=load))
+            charts = waterfall(map_data.sel(load=load))
             pictures[name] = (f"Waterfall at {load:g} {unit}", charts)
     return pictures
 
 
-def over_load(found: xr.Dataset) -> list[Chart]:
+def over_load(map_data: xr.Dataset) -> list[Chart]:
     """Transmission error peak to peak, its harmonics and the mesh stiffness over the load."""
-    found = found.sortby("load")
-    harmonics = {f"{number} × mesh": found[name] for number, name in enumerate(HARMONIC_NAMES, 1) if name in found}
+    map_data = map_data.sortby("load")
+    harmonics = {
+        f"{number} × mesh": map_data[name] for number, name in enumerate(HARMONIC_NAMES, 1) if name in map_data
+    }
     stiffness = {
-        words: found[name]
+        words: map_data[name]
         for name, words in (("mean_mesh_stiffness", "secant"), ("mean_mesh_stiffness_tangent", "tangent"))
-        if name in found
+        if name in map_data
     }
     kinds = (
-        ({"": found["peak_to_peak_transmission_error"]}, "Transmission error, peak to peak", "Peak to peak (µm)"),
+        ({"": map_data["peak_to_peak_transmission_error"]}, "Transmission error, peak to peak", "Peak to peak (µm)"),
         (harmonics, "Harmonics of the transmission error", "Amplitude (µm)"),
         (stiffness, "Mesh stiffness over the face width, mean of the mesh cycle", "N/(mm µm)"),
     )
-    axis = f"{found['load'].attrs['long_name'].capitalize()} ({found['load'].attrs['units']})"
+    axis = f"{map_data['load'].attrs['long_name'].capitalize()} ({map_data['load'].attrs['units']})"
     return [_curves(curves, "load", axis, *titles) for curves, *titles in kinds if curves]
 
 
-def over_speed(found: xr.Dataset) -> list[Chart]:
+def over_speed(map_data: xr.Dataset) -> list[Chart]:
     """Dynamic factor, transmission error and mesh force over the speed, a curve for each load."""
-    found = found.sortby(["load", "mesh_frequency"])
+    map_data = map_data.sortby(["load", "mesh_frequency"])
     kinds = {
         "dynamic_factor_by_force": (
             "Dynamic factor: largest force of a tooth pair over that without inertia",
@@ -97,12 +99,15 @@ def over_speed(found: xr.Dataset) -> list[Chart]:
         "dynamic_rms_normal_force": ("Mesh force without its mean, r.m.s.", "R.m.s. (N)"),
     }
     of_loads = {
-        name: {f"{load:g} {found['load'].attrs['units']}": found[name].sel(load=load) for load in found["load"].values}
+        name: {
+            f"{load:g} {map_data['load'].attrs['units']}": map_data[name].sel(load=load)
+            for load in map_data["load"].values
+        }
         for name in kinds
-        if name in found
+        if name in map_data
     }
     return [
-        _curves(curves, "mesh_frequency", _speed(found), *kinds[name], shades(len(curves)))
+        _curves(curves, "mesh_frequency", _speed(map_data), *kinds[name], shades(len(curves)))
         for name, curves in of_loads.items()
     ]
 
@@ -122,16 +127,16 @@ def _curves(
     return Chart(caption, drawn, x_title, y_title, height=270, least=span([(each.name, each.y, "") for each in drawn]))
 
 
-def _speed(found: xr.Dataset) -> str:
-    of_pinion = 100.0 * float(found["pinion_speed"][0] / found["mesh_frequency"][0])
+def _speed(map_data: xr.Dataset) -> str:
+    of_pinion = 100.0 * float(map_data["pinion_speed"][0] / map_data["mesh_frequency"][0])
     return f"{SPEED}; 100 Hz are {of_pinion:.4g} rpm of the pinion"
 
 
-def campbell(found: xr.Dataset) -> Chart:
+def campbell(map_data: xr.Dataset) -> Chart:
     """Frequency over speed: mesh orders as lines from the origin, natural frequencies level, marked where an order
     meets one that contact excites."""
-    fastest = float(found["mesh_frequency"].max())
-    largest = float(np.nanmax(found["natural_frequency"], initial=0.0))
+    fastest = float(map_data["mesh_frequency"].max())
+    largest = float(np.nanmax(map_data["natural_frequency"], initial=0.0))
     top = max(1.1 * fastest, min(MESH_ORDERS * fastest, 1.2 * largest))
     orders = np.arange(1, MESH_ORDERS + 1)
     ends = np.minimum(fastest, top / orders)
@@ -141,8 +146,8 @@ def campbell(found: xr.Dataset) -> Chart:
     ]
     named = [f"{order} ×" for order in orders]
     curves.append(Curve("orders", ends, orders * ends, DARK, mode=WORDS, listed=False, words=named, beside="right"))
-    modes = found[["natural_frequency", "damping_ratio", "excited", "motion"]].dropna("load")
-    modes = modes.isel(mode=found["natural_frequency"].min("load").values < top)
+    modes = map_data[["natural_frequency", "damping_ratio", "excited", "motion"]].dropna("load")
+    modes = modes.isel(mode=map_data["natural_frequency"].min("load").values < top)
     low = modes["natural_frequency"].min("load").values
     high = modes["natural_frequency"].max("load").values
     curves += _natural_frequencies(low, high, modes, fastest, top)
@@ -153,7 +158,7 @@ def campbell(found: xr.Dataset) -> Chart:
     if (x <= fastest).any():
         curves.append(Curve("resonances", x[x <= fastest], y[x <= fastest], PALETTE[1], mode=MARKERS))
     ranges = {"x_range": (0.0, BESIDE * fastest), "y_range": (0.0, 1.06 * top)}
-    return Chart("", curves, _speed(found), FREQUENCY, height=560, **ranges)
+    return Chart("", curves, _speed(map_data), FREQUENCY, height=560, **ranges)
 
 
 def _natural_frequencies(low: np.ndarray, high: np.ndarray, modes: xr.Dataset, fastest: float, top: float):
@@ -173,19 +178,19 @@ def _natural_frequencies(low: np.ndarray, high: np.ndarray, modes: xr.Dataset, f
     return [*curves, words_apart(places, WORDS_APART * top, "top right")] if places else curves
 
 
-def waterfall(found: xr.Dataset) -> list[Chart]:
+def waterfall(map_data: xr.Dataset) -> list[Chart]:
     """Spectra of transmission error and mesh force one above the other by speed, at one load."""
     signals = (("transmission_error", "Transmission error", "1 µm"), ("mesh_force", "Mesh force", "1 N"))
-    found = found.sortby("mesh_frequency")
+    map_data = map_data.sortby("mesh_frequency")
     amplitudes = (
-        (found[f"{name}_amplitude"].transpose("mesh_frequency", "order").values, *words) for name, *words in signals
+        (map_data[f"{name}_amplitude"].transpose("mesh_frequency", "order").values, *words) for name, *words in signals
     )
-    return [_waterfall(found, *each) for each in amplitudes if np.nanmax(each[0], initial=0.0) > 0.0]
+    return [_waterfall(map_data, *each) for each in amplitudes if np.nanmax(each[0], initial=0.0) > 0.0]
 
 
-def _waterfall(found: xr.Dataset, amplitudes: np.ndarray, signal: str, reference: str) -> Chart:
-    speeds = found["mesh_frequency"].values
-    orders = found["order"].values
+def _waterfall(map_data: xr.Dataset, amplitudes: np.ndarray, signal: str, reference: str) -> Chart:
+    speeds = map_data["mesh_frequency"].values
+    orders = map_data["order"].values
     levels = spectrum.level(amplitudes)
     widest = MESH_ORDERS * speeds[-1]
     highest = float(np.nanmax(levels))
@@ -199,7 +204,7 @@ def _waterfall(found: xr.Dataset, amplitudes: np.ndarray, signal: str, reference
             speed,
         )
         curves.append(Curve(f"{speed:g} Hz", x, y, colour, width=1.2, listed=False))
-    for natural in np.unique(np.round(np.nan_to_num(found["natural_frequency"].values), 1)):
+    for natural in np.unique(np.round(np.nan_to_num(map_data["natural_frequency"].values), 1)):
         if 0.0 < natural < widest:
             x = np.full(2, natural)
             y = np.array([0.0, speeds[-1] + high])
@@ -211,7 +216,7 @@ def _waterfall(found: xr.Dataset, amplitudes: np.ndarray, signal: str, reference
     words = [f"{ray} × mesh" for ray in rays]
     curves.append(Curve("orders", x, y, DARK, mode=WORDS, listed=False, words=words, beside="top left"))
     caption = (
-        f"{signal}: base lines stand at their speed; height is the level of the amplitude, {DECIBELS:g} dB up to the"
+        f"{signal}: base lines are at their speed; height is the level of the amplitude, {DECIBELS:g} dB up to the"
         f" highest line, {highest:.1f} dB re {reference}; dashed: natural frequencies"
     )
     ranges = {"x_range": (0.0, widest), "y_range": (max(0.0, speeds[0] - 0.3 * high), top + 0.5 * high)}

@@ -113,34 +113,34 @@ def load_map(file: Path, scene: Scene, loads: Sequence[str], speeds: Sequence[st
         raise SceneError(
             f"{SPEEDS}: has both speeds of the pinion and mesh frequencies. Allowed: one of the two. {NOTHING_DONE}"
         )
-    found = LoadMap(file, scene, torques, written)
-    if found.count > most:
+    planned = LoadMap(file, scene, torques, written)
+    if planned.count > most:
         raise SceneError(
             f"gears map: {len(torques)} loads{f' with {len(written)} speeds each, and at rest,' if written else ''} are"
-            f" {found.count} runs, about {seconds_in_words(found.expected_seconds)} on one core of an idle machine."
-            f" Allowed: up to {most}. Take fewer loads or speeds, or allow more by --most-runs {found.count}."
+            f" {planned.count} runs, about {seconds_in_words(planned.expected_seconds)} on one core of an idle machine."
+            f" Allowed: up to {most}. Take fewer loads or speeds, or allow more by --most-runs {planned.count}."
             f" {NOTHING_DONE}"
         )
-    return found
+    return planned
 
 
 def _values(option: str, written: Sequence[str], *kinds: str, why: str = "") -> tuple[str, ...]:
     """All values of an option, each once. Raises SceneError for one that is none of these kinds of quantities."""
-    found: list[str] = []
+    words: list[str] = []
     for word in written:
         try:
-            found += values_in_words(word)
-            units.of_kind(found[-1], *kinds)
+            words += values_in_words(word)
+            units.of_kind(words[-1], *kinds)
         except (AxisError, units.QuantityError) as error:
             raise SceneError(
-                f'{option} "{word}" {error} Each value stands in quotes with its unit. {why}{NOTHING_DONE}'
+                f'{option} "{word}" {error} Write each value in quotes with its unit. {why}{NOTHING_DONE}'
             ) from None
-    numbers = [units.of_kind(each, *kinds)[0] for each in found]
+    numbers = [units.of_kind(each, *kinds)[0] for each in words]
     for place, number in enumerate(numbers):
         if not isfinite(number) or number in numbers[:place]:
             why = "is given twice or is not a finite number. Allowed: each value once."
-            raise SceneError(f'{option} "{found[place]}" {why} {NOTHING_DONE}')
-    return tuple(found)
+            raise SceneError(f'{option} "{words[place]}" {why} {NOTHING_DONE}')
+    return tuple(words)
 
 
 def _by_pinion(speed: str) -> bool:
@@ -148,8 +148,8 @@ def _by_pinion(speed: str) -> bool:
 
 
 def _frequencies(wanted: LoadMap) -> list[float | None]:
-    """Mesh frequencies (Hz) at which a load has torques of its own: None for the scene's, of a power also those of the
-    speeds."""
+    """Mesh frequencies (Hz) at which a load has a torque each: None for the scene's; a power has one at each speed
+    too."""
     speeds = wanted.speeds if wanted.scene.load.given == "power" else ()
     per_turn = wanted.scene.gears.pinion.teeth / (2.0 * pi)
     return [None, *(units.of_kind(each, *SPEED_KINDS)[0] * (per_turn if _by_pinion(each) else 1.0) for each in speeds)]
@@ -188,8 +188,8 @@ def _over_speed(wanted: LoadMap) -> dict[str, Any]:
 
 def shared_accuracy(wanted: LoadMap) -> dict[str, Any]:
     """Settings that the scene leaves to the program and that depend on the load: the same for all, so that all loads
-    share gears and contact operators. Flank elements are those of the geometric mean of the loads, the contact length
-    is that of the largest."""
+    share gears and contact operators. Flank elements suit the geometric mean of the loads, the contact length suits the
+    largest."""
     scene = wanted.scene
     given = wanted.scene.accuracy
     every = (wanted.wheel_torque(each, speed) for each in wanted.loads for speed in _frequencies(wanted))
@@ -200,5 +200,5 @@ def shared_accuracy(wanted: LoadMap) -> dict[str, Any]:
         model_of(quasi_static(replace(scene, load=Load(torque)))).resolution
         for torque in (sqrt(min(torques) * max(torques)), max(torques))
     )
-    found = {"flank_element_size": middle.flank_element_size, "contact_length": largest.contact_grid.length}
-    return {f"accuracy.{name}": f"{value:.6g} mm" for name, value in found.items() if getattr(given, name) is None}
+    sizes = {"flank_element_size": middle.flank_element_size, "contact_length": largest.contact_grid.length}
+    return {f"accuracy.{name}": f"{value:.6g} mm" for name, value in sizes.items() if getattr(given, name) is None}

@@ -54,24 +54,24 @@ def map_dataset(wanted: LoadMap, at_rest: Outcome, over_speed: Outcome | None) -
     pair = model_of(wanted.scene).pair
     length = pair.wheel.base_radius / MICROMETRE
     study = load_combined(at_rest.file)
-    found = xr.Dataset(coords={"load": ("load", np.array(wanted.numbers), _labels(*LOAD_WORDS[scene.load.given]))})
-    found = found.assign(_taken(study, AT_REST, ("load",), length))
+    dataset = xr.Dataset(coords={"load": ("load", np.array(wanted.numbers), _labels(*LOAD_WORDS[scene.load.given]))})
+    dataset = dataset.assign(_taken(study, AT_REST, ("load",), length))
     if "mesh_phase" in study:
-        found = found.assign_coords(mesh_phase=study["mesh_phase"]).assign(
+        dataset = dataset.assign_coords(mesh_phase=study["mesh_phase"]).assign(
             _taken(study, CURVES, ("load", "mesh_phase"), length)
         )
     if scene.inertia is not None:
         torques = [wanted.wheel_torque(each) for each in wanted.loads]
-        tangents = found.get("mean_mesh_stiffness_tangent")
+        tangents = dataset.get("mean_mesh_stiffness_tangent")
         frequencies = frequencies_over_load(scene, 1e-3 * np.array(torques), tangents, pair)
-        found = found.assign(frequencies).set_coords(["excited", "motion"])
+        dataset = dataset.assign(frequencies).set_coords(["excited", "motion"])
     if over_speed is not None:
         study = load_combined(over_speed.file)
         dimensions = ("load", "mesh_frequency")
-        found = found.assign(_spectra(over_speed, pair, found.sizes["load"])).set_coords("pinion_speed")
-        found = found.assign(_taken(study, WITH_INERTIA, dimensions, length, DYNAMIC))
-        found = found.assign(_taken(study, ("dynamic_factor_by_force",), dimensions, length))
-    return found.assign_attrs(
+        dataset = dataset.assign(_spectra(over_speed, pair, dataset.sizes["load"])).set_coords("pinion_speed")
+        dataset = dataset.assign(_taken(study, WITH_INERTIA, dimensions, length, DYNAMIC))
+        dataset = dataset.assign(_taken(study, ("dynamic_factor_by_force",), dimensions, length))
+    return dataset.assign_attrs(
         title=scene.title,
         scene=scene.text,
         fenics_gears_version=fenics_gears.__version__,
@@ -87,12 +87,12 @@ def _taken(
     study: xr.Dataset, names: Sequence[str], dimensions: tuple[str, ...], length: float, prefix: str = ""
 ) -> Columns:
     """Those of the study's variables that it has; angles of the wheel as lengths (um)."""
-    found: Columns = {}
+    columns: Columns = {}
     for name in (name for name in names if name in study):
         units, words = (study[name].attrs[each] for each in ("units", "long_name"))
         labels = _labels("um", f"{words}, along the line of action") if units == "rad" else _labels(units, words)
-        found[prefix + name] = (dimensions, study[name].values * (length if units == "rad" else 1.0), labels)
-    return found
+        columns[prefix + name] = (dimensions, study[name].values * (length if units == "rad" else 1.0), labels)
+    return columns
 
 
 def frequencies_over_load(scene: Scene, loads: np.ndarray, tangents: xr.DataArray | None, pair: GearPair) -> Columns:

@@ -48,16 +48,16 @@ def _run(options: argparse.Namespace, team) -> int:
             print(words, file=sys.stderr)
         if outcome.interrupted:
             return INTERRUPTED
-    found = map_dataset(wanted, outcomes[QUASI_STATIC], outcomes.get(OVER_SPEED))
-    tables = save_tables(found, directory, "map")
-    pictures = after_result(tables[0], "pictures", lambda: _drawn(found, directory, scene))
+    dataset = map_dataset(wanted, outcomes[QUASI_STATIC], outcomes.get(OVER_SPEED))
+    tables = save_tables(dataset, directory, "map")
+    pictures = after_result(tables[0], "pictures", lambda: _drawn(dataset, directory, scene))
     print_files([*tables, *(pictures or [])], options.quiet)
     if any(outcome.failures for outcome in outcomes.values()):
         return ComputationError.exit_code
     return WITHOUT_SOMETHING if pictures is None else 0
 
 
-def _drawn(found, directory: Path, scene) -> list[Path]:
+def _drawn(dataset, directory: Path, scene) -> list[Path]:
     supports = [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
     more = f"{design(scene)}{', elastic ' + ' and '.join(supports) if supports else ''}"
-    return draw_charts(map_pictures(found), directory, scene.title, more)
+    return draw_charts(map_pictures(dataset), directory, scene.title, more)

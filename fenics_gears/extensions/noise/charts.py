@@ -14,11 +14,11 @@ DECIBELS = 60.0
 LEAST_RATIO = 1e-8
 
 
-def noise_charts(found: xr.Dataset) -> list[Chart]:
+def noise_charts(figures: xr.Dataset) -> list[Chart]:
     return [
-        _followed(found, name) if "part" in found.dims else _levels(found, name)
+        _followed(figures, name) if "part" in figures.dims else _levels(figures, name)
         for name in SIGNALS
-        if f"{name}_level" in found
+        if f"{name}_level" in figures
     ]
 
 
@@ -27,16 +27,16 @@ def _titles(name: str) -> tuple[str, str]:
     return words[0].upper() + words[1:], f"Level of the amplitude (dB re 1 {unit.replace('um', 'µm')})"
 
 
-def _levels(found: xr.Dataset, name: str) -> Chart:
-    orders = found["order"].values[found["order"].values <= ORDERS_SHOWN]
-    levels = found[f"{name}_level"].values[: len(orders)]
+def _levels(figures: xr.Dataset, name: str) -> Chart:
+    orders = figures["order"].values[figures["order"].values <= ORDERS_SHOWN]
+    levels = figures[f"{name}_level"].values[: len(orders)]
     mesh = np.abs(orders - np.round(orders)) < 1e-6
     top = float(levels.max())
     foot = top - DECIBELS
     between, whole = ((orders[shown], levels[shown]) for shown in (~mesh & (levels > foot), mesh & (levels > foot)))
     caption, title = _titles(name)
-    if f"{name}_sideband_ratio" in found:
-        ratios = found[f"{name}_sideband_ratio"].sel(harmonic=slice(1, ORDERS_SHOWN))
+    if f"{name}_sideband_ratio" in figures:
+        ratios = figures[f"{name}_sideband_ratio"].sel(harmonic=slice(1, ORDERS_SHOWN))
         beside = [
             f"{10.0 * np.log10(float(ratio)):+.1f}\u00a0dB at order {int(ratio['harmonic'])}"
             for ratio in ratios
@@ -53,11 +53,16 @@ def _levels(found: xr.Dataset, name: str) -> Chart:
     return Chart(caption, drawn, "Mesh order", title, height=420, **ranges)
 
 
-def _followed(found: xr.Dataset, name: str) -> Chart:
+def _followed(figures: xr.Dataset, name: str) -> Chart:
     caption, title = _titles(name)
     colours = (*PALETTE, DARK)
     curves = [
-        Curve(f"{order} × mesh", found["mesh_frequency"].values, found[f"{name}_level"].sel(order=order).values, colour)
-        for order, colour in zip(found["order"].values[:FOLLOWED], colours)
+        Curve(
+            f"{order} × mesh",
+            figures["mesh_frequency"].values,
+            figures[f"{name}_level"].sel(order=order).values,
+            colour,
+        )
+        for order, colour in zip(figures["order"].values[:FOLLOWED], colours)
     ]
     return Chart(caption, curves, "Mesh frequency (Hz)", title, height=420)

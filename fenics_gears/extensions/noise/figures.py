@@ -1,8 +1,8 @@
 """Noise figures of a run: levels of mesh orders, sideband energy, and the orders followed over a speed ramp.
 
-Levels are those of amplitudes (peak, not r.m.s.), of the transmission error re 1 um along the line of action, of the
-mesh force re 1 N. Steps stand at equal phases of the mesh also where the speed changes, so that a spectrum over steps
-is one over orders without resampling.
+Levels are of amplitudes (peak, not r.m.s.): of the transmission error re 1 um along the line of action, of the mesh
+force re 1 N. Steps are at equal phases of the mesh also where the speed changes, so that a spectrum over steps is one
+over orders without resampling.
 """
 
 import numpy as np
@@ -23,10 +23,10 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
     `mesh_frequency` and `order` of a ramp.
 
     `..._sideband_energy` over `harmonic` and `gear`: sum of squares of the sidebands of a mesh harmonic at whole turns
-    of a gear; `..._sideband_ratio`: of those of both gears, each once, to the square of the harmonic, NaN where that
-    is round-off; both NaN where the record cannot tell them apart. window: one of `spectrum.WINDOWS`; None: none, over
-    whole hunting tooth periods or else whole mesh cycles, and the flat top for a ramp. Raises ComputationError for a
-    record too short to have mesh orders apart.
+    of a gear. `..._sideband_ratio`: the sum over the sidebands of both gears, each once, over the square of the
+    harmonic; NaN where that is round-off. Both are NaN where the record cannot tell them apart. window: one of
+    `spectrum.WINDOWS`; None: none, over whole hunting tooth periods or else whole mesh cycles, and the flat top for a
+    ramp. Raises ComputationError for a record too short to have mesh orders apart.
     """
     gears = carried_scene(result).gears
     ramp = "mesh_frequency" in result
@@ -40,13 +40,13 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
             " of them, or take another window."
         )
     over = f", over {needed} mesh cycles at a time" if ramp else ""
-    found = xr.Dataset(attrs={"window": f"{used}{over}", "references": "amplitudes of 1 um and of 1 N"})
+    figures = xr.Dataset(attrs={"window": f"{used}{over}", "references": "amplitudes of 1 um and of 1 N"})
     for name, values in signals(run).items():
         if ramp:
-            found = found.assign(_followed(name, values, run, used)).set_coords("mesh_frequency")
+            figures = figures.assign(_followed(name, values, run, used)).set_coords("mesh_frequency")
         else:
-            found = found.assign(_steady(name, values, cycles, (gears.pinion.teeth, gears.wheel.teeth), window))
-    return found
+            figures = figures.assign(_steady(name, values, cycles, (gears.pinion.teeth, gears.wheel.teeth), window))
+    return figures
 
 
 def signals(run: xr.Dataset) -> dict[str, np.ndarray]:
@@ -85,8 +85,8 @@ def _steady(
         lines = spectrum.order_lines(values, cycles, (1, 1), window)
         known = False
     orders = lines.orders / (teeth[0] if known else 1)
-    found = {"order": (("order",), orders, _labels("1", "mesh order")), **_levels(name, ("order",), lines.amplitudes)}
-    return found | (_beside(name, lines, teeth) if known else {})
+    figures = {"order": (("order",), orders, _labels("1", "mesh order")), **_levels(name, ("order",), lines.amplitudes)}
+    return figures | (_beside(name, lines, teeth) if known else {})
 
 
 def _beside(name: str, lines: spectrum.OrderLines, teeth: tuple[int, int]) -> dict[str, tuple]:

@@ -69,7 +69,7 @@ def _samples(time: np.ndarray, values: np.ndarray, seconds: float | None) -> np.
     return resample_poly(spline(at), 1, times) if times > 1 else spline(at)
 
 
-def save_sound(found: Sound, path: Path) -> None:
+def save_sound(sound: Sound, path: Path) -> None:
     """Write a WAV file, 16 bit, one channel; louder samples than the full scale are cut off."""
-    samples = np.clip(found.samples / found.full_scale, -1.0, 1.0) * _FULL
+    samples = np.clip(sound.samples / sound.full_scale, -1.0, 1.0) * _FULL
     wavfile.write(path, SAMPLE_RATE, np.round(samples).astype(np.int16))

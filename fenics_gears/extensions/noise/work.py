@@ -69,8 +69,8 @@ def plot_spectrum(options: argparse.Namespace) -> int:
 
 
 def _noise(dataset, directory: Path, window: str) -> list[Path]:
-    found = noise_figures(dataset, None if window == AUTOMATIC else window)
-    picture = {"noise.png": ("Noise figures", noise_charts(found))}
+    figures = noise_figures(dataset, None if window == AUTOMATIC else window)
+    picture = {"noise.png": ("Noise figures", noise_charts(figures))}
     title = str(dataset.attrs.get("title", ""))
-    more = f"Window: {found.attrs['window']}"
-    return [*save_tables(found, directory, "noise"), *draw_charts(picture, directory, title, more)]
+    more = f"Window: {figures.attrs['window']}"
+    return [*save_tables(figures, directory, "noise"), *draw_charts(picture, directory, title, more)]

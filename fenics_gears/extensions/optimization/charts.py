@@ -118,13 +118,13 @@ def tolerance_rows(outcome: SearchOutcome, goal: Goal) -> list[tuple[str, str, s
 
 def harris_charts(outcome: SearchOutcome) -> list[Chart]:
     """The Harris maps before and after, to the same scale; none where a run failed."""
-    found = harris_dataset(outcome)
-    if "transmission_error" not in found:
+    maps = harris_dataset(outcome)
+    if "transmission_error" not in maps:
         return []
     before = model_of_tree("", outcome.design.before, outcome.design.directory)
-    found.attrs["base_radius_wheel"] = before.pair.wheel.base_radius
+    maps.attrs["base_radius_wheel"] = before.pair.wheel.base_radius
     charts = [
-        harris_map(found.sel(choice=choice).drop_vars("choice"), f"Harris map, {words}")
+        harris_map(maps.sel(choice=choice).drop_vars("choice"), f"Harris map, {words}")
         for choice, words in (("before", BEFORE), ("best", BEST))
     ]
     every = np.concatenate([curve.y for chart in charts for curve in chart.curves])

@@ -50,10 +50,10 @@ def scattered(tree: Mapping[str, Any], scatters: Sequence[Scatter], deviations: 
 
 def trees_of(design: Design, tree: Mapping[str, Any], deviations: np.ndarray) -> list[dict[str, Any]]:
     """Parsed scenes of a design's tree: for each operating point all samples (samples, scatters)."""
-    found = []
+    trees = []
     for point in design.loads.points:
         loaded = dict(tree)
         for path, value in point.items():
             loaded = fields.changed(loaded, path, value)
-        found += [scattered(loaded, design.tolerances.scatters, each) for each in deviations]
-    return found
+        trees += [scattered(loaded, design.tolerances.scatters, each) for each in deviations]
+    return trees

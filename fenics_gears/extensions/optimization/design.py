@@ -104,7 +104,7 @@ class Loads(Section):
     combine: str = choice(MEAN, WORST, meaning="what goals are of all operating points", default=MEAN)
 
     def combined(self, values: np.ndarray) -> np.ndarray:
-        """One value (...) of those of all points (points, ...)."""
+        """One value (...) of the values at all points (points, ...)."""
         return np.max(values, axis=0) if self.combine == WORST else np.average(values, axis=0, weights=self.weights)
 
 

@@ -39,17 +39,17 @@ def load_design(path: str | Path) -> Design:
     sections.check_keys()
     base, directory = sections.scene()
     parts = ("variables", "loads", "goals", "bounds", "search", "tolerances")
-    found: dict[str, Any] = {part: getattr(sections, part)() for part in parts}
+    parts_read: dict[str, Any] = {part: getattr(sections, part)() for part in parts}
     without = left_out(tree, sections.mistakes)
     fixed = dict(entries(tree, "set", sections.mistakes))
     sections.mistakes.check()
-    varied = {variable.path[0] for variable in found["variables"]}
+    varied = {variable.path[0] for variable in parts_read["variables"]}
     before = {place: value for place, value in fixed.items() if place[0] not in varied}
     scene_tree, before_tree = (
         SceneChanges(without, changes, (), "product").apply(base, ()) for changes in (fixed, before)
     )
     name = name_of(path)
-    design = Design(name, tree.get("title", name), scene_tree, before_tree, directory, text, **found)
+    design = Design(name, tree.get("title", name), scene_tree, before_tree, directory, text, **parts_read)
     scene = _checked_ranges(design, sections)
     design = _with_class(design, scene)
     _check_scatter(design, sections)
@@ -115,11 +115,11 @@ def _with_class(design: Design, scene: Scene) -> Design:
     if tolerance_class is None:
         return design
     pair = gear_pair(scene.gears)
-    found = list(design.tolerances.scatters)
+    scatters = list(design.tolerances.scatters)
     for name, width in zip(GEARS, pair.face_widths):
         gear = getattr(pair, name)
         diameter = 2.0 * gear.reference_radius
-        named = {each.path for each in found}
+        named = {each.path for each in scatters}
         limits = flank_tolerance(diameter, gear.normal_module, tolerance_class)
         amounts = {
             ("profile_modifications", name, "slope"): limits.profile_slope,
@@ -130,8 +130,8 @@ def _with_class(design: Design, scene: Scene) -> Design:
             amounts["lead_modifications", name, "helix_slope"] = helix.slope
         for path, amount in amounts.items():
             if path not in named:
-                found.append(Scatter(path, 1e3 * amount, "um", *fields.allowed_at(path)[1:]))
-    return replace(design, tolerances=replace(design.tolerances, scatters=tuple(found)))
+                scatters.append(Scatter(path, 1e3 * amount, "um", *fields.allowed_at(path)[1:]))
+    return replace(design, tolerances=replace(design.tolerances, scatters=tuple(scatters)))
 
 
 def _check_scatter(design: Design, sections: Sections) -> None:

@@ -98,8 +98,8 @@ class Evaluator:
 
     def curves(self, trees: Sequence[Mapping[str, Any]]) -> list[np.ndarray | None]:
         """Mesh phase and transmission error (2, steps), rad, of parsed scenes; None where a run failed."""
-        (found,) = self._cases([trees])
-        runs = [case for case in found if isinstance(case, Run)]
+        (of_trees,) = self._cases([trees])
+        runs = [case for case in of_trees if isinstance(case, Run)]
         cases = [replace(run, key=f"{run.key} curve", values={"curve": ""}) for run in runs]
         self._run(cases, len(trees))
         if len(cases) < len(trees):
@@ -109,10 +109,10 @@ class Evaluator:
 
     def _cases(self, trees: Sequence[Sequence[Mapping[str, Any]]]) -> list[list[Run | Failure]]:
         """The runs of parsed scenes, or why they are no scenes."""
-        found = [[self._model(tree) for tree in of_tree] for of_tree in trees]
-        models = [each for of_tree in found for each in of_tree if not isinstance(each, Failure)]
+        models_of_trees = [[self._model(tree) for tree in of_tree] for of_tree in trees]
+        models = [each for of_tree in models_of_trees for each in of_tree if not isinstance(each, Failure)]
         runs = map(run_of, self._windows.of(models))
-        return [[each if isinstance(each, Failure) else next(runs) for each in of_tree] for of_tree in found]
+        return [[each if isinstance(each, Failure) else next(runs) for each in of_tree] for of_tree in models_of_trees]
 
     def _model(self, tree: Mapping[str, Any]) -> Any:
         """The model of a parsed scene, or why it is no scene."""
@@ -151,13 +151,13 @@ class Evaluator:
                 return Evaluation(values, failure=f"the run has no {name}")
         shape = len(self.design.loads.points), samples
         every = ((name, [line["numbers"][name] for line in lines]) for name in self.design.asked)
-        found = {name: np.array(numbers).reshape(shape) for name, numbers in every}
-        of_samples = {name: self.design.loads.combined(numbers) for name, numbers in found.items()}
+        by_name = {name: np.array(numbers).reshape(shape) for name, numbers in every}
+        of_samples = {name: self.design.loads.combined(numbers) for name, numbers in by_name.items()}
         judge = self.design.tolerances.statistic
         goals = {goal.name: judge(of_samples[goal.name]) for goal in self.design.goals}
         bounds = self.design.bounds
-        at_points = {name: each.mean(axis=1) for name, each in found.items()}
-        violation = sum(max(bound.violation(judge(each)) for each in found[bound.goal.name]) for bound in bounds)
+        at_points = {name: each.mean(axis=1) for name, each in by_name.items()}
+        violation = sum(max(bound.violation(judge(each)) for each in by_name[bound.goal.name]) for bound in bounds)
         return Evaluation(values, goals, of_samples, at_points, violation)
 
 

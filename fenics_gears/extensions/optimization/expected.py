@@ -24,17 +24,17 @@ from .conditions import FRESH, trees_of
 from .design import Design
 
 MOST_HOURS = 8.0
-# Of a run by itself beside its march: seconds, and positions whose operators extremes between steps take (measured on
-# the paper's pair and on a helical one).
+# Of a run by itself, without its march: seconds, and positions between steps at which extremes need operators (measured
+# on the paper's pair and on a helical one).
 TIME_OF_A_RESULT = 0.015
 EXTREMES = 10
-# Of runs that are solved together beside their march, seconds: of each, and of a task of them (measured on the paper's
-# pair, its march of 1.6 ms included: 2.7 ms a run of 32 in a task, 6.7 ms of 8, 10 ms of 4).
+# Seconds of runs that are solved together, without their march: of each, and of a task of them. Measured on the paper's
+# pair with its march of 1.6 ms: 2.7 ms a run where a task has 32, 6.7 ms of 8, 10 ms of 4.
 TIME_OF_NUMBERS = 0.001
 TIME_OF_A_TASK = 0.02
-# Of a run over the face whose contact operators a run before had, by itself and together with others: seconds, and its
-# march with its numbers in parts of a march; of both with friction (measured on a helical pair of 870 to 1,880 contact
-# nodes: within 1.5 times).
+# Of a run over the face that has the contact operators of an earlier run, by itself and together with others: seconds,
+# and its march with its numbers in parts of a march; both with friction. Measured on a helical pair of 870 to 1,880
+# contact nodes, within 1.5 times.
 ALONE_OVER_FACE = (0.02, 1.4)
 TOGETHER_OVER_FACE = (0.005, 0.56)
 WITH_FRICTION = 2.0
@@ -48,8 +48,8 @@ TORQUES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5)
 
 @dataclass(frozen=True)
 class ExpectedWork:
-    """Runs of an optimisation that are not kept yet, at most; seconds on one core of an idle machine, None where its
-    scenes are none at the ends of the variables."""
+    """The most runs of an optimisation that are not kept yet, and their seconds on one core of an idle machine; None
+    where the ends of the variables make no scenes."""
 
     runs: int
     seconds: float | None
@@ -113,13 +113,13 @@ def expected_work(design: Design, kept: int, processes: int = 1) -> ExpectedWork
 def at_ends(design: Design) -> list[list[Run]]:
     """The scenes with all variables at the beginning and at the end of their ranges, where they are scenes: each at all
     operating points."""
-    found = []
+    ends = []
     nominal = np.zeros((1, len(design.tolerances.scatters)))
     for end in (0, -1):
         values = {each.name: (each.words or (each.low, each.high))[end] for each in design.variables}
         # All variables at their ends together may be gears that cannot be.
         with suppress(NoScene):
             trees = trees_of(design, design.scene_tree(values), nominal)
-            found.append([model_of_tree(design.name, tree, design.directory) for tree in trees])
-    runs = map(run_of, CommonWindows().of([model for end in found for model in end]))
-    return [[next(runs) for _ in end] for end in found]
+            ends.append([model_of_tree(design.name, tree, design.directory) for tree in trees])
+    runs = map(run_of, CommonWindows().of([model for end in ends for model in end]))
+    return [[next(runs) for _ in end] for end in ends]

@@ -19,8 +19,8 @@ def unit_and_words(name: str) -> tuple[str, str]:
         return "um", NUMBERS[ERROR][1]
     if name in NUMBERS:
         return NUMBERS[name]
-    found = next(each for each in RESULT_ATTRIBUTES if each.name == name)
-    return found.units, found.meaning
+    attribute = next(each for each in RESULT_ATTRIBUTES if each.name == name)
+    return attribute.units, attribute.meaning
 
 
 def lacking(name: str, scene: Scene) -> str:

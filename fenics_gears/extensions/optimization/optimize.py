@@ -63,9 +63,9 @@ def optimize(
     """Search the best design and look at it from all sides; None on every rank of an MPI job but 0. Finished runs are
     kept in `runs` of the directory, `results/<name of the design file>` unless `output`.
 
-    Raises SceneError, before anything is computed, where the design file is wrong or the work takes more than
-    `expected.MOST_HOURS`, unless `any_time`; ComputationError where the directory cannot be used or no design keeps the
-    constraints; KeyboardInterrupt at Ctrl-C.
+    Raises SceneError, before anything is computed, where the design file is wrong, or where the work takes more than
+    `expected.MOST_HOURS` and not `any_time`. Raises ComputationError where the directory cannot be used or no design
+    keeps the constraints, and KeyboardInterrupt at Ctrl-C.
     """
     with ranks() as team:
         if team is None:
@@ -160,10 +160,10 @@ def _look_around(outcome: SearchOutcome, evaluator: Evaluator) -> None:
     trees = [design.before, design.scene_tree(values)]
     outcome.fresh = evaluator.of_trees(trees, [{}, values], samples(design, fresh=True))
     deviations = np.concatenate([nominal, -np.eye(count), np.eye(count)])
-    (found,) = evaluator.of_designs([values], deviations)
-    for place, scatter in enumerate(design.tolerances.scatters if not found.failure else ()):
+    (evaluation,) = evaluator.of_designs([values], deviations)
+    for place, scatter in enumerate(design.tolerances.scatters if not evaluation.failure else ()):
         at = [1 + place, 0, 1 + count + place]
-        outcome.limits[scatter.name] = {name: numbers[at] for name, numbers in found.of_samples.items()}
+        outcome.limits[scatter.name] = {name: numbers[at] for name, numbers in evaluation.of_samples.items()}
 
 
 def _torque_of(design: Design, tree: Tree) -> float:

@@ -27,7 +27,7 @@ MOST_ROWS = 50
 
 
 def write_page(outcome: SearchOutcome) -> Path:
-    """Write the page beside the result and return its file."""
+    """Write the page next to the result and return its file."""
     text = rendered(optimization_page(outcome))
     return write_whole(outcome.directory / PAGE, lambda path: path.write_text(text, encoding="utf-8"))
 

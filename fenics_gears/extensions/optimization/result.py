@@ -58,13 +58,13 @@ def dataset(outcome: SearchOutcome) -> xr.Dataset:
         add(goal.name, [each.goals.get(goal.name, np.nan) for each in tried], goal.unit, words)
     units = {each.name: each.unit for each in (*design.goals, *(bound.goal for bound in design.bounds))}
     for name, unit in units.items():
-        for dimension, found in (
+        for dimension, curves in (
             ("sample", [each.of_samples.get(name) for each in tried]),
             ("point", [each.at_points.get(name) for each in tried]),
         ):
-            known = next((each for each in found if each is not None), None)
+            known = next((each for each in curves if each is not None), None)
             if known is not None and len(known) > 1:
-                filled = [np.full(len(known), np.nan) if each is None else each for each in found]
+                filled = [np.full(len(known), np.nan) if each is None else each for each in curves]
                 add(f"{name}_at_{dimension}", filled, unit, name.replace("_", " "), dimension)
     add("violation", [each.violation for each in tried], "1", "how far bounds are broken, in parts of them")
     add("on_front", np.isin(numbers, outcome.front).astype(int), "1", "on the Pareto front")
@@ -97,7 +97,7 @@ def harris_dataset(outcome: SearchOutcome) -> xr.Dataset:
 
 
 def best_scene(outcome: SearchOutcome) -> str:
-    """The chosen design as the text of a scene file beside the result."""
+    """The chosen design as the text of a scene file in the folder of the result."""
     tree = outcome.design.scene_tree(outcome.chosen.values)
     for path, is_section in known_paths().items():
         name = None if is_section else value_at(tree, *path)

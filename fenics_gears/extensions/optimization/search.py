@@ -1,4 +1,4 @@
-"""The search for the best designs, by samplers of Optuna: for one goal over ranges CMA-ES (covariance matrix
+"""The search for the best designs, by samplers of Optuna. For one goal over ranges it is CMA-ES (covariance matrix
 adaptation), else TPE (tree-structured Parzen estimators), which takes words and several goals too.
 
 Designs are asked for and told in whole populations and in order. So the same seed tries the same designs whatever the
@@ -43,10 +43,10 @@ def search(
         count = min(design.search.population, design.search.evaluations - len(tried))
         trials = [study.ask(_distributions(optuna, design)) for _ in range(count)]
         values = [{each.name: each.at(trial.params[each.name]) for each in design.variables} for trial in trials]
-        found = evaluate(values)
-        for trial, evaluation in zip(trials, found):
+        evaluations = evaluate(values)
+        for trial, evaluation in zip(trials, evaluations):
             study.tell(trial, evaluation.told(design.goals))
-        tried += found
+        tried += evaluations
     return tried
 
 
@@ -79,9 +79,9 @@ def front(tried: Sequence[Evaluation], names: Sequence[str]) -> list[int]:
         pairs = [(tried[one].goals[name], tried[other].goals[name]) for name in names]
         return all(a <= b for a, b in pairs) and any(a < b for a, b in pairs)
 
-    found: dict[str, int] = {}
+    places: dict[str, int] = {}
     for place in allowed:
         # Of equal designs the first.
         if not any(better(other, place) for other in allowed):
-            found.setdefault(repr(tried[place].values), place)
-    return [*found.values()]
+            places.setdefault(repr(tried[place].values), place)
+    return [*places.values()]

@@ -79,15 +79,15 @@ class Sections:
 
     def variables(self) -> tuple[Variable, ...]:
         """The fields that vary, with their ranges or words."""
-        found = []
+        variables = []
         for path, written in entries(self.tree, "variables", self.mistakes):
             if mistake := _not_variable(path, written):
                 self.wrong("variables", path, written, mistake)
             elif fields.is_numeric(path):
-                found += self._range(path, written)
+                variables += self._range(path, written)
             else:
-                found.append(Variable(path, words=tuple(written)))
-        return tuple(found)
+                variables.append(Variable(path, words=tuple(written)))
+        return tuple(variables)
 
     def _range(self, path: fields.Path, written: list) -> list[Variable]:
         numbers, unit = self._numbers("variables", path, written)
@@ -115,7 +115,7 @@ class Sections:
         shown = written if len(written) > 1 else written[0]
         unit = units.unit_of(written[0]) if isinstance(written[0], str) else ""
         try:
-            found = [
+            quantities = [
                 units.of_kind(each, *kinds)[1] if isinstance(each, str) and allowed.kind else None for each in written
             ]
         except units.QuantityError as error:
@@ -123,7 +123,7 @@ class Sections:
             return [], ""
         numbers = [number_in(each, unit) for each in written]
         finite = all(each is not None and math.isfinite(each) for each in numbers)
-        if len({*found}) > 1 or (found[0] is None) != (allowed.kind is None) or not finite:
+        if len({*quantities}) > 1 or (quantities[0] is None) != (allowed.kind is None) or not finite:
             self.wrong(table, path, shown, f"is not of this field. Allowed: {allowed.description}.")
             return [], ""
         return numbers, unit
@@ -143,30 +143,30 @@ class Sections:
             self.mistakes.add(("loads",), "", f"needs a value of each field for each operating point: {listed}.")
         weights = table.get("weights")
         points = tuple(dict(zip(swept, each)) for each in zip(*swept.values())) or ({},)
-        found = replace(self._own("loads", Loads), points=points, weights=(1.0,) * len(points))
+        loads = replace(self._own("loads", Loads), points=points, weights=(1.0,) * len(points))
         if weights is None:
-            return found
-        if found.combine == WORST:
-            message = 'stands beside combine = "worst", where all operating points count alike. Leave one out.'
+            return loads
+        if loads.combine == WORST:
+            message = 'is given together with combine = "worst", where all operating points count alike. Leave one out.'
             self.wrong("loads", "weights", weights, message)
         numbers = isinstance(weights, list) and all(is_number(each) and each >= 0 for each in weights)
         if not (numbers and len(weights) in lengths and sum(weights) > 0):
             kind = f"is not a list of {max(lengths)} numbers of 0 and above"
             message = f"{kind}. Allowed: a weight for each operating point."
             self.wrong("loads", "weights", weights, message)
-            return found
-        return replace(found, weights=tuple(map(float, weights)))
+            return loads
+        return replace(loads, weights=tuple(map(float, weights)))
 
     def goals(self) -> tuple[Goal, ...]:
         """The numbers that are to be small."""
-        found = []
+        goals = []
         for name, weight in self.table("goals").items():
             if not (is_number(weight) and weight > 0):
                 message = "is not a weight. Allowed: a number above 0; it counts where several goals are weighed up."
                 self.wrong("goals", name, weight, message)
             elif self._is_result("goals", name, weight):
-                found.append(Goal(name, *unit_and_words(name), float(weight)))
-        return tuple(found)
+                goals.append(Goal(name, *unit_and_words(name), float(weight)))
+        return tuple(goals)
 
     def _is_result(self, table: str, name: str, value: Any) -> bool:
         if name not in NAMES:
@@ -176,7 +176,7 @@ class Sections:
 
     def bounds(self) -> tuple[Bound, ...]:
         """The constraints, in the units of results."""
-        found = []
+        bounds = []
         for name, written in self.table("constraints").items():
             if not self._is_result("constraints", name, written):
                 continue
@@ -188,13 +188,13 @@ class Sections:
                 message = f"is no bound. Allowed: {{ at_most = {example} }}, and at_least likewise."
                 self.wrong("constraints", name, written, message)
             else:
-                found.append(Bound(Goal(name, unit, words), **ends))
-        return tuple(found)
+                bounds.append(Bound(Goal(name, unit, words), **ends))
+        return tuple(bounds)
 
     def tolerances(self) -> Tolerances:
         """What scatters, but for the flank tolerance class."""
         table = self.table("tolerances")
-        found = []
+        scatters = []
         own = self._own("tolerances", Tolerances)
         for path, written in entries(self.tree, "tolerances", self.mistakes, names_in(Tolerances)):
             if fields.is_section(path) or not fields.is_numeric(path):
@@ -205,14 +205,14 @@ class Sections:
                 message = "is not above zero. Allowed: the limit of the scatter on either side."
                 self.wrong("tolerances", path, written, message)
             elif numbers:
-                found.append(Scatter(path, numbers[0], unit, *fields.allowed_at(path)[1:]))
-        if table and not found and "tolerance_class" not in table:
+                scatters.append(Scatter(path, numbers[0], unit, *fields.allowed_at(path)[1:]))
+        if table and not scatters and "tolerance_class" not in table:
             message = "has nothing that scatters. Add tolerance_class, or a field with its limit, such as"
             self.mistakes.add(("tolerances",), "", f'{message} tip_relief.depth = "4 um".')
         if own.samples & (own.samples - 1):
             message = "is no power of two, as Sobol's sequence needs. Allowed: 8, 16, 32, 64, ..."
             self.wrong("tolerances", "samples", own.samples, message)
-        return replace(own, scatters=tuple(found), samples=own.samples if table else 1)
+        return replace(own, scatters=tuple(scatters), samples=own.samples if table else 1)
 
     def search(self) -> Search:
         """How long is searched, and from which seed."""
@@ -224,12 +224,12 @@ class Sections:
         return self._own("search", Search)
 
     def _own(self, table: str, section: type[Section]) -> Any:
-        """What a section has of its own beside paths; its defaults, with mistakes noted, where it is wrong."""
+        """A section's own fields, without paths; its defaults, with mistakes noted, where it is wrong."""
         own = {name: value for name, value in self.table(table).items() if name in names_in(section)}
-        found, problems = read(section, own, (table,))
+        part, problems = read(section, own, (table,))
         for problem in problems:
             self.mistakes.add(problem.path, problem.written, problem.message)
-        return found or section()
+        return part or section()
 
 
 def _not_variable(path: fields.Path, written: Any) -> str:

@@ -38,7 +38,7 @@ def flash_temperature(
 
 def standard_share(pair: GearPair, positions) -> np.ndarray:
     """Load share X_Gamma (n,) of unmodified spur teeth in ISO/TS 6336-20: a third at the ends of the path, two thirds
-    beside single contact, one in it."""
+    where single contact begins and ends, one in it."""
     start = pair.path_start
     end = pair.path_end
     lowest = end - pair.base_pitch

@@ -126,8 +126,8 @@ def iterated_face_factor(operation: Operation, dynamic: float) -> float:
 
 
 def mesh_misalignment(operation: Operation) -> float:
-    """F_betax (um) over the face: the scene's own with the inclination of shafts that bend, which is known and has no
-    1.33 before it; else, from manufacture alone, helix slopes of both gears within their class."""
+    """F_betax (um) over the face: the scene's own with the inclination of shafts that bend, which is known and gets no
+    factor 1.33. Else, from manufacture alone, helix slopes of both gears within their class."""
     if operation.misalignment is not None:
         return abs(operation.misalignment)
     gears = operation.pair.pinion, operation.pair.wheel

@@ -17,8 +17,8 @@ class Operation:
     mass of both gears (kg/mm of face width).
 
     `misalignment`: of flanks over the common face (um), as the scene has it and its shafts bend; None of a scene that
-    names none and has rigid shafts. `shafts` (s, s): gap (mm) that bending shafts open in slices of the common face per
-    transverse force (N), and `opening` (s,) that of the unloaded flanks; None of rigid shafts.
+    names none and has rigid shafts. `shafts` (s, s): gap (mm) in slices of the common face by bending shafts, per
+    transverse force (N); None of rigid shafts. `opening` (s,): the gap of the unloaded flanks.
     """
 
     pair: GearPair

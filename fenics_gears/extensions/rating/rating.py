@@ -51,28 +51,28 @@ def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[RatingRow]:
     """The rows of a run. Raises SceneError for a scene without speed, load or elastic teeth."""
     operation = _operation(scene, finish, result)
     factors = load_factors(operation)
-    found = result.attrs
-    face = found.get("face_load_factor", nan)
+    numbers = result.attrs
+    face = numbers.get("face_load_factor", nan)
     misaligned = nan if isnan(face) else abs(operation.misalignment or 0.0)
     flank = flank_stress(operation, factors)
     roots = root_stresses(operation, factors)
     rows = [
-        RatingRow("K_v, dynamic factor", "1", factors.dynamic, found.get("dynamic_factor_by_force", nan)),
+        RatingRow("K_v, dynamic factor", "1", factors.dynamic, numbers.get("dynamic_factor_by_force", nan)),
         RatingRow("F_betax, misalignment over the face", "um", mesh_misalignment(operation), misaligned),
         RatingRow("K_Hbeta, face load factor", "1", factors.face, face),
     ]
     if operation.shafts is not None:
         iterated = iterated_face_factor(operation, factors.dynamic)
         rows.append(RatingRow("K_Hbeta, line load iterated over the shafts", "1", iterated, face))
-    transverse = found.get("transverse_load_factor", nan)
+    transverse = numbers.get("transverse_load_factor", nan)
     rows.append(RatingRow("K_Halpha, transverse load factor", "1", factors.transverse, transverse))
-    pressure = found.get("peak_contact_pressure", nan)
+    pressure = numbers.get("peak_contact_pressure", nan)
     for name, stress in zip(("pinion", "wheel"), flank.stress):
         rows.append(RatingRow(f"sigma_H, contact stress of the {name}", "MPa", stress, pressure))
         safeties = flank.limit / stress, flank.limit / pressure
         rows.append(RatingRow(f"S_H, safety against pitting of the {name}", "1", *safeties))
     for name, root in zip(("pinion", "wheel"), roots):
-        computed = found.get(f"largest_root_stress_{name}", nan)
+        computed = numbers.get(f"largest_root_stress_{name}", nan)
         rows.append(RatingRow(f"sigma_F, root stress of the {name}", "MPa", root.stress, computed))
         safeties = root.limit / root.stress, root.limit / computed
         rows.append(RatingRow(f"S_F, safety against tooth breakage of the {name}", "1", *safeties))
@@ -146,13 +146,13 @@ def of_misalignment(scene: Scene, finish: Finish) -> str:
     return f"K_Hbeta of ISO 6336 is of {which}, which this run has not: the scene has no misalignment."
 
 
-def of_place(found: Mapping, pair: GearPair) -> str:
+def of_place(numbers: Mapping, pair: GearPair) -> str:
     """A sentence on where the run has its largest pressure, unless the standard looks there too: from the pitch point
     to the inner points of single tooth contact. Nothing of a run that says that it is at an end of a line of
     contact."""
-    if "peak_contact_pressure_diameter" not in found or "peak_contact_pressure_beside" in found:
+    if "peak_contact_pressure_diameter" not in numbers or "peak_contact_pressure_beside" in numbers:
         return ""
-    diameter = found["peak_contact_pressure_diameter"]
+    diameter = numbers["peak_contact_pressure_diameter"]
     position = pair.pinion.base_radius * float(pair.pinion.roll_angle(max(0.5 * diameter, pair.pinion.base_radius)))
     looked_at = sorted((pair.pitch_point, pair.lpstc, pair.hpstc))
     if looked_at[0] - BESIDE * pair.base_pitch <= position <= looked_at[-1] + BESIDE * pair.base_pitch:
@@ -199,7 +199,7 @@ def _flash(operation: Operation, result: xr.Dataset) -> list[RatingRow]:
     places = pair.path_start + since * pair.base_pitch
     # Teeth that bend touch a little before and after the path of contact, where the formula's speeds are not theirs.
     on_path = (places >= pair.path_start) & (places <= pair.path_end) & np.isfinite(forces)
-    # The standard's line force is in the transverse section; those of the run are along the contact normal.
+    # The standard's line force is in the transverse section; line forces of the run are along the contact normal.
     transverse = pair.cosine * forces[on_path] / pair.face_width
     computed = flash_temperature(pair, operation.materials, places[on_path], transverse, *at_work)
     return [RatingRow("flash temperature", "K", float(standard.max()), float(computed.max(initial=0.0)))]

@@ -78,11 +78,11 @@ def form_at_outer_point(gear: Gear, contact_ratio: float) -> ToothForm:
 
 
 def tooth_form(gear: Gear, roll_angle: float) -> ToothForm:
-    """The tooth of a spur gear loaded at a flank point, cut by a rack whose rounding may stand out by s_pr; lengths in
-    modules (ISO 6336-3:2006 sections 6 and 7).
+    """The tooth of a spur gear loaded at a flank point, cut by a rack whose rounding may protrude by s_pr. Lengths are
+    in modules (ISO 6336-3:2006 sections 6 and 7).
 
-    Y_F = 6 h cos(alpha_Fen) / (s^2 cos(alpha_n)), s the chord and h the lever arm at the 30 degree tangents;
-    Y_S = (1.2 + 0.13 s/h) q^(1 / (1.21 + 2.3 h/s)) with q = s/(2 rho).
+    Y_F = 6 h cos(alpha_Fen) / (s^2 cos(alpha_n)), s the chord and h the lever arm at the 30 degree tangents. Y_S = (1.2
+    + 0.13 s/h) q^(1 / (1.21 + 2.3 h/s)) with q = s/(2 rho).
     """
     z = gear.teeth
     x = gear.profile_shift

@@ -24,7 +24,7 @@ def rate(options: argparse.Namespace) -> int:
         _show(rows)
         if end := result.attrs.get("peak_contact_pressure_beside"):
             why = "where lines of contact end and their line load rises (buttressing); ISO 6336-2 has no such rise"
-            print(f"sigma_H of this run is beside the {end} of the pinion's active profile, {why}.")
+            print(f"sigma_H of this run is near the {end} of the pinion's active profile, {why}.")
         if place := rating.of_place(result.attrs, gear_pair(scene.gears)):
             print(place)
         print(rating.of_misalignment(scene, finish))

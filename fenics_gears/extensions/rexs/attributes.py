@@ -12,7 +12,7 @@ from .model import Component
 from .stage import GearParts, Stage
 from .values import COUNT, MODULES, NUMBER, SPEED, Value, ValueProblem, place, together, value_of
 
-Found = TypeVar("Found")
+LookedUp = TypeVar("LookedUp")
 Place = tuple[Component, str, str]
 # By what a scene asks for: component (a field of GearParts or Stage), attribute, unit or kind of value.
 ATTRIBUTES: dict[str, tuple[tuple[str, str, str], ...]] = {
@@ -103,7 +103,7 @@ class Reading:
         self.problems: list[str] = []
         self.left_out: list[str] = []
 
-    def attempt(self, look_up: Callable[..., Found], *arguments) -> Found | None:
+    def attempt(self, look_up: Callable[..., LookedUp], *arguments) -> LookedUp | None:
         """What a look-up finds; None where it raises a ValueProblem, which is kept, or where one of its arguments was
         not found."""
         if any(argument is None for argument in arguments):
@@ -118,12 +118,12 @@ class Reading:
 
 def places(owner: GearParts | Stage, asked: str) -> list[Place]:
     """All components and attributes that may say it, with the unit, whether or not they do."""
-    found = []
+    known = []
     for holder, name, unit in ATTRIBUTES[asked]:
         held = getattr(owner, holder)
         components = [held] if isinstance(held, Component) else held.values() if isinstance(held, dict) else held
-        found += [(each, name, unit) for each in components]
-    return found
+        known += [(each, name, unit) for each in components]
+    return known
 
 
 def given(owner: GearParts | Stage, asked: str) -> list[Place]:

@@ -17,7 +17,7 @@ CLASSES = range(1, 12)
 
 def relief_sections(reading: Reading, stage: Stage, gears: Sections) -> Sections:
     """``[tip_relief.pinion]`` and its like, of the flanks that have one."""
-    found = {}
+    sections = {}
     beta = gears["gears"]["helix_angle"].number if "helix_angle" in gears["gears"] else 0.0
     for kind in (TIP, ROOT):
         for name, part in stage.named.items():
@@ -27,8 +27,8 @@ def relief_sections(reading: Reading, stage: Stage, gears: Sections) -> Sections
             )
             relief = reading.attempt(_relief, part, kind, base, circles["tip_diameter"])
             if relief:
-                found[f"{kind}.{name}"] = relief
-    return found
+                sections[f"{kind}.{name}"] = relief
+    return sections
 
 
 def loaded_flanks(stage: Stage) -> list[str]:
@@ -44,26 +44,28 @@ def loaded_flanks(stage: Stage) -> list[str]:
 
 def tolerance_class(reading: Reading, stage: Stage) -> Value | None:
     """The flank tolerance class of ISO 1328-1:2013 of both gears, the coarser one where they differ."""
-    found = [value for part in stage.named.values() for value in _classes(reading, part)]
-    if not found:
+    classes = [value for part in stage.named.values() for value in _classes(reading, part)]
+    if not classes:
         return None
-    coarse = max(found, key=lambda value: value.number)
-    origin = together(value.origin for value in found)
-    if len({value.number for value in found}) > 1:
+    coarse = max(classes, key=lambda value: value.number)
+    origin = together(value.origin for value in classes)
+    if len({value.number for value in classes}) > 1:
         origin = f"{coarse.origin}, the coarser of the two gears"
-    elif len(found) == 1:
+    elif len(classes) == 1:
         origin = f"{origin}, of this gear only"
-    return replace(coarse, origin=origin, assumed=len(found) == 1)
+    return replace(coarse, origin=origin, assumed=len(classes) == 1)
 
 
 def note_what_is_left_out(reading: Reading, stage: Stage) -> None:
     """Add what the file says of the gears and no scene has to what is left out."""
     for part in stage.named.values():
         modifications = {side: part.modifications[side] for side in part.loaded_sides}
-        for side, found in modifications.items():
-            others = (each for each in found if each.type not in (TIP, ROOT, *LEAD_TYPES))
+        for side, components in modifications.items():
+            others = (each for each in components if each.type not in (TIP, ROOT, *LEAD_TYPES))
             reading.left_out += [f"{each} of the {side} flank of component {part.gear.id}" for each in others]
-        reliefs = {each.id: each for found in modifications.values() for each in found if each.type in (TIP, ROOT)}
+        reliefs = {
+            each.id: each for components in modifications.values() for each in components if each.type in (TIP, ROOT)
+        }
         places = [
             (holder, name)
             for holder in (part.gear, *(part.flanks[side] for side in part.loaded_sides), *part.tool)
@@ -89,14 +91,14 @@ def _is_zero(words: str) -> bool:
 
 
 def _classes(reading: Reading, part: GearParts) -> list[Value]:
-    found = []
+    classes = []
     for component, name, _ in given(part, "tolerance_class"):
         text = word_of(component, name)
         if text in map(str, CLASSES):
-            found.append(Value(int(text), text, f"{name} of component {component.id}"))
+            classes.append(Value(int(text), text, f"{name} of component {component.id}"))
         else:
             reading.left_out.append(f"{place(component, name)} = {text}, which ISO 1328-1:2013 does not have (1 to 11)")
-    return found[:1]
+    return classes[:1]
 
 
 def _base_diameter(beta: float, module: Value, angle: Value, teeth: Value) -> float:
@@ -107,8 +109,8 @@ def _relief(part: GearParts, kind: str, base: float, tip: Value) -> Fields:
     """Tip or root relief of the loaded flank; empty for a gear that has none."""
 
     def of_side(side: str) -> Fields:
-        found = part.modification(side, kind)
-        return {} if found is None else _relief_of(found, base, tip.number)
+        component = part.modification(side, kind)
+        return {} if component is None else _relief_of(component, base, tip.number)
 
     return part.of_loaded_sides(of_side, lambda one, other: isclose(one.number, other.number, rel_tol=SAME), kind)
 
@@ -129,7 +131,7 @@ def _relief_of(relief: Component, base: float, tip: float) -> Fields:
 
 def _start(relief: Component, base: float, tip: float) -> tuple[str, Value, float | None]:
     """Where a relief starts, as the field that a scene has for it: by the diameter, or by its length of roll (L_C, ISO
-    21771). The diameter (mm) of a tip relief's start beside it: a flank rolls through s = sqrt(d^2 - d_b^2)/2.
+    21771). The diameter (mm) of a tip relief's start comes with it: a flank rolls through s = sqrt(d^2 - d_b^2)/2.
     """
     where = (relief, f"{relief.type}_datum_diameter", "mm")
     by_length = (relief, f"{relief.type}_datum_length", "mm")

@@ -10,7 +10,7 @@ from fenics_gears import SceneError
 from .attributes import Reading
 from .flanks import loaded_flanks, note_what_is_left_out, relief_sections
 from .gears import Sections, gear_sections
-from .imported import check_all_found
+from .imported import check_complete
 from .lead import lead_sections
 from .loads import loaded_model, pinion_speed, wheel_torque
 from .read import read_model
@@ -48,7 +48,7 @@ def imported_train(path: Path, load_case: str | None = None) -> ImportedTrain:
         sections |= {_of_train(name, stage): fields for name, fields in own.items()}
     torque = reading.attempt(wheel_torque, loaded, stages[-1], ratios[-1])
     speed = reading.attempt(pinion_speed, loaded, stages[0], ratios[0])
-    check_all_found(reading, path)
+    check_complete(reading, path)
     sections |= {"load": {"output_torque": torque}, "motion": {"input_speed": speed}}
     assumed = [
         f"{section}.{name} = {value.words}: {value.origin}"

@@ -1,4 +1,4 @@
-"""The gears of a stage: teeth, circles and material, given by the file, computed from it, or those of the standard."""
+"""The gears of a stage: teeth, circles and material, given by the file, computed from it, or the standard's."""
 
 from functools import partial
 from math import acos, atan, cos, hypot, isclose, tan
@@ -90,8 +90,8 @@ def _pressure_angle(stage: Stage) -> Value:
 
 
 def _face_widths(stage: Stage) -> list[Value]:
-    """One for both gears, or that of each: where the common width is less than both, the file does not say at which
-    ends they stand out, and it holds for both."""
+    """One for both gears, or one of each. Where the common width is less than both, the file does not say at which ends
+    they are wider, and the common width holds for both."""
     common = first(stage, "common_face_width")
     own = [first(part, "face_width") for part in stage.named.values()]
     widths = [width for width in own if width is not None]
@@ -222,16 +222,18 @@ def _bore_diameter(part: GearParts, root: Value) -> Value:
 
 
 def _materials(stage: Stage) -> Sections:
-    found = {
+    materials = {
         name: {asked: needed(part, asked) for asked in MATERIAL} for name, part in stage.named.items() if part.material
     }
-    if not found:
+    if not materials:
         why = "no material; that of steel (ISO 6336-1)"
         return {"gears.material": {"name": Value(0.0, '"steel"', why, assumed=True)}}
     try:
-        return {"gears.material": {asked: agreed([each[asked] for each in found.values()], "") for asked in MATERIAL}}
+        return {
+            "gears.material": {asked: agreed([each[asked] for each in materials.values()], "") for asked in MATERIAL}
+        }
     except ValueProblem:
-        return {f"gears.{name}.material": each for name, each in found.items()}
+        return {f"gears.{name}.material": each for name, each in materials.items()}
 
 
 def _check_reference_diameter(part: GearParts, beta: float, module: Value, teeth: Value) -> None:

@@ -38,8 +38,8 @@ def imported_scene(
 ) -> ImportedScene:
     """A pair of a REXS file as the text of a scene. Raises SceneError with all that is wrong.
 
-    `stage`, `load_case`: which stage and load case are meant, None for the only one; `wheel_torque`
-    and `pinion_speed`, of the driven and the driving gear, stand before those of the file.
+    `stage`, `load_case`: which stage and load case are meant, None for the only one; `wheel_torque` and `pinion_speed`,
+    of the driven and the driving gear, replace the file's.
     """
     by_call = _by_call("--wheel-torque", wheel_torque, "437 N m"), _by_call("--pinion-speed", pinion_speed, "750 rpm")
     model = read_model(path)
@@ -60,11 +60,11 @@ def imported_scene(
     sections |= _error_sections(reading, chosen, sections)
     densities = {name: reading.attempt(first, part, "density") for name, part in chosen.named.items()}
     note_what_is_left_out(reading, chosen)
-    check_all_found(reading, path)
+    check_complete(reading, path)
     assumed = [
         f"{section}.{name} = {value.words}: {value.origin}"
-        for section, found in sections.items()
-        for name, value in found.items()
+        for section, fields in sections.items()
+        for name, value in fields.items()
         if value.assumed
     ] + loaded_flanks(chosen)
     notes = {
@@ -80,7 +80,7 @@ def imported_scene(
     return ImportedScene(text, chosen, tuple(assumed), tuple(reading.left_out))
 
 
-def check_all_found(reading: Reading, path: Path) -> None:
+def check_complete(reading: Reading, path: Path) -> None:
     """Raise SceneError with all that the reading met."""
     if count := len(reading.problems):
         told = [f"{path}: {each}" for each in reading.problems]

@@ -1,9 +1,9 @@
 """Lead modifications of the loaded flanks: crowning, helix slope and end relief.
 
 A modification's component has amounts at the datum face and at the opposite one, and coordinates from mid-width,
-negative towards the datum face. Left and right flank are those that an observer at the datum face sees (ISO 21771). The
-scene's +z looks on a pinion that turns counter-clockwise, so that both loaded flanks are left ones from there: the
-datum face is the scene's right end where the left flank is loaded, its left end where the right one is.
+negative towards the datum face. Left and right flank are those that an observer at the datum face sees (ISO 21771).
+From the scene's +z the pinion turns counter-clockwise, so that both loaded flanks are left ones from there. The datum
+face is the scene's right end where the left flank is loaded, its left end where the right one is.
 """
 
 from math import isclose
@@ -34,12 +34,12 @@ NOTHING = ("0", "0.0", "-0.0", "false", "False")
 
 def lead_sections(reading: Reading, stage: Stage, gears: Sections) -> Sections:
     """``[lead_modifications.pinion]`` and its like, of the gears that have one."""
-    found = {}
+    sections = {}
     for name, part in stage.named.items():
         width = gears[f"gears.{name}"].get("face_width") or gears["gears"].get("face_width")
         if own := reading.attempt(_lead, part, width):
-            found[f"lead_modifications.{name}"] = own
-    return found
+            sections[f"lead_modifications.{name}"] = own
+    return sections
 
 
 def _lead(part: GearParts, width: Value) -> Fields:
@@ -50,7 +50,7 @@ def _lead(part: GearParts, width: Value) -> Fields:
     if not isclose(own.number, width.number, rel_tol=SAME):
         raise ValueProblem(
             f"{part.gear}: lead modifications over its face of {own.words}, but common_face_width is {width.words} and"
-            " the file does not say which ends stand out. Allowed beside lead modifications: no common_face_width, or"
+            " the file does not say at which ends. Allowed with lead modifications: no common_face_width, or"
             " the width of the narrower gear."
         )
     return part.of_loaded_sides(
@@ -62,24 +62,24 @@ def _lead(part: GearParts, width: Value) -> Fields:
 
 def _fields(part: GearParts, side: str, width: float) -> Fields:
     right_end = DATUM if side == "left" else OPPOSITE
-    components = {kind: found for kind in LEAD_TYPES if (found := part.modification(side, kind)) is not None}
+    components = {kind: own for kind in LEAD_TYPES if (own := part.modification(side, kind)) is not None}
     for component in components.values():
         for name in NO_PLACE[component.type]:
             if name in component.attributes and (word := word_of(component, name)) not in NOTHING:
                 raise ValueProblem(f"{place(component, name)} = {word}. Allowed: 0 or false, for a scene has no other.")
-    found = {}
+    fields = {}
     if CROWNING in components:
-        found["crowning"] = _crowning(components[CROWNING], width)
+        fields["crowning"] = _crowning(components[CROWNING], width)
     if SLOPE in components:
-        found["helix_slope"] = _slope(components[SLOPE], width, 1.0 if right_end == OPPOSITE else -1.0)
+        fields["helix_slope"] = _slope(components[SLOPE], width, 1.0 if right_end == OPPOSITE else -1.0)
     reliefs = {
         ("right" if kind == right_end else "left"): _end_relief(components[kind], width)
         for kind in (DATUM, OPPOSITE)
         if kind in components
     }
     if reliefs:
-        found["end_relief"] = _both_ends(reliefs)
-    return {name: value for name, value in found.items() if value.number != 0.0}
+        fields["end_relief"] = _both_ends(reliefs)
+    return {name: value for name, value in fields.items() if value.number != 0.0}
 
 
 def _crowning(component: Component, width: float) -> Value:
@@ -175,5 +175,5 @@ def _both_ends(reliefs: dict[str, tuple[Value, Value, Value]]) -> Value:
 
 def _coordinate(component: Component, name: str, otherwise: float) -> float:
     """A place (mm), from mid-width."""
-    found = stated((component, name, "mm"))
-    return otherwise if found is None else found.number
+    coordinate = stated((component, name, "mm"))
+    return otherwise if coordinate is None else coordinate.number

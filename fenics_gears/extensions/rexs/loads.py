@@ -27,8 +27,8 @@ def loaded_model(model: RexsModel, case: str | None) -> RexsModel:
 
 
 def wheel_torque(model: RexsModel, stage: Stage, ratio: float) -> Value:
-    """The torque on the driven gear; ``ratio``: its teeth over those of the driving one. Raises ValueProblem where the
-    file gives none."""
+    """The torque on the driven gear; ``ratio``: its number of teeth over the driving gear's. Raises ValueProblem where
+    the file gives none."""
     for part, factor in ((stage.wheel, 1.0), (stage.pinion, ratio)):
         torque = first(part, "torque") or _torque_of_train(model, stage, part)
         if torque is not None:
@@ -52,9 +52,9 @@ def pinion_speed(model: RexsModel, stage: Stage, ratio: float) -> Value:
         for speed in speeds:
             if speed.number != 0.0:
                 return _scaled(speed, factor, RPM, "rpm")
-    found = None if stage.in_planetary else Train(model).speed(stage.pinion.gear)
-    if found is not None:
-        speed, factor, stages = found
+    stated = None if stage.in_planetary else Train(model).speed(stage.pinion.gear)
+    if stated is not None:
+        speed, factor, stages = stated
         return _scaled(_through(speed, stages), abs(factor), RPM, "rpm")
     why = "no rotational_speed; without [inertia] it sets the scale of time only"
     return computed(ASSUMED_SPEED * RPM, RPM, "rpm", why, assumed=True)

@@ -54,14 +54,14 @@ class Attribute(_Node):
 def _by_name(attributes: list[Attribute]) -> dict[str, Attribute]:
     """Attributes by their names, without those that are null or empty. Raises ValueError for two different values of
     one."""
-    found: dict[str, Attribute] = {}
+    by_name: dict[str, Attribute] = {}
     for each in attributes:
-        first = found.setdefault(each.id, each) if each.value not in (None, "") else each
+        first = by_name.setdefault(each.id, each) if each.value not in (None, "") else each
         if first != each:
             raise ValueError(
                 f"has {each.id} twice, with different values: {first.value} {first.unit}; {each.value} {each.unit}"
             )
-    return found
+    return by_name
 
 
 Attributes = Annotated[list[Attribute], AfterValidator(_by_name)]
@@ -81,11 +81,11 @@ class Component(_Node):
 
 
 def _by_number(components: list[Component]) -> dict[int, Component]:
-    found: dict[int, Component] = {}
+    by_number: dict[int, Component] = {}
     for each in components:
-        if (first := found.setdefault(each.id, each)) is not each:
+        if (first := by_number.setdefault(each.id, each)) is not each:
             raise ValueError(f"has two components with the number {each.id}: {first}, {each}")
-    return found
+    return by_number
 
 
 class _Reference(_Node):
@@ -140,8 +140,8 @@ class RexsModel(_Node):
     def related(self, type: str, **known: Component) -> Iterator[Relation]:
         """Relations of a type in which the known components have these roles, in their order."""
         numbers = {role: component.id for role, component in known.items()}
-        found = [each for each in self.relations if each.type == type and numbers.items() <= each.roles.items()]
-        yield from sorted(found, key=lambda relation: relation.order or 0)
+        related = [each for each in self.relations if each.type == type and numbers.items() <= each.roles.items()]
+        yield from sorted(related, key=lambda relation: relation.order or 0)
 
     def partners(self, type: str, wanted: str, **known: Component) -> list[Component]:
         """The components in the wanted role of these relations, each once."""

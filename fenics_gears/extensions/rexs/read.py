@@ -61,7 +61,7 @@ def _start(content: bytes) -> bytes:
 
 
 def _packed(content: bytes) -> bytes:
-    """The one model in an archive; systems put files of their own beside it, whose names begin with a dot."""
+    """The one model in an archive. Operating systems add files of their own, whose names begin with a dot."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
             every = (name for name in archive.namelist() if name.endswith(ENDINGS))
@@ -103,8 +103,8 @@ def _of_xml(content: bytes) -> Any:
     if _name(root) != "model":
         raise ModelError(f"is XML, but no REXS: its root is <{_name(root)}>, not <model>")
     components = [_component(each) for each in _within(root, "components", "component")]
-    found = _within(root, "relations", "relation")
-    relations = [{**each.attrib, "refs": [ref.attrib for ref in _within(each, "ref")]} for each in found]
+    related = _within(root, "relations", "relation")
+    relations = [{**each.attrib, "refs": [ref.attrib for ref in _within(each, "ref")]} for each in related]
     spectra = list(_within(root, "load_spectrum"))
     cases = []
     for spectrum in spectra:

@@ -54,7 +54,7 @@ def _head(file: str, model: RexsModel, who: list[str], notes: Mapping[str, Itera
     lines = [
         f"Made by gears import from {file} (REXS {model.version}, {program}, {model.date or 'without a date'}).",
         *who,
-        "Behind every value stands where it is from. This is a scene like any other: change what you know better.",
+        "Each value is followed by its origin. This is a scene like any other: change what you know better.",
         *(line for heading, items in notes.items() for line in _listed(heading, items)),
         *more,
     ]

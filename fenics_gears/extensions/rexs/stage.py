@@ -17,9 +17,9 @@ Fields = dict[str, Value]
 
 @dataclass(frozen=True)
 class GearParts:
-    """The components of one gear of a stage: itself, its flanks by their side and what modifies them, its tools and how
-    they were set, bodies, materials and shafts, and its data in this stage. ``by_torque``: the side that the torque
-    loads, where that follows from the train."""
+    """The components of one gear of a stage: itself, its flanks by side, their modifications, its tools and their
+    settings, bodies, materials, shafts, and its data in this stage. ``by_torque``: the side that the torque loads,
+    where that follows from the train."""
 
     gear: Component
     flanks: dict[str, Component]
@@ -58,12 +58,13 @@ class GearParts:
 
     def modification(self, side: str, kind: str) -> Component | None:
         """What modifies a flank in this way. Raises ValueProblem where there are two."""
-        found = [each for each in self.modifications[side] if each.type == kind]
-        if len(found) > 1:
+        components = [each for each in self.modifications[side] if each.type == kind]
+        if len(components) > 1:
             raise ValueProblem(
-                f"{self.flanks[side]}: two components {kind}, {found[0].id} and {found[1].id}; a scene has one."
+                f"{self.flanks[side]}: two components {kind}, {components[0].id} and {components[1].id}; a scene has"
+                " one."
             )
-        return found[0] if found else None
+        return components[0] if components else None
 
     def of_loaded_sides(
         self, fields_of: Callable[[str], Fields], same: Callable[[Value, Value], bool], what: str
@@ -238,7 +239,7 @@ def _first_drives(train: Train, stage: Component, first: GearParts, second: Gear
 
 
 def _side_by_torque(train: Train, stage: Component, gear: Component) -> str | None:
-    """The side of a gear's teeth that its torque loads, as seen from its datum face with the tooth upwards; None where
+    """The side of a gear's teeth that its torque loads, looking from its datum face with the tooth upwards; None where
     that does not follow."""
     if "datum_face_orientation" not in gear.attributes:
         return None

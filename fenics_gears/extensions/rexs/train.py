@@ -47,9 +47,10 @@ class _Mesh:
 
 @dataclass(frozen=True)
 class Share:
-    """What one load brings to a gear: the torque (N mm) about the axis of what turns with it, whose sign is known or
-    not; the power it puts into the train, by the speed of its own shaft, None where the file does not say that (signs
-    of shafts that turn the other way are often not meant); where it is from; the stages on the way."""
+    """The part of one load in a gear: the torque (N mm) about the gear's axis, whose sign is known or not; the power
+    that the load puts into the train; its origin; and the stages on the way. The power follows from the speed of the
+    load's own shaft, None where the file does not give it: signs of shafts that turn the other way are often not
+    meant."""
 
     number: float
     signed: bool
@@ -100,8 +101,8 @@ class Train:
         return None
 
     def torque(self, gear: Component, stage: Component) -> float | None:
-        """Torque (N mm) about a gear's own axis, with its sign, that comes to a stage from this gear's side; None where
-        that does not follow: by the loads there, or by those beyond the mate."""
+        """Torque (N mm) about a gear's own axis, with its sign, that comes to a stage from this gear's side. It follows
+        from the loads there or from the loads beyond the mate; None where it does not."""
         mesh = next((each for each in self._meshes if each.stage.id == stage.id), None)
         if mesh is None or not mesh.plain:
             return None
@@ -124,13 +125,13 @@ class Train:
         beyond = [(own, mesh) for own, mesh in self._meshes_of(turning) if mesh.stage.id != stage.id]
         if not (loads or beyond) or any(TORQUE not in load.attributes for load in loads):
             return None
-        found = [self._own_share(load, turning) for load in loads]
+        shares = [self._own_share(load, turning) for load in loads]
         for own, mesh in beyond:
             through = self._shares(mesh.mate(own), mesh.stage, seen) if mesh.plain else None
             if through is None:
                 return None
-            found += [self._passed_on(share, own, mesh) for share in through]
-        return found
+            shares += [self._passed_on(share, own, mesh) for share in through]
+        return shares
 
     def _own_share(self, load: Component, turning: tuple[Component, ...]) -> Share:
         torque = value_of(load, TORQUE, "N m")
@@ -158,21 +159,21 @@ class Train:
 
     def _turning(self, part: Component) -> tuple[Component, ...]:
         """All that turns as one with a part, the part first."""
-        found = {part.id}
+        turning = {part.id}
         waiting = [part.id]
         while waiting:
-            new = [each for each in self._joined.get(waiting.pop(), ()) if each not in found]
-            found.update(new)
+            new = [each for each in self._joined.get(waiting.pop(), ()) if each not in turning]
+            turning.update(new)
             waiting += new
-        return tuple(self.model.components[each] for each in (part.id, *sorted(found - {part.id})))
+        return tuple(self.model.components[each] for each in (part.id, *sorted(turning - {part.id})))
 
     @cached_property
     def _joined(self) -> dict[int, list[int]]:
-        found: dict[int, list[int]] = {}
+        joined: dict[int, list[int]] = {}
         for one, other in self._joints():
-            found.setdefault(one, []).append(other)
-            found.setdefault(other, []).append(one)
-        return found
+            joined.setdefault(one, []).append(other)
+            joined.setdefault(other, []).append(one)
+        return joined
 
     def _joints(self) -> Iterator[tuple[int, int]]:
         """Pairs of parts that turn as one: a shaft and what is on it, and what joints that are no bearings join."""
@@ -190,7 +191,7 @@ class Train:
     @cached_property
     def _meshes(self) -> list[_Mesh]:
         components = self.model.components
-        found = []
+        meshes = []
         for relation in self.model.related("stage"):
             if {"stage", "gear_1", "gear_2"} <= relation.roles.keys():
                 stage, *gears = (components[relation.roles[role]] for role in ("stage", "gear_1", "gear_2"))
@@ -198,8 +199,8 @@ class Train:
                 counted = all("number_of_teeth" in gear.attributes for gear in gears)
                 plain = counted and stage.type in PLAIN_STAGES
                 plain = plain and not any(holder.type == "planetary_stage" for holder in holders)
-                found.append(_Mesh(stage, (gears[0], gears[1]), plain))
-        return found
+                meshes.append(_Mesh(stage, (gears[0], gears[1]), plain))
+        return meshes
 
     def _meshes_of(self, turning: tuple[Component, ...]) -> list[tuple[Component, _Mesh]]:
         """The meshes of all gears that turn as one, each with its own gear."""
@@ -216,8 +217,9 @@ class Train:
         )
 
     def _sense(self, mesh: _Mesh) -> float | None:
-        """1 where torques of both gears about their axes have one sign: of external gears whose axes point alike, of
-        bevel gears whose axes both point to where they cross; -1 where they have not; None where that is not known."""
+        """1 where torques of both gears about their axes have one sign, -1 where they have two, None where that is not
+        known. One sign have external gears whose axes point alike, and bevel gears whose axes both point to where they
+        cross."""
         one, other = (self._axis_of(self._turning(gear)) for gear in mesh.gears)
         if mesh.stage.type == "cylindrical_stage":
             alike = _alike(one, other)

@@ -176,7 +176,7 @@ def agreed(values: Iterable[Value | None], what: str) -> Value | None:
 def together(origins: Iterable[str]) -> str:
     """Origins in one text; the same attribute of several components is named once."""
     origins = list(dict.fromkeys(origins))
-    found = [_OF_COMPONENTS.fullmatch(origin) for origin in origins]
-    if len(origins) > 1 and None not in found and len({each[1] for each in found}) == 1:
-        return f"{found[0][1]} of components {', '.join(each[2] for each in found)}"
+    matches = [_OF_COMPONENTS.fullmatch(origin) for origin in origins]
+    if len(origins) > 1 and None not in matches and len({each[1] for each in matches}) == 1:
+        return f"{matches[0][1]} of components {', '.join(each[2] for each in matches)}"
     return " and ".join(origins)

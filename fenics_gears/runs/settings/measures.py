@@ -29,15 +29,15 @@ FACE_LOAD = "face load factor"
 LARGEST_LOAD = "largest line load"
 OVER_FACE = (LINE_LOAD, FACE_LOAD, LARGEST_LOAD)
 # And the mean transmission error, by which nothing is judged: modifications shift it, and may leave nothing of it. At a
-# whole overlap next to nothing of the curve is left: where its height is below this part of the mean, errors of curve
-# and height count in parts of a sine of that height.
+# whole overlap the curve is nearly flat. Where its height is below this part of the mean, errors of curve and height
+# count in parts of a sine of that height.
 MEAN = "mean T_E"
 LEAST_SPAN = 0.1
 # Settings are judged by both of these: a curve may have the right height and the wrong shape. Over the face they are
 # judged by its measures too.
 JUDGED = (CURVE, SPAN)
-# Places at which line loads are compared, and the part of the face that these take: further out line loads are those
-# of edges.
+# Places at which line loads are compared, and the part of the face that these take: further out line loads are of
+# edges.
 PLACES = 41
 PART_OF_FACE = 0.8
 # Curves are compared at the phases that all of them have, unless these are fewer.
@@ -53,46 +53,47 @@ Answer = dict[str, np.ndarray]
 def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> Answer:
     """All measures of a run. `window` (mm): length over which pressures are compared. `root_stress`: MPa, peak at a
     material point (`root_point`), which is not in a result; None where it is not known."""
-    found = {**judged_answer(run), DEFECT: np.array([_defect(run)])}
+    measures = {**judged_answer(run), DEFECT: np.array([_defect(run)])}
     if "energy_teeth" in run:
-        found[STIFFNESS] = np.array([stiffness_by_energy(run)])
+        measures[STIFFNESS] = np.array([stiffness_by_energy(run)])
     if "contact_pressure" in run:
-        found[PRESSURE] = _pressure(run, window)
-        found[PEAK] = np.array([run.attrs["peak_contact_pressure"]])
+        measures[PRESSURE] = _pressure(run, window)
+        measures[PEAK] = np.array([run.attrs["peak_contact_pressure"]])
     if root_stress is not None:
-        found[ROOT] = np.array([root_stress])
-    return found
+        measures[ROOT] = np.array([root_stress])
+    return measures
 
 
 def judged_answer(run: xr.Dataset) -> Answer:
-    """The measures that settings are judged by: the curve (n,), mm at the wheel's base circle, is T_E at the steps of
-    the last mesh cycle, of which the last has phase 1, its mean removed; and T_EPP."""
+    """The measures that settings are judged by: a curve (n,) and T_EPP, mm at the wheel's base circle. The curve is T_E
+    less its mean at the steps of the last mesh cycle, of which the last has phase 1."""
     curve = run["transmission_error"].values[_last_cycle(run)]
     height = run.attrs["peak_to_peak_transmission_error"]
     radius = run.attrs["base_radius_wheel"]
-    found = {CURVE: (curve - curve.mean()) * radius, SPAN: np.array([height * radius])}
-    return found | _over_face(run) if "face_position" in run.dims else found
+    measures = {CURVE: (curve - curve.mean()) * radius, SPAN: np.array([height * radius])}
+    return measures | _over_face(run) if "face_position" in run.dims else measures
 
 
 def _over_face(run: xr.Dataset) -> Answer:
     """Mean T_E, mm; line load, N/mm, of all tooth pairs together, averaged over the mesh cycle, at places along the
     face; and the load factors."""
     names = {FACE_LOAD: "face_load_factor", LARGEST_LOAD: "largest_line_load_factor"}
-    found = {measure: np.array([run.attrs[name]]) for measure, name in names.items() if name in run.attrs}
-    found[MEAN] = np.array([run.attrs["mean_transmission_error"] * run.attrs["base_radius_wheel"]])
+    measures = {measure: np.array([run.attrs[name]]) for measure, name in names.items() if name in run.attrs}
+    measures[MEAN] = np.array([run.attrs["mean_transmission_error"] * run.attrs["base_radius_wheel"]])
     load = mean_line_load(run, carrying_side(run)) if run.sizes.get("contact_time") else None
     if load is not None:
         places = np.linspace(-0.5, 0.5, PLACES) * PART_OF_FACE * run["face_slice_width"].values.sum()
-        found[LINE_LOAD] = np.interp(places, run["face_position"].values, load)
-    return found
+        measures[LINE_LOAD] = np.interp(places, run["face_position"].values, load)
+    return measures
 
 
 def comparable(values: Sequence[np.ndarray], name: str) -> list[np.ndarray]:
     """The same measure of several runs as arrays of one shape: curves at their common phases, their means over these
     removed.
 
-    Curves (n_i,) have the phases k/n_i of the greatest common divisor of all n_i in common; where it is below
-    FEWEST_PHASES, all are taken at the phases of the one with fewest steps, straight between the steps of the others.
+    Curves (n_i,) are compared at their common phases k/n, with n the greatest common divisor of all n_i. Where n is
+    below FEWEST_PHASES, all are taken at the phases of the one with fewest steps, straight between the steps of the
+    others.
     """
     counts = [len(value) for value in values]
     if name != CURVE or len(set(counts)) == 1:
@@ -101,13 +102,13 @@ def comparable(values: Sequence[np.ndarray], name: str) -> list[np.ndarray]:
     if common < FEWEST_PHASES:
         common = min(counts)
     phases = np.arange(1, common + 1) / common
-    found = [
+    curves = [
         value[count // common - 1 :: count // common]
         if count % common == 0
         else np.interp(phases, np.arange(1, count + 1) / count, value)
         for value, count in zip(values, counts)
     ]
-    return [value - value.mean() for value in found]
+    return [value - value.mean() for value in curves]
 
 
 def stiffness_by_energy(run: xr.Dataset) -> float:
@@ -148,7 +149,7 @@ def measures_of(names: Container[str]) -> tuple[str, ...]:
 
 
 def judged(errors: dict[str, float]) -> float:
-    """The one number by which settings are compared; the plane beside a face is not charged for what it lacks."""
+    """The one number by which settings are compared; a plane model of a face is not charged for what it lacks."""
     over_face = [errors[name] for name in OVER_FACE if not np.isnan(errors.get(name, np.nan))]
     return max([errors[name] for name in JUDGED] + over_face)
 
@@ -159,8 +160,8 @@ def _last_cycle(run: xr.Dataset) -> np.ndarray:
 
 
 def _pressure(run: xr.Dataset, window: float) -> np.ndarray:
-    """Pressure (phases, pairs, points), MPa, at common phases, those of the nearest steps, and offsets, in the middle
-    of the face; zero beyond a run's contact nodes."""
+    """Pressure (phases, pairs, points), MPa, in the middle of the face at common offsets and common phases, taken from
+    the nearest steps; zero beyond a run's contact nodes."""
     run = in_middle_slice(run)
     phase = run["contact_mesh_phase"].values
     numbers = run["contact_pair_number"]

@@ -16,8 +16,8 @@ from fenics_gears.scene.data import Accuracy, Scene
 @dataclass(frozen=True)
 class Setting:
     """Element; sizes along flank and between contact nodes and window (mm); body elements in parts of the default;
-    steps, and the rest. `slices`, `layers`: of flanks resolved over the face, whose body elements are those of the
-    swept section; None in the plane."""
+    steps, and the rest. `slices`, `layers`: of flanks resolved over the face, whose body elements are the swept
+    section's; None in the plane."""
 
     element: str
     flank: float

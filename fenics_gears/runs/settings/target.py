@@ -20,7 +20,7 @@ from .two_runs import EXPECTED_ORDER, SAFETY_OF_TWO
 FIRST_MESH = 2.5
 FIRST_STEPS = 60.0
 # In the plane: twice a mesh of 2.5 has 0.6 elements in the Hertz half-width, and the change from there says nothing of
-# 1 % (1.2 % was seen where 0.95 % were expected).
+# 1 % (measured 1.2 % where 0.95 % were expected).
 FIRST_PLANE_MESH = 1.8
 # Over the face: the fewest slices of the first trial runs. From ten and five the change says too much.
 FEWEST_SLICES = 16
@@ -31,15 +31,15 @@ FACE_STEPS = 28.0
 ROUND_STEPS = 20
 # In the search for the cheapest a mesh becomes finer, steps become more by this factor.
 RATIO = 2.0 ** (1.0 / 6.0)
-# Sizes finer by more than this factor than those of the trial runs are not trusted: new trial runs with sizes coarser
-# by the second factor.
+# Sizes finer than the trial runs' by more than this factor are not trusted: new trial runs have sizes coarser by the
+# second factor.
 EXTRAPOLATED = 2.5
 COARSER_FIRST = 1.5
 MOST_ROUNDS = 6
 # In the search a finer size counts as dearer by this part at least.
 LEAST_DEARER = 1e-6
-# Error of the peak pressure with one flank element in the Hertz half-width; it falls with order 2, to some per cent
-# with two, more of which are not asked for.
+# Error of the peak pressure with one flank element in the Hertz half-width. It falls with order 2 to some per cent with
+# two; more than two are not asked for.
 PRESSURE_ERROR = 0.18
 # Usual number of runs until settings are chosen, for the progress bar.
 USUAL_RUNS = 3
@@ -85,14 +85,14 @@ def settings_of(
     scene: Scene, targets: tuple[float, ...], progress: Progress, failures: list[tuple[str, str]]
 ) -> dict[str, tuple[Setting, float]]:
     """By name the settings that targets choose, with the targets; those that none reaches join the failures."""
-    found = {}
+    settings = {}
     for target in targets:
         name = f"target {100.0 * target:g} %"
         try:
-            found[name] = choose(scene, target, progress).setting, target
+            settings[name] = choose(scene, target, progress).setting, target
         except ComputationError as error:
             failures.append((name, str(error).splitlines()[0]))
-    return found
+    return settings
 
 
 def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
@@ -133,8 +133,8 @@ def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
 
 
 def _resolving(runs: TrialRuns, sizes: Sizes, target: float) -> Sizes:
-    """These sizes with a mesh that resolves the contact as well as the target asks for pressures, where that is within
-    the limits; else a warning of the run says that it does not."""
+    """These sizes with a mesh that resolves the contact as well as the target asks for pressures. Where that is beyond
+    the limits the sizes stay, and a warning of the run says so."""
     elements = min(RESOLVED, sqrt(PRESSURE_ERROR / target))
     finer = replace(sizes, mesh=min(sizes.mesh, runs.resolving_mesh(elements)))
     with suppress(TargetNotReached):
@@ -217,8 +217,8 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
     """The sizes of about least cost within the limits, mesh and steps not coarser than those tried, slices than half of
     them; raises TargetNotReached.
 
-    From the coarsest, the size is made finer that takes away most of the error for its cost, one after the other; then
-    sizes are made coarser again as far as the target allows.
+    From the coarsest on, the size with the largest drop in error for its cost is made finer, one step after the other.
+    Then sizes are made coarser again as far as the target allows.
     """
     # Twice the mesh and half the steps may be near the finer run by luck: of meshes between the two, one in a hundred
     # erred by more than its target.
@@ -258,18 +258,18 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
 
 
 def _finer(sizes: Sizes, errors: Errors) -> list[Sizes]:
-    found = {
+    finer = {
         MESH: replace(sizes, mesh=sizes.mesh / RATIO),
         STEPS: replace(sizes, steps=round_steps(RATIO * sizes.steps)),
         SLICES: replace(sizes, slices=sizes.slices + 2),
     }
-    return [found[name] for name in errors]
+    return [finer[name] for name in errors]
 
 
 def _coarser(sizes: Sizes, coarsest: Sizes) -> list[Sizes]:
-    found = [
+    coarser = [
         replace(sizes, mesh=min(RATIO * sizes.mesh, coarsest.mesh)),
         replace(sizes, steps=max(sizes.steps - ROUND_STEPS, coarsest.steps)),
         replace(sizes, slices=max(sizes.slices - 2, coarsest.slices)),
     ]
-    return [each for each in found if each != sizes]
+    return [each for each in coarser if each != sizes]

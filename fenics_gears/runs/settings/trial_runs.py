@@ -1,9 +1,9 @@
 """The trial runs from which the errors of settings are estimated: a few that are coarse in different ways.
 
-Two sizes make a setting: that of the mesh, with which flank elements, contact nodes and body elements grow together
-from their defaults, and the number of steps; over a face also the number of slices. Layers of the bodies stay those of
-the defaults, which err by less than any target (docs/evidence/third_dimension.md). All errors fall with the square of
-the size, so that a run with twice the size differs by three times the error.
+A setting has two sizes: of the mesh, with which flank elements, contact nodes and body elements grow together from
+their defaults, and the number of steps. Over a face it also has the number of slices. Layers of the bodies keep their
+defaults, which err by less than any target (docs/evidence/third_dimension.md). All errors fall with the square of the
+size, so that a run with twice the size differs by three times the error.
 """
 
 from collections.abc import Callable
@@ -29,15 +29,15 @@ from .setting_runs import SettingRuns
 from .two_runs import NotComparable, errors_of_two
 
 # Fewest steps in a mesh cycle of the finer trial runs, where steps matter, and the most that are taken for the sake of
-# vibrations: if these are still faster, the motion follows the static one.
+# vibrations. If vibrations are still faster, the motion follows the static one.
 FEWEST_STEPS = 40
 MOST_STEPS = 1280
 MESH = "finite elements and contact nodes"
 STEPS = "steps per mesh cycle"
 SLICES = "slices"
 COARSER = 2
-# Steps that barely follow a vibration err by more than order 2 says: from 40 to 80 of them errors fell by order 1, and
-# were 2.2 times what the two runs said, more than the factor that every estimate has.
+# Steps that barely follow a vibration err by more than order 2 says. From 40 to 80 of them errors fell by order 1, and
+# were 2.2 times the estimate of the two runs, more than the factor of every estimate.
 MORE_OF_VIBRATIONS = 1.25
 # Gears kept in memory: pinion and wheel of two meshes.
 KEPT_GEARS = 4
@@ -101,16 +101,17 @@ class TrialRuns:
     def expected(self) -> dict[str, float]:
         """By setting the largest error over the face that the defaults are expected to have in what is judged."""
         errors = expected_errors(model_of(self._whole))
-        found = {MESH: 0.0, SLICES: 0.0}
+        expected = {MESH: 0.0, SLICES: 0.0}
         for name, scale in ((SPAN, LEAST_SPAN), (FACE_LOAD, 1.0), (LINE_LOAD, 1.0)):
             parts = errors[name]
-            found[MESH] = max(found[MESH], parts[FLANK] / scale)
-            found[SLICES] = max(found[SLICES], *(parts[size] / scale for size in OF_SLICES if size in parts))
-        return found
+            expected[MESH] = max(expected[MESH], parts[FLANK] / scale)
+            expected[SLICES] = max(expected[SLICES], *(parts[size] / scale for size in OF_SLICES if size in parts))
+        return expected
 
     @property
     def fewest_steps(self) -> int:
-        """Fewest steps of a run beside one with half as many: both can represent the slowest vibration that matters."""
+        """Fewest steps of the finer of two runs, where the other has half as many: both can represent the slowest
+        vibration that matters."""
         steps = FEWEST_STEPS
         if not self.steps_matter:
             return steps // COARSER
@@ -123,8 +124,8 @@ class TrialRuns:
     def errors(self, sizes: Sizes) -> dict[str, np.ndarray]:
         """Estimated relative errors of a run, by setting: of each judged measure over the face, where settings tell on
         different ones; in the plane of the worst of both. Raises ComputationError."""
-        # Each error is measured where runs are short: the mesh's beside fewer steps and slices, that of slices beside
-        # a coarser mesh.
+        # Each error is measured where runs are short: the mesh's with fewer steps and slices, the slices' with a
+        # coarser mesh.
         short = sizes
         if self.steps_matter:
             short = replace(short, steps=sizes.steps // COARSER)

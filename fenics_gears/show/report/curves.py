@@ -15,7 +15,7 @@ LISTED_ORDERS = 10
 
 
 def motion(run: ShownRun) -> PageSection:
-    """Curves of all motions; first, which of the result's cycles are seen here and in what follows."""
+    """Curves of all motions; first, which of the result's cycles are drawn in this section and the next ones."""
     section = _section("motion", "Transmission error and motion", run, motion_charts)
     return replace(section, blocks=[*_cycles_shown(run), *section.blocks]) if run.has_curves else section
 
@@ -61,19 +61,19 @@ def spectra(run: ShownRun) -> PageSection:
         short = "Less than one mesh cycle is stored; its harmonics cannot be separated."
         return sentence("spectra", heading, short, not run.complete)
     signals = signals_of(run)
-    found = {name: spectrum(run, values) for name, (values, _) in signals.items()}
+    spectra = {name: spectrum(run, values) for name, (values, _) in signals.items()}
     followed = orders_by_cycle(run, signals)
     blocks: list[Block] = []
     if run.scene is not None and run.scene.speed_ramp is not None:
         where = "See" if followed else "Records of 8 mesh cycles and more have"
         said = "The mesh frequency changes through the record: orders stay in place, resonances pass through them."
         blocks.append(Words(f"{said} {where} the orders cycle by cycle."))
-    blocks += [mesh_order_chart(run, name, unit, found[name]) for name, (_, unit) in signals.items()]
+    blocks += [mesh_order_chart(run, name, unit, spectra[name]) for name, (_, unit) in signals.items()]
     if FORCE not in signals:
         blocks.append(Words("The force of the mesh does not vary: nothing but a constant torque acts on it."))
     by_turns = order_spectrum(run)
     blocks += [by_turns] if by_turns is not None else []
-    table = _table(signals, [each.lines for each in found.values()])
+    table = _table(signals, [each.lines for each in spectra.values()])
     return PageSection("spectra", heading, [*blocks, table, *followed])
 
 

@@ -9,7 +9,7 @@ HEADING = "Contact over the face"
 FACTORS = {
     "face_load_factor": (
         "Face load factor {:.3f}: averaged over the mesh cycle, the most loaded place of the face, away from its ends,"
-        " carries so many times the mean. This stands beside ISO's K_Hβ."
+        " carries so many times the mean. Compare it with ISO's K_Hβ."
     ),
     "largest_line_load_factor": (
         "Largest line load {:.3f}: at the worst moment, away from edges, a tooth carries so many times the even load."
@@ -30,8 +30,8 @@ def face(run: ShownRun) -> PageSection | None:
     if not run.has_curves:
         return sentence("face", HEADING, TOO_FEW, True)
     charts = [chart for draw in charts_over_face(run).values() for chart in draw(run)]
-    found = run.dataset.attrs
-    said = [Words(words.format(found[name])) for name, words in FACTORS.items() if name in found]
+    numbers = run.dataset.attrs
+    said = [Words(words.format(numbers[name])) for name, words in FACTORS.items() if name in numbers]
     if not charts and not said:
         none = "There are none: no contact fields are stored (`[output] contact_fields`), or no flank is loaded."
         return sentence("face", HEADING, none)

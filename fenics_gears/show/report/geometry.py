@@ -37,17 +37,17 @@ def _both(run: ShownRun, rows: list[tuple[str, float, str]]) -> Table:
     given = run.scene.gears
     names = {"teeth": "", "tip_diameter": "mm", "root_diameter": "mm", "bore_diameter": "mm"}
     names["rack_tip_radius"] = "modules"
-    found: dict[tuple[str, str], dict[str, float]] = {}
+    rows_by_name: dict[tuple[str, str], dict[str, float]] = {}
     for name, unit in names.items():
-        found[name.replace("_", " "), unit] = {gear: getattr(getattr(given, gear), name) for gear in GEARS}
+        rows_by_name[name.replace("_", " "), unit] = {gear: getattr(getattr(given, gear), name) for gear in GEARS}
         if name == "teeth":
-            found |= _profile_shifts(given)
+            rows_by_name |= _profile_shifts(given)
     for label, value, unit in rows:
         gear, _, what = label.partition(" ")
         if gear in GEARS:
-            found.setdefault((what, unit), {})[gear] = value
+            rows_by_name.setdefault((what, unit), {})[gear] = value
     cells = []
-    for (what, unit), values in found.items():
+    for (what, unit), values in rows_by_name.items():
         of_gears = [_figure(what, values[gear], unit) if gear in values else "" for gear in GEARS]
         cells.append((f"{what} ({unit})" if unit else what, *of_gears))
     return Table(("", "Pinion", "Wheel"), cells, "Either gear")

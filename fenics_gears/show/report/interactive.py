@@ -133,7 +133,7 @@ def _flag(layout: dict, chart: Chart) -> None:
 
 
 def _words(curve: Curve) -> list[dict]:
-    """Words beside the points of a curve."""
+    """Words next to the points of a curve."""
     up = ("top" in curve.beside) - ("bottom" in curve.beside)
     right = 1 if "right" in curve.beside else -1
     at: dict[str, Any] = {"xanchor": "left" if right > 0 else "right", "yanchor": ("middle", "bottom", "top")[up]}
@@ -152,7 +152,8 @@ def escaped(text: str) -> str:
 
 
 def numbers(values: np.ndarray, digits: int = DIGITS) -> list:
-    """Values (n,) as a list of numbers with as many digits as are seen, None where there is none; words stay words."""
+    """Values (n,) as a list of numbers with as many digits as a chart shows, None where there is none; words stay
+    words."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiub":
         return [escaped(str(each)) for each in array]
@@ -185,7 +186,7 @@ def _traces(curve: Curve, chart: Chart) -> list[dict]:
 
 
 def _places(curve: Curve, chart: Chart) -> np.ndarray:
-    """Points of a curve that are drawn: of a long one those of the range that is shown first, and few of the rest."""
+    """Points of a curve that are drawn: of a long one all in the range that is shown first, and few of the rest."""
     y = np.asarray(curve.y, dtype=float)
     if chart.x_range is None or len(y) <= MOST_POINTS:
         return thinned(y)

@@ -20,7 +20,7 @@ MORE = {
 
 
 def numbers(run: ShownRun) -> PageSection:
-    """The summary that `gears run` prints, and more; beside it the path of contact where the result has it."""
+    """The summary that `gears run` prints, and more; next to it the path of contact where the result has it."""
     attributes = run.dataset.attrs
     rows = result_rows(run.dataset) if run.steps else []
     rows += [

@@ -51,7 +51,7 @@ def _tiles(run: ShownRun) -> Iterator[Tile]:
         yield Tile("Largest mesh force", digits(largest), "N", note)
     if "peak_contact_pressure" in attributes:
         end = attributes.get("peak_contact_pressure_beside")
-        where = f"beside the {end} of the pinion's active profile, where lines of contact end" if end else ""
+        where = f"near the {end} of the pinion's active profile, where lines of contact end" if end else ""
         yield Tile("Peak contact pressure", digits(attributes["peak_contact_pressure"]), "MPa", where)
     if "root_stress_maximum" in dataset:
         largest = dataset["root_stress_maximum"].max(["time", "slot"]).values

@@ -17,7 +17,7 @@ class Words:
 
 @dataclass(frozen=True)
 class Tile:
-    """One number that is seen first: what it is, the number, its unit, a word on it."""
+    """One number at the top of a page: its name, its value, its unit, a word on it."""
 
     label: str
     value: str
@@ -27,7 +27,7 @@ class Tile:
 
 @dataclass(frozen=True)
 class Tiles:
-    """The numbers that are seen first."""
+    """The numbers at the top of a page."""
 
     tiles: Sequence[Tile]
 
@@ -82,7 +82,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Listing:
-    """Text as it stands in a file."""
+    """Text as it is in a file."""
 
     text: str
 

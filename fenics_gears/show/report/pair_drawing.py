@@ -54,7 +54,8 @@ def gear_outline(pair: GearPair, gear: int, phase: float, coast: bool = False) -
 
 
 def _tooth(gear: Gear) -> np.ndarray:
-    """One tooth (n, 2) from the middle of the space beside its drive flank to the middle of the other."""
+    """One tooth (n, 2) from the middle of the space at its drive flank to the middle of the space at its coast
+    flank."""
     outline = tooth_outline(gear, FILLET_POINTS)
     involute = outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, INVOLUTE_POINTS))[1:]
     foot = np.arctan2(outline.fillet[0, 1], outline.fillet[0, 0])

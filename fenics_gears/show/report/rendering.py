@@ -72,7 +72,7 @@ def _still(chart: Chart) -> str:
 
 
 def _with_code(text: str):
-    """A sentence in which what stands between backticks is set as code."""
+    """A sentence with words between backticks set as code."""
     from markupsafe import Markup, escape
 
     return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(_micro(text)))))

@@ -45,7 +45,7 @@ def _over_time(run: ShownRun) -> list[Chart]:
     ]  # fmt: skip
     if curves:
         note = (
-            "The largest of the loaded teeth, where the fillet's tangent stands at 30° to the tooth's centreline;"
+            "The largest of the loaded teeth, where the fillet's tangent is at 30° to the tooth's centreline;"
             " tension positive."
         )
         plots.append(over_time(run, "Stress at the 30° tangent", "Stress (MPa)", curves, least=least, note=note))

@@ -85,20 +85,22 @@ def _failures(cases: Cases) -> PageSection:
 
 
 def _warnings(cases: Cases) -> PageSection:
-    """Each kind of warning once, with the cases it is said of; numbers in it are those of the first."""
+    """Each kind of warning once, with its cases; numbers in it are of the first case."""
     said: dict[str, list[tuple[int, str]]] = {}
     for case, text in enumerate(cases.texts("warnings")):
         for line in text.splitlines():
             kind = "".join(each for each in line if not each.isdigit() and each not in ".+-e")
             said.setdefault(kind, []).append((case, line))
     blocks = []
-    for found in sorted(said.values(), key=len, reverse=True):
+    for cases_of_kind in sorted(said.values(), key=len, reverse=True):
         of = f"In all {cases.count} cases"
-        if len(found) < cases.count:
-            listed = [str(case) for case, _ in found[:LISTED_CASES]] + ["…"] * (len(found) > LISTED_CASES)
-            of = f"In {len(found)} of {cases.count} cases ({', '.join(listed)})"
-        others = " (numbers of the first)" if len({line for _, line in found}) > 1 else ""
-        blocks.append(Words(f"{of}: {found[0][1]}{others}", warns=True))
+        if len(cases_of_kind) < cases.count:
+            listed = [str(case) for case, _ in cases_of_kind[:LISTED_CASES]] + ["…"] * (
+                len(cases_of_kind) > LISTED_CASES
+            )
+            of = f"In {len(cases_of_kind)} of {cases.count} cases ({', '.join(listed)})"
+        others = " (numbers of the first)" if len({line for _, line in cases_of_kind}) > 1 else ""
+        blocks.append(Words(f"{of}: {cases_of_kind[0][1]}{others}", warns=True))
     return PageSection(
         "warnings", "Warnings", blocks or [Words("None: every run stayed within what the model assumes.")]
     )
@@ -111,8 +113,8 @@ def _results(cases: Cases) -> PageSection:
 
 def _standing_out(cases: Cases) -> PageSection:
     heading, scale, unit = "Cases that stand out", *cases.error_scale
-    found = ((case, why, cases.run(case)) for case, why in standing_out(cases).items())
-    chosen = [(case, why, run) for case, why, run in found if run is not None and run.sizes.get("time", 0)]
+    runs = ((case, why, cases.run(case)) for case, why in standing_out(cases).items())
+    chosen = [(case, why, run) for case, why, run in runs if run is not None and run.sizes.get("time", 0)]
     if not chosen:
         return sentence("outstanding", heading, "There is no file of a case to show one from.")
     curves = []
@@ -142,10 +144,10 @@ def standing_out(cases: Cases) -> dict[int, list[str]]:
         (by_error[0], "least transmission error"), (by_error[len(by_error) // 2], "median transmission error"),
         (by_error[-1], "largest transmission error"), (known[np.argmax(forces[known])], "largest mesh force"),
     ]  # fmt: skip
-    found: dict[int, list[str]] = {}
+    reasons: dict[int, list[str]] = {}
     for case, why in marks:
-        found.setdefault(int(case), []).append(why)
-    return found
+        reasons.setdefault(int(case), []).append(why)
+    return reasons
 
 
 def _table(cases: Cases) -> PageSection:

@@ -1,9 +1,9 @@
 """Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy`.
 
-Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: the error of the finest
-run is the last change over r^p - 1, with r the ratio of sizes and p the order, times a safety factor: 1.25 for three
-runs and more, which show their order; without an observed order the error is three times the last change: 1.25 times
-the 2.4 that h^0.5 leaves where sizes halve.
+Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5. The error of the finest
+run is the last change over r^p - 1 times a safety factor, with r the ratio of sizes and p the order. The factor is 1.25
+for three runs and more, which show their order. Without an observed order the error is three times the last change:
+1.25 times the 2.4 of h^0.5 where sizes halve.
 """
 
 from collections.abc import Mapping, Sequence
@@ -25,12 +25,12 @@ MOST_ORDER = 10.0
 # order than this.
 LEAST_TRUSTED = 0.5
 MOST_ABOVE_EXPECTED = 1.0
-# A limit and its order are found from so many of the finest terms.
+# A limit and its order follow from so many of the finest terms.
 LAST_TERMS = 3
 ROUND_OFF = 1e-10
-# Cosine of the angle between the last two changes: above the first the limit is extrapolated; kinks that move between
-# steps give changes in any direction whose length still falls with an order; below the second, where changes turn back,
-# there is no order.
+# Cosine of the angle between the last two changes. Above the first the limit is extrapolated. Between them changes have
+# any direction, as by kinks that move between steps, but their length still falls with an order. Below the second
+# changes turn back, and there is no order.
 LEAST_COSINE = 0.5
 TURNED_BACK = -0.5
 
@@ -38,8 +38,8 @@ TURNED_BACK = -0.5
 @dataclass(frozen=True)
 class Limit:
     """The limit of a sequence: `value`, shaped as its terms; observed `order`, None without one; `uncertainty`, L2 norm
-    of its error; `least_error`: of the last term where that is taken as the limit: by its order, or the last difference
-    without one."""
+    of its error. `least_error`: error of the last term where that is taken as the limit, by its order or, without one,
+    the last difference."""
 
     value: np.ndarray
     order: float | None
@@ -48,7 +48,7 @@ class Limit:
 
 
 def observed_order(values: Sequence[np.ndarray], sizes: Sequence[float]) -> float | None:
-    """Order p of u(h) = u(0) + C h^p through the last three terms of a sequence, by their distances in L2; None where
+    """Order p of u(h) = u(0) + C h^p through the last three terms of a sequence, by their distances in L2. None where
     no p fits, or differences are round-off, do not fall, or turn back. `sizes` fall and need not halve."""
     if len(values) < 3:
         return None
@@ -98,20 +98,20 @@ def limit_of(refinement: Refinement, ran: Sequence[tuple[Level, Answer]], base: 
     if len(ran) < 2 or (refinement.expected is None and refinement.name != LENGTH):
         return Limit(base[name], None, 0.0)
     last = ran[-LAST_TERMS:]
-    values = comparable([found[name] for _, found in last], name)
+    values = comparable([answer[name] for _, answer in last], name)
     if refinement.expected is None:
         return last_of(values)
     return richardson(values, [level.size for level, _ in last], refinement.expected)
 
 
-def error_from(limits: Mapping[str, Limit], found: Answer, name: str) -> float:
+def error_from(limits: Mapping[str, Limit], answer: Answer, name: str) -> float:
     """Relative distance of a measure from its limit; at least `least_error`."""
-    if name not in limits or name not in found:
+    if name not in limits or name not in answer:
         return float("nan")
     limit = limits[name]
     scale = float(np.linalg.norm(limit.value))
     least = limit.least_error / scale if scale and name != DEFECT else 0.0
-    return max(distance(found, {name: limit.value}, name), least)
+    return max(distance(answer, {name: limit.value}, name), least)
 
 
 def together(base: np.ndarray, changes: Sequence[tuple[Limit, np.ndarray]], name: str) -> Limit:

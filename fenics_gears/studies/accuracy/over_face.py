@@ -1,5 +1,5 @@
-"""What `gears accuracy` refines of flanks that are resolved over the face, where a run takes ten times as long as in
-the plane; and the plane beside it."""
+"""What `gears accuracy` refines of flanks that are resolved over the face, and the plane model to compare with. A run
+takes ten times as long as in the plane."""
 
 from dataclasses import replace
 from math import atan, cos, tan
@@ -23,7 +23,7 @@ QUICK: dict[str, tuple[float, ...]] = {
 }  # fmt: skip
 FINE = {FLANK: 1.4, BODY: 1.4, LENGTH: 1.0, STEPS: 20, SLICES: 1.0, LAYERS: 1.0}
 QUICK_FINE = {**FINE, FLANK: 0.7, SLICES: 0.5, LAYERS: 0.5}
-# Targets whose settings are run beside the others.
+# Targets whose settings are run in addition.
 TARGETS = (0.05, 0.02)
 # Order of their errors, and why.
 ORDERS = {

@@ -16,8 +16,8 @@ from .over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, PLANE, SLICES, STEPS
 
 NODES = "contact node spacing"
 CONDENSATION = "condensation"
-# Flank elements and contact nodes, which stand at NODE_SPACING elements. Their errors interact: nodes refined alone
-# converge to what fixed elements give. So whole settings and the reference take both together.
+# Flank elements, and contact nodes at NODE_SPACING elements. Their errors interact: nodes refined alone converge to
+# what fixed elements give. So whole settings and the reference take both together.
 OF_FAMILY = (FLANK, NODES)
 # Gears meshed anew at every step take a hundred times as long, so that both ways of condensing are compared at a
 # coarser setting.
@@ -26,11 +26,14 @@ REMESHED_FINE = {FLANK: 2.0, NODES: 2.0, BODY: 1.0, STEPS: 20}
 
 @dataclass(frozen=True)
 class Plan:
-    """What is refined and compared: `values` of the settings that are numbers, elements and contact nodes in a
-    half-width, body elements and the window in parts of their defaults, steps in a cycle; `choices` of the others; all
-    settings when another one is refined (`fine`, changed `beside` some); `elastic_teeth` that are compared; whether
-    gears `remeshed` at every step and `root_stress` are; `models`: cheaper ones; `targets` whose settings are run;
-    `rounds` of timing; `columns` of a legend."""
+    """What is refined and compared.
+
+    `values`: of the settings that are numbers: elements and contact nodes in a half-width, body elements and the window
+    in parts of their defaults, steps in a cycle. `choices`: of the other settings. `fine`: all settings while another
+    one is refined; `beside`: changes of these for some. `elastic_teeth` that are compared. `remeshed`, `root_stress`:
+    whether gears meshed at every step and root stress are compared. `models`: cheaper ones. `targets` whose settings
+    are run. `rounds` of timing. `columns` of a legend.
+    """
 
     values: dict[str, tuple[float, ...]]
     fine: dict[str, float]
@@ -116,7 +119,7 @@ class Refinement:
     base: Setting
 
     def level_of(self, setting: Setting) -> int | None:
-        """On which level a whole setting stands; None for none."""
+        """The level of a whole setting; None for none."""
 
         def same(other: Setting) -> bool:
             return all(_same(getattr(setting, field), getattr(other, field)) for field in self.fields)
@@ -165,10 +168,12 @@ def _setting(scene: Scene, values: dict[str, float]) -> Setting:
     default = default_setting(scene)
     flank = unit / values[FLANK]
     spacing = unit / values[NODES] if NODES in values else NODE_SPACING * flank
-    found = Setting("P2", flank, spacing, values.get(LENGTH, 1.0) * default.length, values[BODY], values[STEPS])
+    setting = Setting("P2", flank, spacing, values.get(LENGTH, 1.0) * default.length, values[BODY], values[STEPS])
     if default.slices is None:
-        return found
-    return replace(found, slices=_whole(values[SLICES], default.slices), layers=_whole(values[LAYERS], default.layers))
+        return setting
+    return replace(
+        setting, slices=_whole(values[SLICES], default.slices), layers=_whole(values[LAYERS], default.layers)
+    )
 
 
 def _whole(part: float, default: int) -> int:
@@ -199,18 +204,18 @@ def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
     sizes |= {field: [{field: each} for each in options] for field, options in plan.choices.items()}
     if plan.elastic_teeth:
         sizes["elastic teeth"] = [{"elastic_teeth": each} for each in plan.elastic_teeth]
-    found = []
+    settings = []
     for name, levels in sizes.items():
         base = _setting(scene, plan.fine | plan.beside.get(name, {}))
         expected = orders.get(name, (None, "a choice"))
-        found.append(
+        settings.append(
             Refinement(name, tuple(levels[0]), tuple(_level(base, each, unit) for each in levels), *expected, base)
         )
     # The remeshed route has nodes on the drive flanks and on the path of contact alone.
     if plan.remeshed and scene.coast_flanks is None and scene.corner_contact is None:
-        found.append(condensation(scene))
+        settings.append(condensation(scene))
     mine = {SCENE: own_setting(scene), DEFAULT: default_setting(scene)}
-    return tuple(_with_own(each, mine, unit) for each in found)
+    return tuple(_with_own(each, mine, unit) for each in settings)
 
 
 def condensation(scene: Scene) -> Refinement:

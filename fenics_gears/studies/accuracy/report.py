@@ -191,18 +191,18 @@ class AccuracyStudy:
         of_targets = settings_of(self.scene, targets, self.progress, self.failures)
         chosen |= {name: setting for name, (setting, _) in of_targets.items()}
         answers, times = self._in_turns({name: scene_of(self.scene, name, setting) for name, setting in chosen.items()})
-        found = []
+        measured = []
         for name in answers:
             setting = chosen[name]
             target = of_targets[name][1] if name in of_targets else None
             parts = {} if setting is None or target else whole.parts_of(setting, ran, errors)
-            found.append(WholeResult(name, setting, distances(answers[name], reference), parts, times[name], target))
+            measured.append(WholeResult(name, setting, distances(answers[name], reference), parts, times[name], target))
         if OWN not in answers:
             raise ComputationError(f"the scene itself does not run: {dict(self.failures)[OWN]}")
         return (
-            tuple(each for each in found if each.setting and not each.target),
-            tuple(each for each in found if not each.setting),
-            tuple(each for each in found if each.target),
+            tuple(each for each in measured if each.setting and not each.target),
+            tuple(each for each in measured if not each.setting),
+            tuple(each for each in measured if each.target),
         )
 
     def _run(self, setting: Setting, name: str) -> bool:
@@ -250,11 +250,11 @@ class AccuracyStudy:
         answers = self.runs.answers
         base = self.runs.answers[refinement.base]
         ran = [(level, answers[level.setting]) for level in refinement.levels if level.setting in answers]
-        regular = [(level, found) for level, found in ran if not level.own or refinement.name == LENGTH]
+        regular = [(level, measured) for level, measured in ran if not level.own or refinement.name == LENGTH]
         limits = {name: limit_of(refinement, regular, base, name) for name in base}
         levels = []
-        for level, found in ran:
-            errors = {name: error_from(limits, found, name) for name in measures_of(base)}
+        for level, measured in ran:
+            errors = {name: error_from(limits, measured, name) for name in measures_of(base)}
             levels.append(LevelResult(level, errors, self.runs.times[level.setting]))
         return RefinementResult(refinement, tuple(levels), limits)
 

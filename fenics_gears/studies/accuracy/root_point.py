@@ -1,5 +1,5 @@
-"""Peak stress at one material point of the pinion's tooth root, the same on all meshes, which the place of the largest
-stress is not: where the fillet's tangent stands at 30 degrees to the tooth's centreline."""
+"""Peak stress at one material point of the pinion's tooth root: where the fillet's tangent is at 30 degrees to the
+tooth's centreline. This point is the same on all meshes, which the place of the largest stress is not."""
 
 from functools import lru_cache
 

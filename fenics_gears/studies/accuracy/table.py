@@ -38,7 +38,7 @@ def judged_by(report: AccuracyReport) -> str:
 
 
 def table_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
-    """A row for each level; a setting's name and orders stand in its first."""
+    """A row for each level; a setting's name and orders are in its first."""
     rows = []
     for result in report.refinements:
         for place, each in enumerate(result.levels):
@@ -53,7 +53,7 @@ def table_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
 
 
 def whole_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
-    """A row for each combination of settings and each cheaper model; those of the Pareto front are marked."""
+    """A row for each combination of settings and each cheaper model; rows of the Pareto front are marked."""
     front = report.front
     rows = []
     for each in (*report.settings, *report.targets, *report.models):
@@ -135,7 +135,7 @@ def _best(report: AccuracyReport) -> str:
 
 
 def remarks(report: AccuracyReport) -> list[str]:
-    found = [
+    sentences = [
         (
             f"the reference (Richardson's limits of all settings together) is uncertain by {percent(report.floor)} % in"
             f" {judged_by(report)}; smaller errors cannot be assessed"
@@ -150,32 +150,32 @@ def remarks(report: AccuracyReport) -> list[str]:
         if result.refinement.expected is None:
             continue
         if max(each.errors["T_E"] for each in result.levels) < NO_INFLUENCE:
-            found.append(
+            sentences.append(
                 f"{result.refinement.name}: T_E at the steps does not depend on it ({result.refinement.why}); T_EPP is"
                 " located between the steps"
             )
         elif order is None:
-            found.append(
+            sentences.append(
                 f"{result.refinement.name}: no order in T_E, expected {result.refinement.expected:g}"
                 f" ({result.refinement.why}); the error of its finest value is taken to be its last change"
             )
         elif abs(order - result.refinement.expected) > ORDER_OFF:
-            found.append(
+            sentences.append(
                 f"{result.refinement.name}: order {order:.2f} in T_E, expected {result.refinement.expected:g}"
                 f" ({result.refinement.why})"
             )
     if any(result.refinement.name == CONDENSATION for result in report.refinements):
-        found.append(
+        sentences.append(
             'condensation "every step" is another model, not a finer one: normal forces have the lever arms of their'
             " nodes in place of the base radius. Its difference does not vanish with refinement"
         )
     peak = report.uncertainty["peak pressure"]
     if peak > 0.1:
-        found.append(
+        sentences.append(
             f"the peak pressure does not converge in these runs (it is uncertain by {percent(peak)} %); contact at a"
             " sharp tip edge is a usual cause"
         )
-    return found
+    return sentences
 
 
 def timed(report: AccuracyReport) -> str:

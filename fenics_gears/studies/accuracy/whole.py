@@ -1,6 +1,6 @@
 """Whole settings: a path of them from coarse to fine, and the Pareto front. Errors may cancel in one run and add up at
-another load or speed: the total error of a whole setting is the sum of its parts' errors, each measured with the others
-fine, or its own distance from the reference where that is larger."""
+another load or speed. So the total error of a whole setting is the sum of its parts' errors, each measured with the
+others fine, or its own distance from the reference where that is larger."""
 
 from collections.abc import Mapping, Sequence
 from functools import reduce
@@ -53,7 +53,7 @@ def path(
 ) -> list[Setting]:
     """Whole settings from the coarsest on: from one to the next the setting with the largest error, weighed by WAITS,
     goes one level finer. The path ends where the sum of errors is below `enough`, or where that setting has no finer
-    level that is `allowed`; its end is kept. Choices, such as the element, are those of `base`."""
+    level that is `allowed`; its end is kept. Choices, such as the element, are taken from `base`."""
     moving = {
         each.name: each
         for each in refinements
@@ -68,26 +68,26 @@ def path(
     def setting() -> Setting:
         return reduce(lambda whole, name: moving[name].moved(whole, levels[name][at[name]]), at, base)
 
-    found = []
+    settings = []
     last = float("inf")
     while at and allowed(setting()):
         parts = {name: errors[name, levels[name][place]] for name, place in at.items()}
         if sum(parts.values()) <= KEPT_PART * last:
             last = sum(parts.values())
-            found.append(setting())
+            settings.append(setting())
         worst = largest_part({name: error * WAITS.get(name, 1.0) for name, error in parts.items()})
         if at[worst] + 1 == len(levels[worst]) or sum(parts.values()) <= enough:
             break
         at[worst] += 1
-    if found and found[-1] != setting() and allowed(setting()):
-        found.append(setting())
-    return _thinned(found)
+    if settings and settings[-1] != setting() and allowed(setting()):
+        settings.append(setting())
+    return _thinned(settings)
 
 
-def _thinned(found: list[Setting]) -> list[Setting]:
-    if len(found) <= MOST_KEPT:
-        return found
-    return [found[round(place * (len(found) - 1) / (MOST_KEPT - 1))] for place in range(MOST_KEPT)]
+def _thinned(settings: list[Setting]) -> list[Setting]:
+    if len(settings) <= MOST_KEPT:
+        return settings
+    return [settings[round(place * (len(settings) - 1) / (MOST_KEPT - 1))] for place in range(MOST_KEPT)]
 
 
 def fits(scene: Scene, setting: Setting) -> bool:

@@ -78,7 +78,7 @@ class EffectReport:
 
     @property
     def of_face(self) -> tuple[str, ...]:
-        """The numbers that a report tells beside the others where runs have a load over their face."""
+        """The numbers that a report adds where runs have a load over their face."""
         return () if all(isnan(row.face_load_factor) for row in self.rows) else ("face_load_factor", "peak_pressure")
 
     def row(self, kind: str, effect: str = "") -> MeasuredRow | None:
@@ -207,7 +207,7 @@ class Bench:
 
 
 def _remarks(subset: Subset, run: xr.Dataset) -> list[str]:
-    found = [subset.note] if subset.note else []
+    sentences = [subset.note] if subset.note else []
     if subset.scene.inertia is not None and subset.scene.damping is None:
-        found.append("undamped: the vibration of the start rings on in the answer")
-    return found + run.attrs["warnings"].splitlines()
+        sentences.append("undamped: the vibration of the start rings on in the answer")
+    return sentences + run.attrs["warnings"].splitlines()

@@ -35,7 +35,7 @@ Valid = Callable[[Sections], str]
 @dataclass(frozen=True)
 class Subset:
     """A scene with some of its effects: `kind` of subset, the `effect` that is added or left out ("" for none), the
-    `sections` that are on, and those that had to be added or left out `beside` it."""
+    `sections` that are on. `beside`: further effects that had to be added or left out with it."""
 
     kind: str
     effect: str
@@ -55,7 +55,7 @@ class Subset:
         others = " and ".join(self.beside)
         if not others:
             return ""
-        return f"{self.effect} needs {others}" if self.kind == ALONE else f"{others} cannot stand without {self.effect}"
+        return f"{self.effect} needs {others}" if self.kind == ALONE else f"{others} cannot be without {self.effect}"
 
 
 @dataclass(frozen=True)
@@ -78,18 +78,18 @@ def subsets_of(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
         wanted.insert(1, (NOTHING, "", frozenset()))
     wanted += [(ALONE, each, smallest_valid(base | {each}, every, problem)) for each in in_order(every - base)]
     wanted += [(LEFT_OUT, each, largest_valid(every - {each}, problem)) for each in in_order(every)]
-    found: dict[Sections, Subset] = {}
+    subsets: dict[Sections, Subset] = {}
     skipped = []
     for kind, name, sections in wanted:
         if sections is None or problem(sections):
             asked = sections if sections is not None else every - {name} if kind == LEFT_OUT else every & {BASE, name}
             skipped.append(Skipped(Subset(kind, name, asked, scene).name, problem(asked)))
-        elif sections not in found:
+        elif sections not in subsets:
             left = every - sections
             beside = {ALONE: sections - {BASE, name}, LEFT_OUT: left - {name}}.get(kind, ())
             less = without(scene, *in_order(left))
-            found[sections] = Subset(kind, name, sections, less, tuple(in_order(beside)))
-    whole, *others = found.values()
+            subsets[sections] = Subset(kind, name, sections, less, tuple(in_order(beside)))
+    whole, *others = subsets.values()
     parts = [Subset(LEFT_OUT, name, whole.sections, less) for name, less in _without_parts(whole.scene)]
     return [*others, *parts, whole], skipped
 

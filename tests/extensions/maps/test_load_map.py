@@ -56,7 +56,7 @@ def test_a_map_sweeps_the_load_that_the_scene_names(tmp_path, load, loads, other
             r"--speeds: without inertia nothing depends on the speed, .* no section \[inertia\]",
         ),
         ({"speeds": ["100 Hz", "3000 rpm"]}, {}, "both speeds of the pinion and mesh frequencies"),
-        ({"loads": ["100"]}, {}, "number without unit, not a torque. Each value stands in quotes with its unit"),
+        ({"loads": ["100"]}, {}, "number without unit, not a torque. Write each value in quotes with its unit"),
         ({"loads": ["100 N"]}, {}, "is a force, not a torque"),
         ({"speeds": ["100 N m"]}, {}, "is a torque, not a frequency"),
         ({"loads": ["100 N m", "0.1 kNm"]}, {}, '"0.1 kNm" is given twice'),

@@ -90,7 +90,7 @@ def test_misalignment_over_the_face_is_counted_and_told(tmp_path, capsys):
     beside = {"scene": helical_scene(CROWNED).text, "peak_contact_pressure_beside": "end"}
     results.save(result.assign_attrs(beside), tmp_path / "run.nc")
     assert main(["rate", str(tmp_path)]) == 0
-    assert "sigma_H of this run is beside the end of the pinion's active profile" in capsys.readouterr().out
+    assert "sigma_H of this run is near the end of the pinion's active profile" in capsys.readouterr().out
 
 
 def test_the_inclination_of_shafts_that_bend_is_counted(tmp_path, capsys):

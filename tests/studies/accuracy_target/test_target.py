@@ -162,8 +162,9 @@ def test_choosing_can_be_interrupted_within_a_run(scene, monkeypatch):
 
 @pytest.mark.parametrize("line, reason", [
     ('element = "P1"', "is chosen by accuracy.target"), ("contact_nodes = 20", "is chosen by accuracy.target"),
-    ('model = "rigid teeth"', "cannot stand beside accuracy.target, which is for the full contact of elastic teeth"),
-    ('condensation = "once"', "cannot stand beside accuracy.target, which condenses once"),
+    ('model = "rigid teeth"',
+     "cannot be combined with accuracy.target, which is for the full contact of elastic teeth"),
+    ('condensation = "once"', "cannot be combined with accuracy.target, which condenses once"),
 ])  # fmt: skip
 def test_a_setting_beside_a_target_is_refused(text, line, reason):
     """Two answers to one question."""
@@ -190,7 +191,7 @@ def test_no_load_and_rigid_teeth_have_no_target(text):
     with pytest.raises(SceneError, match="has no meaning without a load"):
         scene_from_text(text.replace('"437 N m"', '"0 N m"'))
     rigid = text.partition("[gears.material]")
-    with pytest.raises(SceneError, match="needs teeth that give way"):
+    with pytest.raises(SceneError, match="needs elastic teeth"):
         scene_from_text(rigid[0] + "[load]" + rigid[2].partition("[load]")[2])
 
 

@@ -1,5 +1,5 @@
-"""Finds the commands: those of this folder, then those of extensions. These are in the folder
-``fenics_gears/extensions``, or in installed packages that name themselves in the entry point group of the same name.
+"""Finds the commands: first of this folder, then of extensions. These are in the folder ``fenics_gears/extensions``, or
+in installed packages that name themselves in the entry point group of the same name.
 
 Each is a module with a function ``add(commands, shared)``: `commands` takes parsers of commands by
 `commands.add_parser`, `shared` is the parser of -v and -q (docs/adding_an_extension.md). Its docstring begins with
@@ -19,13 +19,13 @@ from typing import NamedTuple
 
 GROUP = "fenics_gears.extensions"
 HERE = Path(__file__).parent
-# Their options are those of Python and pytest.
+# Their options belong to Python and pytest.
 UNPARSED = ("python", "test")
 # In the order of their use.
 CORE = ("check", "run", "study", "effects", "accuracy", "plot", "picture", "report", "export", "cache", *UNPARSED)
 
 
-class Found(NamedTuple):
+class CommandModule(NamedTuple):
     """A module of commands: what messages call it, what imports it, its commands, and its summary."""
 
     label: str
@@ -35,7 +35,7 @@ class Found(NamedTuple):
 
 
 def add(commands, shared: argparse.ArgumentParser, called: str) -> None:
-    """Add all commands, with arguments only those of modules that have the one that is called.
+    """Add all commands; only modules that have the one that is called add arguments.
 
     An extension that fails is left out, which the standard error says: no other command needs it.
     """
@@ -55,32 +55,33 @@ def add(commands, shared: argparse.ArgumentParser, called: str) -> None:
             print(f"The extension {label} cannot be loaded and is left out: {why}", file=sys.stderr)
 
 
-def _of_the_core() -> Iterator[Found]:
+def _of_the_core() -> Iterator[CommandModule]:
     for name in CORE:
-        yield _found(name, partial(import_module, f"{__package__}.{name}"), HERE / f"{name}.py")
+        yield _module(name, partial(import_module, f"{__package__}.{name}"), HERE / f"{name}.py")
 
 
-def _of_the_folder() -> Iterator[Found]:
+def _of_the_folder() -> Iterator[CommandModule]:
     for file in sorted(HERE.parent.glob("extensions/*/command.py")):
         name = file.parent.name
-        yield _found(name, partial(import_module, f"{GROUP}.{name}.command"), file)
+        yield _module(name, partial(import_module, f"{GROUP}.{name}.command"), file)
 
 
-def _of_installed_packages() -> Iterator[Found]:
+def _of_installed_packages() -> Iterator[CommandModule]:
     if not any(map(_names_the_group, sys.path)):
         return
     from importlib.metadata import entry_points
 
     for each in sorted(entry_points(group=GROUP), key=lambda each: each.name):
-        yield _found(f"{each.name} ({each.value})", each.load, _file(each.module))
+        yield _module(f"{each.name} ({each.value})", each.load, _file(each.module))
 
 
-def _found(label: str, load: Callable, file: str | Path) -> Found:
+def _module(label: str, load: Callable, file: str | Path) -> CommandModule:
     """The module by its docstring, which is read, not imported."""
     docstring = re.match(rb'"""(.*?)"""', _content(file), re.DOTALL)
     words = " ".join(docstring[1].decode(errors="replace").split()) if docstring else ""
     first = re.match(r"``gears [^`]+``: (.+?)\.(?: |$)", words)
-    return Found(label, load, re.findall(r"``gears ([\w-]+)", words) if first else [], first[1] if first else "")
+    names = re.findall(r"``gears ([\w-]+)", words) if first else []
+    return CommandModule(label, load, names, first[1] if first else "")
 
 
 def _file(module: str) -> str:
