@@ -21,7 +21,6 @@ from tests.hard_cases.scene_fields import (
 )
 from tests.paper_text import ACCURACY, without
 
-import fenics_gears.runs.simulate
 from fenics_gears import GeometryError, Scene, SceneError, scene_from_text
 from fenics_gears.commands.cli import main
 from fenics_gears.inputs.problem import LISTED
@@ -41,7 +40,7 @@ def outcome(tmp_path, monkeypatch, capsys):
     def compute(scene, **options):
         raise Computed
 
-    monkeypatch.setattr(fenics_gears.runs.simulate, "simulate", compute)
+    monkeypatch.setattr("fenics_gears.commands.work.kept_run.simulate", compute)
 
     def run(text):
         file = tmp_path / "pair.toml"
