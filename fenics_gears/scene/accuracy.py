@@ -134,8 +134,8 @@ class Accuracy(Section):
         100,
         meaning="time steps of a mesh cycle",
         otherwise=(
-            f"{IN_THE_PLANE.steps_per_mesh_cycle}, in three-dimensional scenes {OVER_THE_FACE.steps_per_mesh_cycle}, from"
-            f" an overlap ratio of 1 on {WITH_OVERLAP.steps_per_mesh_cycle};"
+            f"{IN_THE_PLANE.steps_per_mesh_cycle}, in three-dimensional scenes {OVER_THE_FACE.steps_per_mesh_cycle},"
+            f" from an overlap ratio of 1 on {WITH_OVERLAP.steps_per_mesh_cycle};"
             f" with `[inertia]` {STEPS_PER_PERIOD} per period of the highest natural frequency, at most"
             f" {MOST_STEPS_PER_MESH_CYCLE}; with `[inertia]` and rigid flanks {MOST_STEPS_PER_MESH_CYCLE}"
         ),
