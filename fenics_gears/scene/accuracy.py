@@ -24,9 +24,12 @@ class Fineness(NamedTuple):
 
 # With three elements the paper's pair is within 0.15 % of its limit in the transmission error, 0.1 % in the peak
 # pressure. Two would do except for rounded edges of a sixtieth of the module (2 %). Between steps curves are straight
-# lines, 0.4 % off in L2. Over a face a step costs more, and helical pairs are smoother.
+# lines, 0.4 % off in L2. Over a face a step costs more. Helical pairs with an overlap ratio of 1 or more are smooth:
+# with 50 steps five pairs are within 0.01 % of 200 in the mean transmission error, 0.5 % in its span, 0.06 % in
+# K_Hbeta, 0.8 % in the peak pressure; friction loses 0.2 % less.
 IN_THE_PLANE = Fineness(3.0, 200)
 OVER_THE_FACE = Fineness(2.0, 100)
+WITH_OVERLAP = Fineness(2.0, 50)
 # Flank elements stay between these parts of the module, whatever the load: a vanishing load has no half-width.
 FINEST_ELEMENT = 1.0 / 200.0
 COARSEST_ELEMENT = 1.0 / 25.0
@@ -132,7 +135,8 @@ class Accuracy(Section):
         100,
         meaning="time steps of a mesh cycle",
         otherwise=(
-            f"{IN_THE_PLANE.steps_per_mesh_cycle}, in three-dimensional scenes {OVER_THE_FACE.steps_per_mesh_cycle};"
+            f"{IN_THE_PLANE.steps_per_mesh_cycle}, in three-dimensional scenes {OVER_THE_FACE.steps_per_mesh_cycle},"
+            f" from an overlap ratio of 1 on {WITH_OVERLAP.steps_per_mesh_cycle};"
             f" with `[inertia]` {STEPS_PER_PERIOD} per period of the highest natural frequency, at most"
             f" {MOST_STEPS_PER_MESH_CYCLE}; with `[inertia]` and rigid flanks {MOST_STEPS_PER_MESH_CYCLE}"
         ),

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import pi, sin
 from typing import TYPE_CHECKING
 
 from fenics_gears.geometry.gear_data import NOT_GIVEN, GearPairData, Material, MeasuredOver
@@ -14,7 +15,7 @@ from fenics_gears.geometry.gear_data import GearData as GearData
 from fenics_gears.inputs.tree import wheel_torque
 
 from .accuracy import ELASTIC as ELASTIC
-from .accuracy import IN_THE_PLANE, OVER_THE_FACE, Fineness
+from .accuracy import IN_THE_PLANE, OVER_THE_FACE, WITH_OVERLAP, Fineness
 from .accuracy import ISO_6336 as ISO_6336
 from .accuracy import RIGID_TEETH as RIGID_TEETH
 from .accuracy import STIFFNESS_TABLE as STIFFNESS_TABLE
@@ -132,7 +133,11 @@ class Scene:
     @property
     def fineness(self) -> Fineness:
         """How finely flanks and steps are divided by default."""
-        return OVER_THE_FACE if self.three_dimensional else IN_THE_PLANE
+        if not self.three_dimensional:
+            return IN_THE_PLANE
+        gears = self.gears
+        overlap_ratio = gears.face_width * sin(gears.helix_angle) / (pi * gears.module)
+        return WITH_OVERLAP if overlap_ratio >= 1.0 else OVER_THE_FACE
 
     @cached_property
     def resolves_contact(self) -> bool:
