@@ -2,13 +2,12 @@
 
 import numpy as np
 import ufl
-from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.stiffness import displacement_space, stiffness_matrix, stress
+from fenics_gears.elasticity.stiffness import assembled, displacement_space, stiffness_matrix, stress
 
 
 def distorted_square(cells: int, corners: int) -> BodyMesh:
@@ -35,9 +34,7 @@ def l2_error(name: str, cells: int, poissons_ratio: float) -> float:
     """Error of the displacement, exact values on the boundary, the exact field's own body force inside."""
     element = ELEMENTS[name]
     space = displacement_space(distorted_square(cells, element.corners), element)
-    matrix = stiffness_matrix(space, element, poissons_ratio)
-    rows, columns, values = matrix.getValuesCSR()
-    stiffness = csr_matrix((values, columns, rows), shape=matrix.getSize())
+    stiffness = assembled(stiffness_matrix(space, element, poissons_ratio))
     x = ufl.SpatialCoordinate(space.mesh)
     exact = ufl.as_vector(exact_displacement(x, ufl))
     measure = ufl.dx(metadata={"quadrature_degree": 8})

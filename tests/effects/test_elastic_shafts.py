@@ -180,25 +180,6 @@ def test_axes_lines_and_bearings_of_gears_cut_into_shafts_are_those_of_elements(
             near(result[f"axis_{name}_{plane}"].values, 1e3 * each, 1e-3)
 
 
-def test_bearings_that_are_alike_may_be_given_as_matrices():
-    """Another way to give the same shaft: as matrices bearings are not known to be alike in all directions, and the
-    ends of the face move apart by coordinates; what a seat that gives way changes is the same within 3 %."""
-    more = "[friction]\ncoefficient = 0.05\n"
-    bearing = 'at = "110 mm"\nradial_stiffness = "0.4e6 N/mm"\n'
-    radial = CUT.replace(bearing, f'{bearing}tilting_stiffness = "1e8 N mm/rad"\n')
-    springs = np.diag([4e5, 4e5, 0.0, 1e8, 1e8]).tolist()
-    matrix = CUT.replace(bearing, f'at = "110 mm"\nstiffness_matrix = {springs}\n')
-    found = []
-    for shafts in (radial, matrix, radial.replace('"integral"', '"rigid over its width"')):
-        model = model_of(helical_scene(shafts + more, helix=15.0, offset=2.0, accuracy=FEW))
-        found.append((len(model.drivetrain.coordinates), run_of(model, on_stand_in_bodies(model)).result))
-    (_, one), (_, other), (_, rigid) = found
-    assert [count for count, _ in found] == [13, 19, 13]
-    for name in ("mesh_stiffness", "mesh_stiffness_tangent", "contact_pressure", "tilt_y", "shaft_deflection_x"):
-        changed = np.abs(one[name] - rigid[name]).max()
-        assert np.abs(one[name] - other[name]).max() <= 0.03 * changed
-
-
 def test_the_drawing_shows_gears_bearings_and_deflection_to_scale(run):
     """Identity: as long and thick as the scene's, off their axes by the magnified deflection."""
     model, result = run

@@ -16,7 +16,6 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.progress import SilentProgress
@@ -72,25 +71,6 @@ def test_result_tells_time_and_frequency(paper_scene):
     assert np.diff(result.mesh_phase.values) == pytest.approx(1 / 40)
     slopes = np.diff(result.mesh_frequency.values) / np.diff(result.time.values)
     assert slopes == pytest.approx(slopes[0], rel=1e-9)
-
-
-def test_the_right_side_is_minus_mass_times_acceleration_by_finite_differences(paper_scene, paper_pair):
-    """Finite differences of the kinetic energy of all wheels."""
-    shafts = drivetrain(paper_scene, paper_pair)
-    forces = inertia_forces(DOWN, shafts, 24)(100)
-    inertia, step = paper_scene.inertia.moment_of_inertia, 1e-3
-
-    def energy(at):
-        pinion, wheel = (2.0 * np.pi * DOWN.mesh_frequency(at) / teeth for teeth in (16, 24))
-        return 0.5 * inertia * (pinion**2 + 2.0 * wheel**2)
-
-    power = (energy(100 + step) - energy(100 - step)) / DOWN.duration(100 - step, 100 + step)
-    arc = paper_pair.base_pitch * DOWN.mesh_frequency(100)
-    velocity = np.array([{"rotation_1": arc, "rotation_2": -arc}.get(name, 0.0) for name in shafts.coordinates])
-    assert -forces @ velocity == pytest.approx(power, rel=1e-8)
-    wheel_angular_acceleration = -2.0 * np.pi * DOWN.acceleration / 24
-    twist = shafts.coordinates.index("shaft_twist")
-    assert forces[twist] * shafts.radii[twist] == pytest.approx(-inertia * wheel_angular_acceleration, rel=1e-12)
 
 
 @pytest.mark.parametrize("absent", [(), ("shafts",), ("shafts", "bearings")], ids=["all", "without shafts", "rigid"])

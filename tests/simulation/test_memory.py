@@ -18,37 +18,8 @@ from fenics_gears.results import load, save
 from fenics_gears.results.root_stress_variables import RootStress
 from fenics_gears.results.side_by_side import KnownLayouts
 from fenics_gears.scene.data import Output
-from fenics_gears.simulation import simulate as simulation
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.memory import MEMORY_VARIABLE, allowed_memory, size_in_bytes
-
-
-@pytest.mark.parametrize("share", [pytest.param(0.0, marks=pytest.mark.nightly), 0.4])
-def test_operators_that_are_not_kept_change_no_number(paper_scene, monkeypatch, share):
-    """Operators made again in every mesh cycle, and operators kept."""
-    scene = coarse_scene(paper_scene, cycles=3)
-    whole, made = simulate(scene), []
-
-    def preparation(model, progress, cache):
-        gears, cycle = prepared(model, progress, cache)
-        build = cycle._build
-        monkeypatch.setattr(cycle, "_build", lambda ends: made.extend(ends) or build(ends))
-        return gears, cycle
-
-    operators = expected_cost(model_of(scene)).operators
-    monkeypatch.setattr(simulation, "memory_for_operators", lambda model: share * operators)
-    again = simulate(scene, preparation=preparation, cache=user_cache())
-    steps = scene.accuracy.steps_per_mesh_cycle
-    assert len(made) > (3 if share == 0.0 else 1.5) * steps
-    for name, variable in whole.data_vars.items():
-        # Works are summed block by block, and blocks are shorter where memory is.
-        np.testing.assert_allclose(
-            again.variables[name].values,
-            variable.values,
-            rtol=1e-12,
-            atol=1e-9 if name == "energy_defect" else 0.0,
-            err_msg=name,
-        )
 
 
 def test_a_run_that_does_not_fit_is_refused(paper_scene, monkeypatch):
