@@ -1,4 +1,4 @@
-"""Coast flanks of helical gears, against the helicoids; against drive flanks: tests/simulation/test_mirrored_pairs.py."""
+"""Coast flanks of helical gears, against the helicoids; as mirrored drive flanks: simulation/test_mirrored_pairs.py."""
 
 import numpy as np
 import pytest

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.coarse import COARSE, frictionless
+from tests.coarse import COARSE, cycle_of, frictionless
 from tests.frozen_gears import frozen_marcher
 from tests.paper_text import PAPER as DEMO
 
@@ -15,10 +15,7 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
 from fenics_gears.effects.speed_ramp import SpeedRamp
-from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation.routes import prepared
-from fenics_gears.system.progress import SilentProgress
 
 UP, DOWN = RampClock(100.0, 300.0, 80, 480, 40), RampClock(300.0, 100.0, 0, 400, 40)
 
@@ -100,7 +97,7 @@ def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
     %."""
     scene = frictionless(paper_scene)
     model = model_of(replace(coarse(scene, 200, 1, start=300.0), speed_ramp=SpeedRamp(350.0)))
-    _, cycle = prepared(model, SilentProgress(), user_cache())
+    cycle = cycle_of(model)
     # Every step is kept, but without pressures.
     marcher = Marcher(cycle, model.equations_of_motion)
     records = marcher.run(model.steps, model.steps + 1).records

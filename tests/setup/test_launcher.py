@@ -147,7 +147,7 @@ def test_help_of_the_tests_does_not_install_them(checkout, this_python):
 
 
 def test_change_of_what_is_needed_leads_to_a_new_set_up(checkout, this_python):
-    """More packages may be needed."""
+    """The README: the next call continues the set-up; a package that is lacking then is named."""
     set_up_already(checkout, this_python)
     check = checkout / "setup/check.py"
     check.write_text(check.read_text().replace('"tomllib"', '"tomllib", "no_such_module"'))
