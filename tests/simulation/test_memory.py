@@ -110,12 +110,9 @@ def test_memory_that_ends_before_the_march_has_words(paper_scene, monkeypatch, c
     assert "Memory ended before the command was done" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("friction", [False, True])
-def test_contact_operators_take_what_is_expected(paper_scene, friction):
-    """The arrays themselves, on the average over the mesh cycle: flanks end within their windows."""
-    scene, found = coarse_scene(paper_scene, cycles=1), []
-    if not friction:
-        scene = frictionless(scene)
+def cycle_of_a_run(scene):
+    """What the march of a run went through."""
+    found = []
 
     def preparation(model, progress, cache):
         gears, cycle = prepared(model, progress, cache)
@@ -123,23 +120,27 @@ def test_contact_operators_take_what_is_expected(paper_scene, friction):
         return gears, cycle
 
     simulate(scene, preparation=preparation, cache=user_cache())
-    operators = [found[0].position(step).operator for step in range(scene.accuracy.steps_per_mesh_cycle)]
+    return found[0]
+
+
+@pytest.mark.parametrize("friction", [False, True])
+def test_contact_operators_take_what_is_expected(paper_scene, friction):
+    """The arrays themselves, on the average over the mesh cycle: flanks end within their windows."""
+    scene = coarse_scene(paper_scene, cycles=1)
+    if not friction:
+        scene = frictionless(scene)
+    cycle = cycle_of_a_run(scene)
+    operators = [cycle.position(step).operator for step in range(scene.accuracy.steps_per_mesh_cycle)]
     matrices = [each for own in operators for each in (own.compliance, own.previous_compliance) if each is not None]
     assert expected_cost(model_of(scene)).operators == pytest.approx(sum(each.nbytes for each in matrices), rel=0.1)
 
 
 def test_layouts_of_a_long_mesh_cycle_are_held_once(paper_scene, monkeypatch):
     """Count: each position's nodes once, in however many blocks the march goes through the cycle."""
-    scene, found = coarse_scene(paper_scene, cycles=1), []
+    scene = coarse_scene(paper_scene, cycles=1)
     monkeypatch.setattr("fenics_gears.dynamics.march.LONGEST_BLOCK", 5)
-
-    def preparation(model, progress, cache):
-        gears, cycle = prepared(model, progress, cache)
-        found.append(cycle)
-        return gears, cycle
-
-    simulate(scene, preparation=preparation, cache=user_cache())
-    layouts = found[0].shared(KnownLayouts)
+    cycle = cycle_of_a_run(scene)
+    layouts = cycle.shared(KnownLayouts)
     assert len(layouts._joined) >= scene.accuracy.steps_per_mesh_cycle / 5
     held = {id(known): known for joined in layouts._joined.values() for known in joined._known}
     nodes = sum(end - first for _, first, end, _ in layouts._parts.values())
