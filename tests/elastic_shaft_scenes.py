@@ -1,7 +1,7 @@
 """Scenes of gears on elastic shafts, coarse over the face."""
 
 import numpy as np
-from tests.hard_cases.invariants import helical_run
+from tests.hard_cases.invariants import finished_helical_run
 
 FEW = "slices = 5\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8"
 INPUT = """
@@ -83,7 +83,7 @@ def largest_difference_of_slow_runs(sections: str) -> float:
     """Largest difference of a run with [inertia], at a hundredth of a mesh cycle a second, from one without, in parts
     of each quantity's largest value."""
     moving, still = (
-        helical_run(more, offset=2.0, accuracy=FEW, frequency=0.01).result
+        finished_helical_run(more, offset=2.0, accuracy=FEW, frequency=0.01).result
         for more in (sections, sections.replace(INERTIA, ""))
     )
     names = ("transmission_error", "bearing_force_x", "bearing_moment_y", "tilt_y", "shaft_deflection_x")

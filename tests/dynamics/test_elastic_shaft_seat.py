@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.beam_elements import alone, assembled
 from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, PRESSED
-from tests.hard_cases.invariants import helical_run
+from tests.hard_cases.invariants import finished_helical_run
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
@@ -126,7 +126,7 @@ def test_flanks_give_way_as_their_rows_say(helix, shafts):
 
 
 def finished(more):
-    return helical_run(more, helix=0.0, offset=2.0, accuracy=FEW.replace("5", "10"))
+    return finished_helical_run(more, helix=0.0, offset=2.0, accuracy=FEW.replace("5", "10"))
 
 
 def test_the_straight_part_is_the_inclination_of_the_axes():

@@ -19,7 +19,7 @@ from tests.elastic_shaft_scenes import (
     WHEEL,
     largest_difference_of_slow_runs,
 )
-from tests.hard_cases.invariants import cycle_of, helical_run, run_of
+from tests.hard_cases.invariants import cycle_of, finished_helical_run, run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of, scene_from_text
@@ -50,7 +50,7 @@ def shear(outer, bore):
 def run(request):
     helix, shafts = request.param
     more = shafts + "[friction]\ncoefficient = 0.05\n[lead_modifications.pinion]\ncrowning = '4 um'\n"
-    found = helical_run(more, helix=helix, offset=2.0, accuracy=FEW)
+    found = finished_helical_run(more, helix=helix, offset=2.0, accuracy=FEW)
     return found.model, found.result
 
 
@@ -137,7 +137,7 @@ def test_axes_lines_and_bearings_of_gears_cut_into_shafts_are_those_of_elements(
     tilts and others roll or are not alike in all directions, loaded along the face by the recorded contact forces; axes
     are straight lines through what the slices do. Rolling bearings are springs that give their law's loads there."""
     shafts = shafts.replace('at = "110 mm"\nradial', 'at = "110 mm"\ntilting_stiffness = "1e8 N mm/rad"\nradial')
-    found = helical_run(shafts + "[friction]\ncoefficient = 0.05\n", offset=2.0, accuracy=FEW)
+    found = finished_helical_run(shafts + "[friction]\ncoefficient = 0.05\n", offset=2.0, accuracy=FEW)
     model, axes, face = found.model, [], found.model.face
     result, record, drivetrain = found.result.isel(time=-1, contact_time=-1), found.records[-1], model.drivetrain
     operator, (points, weights) = record.position.operator, np.polynomial.legendre.leggauss(6)
@@ -234,7 +234,7 @@ def test_the_even_load_is_the_force_of_a_run_on_the_flanks_that_carry(torque):
 def test_a_shaft_that_vibrates_keeps_the_balance_of_energy():
     """Exact: the account closes; the mesh's natural frequency is there."""
     more = VIBRATING + "[friction]\ncoefficient = 0.05\n[damping]\nratio = 0.05\n"
-    found = helical_run(more, offset=2.0, accuracy=FEW.replace("= 8", "= 64"), frequency=800.0)
+    found = finished_helical_run(more, offset=2.0, accuracy=FEW.replace("= 8", "= 64"), frequency=800.0)
     model, result = found.model, found.result
     assert any("_mode_" in name for name in model.drivetrain.coordinates)
     assert np.abs(result["energy_defect"].values).max() <= 1e-10 * result["energy"].values.max()

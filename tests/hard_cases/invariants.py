@@ -68,7 +68,7 @@ def run_of(model: Model, bodies: Bodies | None) -> Run:
     return Run(model, marcher, list(march.records), result, failure)
 
 
-def helical_run(more: str = "", **changes) -> Run:
+def finished_helical_run(more: str = "", **changes) -> Run:
     """Of a helical scene on bodies without finite elements; every step converges."""
     model = model_of(helical_scene(more, **changes))
     found = run_of(model, on_stand_in_bodies(model))

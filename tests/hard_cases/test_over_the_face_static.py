@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.hard_cases.invariants import cycle_of, helical_run
+from tests.hard_cases.invariants import cycle_of, finished_helical_run
 from tests.hard_cases.test_any_scene import obeys_the_laws
 from tests.helical import BEARINGS, CROWNED, FRICTION, helical_scene, on_stand_in_bodies
 
@@ -14,7 +14,7 @@ BY_NIGHT = pytest.mark.nightly
 
 
 def run(more="", **changes):
-    return helical_run(more, **{"accuracy": FEW, **changes})
+    return finished_helical_run(more, **{"accuracy": FEW, **changes})
 
 
 def marched(more, **changes):

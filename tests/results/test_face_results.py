@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from tests.hard_cases.invariants import helical_run
+from tests.hard_cases.invariants import finished_helical_run
 from tests.helical import wide_pair
 from tests.over_face import MORE, helical_run
 
@@ -67,7 +67,7 @@ def test_measures_of_accuracy_are_of_the_middle_slice():
 def test_peak_pressure_is_not_of_an_end_of_the_face():
     """Definition: of a misaligned pair the ends press most; theirs is a pressure at edges."""
     few = "slices = 12\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8"
-    result = helical_run('[misalignment]\nin_plane = "20 um"\n', helix=0.0, width=8.0, accuracy=few).result
+    result = finished_helical_run('[misalignment]\nin_plane = "20 um"\n', helix=0.0, width=8.0, accuracy=few).result
     order = "contact_time", "slot", "face_position", "contact_node"
     pressure = read_off(
         result["contact_pressure"].transpose(*order).values, result["contact_roll_angle"].transpose(*order).values
