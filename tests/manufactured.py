@@ -3,6 +3,7 @@
 import numpy as np
 import ufl
 from scipy.sparse.linalg import spsolve
+from tests.structured import cells_of
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.elements import ELEMENTS
@@ -16,11 +17,7 @@ def distorted_square(cells: int, corners: int) -> BodyMesh:
     bump = 0.05 * np.sin(np.pi * x) * np.sin(np.pi * y)
     points = np.stack([(x + bump).ravel(), (y - bump).ravel()], axis=-1)
     index = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)
-    square = [index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]]
-    square = np.stack([part.ravel() for part in square], axis=-1)
-    if corners == 3:
-        square = np.vstack([square[:, [0, 1, 2]], square[:, [0, 2, 3]]])
-    return BodyMesh(points, square, {})
+    return BodyMesh(points, cells_of(index, corners), {})
 
 
 def exact_displacement(x, module):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigvalsh
 from scipy.sparse.linalg import spsolve
+from tests.structured import cells_of
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.elements import ELEMENTS
@@ -21,10 +22,7 @@ def rectangle(along: int, across: int, length: float, height: float, distortion:
     x[1:-1, 1:-1] += distortion * length / along * draw.uniform(-1.0, 1.0, (along - 1, across - 1))
     y[1:-1, 1:-1] += distortion * height / across * draw.uniform(-1.0, 1.0, (along - 1, across - 1))
     index = np.arange(x.size).reshape(x.shape)
-    cells = np.stack(
-        [part.ravel() for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:])], axis=-1
-    )
-    return BodyMesh(np.stack([x.ravel(), y.ravel()], axis=-1), cells, {})
+    return BodyMesh(np.stack([x.ravel(), y.ravel()], axis=-1), cells_of(index), {})
 
 
 def nodes_and_stiffness(mesh: BodyMesh, poissons_ratio: float, name: str = ELEMENT.name):
