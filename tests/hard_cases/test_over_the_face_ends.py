@@ -114,6 +114,23 @@ def test_ends_that_do_not_touch(helix, measured):
     assert ends == 0.0 and apart <= 1e-11
 
 
+@pytest.mark.nightly
+def test_line_loads_at_the_ends_of_a_face(run, measured):
+    """Row 30. Known order: the mean over slices is a midpoint rule; the largest line load, at an end, is on record."""
+    found = [run(misaligned(0.02), accuracy=accuracy(slices, layers=4, nodes=17, steps=7)) for slices in (6, 12, 24)]
+    peaks = [float(each["line_load"].max()) for each in found]
+    means = np.array([each["transmission_error"].values.mean() for each in found])
+    measured(
+        "finite elements, misaligned by 20 um: largest line load with 6, 12, 24 slices",
+        ", ".join(f"{peak:.0f}" for peak in peaks),
+        "recorded",
+        "N/mm",
+        row=30,
+    )
+    last = abs(means[2] / means[1] - 1.0)
+    measured("finite elements: change of the mean transmission error from 12 to 24 slices", last, 5e-3, row=30)
+
+
 def steepest(more, steps):
     """Largest change of the transmission error in a step, in parts of its peak-to-peak value."""
     found = without_result(more, accuracy=f"slices = 5\ncontact_nodes = 9\nsteps_per_mesh_cycle = {steps}")

@@ -82,3 +82,17 @@ def test_torque_reversed_while_running(hand, measured):
         and np.abs(axial[free]).max() == 0.0
     )
     assert "lose contact" in result.attrs["warnings"]
+
+
+def test_sudden_release(measured):
+    """Row 17. Exact: without load and contact the wheel flies at constant speed; the result says that contact is
+    lost."""
+    found = with_torque(INERTIA + BOTH, lambda step: 0.0 if step >= 4 else 1.0, cycles=2)
+    obeys_the_laws(found)
+    result = found.result
+    free = (result["normal_force"].values == 0.0) & (result["coast_normal_force"].values == 0.0)
+    speeds = [record.state.velocity for record in found.records]
+    pairs = [(a, b) for a, b, one, other in zip(speeds, speeds[1:], free, free[1:]) if one and other]
+    changed = max((float(np.abs(b - a).max() / np.abs(a).max()) for a, b in pairs), default=np.inf)
+    measured("released suddenly: change of speed in a step of free flight", changed, 1e-12, row=17)
+    assert len(pairs) > 2 and "lose contact" in result.attrs["warnings"]
