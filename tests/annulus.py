@@ -3,6 +3,7 @@
 from math import pi
 
 import numpy as np
+from tests.structured import cells_of
 
 from fenics_gears.elasticity.condensation import condense
 from fenics_gears.elasticity.elements import ELEMENTS
@@ -20,12 +21,8 @@ def annulus(corners: int, across: int = 12, around: int = 96) -> BodyMesh:
     points = np.stack([(radius * np.cos(angle)).ravel(), (radius * np.sin(angle)).ravel()], axis=-1)
     index = np.arange(len(points)).reshape(across + 1, around)
     index = np.hstack([index, index[:, :1]])
-    cells = [index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]]
-    cells = np.stack([part.ravel() for part in cells], axis=-1)
-    if corners == 3:
-        cells = np.vstack([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
     rings = {name: np.stack([row[:-1], row[1:]], axis=-1) for name, row in (("hub", index[0]), ("rim", index[-1]))}
-    return BodyMesh(points, cells, rings)
+    return BodyMesh(points, cells_of(index, corners), rings)
 
 
 def condensed_annulus(name: str, poissons_ratio: float):

@@ -3,7 +3,10 @@
 from dataclasses import replace
 
 from fenics_gears.effects import without
+from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.scene.data import Accuracy, Motion
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.system.progress import SilentProgress
 
 COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
 
@@ -25,6 +28,11 @@ def frictionless(scene):
 def teeth_alone(scene):
     """On rigid shafts and bearings, without inertia."""
     return quasi_static(scene, shafts=None, bearings=None)
+
+
+def cycle_of(model):
+    """Its mesh cycle, whose gears are in the cache."""
+    return prepared(model, SilentProgress(), user_cache())[1]
 
 
 def rigid_pair(scene):

@@ -1,10 +1,7 @@
 """Scenes of gears on elastic shafts, coarse over the face."""
 
 import numpy as np
-from tests.hard_cases.invariants import run_of
-from tests.helical import helical_scene, on_stand_in_bodies
-
-from fenics_gears import model_of
+from tests.hard_cases.invariants import finished_helical_run
 
 FEW = "slices = 5\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8"
 INPUT = """
@@ -85,11 +82,10 @@ E_AXLE = (
 def largest_difference_of_slow_runs(sections: str) -> float:
     """Largest difference of a run with [inertia], at a hundredth of a mesh cycle a second, from one without, in parts
     of each quantity's largest value."""
-    runs = []
-    for more in (sections, sections.replace(INERTIA, "")):
-        model = model_of(helical_scene(more, offset=2.0, accuracy=FEW, frequency=0.01))
-        runs.append(run_of(model, on_stand_in_bodies(model)).result)
-    moving, still = runs
+    moving, still = (
+        finished_helical_run(more, offset=2.0, accuracy=FEW, frequency=0.01).result
+        for more in (sections, sections.replace(INERTIA, ""))
+    )
     names = ("transmission_error", "bearing_force_x", "bearing_moment_y", "tilt_y", "shaft_deflection_x")
     return max(
         np.nanmax(np.abs(moving[name].values - still[name].values)) / np.nanmax(np.abs(still[name].values))

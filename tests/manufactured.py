@@ -2,13 +2,13 @@
 
 import numpy as np
 import ufl
-from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
+from tests.structured import cells_of
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.stiffness import displacement_space, stiffness_matrix, stress
+from fenics_gears.elasticity.stiffness import assembled, displacement_space, stiffness_matrix, stress
 
 
 def distorted_square(cells: int, corners: int) -> BodyMesh:
@@ -17,11 +17,7 @@ def distorted_square(cells: int, corners: int) -> BodyMesh:
     bump = 0.05 * np.sin(np.pi * x) * np.sin(np.pi * y)
     points = np.stack([(x + bump).ravel(), (y - bump).ravel()], axis=-1)
     index = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)
-    square = [index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]]
-    square = np.stack([part.ravel() for part in square], axis=-1)
-    if corners == 3:
-        square = np.vstack([square[:, [0, 1, 2]], square[:, [0, 2, 3]]])
-    return BodyMesh(points, square, {})
+    return BodyMesh(points, cells_of(index, corners), {})
 
 
 def exact_displacement(x, module):
@@ -35,9 +31,7 @@ def l2_error(name: str, cells: int, poissons_ratio: float) -> float:
     """Error of the displacement, exact values on the boundary, the exact field's own body force inside."""
     element = ELEMENTS[name]
     space = displacement_space(distorted_square(cells, element.corners), element)
-    matrix = stiffness_matrix(space, element, poissons_ratio)
-    rows, columns, values = matrix.getValuesCSR()
-    stiffness = csr_matrix((values, columns, rows), shape=matrix.getSize())
+    stiffness = assembled(stiffness_matrix(space, element, poissons_ratio))
     x = ufl.SpatialCoordinate(space.mesh)
     exact = ufl.as_vector(exact_displacement(x, ufl))
     measure = ufl.dx(metadata={"quadrature_degree": 8})

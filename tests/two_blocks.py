@@ -1,6 +1,7 @@
 """Two elastic blocks, meshed differently where they touch."""
 
 import numpy as np
+from tests.structured import cells_of
 
 from fenics_gears.contact.interpolation import GearContacts, flank_interpolations
 from fenics_gears.elasticity.condensation import condense
@@ -23,13 +24,8 @@ def block_mesh(name: str, along: int, across: int, height: float) -> BodyMesh:
     bump = 0.2 / max(along, across) * np.sin(2.0 * np.pi * x) * np.sin(np.pi * y)
     points = np.stack([(x + bump).ravel(), height * (y - bump).ravel()], axis=-1)
     index = np.arange(len(points)).reshape(along + 1, across + 1)
-    cells = np.stack(
-        [part.ravel() for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:])], axis=-1
-    )
-    if not ELEMENTS[name].quadrilateral:
-        cells = np.vstack([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
     edges = {part: np.stack([index[:-1, row], index[1:, row]], axis=-1) for part, row in (("flank", -1), ("back", 0))}
-    return BodyMesh(points, cells, edges)
+    return BodyMesh(points, cells_of(index, ELEMENTS[name].corners), edges)
 
 
 def flank_of(mesh: BodyMesh, name: str, poissons_ratio: float) -> tuple[np.ndarray, np.ndarray]:

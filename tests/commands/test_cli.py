@@ -159,6 +159,7 @@ def test_a_wrong_call_has_exit_code_2(arguments, capsys):
 
 
 def test_version(capsys):
+    """The package's own number, exit code 0."""
     with pytest.raises(SystemExit) as leaving:
         main(["--version"])
     assert leaving.value.code == 0

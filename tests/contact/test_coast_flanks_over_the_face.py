@@ -1,30 +1,15 @@
-"""Coast flanks of helical gears, against the helicoids and the drive flanks turned over."""
-
-from dataclasses import replace
+"""Coast flanks of helical gears, against the helicoids; as mirrored drive flanks: simulation/test_mirrored_pairs.py."""
 
 import numpy as np
 import pytest
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
-from fenics_gears.contact.face_pairing import FacePair, FacePairing
 from fenics_gears.contact.kinematics import displacement_jacobian
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps
-from fenics_gears.contact.operator import Passage
-from fenics_gears.contact.tooth_pair import (
-    COAST,
-    DRIVE,
-    Flanks,
-    Place,
-    coast_place,
-    interpolations,
-    rolls_of,
-    tooth_pairs,
-)
+from fenics_gears.contact.tooth_pair import COAST, Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.model.model import model_of
-from fenics_gears.simulation.bodies import gear_bodies
-from fenics_gears.system.progress import SilentProgress
 
 BOTH = "[coast_flanks]\n"
 
@@ -97,48 +82,3 @@ def rotated(vector, angle):
             vector[2],
         ]
     )
-
-
-@pytest.fixture(scope="module")
-def real(suite_cache):
-    accuracy = (
-        'slices = 4\nlayers = 2\nbody_element_size = "1.5 mm"\nflank_element_size = "0.5 mm"\nelement ='
-        ' "P1"\ncontact_nodes = 9\nsteps_per_mesh_cycle = 16'
-    )
-    model = model_of(helical_scene(BOTH, teeth=(18, 20), accuracy=accuracy))
-    bodies = gear_bodies(model, SilentProgress(), suite_cache)
-    return model, Flanks(model.pair, tuple(body.section for body in bodies)), tuple(body.solid for body in bodies)
-
-
-def test_coast_flanks_are_the_drive_flanks_turned_over(real):
-    """Exact symmetry: half a turn about the line of centres puts a helical pair on its coast flanks, z on -z."""
-    model, flanks, bodies = real
-    grid, pairing = ContactGrid(2.0, 9), FacePairing(flanks, bodies, model.face)
-    pair, slices = model.pair, model.face.slices
-
-    def nodes(index, flank, slice_, position):
-        rolls = position / pair.pinion.base_radius, (pair.line_of_action_length - position) / pair.wheel.base_radius
-        (drive,) = tooth_pairs(replace(flanks, removal=(None, None)), grid, [place(index, flank, slice_, rolls)])
-        alone = drive.offsets, np.array([0, len(drive.offsets)])
-        (seen,) = interpolations(pairing.sections, grid, [drive.place], alone, rolls_of(pair, [drive.place], alone))
-        return FacePair(**vars(drive), coarse=seen)
-
-    def place(index, flank, slice_, rolls):
-        height = float(model.face.positions[slice_])
-        if flank == DRIVE:
-            return Place(index, flank, rolls, slice=slice_, height=height)
-        return replace(coast_place(pair, index, pair.pitch_point), contact_rolls=rolls, slice=slice_, height=height)
-
-    def compliance(flank):
-        # Teeth ahead are behind of those turned over; slices stand in the order in which they are turned over.
-        groups = [(index, number) for index in (0, 1) for number in range(slices)]
-        found = [
-            nodes(index if flank == DRIVE else -index, flank, number if flank == DRIVE else slices - 1 - number,
-                  pair.pitch_point - 1.0 + index * pair.base_pitch * 0.4 + 0.2 * number)
-            for index, number in groups
-        ]  # fmt: skip
-        return pairing.responses([Passage(found, found)])[0].compliance.whole()
-
-    drive, coast = compliance(DRIVE), compliance(COAST)
-    assert np.abs(drive).max() > 0.0
-    assert np.linalg.norm(coast - drive) <= 1e-9 * np.linalg.norm(drive)

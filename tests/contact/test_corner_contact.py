@@ -32,13 +32,15 @@ def beyond(pair, tip, by):
 @pytest.mark.parametrize("by", [0.1, 0.5, 1.0, 2.0])
 def test_the_mate_turned_by_the_gap_touches_the_tip(by, tip, radius, stand_in_flanks, paper_pair):
     """Brute force: the mate's outline turned until it meets the tip's edge."""
-    corner, place = corner_contact(paper_pair, radius), beyond(paper_pair, tip, by)
-    (nodes,) = corner_pairs(stand_in_flanks, FINE, corner, [place])
-    mate, curves = 1 - tip, placed(paper_pair, corner.edges, place)
-    turn = rotation_to_touch(curves[mate], curves[tip], centres(paper_pair)[mate])
-    assert nodes.gap.min() == pytest.approx(
-        (paper_pair.pinion, paper_pair.wheel)[mate].base_radius * turn, rel=2e-4, abs=1e-7
-    )
+    check_gap(stand_in_flanks, corner_contact(paper_pair, radius), beyond(paper_pair, tip, by), tip)
+
+
+def check_gap(flanks, corner, place, tip):
+    (nodes,) = corner_pairs(flanks, FINE, corner, [place])
+    mate, curves = 1 - tip, placed(flanks.pair, corner.edges, place)
+    turn = rotation_to_touch(curves[mate], curves[tip], centres(flanks.pair)[mate])
+    base = (flanks.pair.pinion, flanks.pair.wheel)[mate].base_radius
+    assert nodes.gap.min() == pytest.approx(base * turn, rel=2e-4, abs=1e-7)
 
 
 @pytest.mark.parametrize("by", [0.1, 0.5, 1.0])
@@ -49,11 +51,8 @@ def test_the_wheel_turned_by_the_gap_touches_the_edge_of_an_undercut_flank(by, s
     )
     pair = replace(paper_pair, pinion=pinion, centre_distance=82.0)
     assert pinion.undercut and pair.path_start > pair.tip_positions[0] + 1.0
-    corner, place = corner_contact(pair), drive_place(pair, 0, pair.path_start - by)
-    (nodes,) = corner_pairs(replace(stand_in_flanks, pair=pair), FINE, corner, [place])
-    curves = placed(pair, corner.edges, place)
-    turn = rotation_to_touch(curves[1], curves[0], centres(pair)[1])
-    assert nodes.gap.min() == pytest.approx(pair.wheel.base_radius * turn, rel=2e-4, abs=1e-7)
+    flanks, place = replace(stand_in_flanks, pair=pair), drive_place(pair, 0, pair.path_start - by)
+    check_gap(flanks, corner_contact(pair), place, tip=0)
 
 
 @pytest.mark.parametrize("radius", RADII)

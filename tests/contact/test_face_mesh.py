@@ -68,19 +68,6 @@ def test_a_shorter_window_where_no_edge_is_near_changes_nothing(model):
     np.testing.assert_allclose(errors(inner), errors(whole), rtol=1e-11)
 
 
-def test_hands_mirror_each_other(model):
-    """Symmetry: seen in a mirror across the axes."""
-
-    def opening(sign):
-        return lambda heights, positions: 2e-4 * (1.0 + sign * heights / WIDTH)
-
-    right = marched(model, face_cycle(model, face_of(6, 0.2), opening(1.0)))
-    left = marched(model, face_cycle(model, face_of(6, -0.2), opening(-1.0)))
-    np.testing.assert_allclose(errors(left), errors(right), rtol=1e-10)
-    loads = [by_slice(records[5], 6) for records in (right, left)]
-    np.testing.assert_allclose(loads[1][::-1], loads[0], rtol=1e-9, atol=1e-6)
-
-
 def by_slice(record, slices):
     operator = record.position.operator
     found = np.zeros(slices)

@@ -14,7 +14,7 @@ from tests.contact.problems import all_open, only_one_moves, random_problem
 from tests.contact.sliding_block import block_at_rest
 
 from fenics_gears.contact import tresca as last_method
-from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium, SelfLocking
+from fenics_gears.contact.errors import ContactNotConverged, SelfLocking
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.newton import CONVERGED
@@ -227,19 +227,6 @@ def test_a_step_that_no_division_solves_says_so(paper_scene, paper_pair, stand_i
     assert failure.value.step == 1 and failure.value.time == pytest.approx(1e-4)
     assert [attempt[0] for attempt in failure.value.attempts] == ["newton", HALVED]
     assert f"a step {2**MOST_HALVINGS} times as short" in str(failure.value)
-
-
-def test_no_equilibrium_is_a_typed_error_with_its_history():
-    """A load that nothing holds: named, with residuals and sets of every method."""
-    problem = random_problem(0, 3, friction=0.3, coordinates=1, free=True)
-    rigid = np.array([[1.0]] * 3 + [[0.1]] * 3)
-    problem = replace(problem, load=np.array([-100.0]), free_motion=np.array([-1.0]), jacobian=rigid)
-    with pytest.raises(NoStaticEquilibrium, match="no equilibrium") as failure:
-        solve_step(problem, cold_start(problem.gap, np.zeros(3, dtype=int)))
-    assert "a load of 100 N moves the drivetrain freely" in str(failure.value)
-    assert "tension 1e+02 N" in str(failure.value)
-    assert [attempt[0] for attempt in failure.value.attempts] == list(NEWTON_AND_FALLBACKS)
-    assert failure.value.attempts[0][2].shape[1] == 5
 
 
 def test_a_last_method_that_takes_long_is_told_of(monkeypatch, caplog):

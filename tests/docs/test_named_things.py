@@ -102,7 +102,7 @@ def messages():
 
 
 def test_messages_that_are_explained_are_the_programs():
-    """The sources."""
+    """A reader looks a message up by its words: those of docs/troubleshooting.md stand in the program's text."""
     said = sources()
     assert len(messages()) > 25
     assert not [message for message in messages() if message not in said]

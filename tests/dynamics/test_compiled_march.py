@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
+from tests.coarse import COARSE, coarse_scene, cycle_of, frictionless, quasi_static
 from tests.hard_cases.random_scenes import valid_scenes
 from tests.hard_cases.test_any_scene import on_stand_ins
 
@@ -17,14 +17,11 @@ from fenics_gears.dynamics.stepping import KnownSets
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.speed_ramp import SpeedRamp
-from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion
 from fenics_gears.simulation.elastic_route import mesh_cycle
-from fenics_gears.simulation.routes import prepared
-from fenics_gears.system.progress import SilentProgress
 
 DEMOS = sorted(path for path in (Path(__file__).parents[2] / "demos").rglob("*.toml") if "[gears" in path.read_text())
 RIGID = Accuracy(model=RIGID_TEETH, steps_per_mesh_cycle=20)
@@ -73,7 +70,7 @@ def assert_the_same(model: Model, cycle) -> set[str]:
 def test_scenes(paper_scene, name):
     """Every effect that changes the equations of a step."""
     model = model_of(SCENES[name](coarse_scene(paper_scene)))
-    _, cycle = prepared(model, SilentProgress(), user_cache())
+    cycle = cycle_of(model)
     assert not cycle.traits.own_solver
     methods = assert_the_same(model, cycle)
     assert len(methods) > 1 if "beyond" in name else methods
@@ -93,6 +90,6 @@ def test_many_random_scenes(scene):
 def test_demos(path):
     """Every scene of the demonstrations that is not a study."""
     model = model_of(load_scene(path))
-    _, cycle = prepared(model, SilentProgress(), user_cache())
+    cycle = cycle_of(model)
     if not cycle.traits.own_solver:
         assert_the_same(model, cycle)

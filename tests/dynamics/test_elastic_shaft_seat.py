@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.beam_elements import alone, assembled
 from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, PRESSED
-from tests.hard_cases.invariants import run_of
+from tests.hard_cases.invariants import finished_helical_run
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
@@ -125,27 +125,25 @@ def test_flanks_give_way_as_their_rows_say(helix, shafts):
     assert {each.gear for each in model.drivetrain.elastic} == {"pinion", "wheel"}
 
 
-def finished(more, helix):
-    model = model_of(helical_scene(more, helix=helix, offset=2.0, accuracy=FEW.replace("5", "10")))
-    found = run_of(model, on_stand_in_bodies(model))
-    assert found.failure is None
-    return model, found.result
+def finished(more):
+    return finished_helical_run(more, helix=0.0, offset=2.0, accuracy=FEW.replace("5", "10"))
 
 
 def test_the_straight_part_is_the_inclination_of_the_axes():
     """Identity: an even line load opens a straight gap; a helix slope that closes it makes the line load even."""
-    model, bent = finished(ELASTIC, 0.0)
+    bent = finished(ELASTIC)
+    model = bent.model
     z, pair = middles_of_slices(model.pair), model.pair
     compliance = face_compliance_of_shafts(model.drivetrain.systems, pair, z)
     gap = compliance.mean(axis=1) * model.scene.load.wheel_torque / pair.wheel.base_radius
     slope, middle = np.polyfit(z, gap, 1)
     assert gap == pytest.approx(middle + slope * z, abs=1e-12)
     amount = -1e3 * slope * pair.face_widths[0]
-    _, straight = finished(ELASTIC + f'[lead_modifications.pinion]\nhelix_slope = "{float(amount)!r} um"\n', 0.0)
+    straight = finished(ELASTIC + f'[lead_modifications.pinion]\nhelix_slope = "{float(amount)!r} um"\n').result
     assert straight.attrs["mean_axis_inclination_in_plane"] == pytest.approx(
         1e3 * slope * model.pair.face_width, rel=1e-3
     )
     # Bodies load the face unevenly by themselves.
-    _, even = finished('[misalignment]\nin_plane = "0 um"\n', 0.0)
+    even = finished('[misalignment]\nin_plane = "0 um"\n').result
     assert straight.attrs["face_load_factor"] == pytest.approx(even.attrs["face_load_factor"], rel=5e-3)
-    assert bent.attrs["face_load_factor"] > 1.02 * even.attrs["face_load_factor"]
+    assert bent.result.attrs["face_load_factor"] > 1.02 * even.attrs["face_load_factor"]

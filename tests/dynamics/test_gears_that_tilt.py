@@ -114,13 +114,3 @@ def test_the_tilt_follows_the_misalignment(paper_scene, stand_in_flanks):
         ]
         loads[half] = np.bincount(slices, record.solution.forces, SLICES)
     assert np.ptp(loads[0.5]) < 0.02 * loads[0.5].mean() and np.ptp(loads[1e4]) > 0.5 * loads[1e4].mean()
-
-
-def test_compiled_and_plain_march_are_the_same(helical):
-    """The same bits by two routes."""
-    fast, slow = (helical[1].marched(plain, cycles=3) for plain in (False, True))
-    for one, other in zip(fast, slow, strict=True):
-        np.testing.assert_array_equal(one.state.position, other.state.position)
-        np.testing.assert_array_equal(one.solution.forces, other.solution.forces)
-        np.testing.assert_array_equal(one.solution.displacement, other.solution.displacement)
-        assert one.solution.iterations == other.solution.iterations

@@ -19,7 +19,7 @@ from tests.elastic_shaft_scenes import (
     WHEEL,
     largest_difference_of_slow_runs,
 )
-from tests.hard_cases.invariants import cycle_of, run_of
+from tests.hard_cases.invariants import cycle_of, finished_helical_run, run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of, scene_from_text
@@ -50,10 +50,8 @@ def shear(outer, bore):
 def run(request):
     helix, shafts = request.param
     more = shafts + "[friction]\ncoefficient = 0.05\n[lead_modifications.pinion]\ncrowning = '4 um'\n"
-    model = model_of(helical_scene(more, helix=helix, offset=2.0, accuracy=FEW))
-    found = run_of(model, on_stand_in_bodies(model))
-    assert found.failure is None
-    return model, found.result
+    found = finished_helical_run(more, helix=helix, offset=2.0, accuracy=FEW)
+    return found.model, found.result
 
 
 # Round-off of a motion (mm) that is zero, as along the axis of a spur gear.
@@ -139,8 +137,8 @@ def test_axes_lines_and_bearings_of_gears_cut_into_shafts_are_those_of_elements(
     tilts and others roll or are not alike in all directions, loaded along the face by the recorded contact forces; axes
     are straight lines through what the slices do. Rolling bearings are springs that give their law's loads there."""
     shafts = shafts.replace('at = "110 mm"\nradial', 'at = "110 mm"\ntilting_stiffness = "1e8 N mm/rad"\nradial')
-    model = model_of(helical_scene(shafts + "[friction]\ncoefficient = 0.05\n", offset=2.0, accuracy=FEW))
-    found, axes, face = run_of(model, on_stand_in_bodies(model)), [], model.face
+    found = finished_helical_run(shafts + "[friction]\ncoefficient = 0.05\n", offset=2.0, accuracy=FEW)
+    model, axes, face = found.model, [], found.model.face
     result, record, drivetrain = found.result.isel(time=-1, contact_time=-1), found.records[-1], model.drivetrain
     operator, (points, weights) = record.position.operator, np.polynomial.legendre.leggauss(6)
     of_slice = np.tile(np.concatenate([[each.place.slice] * len(each.offsets) for each in operator.pairs]), 2)
@@ -178,25 +176,6 @@ def test_axes_lines_and_bearings_of_gears_cut_into_shafts_are_those_of_elements(
     for name, wanted in zip(("inclination", "offset"), np.diff(axes, axis=0)[0] * [[model.pair.face_width], [1.0]]):
         for plane, each in zip(("in_plane", "out_of_plane"), wanted):
             near(result[f"axis_{name}_{plane}"].values, 1e3 * each, 1e-3)
-
-
-def test_bearings_that_are_alike_may_be_given_as_matrices():
-    """Another way to give the same shaft: as matrices bearings are not known to be alike in all directions, and the
-    ends of the face move apart by coordinates; what a seat that gives way changes is the same within 3 %."""
-    more = "[friction]\ncoefficient = 0.05\n"
-    bearing = 'at = "110 mm"\nradial_stiffness = "0.4e6 N/mm"\n'
-    radial = CUT.replace(bearing, f'{bearing}tilting_stiffness = "1e8 N mm/rad"\n')
-    springs = np.diag([4e5, 4e5, 0.0, 1e8, 1e8]).tolist()
-    matrix = CUT.replace(bearing, f'at = "110 mm"\nstiffness_matrix = {springs}\n')
-    found = []
-    for shafts in (radial, matrix, radial.replace('"integral"', '"rigid over its width"')):
-        model = model_of(helical_scene(shafts + more, helix=15.0, offset=2.0, accuracy=FEW))
-        found.append((len(model.drivetrain.coordinates), run_of(model, on_stand_in_bodies(model)).result))
-    (_, one), (_, other), (_, rigid) = found
-    assert [count for count, _ in found] == [13, 19, 13]
-    for name in ("mesh_stiffness", "mesh_stiffness_tangent", "contact_pressure", "tilt_y", "shaft_deflection_x"):
-        changed = np.abs(one[name] - rigid[name]).max()
-        assert np.abs(one[name] - other[name]).max() <= 0.03 * changed
 
 
 def test_the_drawing_shows_gears_bearings_and_deflection_to_scale(run):
@@ -255,11 +234,9 @@ def test_the_even_load_is_the_force_of_a_run_on_the_flanks_that_carry(torque):
 def test_a_shaft_that_vibrates_keeps_the_balance_of_energy():
     """Exact: the account closes; the mesh's natural frequency is there."""
     more = VIBRATING + "[friction]\ncoefficient = 0.05\n[damping]\nratio = 0.05\n"
-    model = model_of(helical_scene(more, offset=2.0, accuracy=FEW.replace("= 8", "= 64"), frequency=800.0))
-    found = run_of(model, on_stand_in_bodies(model))
-    assert found.failure is None
+    found = finished_helical_run(more, offset=2.0, accuracy=FEW.replace("= 8", "= 64"), frequency=800.0)
+    model, result = found.model, found.result
     assert any("_mode_" in name for name in model.drivetrain.coordinates)
-    result = found.result
     assert np.abs(result["energy_defect"].values).max() <= 1e-10 * result["energy"].values.max()
     assert result["energy_kinetic"].values.max() > 1e-3 * result["energy"].values.max()
     lines = result.attrs["natural_frequencies"].splitlines()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from tests.elastic_shaft_scenes import E_AXLE, FEW, OUTPUT, ROLLING, VIBRATING, WHEEL, largest_difference_of_slow_runs
-from tests.hard_cases.invariants import cycle_of, run_of
+from tests.hard_cases.invariants import cycle_of, finished_helical_run
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
@@ -56,10 +56,8 @@ def test_rolling_bearings_carry_by_their_law_at_every_step(of_input):
 def test_results_of_rolling_bearings_are_by_their_law(of_input):
     """Identity: loads of the result are in balance, energy is what bearings hold, and the largest force of a rolling
     element that under the mean loads."""
-    model = model_of(helical_scene(of_input + OUTPUT + WHEEL, offset=2.0, accuracy=FEW))
-    found = run_of(model, on_stand_in_bodies(model))
-    assert found.failure is None
-    result = found.result
+    found = finished_helical_run(of_input + OUTPUT + WHEEL, offset=2.0, accuracy=FEW)
+    model, result = found.model, found.result
     normal = result["normal_force"].values[1:]
     across = np.hypot(*(result[f"bearing_force_{axis}"].values[1:, :2].sum(axis=1) for axis in "xy"))
     assert across == pytest.approx(normal * model.pair.cosine, rel=1e-9)

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.coarse import COARSE, frictionless
+from tests.coarse import COARSE, cycle_of, frictionless
 from tests.frozen_gears import frozen_marcher
 from tests.paper_text import PAPER as DEMO
 
@@ -15,11 +15,7 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
 from fenics_gears.effects.speed_ramp import SpeedRamp
-from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation.routes import prepared
-from fenics_gears.system.progress import SilentProgress
 
 UP, DOWN = RampClock(100.0, 300.0, 80, 480, 40), RampClock(300.0, 100.0, 0, 400, 40)
 
@@ -74,25 +70,6 @@ def test_result_tells_time_and_frequency(paper_scene):
     assert slopes == pytest.approx(slopes[0], rel=1e-9)
 
 
-def test_the_right_side_is_minus_mass_times_acceleration_by_finite_differences(paper_scene, paper_pair):
-    """Finite differences of the kinetic energy of all wheels."""
-    shafts = drivetrain(paper_scene, paper_pair)
-    forces = inertia_forces(DOWN, shafts, 24)(100)
-    inertia, step = paper_scene.inertia.moment_of_inertia, 1e-3
-
-    def energy(at):
-        pinion, wheel = (2.0 * np.pi * DOWN.mesh_frequency(at) / teeth for teeth in (16, 24))
-        return 0.5 * inertia * (pinion**2 + 2.0 * wheel**2)
-
-    power = (energy(100 + step) - energy(100 - step)) / DOWN.duration(100 - step, 100 + step)
-    arc = paper_pair.base_pitch * DOWN.mesh_frequency(100)
-    velocity = np.array([{"rotation_1": arc, "rotation_2": -arc}.get(name, 0.0) for name in shafts.coordinates])
-    assert -forces @ velocity == pytest.approx(power, rel=1e-8)
-    wheel_angular_acceleration = -2.0 * np.pi * DOWN.acceleration / 24
-    twist = shafts.coordinates.index("shaft_twist")
-    assert forces[twist] * shafts.radii[twist] == pytest.approx(-inertia * wheel_angular_acceleration, rel=1e-12)
-
-
 @pytest.mark.parametrize("absent", [(), ("shafts",), ("shafts", "bearings")], ids=["all", "without shafts", "rigid"])
 def test_spin_up_at_rest_changes_the_mesh_force_by_inertia_times_acceleration(
     paper_scene, paper_pair, stand_in_flanks, absent
@@ -120,7 +97,7 @@ def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
     %."""
     scene = frictionless(paper_scene)
     model = model_of(replace(coarse(scene, 200, 1, start=300.0), speed_ramp=SpeedRamp(350.0)))
-    _, cycle = prepared(model, SilentProgress(), user_cache())
+    cycle = cycle_of(model)
     # Every step is kept, but without pressures.
     marcher = Marcher(cycle, model.equations_of_motion)
     records = marcher.run(model.steps, model.steps + 1).records

@@ -69,6 +69,7 @@ def test_directory_that_cannot_be_made_is_a_warning(tmp_path, caplog):
 
 
 def test_environment_names_the_directory(tmp_path, monkeypatch):
+    """docs/commands.md; 2 GB unless a size is given."""
     monkeypatch.setenv(DIRECTORY_VARIABLE, str(tmp_path))
     assert user_cache() == Cache(tmp_path, 2e9)
     monkeypatch.delenv(DIRECTORY_VARIABLE)

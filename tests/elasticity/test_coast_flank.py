@@ -1,20 +1,16 @@
 """The coast flank in a gear's compliance."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from fenics_gears import ComputationError
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import by_radius
-from fenics_gears.elasticity.element_sizes import Discretisation, element_sizes
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.half_sector import centreline_direction
-from fenics_gears.elasticity.mesh_data import corner_areas
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
-from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.elasticity.sector_mesh import half_sector_mesh, sector_mesh
 
 BOTH = Reach(2, (-2, 2))
@@ -60,22 +56,3 @@ def test_flank_pairs_that_are_not_asked_for_are_not_known(pinion, steel, both):
         fewer.between(2, 0, (0, 1))
     with pytest.raises(ComputationError, match="known are -1 to 1"):
         fewer.between(2, 0, (1, 1))
-
-
-@pytest.mark.parametrize("element", ELEMENTS)
-def test_symmetric_mesh_fills_the_sector(element, pinion):
-    """Exact identity: shoelace formula; as many nodes on either flank and cut."""
-    chosen = ELEMENTS[element]
-    sizes = replace(element_sizes(pinion, chosen, 0.4), both_flanks=True)
-    mesh = sector_mesh(pinion, sizes, chosen.quadrilateral)
-    corner = mesh.points[mesh.cells]
-    ahead = np.roll(corner, -1, axis=1)
-    area = 0.5 * (corner[..., 0] * ahead[..., 1] - corner[..., 1] * ahead[..., 0]).sum()
-    boundary = sector_boundary(pinion, sizes)[0].points
-    ahead = np.roll(boundary, -1, axis=0)
-    assert area == pytest.approx(
-        0.5 * abs((boundary[:, 0] * ahead[:, 1] - boundary[:, 1] * ahead[:, 0]).sum()), rel=1e-11
-    )
-    assert corner_areas(mesh.points, mesh.cells).min() > 0.0
-    assert len(mesh.edges["flank"]) == len(mesh.edges["coast"])
-    assert len(mesh.edges["upper cut"]) == len(mesh.edges["lower cut"])

@@ -74,6 +74,7 @@ def own_cache(pinion, steel, tmp_path_factory):
     ],
 )
 def test_every_input_has_its_own_cache_entry(kind, change, pinion, steel, own_cache):
+    """Definition: another input is another body."""
     inputs = {"gear": pinion, "material": steel, "discretisation": COARSE, "reach": REACH}
     inputs[kind] = replace(inputs[kind], **change)
     assert not flank_compliance(**inputs, cache=own_cache).timings["from_cache"]
@@ -124,6 +125,7 @@ def write_gmsh_file(mesh, path):
 
 @pytest.mark.parametrize("content", [None, "not a mesh", ""])
 def test_unreadable_body_mesh_is_refused(content, tmp_path):
+    """House rule: what a user gives is refused by its name."""
     path = tmp_path / "body.msh"
     if content is not None:
         path.write_text(content)

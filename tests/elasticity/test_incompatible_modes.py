@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 from scipy.linalg import eigvalsh
-from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
+from tests.structured import cells_of
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.stiffness import displacement_space, stiffness_matrix
+from fenics_gears.elasticity.stiffness import assembled, displacement_space, stiffness_matrix
 
 ELEMENT = ELEMENTS["Q1 incompatible"]
 RATIOS = [0.0, 0.3, 0.499]
@@ -22,20 +22,12 @@ def rectangle(along: int, across: int, length: float, height: float, distortion:
     x[1:-1, 1:-1] += distortion * length / along * draw.uniform(-1.0, 1.0, (along - 1, across - 1))
     y[1:-1, 1:-1] += distortion * height / across * draw.uniform(-1.0, 1.0, (along - 1, across - 1))
     index = np.arange(x.size).reshape(x.shape)
-    cells = np.stack(
-        [part.ravel() for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:])], axis=-1
-    )
-    return BodyMesh(np.stack([x.ravel(), y.ravel()], axis=-1), cells, {})
+    return BodyMesh(np.stack([x.ravel(), y.ravel()], axis=-1), cells_of(index), {})
 
 
-def sparse(matrix) -> csr_matrix:
-    rows, columns, values = matrix.getValuesCSR()
-    return csr_matrix((values, columns, rows), shape=matrix.getSize())
-
-
-def assembled(mesh: BodyMesh, poissons_ratio: float, name: str = ELEMENT.name):
+def nodes_and_stiffness(mesh: BodyMesh, poissons_ratio: float, name: str = ELEMENT.name):
     space = displacement_space(mesh, ELEMENTS[name])
-    return adapter.node_coordinates(space), sparse(stiffness_matrix(space, ELEMENTS[name], poissons_ratio))
+    return adapter.node_coordinates(space), assembled(stiffness_matrix(space, ELEMENTS[name], poissons_ratio))
 
 
 def inner_dofs(nodes: np.ndarray) -> np.ndarray:
@@ -45,7 +37,7 @@ def inner_dofs(nodes: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("poissons_ratio", RATIOS)
 def test_patch_of_distorted_cells(poissons_ratio):
     """Exact (Irons' patch test): uniform strain on the boundary is uniform inside."""
-    nodes, stiffness = assembled(rectangle(5, 4, 1.0, 1.0, distortion=0.35), poissons_ratio)
+    nodes, stiffness = nodes_and_stiffness(rectangle(5, 4, 1.0, 1.0, distortion=0.35), poissons_ratio)
     uniform = (nodes @ np.array([[1.0, 0.3], [-0.2, 0.7]])).ravel()
     inside = inner_dofs(nodes)
     found = spsolve(stiffness[inside][:, inside].tocsc(), -(stiffness[inside][:, ~inside] @ uniform[~inside]))
@@ -55,7 +47,7 @@ def test_patch_of_distorted_cells(poissons_ratio):
 @pytest.mark.parametrize("poissons_ratio", RATIOS)
 def test_rigid_motions_cost_nothing_and_nothing_else_does(poissons_ratio):
     """Exact: three rigid motions in the kernel of distorted cells."""
-    _, stiffness = assembled(rectangle(5, 4, 1.0, 1.0, distortion=0.35), poissons_ratio)
+    _, stiffness = nodes_and_stiffness(rectangle(5, 4, 1.0, 1.0, distortion=0.35), poissons_ratio)
     values = eigvalsh(stiffness.toarray())
     assert np.abs(values[:3]).max() <= 1e-13 * values[-1]
     assert values[3] >= 1e-5 * values[-1]
@@ -64,7 +56,7 @@ def test_rigid_motions_cost_nothing_and_nothing_else_does(poissons_ratio):
 def bent(name: str, poissons_ratio: float) -> float:
     """Deflection of a beam of 10 cells, one high, under an end couple, over M L^2/(2 E' I), E' = E/(1 - nu^2)."""
     length, height = 10.0, 1.0
-    nodes, stiffness = assembled(rectangle(10, 1, length, height), poissons_ratio, name)
+    nodes, stiffness = nodes_and_stiffness(rectangle(10, 1, length, height), poissons_ratio, name)
     at_wall, at_end = nodes[:, 0] < 1e-9, nodes[:, 0] > length - 1e-9
     below = nodes[:, 1] < 1e-9
     held = np.concatenate([2 * np.flatnonzero(at_wall), 2 * np.flatnonzero(at_wall & below) + 1])

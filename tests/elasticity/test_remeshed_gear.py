@@ -6,15 +6,12 @@ import numpy as np
 import pytest
 from tests.coarse_sector import COARSE, PINION, STEEL, relative
 
-from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import condense
-from fenics_gears.elasticity.element_sizes import Discretisation, element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.remeshed_gear import LoadedTooth, RemeshedGear
 from fenics_gears.elasticity.ring import centre_motion, rotation
-from fenics_gears.elasticity.sector_boundary import flank_roll_angles, flank_through
+from fenics_gears.elasticity.sector_boundary import flank_through
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.involute import arc_length
 from meshes.root_crack import joined_sectors
@@ -23,7 +20,6 @@ ANGLE = 0.37
 # Roll angles on two neighbouring teeth and on the third after them.
 ROLLS = (np.array([0.45, 0.47, 0.5]), np.array([0.31, 0.28, 0.22, 0.2]), np.array([0.55, 0.6]))
 PLACES = (0, 1, 3)
-BODY = 3.0
 
 
 def loaded_teeth():
@@ -58,23 +54,6 @@ def test_joined_sectors_equal_the_remeshed_whole_gear(name):
     # Compliance weighs what the stiffness hides: the motion of a tooth as a whole.
     compliance = np.linalg.inv(expected[:contact, :contact])
     assert relative(np.linalg.inv(stiffness[:contact, :contact]) - compliance, compliance) < 1e-9
-
-
-@pytest.mark.parametrize("size", [0.3, 0.33, 0.4])
-@pytest.mark.parametrize("name", ["P1", "P2"])
-def test_prescribing_the_standard_vertices_changes_nothing(name, size):
-    """Exact identity: a part of the fast route's compliance, vertices apart by round-off."""
-    assert distance_to_the_fast_route(ELEMENTS[name], name, size) < 1e-10
-
-
-def distance_to_the_fast_route(element, name, size):
-    sizes = element_sizes(PINION, element, size, BODY)
-    rolls = flank_roll_angles(PINION, size)[6:15]
-    stiffness = RemeshedGear(PINION, STEEL, element, sizes).stiffness((LoadedTooth(0.0, rolls),))
-    compliance = np.linalg.inv(stiffness[:-3, :-3])
-    fast = flank_compliance(PINION, STEEL, Discretisation(name, size, BODY), Reach(0)).blocks[0]
-    rows = 2 * 6 * element.order + np.arange(len(compliance))
-    return relative(compliance - fast[np.ix_(rows, rows)], compliance)
 
 
 @pytest.mark.parametrize("size", [0.05, 0.3, 2.0])

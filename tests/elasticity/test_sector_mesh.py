@@ -1,10 +1,12 @@
 """The sector mesh."""
 
 import signal
+from dataclasses import replace
 from math import pi, radians
 
 import numpy as np
 import pytest
+from tests.coarse_sector import COARSE
 
 from fenics_gears import ComputationError, Gear
 from fenics_gears.elasticity.condensation import by_radius
@@ -47,18 +49,24 @@ def test_flank_vertices_are_on_the_involute_even_in_arc_length(name, pinion, coa
     np.testing.assert_allclose(spacing, spacing.mean(), rtol=1e-10)
 
 
+def area_within(corners):
+    """Of polygons (..., n, 2)."""
+    (x, y), (next_x, next_y) = (np.moveaxis(each, -1, 0) for each in (corners, np.roll(corners, -1, axis=-2)))
+    return 0.5 * abs((x * next_y - y * next_x).sum())
+
+
+@pytest.mark.parametrize("both_flanks", [False, True])
 @pytest.mark.parametrize("name", ELEMENTS)
-def test_cells_fill_the_outline(name, pinion, coarse_sector):
-    """Exact identity: shoelace formula, none folded."""
-    mesh = coarse_sector(name)
+def test_cells_fill_the_outline(name, both_flanks, pinion):
+    """Exact identity: shoelace formula, none folded; as many nodes on either cut, and on either flank where the sector
+    is symmetric."""
+    sizes = replace(COARSE, both_flanks=both_flanks)
+    mesh = sector_mesh(pinion, sizes, ELEMENTS[name].quadrilateral)
     assert corner_areas(mesh.points, mesh.cells).min() > 0
-    corner = mesh.points[mesh.cells]
-    ahead = np.roll(corner, -1, axis=1)
-    area = 0.5 * (corner[..., 0] * ahead[..., 1] - corner[..., 1] * ahead[..., 0]).sum()
-    boundary = sector_boundary(pinion, ElementSizes(flank=0.8, fillet=0.4, coast=1.0, body=3.0))[0].points
-    ahead = np.roll(boundary, -1, axis=0)
-    polygon = 0.5 * abs((boundary[:, 0] * ahead[:, 1] - boundary[:, 1] * ahead[:, 0]).sum())
-    assert area == pytest.approx(polygon, rel=1e-12)
+    polygon = area_within(sector_boundary(pinion, sizes)[0].points)
+    assert area_within(mesh.points[mesh.cells]) == pytest.approx(polygon, rel=1e-11)
+    assert len(mesh.edges["upper cut"]) == len(mesh.edges["lower cut"])
+    assert not both_flanks or len(mesh.edges["flank"]) == len(mesh.edges["coast"])
 
 
 @pytest.mark.parametrize("name", ["P2", "Q2"])

@@ -6,15 +6,11 @@ from math import pi
 import numpy as np
 import pytest
 from tests.annulus import BORE, OUTER, annulus, forces
-from tests.coarse_sector import COARSE, PINION, STEEL
 from tests.scene.test_cut_away import SCENE
-from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
 from fenics_gears import SceneError, gear_pair, scene_from_text
 from fenics_gears.elasticity.condensation import condense
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
-from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear_data import Web
 
 POISSON = 0.3
@@ -23,7 +19,6 @@ SHEAR, LAME = 0.5 / (1.0 + POISSON), POISSON / ((1.0 + POISSON) * (1.0 - 2.0 * P
 WEBS = {"between cells": Web(BORE * 2.0**0.25, BORE * 2.0**0.75, 0.3), "within cells": Web(18.3, 26.1, 0.3)}
 # h/r = 0.065; a jump of the width within cells is seen to first order.
 TOLERANCE = {"between cells": 0.065**2, "within cells": 0.02}
-PINION_WEB = Web(18.0, 26.0, 0.4)
 
 
 def ring_under(web, element, motion):
@@ -74,20 +69,6 @@ def test_a_ring_of_three_widths_that_grows(name, element):
     exact = 2.0 * pi * OUTER * (stress(OUTER) @ np.linalg.solve(equations, right)[4:])
     found, points = ring_under(web, element, lambda points: points / np.linalg.norm(points, axis=1)[:, None])
     assert (found * points / np.linalg.norm(points, axis=1)[:, None]).sum() == pytest.approx(exact, rel=TOLERANCE[name])
-
-
-def test_the_ring_of_sectors_is_the_whole_gear():
-    """Brute force: the same elements joined to a whole gear."""
-    gear = replace(PINION, web=PINION_WEB)
-    mesh = sector_mesh(gear, COARSE)
-    assert mesh.web == PINION_WEB
-    whole = replace(whole_gear_mesh(mesh, gear.teeth), web=PINION_WEB)
-    expected = whole_gear_compliance(whole, gear, STEEL, tooth_offsets=1).blocks
-    found = (
-        ring_compliance(condensed_sector(mesh, ELEMENTS["P2"], STEEL.poissons_ratio), gear.teeth, 1)
-        / STEEL.youngs_modulus
-    )
-    assert found == pytest.approx(expected, abs=1e-9 * np.abs(expected).max())
 
 
 OVER_FACE = '[gears.material]\nname = "steel"\n[misalignment]\nin_plane = "5 um"\n'

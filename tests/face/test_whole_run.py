@@ -1,4 +1,4 @@
-"""A helical pair with finite element bodies from scene to result."""
+"""Bodies of a helical pair: in which order and in which process they are computed."""
 
 from math import radians
 from threading import Event
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.benchmarks.third_dimension.pairs import MODULE, scene_of, standard_pair
 
-from fenics_gears import ComputationError, model_of, simulate
+from fenics_gears import ComputationError, model_of
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.runs import condensing
@@ -35,19 +35,6 @@ COARSE = Accuracy(
 @pytest.fixture(scope="module")
 def scene():
     return scene_of(standard_pair(3.0 * MODULE, HELIX_ANGLE, bore=0.8), COARSE)
-
-
-@pytest.fixture(scope="module")
-def result(scene):
-    return simulate(scene)
-
-
-def test_line_load_adds_up_to_the_normal_force(result):
-    """Identity."""
-    of_slices = (result.line_load * result.face_slice_width).sum(("slot", "face_position")).values
-    np.testing.assert_allclose(
-        of_slices, result.normal_force.sel(time=result.contact_time.values, method="nearest").values, rtol=1e-12
-    )
 
 
 def test_the_wheels_body_is_begun_before_the_sections(scene, monkeypatch):

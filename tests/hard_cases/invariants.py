@@ -5,13 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from tests.contact.laws_of_contact import law_residual
+from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.kinematics import displacement_jacobian
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.elasticity.compliance import Bodies
-from fenics_gears.model.model import Model
+from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.simulation.elastic_route import mesh_cycle
@@ -65,6 +66,14 @@ def run_of(model: Model, bodies: Bodies | None) -> Run:
     for name, variable in result.data_vars.items():
         assert np.all(np.isfinite(variable)) or name.endswith(without_number), name
     return Run(model, marcher, list(march.records), result, failure)
+
+
+def finished_helical_run(more: str = "", **changes) -> Run:
+    """Of a helical scene on bodies without finite elements; every step converges."""
+    model = model_of(helical_scene(more, **changes))
+    found = run_of(model, on_stand_in_bodies(model))
+    assert found.failure is None, str(found.failure)
+    return found
 
 
 def worst_of(run: Run) -> dict[str, float]:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.hard_cases.invariants import cycle_of, run_of
+from tests.hard_cases.invariants import cycle_of, finished_helical_run
 from tests.hard_cases.test_any_scene import obeys_the_laws
 from tests.helical import BEARINGS, CROWNED, FRICTION, helical_scene, on_stand_in_bodies
 
@@ -14,10 +14,7 @@ BY_NIGHT = pytest.mark.nightly
 
 
 def run(more="", **changes):
-    model = model_of(helical_scene(more, **{"accuracy": FEW, **changes}))
-    found = run_of(model, on_stand_in_bodies(model))
-    assert found.failure is None, str(found.failure)
-    return found
+    return finished_helical_run(more, **{"accuracy": FEW, **changes})
 
 
 def marched(more, **changes):

@@ -10,10 +10,8 @@ from tests.frozen_gears import frozen_marcher, pushed
 from fenics_gears import gear_pair, simulate
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.contact_work import contact_work
-from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.steps import Record, Steps
 from fenics_gears.dynamics.torque_ripple import Harmonic, TorqueRipple
-from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.results.contact_variables import energy_variables
 from fenics_gears.scene.data import Motion
@@ -54,21 +52,6 @@ def test_frozen_frictionless_step_balances(paper_scene, paper_pair, stand_in_fla
         worst,
         1e-11,
     )
-
-
-def test_frozen_account_closes_with_friction(paper_scene, paper_pair, stand_in_flanks, measured):
-    """Exact identity: the account closes, and nothing comes from the rotation."""
-    scene = replace(paper_scene, friction=Friction(0.3))
-    marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 2e-5)
-    records = march(marcher, pushed(marcher, shafts, centre_y1=80.0, rotation_1=40.0), 400)
-    steps = Steps.of(records)
-    work = account(shafts, marcher.clock, steps, energy_variables(scene, shafts, steps)["energy"])
-    done = np.abs(np.diff(work.load)).sum() + work.damping[-1] + work.friction[-1]
-    measured("with friction, 400 steps: defect / work", np.abs(work.defect).max() / done, "1e-9")
-    assert np.abs(work.defect).max() <= 1e-9 * done
-    assert np.abs(work.rotation).max() <= 1e-9 * done
-    assert np.diff(work.friction).min() >= -1e-12 * done
-    assert work.friction[-1] > 1e-3 * done
 
 
 @pytest.mark.parametrize("most", [60, pytest.param(400, marks=pytest.mark.nightly)])

@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from tests.coarse_sector import coarse_condensed_sector, coarse_sector_mesh
+from tests.coarse_sector import coarse_condensed_sector
 
-from fenics_gears.elasticity.condensation import condense
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.ring import centre_motion
 
@@ -39,11 +38,3 @@ def test_kernel_of_a_sector(name, poissons_ratio, measured):
     sector = coarse_condensed_sector(name, poissons_ratio)
     points = np.vstack(list(sector.points.values()))
     check_kernel(sector.stiffness, centre_motion(points), f"sector, {name}, nu {poissons_ratio:g}", measured)
-
-
-def test_kernel_of_any_part_of_the_boundary(measured):
-    """Condensed onto a handful of nodes only, which no cut or hub supports."""
-    mesh = coarse_sector_mesh("P2")
-    points = {"flank": mesh.edge_nodes("flank", 2)[:4]}
-    body = condense(mesh, ELEMENTS["P2"], 0.3, points)
-    check_kernel(body.stiffness, centre_motion(points["flank"]), "four nodes, P2", measured)

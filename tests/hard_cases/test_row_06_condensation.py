@@ -4,7 +4,6 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import splu
 from tests.coarse_sector import PINION, coarse_condensed_sector, coarse_sector_mesh, relative
 from tests.whole_gear import whole_gear_mesh
@@ -13,7 +12,7 @@ from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.condensation import by_radius
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.ring import ring_compliance, rotation
-from fenics_gears.elasticity.stiffness import displacement_space, nodes_at, stiffness_matrix
+from fenics_gears.elasticity.stiffness import assembled, displacement_space, nodes_at, stiffness_matrix
 
 
 @lru_cache
@@ -21,9 +20,7 @@ def held_gear(name: str):
     """The whole gear, hub held, factorised by SuperLU: its displacement space, free dofs, factors."""
     element, mesh = ELEMENTS[name], whole_gear_mesh(coarse_sector_mesh(name), PINION.teeth)
     space = displacement_space(mesh, element)
-    matrix = stiffness_matrix(space, element, 0.3)
-    rows, columns, values = matrix.getValuesCSR()
-    stiffness = csr_matrix((values, columns, rows), shape=matrix.getSize())
+    stiffness = assembled(stiffness_matrix(space, element, 0.3))
     hub = nodes_at(space, mesh.edge_nodes("hub", element.order))
     free = np.setdiff1d(np.arange(stiffness.shape[0]), (2 * hub[:, None] + [0, 1]).ravel())
     return mesh, space, free, splu(stiffness[free][:, free].tocsc())

@@ -11,61 +11,40 @@ from tests.coarse import coarse_scene, frictionless, quasi_static
 from fenics_gears import simulate
 from fenics_gears.scene.data import Accuracy
 
+# Of each quantity the powers of length, force and time.
+STRESS, TORQUE, STIFFNESS, PER_TIME = (-2, 1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, -1)
+POWERS = {
+    **{f"gears.{name}": (1, 0, 0) for name in ("module", "centre_distance", "face_width")},
+    **{
+        f"gears.{gear}.{name}": (1, 0, 0)
+        for gear in ("pinion", "wheel")
+        for name in ("tip_diameter", "root_diameter", "bore_diameter")
+    },
+    **{f"gears.{gear}material.youngs_modulus": STRESS for gear in ("", "pinion.", "wheel.")},
+    "load.wheel_torque": TORQUE, "motion.mesh_frequency": PER_TIME,
+    **{f"accuracy.{name}": (1, 0, 0) for name in ("flank_element_size", "contact_length", "body_element_size")},
+    "shafts.torsional_stiffness": TORQUE, "bearings.stiffness": STIFFNESS,
+    **{f"misalignment.{name}": (1, 0, 0) for name in ("in_plane", "out_of_plane")},
+    "lead_modifications.pinion.crowning": (1, 0, 0),
+    "inertia.mass": (-1, 1, 2), "inertia.moment_of_inertia": (1, 1, 2),
+    "damping.stiffness_proportional": (0, 0, 1), "damping.mass_proportional": PER_TIME,
+}  # fmt: skip
 
-def in_units(scene, length, force, time):
+
+def in_units(scene, *units):
     """The scene's numbers in other units, each given as the new number of one old unit: mm, N, s."""
-    gears, motion, accuracy = scene.gears, scene.motion, scene.accuracy
+    for path, powers in POWERS.items():
+        scene = scaled(scene, path.split("."), float(np.prod(np.power(units, powers))))
+    return scene
 
-    def of(material):
-        return material and replace(material, youngs_modulus=force / length**2 * material.youngs_modulus)
 
-    def gear(data):
-        diameters = ("tip_diameter", "root_diameter", "bore_diameter")
-        sizes = {name: length * getattr(data, name) for name in diameters}
-        return replace(data, **sizes, material=of(data.material))
-
-    changes = {
-        "gears": replace(
-            gears,
-            module=length * gears.module,
-            centre_distance=length * gears.centre_distance,
-            face_width=length * gears.face_width,
-            pinion=gear(gears.pinion),
-            wheel=gear(gears.wheel),
-            material=of(gears.material),
-        ),
-        "load": replace(scene.load, wheel_torque=force * length * scene.load.wheel_torque),
-        "motion": replace(motion, mesh_frequency=motion.mesh_frequency / time),
-    }
-    sizes = ("flank_element_size", "contact_length", "body_element_size")
-    given = {name: length * size for name in sizes if (size := getattr(accuracy, name)) is not None}
-    changes["accuracy"] = replace(accuracy, **given)
-    if scene.shafts is not None:
-        changes["shafts"] = replace(scene.shafts, torsional_stiffness=force * length * scene.shafts.torsional_stiffness)
-    if scene.bearings is not None:
-        changes["bearings"] = replace(scene.bearings, stiffness=force / length * scene.bearings.stiffness)
-    if scene.misalignment is not None:
-        sides = ("in_plane", "out_of_plane")
-        changes["misalignment"] = replace(
-            scene.misalignment, **{name: length * getattr(scene.misalignment, name) for name in sides}
-        )
-    if scene.lead_modifications is not None:
-        own = scene.lead_modifications.pinion
-        own = replace(own, crowning=length * own.crowning)
-        changes["lead_modifications"] = replace(scene.lead_modifications, pinion=own)
-    if scene.inertia is not None:
-        changes["inertia"] = replace(
-            scene.inertia,
-            mass=force * time**2 / length * scene.inertia.mass,
-            moment_of_inertia=force * length * time**2 * scene.inertia.moment_of_inertia,
-        )
-    if scene.damping is not None:
-        changes["damping"] = replace(
-            scene.damping,
-            stiffness_proportional=time * scene.damping.stiffness_proportional,
-            mass_proportional=scene.damping.mass_proportional / time,
-        )
-    return replace(scene, **changes)
+def scaled(data, path, factor):
+    """Data whose number at a path of fields is multiplied, where it is there."""
+    name, *rest = path
+    own = getattr(data, name)
+    if own is None:
+        return data
+    return replace(data, **{name: scaled(own, rest, factor) if rest else factor * own})
 
 
 SYSTEMS = {

@@ -5,20 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.linalg import expm
-from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
+from tests.coarse import COARSE, coarse_scene, cycle_of, frictionless, quasi_static
 from tests.frozen_gears import frozen_marcher
 
 from fenics_gears import model_of, simulate
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.coast_flanks import CoastFlanks
-from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion
 from fenics_gears.show.motion import pair_forces
 from fenics_gears.show.run import ShownRun
-from fenics_gears.simulation.routes import prepared
-from fenics_gears.system.progress import SilentProgress
 
 FINE = replace(COARSE, steps_per_mesh_cycle=100)
 
@@ -35,7 +32,7 @@ def backwards(scene):
 def with_torque(scene, part):
     """The result of a scene whose load is multiplied by `part(step)`; it starts in equilibrium under the whole load."""
     model = model_of(scene)
-    _, cycle = prepared(model, SilentProgress(), user_cache())
+    cycle = cycle_of(model)
     change = (lambda step: (part(step) - 1.0) * model.drivetrain.load,)
     marcher = Marcher(cycle, replace(model.equations_of_motion, loads=change))
     recorder = Recorder(model, cycle, loads=change)

@@ -6,30 +6,16 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tests.contact.problems import all_open, random_problem
 from tests.frozen_gears import frozen_marcher
 
 from fenics_gears.contact.errors import NoStaticEquilibrium
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import Position, Stored
-from fenics_gears.contact.step_solver import solve_step
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.model.drivetrain import drivetrain
-
-
-@pytest.mark.parametrize("friction", [0.0, 0.3])
-def test_a_step_without_contact_is_the_drivetrain_alone(friction, measured):
-    """Exact: p = 0 and q = K^-1 F."""
-    problem = replace(random_problem(2, friction=friction), gap=np.full(8, 10.0))
-    solution = solve_step(problem, all_open(problem))
-    expected = np.linalg.solve(problem.stiffness, problem.load)
-    error = np.abs(solution.coordinates - expected).max() / np.abs(expected).max()
-    measured(f"coordinates, relative difference from K^-1 F, friction {friction:g}", error, 1e-13)
-    assert np.all(solution.forces == 0.0)
-
 
 ABSENT = [(), ("bearings",), ("shafts",), ("shafts", "bearings")]
 

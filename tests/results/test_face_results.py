@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 import xarray as xr
-from tests.hard_cases.invariants import run_of
-from tests.helical import helical_scene, on_stand_in_bodies, wide_pair
+from tests.hard_cases.invariants import finished_helical_run
+from tests.helical import wide_pair
 from tests.over_face import MORE, helical_run
 
 from fenics_gears import model_of, scene_from_text, simulate
@@ -66,15 +66,8 @@ def test_measures_of_accuracy_are_of_the_middle_slice():
 
 def test_peak_pressure_is_not_of_an_end_of_the_face():
     """Definition: of a misaligned pair the ends press most; theirs is a pressure at edges."""
-    model = model_of(
-        helical_scene(
-            '[misalignment]\nin_plane = "20 um"\n',
-            helix=0.0,
-            width=8.0,
-            accuracy="slices = 12\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8",
-        )
-    )
-    result = run_of(model, on_stand_in_bodies(model)).result
+    few = "slices = 12\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8"
+    result = finished_helical_run('[misalignment]\nin_plane = "20 um"\n', helix=0.0, width=8.0, accuracy=few).result
     order = "contact_time", "slot", "face_position", "contact_node"
     pressure = read_off(
         result["contact_pressure"].transpose(*order).values, result["contact_roll_angle"].transpose(*order).values

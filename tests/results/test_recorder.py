@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
-from tests.coarse import coarse_scene, frictionless, quasi_static
+from tests.coarse import coarse_scene, cycle_of, frictionless, quasi_static
 
 from fenics_gears import model_of, results, simulate
 from fenics_gears.dynamics import march as march_module
@@ -13,13 +13,10 @@ from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects.coast_flanks import CoastFlanks
-from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.results.contact_variables import energy_variables, work_variables
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion, Output
-from fenics_gears.simulation.routes import prepared
-from fenics_gears.system.progress import SilentProgress
 
 FIELDS = ("contact_pressure", "contact_traction", "contact_offset", "contact_roll_angle")
 
@@ -28,7 +25,7 @@ FIELDS = ("contact_pressure", "contact_traction", "contact_offset", "contact_rol
 def marched(paper_scene):
     """Four mesh cycles, more steps than are gone over at once, with all records."""
     model = model_of(replace(coarse_scene(paper_scene), coast_flanks=CoastFlanks(), motion=Motion(200.0, 4, 2)))
-    _, cycle = prepared(model, SilentProgress(), user_cache())
+    cycle = cycle_of(model)
     recorder = Recorder(model, cycle)
     with pytest.MonkeyPatch.context() as changed:
         changed.setattr(march_module, "LONGEST_BLOCK", 90)

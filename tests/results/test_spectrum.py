@@ -59,22 +59,6 @@ def test_a_line_between_bins_is_too_low_by_no_more_than_is_known(window, most, l
         assert found.square(order) == pytest.approx(1.0, abs=2e-3)
 
 
-@pytest.mark.parametrize(
-    "shaft, window, periods", [("pinion", None, 1), ("wheel", None, 1), ("wheel", HANN, 3), ("pinion", FLAT_TOP, 9)]
-)
-def test_amplitude_modulation_has_two_sidebands_of_half_its_depth(shaft, window, periods):
-    """Exact: A (1 + m cos(Omega t)) cos(omega t) has two sidebands of A m/2."""
-    cycles, depth = periods * PERIOD, 0.3
-    around = 1.0 if shaft == "pinion" else TEETH[0] / TEETH[1]
-    signal = 2.0 * (1.0 + depth * cosine(around, cycles)) * cosine(32.0, cycles)
-    found = sidebands(order_lines(signal, cycles, TEETH, window), TEETH, 2)
-    assert found.line == pytest.approx(4.0, rel=1e-6)
-    assert found.ratio == pytest.approx(0.5 * depth**2, rel=1e-6)
-    assert getattr(found, shaft) == pytest.approx(found.all, rel=1e-6)
-    other = found.wheel if shaft == "pinion" else found.pinion
-    assert other < 1e-12 * found.line
-
-
 def test_phase_modulation_has_bessels_sidebands():
     """Exact (Jacobi, Anger): cos(omega t + b sin(Omega t)) has J_0(b) and J_k(b)."""
     depth = 0.8

@@ -16,6 +16,8 @@ TOOLS = "awk bash cat cksum comm df env flock grep head find mkdir mv readlink r
 PROGRAM = "import os, sys\nprint(os.getcwd(), *sys.argv[1:], sep='|')\n"
 BARE_PYTHON = f'exec {sys.executable} -I -S "$@"'
 NO_PACKAGES = "exit 0"
+# What a Debian has, but for apt-get; its user is root.
+DEBIAN = {"python3": BARE_PYTHON, "dpkg": NO_PACKAGES, "dpkg_query": NO_PACKAGES, "id": "echo 0"}
 ONLY_FOR_TESTS = {"python3-pytest", "python3-hypothesis", "python3-sphinx", "chromium"}
 
 
@@ -53,11 +55,8 @@ def machine(tmp_path):
 
 @pytest.fixture
 def this_python(checkout):
-    check = checkout / "setup/check.py"
-    check.write_text(re.sub(r"^NEEDED = \([^)]*\)", 'NEEDED = ("tomllib",)', check.read_text(), flags=re.MULTILINE))
-    check.write_text(
-        re.sub(r"^NEEDED_BY_TESTS = \([^)]*\)", 'NEEDED_BY_TESTS = ("pytest",)', check.read_text(), flags=re.MULTILINE)
-    )
+    edit(checkout, r"^NEEDED = \([^)]*\)", 'NEEDED = ("tomllib",)')
+    edit(checkout, r"^NEEDED_BY_TESTS = \([^)]*\)", 'NEEDED_BY_TESTS = ("pytest",)')
     return {**os.environ, "FENICS_GEARS_PYTHON": sys.executable}
 
 
@@ -65,6 +64,11 @@ def call(launcher, *arguments, environment, folder="/"):
     return subprocess.run(
         [launcher, *arguments], env=environment, cwd=folder, capture_output=True, text=True, timeout=60
     )
+
+
+def edit(checkout, old, new):
+    check = checkout / "setup/check.py"
+    check.write_text(re.sub(old, new, check.read_text(), flags=re.MULTILINE))
 
 
 def set_up_already(checkout, environment):
@@ -147,10 +151,9 @@ def test_help_of_the_tests_does_not_install_them(checkout, this_python):
 
 
 def test_change_of_what_is_needed_leads_to_a_new_set_up(checkout, this_python):
-    """More packages may be needed."""
+    """The README: the next call continues the set-up; a package that is lacking then is named."""
     set_up_already(checkout, this_python)
-    check = checkout / "setup/check.py"
-    check.write_text(check.read_text().replace('"tomllib"', '"tomllib", "no_such_module"'))
+    edit(checkout, '"tomllib"', '"tomllib", "no_such_module"')
     done = call(checkout / "gears", "run", environment=this_python)
     assert done.returncode == 1 and "lacks no_such_module" in done.stderr
     assert done.stdout == ""
@@ -174,7 +177,7 @@ def test_named_python_that_is_not_there(checkout, machine):
 
 def test_debian_without_root_or_sudo_is_told_the_command(checkout, machine):
     """The missing packages."""
-    environment = machine(python3=BARE_PYTHON, apt_get=NO_PACKAGES, dpkg_query=NO_PACKAGES, id="echo 1000")
+    environment = machine(**DEBIAN | {"apt_get": NO_PACKAGES, "id": "echo 1000"})
     done = call(checkout / "gears", "run", environment=environment)
     assert done.returncode == 1
     assert (
@@ -188,9 +191,7 @@ def test_debian_without_root_or_sudo_is_told_the_command(checkout, machine):
 def test_what_a_relative_of_debian_lacks_for_some_tests_is_left_out(checkout, machine, tmp_path):
     """Ubuntu has no chromium; a package of the program is still asked for and fails."""
     environment = machine(
-        python3=BARE_PYTHON, apt_get=f'echo "$*" >>{tmp_path}/asked; case "$*" in *install*) exit 100;; esac',
-        dpkg=NO_PACKAGES,
-        dpkg_query=NO_PACKAGES, id="echo 0",
+        **DEBIAN, apt_get=f'echo "$*" >>{tmp_path}/asked; case "$*" in *install*) exit 100;; esac',
         apt_cache='case $2 in chromium|python3-dolfinx-real) echo "  Candidate: (none)";; *) echo "  Candidate: '
             '1.0-1";; esac',
     )  # fmt: skip
@@ -202,8 +203,7 @@ def test_what_a_relative_of_debian_lacks_for_some_tests_is_left_out(checkout, ma
 
 def test_program_is_ready_without_what_the_tests_need(checkout, this_python):
     """The tests say what is lacking and leave the program ready."""
-    check = checkout / "setup/check.py"
-    check.write_text(check.read_text().replace("NEEDED_BY_TESTS = (", 'NEEDED_BY_TESTS = ("no_such_module", '))
+    edit(checkout, r"NEEDED_BY_TESTS = \(", 'NEEDED_BY_TESTS = ("no_such_module", ')
     set_up_already(checkout, this_python)
     tested = call(checkout / "gears", "test", environment=this_python)
     assert tested.returncode == 1 and "lacks no_such_module" in tested.stderr
@@ -222,13 +222,7 @@ def test_program_is_ready_without_what_the_tests_need(checkout, this_python):
 )
 def test_failure_of_apt_is_one_sentence_with_its_reason(checkout, machine, printed, sentence):
     """Why it failed and where the details are; the next call starts over."""
-    environment = machine(
-        python3=BARE_PYTHON,
-        apt_get=f'echo "{printed}"; exit 100',
-        dpkg=NO_PACKAGES,
-        dpkg_query=NO_PACKAGES,
-        id="echo 0",
-    )
+    environment = machine(**DEBIAN, apt_get=f'echo "{printed}"; exit 100')
     done = call(checkout / "gears", "run", environment=environment)
     assert done.returncode == 1
     assert sentence in done.stderr.splitlines()[-1]
@@ -240,14 +234,7 @@ def test_interrupted_set_up_leaves_nothing_that_looks_finished(checkout, machine
     """Exit code 130 and no mark."""
     # The stand-in of apt reaches all of the call's processes, as the terminal's Ctrl-C does.
     apt = "kill -INT 0; exec sleep 30"
-    environment = machine(
-        python3=BARE_PYTHON,
-        apt_get=apt,
-        dpkg=NO_PACKAGES,
-        dpkg_query=NO_PACKAGES,
-        id="echo 0",
-        sleep='exec /bin/sleep "$@"',
-    )
+    environment = machine(**DEBIAN, apt_get=apt, sleep='exec /bin/sleep "$@"')
     started = subprocess.Popen(
         [checkout / "gears", "run"], env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
     )

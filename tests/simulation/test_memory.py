@@ -18,37 +18,8 @@ from fenics_gears.results import load, save
 from fenics_gears.results.root_stress_variables import RootStress
 from fenics_gears.results.side_by_side import KnownLayouts
 from fenics_gears.scene.data import Output
-from fenics_gears.simulation import simulate as simulation
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.memory import MEMORY_VARIABLE, allowed_memory, size_in_bytes
-
-
-@pytest.mark.parametrize("share", [pytest.param(0.0, marks=pytest.mark.nightly), 0.4])
-def test_operators_that_are_not_kept_change_no_number(paper_scene, monkeypatch, share):
-    """Operators made again in every mesh cycle, and operators kept."""
-    scene = coarse_scene(paper_scene, cycles=3)
-    whole, made = simulate(scene), []
-
-    def preparation(model, progress, cache):
-        gears, cycle = prepared(model, progress, cache)
-        build = cycle._build
-        monkeypatch.setattr(cycle, "_build", lambda ends: made.extend(ends) or build(ends))
-        return gears, cycle
-
-    operators = expected_cost(model_of(scene)).operators
-    monkeypatch.setattr(simulation, "memory_for_operators", lambda model: share * operators)
-    again = simulate(scene, preparation=preparation, cache=user_cache())
-    steps = scene.accuracy.steps_per_mesh_cycle
-    assert len(made) > (3 if share == 0.0 else 1.5) * steps
-    for name, variable in whole.data_vars.items():
-        # Works are summed block by block, and blocks are shorter where memory is.
-        np.testing.assert_allclose(
-            again.variables[name].values,
-            variable.values,
-            rtol=1e-12,
-            atol=1e-9 if name == "energy_defect" else 0.0,
-            err_msg=name,
-        )
 
 
 def test_a_run_that_does_not_fit_is_refused(paper_scene, monkeypatch):
@@ -139,12 +110,9 @@ def test_memory_that_ends_before_the_march_has_words(paper_scene, monkeypatch, c
     assert "Memory ended before the command was done" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("friction", [False, True])
-def test_contact_operators_take_what_is_expected(paper_scene, friction):
-    """The arrays themselves, on the average over the mesh cycle: flanks end within their windows."""
-    scene, found = coarse_scene(paper_scene, cycles=1), []
-    if not friction:
-        scene = frictionless(scene)
+def cycle_of_a_run(scene):
+    """What the march of a run went through."""
+    found = []
 
     def preparation(model, progress, cache):
         gears, cycle = prepared(model, progress, cache)
@@ -152,23 +120,27 @@ def test_contact_operators_take_what_is_expected(paper_scene, friction):
         return gears, cycle
 
     simulate(scene, preparation=preparation, cache=user_cache())
-    operators = [found[0].position(step).operator for step in range(scene.accuracy.steps_per_mesh_cycle)]
+    return found[0]
+
+
+@pytest.mark.parametrize("friction", [False, True])
+def test_contact_operators_take_what_is_expected(paper_scene, friction):
+    """The arrays themselves, on the average over the mesh cycle: flanks end within their windows."""
+    scene = coarse_scene(paper_scene, cycles=1)
+    if not friction:
+        scene = frictionless(scene)
+    cycle = cycle_of_a_run(scene)
+    operators = [cycle.position(step).operator for step in range(scene.accuracy.steps_per_mesh_cycle)]
     matrices = [each for own in operators for each in (own.compliance, own.previous_compliance) if each is not None]
     assert expected_cost(model_of(scene)).operators == pytest.approx(sum(each.nbytes for each in matrices), rel=0.1)
 
 
 def test_layouts_of_a_long_mesh_cycle_are_held_once(paper_scene, monkeypatch):
     """Count: each position's nodes once, in however many blocks the march goes through the cycle."""
-    scene, found = coarse_scene(paper_scene, cycles=1), []
+    scene = coarse_scene(paper_scene, cycles=1)
     monkeypatch.setattr("fenics_gears.dynamics.march.LONGEST_BLOCK", 5)
-
-    def preparation(model, progress, cache):
-        gears, cycle = prepared(model, progress, cache)
-        found.append(cycle)
-        return gears, cycle
-
-    simulate(scene, preparation=preparation, cache=user_cache())
-    layouts = found[0].shared(KnownLayouts)
+    cycle = cycle_of_a_run(scene)
+    layouts = cycle.shared(KnownLayouts)
     assert len(layouts._joined) >= scene.accuracy.steps_per_mesh_cycle / 5
     held = {id(known): known for joined in layouts._joined.values() for known in joined._known}
     nodes = sum(end - first for _, first, end, _ in layouts._parts.values())

@@ -15,6 +15,15 @@ class Clock:
         return self.now
 
 
+@pytest.fixture
+def bar():
+    """`drawn`: what it draws on a terminal."""
+    console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)
+    found = progress.BarProgress(console)
+    found.drawn = console.file
+    return found
+
+
 def test_lines_come_at_most_every_few_seconds_and_say_the_time_left():
     """A fifth done after 6 s leaves 24 s."""
     clock, stream = Clock(), io.StringIO()
@@ -48,30 +57,26 @@ def test_no_time_left_is_said_before_enough_is_known():
         assert said and all(0.5 * there <= left <= 2.0 * there + 20.0 for there, left in said), said
 
 
-def test_a_bar_stops_where_the_work_stopped():
+def test_a_bar_stops_where_the_work_stopped(bar):
     """An interrupted run must not look finished."""
-    console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)
-    bar = progress.BarProgress(console)
     bar.stage("condense pinion")
     bar.stage("march")
     bar.update(30, 100)
     bar.close()
-    last = console.file.getvalue().rpartition("march")[2]
+    last = bar.drawn.getvalue().rpartition("march")[2]
     assert "30/100" in last and "100/100" not in last
 
 
-def test_a_bar_is_full_where_the_work_ended_and_a_later_stage_is_drawn_alone():
+def test_a_bar_is_full_where_the_work_ended_and_a_later_stage_is_drawn_alone(bar):
     """What is told to be done is done; a bar that was drawn for good is not drawn again."""
-    console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)
-    bar = progress.BarProgress(console)
     bar.stage("sections")
     assert list(bar.counted(range(30))) == list(range(30))
     bar.close()
-    assert "30/30" in console.file.getvalue().rpartition("sections")[2]
-    before = console.file.tell()
+    assert "30/30" in bar.drawn.getvalue().rpartition("sections")[2]
+    before = bar.drawn.tell()
     bar.stage("draw pictures")
     bar.close()
-    assert "sections" not in console.file.getvalue()[before:]
+    assert "sections" not in bar.drawn.getvalue()[before:]
 
 
 def test_ctrl_c_does_not_interrupt_what_is_done():
@@ -86,12 +91,10 @@ def test_ctrl_c_does_not_interrupt_what_is_done():
 
 
 @pytest.mark.parametrize(("done", "said"), [(5, False), (50, True)])
-def test_a_bar_says_the_time_left_once_enough_is_known(done, said):
+def test_a_bar_says_the_time_left_once_enough_is_known(bar, done, said):
     """The rule of the lines: a twentieth of the whole may be its beginning."""
-    console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)
-    bar = progress.BarProgress(console)
     bar.stage("march")
     for count in range(done + 1):
         bar.update(count, 100)
     bar.close()
-    assert ("-:--:--" not in console.file.getvalue().rpartition("left")[2]) == said
+    assert ("-:--:--" not in bar.drawn.getvalue().rpartition("left")[2]) == said

@@ -20,7 +20,7 @@ from tests.benchmarks.third_dimension.defaults import (
     pair,
 )
 from tests.benchmarks.third_dimension.defaults import NAME as DEFAULTS
-from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
+from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, with_picture, write_rows
 
 from fenics_gears.scene.write import text_of
 from fenics_gears.show.panels import GREY, PALETTE, styled
@@ -110,7 +110,6 @@ def picture(rows: list[Row]) -> Figure:
 
 def section() -> str:
     rows = read_rows(NAME)
-    picture(rows).savefig(PICTURES / f"{NAME}.png")
     lines = []
     for row in rows:
         _, width, helix, teeth, mate, _ = PAIRS[int(row["pair"])]
@@ -124,8 +123,7 @@ def section() -> str:
         "pair", "program", "slices on layers", "mean T_E, µm", "T_EPP, µm", "off the limit, % of the mean: mean T_E",
         "T_EPP", "processor, s", "memory, GB",
     ]  # fmt: skip
-    shown = f"![Error over seconds of two helical pairs](../pictures/third_dimension/{NAME}.png)"
-    return "\n".join([shown, "", *table(headings, lines)])
+    return with_picture(NAME, "Error over seconds of two helical pairs", picture(rows), headings, lines)
 
 
 if __name__ == "__main__":

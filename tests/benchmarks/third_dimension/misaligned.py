@@ -8,7 +8,7 @@ from math import sqrt
 import numpy as np
 from matplotlib.figure import Figure
 from tests.benchmarks.third_dimension.pairs import LINE_LOAD, MODULE, scene_of, standard_pair
-from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
+from tests.benchmarks.third_dimension.table import Row, read_rows, with_picture, write_rows
 
 from fenics_gears import gear_pair, mesh_factor, simulate, single_stiffness
 from fenics_gears.geometry.misalignment import Misalignment
@@ -121,7 +121,7 @@ def picture(rows: list[Row], lines: list[Row]) -> Figure:
 
 def section() -> str:
     rows = read_rows(NAME)
-    picture(rows, read_rows(LINES)).savefig(PICTURES / f"{NAME}.png")
+    figure = picture(rows, read_rows(LINES))
     least, width = rows[1]["misalignment"], WIDTH * MODULE
     z, load = np.array([(line["z"], line["line_load"]) for line in read_rows(LINES) if line["misalignment"] == least]).T
     tilting = tilting_stiffness(z, load, width, 1e-3 * least)
@@ -131,6 +131,4 @@ def section() -> str:
     lines = [[f"{row['misalignment']:g}", *(f"{row[name]:.3f}" for name in names)] for row in rows]
     stiffness = (f"foundation of {1e-3 * c:.1f} N/(mm µm)" for c in (1e3 * rows[0]["stiffness"], tilting))
     headings = ["misalignment, µm", "K_Hβ, one pair", "mean of the mesh cycle", *stiffness, "ISO 6336-1, method C"]
-    return "\n".join(
-        [f"![Line load of a misaligned pair](../pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)]
-    )
+    return with_picture(NAME, "Line load of a misaligned pair", figure, headings, lines)

@@ -6,7 +6,7 @@ from math import ceil, degrees, radians
 import numpy as np
 from matplotlib.figure import Figure
 from tests.benchmarks.third_dimension.pairs import MODULE, in_plane, scene_of, standard_pair, width_of_overlap
-from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
+from tests.benchmarks.third_dimension.table import Row, read_rows, with_picture, write_rows
 
 from fenics_gears import simulate
 from fenics_gears.scene.data import Accuracy
@@ -82,7 +82,6 @@ def picture(rows: list[Row]) -> Figure:
 
 def section() -> str:
     rows = read_rows(NAME)
-    picture(rows).savefig(PICTURES / f"{NAME}.png")
     spur = rows[0]["peak_to_peak"]
     wanted = [row for row in rows if row["overlap"] in (0.0, 0.5, 1.0, 1.5, 2.0)]
     lines = [
@@ -95,10 +94,4 @@ def section() -> str:
         for row in wanted
     ]
     headings = ["overlap ratio", "mean T_E, µm", "T_EPP, µm", "of the spur pair's, %"]
-    return "\n".join(
-        [
-            f"![Transmission error over the overlap ratio](../pictures/third_dimension/{NAME}.png)",
-            "",
-            *table(headings, lines),
-        ]
-    )
+    return with_picture(NAME, "Transmission error over the overlap ratio", picture(rows), headings, lines)

@@ -1,7 +1,7 @@
 """Standard teeth with any helix, in steel, with nothing but teeth and gear bodies to give way."""
 
 from dataclasses import replace
-from math import atan, cos, pi, radians, sin, tan
+from math import atan, ceil, cos, pi, radians, sin, tan
 
 from fenics_gears.geometry.gear_data import GearData, GearPairData, Material
 from fenics_gears.geometry.misalignment import Misalignment
@@ -44,6 +44,17 @@ def scene_of(gears: GearPairData, accuracy: Accuracy, line_load: float = LINE_LO
     base_radius = 0.5 * gears.wheel.teeth * gears.module / cos(gears.helix_angle) * cos(transverse)
     load = Load(line_load * gears.face_width * base_radius)
     return Scene("third dimension", gears, load, Motion(1.0, 1, 1, speed_given=False), accuracy, misalignment=ALIGNED)
+
+
+def divided(
+    gears: GearPairData, slice_width: float, layer_thickness: float, section: float, steps: int = 20
+) -> Accuracy:
+    """Slices, layers and section elements of sizes in modules."""
+    width = gears.face_width / gears.module
+    return Accuracy(
+        steps_per_mesh_cycle=steps, slices=ceil(width / slice_width), layers=ceil(width / layer_thickness),
+        body_element_size=section * gears.module,
+    )  # fmt: skip
 
 
 def in_plane(scene: Scene) -> Scene:

@@ -6,7 +6,7 @@ from math import ceil
 import numpy as np
 from matplotlib.figure import Figure
 from tests.benchmarks.third_dimension.pairs import MODULE, STEEL, in_plane, scene_of, standard_pair
-from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
+from tests.benchmarks.third_dimension.table import Row, read_rows, with_picture, write_rows
 
 from fenics_gears import Material, simulate
 from fenics_gears.scene.data import Accuracy
@@ -72,7 +72,6 @@ def picture(rows: list[Row]) -> Figure:
 
 def section() -> str:
     rows = read_rows(NAME)
-    picture(rows).savefig(PICTURES / f"{NAME}.png")
     stress, strain = rows[0], rows[-1]
     names = ["plane stress", *(f"{row['width']:g}" for row in rows[1:-1]), "plane strain"]
     part = lambda row, limit, key: f"{100 * (row[key] / limit[key] - 1):+.2f}"  # noqa: E731
@@ -95,10 +94,4 @@ def section() -> str:
         "mean mesh stiffness, N/(mm µm)",
         "off plane strain, %",
     ]
-    return "\n".join(
-        [
-            f"![Mean transmission error over the face width](../pictures/third_dimension/{NAME}.png)",
-            "",
-            *table(headings, lines),
-        ]
-    )
+    return with_picture(NAME, "Mean transmission error over the face width", picture(rows), headings, lines)

@@ -5,14 +5,14 @@ Y_beta/cos(beta)^3.
 """
 
 from dataclasses import replace
-from math import ceil, cos, radians
+from math import cos, radians
 
-from tests.benchmarks.third_dimension.pairs import LINE_LOAD, MODULE, scene_of, standard_pair
+from tests.benchmarks.third_dimension.pairs import LINE_LOAD, MODULE, divided, scene_of, standard_pair
 from tests.benchmarks.third_dimension.table import Row, read_rows, table, write_rows
 from tests.iso_tooth_root import helical_form_and_stress_correction, helix_angle_factor, load_sharing_factor
 
 from fenics_gears import gear_pair, simulate
-from fenics_gears.scene.data import Accuracy, Output
+from fenics_gears.scene.data import Output
 
 NAME = "root_stress"
 HELIX_ANGLES, WIDTH, BORE = (0.0, 10.0, 20.0, 30.0), 8.0, 0.5
@@ -24,12 +24,7 @@ def measure() -> list[Row]:
     rows = []
     for degrees in HELIX_ANGLES:
         gears = standard_pair(WIDTH * MODULE, radians(degrees), bore=BORE)
-        accuracy = Accuracy(
-            steps_per_mesh_cycle=STEPS,
-            slices=ceil(WIDTH / SLICE_WIDTH),
-            layers=ceil(WIDTH / LAYER_THICKNESS),
-            body_element_size=SECTION_SIZE * MODULE,
-        )
+        accuracy = divided(gears, SLICE_WIDTH, LAYER_THICKNESS, SECTION_SIZE, STEPS)
         result, pair = simulate(replace(scene_of(gears, accuracy), output=Output(root_stress=True))), gear_pair(gears)
         # Of the tangential force at the reference cylinder.
         nominal = LINE_LOAD * cos(pair.pinion.pressure_angle) / MODULE

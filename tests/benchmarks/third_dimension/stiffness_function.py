@@ -2,13 +2,13 @@
 of their Fig. 5; and a mean of plane slices in parallel, which elastic coupling along the face does not join."""
 
 from dataclasses import replace
-from math import ceil, radians
+from math import radians
 
 import numpy as np
 from demos.face_width.stiffness_function import contact_lines, mesh_stiffness
 from matplotlib.figure import Figure
 from tests.benchmarks.third_dimension import pairs
-from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
+from tests.benchmarks.third_dimension.table import Row, read_rows, with_picture, write_rows
 
 from fenics_gears import gear_pair, simulate
 from fenics_gears.geometry.gear_data import GearPairData
@@ -27,16 +27,10 @@ def measure() -> list[Row]:
     found = {}
     for bore in BORES:
         width = pairs.width_of_overlap(OVERLAP_RATIO, HELIX_ANGLE)
-        modules = width / pairs.MODULE
         gears = pairs.standard_pair(width, HELIX_ANGLE, bore=bore, teeth=TEETH)
         pair = gear_pair(gears)
         assert abs(pair.contact_ratio - CONTACT_RATIO) < 1e-3 and abs(pair.overlap_ratio - OVERLAP_RATIO) < 1e-3
-        accuracy = Accuracy(
-            steps_per_mesh_cycle=STEPS,
-            slices=ceil(modules / SLICE_WIDTH),
-            layers=ceil(modules / LAYER_THICKNESS),
-            body_element_size=SECTION_SIZE * pairs.MODULE,
-        )
+        accuracy = pairs.divided(gears, SLICE_WIDTH, LAYER_THICKNESS, SECTION_SIZE, STEPS)
         result = simulate(pairs.scene_of(gears, accuracy))
         found[f"slices_{bore:g}"] = slices_in_parallel(gears)
         found["phase"], found[f"bore_{bore:g}"] = (
@@ -111,7 +105,6 @@ def picture(rows: list[Row]) -> Figure:
 
 def section() -> str:
     rows = read_rows(NAME)
-    picture(rows).savefig(PICTURES / f"{NAME}.png")
     _, shares = _shares(rows)
     lines = [
         ["their Fig. 5", *(f"{value:.3f}" for value in PUBLISHED), f"{100.0 * (PUBLISHED[1] - PUBLISHED[0]):.1f}", ""]
@@ -129,6 +122,4 @@ def section() -> str:
         mean = "" if column is None else f"{np.mean([row[column] for row in rows]):.2f}"
         lines.append([name, f"{values.min():.3f}", f"{values.max():.3f}", f"{100.0 * np.ptp(values):.1f}", mean])
     headings = ["", "smallest over the mean", "largest", "span, %", "mean, N/(mm µm)"]
-    return "\n".join(
-        [f"![Mesh stiffness over the mesh phase](../pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)]
-    )
+    return with_picture(NAME, "Mesh stiffness over the mesh phase", picture(rows), headings, lines)

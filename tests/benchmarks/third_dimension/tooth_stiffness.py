@@ -1,14 +1,13 @@
 """Mesh stiffness of spur and helical pairs against ISO 6336-1, method B, whose c' is 0.8 of its theoretical c'th.
 Bores of 0.7 root diameters keep the twist of the body small."""
 
-from math import ceil, cos, radians
+from math import cos, radians
 
 from matplotlib.figure import Figure
-from tests.benchmarks.third_dimension.pairs import LINE_LOAD, MODULE, scene_of, standard_pair
-from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
+from tests.benchmarks.third_dimension.pairs import LINE_LOAD, MODULE, divided, scene_of, standard_pair
+from tests.benchmarks.third_dimension.table import Row, read_rows, with_picture, write_rows
 
 from fenics_gears import gear_pair, mesh_factor, simulate, single_stiffness
-from fenics_gears.scene.data import Accuracy
 from fenics_gears.show.panels import DARK, PALETTE, styled
 
 NAME = "tooth_stiffness"
@@ -20,12 +19,7 @@ def measure() -> list[Row]:
     rows = []
     for degrees in HELIX_ANGLES:
         gears = standard_pair(WIDTH * MODULE, radians(degrees), bore=BORE)
-        accuracy = Accuracy(
-            steps_per_mesh_cycle=20,
-            slices=ceil(WIDTH / SLICE_WIDTH),
-            layers=ceil(WIDTH / LAYER_THICKNESS),
-            body_element_size=SECTION_SIZE * MODULE,
-        )
+        accuracy = divided(gears, SLICE_WIDTH, LAYER_THICKNESS, SECTION_SIZE)
         result, pair = simulate(scene_of(gears, accuracy)), gear_pair(gears)
         theoretical, single = single_stiffness(gears)
         factor = mesh_factor(pair.contact_ratio)
@@ -61,7 +55,6 @@ def picture(rows: list[Row]) -> Figure:
 
 def section() -> str:
     rows = read_rows(NAME)
-    picture(rows).savefig(PICTURES / f"{NAME}.png")
     lines = [
         [
             f"{row['helix_angle']:g}", f"{row['transverse_contact_ratio']:.3f}", f"{row['overlap_ratio']:.2f}",
@@ -76,6 +69,4 @@ def section() -> str:
         "β, deg", "ε_α", "ε_β", "c_γ by ISO", "with c'th cos β", "c_γ here", "off ISO, %", "c_γ here/(0.75 ε_α + 0.25)",
         "c' by ISO",
     ]  # fmt: skip
-    return "\n".join(
-        [f"![Mesh stiffness over the helix angle](../pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)]
-    )
+    return with_picture(NAME, "Mesh stiffness over the helix angle", picture(rows), headings, lines)

@@ -8,6 +8,7 @@ import numpy as np
 import scipy.sparse
 import ufl
 from scipy.sparse.linalg import spsolve
+from tests.structured import cells_of
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.condensation import by_radius
@@ -80,7 +81,7 @@ class Meridian:
         heights = np.arange(edges[:, 2].min(), edges[:, 3].max() + 0.5 * size, size)
         points = np.stack(np.meshgrid(radii, heights, indexing="ij"), axis=-1).reshape(-1, 2)
         grid = np.arange(len(points)).reshape(len(radii), -1)
-        cells = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=-1).reshape(-1, 4)
+        cells = cells_of(grid)
         r, z = points[cells].mean(axis=1).T[:, :, None]
         inside = (r > edges[:, 0]) & (r < edges[:, 1]) & (z > edges[:, 2]) & (z < edges[:, 3])
         cells = cells[inside.any(axis=1)]

@@ -18,7 +18,6 @@ from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.layers import Sweep, SweptWeb, swept_nodes
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 from fenics_gears.elasticity.face.web import webbed_section
-from fenics_gears.elasticity.mesh_data import corner_areas
 from fenics_gears.elasticity.nodal_stress import NodalStress
 from fenics_gears.elasticity.recovery import gear_recovery
 from fenics_gears.elasticity.ring import rotation
@@ -132,20 +131,6 @@ def test_patch_test(twist):
     )
     inner = np.setdiff1d(np.arange(len(nodes.points)), nodes.boundary_sides)
     assert abs(forces.reshape(-1, len(nodes.points), 3)[1:-1, inner]).max() < 1e-12 * abs(forces).max()
-
-
-@pytest.mark.parametrize("twist", [0.0, TWIST])
-def test_energy_of_uniform_strain(twist):
-    """Exact: energy density times volume, which parabolas make smaller by turn^4 / 480 (integral of abs(w)^2)."""
-    sweep = Sweep(np.linspace(-1.5, 1.5, 4), twist)
-    points = swept_points(section().nodes.points, sweep)
-    strain = np.diag([1.0, -0.4, 0.7]) + 0.3 * (np.ones((3, 3)) - np.eye(3))
-    dofs = in_frame((in_place(points, twist) @ strain)[:, :, None], points, twist)
-    area = 0.5 * corner_areas(mesh().points, mesh().cells)[:, 0].sum()
-    first_lame, shear = 0.3 / (1.3 * 0.4), 1.0 / 2.6
-    density = 0.5 * first_lame * np.trace(strain) ** 2 + shear * (strain**2).sum()
-    energy = 0.5 * (dofs.T @ (swept_stiffness(section(), sweep) @ dofs)).item()
-    assert energy == pytest.approx(3.0 * area * density * (1.0 - twist**4 / 480.0), rel=1e-10)
 
 
 def test_body_without_variation_along_the_face_is_the_plane_section():

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene
 from tests.elastic_shaft_scenes import ELASTIC
-from tests.hard_cases.invariants import run_of
-from tests.helical import CROWNED, helical_scene, on_stand_in_bodies
+from tests.hard_cases.invariants import finished_helical_run
+from tests.helical import CROWNED, helical_scene
 
-from fenics_gears import model_of, results, simulate
+from fenics_gears import results, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.extensions.rating.finish import Finish
 from fenics_gears.extensions.rating.load_factors import iterated_face_factor
@@ -69,8 +69,7 @@ def test_a_run_without_speed_is_refused(tmp_path, capsys, paper_scene):
 def test_misalignment_over_the_face_is_counted_and_told(tmp_path, capsys):
     """Definition: F_betax is the scene's misalignment less the helix slope that corrects it, or that of the
     tolerance class. A contact stress beside the end of lines of contact is told too."""
-    model = model_of(helical_scene())
-    result = run_of(model, on_stand_in_bodies(model)).result
+    result = finished_helical_run().result
     # By hand, ISO 1328-1: slopes of 8.61 and 8.82 um.
     for more, standard, computed, said in (
         (
@@ -97,8 +96,8 @@ def test_the_inclination_of_shafts_that_bend_is_counted(tmp_path, capsys):
     """Definition: F_betax is the run's inclination of the axes. Limit: a straight gap has a foundation's closed
     form, 1 + c b f / 2 F."""
     more = ELASTIC + '[misalignment]\nin_plane = "4 um"\n'
-    model = model_of(helical_scene(more, helix=0.0))
-    result = run_of(model, on_stand_in_bodies(model)).result
+    found = finished_helical_run(more, helix=0.0)
+    model, result = found.model, found.result
     results.save(result, tmp_path / "run.nc")
     assert main(["rate", str(tmp_path)]) == 0
     assert "is of the axes' inclination in this run" in capsys.readouterr().out

@@ -71,10 +71,14 @@ class Gearbox:
         return torque, pytest.approx(speed), stage.pinion.gear.id, stage.wheel.by_torque
 
 
+def three_shafts(torque=100, speed=1000):
+    """Torque (N m) and speed (rpm) are on shaft 1."""
+    return Gearbox().shaft(1, speed).shaft(2).shaft(3).load(10, 1, torque)
+
+
 def two_stages():
     """20/40 teeth from shaft 1 to shaft 2, again from shaft 2 to shaft 3; 100 N m and 1000 rpm on shaft 1."""
-    box = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100)
-    return box.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (2, 3), (20, 40))
+    return three_shafts().stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (2, 3), (20, 40))
 
 
 def test_torque_and_speed_go_through_the_stages_before():
@@ -101,7 +105,7 @@ def test_torque_and_speed_go_through_the_stages_before():
 )
 def test_couplings_and_seats_pass_torque_on_and_bearings_do_not(kind, relation, words, joined):
     """REXS: couplings join by the relation "side", up to version 1.0 by "coupling"; an open one carries nothing."""
-    box = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100).stage(FIRST, (2, 3), (20, 40))
+    box = three_shafts().stage(FIRST, (2, 3), (20, 40))
     box.joint(11, kind, 1, 2, relation, **words)
     if joined:
         assert box.of_stage(FIRST)[:3] == (pytest.approx(200.0), 1000.0, FIRST + 1)
@@ -120,10 +124,10 @@ def test_a_shaft_held_by_the_casing_takes_what_is_not_said():
 
 def test_what_a_branch_takes_is_not_in_the_mesh():
     """Equilibrium of shaft 1: of 100 N m, 30 N m on shaft 3 with 40 teeth are 15 N m on 20 teeth; 85 N m are left."""
-    box = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100).load(11, 3, 30)
+    box = three_shafts().load(11, 3, 30)
     box.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (1, 3), (20, 40))
     assert box.of_stage(FIRST)[0] == pytest.approx(170.0)
-    unknown = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100).load(11, 3)
+    unknown = three_shafts().load(11, 3)
     unknown.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (1, 3), (20, 40))
     with pytest.raises(ValueProblem, match="no torque"):
         unknown.of_stage(FIRST)
@@ -131,7 +135,7 @@ def test_what_a_branch_takes_is_not_in_the_mesh():
 
 def test_an_internal_gear_turns_the_sign():
     """The gears of an internal pair turn in one sense: what resists on shaft 3 is negative, and is taken off too."""
-    box = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100).load(11, 3, -60)
+    box = three_shafts().load(11, 3, -60)
     box.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (1, 3), (20, 80), second="ring_gear")
     assert box.of_stage(FIRST)[0] == pytest.approx(170.0)
 
@@ -158,7 +162,7 @@ def test_power_says_which_gear_drives(torque, driving):
 def test_torque_says_which_flank_is_loaded(torque, orientation, side):
     """The driving gear turns by its leading flank; turning about +u, it turns clockwise as seen from its end in -u, and
     the leading flank of the tooth at the top is the right one. Seen from the same end, the mate has the same side."""
-    box = Gearbox().shaft(1, 10 * torque).shaft(2).shaft(3).load(10, 1, torque)
+    box = three_shafts(torque, 10 * torque)
     box.stage(FIRST, (1, 2), (20, 40), datum_face_orientation=[orientation] * 2)
     box.stage(SECOND, (2, 3), (20, 40), datum_face_orientation=[orientation] * 2)
     other = {"left": "right", "right": "left"}[side]
@@ -169,7 +173,7 @@ def test_torque_says_which_flank_is_loaded(torque, orientation, side):
 def test_torque_goes_through_a_bevel_stage(tips, side):
     """Bevel gears whose axes both point to where they cross turn as external gears: the shaft behind turns the other
     way; with one axis turned round it does not."""
-    box = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100)
+    box = three_shafts()
     box.stage(FIRST, (1, 2), (20, 40), kind="bevel", second="bevel_gear", bevel_cone_orientation=tips)
     box.stage(SECOND, (2, 3), (20, 40), datum_face_orientation=["negative"] * 2)
     assert box.of_stage(SECOND) == (pytest.approx(400.0), 500.0, SECOND + 1, side)

@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.benchmarks.target_pairs import pairs
-from tests.coarse import teeth_alone
 from tests.paper_text import coarse_text
 
 from fenics_gears import SceneError, scene_from_text, simulate
@@ -18,7 +17,7 @@ from fenics_gears.runs.settings.measures import FACE_LOAD, JUDGED, SPAN, distanc
 from fenics_gears.runs.settings.target import choose, settings_of
 from fenics_gears.runs.settings.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
 from fenics_gears.runs.timed import run_sharing
-from fenics_gears.scene.data import Accuracy, Motion
+from fenics_gears.scene.data import Accuracy
 from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.progress import SilentProgress
 
@@ -55,14 +54,6 @@ def run(scene):
     return simulate(scene)
 
 
-def test_the_scene_is_the_one_meant(scene, paper_scene):
-    """Identity."""
-    expected = replace(
-        teeth_alone(paper_scene), friction=None, accuracy=Accuracy(target=TARGET), motion=Motion(200.0, 1, 1)
-    )
-    assert replace(scene, name="", title="") == replace(expected, name="", title="")
-
-
 def test_the_true_error_is_within_the_target(scene, run):
     """A mesh three times and steps twice as fine."""
     runs = TrialRuns(scene, lambda words: None)
@@ -82,12 +73,6 @@ def test_the_scene_that_the_result_carries_repeats_it(run):
     again = scene_from_text(run.attrs["scene"])
     assert again.accuracy.target is None and again.accuracy.flank_element_size == run.attrs["flank_element_size"]
     assert np.array_equal(simulate(again).transmission_error.values, run.transmission_error.values)
-
-
-def test_a_tighter_target_takes_a_finer_mesh(scene, run):
-    """Definition of a target."""
-    tighter = choose(scene, 0.01, SilentProgress())
-    assert tighter.estimated_error <= 0.01 and tighter.setting.flank < run.attrs["flank_element_size"]
 
 
 def test_only_steps_with_a_past_have_an_error(scene):
