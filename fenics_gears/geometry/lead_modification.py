@@ -73,8 +73,8 @@ class LeadModification(Section):
 
 @dataclass(frozen=True)
 class LeadModifications(Section):
-    """``[lead_modifications]``: amounts along the line of action in the transverse section. The right end of the face
-    is the one from which the pinion turns counter-clockwise."""
+    """``[lead_modifications]``: amounts along the line of action in the transverse section. Viewed from the right end
+    of the face the pinion turns counter-clockwise."""
 
     empty = (
         "modifies neither gear. Add [lead_modifications.pinion] or [lead_modifications.wheel], or leave the section"

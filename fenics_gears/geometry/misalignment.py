@@ -15,7 +15,7 @@ class Misalignment(Section):
     """``[misalignment]``: departure of the wheel's axis from parallel, as lengths over the common face width. The axis
     turns about the pitch point in the middle of the common face, so that half an amount opens one end and half closes
     the other. ISO/TR 10064-3 has such deviations in the plane of both axes and perpendicular to it; these are in the
-    plane of action and perpendicular to it. The right end is the one from which the pinion turns counter-clockwise."""
+    plane of action and perpendicular to it. Viewed from the right end the pinion turns counter-clockwise."""
 
     empty = 'names no deviation. Add in_plane or out_of_plane, such as "12 um", or leave the section out.'
 

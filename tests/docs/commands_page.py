@@ -66,8 +66,8 @@ def _options(command: argparse.ArgumentParser) -> list[str]:
 
 
 def _exit_codes() -> list[str]:
-    words = " ".join(inspect.getdoc(cli).split("Exit codes: ")[1].split())
-    codes = re.findall(r"(\d+) (.*?)(?:, (?=\d+ )|\.$)", words)
+    words = " ".join(inspect.getdoc(cli).split("Exit codes:")[1].split())
+    codes = re.findall(r"\* (\d+): (.*?)\.(?= \* |$)", words)
     return [
         "## Exit codes",
         "",
