@@ -15,7 +15,7 @@ from tests.docs.blocks import PAGES, ROOT, blocks, in_text, name_of
 from tests.docs.commands_page import commands, parser
 from tests.paper_text import PAPER as DEMO
 
-from fenics_gears import as_toml, results, scene_from_text, simulate
+from fenics_gears import as_toml, results, scene_from_text, simulate, train_from_text
 from fenics_gears.extensions.optimization.design_file import load_design
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.studies.study_file import load_study
@@ -83,6 +83,8 @@ def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
             (tmp_path / tree["scene"]).write_text(relieved, encoding="utf-8")
             (tmp_path / "study.toml").write_text(block.code, encoding="utf-8")
             assert load_study(tmp_path / "study.toml").cases
+        elif "stages" in tree:
+            assert train_from_text(block.code, f"{name_of(page)}:{block.line}").meshes
         elif "variables" in tree:
             (tmp_path / tree["scene"]).write_text(DEMO, encoding="utf-8")
             (tmp_path / "design.toml").write_text(block.code, encoding="utf-8")

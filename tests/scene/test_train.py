@@ -15,7 +15,7 @@ LOAD = '[load]\noutput_torque = "400 N m"'
         (TWO, r"\[load\]|load\n    is missing"),
         (f'{TWO}[load]\npower = "3 kW"', "needs a speed"),
         (f'{TWO}[load]\nwheel_torque = "3 N m"', "is not known here.*output_torque"),
-        (f'{TWO}[load]\noutput_torque = "3 N m"\ninput_torque = "1 N m"', "stands beside output_torque"),
+        (f'{TWO}[load]\noutput_torque = "3 N m"\ninput_torque = "1 N m"', "output_torque"),
         (f"{TWO}{LOAD}\n[inertia]\n", "is not of a train"),
         (f"{TWO}{LOAD}\n[tip_relief]\n", r"\[stages.NAME.tip_relief\]"),
         (f'[stages.one]\nkind = "planetary"\n{LOAD}', "is not computed yet"),
