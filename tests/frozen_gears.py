@@ -66,7 +66,7 @@ def frozen_at(cycle, scene, shafts, step, phase_step):
 
 def pushed(marcher, shafts, **speeds):
     """The start, with speeds (mm/s) of some coordinates and the accelerations of the equations of motion."""
-    rest = marcher.start()
+    rest = marcher.start()[0]
     velocity = np.array([speeds.get(name, 0.0) for name in shafts.coordinates])
     acceleration = (
         np.zeros_like(velocity) if shafts.damping is None else -np.linalg.solve(shafts.mass, shafts.damping @ velocity)

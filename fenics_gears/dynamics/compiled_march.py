@@ -1,7 +1,7 @@
 """The march through many steps in one call of compiled code, as far as Newton's method solves them; same equations as
-`march.Marcher.step`.
+`stepping.Stepper.step`.
 
-A step that Newton does not solve at once is left to the plain march, which has the fallbacks.
+A step that Newton does not solve at once is left to the stepper, which has the fallbacks.
 """
 
 from __future__ import annotations

@@ -109,8 +109,7 @@ class Steps:
         state, solution, (nodes, forces) = record.state, record.solution, self._slices(place)
         if record.position is not self.positions[place]:
             self.positions[place] = record.position
-            self.__dict__.pop("table", None)
-            self.__dict__.pop("in_memory", None)
+            self.table[place] = record.position.in_memory[0]
         self.methods[place] = solution.method
         self.states[place] = state
         self.forces[forces], self.displacement[forces] = solution.forces, solution.displacement

@@ -12,8 +12,8 @@ from tests.hard_cases.test_any_scene import on_stand_ins
 
 from fenics_gears import load_scene
 from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.dynamics.first_sets import KnownSets
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.dynamics.stepping import KnownSets
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.speed_ramp import SpeedRamp
@@ -50,7 +50,8 @@ def marched(model: Model, cycle, plain: bool):
     # Both begin with what neither has found.
     cycle.shared(KnownSets).clear()
     try:
-        march, failure = Marcher(cycle, model.equations_of_motion, plain).run(model.steps, 1, observe=recorder.take), ""
+        march = Marcher(cycle, model.equations_of_motion, plain=plain).run(model.steps, 1, observe=recorder.take)
+        failure = ""
     except ContactNotConverged as failed:
         march, failure = failed.partial, str(failed)
     return march, RunResult(recorder, march).dataset, failure

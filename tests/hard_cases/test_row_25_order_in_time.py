@@ -46,10 +46,10 @@ def errors_of(marcher_with, duration, counts, scheme=None):
         # Small enough a push that no node changes its status.
         rest = record = pushed(marcher, shafts, rotation_1=0.2)
         closed = np.flatnonzero(rest.solution.status == SLIP_FORWARD)
-        stepped = marcher.dynamic if scheme is None else scheme(shafts, duration / steps)
+        stepped = marcher.stepper.dynamic if scheme is None else scheme(shafts, duration / steps)
         exact = tied_solution(rest, shafts, closed, record.state.velocity, duration)
         for step in range(1, steps + 1):
-            record = marcher.step(stepped, record, step)
+            record = marcher.stepper.step(stepped, record, step)
             assert np.array_equal(np.flatnonzero(record.solution.status == SLIP_FORWARD), closed)
         errors.append(np.abs(record.state.position - rest.state.position - exact).max() / np.abs(exact).max())
     return np.array(errors)
@@ -77,7 +77,7 @@ def bounce(scene, pair, flanks, steps, speed):
     record = pushed(marcher, shafts, rotation_1=speed)
     touching, changes, parted = record.solution.status, 0, 0
     for step in range(1, steps + 1):
-        record = marcher.step(marcher.dynamic, record, step)
+        record = marcher.stepper.step(marcher.stepper.dynamic, record, step)
         changes += bool(np.any(record.solution.status != touching))
         parted += not record.solution.status.any() and touching.any()
         touching = record.solution.status
@@ -164,7 +164,7 @@ def marched_block(spring: float, inert: bool, steps: int):
     )
     record, passed, forces = Record(0, State(place, rest, rest), marcher.cycle.position(0), start), [SLIP_BACKWARD], []
     for step in range(1, steps + 1):
-        record = marcher.step(marcher.dynamic, record, step)
+        record = marcher.stepper.step(marcher.stepper.dynamic, record, step)
         forces.append(record.solution.forces[1])
         if record.solution.status[0] != passed[-1]:
             passed.append(int(record.solution.status[0]))
