@@ -7,10 +7,10 @@ import numpy as np
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.steps import Record
+from fenics_gears.dynamics.time_integration import State
 from fenics_gears.model.drivetrain import drivetrain
 
 GRID = ContactGrid(length=1.5, nodes=20)

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from math import ceil
 
 import numpy as np
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.mesh_cycle import Cycle, in_common
 from fenics_gears.contact.operator import Position
-from fenics_gears.contact.step_solver import HALVED, StepProblem, StepSolution
+from fenics_gears.contact.step_solver import HALVED, StepProblem, StepSolution, cold_start
 
-from .average_acceleration import AverageAcceleration, State
 from .clock import FOLLOWING, Clock, SteadyClock, TimeScales
 from .compiled_march import (
     AVERAGE_ACCELERATION,
     BACKWARD_EULER,
+    NO_SETS,
     STATIC,
     Eliminated,
     Motion,
@@ -30,11 +30,8 @@ from .compiled_march import (
     with_modes,
 )
 from .drivetrain import Drivetrain
-from .first_sets import FirstSets
 from .steps import Record
-
-if TYPE_CHECKING:
-    from .backward_euler import BackwardEuler
+from .time_integration import AverageAcceleration, BackwardEuler, Scheme, State
 
 NO_SLIP = np.empty(0)
 # The start assumes long sliding before it, by this many steps.
@@ -63,13 +60,62 @@ class EquationsOfMotion:
     loads: tuple[VaryingLoad, ...] = ()
 
 
-def _method(time_scales: TimeScales) -> type[AverageAcceleration] | type[BackwardEuler]:
-    """The method in time; quasi-static scenes, which average acceleration, do not import the other."""
-    if time_scales.averages_acceleration:
-        return AverageAcceleration
-    from .backward_euler import BackwardEuler
+class KnownSets(dict[float, np.ndarray]):
+    """By place in the mesh cycle, in steps, the sets (n,) that a run without friction had there last."""
 
-    return BackwardEuler
+
+class FirstSets:
+    """Sets of a run's steps on a `cycle`, for its own next mesh cycle and for other runs.
+
+    Over a face they are nearly those of the same position a mesh cycle before. In a plane, with a tenth of the nodes, a
+    step before is as near. Without friction there is one solution, whatever the sets to begin with: those of runs
+    before do as well. `remembers`: whether any are kept.
+    """
+
+    def __init__(self, cycle: Cycle, friction: float):
+        self._steps = cycle.steps
+        self._repeats = cycle.traits.repeats
+        self._friction = friction
+        # By step, those of the last mesh cycle and a little more.
+        self._own: dict[float, np.ndarray] = {}
+        self._shared = cycle.shared(KnownSets) if not friction and cycle.alike else KnownSets()
+        self._others = dict(self._shared)
+        self.remembers = self._repeats or not friction
+
+    def remember(self, step: float, status: np.ndarray) -> None:
+        """Keep the sets (n,) of a step."""
+        if in_common(step) and not self._friction:
+            self._shared[step % self._steps] = status
+        if self._repeats:
+            self._own[step] = status
+            self._own.pop(step - self._steps - 2, None)
+
+    def before(self, step: float) -> np.ndarray:
+        """The sets (n,) of a mesh cycle before `step`, or of another run there; empty where none are known."""
+        own = self._own.get(step - self._steps)
+        return self._others.get(step % self._steps, NO_SETS) if own is None else own
+
+    def before_all(self, steps: Sequence[float], nodes: np.ndarray) -> np.ndarray:
+        """The sets (N,) before some steps with so many `nodes`, -1 where they are not known; none where none are
+        kept."""
+        known = np.full(nodes.sum() if self.remembers else 0, -1, dtype=np.int8)
+        for step, end in zip(steps, np.cumsum(nodes).tolist()) if self.remembers else ():
+            sets = self.before(step)
+            known[end - len(sets) : end] = sets
+        return known
+
+    def near(self, step: float, position: Position) -> np.ndarray:
+        """The sets (n,) to begin with at a position where the step before is not solved: those that another run had
+        there, or at the whole step before it."""
+        then = self._others.get(step % self._steps)
+        if then is not None:
+            return then.copy()
+        before = self._others.get((ceil(step) - 1) % self._steps)
+        if before is None:
+            return cold_start(position.operator.gap, position.operator.node_pair)
+        status = np.empty(position.operator.nodes, dtype=np.int8)
+        begin(status, before, position.node_before, NO_SETS, NO_SETS)
+        return status
 
 
 class Stepper:
@@ -79,7 +125,8 @@ class Stepper:
         drivetrain, time_step, friction = equations.drivetrain, equations.time_step, equations.friction
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
         self.clock, self.loads = equations.clock or SteadyClock(time_step), equations.loads
-        self.dynamic = _method(equations.time_scales)(drivetrain, time_step)
+        averages = equations.time_scales.averages_acceleration
+        self.dynamic = (AverageAcceleration if averages else BackwardEuler)(drivetrain, time_step)
         self._static_drivetrain = replace(drivetrain, mass=None, damping=None)
         self.static = AverageAcceleration(self._static_drivetrain, time_step)
         varying = [load(step) for load in self.loads for step in range(cycle.steps)]
@@ -107,7 +154,7 @@ class Stepper:
         method = AVERAGE_ACCELERATION if isinstance(self.dynamic, AverageAcceleration) else BACKWARD_EULER
         return Motion.of(self.drivetrain, method, self.friction, self.tolerance, self.cycle.traits.rigid)
 
-    def scheme(self, step: int) -> AverageAcceleration | BackwardEuler:
+    def scheme(self, step: int) -> Scheme:
         """The method over the step that ends at `step`; made anew where that step is not as long as the one before."""
         duration = self.clock.duration(step - 1, step)
         if duration != self.dynamic.step:
@@ -140,13 +187,13 @@ class Stepper:
             acceleration = -np.linalg.solve(self.drivetrain.mass, damping @ velocity)
         return Record(0, State(at.state.position, velocity, acceleration), at.position, at.solution)
 
-    def step(self, scheme: AverageAcceleration | BackwardEuler, last: Record, step: float) -> Record:
+    def step(self, scheme: Scheme, last: Record, step: float) -> Record:
         """One step of `scheme` from `last`; a whole one is divided where it has no solution."""
         record = self._step(scheme, last, step)
         self.sets.remember(step, record.solution.status)
         return record
 
-    def _step(self, scheme: AverageAcceleration | BackwardEuler, last: Record, step: float) -> Record:
+    def _step(self, scheme: Scheme, last: Record, step: float) -> Record:
         try:
             return self.part(scheme, last, step, self.cycle.position(step))
         except ContactNotConverged as failure:
@@ -163,7 +210,7 @@ class Stepper:
                 failure.attempts.append((HALVED, words, history, sets))
                 raise failure from last_failure
 
-    def _divided(self, scheme: AverageAcceleration, last: Record, step: float, failure, halvings: int) -> Record:
+    def _divided(self, scheme: Scheme, last: Record, step: float, failure, halvings: int) -> Record:
         """From `last` to `step` in two halves, either divided again where it fails; raises the `failure` of the
         shortest."""
         if halvings > MOST_HALVINGS:
@@ -180,7 +227,7 @@ class Stepper:
         iterations = sum(part.solution.iterations for part in parts)
         return replace(record, solution=replace(record.solution, iterations=iterations, method=HALVED), parts=parts)
 
-    def part(self, scheme: AverageAcceleration, last: Record, step: float, position: Position) -> Record:
+    def part(self, scheme: Scheme, last: Record, step: float, position: Position) -> Record:
         """From `last` to `position` without dividing."""
         operator = position.operator
         slip_before = NO_SLIP

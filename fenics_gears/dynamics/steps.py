@@ -16,7 +16,7 @@ from fenics_gears.contact.operator import ContactOperator, Position
 from fenics_gears.contact.step_solver import StepSolution
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 
-from .average_acceleration import State
+from .time_integration import State
 
 ARRAYS = ("numbers", "states", "forces", "displacement", "status", "iterations")
 

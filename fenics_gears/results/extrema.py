@@ -14,9 +14,8 @@ import numpy as np
 
 from fenics_gears.contact.mesh_cycle import COMMON_PLACES, Cycle
 from fenics_gears.dynamics.batch import Batch
-from fenics_gears.dynamics.between_steps import BetweenSteps, Place
 from fenics_gears.dynamics.march import thread_pools
-from fenics_gears.dynamics.marched import March
+from fenics_gears.dynamics.marched import BetweenSteps, March, Place
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects import common_period
 from fenics_gears.model.model import Model

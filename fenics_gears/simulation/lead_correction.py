@@ -30,8 +30,8 @@ from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import DRIVE, per_node
 from fenics_gears.dynamics.batch import Batch
-from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.dynamics.march import Marcher, thread_pools
+from fenics_gears.dynamics.marched import BetweenSteps
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
 from fenics_gears.model.model import Model

@@ -21,9 +21,9 @@ from fenics_gears.contact.newton import CONVERGED
 from fenics_gears.contact.step_solver import HALVED, NEWTON_AND_FALLBACKS, _methods, cold_start, solve_step
 from fenics_gears.contact.tresca import Work, frozen_friction
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.average_acceleration import AverageAcceleration
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import MOST_HALVINGS, EquationsOfMotion
+from fenics_gears.dynamics.time_integration import AverageAcceleration
 from fenics_gears.model.drivetrain import drivetrain
 
 # method: (seed, nodes, friction, free)

@@ -12,8 +12,8 @@ from tests.hard_cases.test_any_scene import on_stand_ins
 
 from fenics_gears import load_scene
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.dynamics.first_sets import KnownSets
 from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.stepping import KnownSets
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.speed_ramp import SpeedRamp

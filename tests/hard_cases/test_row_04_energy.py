@@ -8,10 +8,10 @@ from tests.coarse import COARSE
 from tests.frozen_gears import frozen_marcher, pushed
 
 from fenics_gears import gear_pair, simulate
-from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.steps import Record, Steps
+from fenics_gears.dynamics.time_integration import State
 from fenics_gears.dynamics.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.speed_ramp import SpeedRamp

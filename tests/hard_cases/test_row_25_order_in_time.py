@@ -11,12 +11,11 @@ from tests.frozen_gears import frozen_marcher, pushed
 
 from fenics_gears.contact.laws import SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution
-from fenics_gears.dynamics.average_acceleration import State
-from fenics_gears.dynamics.backward_euler import BackwardEuler
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.steps import Record
+from fenics_gears.dynamics.time_integration import BackwardEuler, State
 
 
 def tied_solution(rest, shafts, closed, push, duration):

@@ -12,8 +12,8 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.spring_mesh import PairSprings, spring_mesh
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.batch import Batch
-from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.marched import BetweenSteps
 from fenics_gears.results.crests import MOST_SOLVED, Searches
 from fenics_gears.results.numbers import SOLVED, largest_of_cubics
 from fenics_gears.scene.data import ISO_6336, Accuracy

@@ -7,7 +7,7 @@ from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
 from fenics_gears.dynamics.batch import Batch
-from fenics_gears.dynamics.between_steps import BetweenSteps
+from fenics_gears.dynamics.marched import BetweenSteps
 from fenics_gears.results.mesh_curves import _highest
 from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle
 
