@@ -6,6 +6,7 @@ import numpy as np
 
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.operator import Position
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
@@ -33,7 +34,7 @@ class Frozen:
                 previous_compliance=operator.compliance[n:].copy(),
                 previous_jacobian=operator.jacobian[n:].copy(),
             )
-        self._position = replace(position, operator=operator, node_before=np.arange(operator.nodes))
+        self._position = Position(operator, np.arange(operator.nodes), position.index, position.nodes)
         self.steps, self.solve, self.pair, self.traits = (
             cycle.steps,
             cycle.solve,
