@@ -16,7 +16,7 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.batch import Block
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.errors import ComputationError
+from fenics_gears.errors import ComputationError, MemoryEnded
 from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
 from fenics_gears.geometry.misalignment import Misalignment
 from fenics_gears.geometry.profile_modification import ProfileModification, ProfileModifications
@@ -192,3 +192,18 @@ def test_an_error_of_all_is_raised(paper_scene, stand_in_flanks, monkeypatch):
     monkeypatch.setenv("FENICS_GEARS_MEMORY", "1 MB")
     with pytest.raises(ComputationError, match="memory"):
         solved_together([model_of(scene)], sharing(scene, stand_in_flanks), [ERROR])
+
+
+@pytest.mark.parametrize("raised, told", [(KeyboardInterrupt, KeyboardInterrupt), (MemoryError, MemoryEnded)])
+def test_what_ends_all_marches_is_raised(paper_scene, stand_in_flanks, monkeypatch, raised, told):
+    """The user's expectation: Ctrl-C ends a search, with no numbers of half a march; memory has an error of its own,
+    after which runs are tried one by one."""
+
+    def ended(*_):
+        raise raised
+
+    scene = steady(paper_scene, False)
+    models = [model_of(each) for each in designs(scene)[:2]]
+    monkeypatch.setattr(Block, "solve", ended)
+    with pytest.raises(told):
+        solved_together(models, sharing(scene, stand_in_flanks), [ERROR])
