@@ -6,11 +6,12 @@ import numpy as np
 
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.operator import Position
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.steps import Record
+from fenics_gears.dynamics.time_integration import State
 from fenics_gears.model.drivetrain import drivetrain
 
 GRID = ContactGrid(length=1.5, nodes=20)
@@ -33,7 +34,7 @@ class Frozen:
                 previous_compliance=operator.compliance[n:].copy(),
                 previous_jacobian=operator.jacobian[n:].copy(),
             )
-        self._position = replace(position, operator=operator, node_before=np.arange(operator.nodes))
+        self._position = Position(operator, np.arange(operator.nodes), position.index, position.nodes)
         self.steps, self.solve, self.pair, self.traits = (
             cycle.steps,
             cycle.solve,
@@ -66,7 +67,7 @@ def frozen_at(cycle, scene, shafts, step, phase_step):
 
 def pushed(marcher, shafts, **speeds):
     """The start, with speeds (mm/s) of some coordinates and the accelerations of the equations of motion."""
-    rest = marcher.start()
+    rest = marcher.start()[0]
     velocity = np.array([speeds.get(name, 0.0) for name in shafts.coordinates])
     acceleration = (
         np.zeros_like(velocity) if shafts.damping is None else -np.linalg.solve(shafts.mass, shafts.damping @ velocity)

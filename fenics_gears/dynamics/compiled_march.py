@@ -1,7 +1,7 @@
 """The march through many steps in one call of compiled code, as far as Newton's method solves them; same equations as
-`march.Marcher.step`.
+`stepping.Stepper.step`.
 
-A step that Newton does not solve at once is left to the plain march, which has the fallbacks.
+A step that Newton does not solve at once is left to the stepper, which has the fallbacks.
 """
 
 from __future__ import annotations
@@ -18,13 +18,9 @@ from fenics_gears.contact.mixed_form import Equations, Iterate, product
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton, newton_solver
 from fenics_gears.contact.rigid_step import Sides, rigid_step
 
-from .average_acceleration import advanced as advanced_by_average
-from .average_acceleration import history as average_history
-from .average_acceleration import with_history
-from .backward_euler import advanced as advanced_backward
-from .backward_euler import history as backward_history
 from .drivetrain import Drivetrain
 from .steps import Steps, in_block
+from .time_integration import average_advanced, average_history, backward_advanced, backward_history, with_history
 
 STATIC, AVERAGE_ACCELERATION, BACKWARD_EULER = range(3)
 # Sets of a mesh cycle before, where there are none.
@@ -221,9 +217,9 @@ def _history(motion, duration):
 def _advanced(method, duration, before, coordinates):
     """The state (3, k) at the end of a step, from its position (k,)."""
     if method == AVERAGE_ACCELERATION:
-        return advanced_by_average(duration, before, coordinates)
+        return average_advanced(duration, before, coordinates)
     if method == BACKWARD_EULER:
-        return advanced_backward(duration, before, coordinates)
+        return backward_advanced(duration, before, coordinates)
     after = before.copy()
     after[0] = coordinates
     return after

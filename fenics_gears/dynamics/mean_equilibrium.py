@@ -23,9 +23,9 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import Position
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start
 
-from .average_acceleration import State
 from .drivetrain import Drivetrain
 from .steps import Record
+from .time_integration import State
 
 if TYPE_CHECKING:
     from .stepping import Stepper

@@ -1,12 +1,11 @@
-"""One step of the motion in time, from static equilibrium at the start: what `compiled_march` does for many steps,
-written to be read."""
+"""One step of the motion in time: what `compiled_march` does for many steps, written to be read."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import ceil
-from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -16,16 +15,25 @@ from fenics_gears.contact.mesh_cycle import Cycle, in_common
 from fenics_gears.contact.operator import Position
 from fenics_gears.contact.step_solver import HALVED, StepProblem, StepSolution, cold_start
 
-from .average_acceleration import AverageAcceleration, State
 from .clock import FOLLOWING, Clock, SteadyClock, TimeScales
-from .compiled_march import NO_SETS, Eliminated, begin, eliminated, left_load, slip_at_start, turned, with_modes
+from .compiled_march import (
+    AVERAGE_ACCELERATION,
+    BACKWARD_EULER,
+    NO_SETS,
+    STATIC,
+    Eliminated,
+    Motion,
+    begin,
+    eliminated,
+    left_load,
+    slip_at_start,
+    turned,
+    with_modes,
+)
 from .drivetrain import Drivetrain
 from .steps import Record
+from .time_integration import AverageAcceleration, BackwardEuler, Scheme, State
 
-if TYPE_CHECKING:
-    from .backward_euler import BackwardEuler
-
-Solved = TypeVar("Solved")
 NO_SLIP = np.empty(0)
 # The start assumes long sliding before it, by this many steps.
 STEPS_SLID_BEFORE_START = 1e6
@@ -53,17 +61,62 @@ class EquationsOfMotion:
     loads: tuple[VaryingLoad, ...] = ()
 
 
-def _method(time_scales: TimeScales) -> type[AverageAcceleration] | type[BackwardEuler]:
-    """The method in time; quasi-static scenes, which average acceleration, do not import the other."""
-    if time_scales.averages_acceleration:
-        return AverageAcceleration
-    from .backward_euler import BackwardEuler
-
-    return BackwardEuler
-
-
 class KnownSets(dict[float, np.ndarray]):
     """By place in the mesh cycle, in steps, the sets (n,) that a run without friction had there last."""
+
+
+class FirstSets:
+    """Sets of a run's steps on a `cycle`, for its own next mesh cycle and for other runs.
+
+    Over a face they are nearly those of the same position a mesh cycle before. In a plane, with a tenth of the nodes, a
+    step before is as near. Without friction there is one solution, whatever the sets to begin with: those of runs
+    before do as well. `remembers`: whether any are kept.
+    """
+
+    def __init__(self, cycle: Cycle, friction: float):
+        self._steps = cycle.steps
+        self._repeats = cycle.traits.repeats
+        self._friction = friction
+        # By step, those of the last mesh cycle and a little more.
+        self._own: dict[float, np.ndarray] = {}
+        self._shared = cycle.shared(KnownSets) if not friction and cycle.alike else KnownSets()
+        self._others = dict(self._shared)
+        self.remembers = self._repeats or not friction
+
+    def remember(self, step: float, status: np.ndarray) -> None:
+        """Keep the sets (n,) of a step."""
+        if in_common(step) and not self._friction:
+            self._shared[step % self._steps] = status
+        if self._repeats:
+            self._own[step] = status
+            self._own.pop(step - self._steps - 2, None)
+
+    def before(self, step: float) -> np.ndarray:
+        """The sets (n,) of a mesh cycle before `step`, or of another run there; empty where none are known."""
+        own = self._own.get(step - self._steps)
+        return self._others.get(step % self._steps, NO_SETS) if own is None else own
+
+    def before_all(self, steps: Sequence[float], nodes: np.ndarray) -> np.ndarray:
+        """The sets (N,) before some steps with so many `nodes`, -1 where they are not known; none where none are
+        kept."""
+        known = np.full(nodes.sum() if self.remembers else 0, -1, dtype=np.int8)
+        for step, end in zip(steps, np.cumsum(nodes).tolist()) if self.remembers else ():
+            sets = self.before(step)
+            known[end - len(sets) : end] = sets
+        return known
+
+    def near(self, step: float, position: Position) -> np.ndarray:
+        """The sets (n,) to begin with at a position where the step before is not solved: those that another run had
+        there, or at the whole step before it."""
+        then = self._others.get(step % self._steps)
+        if then is not None:
+            return then.copy()
+        before = self._others.get((ceil(step) - 1) % self._steps)
+        if before is None:
+            return cold_start(position.operator.gap, position.operator.node_pair)
+        status = np.empty(position.operator.nodes, dtype=np.int8)
+        begin(status, before, position.node_before, NO_SETS, NO_SETS)
+        return status
 
 
 class Stepper:
@@ -73,47 +126,36 @@ class Stepper:
         drivetrain, time_step, friction = equations.drivetrain, equations.time_step, equations.friction
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
         self.clock, self.loads = equations.clock or SteadyClock(time_step), equations.loads
-        self.dynamic = _method(equations.time_scales)(drivetrain, time_step)
+        averages = equations.time_scales.averages_acceleration
+        self.dynamic = (AverageAcceleration if averages else BackwardEuler)(drivetrain, time_step)
         self._static_drivetrain = replace(drivetrain, mass=None, damping=None)
         self.static = AverageAcceleration(self._static_drivetrain, time_step)
         varying = [load(step) for load in self.loads for step in range(cycle.steps)]
         self.tolerance = Tolerance.of_load(float(np.abs([drivetrain.load, *varying]).max()))
         self._free_motion, self._free_words = drivetrain.free_motion, drivetrain.free_words
         self._time_scales = equations.time_scales
-        # By step, those of the last mesh cycle and a little more; see `remember`.
-        self._sets: dict[float, np.ndarray] = {}
-        # Without friction there is one solution, whatever the sets to begin with: those of runs before do as well.
-        self._shared = cycle.shared(KnownSets) if not friction and cycle.alike else KnownSets()
-        self._others = dict(self._shared)
-        self.remembers = cycle.traits.repeats or not friction
+        self.begin_anew()
         # Over a face a position at rest is nearer to itself in another run than to the step before.
         self.at_rest = cycle.traits.repeats and not friction and not self.dynamic.inert
 
-    def with_room(self, solve: Callable[[], Solved], taken: Callable[[], object]) -> Solved:
-        """What `solve` returns; where memory ends before a step of it is `taken`, with fewer operators kept. Raises
-        MemoryError where there are none."""
-        while True:
-            before = taken()
-            try:
-                return solve()
-            except MemoryError:
-                if taken() is not before:
-                    raise
-            # Not within the handler, which would hold what the failed call held.
-            if not self.cycle.give_up():
-                raise MemoryError
+    def begin_anew(self) -> None:
+        """Begin with what other runs have left."""
+        self.sets = FirstSets(self.cycle, self.friction)
 
-    def all_known_before(self, steps: Sequence[float], nodes: np.ndarray) -> np.ndarray:
-        """The sets (N,) that are known of the positions of some steps with so many `nodes`, -1 where they are not; none
-        where all are unknown."""
-        known = [self.known_before(step) for step in steps] if self.remembers else []
-        if not any(map(len, known)):
-            return NO_SETS
-        return np.concatenate(
-            [sets if len(sets) else np.full(count, -1, dtype=np.int8) for sets, count in zip(known, nodes)]
-        )
+    @cached_property
+    def static_motion(self) -> Motion:
+        """The motion without inertia, for compiled code."""
+        return Motion.of(self._static_drivetrain, STATIC, self.friction, self.tolerance, self.cycle.traits.rigid)
 
-    def scheme(self, step: int) -> AverageAcceleration | BackwardEuler:
+    @cached_property
+    def motion(self) -> Motion:
+        """The motion for compiled code."""
+        if not self.dynamic.inert:
+            return self.static_motion
+        method = AVERAGE_ACCELERATION if isinstance(self.dynamic, AverageAcceleration) else BACKWARD_EULER
+        return Motion.of(self.drivetrain, method, self.friction, self.tolerance, self.cycle.traits.rigid)
+
+    def scheme(self, step: int) -> Scheme:
         """The method over the step that ends at `step`; made anew where that step is not as long as the one before."""
         duration = self.clock.duration(step - 1, step)
         if duration != self.dynamic.step:
@@ -124,85 +166,42 @@ class Stepper:
         """All forces (k,), N, on the centre coordinates at `step`."""
         return sum((load(step) for load in self.loads), self.drivetrain.load)
 
-    def start(self) -> Record:
-        """Static equilibrium at step 0; velocity from the static solutions on either side; acceleration from the
-        equations of motion.
+    def started(self, before: Record, at: Record, after: Record) -> Record:
+        """The start of a motion with inertia, of static equilibrium at step 0 and on either side: velocity from these,
+        acceleration from the equations of motion.
 
         With a mesh frequency above the lowest of the drivetrain the gears cannot follow: they start at rest in the
         frame of the nominal motion, so as not to part at once. Above the highest they start where the forces of a whole
-        cycle balance.
+        cycle balance. Raises ContactNotConverged.
         """
-        self._sets.clear()
-        if not self.friction and not self.dynamic.inert:
-            # A position at rest depends on no other.
-            middle = self._static_start(0)
-            self.remember(0, middle.solution.status)
-            return middle
-        steps = (-1, 0, 1) if self.dynamic.inert else (-1, 0)
-        self.cycle.build(steps)
-        neighbours = [self._static_start(steps[0])]
-        for step in steps[1:]:
-            neighbours.append(self.step(self.static, neighbours[-1], step))
-        middle = neighbours[1]
-        if not self.dynamic.inert:
-            return middle
         if self._time_scales.outruns_vibration:
             from .mean_equilibrium import mean_start
 
-            return mean_start(self, middle, STEPS_SLID_BEFORE_START)
+            return mean_start(self, at, STEPS_SLID_BEFORE_START)
         velocity = np.zeros(len(self.drivetrain.coordinates))
         if self._time_scales.follows_statics:
-            velocity = (neighbours[2].state.position - neighbours[0].state.position) / self.clock.duration(-1, 1)
+            velocity = (after.state.position - before.state.position) / self.clock.duration(-1, 1)
         # At static equilibrium the springs, the load and the contact balance; damping alone is left to accelerate.
         damping = self.drivetrain.damping
         acceleration = np.zeros_like(velocity)
         if damping is not None:
             acceleration = -np.linalg.solve(self.drivetrain.mass, damping @ velocity)
-        return Record(0, State(middle.state.position, velocity, acceleration), middle.position, middle.solution)
+        return Record(0, State(at.state.position, velocity, acceleration), at.position, at.solution)
 
-    def step(self, scheme: AverageAcceleration | BackwardEuler, last: Record, step: int) -> Record:
-        """One step of `scheme` from `last`, divided where the whole step has no solution."""
+    def step(self, scheme: Scheme, last: Record, step: float) -> Record:
+        """One step of `scheme` from `last`; a whole one is divided where it has no solution."""
         record = self._step(scheme, last, step)
-        self.remember(step, record.solution.status)
+        self.sets.remember(step, record.solution.status)
         return record
 
-    def remember(self, step: float, status: np.ndarray) -> None:
-        """Keep the sets (n,) of a step: for other runs, and over a face for the next mesh cycle to begin with.
-
-        There they are nearly those of the same position a mesh cycle before. In a plane, with a tenth of the nodes, a
-        step before is as near.
-        """
-        if in_common(step) and not self.friction:
-            self._shared[step % self.cycle.steps] = status
-        if self.cycle.traits.repeats:
-            self._sets[step] = status
-            self._sets.pop(step - self.cycle.steps - 2, None)
-
-    def known_before(self, step: float) -> np.ndarray:
-        """The sets (n,) of a mesh cycle before `step`, or of another run there; empty where none are known."""
-        own = self._sets.get(step - self.cycle.steps)
-        return self._others.get(step % self.cycle.steps, NO_SETS) if own is None else own
-
-    def sets_near(self, step: float, position: Position) -> np.ndarray:
-        """The sets (n,) to begin with at a position where the step before is not solved: those that another run had
-        there, or at the whole step before it."""
-        then = self._others.get(step % self.cycle.steps)
-        if then is not None:
-            return then.copy()
-        before = self._others.get((ceil(step) - 1) % self.cycle.steps)
-        if before is None:
-            return cold_start(position.operator.gap, position.operator.node_pair)
-        status = np.empty(position.operator.nodes, dtype=np.int8)
-        begin(status, before, position.node_before, NO_SETS, NO_SETS)
-        return status
-
-    def _step(self, scheme: AverageAcceleration | BackwardEuler, last: Record, step: int) -> Record:
+    def _step(self, scheme: Scheme, last: Record, step: float) -> Record:
         try:
             return self.part(scheme, last, step, self.cycle.position(step))
         except ContactNotConverged as failure:
             # Without friction a static solution does not depend on the way to it.
             depends_on_way = scheme.inert or self.friction > 0.0
-            if not (depends_on_way and self.cycle.traits.divisible) or isinstance(failure, NoStaticEquilibrium):
+            divisible = self.cycle.traits.divisible and step % 1.0 == 0.0
+            if not (depends_on_way and divisible) or isinstance(failure, NoStaticEquilibrium):
                 raise
             try:
                 return self._divided(scheme, last, step, failure, 1)
@@ -212,7 +211,7 @@ class Stepper:
                 failure.attempts.append((HALVED, words, history, sets))
                 raise failure from last_failure
 
-    def _divided(self, scheme: AverageAcceleration, last: Record, step: float, failure, halvings: int) -> Record:
+    def _divided(self, scheme: Scheme, last: Record, step: float, failure, halvings: int) -> Record:
         """From `last` to `step` in two halves, either divided again where it fails; raises the `failure` of the
         shortest."""
         if halvings > MOST_HALVINGS:
@@ -229,7 +228,7 @@ class Stepper:
         iterations = sum(part.solution.iterations for part in parts)
         return replace(record, solution=replace(record.solution, iterations=iterations, method=HALVED), parts=parts)
 
-    def part(self, scheme: AverageAcceleration, last: Record, step: float, position: Position) -> Record:
+    def part(self, scheme: Scheme, last: Record, step: float, position: Position) -> Record:
         """From `last` to `position` without dividing."""
         operator = position.operator
         slip_before = NO_SLIP
@@ -240,17 +239,14 @@ class Stepper:
             )  # fmt: skip
         status = np.empty(operator.nodes, dtype=np.int8)
         before = last.solution.status
-        then = before if self.at_rest else self.known_before(last.step)
-        begin(status, before, position.node_before, self.known_before(step), then)
+        then = before if self.at_rest else self.sets.before(last.step)
+        begin(status, before, position.node_before, self.sets.before(step), then)
         solution = self._solve(scheme, last.state, position, slip_before, status, step, last.solution)
         return Record(step, scheme.advance(last.state, solution.coordinates), position, solution)
 
-    def _static_start(self, step: int) -> Record:
-        position = self.cycle.position(step)
-        return self.in_balance(step, position, self.sets_near(step, position))
-
-    def in_balance(self, step: float, position: Position, status: np.ndarray) -> Record:
-        """Static equilibrium at a position after long sliding, solved from the sets `status` (n,)."""
+    def in_balance(self, step: float, position: Position) -> Record:
+        """Static equilibrium at a position after long sliding."""
+        status = self.sets.near(step, position)
         operator = position.operator
         slip_before = NO_SLIP if operator.rigid_slip is None else STEPS_SLID_BEFORE_START * operator.rigid_slip
         rest = np.zeros(len(self.drivetrain.coordinates))

@@ -16,7 +16,7 @@ from fenics_gears.contact.operator import ContactOperator, Position
 from fenics_gears.contact.step_solver import StepSolution
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 
-from .average_acceleration import State
+from .time_integration import State
 
 ARRAYS = ("numbers", "states", "forces", "displacement", "status", "iterations")
 
@@ -109,8 +109,7 @@ class Steps:
         state, solution, (nodes, forces) = record.state, record.solution, self._slices(place)
         if record.position is not self.positions[place]:
             self.positions[place] = record.position
-            self.__dict__.pop("table", None)
-            self.__dict__.pop("in_memory", None)
+            self.table[place] = record.position.in_memory[0]
         self.methods[place] = solution.method
         self.states[place] = state
         self.forces[forces], self.displacement[forces] = solution.forces, solution.displacement

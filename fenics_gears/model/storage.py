@@ -10,7 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
-from fenics_gears.dynamics.march import March
+from fenics_gears.dynamics.marched import March
 from fenics_gears.effects import result_variables
 from fenics_gears.scene.data import Scene
 

@@ -14,7 +14,7 @@ import xarray as xr
 
 import fenics_gears
 from fenics_gears.contact.laws import NO_FORCE
-from fenics_gears.dynamics.march import March
+from fenics_gears.dynamics.marched import March
 from fenics_gears.effects import common_period, from_effects, result_variables
 from fenics_gears.errors import attempted
 from fenics_gears.inputs.tree import GEARS
@@ -189,7 +189,7 @@ def _numbers(recorder: Recorder, march: March, result: RunResult, first: int) ->
     error = counted["transmission_error"]
     lost = [separation for separation in march.separations if separation[0] > first or first == 0]
     numbers = loss_attributes(lost, first, march.steps, model.clock)
-    extrema = Extrema(model, recorder.cycle, counted["mesh_phase"], error, march)
+    extrema = Extrema(model, recorder.cycle, counted["mesh_phase"], error, [march])
     friction: dict[str, float] = {}
     if len(error) > 1 and model.scene.friction is not None and not march.locked:
         friction = friction_loss(counted) if largest_normal_force(result) > NO_FORCE else {}

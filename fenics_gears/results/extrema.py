@@ -13,8 +13,9 @@ from math import ceil, isfinite, log2
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import COMMON_PLACES, Cycle
-from fenics_gears.dynamics.between_steps import BetweenSteps
-from fenics_gears.dynamics.march import March, thread_pools
+from fenics_gears.dynamics.batch import Batch
+from fenics_gears.dynamics.march import thread_pools
+from fenics_gears.dynamics.marched import BetweenSteps, March, Place
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects import common_period
 from fenics_gears.model.model import Model
@@ -57,11 +58,11 @@ class Extremum:
 
 
 class Extrema:
-    """Locates the largest values of curves over the settled steps of a run.
+    """Locates the largest values of curves over the settled steps of a run, or of runs that are marched together.
 
     `mesh_phase`, `transmission_error` (s,), rad: of consecutive steps; the latter tells whether a position solved again
-    is that of the march. `march`: holds solutions with friction, from which positions are solved. `first`: the step
-    from which on these are counted.
+    is that of the march. `marches` by run: hold solutions with friction, from which positions are solved. `batch`: of
+    the runs, where there are several. `first`: the step from which on these are counted.
     """
 
     def __init__(
@@ -70,7 +71,8 @@ class Extrema:
         cycle: Cycle,
         mesh_phase: np.ndarray,
         transmission_error: np.ndarray,
-        march: March | None = None,
+        marches: Sequence[March] = (),
+        batch: Batch | None = None,
     ):
         self._model = model
         self._cycle = cycle
@@ -94,8 +96,8 @@ class Extrema:
             # Not methods: a circle of references would keep all operators until Python looks for garbage.
             same = SAME_POSITION * SOUGHT * float(np.ptp(transmission_error)) if self._quasi_static else np.inf
             marched = partial(_is_marched, model, transmission_error, self._place(0), same)
-            held = partial(_held, march, self.first)
-            self._between = BetweenSteps(cycle, model.equations_of_motion, marched, held)
+            held = partial(_held, marches, self.first)
+            self._between = BetweenSteps(batch or Batch(cycle, [model.equations_of_motion]), marched, held)
 
     def largest(self, quantities: Sequence[Quantity]) -> list[Extremum]:
         """The largest value of each quantity; what they ask for between steps is solved together."""
@@ -139,7 +141,8 @@ class Extrema:
         """Values of quantities at places between steps; not a number where one cannot be solved."""
         # With inertia also the steps on either side.
         sides = () if self._quasi_static else (-1, 0)
-        records = self._between.at([each for _, step in asked for each in (step, *(ceil(step) + at for at in sides))])
+        places = [(of.run, each) for of, step in asked for each in (step, *(ceil(step) + at for at in sides))]
+        records = self._between.at(places)
         return [self._at(step, quantity, records) for quantity, step in asked]
 
     def transmission_error(self, record: Record) -> float:
@@ -149,16 +152,20 @@ class Extrema:
         """Place of a step of the period among all steps."""
         return int(step) + self.first - int(self._steps[0])
 
-    def _at(self, step: float, quantity: Quantity, records: Mapping[float, Record | None]) -> float:
+    def _at(self, step: float, quantity: Quantity, records: Mapping[Place, Record | None]) -> float:
         """Value of a quantity at a place between two steps; not a number where it cannot be solved. With inertia it is
         the static value and, straight between the steps, by what the curve differs from static values there."""
-        ends = () if self._quasi_static else (ceil(step) - 1, ceil(step))
-        solved = [record for each in (step, *ends) if (record := records[each]) is not None]
-        if len(solved) < 1 + len(ends):
-            return np.nan
-        value, *static = map(quantity.of, solved)
-        apart = [quantity.curve[self._place(end)] - each for end, each in zip(ends, static)]
-        return value + float(np.interp(step, ends, apart)) if apart else value
+        record = records[quantity.run, step]
+        if record is None or self._quasi_static:
+            return np.nan if record is None else quantity.of(record)
+        ends = (ceil(step) - 1, ceil(step))
+        apart = []
+        for end in ends:
+            static = records[quantity.run, end]
+            if static is None:
+                return np.nan
+            apart.append(quantity.curve[self._place(end)] - quantity.of(static))
+        return quantity.of(record) + float(np.interp(step, ends, apart))
 
     def _last_period(self, curves: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Steps from the first of a period, and values (c, ...) of the last period with a step before and after it, as
@@ -185,9 +192,9 @@ def _is_marched(model: Model, transmission_error: np.ndarray, first: int, same: 
     return abs(error - transmission_error[int(record.step) + first]) <= same
 
 
-def _held(march: March | None, first: int, step: int) -> Record | None:
+def _held(marches: Sequence[March], first: int, run: int, step: int) -> Record | None:
     """A step of the period that begins at the step `first` of a march, where one holds it."""
-    return None if march is None else march.held(step + first)
+    return marches[run].held(step + first) if marches else None
 
 
 def repeating_steps(model: Model) -> int:

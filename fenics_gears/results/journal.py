@@ -21,7 +21,8 @@ from pathlib import Path
 import numpy as np
 
 import fenics_gears
-from fenics_gears.dynamics.march import LONGEST_BLOCK, March
+from fenics_gears.dynamics.march import LONGEST_BLOCK
+from fenics_gears.dynamics.marched import March
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.model.storage import Arrays, ArraysInMemory, Kind, Values
 from fenics_gears.scene.data import Scene

@@ -13,7 +13,7 @@ import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.touching import Touching, touching_at
-from fenics_gears.dynamics.march import March
+from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects import effects_on, from_effects

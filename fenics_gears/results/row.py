@@ -8,7 +8,7 @@ from math import isfinite
 import numpy as np
 
 from fenics_gears.dynamics.energy_account import account
-from fenics_gears.dynamics.march import March
+from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.model.train import RowModel
 

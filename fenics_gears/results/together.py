@@ -13,9 +13,11 @@ import numpy as np
 
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.march import thread_pools
-from fenics_gears.dynamics.marches import Marches, OpenedNodes
-from fenics_gears.dynamics.steps import Steps, drive_flanks_touch
+from fenics_gears.contact.step_solver import HALVED
+from fenics_gears.dynamics.batch import OpenedNodes
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.marched import March
+from fenics_gears.dynamics.steps import Steps
 from fenics_gears.model.model import Model
 
 from .contact_variables import (
@@ -27,7 +29,7 @@ from .contact_variables import (
     work_variables,
 )
 from .dataset import friction_loss
-from .extrema import Extrema, Quantity, extremes
+from .extrema import Extrema, extremes, repeating_steps
 from .face_variables import AlongTheFace
 from .key_numbers import HARMONIC_NAMES, key_numbers
 from .mesh_curves import EdgesAndKinks, pressure_curves
@@ -61,15 +63,6 @@ class NumbersOfRun:
         return name in self._curves
 
 
-class _Extrema(Extrema):
-    marches: Marches
-
-    def _values(self, asked: Sequence[tuple[Quantity, float]]) -> list[float]:
-        records = self.marches.at((quantity.run, step) for quantity, step in asked)
-        solved = [(quantity, records[quantity.run, step]) for quantity, step in asked]
-        return [np.nan if record is None else quantity.of(record) for quantity, record in solved]
-
-
 def numbers_together(
     models: Sequence[Model], cycle: Cycle, opened: OpenedNodes, asked: Collection[str]
 ) -> list[NumbersOfRun | None]:
@@ -77,31 +70,27 @@ def numbers_together(
     be run by itself."""
     begun = time.perf_counter()
     model = models[0]
-    with thread_pools().limit(limits=1):
-        marches = Marches(cycle, _equations(models), opened, model.steps)
+    marcher = Marcher(cycle, *_equations(models), opened=opened)
+    marches = marcher.together(model.steps, repeating_steps(model))
+    if any(march.interrupted for march in marches):
+        raise KeyboardInterrupt
     marched = time.perf_counter() - begun
+    counts = (run not in marcher.failures and _is_as_expected(model, march) for run, march in enumerate(marches))
+    runs = np.flatnonzero(list(counts)).tolist()
     count = len(models)
-    states = marches.block.states[:, 0].reshape(count, model.steps + 1, -1)
-    errors = model.transmission_error(states)
-    # Of the first step contact is no matter, as `March.take` has it.
-    touch = drive_flanks_touch(marches.block).reshape(count, -1)[:, 1:].all(axis=1)
-    whole = marches.solved & touch & (np.abs(errors).max(axis=1) <= cycle.pair.wheel.angular_pitch)
-    runs = np.flatnonzero(whole).tolist()
     of_runs: list[NumbersOfRun | None] = [None] * count
     if not runs:
         return of_runs
     first = settled(model, model.steps).first
-    curves, factors = _curves(models, marches, errors, (runs, first), asked)
+    curves, factors = _curves(models, cycle, [(run, marches[run]) for run in runs], first, asked)
     counted = [{name: values[first:] for name, values in of_run.items()} for of_run in curves]
     loss = [_loss(*each) if LOSS in asked else {} for each in zip(curves, counted)]
     timed = model.scene.motion.speed_given
     key = not OF_THEMSELVES.issuperset(asked)
     others = [key_numbers(each, model.pair, of.get(LOSS), timed) if key else {} for each, of in zip(counted, loss)]
-    extrema = _Extrema(model, cycle, counted[0]["mesh_phase"], counted[0]["transmission_error"])
-    extrema.marches = marches
-    marches.first = extrema.first
+    phase, error = (counted[0][name] for name in ("mesh_phase", "transmission_error"))
+    extrema = Extrema(model, cycle, phase, error, marches, marcher.batch)
     located = extremes(extrema, [(run, each, FORCE in of) for run, each, of in zip(runs, counted, others)])
-    iterations = marches.block.iterations.reshape(count, -1)[:, 1:].sum(axis=1)
     seconds = (time.perf_counter() - begun) / count
     for place, run in enumerate(runs):
         error = counted[place]["transmission_error"]
@@ -109,7 +98,7 @@ def numbers_together(
         numbers = others[place] | loss[place] | factors[place] | of_error | of_force
         numbers |= {
             "mean_transmission_error": float(error[:-1].mean()),
-            "newton_iterations_total": int(iterations[run]),
+            "newton_iterations_total": marches[run].newton_iterations,
             "steps_per_mesh_cycle": model.resolution.steps_per_mesh_cycle,
             "base_radius_wheel": model.pair.wheel.base_radius,
             "settled_from": float(curves[place]["time"][first]),
@@ -140,16 +129,23 @@ def _loss(curves: Curves, counted: Curves) -> dict[str, float]:
     return friction_loss(counted) if pressed else {}
 
 
+def _error(model: Model, march: March) -> np.ndarray:
+    """The transmission error at all steps of a march, whose steps are in one block."""
+    return model.transmission_error(march.latest.states[:, 0])
+
+
+def _is_as_expected(model: Model, march: March) -> bool:
+    """Whether the result of a march would have no warning."""
+    if march.separations or march.steps_by_method[HALVED]:
+        return False
+    return bool(np.abs(_error(model, march)).max() <= model.pair.wheel.angular_pitch)
+
+
 def _curves(
-    models: Sequence[Model],
-    marches: Marches,
-    errors: np.ndarray,
-    counted: tuple[Sequence[int], int],
-    asked: Collection[str],
+    models: Sequence[Model], cycle: Cycle, marches: Sequence[tuple[int, March]], first: int, asked: Collection[str]
 ) -> tuple[list[Curves], list[dict[str, float]]]:
-    """Curves of the runs that are `counted`, and load factors over a face where they are asked for, from a first step
-    on."""
-    runs, first = counted
+    """Curves of the runs that are counted, by their marches, and load factors over a face where they are asked for,
+    from a first step on."""
     model = models[0]
     of_runs = []
     factors = []
@@ -157,10 +153,10 @@ def _curves(
     common = {"time": model.clock.times(numbers), "mesh_phase": numbers / model.resolution.steps_per_mesh_cycle}
     nodes: SideBySide | None = None
     over_face = not set(OVER_FACE).isdisjoint(asked)
-    for run in runs:
-        steps = marches.of(run)
-        nodes = _nodes(marches.cycle, steps) if nodes is None else nodes.with_forces(steps)
-        curves = common | {"transmission_error": errors[run]} | _of_nodes(models[run], marches.cycle, nodes, asked)
+    for run, march in marches:
+        steps = march.latest
+        nodes = _nodes(cycle, steps) if nodes is None else nodes.with_forces(steps)
+        curves = common | {"transmission_error": _error(model, march)} | _of_nodes(models[run], cycle, nodes, asked)
         of_runs.append(curves)
         factors.append(_load_factors(models[run], nodes, curves, first) if over_face else {})
     return of_runs, factors

@@ -10,7 +10,7 @@ import numpy as np
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.march import March
+from fenics_gears.dynamics.marched import March
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
 

@@ -29,8 +29,9 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import DRIVE, per_node
-from fenics_gears.dynamics.between_steps import BetweenSteps
+from fenics_gears.dynamics.batch import Batch
 from fenics_gears.dynamics.march import Marcher, thread_pools
+from fenics_gears.dynamics.marched import BetweenSteps
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
 from fenics_gears.model.model import Model
@@ -202,7 +203,8 @@ class _LineLoads:
         # What differs from one mesh cycle to the next leaves no trace in their mean.
         cycle = self._cycle.with_gaps(replace(gaps_of(model, self._cycle), deviations=()))
         with thread_pools().limit(limits=1):
-            solved = BetweenSteps(cycle, model.equations_of_motion, lambda record: True).at(self._places)
+            between = BetweenSteps(Batch(cycle, [model.equations_of_motion]))
+            solved = between.at([(0, place) for place in self._places])
         load, opening = np.zeros((2, cycle.face.slices))
         for record in solved.values():
             found = None if record is None else _of_position(record, len(load))

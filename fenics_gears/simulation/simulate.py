@@ -12,7 +12,8 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.dynamics.march import March, Marcher
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.marched import March
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.errors import ComputationError, MemoryEnded, attempted

@@ -13,7 +13,8 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.row import Idler, MeshOfRow, RowCycle, at_phase, begun_at
-from fenics_gears.dynamics.march import March, Marcher
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.row import rotations_of
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from fenics_gears.dynamics.march import March
+from fenics_gears.dynamics.marched import March
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import model_of
 from fenics_gears.results.journal import read

@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.between_steps import BetweenSteps
+from fenics_gears.dynamics.marched import BetweenSteps
 from fenics_gears.model.model import Model
 from fenics_gears.runs.common_windows import CommonWindows
 from fenics_gears.runs.gear_store import GearStore

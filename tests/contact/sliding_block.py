@@ -7,11 +7,11 @@ import numpy as np
 from fenics_gears.contact.mesh import MeshTraits
 from fenics_gears.contact.operator import Position, Stored
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution, solve_step
-from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.steps import Record
+from fenics_gears.dynamics.time_integration import State
 
 
 class SlidingBlock:

@@ -31,7 +31,7 @@ def overall_errors(model, cycle, steps) -> np.ndarray:
     found = []
     for step in steps:
         position = cycle.between(step, step - 1)
-        record = stepper.in_balance(step, position, stepper.sets_near(step, position))
+        record = stepper.in_balance(step, position)
         found.append(record.state.position[-1] / model.drivetrain.radii[-1])
     return np.array(found)
 

@@ -21,9 +21,9 @@ from fenics_gears.contact.newton import CONVERGED
 from fenics_gears.contact.step_solver import HALVED, NEWTON_AND_FALLBACKS, _methods, cold_start, solve_step
 from fenics_gears.contact.tresca import Work, frozen_friction
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.average_acceleration import AverageAcceleration
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import MOST_HALVINGS, EquationsOfMotion
+from fenics_gears.dynamics.time_integration import AverageAcceleration
 from fenics_gears.model.drivetrain import drivetrain
 
 # method: (seed, nodes, friction, free)
@@ -123,17 +123,18 @@ def test_a_step_without_a_solution_is_divided():
     with pytest.raises(SelfLocking, match="by more than the normal force moves them apart"):
         solve_step(problem, all_open(problem))
     marcher, rest = block_at_rest(problem, all_open(problem))
-    record = marcher.step(marcher.dynamic, rest, 1)
+    record = marcher.stepper.step(marcher.stepper.dynamic, rest, 1)
     assert record.solution.method == HALVED
     assert marcher.cycle.solved == [1, 1, 0.5, 0.5]  # the state before is a position too
     # The last half: its own slip, from the tangents that its first half left.
-    half, (middle, last) = AverageAcceleration(marcher.drivetrain, 0.5 * marcher.time_step), record.parts
+    half = AverageAcceleration(marcher.stepper.drivetrain, 0.5 * marcher.stepper.time_step)
+    middle, last = record.parts
     assert (middle.step, last.step) == (0.5, 1)
     tangential = problem.jacobian[6:] @ middle.state.position - problem.compliance[6:] @ middle.solution.forces
     second = replace(
         problem,
         stiffness=half.stiffness,
-        load=half.load(middle.state, marcher.load(1)),
+        load=half.load(middle.state, marcher.stepper.load(1)),
         slip_before=0.5 * problem.slip_before - tangential,
     )
     check_laws(second, record.solution)
@@ -203,13 +204,13 @@ def test_divided_steps_are_those_of_a_finer_march(longest, parts, changes, paper
     fine, _ = cycle_of(Cycle, scene, paper_pair, stand_in_flanks, parts * steps)
     divided = Marcher(coarse, EquationsOfMotion(shafts, 1e-3 / steps, 0.1))
     whole = Marcher(fine, EquationsOfMotion(shafts, 1e-3 / steps / parts, 0.1))
-    start = whole.start()
+    start = whole.start()[0]
     a = b = replace(start, position=coarse.position(0))
     b = replace(b, position=fine.position(0))
     for step in range(1, 2 * steps + 1):
-        a = divided.step(divided.dynamic, a, step)
+        a = divided.stepper.step(divided.stepper.dynamic, a, step)
         for part in range(parts):
-            b = whole.step(whole.dynamic, b, parts * (step - 1) + part + 1)
+            b = whole.stepper.step(whole.stepper.dynamic, b, parts * (step - 1) + part + 1)
         assert a.solution.method == HALVED
         assert a.state.position == pytest.approx(b.state.position, rel=1e-10, abs=1e-12)
         assert a.solution.forces == pytest.approx(b.solution.forces, rel=1e-7, abs=1e-6)
@@ -220,10 +221,10 @@ def test_a_step_that_no_division_solves_says_so(paper_scene, paper_pair, stand_i
     cycle, shafts = cycle_of(Refusing, paper_scene, paper_pair, stand_in_flanks, 10)
     marcher = Marcher(cycle, EquationsOfMotion(shafts, 1e-4, 0.1))
     cycle.longest = 1.0
-    start = marcher.start()
+    start = marcher.start()[0]
     cycle.longest = 0.0
     with pytest.raises(ContactNotConverged) as failure:
-        marcher.step(marcher.dynamic, start, 1)
+        marcher.stepper.step(marcher.stepper.dynamic, start, 1)
     assert failure.value.step == 1 and failure.value.time == pytest.approx(1e-4)
     assert [attempt[0] for attempt in failure.value.attempts] == ["newton", HALVED]
     assert f"a step {2**MOST_HALVINGS} times as short" in str(failure.value)

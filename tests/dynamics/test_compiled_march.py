@@ -47,7 +47,8 @@ def marched(model: Model, cycle, plain: bool):
     # Both begin with what neither has found.
     cycle.shared(KnownSets).clear()
     try:
-        march, failure = Marcher(cycle, model.equations_of_motion, plain).run(model.steps, 1, observe=recorder.take), ""
+        march = Marcher(cycle, model.equations_of_motion, plain=plain).run(model.steps, 1, observe=recorder.take)
+        failure = ""
     except ContactNotConverged as failed:
         march, failure = failed.partial, str(failed)
     return march, RunResult(recorder, march).dataset, failure

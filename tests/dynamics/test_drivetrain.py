@@ -7,11 +7,11 @@ from math import pi
 import numpy as np
 import pytest
 
-from fenics_gears.dynamics.average_acceleration import AverageAcceleration
 from fenics_gears.dynamics.damping import Damping, Rayleigh
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
 from fenics_gears.dynamics.inertia import GearInertia, Inertia, LoadInertia
 from fenics_gears.dynamics.shafts import Shaft, Shafts
+from fenics_gears.dynamics.time_integration import AverageAcceleration
 from fenics_gears.geometry.section import gear_section
 from fenics_gears.model.description import describe
 from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness

@@ -43,7 +43,7 @@ class Mesh:
 
     def marched(self, plain=False, cycles=1, marcher=Marcher):
         motion = EquationsOfMotion(self.shafts, 1e-4, 0.1 if self.friction else 0.0)
-        return marcher(self.cycle, motion, plain).run(cycles * STEPS, cycles * STEPS + 1).records
+        return marcher(self.cycle, motion, plain=plain).run(cycles * STEPS, cycles * STEPS + 1).records
 
     def reactions(self, record):
         """Force, N, and moment, N mm, (x, y, z) of pinion and wheel on their shafts about their mid-widths."""

@@ -292,7 +292,7 @@ def test_steps_that_eliminate_modes_obey_the_equations_of_all_coordinates(more):
     cycle, found, train = cycle_of(model, on_stand_in_bodies(model)), [], model.drivetrain
     size = np.abs(train.stiffness) + np.abs(train.mass) * (2.0 / model.equations_of_motion.time_step) ** 2
     for plain in (False, True):
-        march = Marcher(cycle, model.equations_of_motion, plain).run(model.steps, model.steps + 1)
+        march = Marcher(cycle, model.equations_of_motion, plain=plain).run(model.steps, model.steps + 1)
         found.append(np.array([each.state.position for each in march.records]))
         for each in march.records[1:]:
             springs = train.stiffness @ each.state.position + train.mass @ each.state.acceleration

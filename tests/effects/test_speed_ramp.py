@@ -78,7 +78,7 @@ def test_spin_up_at_rest_changes_the_mesh_force_by_inertia_times_acceleration(
     scene = replace(paper_scene, friction=None, damping=None, **dict.fromkeys(absent))
     for clock in (UP, DOWN):
         marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-4)
-        marcher.loads = (inertia_forces(clock, shafts, 24),)
+        marcher.stepper.loads = (inertia_forces(clock, shafts, 24),)
         behind = 1 if "shafts" in absent else 2
         alpha = 2.0 * np.pi * clock.acceleration / 24
         expected = (437e3 + behind * 24.5 * alpha) / paper_pair.wheel.base_radius
@@ -87,7 +87,7 @@ def test_spin_up_at_rest_changes_the_mesh_force_by_inertia_times_acceleration(
             (step, expected),
             (clock.held, expected if clock.held == 0 else 0.5 * (expected + 437e3 / paper_pair.wheel.base_radius)),
         ):
-            rest = marcher._static_start(at)
+            rest = marcher.stepper.in_balance(at, marcher.cycle.position(at))
             n = rest.position.operator.nodes
             assert rest.solution.forces[:n].sum() == pytest.approx(force, rel=1e-10)
 

@@ -167,7 +167,7 @@ def _equilibrium(run: Run, record, force: float) -> dict[str, float]:
         return {}
     operator = record.position.operator
     springs = train.stiffness @ record.state.position
-    left = springs + operator.jacobian.T @ record.solution.forces - run.marcher.load(record.step)
+    left = springs + operator.jacobian.T @ record.solution.forces - run.marcher.stepper.load(record.step)
     # Round-off of stiff springs' forces is part of what they carry.
     scale = max(force, float(np.abs(train.stiffness).max() * np.abs(record.state.position).max()))
     return {"equilibrium": float(np.abs(left).max()) / scale}

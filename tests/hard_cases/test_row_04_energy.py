@@ -8,9 +8,9 @@ from tests.coarse import COARSE
 from tests.frozen_gears import frozen_marcher, pushed
 
 from fenics_gears import gear_pair, simulate
-from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.steps import Record, Steps
+from fenics_gears.dynamics.time_integration import State
 from fenics_gears.dynamics.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.results.contact_variables import energy_variables
@@ -20,7 +20,7 @@ from fenics_gears.scene.data import Motion
 def march(marcher, record, steps):
     records = [record]
     for step in range(1, steps + 1):
-        records.append(marcher.step(marcher.dynamic, records[-1], step))
+        records.append(marcher.stepper.step(marcher.stepper.dynamic, records[-1], step))
     return records
 
 
@@ -39,7 +39,7 @@ def test_frozen_frictionless_step_balances(paper_scene, paper_pair, stand_in_fla
         n = record.position.operator.nodes
         opening = [each.position.operator.gap - each.solution.displacement[:n] for each in (last, record)]
         moved = record.state.position - last.state.position
-        lost = 0.0 if shafts.damping is None else moved @ shafts.damping @ moved / marcher.time_step
+        lost = 0.0 if shafts.damping is None else moved @ shafts.damping @ moved / marcher.stepper.time_step
         changes.append(0.5 * (last.solution.forces @ opening[1] - record.solution.forces @ opening[0]))
         defect.append(gained - (shafts.load @ moved + changes[-1] - lost))
         work.append(abs(shafts.load @ moved) + abs(gained) + lost)
@@ -59,13 +59,13 @@ def test_undamped_bounce_is_bounded(paper_scene, paper_pair, stand_in_flanks, me
     """Known: what the algorithm takes at impacts it gives back at releases."""
     scene = replace(paper_scene, friction=None, damping=None, shafts=None, bearings=None)
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 2e-5)
-    rest = marcher.start()
+    rest = marcher.start()[0]
     lifted = State(rest.state.position - 0.1, np.zeros(1), shafts.load / shafts.mass[0])
     nothing = replace(rest.solution, forces=0.0 * rest.solution.forces, status=np.zeros_like(rest.solution.status))
     record = Record(0, lifted, rest.position, nothing)
     energies, flights, flying, dropped = [], 0, True, 0.1 * shafts.load[0]
     for _ in range(100_000):
-        record = marcher.step(marcher.dynamic, record, 1)
+        record = marcher.stepper.step(marcher.stepper.dynamic, record, 1)
         energies.append(total_energy(record, shafts) - total_energy(rest, shafts))
         loaded = bool(np.any(record.solution.forces))
         flights += flying and loaded

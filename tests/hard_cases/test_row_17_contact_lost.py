@@ -102,18 +102,19 @@ def test_flight_of_the_whole_drivetrain_follows_the_matrix_exponential(
         step = 2e-3 / count
         marcher, shafts = frozen_marcher(paper_scene, paper_pair, stand_in_flanks, step)
         away = -np.eye(len(shafts.coordinates))[shafts.coordinates.index("rotation_2")]
-        start = marcher.start()
+        start = marcher.start()[0]
         inverse = np.linalg.inv(shafts.mass)
         position, velocity = start.state.position + 0.5 * away, 50.0 * away
-        marcher.loads = (lambda step, shafts=shafts: -shafts.load,)
+        marcher.stepper.loads = (lambda step, shafts=shafts: -shafts.load,)
         acceleration = -inverse @ (shafts.stiffness @ position + shafts.damping @ velocity)
         nothing = replace(start.solution, status=0 * start.solution.status, forces=0.0 * start.solution.forces)
         record = replace(start, state=type(start.state)(position, velocity, acceleration), solution=nothing)
         k, worst = len(position), 0.0
         for number in range(1, count + 1):
-            load = marcher.dynamic.load(record.state, 0.0 * shafts.load)
-            alone = marcher.dynamic.advance(record.state, np.linalg.solve(marcher.dynamic.stiffness, load))
-            record = marcher.step(marcher.dynamic, record, number)
+            dynamic = marcher.stepper.dynamic
+            load = dynamic.load(record.state, 0.0 * shafts.load)
+            alone = dynamic.advance(record.state, np.linalg.solve(dynamic.stiffness, load))
+            record = marcher.stepper.step(dynamic, record, number)
             apart = record.state.position - alone.position, step * (record.state.velocity - alone.velocity)
             worst = max(worst, np.abs(apart).max() / np.abs(position).max())
             assert not record.solution.status.any()

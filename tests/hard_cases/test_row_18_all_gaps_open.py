@@ -48,14 +48,14 @@ def test_a_position_where_nothing_can_touch_is_named(paper_scene, paper_pair, st
     """Message: no tooth pair has a contact node, and the wheel turns freely."""
     scene = replace(paper_scene, inertia=None, damping=None, friction=None)
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-4)
-    start, k = marcher.start(), len(shafts.coordinates)
+    start, k = marcher.start()[0], len(shafts.coordinates)
     empty = SimpleNamespace(
         nodes=0, stored=Stored(np.zeros((0, 0))), stored_jacobians=(np.zeros((0, k)), None), gap=np.empty(0),
         rigid_slip=None,
     )  # fmt: skip
     marcher.cycle.position = lambda step: Position(empty, np.empty(0, dtype=np.int64))
     with pytest.raises(NoStaticEquilibrium) as failure:
-        marcher.step(marcher.static, start, 1)
+        marcher.stepper.step(marcher.stepper.static, start, 1)
     measured("error where no tooth pair can touch", failure.value.reason, "names load and free motion")
     assert failure.value.reason.startswith("no equilibrium: no tooth pair can touch")
     assert failure.value.reason.endswith("the wheel turns freely under its torque of 437 N m")

@@ -12,12 +12,11 @@ from tests.frozen_gears import frozen_marcher, pushed
 
 from fenics_gears.contact.laws import SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution
-from fenics_gears.dynamics.average_acceleration import State
-from fenics_gears.dynamics.backward_euler import BackwardEuler
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.steps import Record
+from fenics_gears.dynamics.time_integration import BackwardEuler, State
 
 
 def tied_solution(rest, shafts, closed, push, duration):
@@ -41,10 +40,10 @@ def orders_of(marcher_with, duration, counts, scheme=None):
         # Small enough a push that no node changes its status.
         rest = record = pushed(marcher, shafts, rotation_1=0.2)
         closed = np.flatnonzero(rest.solution.status == SLIP_FORWARD)
-        stepped = marcher.dynamic if scheme is None else scheme(shafts, duration / steps)
+        stepped = marcher.stepper.dynamic if scheme is None else scheme(shafts, duration / steps)
         exact = tied_solution(rest, shafts, closed, record.state.velocity, duration)
         for step in range(1, steps + 1):
-            record = marcher.step(stepped, record, step)
+            record = marcher.stepper.step(stepped, record, step)
             assert np.array_equal(np.flatnonzero(record.solution.status == SLIP_FORWARD), closed)
         errors.append(np.abs(record.state.position - rest.state.position - exact).max() / np.abs(exact).max())
     return np.log2(np.divide(errors[:-1], errors[1:]))
@@ -71,7 +70,7 @@ def bounce(scene, pair, flanks, steps, speed):
     record = pushed(marcher, shafts, rotation_1=speed)
     touching, changes, parted = record.solution.status, 0, 0
     for step in range(1, steps + 1):
-        record = marcher.step(marcher.dynamic, record, step)
+        record = marcher.stepper.step(marcher.stepper.dynamic, record, step)
         changes += bool(np.any(record.solution.status != touching))
         parted += not record.solution.status.any() and touching.any()
         touching = record.solution.status
@@ -158,7 +157,7 @@ def marched_block(spring: float, inert: bool, steps: int):
     )
     record, passed, forces = Record(0, State(place, rest, rest), marcher.cycle.position(0), start), [SLIP_BACKWARD], []
     for step in range(1, steps + 1):
-        record = marcher.step(marcher.dynamic, record, step)
+        record = marcher.stepper.step(marcher.stepper.dynamic, record, step)
         forces.append(record.solution.forces[1])
         if record.solution.status[0] != passed[-1]:
             passed.append(int(record.solution.status[0]))

@@ -11,8 +11,9 @@ from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.spring_mesh import PairSprings, spring_mesh
 from fenics_gears.contact.tooth_pair import DRIVE
-from fenics_gears.dynamics.between_steps import BetweenSteps
+from fenics_gears.dynamics.batch import Batch
 from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.marched import BetweenSteps
 from fenics_gears.results.crests import MOST_SOLVED, Searches
 from fenics_gears.results.numbers import SOLVED, largest_of_cubics
 from fenics_gears.scene.data import ISO_6336, Accuracy
@@ -148,9 +149,9 @@ def test_a_step_solved_again_is_that_of_the_march(paper_scene, stand_in_flanks):
     def marched(record):
         return np.allclose(record.state.position, records[record.step].state.position, rtol=1e-9, atol=1e-12)
 
-    between = BetweenSteps(cycle, model.equations_of_motion, marched)
+    between = BetweenSteps(Batch(cycle, [model.equations_of_motion]), marched)
     for step in range(1, 81):
-        again = between.at([float(step)])[step]
+        again = between.at([(0, float(step))])[0, step]
         np.testing.assert_allclose(again.state.position, records[step].state.position, rtol=1e-8, atol=1e-12)
         np.testing.assert_allclose(
             again.solution.forces, records[step].solution.forces, atol=1e-6 * records[step].solution.forces.max()

@@ -150,12 +150,12 @@ def test_separation_beyond_the_backlash_is_named(coarse, paper_pair):
 def test_a_march_that_fails_at_its_start_leaves_an_empty_incomplete_result(coarse, ripple, monkeypatch):
     """A typed error that carries what was done, here nothing."""
     from fenics_gears.contact.errors import ContactNotConverged
-    from fenics_gears.dynamics.march import Marcher
+    from fenics_gears.dynamics.stepping import Stepper
 
-    def fail(self):
+    def fail(*_):
         raise ContactNotConverged([], "for the test")
 
-    monkeypatch.setattr(Marcher, "start", fail)
+    monkeypatch.setattr(Stepper, "started", fail)
     with pytest.raises(ContactNotConverged, match="for the test") as failure:
         simulate(replace(coarse, torque_ripple=ripple))
     assert failure.value.partial.sizes["time"] == 0

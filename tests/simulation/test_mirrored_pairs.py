@@ -6,7 +6,8 @@ import pytest
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
-from fenics_gears.dynamics.between_steps import BetweenSteps
+from fenics_gears.dynamics.batch import Batch
+from fenics_gears.dynamics.marched import BetweenSteps
 from fenics_gears.results.mesh_curves import _highest
 from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle
 
@@ -24,8 +25,8 @@ class Solved:
         self.pair, cycle = model.pair, mesh_cycle(model, on_stand_in_bodies(model))
         cycle = cycle.with_gaps(gaps_of(model, cycle))
         places = (STEPS * (1.0 + np.asarray(phases))).tolist()
-        found = BetweenSteps(cycle, model.equations_of_motion, lambda record: True).at(places)
-        self.records = [found[place] for place in places]
+        found = BetweenSteps(Batch(cycle, [model.equations_of_motion])).at([(0, place) for place in places])
+        self.records = [found[0, place] for place in places]
         self.forces = [record.solution.forces for record in self.records]
         self.turned = np.array([np.abs(record.solution.coordinates).max() for record in self.records])
 

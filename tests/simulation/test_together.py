@@ -10,12 +10,13 @@ from tests.hard_cases.invariants import cycle_of
 from tests.helical import CROWNED, FRICTION, helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
+from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.marches import Marches
+from fenics_gears.dynamics.batch import Block
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.errors import ComputationError
+from fenics_gears.errors import ComputationError, MemoryEnded
 from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
 from fenics_gears.geometry.misalignment import Misalignment
 from fenics_gears.geometry.profile_modification import ProfileModification, ProfileModifications
@@ -159,13 +160,14 @@ def test_a_run_of_which_there_is_more_to_say_is_left_to_itself(paper_scene, stan
     found = solved_together([models[1], through], preparation, [ERROR])
     assert found[0] is not None and found[1] is None
     assert "the result has no meaning" in completed(through, preparation).attrs["warnings"]
-    solve = Marches._solve
+    solve = Block.solve
 
-    def failing(marches, steps, sets, at_rest):
-        solve(marches, steps, sets, at_rest)
-        marches.solved[1] = False
+    def failing(block, run, end):
+        solve(block, run, end)
+        if run == 1 and end > 3:
+            raise ContactNotConverged([], "made up")
 
-    monkeypatch.setattr(Marches, "_solve", failing)
+    monkeypatch.setattr(Block, "solve", failing)
     assert [each is None for each in solved_together(models, preparation, [ERROR])] == [False, True, False]
 
 
@@ -190,3 +192,18 @@ def test_an_error_of_all_is_raised(paper_scene, stand_in_flanks, monkeypatch):
     monkeypatch.setenv("FENICS_GEARS_MEMORY", "1 MB")
     with pytest.raises(ComputationError, match="memory"):
         solved_together([model_of(scene)], sharing(scene, stand_in_flanks), [ERROR])
+
+
+@pytest.mark.parametrize("raised, told", [(KeyboardInterrupt, KeyboardInterrupt), (MemoryError, MemoryEnded)])
+def test_what_ends_all_marches_is_raised(paper_scene, stand_in_flanks, monkeypatch, raised, told):
+    """The user's expectation: Ctrl-C ends a search, with no numbers of half a march; memory has an error of its own,
+    after which runs are tried one by one."""
+
+    def ended(*_):
+        raise raised
+
+    scene = steady(paper_scene, False)
+    models = [model_of(each) for each in designs(scene)[:2]]
+    monkeypatch.setattr(Block, "solve", ended)
+    with pytest.raises(told):
+        solved_together(models, sharing(scene, stand_in_flanks), [ERROR])

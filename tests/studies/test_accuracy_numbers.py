@@ -8,10 +8,10 @@ import pytest
 import xarray as xr
 
 from fenics_gears.runs.settings import measures
+from fenics_gears.runs.settings.convergence import largest_part, last_of, observed_order, richardson, together
 from fenics_gears.runs.settings.measures import CURVE, PEAK, PRESSURE, SPAN, STIFFNESS
 from fenics_gears.runs.settings.setting import Setting
 from fenics_gears.studies.accuracy import whole
-from fenics_gears.studies.accuracy.convergence import largest_part, last_of, observed_order, richardson, together
 from fenics_gears.studies.accuracy.refinement import Level, Refinement
 
 SHAPE = np.sin(np.linspace(0.0, 6.0, 50)) + 2.0

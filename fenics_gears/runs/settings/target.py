@@ -12,9 +12,9 @@ from fenics_gears.scene.accuracy import RESOLVED
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.system.progress import Progress
 
+from .convergence import EXPECTED_ORDER, SAFETY_OF_TWO
 from .setting import Setting
 from .trial_runs import COARSER, MESH, SLICES, STEPS, Sizes, TargetNotReached, TrialRuns
-from .two_runs import EXPECTED_ORDER, SAFETY_OF_TWO
 
 # Sizes at which errors are estimated first for a target of 1 %.
 FIRST_MESH = 2.5

@@ -23,10 +23,10 @@ from fenics_gears.scene.accuracy_rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.data import Output, Scene
 from fenics_gears.system.memory import allowed_memory
 
+from .convergence import NotComparable, errors_of_two
 from .measures import LEAST_SPAN, Answer, judged_answer
 from .setting import Setting, own_setting, without_settings
 from .setting_runs import SettingRuns
-from .two_runs import NotComparable, errors_of_two
 
 # Fewest steps in a mesh cycle of the finer trial runs, where steps matter, and the most that are taken for the sake of
 # vibrations. If vibrations are still faster, the motion follows the static one.

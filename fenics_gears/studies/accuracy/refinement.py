@@ -1,5 +1,6 @@
 """The settings of `[accuracy]`, each refined alone from level to level, and the expected order of its error."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from math import isclose
 
@@ -7,6 +8,8 @@ from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
+from fenics_gears.runs.settings.convergence import Limit, last_of, richardson
+from fenics_gears.runs.settings.measures import Answer, comparable
 from fenics_gears.runs.settings.setting import Setting, default_setting, half_width, own_setting
 from fenics_gears.scene.accuracy import NODE_SPACING
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Scene
@@ -14,6 +17,8 @@ from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Scen
 from . import over_face
 from .over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, PLANE, SLICES, STEPS
 
+# A limit and its order are found from so many of the finest terms.
+LAST_TERMS = 3
 NODES = "contact node spacing"
 CONDENSATION = "condensation"
 # Flank elements, and contact nodes at NODE_SPACING elements. Their errors interact: nodes refined alone converge to
@@ -272,3 +277,14 @@ def _with_own(refinement: Refinement, settings: dict[str, Setting], unit: float)
 
 def _same(one, other) -> bool:
     return isclose(one, other, rel_tol=1e-9) if isinstance(one, float) and isinstance(other, float) else one == other
+
+
+def limit_of(refinement: Refinement, ran: Sequence[tuple[Level, Answer]], base: Answer, name: str) -> Limit:
+    """The limit of a measure as a setting is refined; that of its base where the setting has no finest value."""
+    if len(ran) < 2 or (refinement.expected is None and refinement.name != LENGTH):
+        return Limit(base[name], None, 0.0)
+    last = ran[-LAST_TERMS:]
+    values = comparable([found[name] for _, found in last], name)
+    if refinement.expected is None:
+        return last_of(values)
+    return richardson(values, [level.size for level, _ in last], refinement.expected)

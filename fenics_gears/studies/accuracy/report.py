@@ -11,6 +11,7 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
+from fenics_gears.runs.settings.convergence import Limit, error_from, together
 from fenics_gears.runs.settings.measures import DEFECT, Answer, answer, distances, judged, measures_of
 from fenics_gears.runs.settings.setting import Setting, default_setting, own_setting, without_settings
 from fenics_gears.runs.settings.setting_runs import SettingRuns
@@ -22,9 +23,19 @@ from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 
 from . import whole
-from .convergence import Limit, error_from, limit_of, together
 from .over_face import PLANE, in_the_plane
-from .refinement import CONDENSATION, LENGTH, OF_FAMILY, Level, Refinement, check_measurable, fine, plan_of, refinements
+from .refinement import (
+    CONDENSATION,
+    LENGTH,
+    OF_FAMILY,
+    Level,
+    Refinement,
+    check_measurable,
+    fine,
+    limit_of,
+    plan_of,
+    refinements,
+)
 from .root_point import peak_root_stress
 
 OWN = "the scene's own"

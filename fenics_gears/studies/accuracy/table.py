@@ -3,11 +3,11 @@
 from math import isnan
 from pathlib import Path
 
+from fenics_gears.runs.settings.convergence import largest_part
 from fenics_gears.runs.settings.measures import OVER_FACE, judged, measures_of
 from fenics_gears.runs.timed import STAGES, Times
 from fenics_gears.studies.machine import write_lines
 
-from .convergence import largest_part
 from .refinement import CONDENSATION
 from .report import AccuracyReport, RefinementResult, WholeResult
 

@@ -7,10 +7,10 @@ from functools import reduce
 
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import model_of
+from fenics_gears.runs.settings.convergence import largest_part
 from fenics_gears.runs.settings.setting import Setting
 from fenics_gears.scene.data import Scene
 
-from .convergence import largest_part
 from .refinement import FAMILY, LENGTH, OF_FAMILY, Refinement
 
 # The path keeps a setting when its error is below this part of the error of the last one kept.

@@ -53,12 +53,12 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
     cycle = Cycle(spring_mesh(pair, springs, 1, coast_flanks=False), STEPS, shafts.indices, tangential=False)
     added = forces_of_torque(shafts.coordinates, shafts.radii, COUPLE_AFTER)
     marcher = Marcher(cycle, EquationsOfMotion(shafts, STEP, loads=(lambda step: added * (step > 0),)))
-    start = marcher.start()
+    start = marcher.start()[0]
     # At rest where the first couple holds it, accelerated by what is added, as Exudyn starts.
     still = replace(
         start, state=start.state._replace(velocity=0.0 * added, acceleration=np.linalg.solve(shafts.mass, added))
     )
-    marcher.start = lambda: still
+    marcher.start = lambda: {0: still}
     records = marcher.run(STEPS - 1, STEPS).records
     states = np.array([record.state.position for record in records])
     rotations = np.array([shafts.value(states, name) for name in ("rotation_1", "rotation_2")])

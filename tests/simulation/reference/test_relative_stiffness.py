@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.relative_stiffness import RelativeStiffness
-from fenics_gears.dynamics.average_acceleration import AverageAcceleration
+from fenics_gears.dynamics.time_integration import AverageAcceleration
 from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.scene.data import Motion
 

@@ -1,6 +1,6 @@
-"""The average acceleration method [14]: second order, no numerical dissipation.
+"""Methods of integration in time.
 
-With x' and x'' at both ends of a step,
+Average acceleration [14]: second order, no numerical dissipation. With x' and x'' at both ends of a step,
 
     x_1 = x_0 + dt/2 (x'_0 + x'_1),   x'_1 = x'_0 + dt/2 (x''_0 + x''_1)
 
@@ -9,6 +9,19 @@ the equation of motion M x'' + D x' + K x = F - G^T p at the end of the step rea
     (4/dt^2 M + 2/dt D + K) x_1 + G^T p = F + M (4/dt^2 x_0 + 4/dt x'_0 + x''_0) + D (2/dt x_0 + x'_0).
 
 Without mass and damping this is the static equation at the end of the step: quasi-static scenes use the same march.
+
+Backward Euler: for steps too long to hold any vibration of the drivetrain. Average acceleration neither damps nor
+follows a vibration whose period is shorter than two steps: it turns its sign at every step, and every kink of the
+static solution adds to it. Backward Euler forgets it within a step. With
+
+    x'_1 = (x_1 - x_0)/dt,   x''_1 = (x'_1 - x'_0)/dt
+
+the equation of motion at the end of the step reads
+
+    (M/dt^2 + D/dt + K) x_1 + G^T p = F + M (x_0/dt^2 + x'_0/dt) + D x_0/dt.
+
+First order in the terms of inertia and damping, which are small there; the static part is exact. E. Hairer and G.
+Wanner, Solving Ordinary Differential Equations II, 1996, section IV.3: L-stable.
 """
 
 from __future__ import annotations
@@ -62,7 +75,7 @@ class Scheme:
 
 
 @njit(cache=True)
-def history(step, mass, damping):
+def average_history(step, mass, damping):
     """What position, velocity and acceleration at the start of a step add to its load: matrices (3, k, k); the first is
     also what inertia and damping add to the stiffness."""
     found = np.empty((3, *mass.shape))
@@ -74,7 +87,7 @@ def history(step, mass, damping):
 
 
 @njit(cache=True)
-def advanced(step, before, position):
+def average_advanced(step, before, position):
     """Position, velocity and acceleration (3, k) at the end of a step from those `before` and the position (k,)."""
     after = np.empty_like(before)
     # By numbers: expressions of arrays take compiled code longer to load than they take to run.
@@ -82,6 +95,26 @@ def advanced(step, before, position):
         change, velocity = 2.0 / step * (position[c] - before[0, c]), before[1, c]
         after[0, c], after[1, c] = position[c], change - velocity
         after[2, c] = 2.0 / step * (change - 2.0 * velocity) - before[2, c]
+    return after
+
+
+@njit(cache=True)
+def backward_history(step, mass, damping):
+    """As `average_history`."""
+    found = np.zeros((3, *mass.shape))
+    for i, j in np.ndindex(mass.shape):
+        found[0, i, j] = mass[i, j] / (step * step) + damping[i, j] / step
+        found[1, i, j] = mass[i, j] / step
+    return found
+
+
+@njit(cache=True)
+def backward_advanced(step, before, position):
+    """As `average_advanced`."""
+    after = np.empty_like(before)
+    for c in range(len(position)):
+        after[0, c], after[1, c] = position[c], (position[c] - before[0, c]) / step
+        after[2, c] = (after[1, c] - before[1, c]) / step
     return after
 
 
@@ -100,6 +133,12 @@ def with_history(load, history, states):
 
 
 class AverageAcceleration(Scheme):
-    """This method."""
+    """Average acceleration."""
 
-    _matrices, _advanced = staticmethod(history), staticmethod(advanced)
+    _matrices, _advanced = staticmethod(average_history), staticmethod(average_advanced)
+
+
+class BackwardEuler(Scheme):
+    """Backward Euler."""
+
+    _matrices, _advanced = staticmethod(backward_history), staticmethod(backward_advanced)

@@ -1,23 +1,24 @@
-"""Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy`.
+"""Orders of convergence, limits and errors from runs with falling sizes: of three and more, for `gears accuracy`; of
+two, for `[accuracy] target`.
 
-Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5. The error of the finest
-run is the last change over r^p - 1 times a safety factor, with r the ratio of sizes and p the order. The factor is 1.25
-for three runs and more, which show their order. Without an observed order the error is three times the last change:
-1.25 times the 2.4 of h^0.5 where sizes halve.
+Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: the error of the finest
+run is the last change over r^p - 1, with r the ratio of sizes and p the order, times a safety factor: 1.25 for three
+runs and more, which show their order; without an observed order the error is three times the last change: 1.25 times
+the 2.4 that h^0.5 leaves where sizes halve. Of two runs the order is the one expected, and the factor 2: at coarse
+sizes differences fall more slowly, and scatter (docs/evidence/accuracy.md).
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
-from fenics_gears.runs.settings.measures import DEFECT, Answer, comparable, distance
-from fenics_gears.runs.settings.two_runs import part_left
-
-from .refinement import LENGTH, Level, Refinement
+from .measures import DEFECT, MEAN, Answer, comparable, distance
 
 SAFETY = 1.25
+# Of two runs.
+EXPECTED_ORDER = 2.0
+SAFETY_OF_TWO = 2.0
 LEFT_WITHOUT_ORDER = 2.4
 LEAST_ORDER = 0.1
 MOST_ORDER = 10.0
@@ -25,8 +26,6 @@ MOST_ORDER = 10.0
 # order than this.
 LEAST_TRUSTED = 0.5
 MOST_ABOVE_EXPECTED = 1.0
-# A limit and its order follow from so many of the finest terms.
-LAST_TERMS = 3
 ROUND_OFF = 1e-10
 # Cosine of the angle between the last two changes. Above the first the limit is extrapolated. Between them changes have
 # any direction, as by kinks that move between steps, but their length still falls with an order. Below the second
@@ -45,6 +44,25 @@ class Limit:
     order: float | None
     uncertainty: float
     least_error: float = 0.0
+
+
+class NotComparable(ValueError):
+    """A measure, by its name, that two runs do not both have."""
+
+
+def part_left(sizes: Sequence[float], order: float) -> float:
+    """Error of the finest size in parts of the last change: 1/(r^p - 1)."""
+    return 1.0 / ((sizes[-2] / sizes[-1]) ** order - 1.0)
+
+
+def errors_of_two(finer: Answer, coarser: Answer, ratio: float) -> np.ndarray:
+    """Relative error of the finer of two runs in each measure but the mean, by the expected order; `ratio` of their
+    sizes. Raises NotComparable for a measure that one of them lacks, or of which nothing is left in the finer one."""
+    measures = sorted({*finer, *coarser} - {MEAN})
+    changes = np.array([distance(coarser, finer, measure) for measure in measures])
+    if not np.isfinite(changes).all():
+        raise NotComparable(measures[int(np.argmin(np.isfinite(changes)))])
+    return SAFETY_OF_TWO * part_left((ratio, 1.0), EXPECTED_ORDER) * changes
 
 
 def observed_order(values: Sequence[np.ndarray], sizes: Sequence[float]) -> float | None:
@@ -66,6 +84,9 @@ def observed_order(values: Sequence[np.ndarray], sizes: Sequence[float]) -> floa
 
     if off(LEAST_ORDER) * off(MOST_ORDER) > 0.0:
         return None
+    # Imported here: a target needs no order.
+    from scipy.optimize import brentq
+
     return float(brentq(off, LEAST_ORDER, MOST_ORDER))
 
 
@@ -91,17 +112,6 @@ def richardson(values: Sequence[np.ndarray], sizes: Sequence[float], expected: f
 def last_of(values: Sequence[np.ndarray]) -> Limit:
     away = float(np.linalg.norm(values[-2] - values[-1])) if len(values) > 1 else 0.0
     return Limit(values[-1], None, away, away)
-
-
-def limit_of(refinement: Refinement, ran: Sequence[tuple[Level, Answer]], base: Answer, name: str) -> Limit:
-    """The limit of a measure as a setting is refined; that of its base where the setting has no finest value."""
-    if len(ran) < 2 or (refinement.expected is None and refinement.name != LENGTH):
-        return Limit(base[name], None, 0.0)
-    last = ran[-LAST_TERMS:]
-    values = comparable([answer[name] for _, answer in last], name)
-    if refinement.expected is None:
-        return last_of(values)
-    return richardson(values, [level.size for level, _ in last], refinement.expected)
 
 
 def error_from(limits: Mapping[str, Limit], answer: Answer, name: str) -> float:
