@@ -27,6 +27,8 @@ SAMPLES, NECK = 60, 0.3
 BYTES_OF_AN_UNKNOWN = 12e3
 BYTES_OF_AN_ENTRY = 26.0
 CONDENSING = 90.0
+# Bytes for each unknown of the held teeth (`near_unknowns`): measured, of 15,000 to 53,000.
+BYTES_OF_A_NEAR_UNKNOWN = 13e3
 # Motions of a cut, in the mean of its dofs and a flank's; time of the ring's multiplications in that of MUMPS's.
 MOTIONS = 0.2
 IN_RING = 2.4
@@ -137,8 +139,11 @@ def _heights_of_web(face: FaceDiscretisation) -> int:
 def expected_condensing(gear: Gear, face: FaceDiscretisation, farthest: int, both_flanks: bool = False) -> BodyCost:
     """What a process takes while it condenses a sector and joins the ring; teeth feel each other up to `farthest`."""
     size = expected_size(gear, face, both_flanks)
+    condensing = BYTES_OF_AN_UNKNOWN * size.unknowns + BYTES_OF_AN_ENTRY * size.condensed**2
+    # One after the other: where a scene has few layers, the held teeth take more.
+    near = BYTES_OF_A_NEAR_UNKNOWN * near_unknowns(gear, face, both_flanks)
     return BodyCost(
-        BYTES_OF_AN_UNKNOWN * size.unknowns + BYTES_OF_AN_ENTRY * size.condensed**2,
+        max(condensing, near),
         CONDENSING * size.unknowns**2 + IN_RING * _ring(size, gear.teeth, farthest),
     )
 
