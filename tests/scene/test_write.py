@@ -21,7 +21,7 @@ DEMOS = Path(__file__).parents[2] / "demos"
 SCENES = [
     path
     for path in sorted(DEMOS.rglob("*.toml"))
-    if "teeth" in path.read_text() and "sweep" not in tomllib.loads(path.read_text())
+    if "teeth" in path.read_text() and "sweep" not in (tree := tomllib.loads(path.read_text())) and "stages" not in tree
 ]
 # What no demonstration has, each in a section that the paper's scene then has in place of its own.
 FURTHER = {

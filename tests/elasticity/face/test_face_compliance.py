@@ -97,7 +97,10 @@ def even_load(compliance, component):
     return np.einsum("h,hakb,k->ab", share, block, share) / share.sum()
 
 
-@pytest.mark.parametrize(("width", "layers", "limit"), [(0.05, 1, "plane stress"), (270.0, 6, "plane strain")])
+@pytest.mark.parametrize(
+    ("width", "layers", "limit"),
+    [(0.05, 1, "plane stress"), pytest.param(270.0, 6, "plane strain", marks=pytest.mark.nightly)],
+)
 def test_limits_of_a_spur_gear(width, layers, limit):
     """Theory of elasticity: a thin gear is in plane stress, the plane strain of nu/(1 + nu) and E (1 + 2 nu)/(1 +
     nu)^2."""

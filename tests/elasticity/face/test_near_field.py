@@ -40,7 +40,7 @@ def _along_normals(gear: Gear, layers: int, near: bool, flanks: int = 1) -> np.n
     return np.einsum("stabnm,an,bm->satb", own, normals, normals).reshape(2 * (SLICES * len(normals),))
 
 
-@pytest.mark.parametrize("flanks", [1, 2])
+@pytest.mark.parametrize("flanks", [1, pytest.param(2, marks=pytest.mark.nightly)])
 def test_thick_layers_and_what_they_leave_out_are_thin_layers(flanks):
     """Another route: a body of thin layers all through. Thick ones alone are several parts in a hundred off."""
     gear = model_of(helical_scene(helix=8.0)).pair.pinion

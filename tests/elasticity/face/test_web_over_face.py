@@ -51,7 +51,9 @@ def test_a_web_as_wide_as_the_face_is_the_gear_without_one():
 THIN_RIM = Web(20.0, PINION.root_radius - 0.33 * PINION.module, 0.6)
 
 
-@pytest.mark.parametrize("web", [WEB, Web(15.0, 25.0, 0.3, offset=0.3), THIN_RIM])
+@pytest.mark.parametrize(
+    "web", [WEB, Web(15.0, 25.0, 0.3, offset=0.3), pytest.param(THIN_RIM, marks=pytest.mark.nightly)]
+)
 def test_expected_size_of_a_body_with_a_web(web):
     """The mesh itself: condensed unknowns exactly, all within 18 %."""
     found = body(web, reach=Reach(0)).timings
