@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import block_diag, eigh
 
+from .beam import Beam
 from .elastic_shaft import FIVE, ElasticShaft
 from .elastic_shaft_seat import BentBySeat
 from .shaft_elements import SIX, Assembly, Element, Springs, carried, motions_of
@@ -125,9 +126,16 @@ class ShaftSystem(ShaftsAtRest):
 
     @cached_property
     def mass(self) -> np.ndarray:
-        """Over all given motions and the modes (g + m, g + m), N, mm, s and rad."""
+        """Over all given motions and the modes (g + m, g + m), N, mm, s and rad: of the beams, and of what other
+        elements have."""
         moved = np.concatenate([self._nodes_at_rest, self._shapes], axis=1)
-        return moved.T @ self._mass_of_nodes @ moved
+        mass = moved.T @ self._mass_of_nodes @ moved
+        for each in self.held.assembly.elements:
+            if not isinstance(each, Beam) and np.any(each.mass):
+                follows = self.held.motions_of(each.motions) @ self.of_given
+                own = np.concatenate([follows, self._vibrating(each.motions)], axis=1)
+                mass += own.T @ each.mass @ own
+        return mass
 
     def mass_over(self, names: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:
         """The mass (k, k) over a drivetrain's coordinates of such names, in N, mm, s and rad; and the momentum (k,)
@@ -233,11 +241,15 @@ class ShaftSystem(ShaftsAtRest):
     def _moved(self, names: Sequence[str]) -> np.ndarray:
         """Motions (n, k) per coordinate."""
         at_rest = self.held.motions_of(names) @ self.bending
+        return np.concatenate([at_rest, self._vibrating(names)], axis=1)
+
+    def _vibrating(self, names: Sequence[str]) -> np.ndarray:
+        """Motions (n, m) per mode."""
         vibrating = np.zeros((len(names), self._shapes.shape[1]))
         known = [number for number, name in enumerate(names) if self._node_of.get(name, name) in self._nodes]
         nodes = (self._node_of.get(names[number], names[number]) for number in known)
         vibrating[known] = self._shapes[self._nodes.numbers(nodes)]
-        return np.concatenate([at_rest, vibrating], axis=1)
+        return vibrating
 
     def _loads_on(self, element: Element) -> np.ndarray:
         """Loads (n, k) on an element per coordinate."""

@@ -54,11 +54,16 @@ def test_two_gears_on_one_shaft_bend_it_as_in_closed_form():
 
 @dataclass(frozen=True, eq=False)
 class Foot(Element):
-    """A support that anyone may add: springs and a damper on the displacements of a node."""
+    """A support that anyone may add: springs, a damper and a lump of mass on the displacements of a node."""
 
     motions: tuple[str, ...]
     spring: float
     viscosity: float
+    lump: float = 0.0
+
+    @property
+    def mass(self):
+        return self.lump * np.eye(len(self.motions))
 
     @property
     def stiffness(self):
@@ -70,8 +75,8 @@ class Foot(Element):
 
 
 def test_an_element_of_ones_own_joins_by_the_names_of_its_motions():
-    """Identity: a support by a class of its own, on the node of the coupling, is a bearing there; its damping moves
-    with a stiff shaft as with a rigid one."""
+    """Identity: a support by a class of its own, on the node of the coupling, is a bearing there; its damping and its
+    mass move with a stiff shaft as with a rigid one."""
     two = shaft(STEPS, 55.0, ON_THREE[:2], torque_at=115.0, seat=18.0)
     node = motions_of("pinion", int(two.chain.nodes([115.0])[0]))
     found = ShaftSystem((two,), more=(Foot(node[:2], 2e5, 3.0),))
@@ -80,6 +85,8 @@ def test_an_element_of_ones_own_joins_by_the_names_of_its_motions():
     stiff = ShaftSystem((replace(two, material=(1e30, 0.3)),), more=found.more)
     moved = carried(115.0 - 55.0)[:2, :5]
     assert stiff.damping == pytest.approx(3.0 * moved.T @ moved, rel=1e-9, abs=1e-9)
+    heavy = replace(stiff, more=(Foot(node[:2], 2e5, 3.0, 0.7),))
+    assert heavy.mass_over(heavy.coordinates)[0] == pytest.approx(0.7 * moved.T @ moved, rel=1e-9, abs=1e-9)
 
 
 def test_a_beam_has_the_stiffness_of_the_textbooks_element():
