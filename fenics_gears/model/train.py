@@ -43,14 +43,6 @@ class RowModel:
             self.drivetrain, first.time_step, first.friction_coefficient, first.time_scales, first.clock
         )
 
-    @property
-    def lag_ratio(self) -> float:
-        """Turns of the last gear in one of the first, without sign."""
-        ratio = 1.0
-        for model in self.models:
-            ratio *= model.pair.rotation_ratio
-        return ratio
-
     def reach_through(self, mesh: int) -> Reach:
         """Between which teeth of the idler behind a mesh compliance is needed: on its flanks of either mesh, and from
         one to the other."""

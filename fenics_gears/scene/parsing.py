@@ -61,6 +61,10 @@ def _of_no_field(path: tuple[str, ...], value: Any) -> Iterator[Problem]:
         yield Problem(path, as_written(value), f"has the control character {character}. {allowed}")
 
 
+def is_train(tree: Mapping[str, Any]) -> bool:
+    return "stages" in tree and "gears" not in tree
+
+
 def values_of_text(
     text: str, name: str, *, source: str | None = None, directory: Path = Path(), with_lines: bool = True
 ) -> dict[str, Any]:
@@ -70,7 +74,7 @@ def values_of_text(
     tree = parsed(text, source)
     if "sweep" in tree and "gears" not in tree:
         raise SceneError(f"{source}: is a study, not a scene; `gears study {source}` runs it. {NOTHING_DONE}")
-    if "stages" in tree and "gears" not in tree:
+    if is_train(tree):
         raise SceneError(
             f"{source}: is a train of gears. `gears check` and `gears run` take it, fenics_gears.load_train in Python;"
             f" other commands are of a pair. {NOTHING_DONE}"

@@ -24,10 +24,10 @@ from fenics_gears.inputs.units import QuantityError, of_kind
 from fenics_gears.inputs.written import as_toml, as_written
 
 from .data import Load, Motion, Scene
-from .parsing import parsed
+from .parsing import is_train, parsed
 from .read import name_of, scene_from_text, text_of
 from .schema import NOMINAL_FREQUENCY
-from .train_rules import OF_A_ROW, OF_A_STAGE, PAIR, ROW, SHARED, TrainLoad, TrainMotion, checked_train, is_train
+from .train_rules import OF_A_ROW, OF_A_STAGE, PAIR, ROW, SHARED, TrainLoad, TrainMotion, checked_train
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,12 @@ class TrainScene:
     output_torque: float
     speed_given: bool
     text: str
+
+    @property
+    def input_speed(self) -> float:
+        """Turns of the first shaft in a second."""
+        first = self.meshes[0]
+        return first.scene.motion.mesh_frequency / first.pair.pinion.teeth
 
     @property
     def ratio(self) -> float:
@@ -161,8 +167,6 @@ def _pair_scene(sections: Mapping[str, Any], name: str, source: str, folder: Pat
         found = scene_from_text(as_toml(sections), name, source=source, directory=folder, with_lines=False)
     except SceneError as error:
         raise SceneError(f"{error}\n[gears] and its effects stand for the stage's own section.") from None
-    except GeometryError as error:
-        raise GeometryError(str(error)) from None
     if found.accuracy.target is not None:
         raise SceneError(f"{source}: accuracy.target is not yet computed in trains. {NOTHING_DONE}")
     return found

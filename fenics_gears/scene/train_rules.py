@@ -64,10 +64,6 @@ class TrainMotion(Section):
     mesh_cycles: int | None = whole_number(1, 1000000, 2, meaning="cycles that each mesh is run", otherwise="one")
 
 
-def is_train(tree: Mapping[str, Any]) -> bool:
-    return "stages" in tree and "gears" not in tree
-
-
 def checked_train(tree: Mapping[str, Any]) -> tuple[Any, Any, list[Problem]]:
     """Load and motion of a parsed train, None where it is wrong, and all that is wrong with it."""
     problems = [

@@ -13,12 +13,12 @@ from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.train import TrainScene
 
+from . import TRAIN_PICTURE_FILES
 from .chart import LEAST_SHARE, Chart, Curve
 from .drawing import picture
 from .panels import PALETTE
 from .plots import heading, save_figures
 
-TRAIN_PICTURE_FILES = ("train.png", "transmission_error.png")
 POINTS_OF_A_CIRCLE = 181
 MICRO = 1e6
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import placed
-from fenics_gears.scene.parsing import parsed
+from fenics_gears.scene.parsing import is_train, parsed
 from fenics_gears.scene.read import load_scene, text_of
 from fenics_gears.system.output import check_writable
 
@@ -27,8 +27,6 @@ def train_in(path: Path):
     """The train of a scene file, its values and geometry found right; None of another file."""
     if not path.is_file() or b"stages" not in path.read_bytes():
         return None
-    from fenics_gears.scene.train_rules import is_train
-
     if not is_train(parsed(text_of(path, "scene"), str(path))):
         return None
     from fenics_gears.scene.train import load_train

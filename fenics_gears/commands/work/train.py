@@ -15,6 +15,7 @@ from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of
 from fenics_gears.scene.train import MeshOfScene, TrainScene
+from fenics_gears.show import TRAIN_PICTURE_FILES
 from fenics_gears.system.console import print_rows
 from fenics_gears.system.output import check_writable, write_whole
 from fenics_gears.system.progress import Interruption
@@ -22,7 +23,6 @@ from fenics_gears.system.progress import Interruption
 from ..shared import RUN_FILE, WITHOUT_SOMETHING
 from .shared import after_result, plots, shown_progress
 
-PICTURES = ("train.png", "transmission_error.png")
 SCENE_FILE = "scene.toml"
 Row = tuple[str, str, str]
 
@@ -30,7 +30,7 @@ Row = tuple[str, str, str]
 def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
     """Run a train, write its result and pictures, print its numbers; return the exit code."""
     directory = options.output or Path("results") / scene.name
-    check_writable(directory, RUN_FILE, *PICTURES)
+    check_writable(directory, RUN_FILE, *TRAIN_PICTURE_FILES)
     model = train_model_of(scene)
     from fenics_gears.results.train import train_rows
     from fenics_gears.simulation.train import simulate_train
@@ -67,7 +67,7 @@ def _stage(directory: Path, mesh: MeshOfScene, found) -> tuple[Path, Any]:
 def _save(found, file: Path) -> None:
     file.parent.mkdir(parents=True, exist_ok=True)
     write_whole(file, lambda path: results.save(found, path))
-    for picture in PICTURES:
+    for picture in TRAIN_PICTURE_FILES:
         # Those of an earlier run would be taken for pictures of this one.
         (file.parent / picture).unlink(missing_ok=True)
 
@@ -97,9 +97,7 @@ def _train_rows(model: TrainModel) -> list[Row]:
         ("torque on the last shaft", f"{1e-3 * scene.output_torque:.5g}", "N m"),
     ]
     if scene.speed_given:
-        first = scene.meshes[0]
-        speed = first.scene.motion.mesh_frequency / first.pair.pinion.teeth
-        rows.append(("power", f"{1e-6 * 2.0 * pi * speed * scene.input_torque:.5g}", "kW"))
+        rows.append(("power", f"{1e-6 * 2.0 * pi * scene.input_speed * scene.input_torque:.5g}", "kW"))
     return rows
 
 
@@ -116,8 +114,7 @@ def _cost_rows(model: TrainModel) -> list[Row]:
 def _shaft_rows(model: TrainModel) -> Iterator[Row]:
     """Speed and torque of each shaft; the first one turns counter-clockwise."""
     sense = 1.0
-    first = model.scene.meshes[0]
-    speed = first.scene.motion.mesh_frequency / first.pair.pinion.teeth
+    speed = model.scene.input_speed
     torque = model.scene.input_torque
     for number in range(len(model.scene.meshes) + 1):
         turning = "counter-clockwise" if sense > 0.0 else "clockwise"
