@@ -1,5 +1,5 @@
-"""Contact of gears in a row: the contact nodes of all meshes one after the other, over the rotations of all gears.
-Compliance is summed over bodies, so that meshes in which the same gear stands feel each other.
+"""Contact of meshes that move together: the contact nodes of all one after the other, over the coordinates of the
+train. Compliance is summed over bodies, so that meshes in which the same gear stands feel each other.
 
 A mesh is described in a frame in which its pinion turns counter-clockwise. From one mesh to the next along a row the
 frame is the mirror image, in which the other flanks of the gear between them are its drive flanks.
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import floor
+from math import floor, lcm
 
 import numpy as np
 
@@ -55,11 +55,11 @@ def begun_at(idlers: Sequence[SecondMesh | None]) -> list[tuple[float, int]]:
 
 @dataclass(frozen=True)
 class MeshOfRow:
-    """A mesh in a row: its `cycle` over the rotations of its own two gears, and how these follow (2, k) from the
-    coordinates of the row."""
+    """A mesh of a train: its `cycle` over the coordinates (l,) of its own two gears, and how these follow (l, k) from
+    those of the train."""
 
     cycle: Cycle
-    rotations: np.ndarray
+    coordinates: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -94,6 +94,13 @@ class Idler:
 
 
 @dataclass(frozen=True)
+class JoinedPosition(Position):
+    """All meshes at a step; `of_meshes`: the position of each, and the number of its first contact node among all."""
+
+    of_meshes: tuple[tuple[Position, int], ...] = ()
+
+
+@dataclass(frozen=True)
 class _Part:
     """A mesh at a position: now, and how its pairs were a step before; its first node among all, then and now."""
 
@@ -118,17 +125,18 @@ class _Part:
 
 
 class RowCycle(Cycle):
-    """Contact equations of all meshes of a row, whose cycles have as many steps as one another."""
+    """Contact equations of all meshes of a train, whose steps are of one length in time; the cycles of those that an
+    idler couples have as many steps as one another."""
 
     def __init__(self, meshes: Sequence[MeshOfRow], idlers: Sequence[Idler]):
         first = meshes[0].cycle
-        super().__init__(first.mesh, first.steps, [], first.tangential)
+        # After so many steps all of them are where they were.
+        steps = lcm(*(each.cycle.steps for each in meshes))
+        super().__init__(first.mesh, steps, [], first.tangential)
         self.meshes = meshes
         self._blocks: dict[tuple[int, Flank, Flank], tuple[tuple[int, int, int], np.ndarray]] = {}
         self._idlers = idlers
         self._joined: dict[float, Position] = {}
-        # At each position, how many contact nodes there are before those of each mesh.
-        self._firsts: dict[float, tuple[int, ...]] = {}
         # Of the steps that were built last, for which there may be no room.
         self._around: dict[int, Position] = {}
 
@@ -169,10 +177,6 @@ class RowCycle(Cycle):
     ) -> StepSolution:
         return solve_step(problem, status)
 
-    def nodes_before_mesh(self, position: Position, number: int) -> int:
-        """How many contact nodes the meshes before that one have at a position."""
-        return self._firsts[position.index][number]
-
     def _joined_at(self, step: int) -> Position:
         """All meshes at a step of the mesh cycle, kept if there is room."""
         position = self._at(step, step - 1)
@@ -192,12 +196,12 @@ class RowCycle(Cycle):
             first_before += count_of(parts[-1].before)
         compliance, compliance_before = self._compliance(parts, (first, first_before), step - before)
         operators = [part.position.operator for part in parts]
-        jacobian = _stacked([each.jacobian @ mesh.rotations for each, mesh in zip(operators, self.meshes)], operators)
+        jacobian = _stacked([each.jacobian @ mesh.coordinates for each, mesh in zip(operators, self.meshes)], operators)
         rigid_slip = None
         jacobian_before = None
         if self.tangential:
             rigid_slip = np.concatenate([each.rigid_slip for each in operators])
-            stood = [each.previous_jacobian @ mesh.rotations for each, mesh in zip(operators, self.meshes)]
+            stood = [each.previous_jacobian @ mesh.coordinates for each, mesh in zip(operators, self.meshes)]
             jacobian_before = np.concatenate(stood)
         operator = ContactOperator(
             pairs=tuple(pair for each in operators for pair in each.pairs),
@@ -213,9 +217,9 @@ class RowCycle(Cycle):
             face=IN_THE_PLANE,
             coordinates=jacobian.shape[1],
         )
-        self._firsts[step % self.steps] = tuple(part.first for part in parts)
-        before_now = [_moved(part.position.node_before, part.first_before) for part in parts]
-        return Position(operator, np.concatenate(before_now), step % self.steps)
+        before_now = np.concatenate([_moved(part.position.node_before, part.first_before) for part in parts])
+        of_meshes = tuple((part.position, part.first) for part in parts)
+        return JoinedPosition(operator, before_now, step % self.steps, of_meshes=of_meshes)
 
     def _compliance(
         self, parts: list[_Part], counts: tuple[int, int], steps: float

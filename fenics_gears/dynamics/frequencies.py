@@ -51,12 +51,12 @@ class Vibration:
         return half_angle / atan(half_angle) - 1.0
 
 
-def natural_frequencies(drivetrain: Drivetrain, mesh_stiffness: float) -> np.ndarray:
-    """Natural frequencies (k,), Hz, ascending, of a drivetrain with inertia and a mesh stiffness (N/mm)."""
+def natural_frequencies(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray) -> np.ndarray:
+    """Natural frequencies (k,), Hz, ascending, of a drivetrain with inertia and a mesh stiffness as of `modes`."""
     return modes(drivetrain, mesh_stiffness)[0]
 
 
-def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = False) -> list[Vibration]:
+def vibrations(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray, friction: bool = False) -> list[Vibration]:
     """The elastic modes by frequency, as far as they are right; `friction`: whether contact forces also act across the
     line of action.
 
@@ -68,7 +68,7 @@ def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = F
     frequencies, shapes = modes(drivetrain, mesh_stiffness)
     directions = np.concatenate([_along(drivetrain), _across(drivetrain)]) if friction else _along(drivetrain)
     moved = np.abs(directions @ shapes).max(axis=0)
-    if np.isinf(mesh_stiffness):
+    if np.isinf(mesh_stiffness).any():
         # Tied flanks do not move apart in any mode; their errors excite every mode.
         moved = np.full(len(frequencies), np.inf)
     damping = np.zeros_like(drivetrain.stiffness) if drivetrain.damping is None else drivetrain.damping
@@ -86,12 +86,14 @@ def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = F
     ]
 
 
-def modes(drivetrain: Drivetrain, mesh_stiffness: float) -> tuple[np.ndarray, np.ndarray]:
-    """Natural frequencies (k,), Hz, ascending, and shapes (k, k), one a column, of modal mass 1."""
+def modes(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Natural frequencies (k,), Hz, ascending, and shapes (k, k), one a column, of modal mass 1. `mesh_stiffness`,
+    N/mm: of the mesh, or of each mesh of a train (f,)."""
     normals = _along(drivetrain)
-    if np.isinf(mesh_stiffness):
+    if np.isinf(mesh_stiffness).any():
         return _tied_modes(drivetrain, normals)
-    stiffness = drivetrain.stiffness_at_work + mesh_stiffness / len(normals) * (normals.T @ normals)
+    springs = np.broadcast_to(mesh_stiffness if np.ndim(mesh_stiffness) else mesh_stiffness / len(normals), len(normals))
+    stiffness = drivetrain.stiffness_at_work + (normals.T * springs) @ normals
     squares, shapes = eigh(stiffness, drivetrain.mass)
     return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * pi), shapes
 

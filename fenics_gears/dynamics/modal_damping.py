@@ -15,8 +15,8 @@ from .drivetrain import Drivetrain
 from .frequencies import RIGID, modes
 
 
-def modal_damping(drivetrain: Drivetrain, mesh_stiffness: float, ratios: Sequence[float]) -> np.ndarray:
-    """D (k, k), N s/mm, of a drivetrain with inertia and a mesh stiffness (N/mm).
+def modal_damping(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray, ratios: Sequence[float]) -> np.ndarray:
+    """D (k, k), N s/mm, of a drivetrain with inertia and a mesh stiffness as of `frequencies.modes`.
 
     `ratios`: zeta by elastic mode from the lowest frequency on; the last holds for all that follow.
     """

@@ -21,11 +21,14 @@ class SecondMesh:
     """The second mesh of an idler, seen when pair 0 of the first one comes to its start of contact.
 
     `phase` (0 to 1): mesh cycles that pair 0 of the second mesh is past its own start of contact. `teeth`: pitches by
-    which its tooth on the idler stands counter-clockwise of that of the first mesh's pair 0.
+    which its tooth on the idler stands counter-clockwise of that of the first mesh's pair 0. `to_first`, `to_second`:
+    directions of both mates from the idler.
     """
 
     phase: float
     teeth: int
+    to_first: float
+    to_second: float
 
 
 def second_mesh(first: GearPair, second: GearPair, to_first: float, to_second: float) -> SecondMesh:
@@ -45,7 +48,7 @@ def second_mesh(first: GearPair, second: GearPair, to_first: float, to_second: f
     roll_of_second = to_second + second.operating_pressure_angle - start_of_flank - tooth_of_first
     pitches = (roll_of_second * radius - second.path_start) / idler.base_pitch
     whole = floor(pitches)
-    return SecondMesh(pitches - whole, whole)
+    return SecondMesh(pitches - whole, whole, to_first, to_second)
 
 
 def check_apart(one: Gear, other: Gear, distance: float, words: str) -> None:

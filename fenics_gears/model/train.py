@@ -1,47 +1,126 @@
-"""The model of a train: the models of the pairs of its meshes, and which of them share gears.
+"""The model of a train: the models of the pairs of its meshes, and which of them move together.
 
-Between stages shafts are rigid and hand on torque and rotation alone: each stage is computed by itself. The meshes of
-a row with idlers are computed together.
+Between stages rigid shafts hand on torque and rotation alone: each stage is computed by itself. The meshes of a row
+with idlers are computed together, and so are all meshes of a train that has masses, bearings or shafts that twist.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from math import ceil, gcd, inf, lcm
+from typing import TYPE_CHECKING
 
-from fenics_gears.dynamics.row import RowDrivetrain, drivetrain_of_mesh, row_drivetrain
+import numpy as np
+
+from fenics_gears.dynamics.clock import FOLLOWING, SteadyClock, TimeScales
 from fenics_gears.dynamics.stepping import EquationsOfMotion
+from fenics_gears.dynamics.train import (
+    TrainDrivetrain,
+    TrainParts,
+    coordinates_of_mesh,
+    drivetrain_of_mesh,
+    idler_turn,
+    train_drivetrain,
+)
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import NOTHING_DONE
-from fenics_gears.scene.data import Scene
+from fenics_gears.inputs.tree import GEARS
+from fenics_gears.scene.data import Motion, Scene
 from fenics_gears.scene.train import MeshOfScene, TrainScene, rows_of
+from fenics_gears.scene.train_shafts import TrainShafts
 
+from .drivetrain import lumped_gears, mesh_stiffness
 from .model import Model, model_of
+
+if TYPE_CHECKING:
+    from fenics_gears.dynamics.frequencies import Vibration
+    from fenics_gears.geometry.gear_data import LumpedGear
+
+# Steps of the mesh cycles of all meshes together: each has its contact operators.
+MOST_POSITIONS = 20000
 
 
 @dataclass(frozen=True)
 class RowModel:
-    """Meshes of a train that idlers couple, or a single one: its `meshes` and the models of their pairs."""
+    """Meshes of a train that move together, or a single one: its `meshes` and the models of their pairs, and the
+    `shafts` that they are on. `recorded`: steps, the last ones, that numbers are taken from; 0 for all."""
 
     meshes: tuple[MeshOfScene, ...]
     models: tuple[Model, ...]
+    shafts: TrainShafts = TrainShafts()
+    recorded: int = 0
 
     @property
     def single(self) -> bool:
-        """Whether it has no idler."""
-        return len(self.models) == 1
+        """Whether it is a pair by itself."""
+        return len(self.models) == 1 and not self.shafts.moving
+
+    @cached_property
+    def drivetrain(self) -> TrainDrivetrain:
+        return train_drivetrain(parts_of(self.meshes, self.shafts), self.shafts.damping, self._mesh_stiffness)
 
     @property
-    def drivetrain(self) -> RowDrivetrain:
-        return row_drivetrain([each.pair for each in self.models], self.models[-1].scene.load.wheel_torque)
+    def _mesh_stiffness(self) -> np.ndarray:
+        """Of one tooth pair of each mesh (f,), N/mm, about."""
+        return np.array([mesh_stiffness(mesh.scene, mesh.pair) for mesh in self.meshes])
 
     @property
     def equations_of_motion(self) -> EquationsOfMotion:
         first = self.models[0]
+        clock = SteadyClock(first.time_step)
         return EquationsOfMotion(
-            self.drivetrain, first.time_step, first.friction_coefficient, first.time_scales, first.clock
+            self.drivetrain, first.time_step, first.friction_coefficient, self.time_scales, clock
         )
+
+    def in_a_row(self, number: int) -> bool:
+        """Whether a gear of a mesh is an idler."""
+        behind = self.meshes[number + 1 : number + 2]
+        return number > 0 and self.meshes[number].idler is not None or any(each.idler is not None for each in behind)
+
+    @property
+    def steps(self) -> int:
+        """Steps of the run: whole cycles of the slowest mesh."""
+        slowest = max(self.models, key=lambda model: model.resolution.steps_per_mesh_cycle)
+        return slowest.steps
+
+    @cached_property
+    def vibrations(self) -> list[Vibration]:
+        """The elastic modes with one tooth pair in each mesh, about; empty without inertia."""
+        if self.drivetrain.mass is None:
+            return []
+        from fenics_gears.dynamics.frequencies import vibrations
+
+        return vibrations(self.drivetrain, self._mesh_stiffness, self.models[0].scene.friction is not None)
+
+    @property
+    def time_scales(self) -> TimeScales:
+        """How mesh frequencies and time step compare with the vibrations."""
+        if not self.vibrations:
+            return FOLLOWING
+        elastic = [each.frequency for each in self.vibrations]
+        frequencies = [model.scene.motion.mesh_frequency for model in self.models]
+        return TimeScales(
+            samples_vibration=2.0 * self.models[0].time_step * elastic[0] <= 1.0,
+            follows_statics=max(frequencies) < elastic[0],
+            outruns_vibration=min(frequencies) > elastic[-1],
+        )
+
+    @property
+    def warnings(self) -> list[str]:
+        """Sentences on the motion of all meshes together."""
+        if not self.vibrations:
+            return []
+        from fenics_gears.dynamics.guidance import time_step_warnings
+
+        fastest = max(self.models, key=lambda model: model.scene.motion.mesh_frequency)
+        steps = fastest.resolution.steps_per_mesh_cycle
+        frequency = fastest.scene.motion.mesh_frequency
+        return time_step_warnings(self.vibrations, frequency, steps, self.time_scales, fastest.time_step)
 
     def reach_through(self, mesh: int) -> Reach:
         """Between which teeth of the idler behind a mesh compliance is needed: on its flanks of either mesh, and from
@@ -80,10 +159,43 @@ class TrainModel:
 
     @property
     def warnings(self) -> list[str]:
-        """Sentences for the user before the run, each with the mesh that it is of."""
-        return [
+        """Sentences for the user before the run, each of one mesh with its name."""
+        said = [
             f"{mesh.name}: {said}" for mesh, model in zip(self.scene.meshes, self.models) for said in model.warnings
         ]
+        return [*said, *(each for row in self.rows if not row.single for each in row.warnings)]
+
+
+def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
+    """What the equations of motion of some meshes are put together of."""
+    pairs = [mesh.pair for mesh in meshes]
+    idlers = [number > 0 and mesh.idler is not None for number, mesh in enumerate(meshes)]
+    turned = [
+        idler_turn(pairs[number - 1], pairs[number], mesh.idler.to_first, mesh.idler.to_second)
+        if idlers[number] and mesh.idler is not None
+        else None
+        for number, mesh in enumerate(meshes)
+    ]
+    masses: list[LumpedGear] = []
+    supports: list[tuple[float, float] | None] = []
+    for idler, mesh in zip(idlers, meshes):
+        inert = mesh.scene.inertia is not None
+        lumped = lumped_gears(mesh.scene, mesh.pair) if inert else {}
+        for gear in GEARS[1 if idler else 0 :]:
+            masses += [lumped[gear]] if inert else []
+            supports.append(_support(mesh.scene, gear))
+    torque = meshes[-1].scene.load.wheel_torque
+    torsion = shafts.torsion or (inf,) * (len(pairs) + 1)
+    return TrainParts(pairs, idlers, torque, torsion, masses, supports, turned, shafts.load)
+
+
+def _support(scene: Scene, gear: str) -> tuple[float, float] | None:
+    """Stiffness (N/mm) of a gear's support along and off the line of action; None where its centre is fixed."""
+    if scene.bearings is None:
+        return None
+    along = scene.bearings.of(gear, "x")
+    off = scene.bearings.of(gear, "y")
+    return None if along is None or off is None else (along, off)
 
 
 def _indices(model: Model) -> tuple[int, int]:
@@ -95,42 +207,96 @@ def _indices(model: Model) -> tuple[int, int]:
 def train_model_of(scene: TrainScene) -> TrainModel:
     """The model of a train. Raises SceneError for what trains do not have yet, and as `model_of` of each mesh."""
     rows = []
-    for numbers in rows_of(scene.meshes):
+    for numbers in rows_of(scene.meshes, scene.shafts.moving):
         meshes = tuple(scene.meshes[number] for number in numbers)
-        rows.append(RowModel(meshes, _models([mesh.scene for mesh in meshes])))
+        if len(meshes) == 1 and not scene.shafts.moving:
+            rows.append(RowModel(meshes, (model_of(meshes[0].scene),)))
+        else:
+            rows.append(_together(meshes, scene))
     return TrainModel(scene, tuple(rows))
 
 
-def _models(scenes: list[Scene]) -> tuple[Model, ...]:
-    """Of a single mesh as of a pair; of those of a row with one division of flanks and cycles."""
-    models = [model_of(each) for each in scenes]
-    if len(models) == 1:
-        return tuple(models)
-    # An idler has one mesh of elements, and all meshes the same steps.
-    finest = min(model.resolution.flank_element_size for model in models)
-    steps = max(model.resolution.steps_per_mesh_cycle for model in models)
-    models = [
-        model_of(replace(each, accuracy=replace(each.accuracy, flank_element_size=finest, steps_per_mesh_cycle=steps)))
-        for each in scenes
-    ]
-    _check(models)
-    return tuple(
-        replace(model, drivetrain=drivetrain_of_mesh(model.pair, model.scene.load.wheel_torque)) for model in models
-    )
+def _together(meshes: Sequence[MeshOfScene], scene: TrainScene) -> RowModel:
+    """Meshes that move together, their cycles divided into steps of one length in time."""
+    shafts = scene.shafts
+    _check_supports(meshes)
+    models = [model_of(mesh.scene) for mesh in meshes]
+    steps = whole_steps(meshes, [model.resolution.steps_per_mesh_cycle for model in models])
+    cycles = meshes[0].scene.motion.mesh_cycles
+    parts = parts_of(meshes, shafts)
+    sizes = _flank_sizes(meshes, models)
+    found = []
+    for number, (mesh, own, size) in enumerate(zip(meshes, steps, sizes)):
+        accuracy = replace(mesh.scene.accuracy, steps_per_mesh_cycle=own, flank_element_size=size)
+        passed = ceil(cycles * max(steps) / own)
+        recorded = min(ceil(scene.recorded_cycles * max(steps) / own), passed)
+        motion = Motion(mesh.scene.motion.mesh_frequency, passed, recorded, True, mesh.scene.motion.speed_given)
+        # Masses are of the whole train.
+        model = model_of(replace(mesh.scene, accuracy=accuracy, motion=motion, inertia=None))
+        names = coordinates_of_mesh(parts, number)
+        supports = [parts.support(gear) for gear in parts.gears[number]]
+        drivetrain = drivetrain_of_mesh(mesh.pair, mesh.scene.load.wheel_torque, names, supports)
+        found.append(replace(model, drivetrain=drivetrain))
+    _check(found)
+    recorded = scene.recorded_cycles * max(steps) if shafts.moving else 0
+    return RowModel(tuple(meshes), tuple(found), shafts, recorded)
 
 
-def _check(models: list[Model]) -> None:
-    """Raise SceneError for what a row with idlers does not have yet."""
+def _flank_sizes(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> list[float]:
+    """Sizes (mm) of flank elements: an idler has one mesh of elements, and so has its row."""
+    sizes = [model.resolution.flank_element_size for model in models]
+    found = []
+    for row in rows_of(meshes):
+        found += [min(sizes[number] for number in row)] * len(row)
+    return found
+
+
+def whole_steps(meshes: Sequence[MeshOfScene], least: Sequence[int]) -> list[int]:
+    """Steps of the cycle of each mesh, all of one length in time and at least so many: whole numbers, by the teeth of
+    the gears on each shaft. Raises SceneError where they are too many."""
+    lengths = [Fraction(1)]
+    for before, mesh in zip(meshes, meshes[1:]):
+        lengths.append(lengths[-1] * Fraction(before.pair.wheel.teeth, mesh.pair.pinion.teeth))
+    whole = lcm(*(each.denominator for each in lengths))
+    units = [int(each * whole) for each in lengths]
+    common = gcd(*units)
+    units = [each // common for each in units]
+    times = max(ceil(wanted / unit) for wanted, unit in zip(least, units))
+    steps = [times * unit for unit in units]
+    if sum(steps) > MOST_POSITIONS:
+        raise SceneError(
+            f"stages: their mesh cycles have steps of one length in {' : '.join(map(str, steps))} steps; allowed are"
+            f" up to {MOST_POSITIONS} of all meshes together. Take numbers of teeth with common factors, fewer stages,"
+            f" or fewer accuracy.steps_per_mesh_cycle, or leave out what makes stages move together. {NOTHING_DONE}"
+        )
+    return steps
+
+
+def _check_supports(meshes: Sequence[MeshOfScene]) -> None:
+    """Raise SceneError for an idler whose support has directions: those of either mesh would be meant."""
+    for before, mesh in zip(meshes, meshes[1:]):
+        if mesh.idler is None:
+            continue
+        of_idler = [_support(before.scene, GEARS[1]), _support(mesh.scene, GEARS[0])]
+        if of_idler[0] != of_idler[1] or of_idler[0] is not None and of_idler[0][0] != of_idler[0][1]:
+            raise SceneError(
+                f"{mesh.name}: bearings of an idler have one stiffness in all directions. Allowed: bearings.stiffness,"
+                f" for all gears of the row. {NOTHING_DONE}"
+            )
+
+
+def _check(models: Sequence[Model]) -> None:
+    """Raise SceneError for what meshes that move together do not have yet."""
     for model in models:
         if model.pair.effective_face_widths != (model.pair.face_width,) * 2:
             raise SceneError(
-                "gears of a row that are not equally wide are not yet computed. Allowed: one face_width for the row."
-                f" {NOTHING_DONE}"
+                "gears of meshes that move together that are not equally wide are not yet computed. Allowed: one"
+                f" face_width for a stage. {NOTHING_DONE}"
             )
     coefficients = {model.friction_coefficient for model in models}
     if len(coefficients) > 1:
         raise SceneError(
-            "friction: its formula gives each mesh of the row another coefficient"
-            f" ({', '.join(f'{each:.4g}' for each in sorted(coefficients))}), which is not yet computed. Allowed: one"
-            f" friction.coefficient. {NOTHING_DONE}"
+            "friction: its formula gives each mesh another coefficient"
+            f" ({', '.join(f'{each:.4g}' for each in sorted(coefficients))}), which is not yet computed where meshes"
+            f" move together. Allowed: one friction.coefficient. {NOTHING_DONE}"
         )

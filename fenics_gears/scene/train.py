@@ -26,8 +26,9 @@ from fenics_gears.inputs.written import as_toml, as_written
 from .data import Load, Motion, Scene
 from .parsing import is_train, parsed
 from .read import name_of, scene_from_text, text_of
-from .schema import NOMINAL_FREQUENCY
-from .train_rules import OF_A_ROW, OF_A_STAGE, PAIR, ROW, SHARED, TrainLoad, TrainMotion, checked_train
+from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
+from .train_rules import OF_A_ROW, OF_A_STAGE, PAIR, ROW, SHARED, TrainSections, checked_train
+from .train_shafts import TrainShafts
 
 
 @dataclass(frozen=True)
@@ -44,8 +45,9 @@ class MeshOfScene:
 
 @dataclass(frozen=True)
 class TrainScene:
-    """A train of gears: its meshes from the driven shaft on, torques (N mm) on the first and the last shaft, and the
-    text that it was read from."""
+    """A train of gears: its meshes from the driven shaft on, torques (N mm) on the first and the last shaft, what its
+    shafts are, and the text that it was read from. `recorded_cycles`: of the slowest mesh, whose steps numbers are
+    taken from where stages move together."""
 
     title: str
     name: str
@@ -54,6 +56,8 @@ class TrainScene:
     output_torque: float
     speed_given: bool
     text: str
+    shafts: TrainShafts = TrainShafts()
+    recorded_cycles: int = 1
 
     @property
     def input_speed(self) -> float:
@@ -103,11 +107,11 @@ def train_from_text(
     return train_of(tree, text, name, source, directory)
 
 
-def rows_of(meshes: Sequence[MeshOfScene]) -> list[list[int]]:
-    """Numbers of meshes, those that idlers couple together."""
+def rows_of(meshes: Sequence[MeshOfScene], moving: bool = False) -> list[list[int]]:
+    """Numbers of meshes, those together that idlers couple, or all where stages move together (`moving`)."""
     rows: list[list[int]] = []
     for number, mesh in enumerate(meshes):
-        if mesh.idler is None:
+        if not rows or mesh.idler is None and not moving:
             rows.append([])
         rows[-1].append(number)
     return rows
@@ -116,18 +120,23 @@ def rows_of(meshes: Sequence[MeshOfScene]) -> list[list[int]]:
 def train_of(tree: Mapping[str, Any], text: str, name: str, source: str, folder: Path) -> TrainScene:
     """The train of a parsed text. Raises SceneError, naming all mistakes of the train or of one of its stages at once,
     and GeometryError for gears that overlap."""
-    load, motion, problems = checked_train(tree)
-    if problems:
+    sections, problems = checked_train(tree)
+    if sections is None:
         raise SceneError(listed(problems, line_numbers(text), source))
     meshes: list[MeshOfScene] = []
     for stage, content in tree["stages"].items():
-        meshes += _meshes_of(stage, content, tree, source, folder)
-    return _completed(tree.get("title") or name, name, text, meshes, load, motion)
+        meshes += _meshes_of(stage, content, tree, (source, folder, len(meshes)))
+    if sections.shafts.moving:
+        for mesh in meshes:
+            check_moving(mesh.scene, f"{source}, {mesh.name}")
+    return _completed(tree.get("title") or name, name, text, meshes, sections)
 
 
 def _meshes_of(
-    stage: str, content: Mapping[str, Any], tree: Mapping[str, Any], source: str, folder: Path
+    stage: str, content: Mapping[str, Any], tree: Mapping[str, Any], place: tuple[str, Path, int]
 ) -> list[MeshOfScene]:
+    """The meshes of a stage; its `place`: the file, its folder, and how many meshes there are before."""
+    source, folder, before = place
     row = content.get("kind", PAIR) == ROW
     gears = list(content["gears"]) if row else [content.get("pinion"), content.get("wheel")]
     count = len(gears) - 1
@@ -145,6 +154,10 @@ def _meshes_of(
         given = {name: gear for name, gear in both.items() if gear is not None}
         shared = {name: tree[name] for name in SHARED if name in tree}
         sections = {"gears": fields | given, **shared, **inner, "load": {"wheel_torque": "1 N m"}}
+        if "inertia" in sections:
+            # The load is on the last shaft; speed and length of the run are put in for the train's.
+            sections["inertia"] = {each: value for each, value in sections["inertia"].items() if each != "load"}
+            sections["motion"] = {"pinion_speed": "1 rpm", "mesh_cycles": 1}
         found = _pair_scene(sections, f"{stage} {number + 1}" if count > 1 else stage, label, folder)
         if count > 1:
             _check_in_row(found, label)
@@ -158,7 +171,7 @@ def _meshes_of(
             gears[number] = {**gears[number], "tip_diameter": f"{min(tips)!r} mm"}
             scenes[number - 1 : number + 1] = [scene(number - 1), scene(number)]
     pairs = [gear_pair(each.gears) for each in scenes]
-    return _joined(stage, scenes, pairs, directions, label)
+    return _joined(stage, scenes, pairs, directions, (label, before))
 
 
 def _pair_scene(sections: Mapping[str, Any], name: str, source: str, folder: Path) -> Scene:
@@ -186,6 +199,21 @@ def _check_in_row(scene: Scene, source: str) -> None:
         )
 
 
+def check_moving(scene: Scene, source: str) -> None:
+    """Raise SceneError for a mesh that cannot yet move together with others."""
+    if scene.three_dimensional or not scene.resolves_contact or scene.accuracy.condensation is not None:
+        raise SceneError(
+            f"{source}: stages that move together, by [shafts], [inertia] or [bearings], are computed in the plane with"
+            f" elastic teeth so far. Allowed: spur gears with a material, without sections over the face. {NOTHING_DONE}"
+        )
+    bearings = scene.bearings
+    if bearings is not None and (bearings.places is not None or bearings.each is not None):
+        raise SceneError(
+            f"{source}: bearings with places are not yet computed in trains. Allowed: bearings.stiffness, which holds"
+            f" the centre of each gear. {NOTHING_DONE}"
+        )
+
+
 def _angle(written: Any, stage: str, source: str) -> float:
     if written is None:
         return 0.0
@@ -199,9 +227,12 @@ def _angle(written: Any, stage: str, source: str) -> float:
 
 
 def _joined(
-    stage: str, scenes: Sequence[Scene], pairs: Sequence[GearPair], directions: Sequence[float], label: str
-) -> list[MeshOfScene]:
-    """The meshes of a stage, with how each idler's second mesh follows from its first."""
+    stage: str, scenes: Sequence[Scene], pairs: Sequence[GearPair], directions: Sequence[float],
+    place: tuple[str, int],
+) -> list[MeshOfScene]:  # fmt: skip
+    """The meshes of a stage, with how each idler's second mesh follows from its first; its `place`: the label, and how
+    many meshes there are before."""
+    label, meshes_before = place
     meshes: list[MeshOfScene] = []
     for number, (scene, pair) in enumerate(zip(scenes, pairs)):
         idler = None
@@ -212,8 +243,8 @@ def _joined(
                     f"{label}: gear {number + 1} would be cut differently for its two meshes: give its profile_shift,"
                     f" tip_diameter and root_diameter. {NOTHING_DONE}"
                 )
-            # In the frame of every second mesh, the mirror image, angles count the other way.
-            sense = -1.0 if (number - 1) % 2 else 1.0
+            # In the frame of every second mesh of the train, the mirror image, angles count the other way.
+            sense = -1.0 if (meshes_before + number - 1) % 2 else 1.0
             angles = sense * (directions[number - 1] + pi), sense * directions[number]
             idler = second_mesh(before.pair, pair, *angles)
         name = f"{stage}: gears {number + 1} and {number + 2}" if len(scenes) > 1 else stage
@@ -235,9 +266,11 @@ def _check_overlap(meshes: Sequence[MeshOfScene], label: str) -> None:
 
 
 def _completed(
-    title: str, name: str, text: str, meshes: Sequence[MeshOfScene], load: TrainLoad, motion: TrainMotion
+    title: str, name: str, text: str, meshes: Sequence[MeshOfScene], sections: TrainSections
 ) -> TrainScene:
     """The train with steps, speeds and torques of all meshes."""
+    load = sections.load
+    motion = sections.motion
     ratios = [mesh.pair.rotation_ratio for mesh in meshes]
     through = 1.0
     for each in ratios:
@@ -260,4 +293,6 @@ def _completed(
         behind = meshes[len(found) + 1 : len(found) + 2]
         frequency *= behind[0].pair.pinion.teeth / mesh.pair.wheel.teeth if behind else 1.0
         found.append(replace(mesh, scene=replace(mesh.scene, load=Load(torque), motion=moving)))
-    return TrainScene(title, name, tuple(found), output * through, output, speed is not None, text)
+    recorded = min(motion.recorded_cycles or LAST_CYCLES, cycles)
+    of_ends = output * through, output
+    return TrainScene(title, name, tuple(found), *of_ends, speed is not None, text, sections.shafts, recorded)

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from re import fullmatch
 from typing import Any
 
 from fenics_gears.inputs.fields import quantity, whole_number
 from fenics_gears.inputs.problem import Problem, did_you_mean
-from fenics_gears.inputs.section import Section, fields_of, names_in, read
+from fenics_gears.inputs.section import Section, allowed_in, fields_of, names_in, read
 from fenics_gears.inputs.written import as_written
+
+from .train_shafts import TrainShafts, checked_shafts, explained, gears_of_shafts
 
 PAIR = "pair"
 ROW = "row"
 # Sections that a train may have for all of its stages, and those that a row may have of its own; and a stage of two
-# gears. Others make shafts give way or vibrate, and so couple the stages.
-SHARED = ("friction", "accuracy")
+# gears. Others are of a pair alone so far.
+SHARED = ("friction", "accuracy", "inertia", "bearings")
 OF_A_ROW = (*SHARED, "tip_relief", "root_relief", "profile_modifications", "corner_contact")
 OF_A_STAGE = (*OF_A_ROW, "lead_modifications", "misalignment", "coast_flanks", "body_meshes")
-COUPLING = ("shafts", "bearings", "inertia", "damping", "torque_ripple", "speed_ramp", "flank_errors", "eccentricity")
-OF_A_TRAIN = ("title", "stages", "load", "motion", *SHARED)
+OF_A_PAIR = ("shafts", "damping", "torque_ripple", "speed_ramp", "flank_errors", "eccentricity")
+OF_A_TRAIN = ("title", "stages", "load", "motion", *SHARED, "shafts", "damping")
 MOST_STAGES = 20
 NAMES = r"[A-Za-z0-9_-]{1,60}"
 
@@ -61,11 +63,33 @@ class TrainMotion(Section):
         meaning="speed of the first shaft",
         otherwise="a cycle of the first mesh takes 1 s",
     )
-    mesh_cycles: int | None = whole_number(1, 1000000, 2, meaning="cycles that each mesh is run", otherwise="one")
+    mesh_cycles: int | None = whole_number(
+        1,
+        1000000,
+        2,
+        meaning="cycles that each mesh is run; where stages move together, cycles of the slowest mesh",
+        otherwise="required with `[inertia]`; else one",
+    )
+    recorded_cycles: int | None = whole_number(
+        1,
+        1000000,
+        2,
+        meaning="cycles at the end of a run with `[inertia]` that its numbers are taken from",
+        otherwise="two",
+    )
 
 
-def checked_train(tree: Mapping[str, Any]) -> tuple[Any, Any, list[Problem]]:
-    """Load and motion of a parsed train, None where it is wrong, and all that is wrong with it."""
+@dataclass(frozen=True)
+class TrainSections:
+    """Sections of a train beside its stages."""
+
+    load: TrainLoad
+    motion: TrainMotion
+    shafts: TrainShafts
+
+
+def checked_train(tree: Mapping[str, Any]) -> tuple[TrainSections | None, list[Problem]]:
+    """The sections of a parsed train, None where it is wrong, and all that is wrong with it."""
     problems = [
         Problem((each,), as_written(tree[each]), f"is not of a train.{did_you_mean(each, OF_A_TRAIN)} {_where(each)}")
         for each in tree
@@ -74,7 +98,7 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[Any, Any, list[Problem]]:
     stages = tree["stages"]
     if not isinstance(stages, Mapping) or not 0 < len(stages) <= MOST_STAGES:
         allowed = f"Allowed: 1 to {MOST_STAGES} sections [stages.NAME], each with the gears of a stage."
-        return None, None, [*problems, Problem(("stages",), as_written(stages), f"has no stages. {allowed}")]
+        return None, [*problems, Problem(("stages",), as_written(stages), f"has no stages. {allowed}")]
     title = tree.get("title", "")
     if not isinstance(title, str):
         problems.append(Problem(("title",), as_written(title), "is no text. Allowed: a text between quotes."))
@@ -91,32 +115,40 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[Any, Any, list[Problem]]:
             continue
         values, wrong = read(section, written, (name,))
         found.append(values)
-        problems += [_explained(each, section) for each in wrong]
+        problems += [explained(each, section) for each in wrong]
     if isinstance(tree.get("load", {}), Mapping) and not {*names_in(TrainLoad)} & {*tree.get("load", {})}:
         problems.append(Problem(("load",), None, f"is missing. Add the section [load] with {fields_of(TrainLoad)}."))
-    if not problems and found[0].power is not None and found[1].input_speed is None:
-        problems.append(
-            Problem(
-                ("load", "power"), as_written(tree["load"]["power"]), "needs a speed. Allowed: with motion.input_speed."
-            )
-        )
-    return *(found if not problems else (None, None)), problems
+    shafts, wrong = checked_shafts(tree, gears_of_shafts(stages))
+    problems += wrong
+    if problems:
+        return None, problems
+    sections = TrainSections(*found, shafts)
+    problems += _needed(tree, sections)
+    return (None if problems else sections), problems
+
+
+def _needed(tree: Mapping[str, Any], sections: TrainSections) -> Iterator[Problem]:
+    """What a train lacks that its other sections need."""
+    motion = sections.motion
+    if sections.load.power is not None and motion.input_speed is None:
+        said = "needs a speed. Allowed: with motion.input_speed."
+        yield Problem(("load", "power"), as_written(tree["load"]["power"]), said)
+    for name in ("input_speed", "mesh_cycles") if "inertia" in tree else ():
+        if getattr(motion, name) is None:
+            allowed = allowed_in(TrainMotion, name).description
+            yield Problem(("motion", name), None, f"is missing, which [inertia] needs. Allowed: {allowed}.")
+    for stage, content in tree["stages"].items() if "inertia" not in tree else ():
+        if "inertia" in content:
+            said = "is of one stage. Add [inertia] for all stages, such as with a density."
+            yield Problem(("stages", stage, "inertia"), "", said)
 
 
 def _where(name: str) -> str:
     if name in OF_A_STAGE:
         return f"Write it within a stage: [stages.NAME.{name}]."
-    if name in COUPLING:
-        return f"It couples the stages, which is not yet computed. Known: {', '.join(OF_A_TRAIN)}."
+    if name in OF_A_PAIR:
+        return f"It is not yet computed in trains. Known: {', '.join(OF_A_TRAIN)}."
     return f"Known: {', '.join(OF_A_TRAIN)}; within a stage {', '.join(OF_A_STAGE)} and all fields of [gears]."
-
-
-def _explained(problem: Problem, section: type[Section]) -> Problem:
-    if not problem.unknown:
-        return problem
-    names = names_in(section)
-    said = f"is not known here.{did_you_mean(problem.path[-1], names)} Known: {', '.join(names)}."
-    return replace(problem, message=said)
 
 
 def _of_stage(path: tuple[str, ...], content: Any) -> Iterator[Problem]:
@@ -133,10 +165,12 @@ def _of_stage(path: tuple[str, ...], content: Any) -> Iterator[Problem]:
         wrong = "gears" if "gears" in content else "directions"
         yield Problem((*path, wrong), as_written(content[wrong]), f'is of a row. Add kind = "{ROW}", or leave it out.')
     idlers = kind == ROW and isinstance(content.get("gears"), list) and len(content["gears"]) > 2
-    for name in (*COUPLING, *(OF_A_STAGE if idlers else ())):
+    for name in (*OF_A_PAIR, *(OF_A_STAGE if idlers else ())):
         if name in content and name not in OF_A_ROW:
-            what = "in rows with idlers" if name in OF_A_STAGE else "in trains"
+            what = "in rows with idlers" if name in OF_A_STAGE else "of a stage by itself"
             allowed = f"Allowed: {', '.join(OF_A_ROW if idlers else OF_A_STAGE)}."
+            if name in OF_A_TRAIN:
+                allowed = f"Write it for the whole train: [{name}]."
             yield Problem((*path, name), "", f"is not yet computed {what}. {allowed}")
 
 

@@ -1,5 +1,5 @@
-"""A train of gears from its model to its result: row by row, since rigid shafts between them hand on torque and
-rotation alone."""
+"""A train of gears from its model to its result: row by row where rigid shafts between them hand on torque and rotation
+alone, and all meshes together where they have masses, bearings or shafts that twist."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.row import Idler, MeshOfRow, RowCycle, at_phase, begun_at
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.marched import March
-from fenics_gears.dynamics.row import rotations_of
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.elasticity.compliance import Body
@@ -31,7 +30,7 @@ from fenics_gears.system.memory import allowed_memory
 from fenics_gears.system.progress import Progress, SilentProgress
 
 from .bodies import gear_body
-from .elastic_route import flanks_of, gaps_of
+from .elastic_route import flanks_of, gaps_of, mesh_cycle
 from .simulate import MARCH, solved
 from .warm_up import compile_kernels, compile_loops
 
@@ -96,7 +95,7 @@ def _coupled(row: RowModel, progress: Progress, cache: Cache | None) -> list[Mes
         result.take(solved_steps, [of_mesh(solved_steps, cycle, number) for number in range(len(row.models))])
 
     progress.stage(MARCH)
-    march = Marcher(cycle, row.equations_of_motion).run(row.models[0].steps, 1, progress.update, take)
+    march = Marcher(cycle, row.equations_of_motion).run(row.steps, 1, progress.update, take)
     if march.interrupted:
         raise KeyboardInterrupt
     return result.of_meshes(march)
@@ -107,29 +106,33 @@ def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
     bodies = list(_bodies(row, progress, cache))
     begun = begun_at([mesh.idler for mesh in row.meshes])
     idlers = []
-    for mesh in range(len(row.models) - 1):
-        second = row.meshes[mesh + 1].idler
-        second = replace(second, teeth=second.teeth + begun[mesh + 1][1])
-        pair = row.models[mesh].pair
-        idlers.append(Idler(mesh, pair.wheel.teeth, bodies[mesh + 1].section, second, pair.face_width))
     meshes = []
-    rotations = rotations_of([each.pair for each in row.models])
-    for number, (own, (phase, _), rows) in enumerate(zip(row.models, begun, rotations)):
-        meshes.append(MeshOfRow(_cycle(own, (bodies[number], bodies[number + 1]), phase), rows))
+    gear = 0
+    of_meshes = row.drivetrain.of_meshes
+    for number, (mesh, own, (phase, whole), rows) in enumerate(zip(row.meshes, row.models, begun, of_meshes)):
+        if number and mesh.idler is not None:
+            second = replace(mesh.idler, teeth=mesh.idler.teeth + whole)
+            idlers.append(Idler(number - 1, own.pair.pinion.teeth, bodies[gear].section, second, own.pair.face_width))
+        elif number:
+            gear += 1
+        pair = bodies[gear], bodies[gear + 1]
+        gear += 1
+        coupled = row.in_a_row(number)
+        meshes.append(MeshOfRow(_cycle(own, pair, phase) if coupled else mesh_cycle(own, pair), rows))
     return RowCycle(meshes, idlers)
 
 
 def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body]:
-    """The gears of a row, one after the other."""
-    last = len(row.models)
-    for gear in range(last + 1):
-        progress.stage(f"condense gear {gear + 1}")
-        if gear == 0:
-            yield gear_body(row.models[0], GEARS[0], cache)
-        elif gear == last:
-            yield gear_body(row.models[-1], GEARS[1], cache)
-        else:
-            yield _idler(row, gear - 1, cache)
+    """The gears of meshes that move together, one after the other; an idler is one gear."""
+    last = len(row.models) - 1
+    for number, (mesh, model) in enumerate(zip(row.meshes, row.models)):
+        idler_before = number > 0 and mesh.idler is not None
+        idler_behind = number < last and row.meshes[number + 1].idler is not None
+        if not idler_before:
+            progress.stage(f"condense pinion of {mesh.name}")
+            yield gear_body(model, GEARS[0], cache)
+        progress.stage(f"condense wheel of {mesh.name}")
+        yield _idler(row, number, cache) if idler_behind else gear_body(model, GEARS[1], cache)
 
 
 def _idler(row: RowModel, mesh: int, cache: Cache) -> Body:
@@ -151,16 +154,17 @@ def _cycle(model: Model, bodies: tuple[Body, Body], phase: float) -> Cycle:
 def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:
     """The steps of a row as one of its meshes has them: its contact nodes, and the rotations of its gears."""
     mesh = cycle.meshes[number]
-    positions = [mesh.cycle.position(int(step)) for step in steps.numbers]
+    own = [position.of_meshes[number] for position in steps.positions]
+    positions = [position for position, _ in own]
     counts = np.array([position.operator.nodes for position in positions], dtype=np.int64)
-    ahead = np.array([cycle.nodes_before_mesh(position, number) for position in steps.positions], dtype=np.int64)
+    ahead = np.array([first for _, first in own], dtype=np.int64)
     nodes = np.repeat(steps.starts[:-1] + ahead - (np.cumsum(counts) - counts), counts) + np.arange(counts.sum())
     forces = nodes
     if steps.kinds == 2:
         normal = nodes + np.repeat(steps.starts[:-1], counts)
         forces = _by_steps(normal, normal + np.repeat(np.diff(steps.starts), counts), counts)
     return Steps(
-        steps.numbers, positions, steps.states @ mesh.rotations.T, steps.forces[forces], steps.displacement[forces],
+        steps.numbers, positions, steps.states @ mesh.coordinates.T, steps.forces[forces], steps.displacement[forces],
         steps.status[nodes], steps.iterations, steps.methods,
     )  # fmt: skip
 

@@ -1,0 +1,178 @@
+"""What couples the stages of a train: shafts that twist, masses, bearings and damping; and mistakes in their sections.
+
+Without any of it rigid shafts hand on torque and rotation alone, and each stage is by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import inf
+from typing import Any
+
+from fenics_gears.dynamics.damping import Damping
+from fenics_gears.dynamics.inertia import LoadInertia
+from fenics_gears.inputs.allowed import Allowed, Refused
+from fenics_gears.inputs.fields import declared, quantity
+from fenics_gears.inputs.problem import Path, Problem, did_you_mean
+from fenics_gears.inputs.section import Section, names_in, read
+from fenics_gears.inputs.written import as_written
+
+# Sections of a train of which each makes its stages move together.
+COUPLING = ("shafts", "inertia", "bearings")
+
+
+@dataclass(frozen=True, kw_only=True)
+class AllowedGears(Allowed):
+    """A list of names of gears."""
+
+    def convert(self, value: Any) -> tuple[str, ...]:
+        if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
+            raise Refused("is no list of names of gears.")
+        return tuple(value)
+
+
+@dataclass(frozen=True)
+class TrainShaft(Section):
+    """``[shafts.NAME]`` of a train: the gears on one shaft, and how it twists between them, or between its gear and the
+    drive or the load."""
+
+    carries: tuple[str, ...] = declared(
+        AllowedGears(description='a list of gears, such as ["first.wheel", "second.pinion"]'), default=()
+    )
+    torsional_stiffness: float | None = quantity(
+        "1e-6 N mm/rad to 1e24 N mm/rad",
+        "0.2e9 N mm/rad",
+        meaning="torsional stiffness between the gears of the shaft; of the first shaft between drive and gear, of the"
+        " last between gear and load",
+        otherwise="the shaft is rigid",
+    )
+
+
+@dataclass(frozen=True)
+class TrainShafts:
+    """Torsional stiffness (N mm/rad) of each shaft of a train, infinite where it is rigid; the moment of inertia
+    (N mm s^2) of the load, and the damping, None where there is none. `moving`: whether stages move together."""
+
+    torsion: tuple[float, ...] = ()
+    load: float | None = None
+    damping: Damping | None = None
+    moving: bool = False
+
+
+def gears_of_shafts(stages: Mapping[str, Any]) -> list[list[str]]:
+    """Names of the gears on each shaft of a train, from the driven one on: STAGE.pinion and STAGE.wheel, in a row
+    STAGE.1, STAGE.2 and so on."""
+    shafts: list[list[str]] = []
+    for stage, content in stages.items():
+        gears = content.get("gears") if isinstance(content, Mapping) else None
+        own = [f"{stage}.pinion", f"{stage}.wheel"]
+        if isinstance(gears, list):
+            own = [f"{stage}.{number}" for number in range(1, len(gears) + 1)]
+        if shafts:
+            shafts[-1].append(own[0])
+        else:
+            shafts.append(own[:1])
+        shafts += [[each] for each in own[1:]]
+    return shafts
+
+
+def checked_shafts(tree: Mapping[str, Any], shafts: Sequence[Sequence[str]]) -> tuple[TrainShafts, list[Problem]]:
+    """What couples the stages of a parsed train, and what is wrong with it; `shafts`: names of the gears on each."""
+    problems: list[Problem] = []
+    torsion = [inf] * len(shafts)
+    for name, content in _sections(tree, "shafts", problems):
+        place = ("shafts", name)
+        shaft, wrong = read(TrainShaft, content, place)
+        problems += [explained(each, TrainShaft) for each in wrong]
+        if shaft is not None:
+            problems += _put(torsion, shaft, shafts, place)
+    load = _load(tree, problems)
+    damping = _damping(tree, problems)
+    moving = any(name in tree for name in COUPLING) or any(
+        name in content for content in _tables(tree["stages"]) for name in COUPLING
+    )
+    if damping is not None and "inertia" not in tree:
+        problems.append(Problem(("damping",), "", "needs the section [inertia], which is missing. Add it."))
+    if "inertia" in tree and torsion[-1] < inf and load is None:
+        said = "is missing. The far end of the last shaft needs a moment of inertia: add [inertia.load]."
+        problems.append(Problem(("inertia", "load"), None, said))
+    return TrainShafts(tuple(torsion), load, damping, moving), problems
+
+
+def _sections(tree: Mapping[str, Any], name: str, problems: list[Problem]) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Sections with names of the user's."""
+    written = tree.get(name, {})
+    if not isinstance(written, Mapping):
+        problems.append(Problem((name,), as_written(written), f"is not a section. Allowed: sections [{name}.NAME]."))
+        return
+    for each, content in written.items():
+        if isinstance(content, Mapping):
+            yield each, content
+        else:
+            said = f"is not of a train. Allowed: sections [{name}.NAME], each of a shaft with the gears that it carries."
+            problems.append(Problem((name, each), as_written(content), said))
+
+
+def _tables(written: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    return [each for each in written.values() if isinstance(each, Mapping)]
+
+
+def _put(
+    torsion: list[float], shaft: TrainShaft, shafts: Sequence[Sequence[str]], place: Path
+) -> Iterator[Problem]:
+    """Enter the stiffness of a shaft."""
+    carried = [sorted(each) for each in shafts]
+    if sorted(shaft.carries) not in carried:
+        known = "; ".join(", ".join(f'"{gear}"' for gear in each) for each in shafts)
+        unknown = next((gear for gear in shaft.carries if not any(gear in each for each in shafts)), None)
+        meant = "" if unknown is None else did_you_mean(unknown, [gear for each in shafts for gear in each])
+        said = f"are not the gears of one shaft.{meant} The shafts of this train carry: {known}."
+        yield Problem((*place, "carries"), as_written(list(shaft.carries)), said)
+        return
+    number = carried.index(sorted(shaft.carries))
+    if shaft.torsional_stiffness is None:
+        return
+    if 0 < number < len(shafts) - 1 and len(shafts[number]) == 1:
+        said = "is of an idler, between whose gears nothing twists. Leave it out."
+        yield Problem((*place, "torsional_stiffness"), "", said)
+        return
+    torsion[number] = shaft.torsional_stiffness
+
+
+def _load(tree: Mapping[str, Any], problems: list[Problem]) -> float | None:
+    inertia = tree.get("inertia")
+    if not isinstance(inertia, Mapping) or "load" not in inertia:
+        return None
+    place = ("inertia", "load")
+    if not isinstance(inertia["load"], Mapping):
+        problems.append(Problem(place, as_written(inertia["load"]), "is not a section with moment_of_inertia."))
+        return None
+    load, wrong = read(LoadInertia, inertia["load"], place)
+    problems += [explained(each, LoadInertia) for each in wrong]
+    return None if load is None else load.moment_of_inertia
+
+
+def _damping(tree: Mapping[str, Any], problems: list[Problem]) -> Damping | None:
+    written = tree.get("damping")
+    if written is None:
+        return None
+    if not isinstance(written, Mapping):
+        problems.append(Problem(("damping",), as_written(written), "is not a section, such as one with ratio = 0.05."))
+        return None
+    for gear in ("pinion", "wheel"):
+        if gear in written:
+            said = "is of a pair. Allowed: one damping of the whole train."
+            problems.append(Problem(("damping", gear), "", said))
+    damping, wrong = read(Damping, written, ("damping",))
+    problems += [explained(each, Damping) for each in wrong]
+    return damping
+
+
+def explained(problem: Problem, section: type[Section]) -> Problem:
+    """A problem with an unknown name told with those of its section."""
+    if not problem.unknown:
+        return problem
+    names = names_in(section)
+    said = f"is not known here.{did_you_mean(problem.path[-1], names)} Known: {', '.join(names)}."
+    return replace(problem, message=said)
