@@ -7,9 +7,9 @@ frame is the mirror image, in which the other flanks of the gear between them ar
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import floor, lcm
+from math import floor, lcm, prod
 
 import numpy as np
 
@@ -113,15 +113,51 @@ class _Part:
     def nodes(self) -> int:
         return self.position.operator.nodes
 
-    def rows(self, kinds: int, nodes: int) -> np.ndarray:
-        """Where its forces are among all, of which so many are normal."""
-        own = self.first + np.arange(self.nodes)
-        return np.concatenate([own + kind * nodes for kind in range(kinds)])
+    @property
+    def nodes_before(self) -> int:
+        return count_of(self.before)
 
-    def rows_before(self, nodes: int) -> np.ndarray:
-        """The same a step before, with friction."""
-        own = self.first_before + np.arange(count_of(self.before))
-        return np.concatenate([own, own + nodes])
+    def put(self, compliance: np.ndarray, before: np.ndarray | None) -> None:
+        """Put its own compliance (k, n, k, n) and, with friction, the previous one (2, n before, n) among those of
+        all."""
+        nodes = self.nodes
+        own = slice(self.first, self.first + nodes)
+        kinds = len(compliance)
+        stored = self.position.operator.compliance.reshape(kinds, nodes, kinds, nodes)
+        compliance[:, own, :, own] = stored
+        if before is not None:
+            then = slice(self.first_before, self.first_before + self.nodes_before)
+            before[:, then, own] = self.position.operator.previous_compliance.T.reshape(2, self.nodes_before, nodes)
+
+
+class _Room:
+    """Memory for matrices of positions that are not kept, used again after two blocks of steps: a march needs the last
+    step of the block before, and to get new memory takes longer than to fill it."""
+
+    def __init__(self) -> None:
+        self._turns: tuple[list[np.ndarray], list[np.ndarray]] = ([], [])
+        self._taken = 0
+
+    def begin_block(self) -> None:
+        self._turns = self._turns[1], self._turns[0]
+        self._taken = 0
+
+    def zeros(self, *shape: int) -> np.ndarray:
+        own = self._turns[0]
+        size = prod(shape)
+        if self._taken == len(own):
+            own.append(np.empty(0))
+        if len(own[self._taken]) < size:
+            # Others have up to twice as many nodes; what is never touched takes no memory.
+            own[self._taken] = np.empty(4 * size)
+        found = own[self._taken][:size].reshape(shape)
+        found[:] = 0.0
+        self._taken += 1
+        return found
+
+
+def _zeros(*shape: int) -> np.ndarray:
+    return np.zeros(shape)
 
 
 class RowCycle(Cycle):
@@ -139,6 +175,7 @@ class RowCycle(Cycle):
         self._joined: dict[float, Position] = {}
         # Of the steps that were built last, for which there may be no room.
         self._around: dict[int, Position] = {}
+        self._room = _Room()
 
     def share(self, memory: float) -> None:
         """Let operators take so many bytes, those of single meshes among them."""
@@ -154,8 +191,17 @@ class RowCycle(Cycle):
     def build(self, steps: Sequence[int]) -> None:
         for each in self.meshes:
             each.cycle.build(steps)
-        missing = dict.fromkeys(step % self.steps for step in steps if step % self.steps not in self._joined)
-        self._around = {step: self._joined_at(step) for step in missing}
+        missing = list(dict.fromkeys(step % self.steps for step in steps if step % self.steps not in self._joined))
+        if not missing:
+            return
+        first = self._joined_at(missing[0])
+        if self.kept.takes((self.steps - len(self._joined) - 1) * first.bytes):
+            self.kept.taken -= (self.steps - len(self._joined) - 1) * first.bytes
+            self._around = {step: self._joined_at(step) for step in missing}
+            return
+        # There is no room for all, whose turn comes again after many mesh cycles.
+        self._room.begin_block()
+        self._around = {step: self._at(step, step - 1, self._room.zeros) for step in missing}
 
     def between(self, step: float, before: float) -> Position:
         if step == int(step) and before == step - 1:
@@ -184,8 +230,8 @@ class RowCycle(Cycle):
             self._joined[step] = position
         return position
 
-    def _at(self, step: float, before: float) -> Position:
-        """All meshes at a step, after the one before it."""
+    def _at(self, step: float, before: float, zeros: Callable[..., np.ndarray] = _zeros) -> Position:
+        """All meshes at a step, after the one before it; `zeros` gives room for matrices."""
         parts = []
         first = 0
         first_before = 0
@@ -193,8 +239,8 @@ class RowCycle(Cycle):
             earlier = _pairs_before(each.cycle, step, before)
             parts.append(_Part(_part(each.cycle, step, before), earlier, first, first_before))
             first += parts[-1].nodes
-            first_before += count_of(parts[-1].before)
-        compliance, compliance_before = self._compliance(parts, (first, first_before), step - before)
+            first_before += parts[-1].nodes_before
+        compliance, compliance_before = self._compliance(parts, (first, first_before), step - before, zeros)
         operators = [part.position.operator for part in parts]
         jacobian = _stacked([each.jacobian @ mesh.coordinates for each, mesh in zip(operators, self.meshes)], operators)
         rigid_slip = None
@@ -222,20 +268,17 @@ class RowCycle(Cycle):
         return JoinedPosition(operator, before_now, step % self.steps, of_meshes=of_meshes)
 
     def _compliance(
-        self, parts: list[_Part], counts: tuple[int, int], steps: float
+        self, parts: list[_Part], counts: tuple[int, int], steps: float, zeros: Callable[..., np.ndarray]
     ) -> tuple[np.ndarray, np.ndarray | None]:
         """C (m, m) of all meshes, and with friction E (n, m before), mm/N, after so many steps."""
         nodes, nodes_before = counts
         kinds = 2 if self.tangential else 1
-        compliance = np.zeros((kinds * nodes, kinds * nodes))
+        compliance = zeros(kinds * nodes, kinds * nodes)
         # By columns, as compiled code reads it.
-        before = np.zeros((2 * nodes_before, nodes))
+        before = zeros(2 * nodes_before, nodes) if self.tangential else np.zeros((0, 0))
         for part in parts:
-            rows = part.rows(kinds, nodes)
-            compliance[np.ix_(rows, rows)] = part.position.operator.compliance
-            if self.tangential:
-                earlier = part.position.operator.previous_compliance
-                before[np.ix_(part.rows_before(nodes_before), part.rows(1, nodes))] = earlier.T
+            by_kind = compliance.reshape(kinds, nodes, kinds, nodes)
+            part.put(by_kind, before.reshape(2, nodes_before, nodes) if self.tangential else None)
         for idler in self._idlers:
             at = compliance.ctypes.data, before.ctypes.data, nodes, nodes_before
             self._add_through(idler, [parts[mesh] for mesh in idler.meshes], at, steps)

@@ -62,10 +62,10 @@ class RowModel:
 
     @cached_property
     def drivetrain(self) -> TrainDrivetrain:
-        return train_drivetrain(parts_of(self.meshes, self.shafts), self.shafts.damping, self._mesh_stiffness)
+        return train_drivetrain(parts_of(self.meshes, self.shafts), self.shafts.damping, self.mesh_stiffness)
 
     @property
-    def _mesh_stiffness(self) -> np.ndarray:
+    def mesh_stiffness(self) -> np.ndarray:
         """Of one tooth pair of each mesh (f,), N/mm, about."""
         return np.array([mesh_stiffness(mesh.scene, mesh.pair) for mesh in self.meshes])
 
@@ -95,7 +95,7 @@ class RowModel:
             return []
         from fenics_gears.dynamics.frequencies import vibrations
 
-        return vibrations(self.drivetrain, self._mesh_stiffness, self.models[0].scene.friction is not None)
+        return vibrations(self.drivetrain, self.mesh_stiffness, self.models[0].scene.friction is not None)
 
     @property
     def time_scales(self) -> TimeScales:

@@ -1,4 +1,4 @@
-"""The result of the meshes of a row with idlers, which were marched together."""
+"""The result of meshes that were marched together: those of a row with idlers, or all of a train."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from .train import OF_ENERGY, MeshResult
 
 
 class RowResult:
-    """What the march of a row gives: `recorders` of its meshes, and the work of all of them."""
+    """What a march of several meshes gives: `recorders` of each, and the work of all of them."""
 
     def __init__(self, row: RowModel, recorders: Sequence[Recorder]):
         self._row = row
         self._recorders = recorders
-        # Work (N mm) that friction takes, and that of the drive beyond the one without losses.
-        self._lost = 0.0
-        self._driven = 0.0
+        # By block, work (N mm) of each step: what friction takes, and that of the drive beyond the one without losses.
+        self._lost: list[np.ndarray] = []
+        self._driven: list[np.ndarray] = []
         self._last: Steps | None = None
 
     def take(self, solved: Steps, of_meshes: Sequence[Steps]) -> None:
@@ -37,10 +37,10 @@ class RowResult:
         if self._row.models[0].scene.friction is None:
             return
         together = solved if self._last is None else self._last.followed_by(solved)
-        clock = self._row.models[0].clock
-        work = account(self._row.drivetrain, clock, together, energy_of_teeth(together))
-        self._lost += float(work.friction[-1])
-        self._driven += float(work.rotation[-1])
+        equations = self._row.equations_of_motion
+        work = account(equations.drivetrain, equations.clock, together, energy_of_teeth(together))
+        self._lost.append(np.diff(work.friction))
+        self._driven.append(np.diff(work.rotation))
         self._last = solved.between(len(solved) - 1, len(solved))
 
     def of_meshes(self, march: March) -> list[MeshResult]:
@@ -53,18 +53,28 @@ class RowResult:
             own = {name: of for name, of in own.items() if not name.startswith(OF_ENERGY)}
             found.append(MeshResult(mesh.name, own, self._numbers(recorder), self._said(march)))
         if self._row.models[0].scene.friction is not None:
-            found[-1].numbers["friction_loss"] = self._lost / (self._driven + self._driving_work(march.steps))
+            found[-1].numbers["friction_loss"] = self._friction_loss()
         return found
+
+    def _friction_loss(self) -> float:
+        """Part of the driving work that friction takes in the recorded steps."""
+        lost, driven = (np.concatenate(each)[-self._row.recorded :] for each in (self._lost, self._driven))
+        return float(lost.sum() / (driven.sum() + self._driving_work(len(lost))))
 
     @staticmethod
     def _said(march: March) -> list[str]:
         if not march.separations:
             return []
-        return [f"no flanks of the row touch in {len(march.separations)} of {march.steps} steps"]
+        return [f"no flanks touch in any mesh in {len(march.separations)} of {march.steps} steps"]
 
-    @staticmethod
-    def _numbers(recorder: Recorder) -> dict[str, float]:
-        counted = {name: recorder.arrays[name] for name, (dims, _) in recorder.stored.items() if dims[0] == "time"}
+    def _numbers(self, recorder: Recorder) -> dict[str, float]:
+        """Numbers of a mesh, of the last whole mesh cycles among the recorded steps."""
+        cycle = recorder.cycle.steps
+        last = recorder.steps - 1
+        first = max(last - cycle * (self._row.recorded // cycle), 0) if self._row.recorded else 0
+        counted = {
+            name: recorder.arrays[name][first:] for name, (dims, _) in recorder.stored.items() if dims[0] == "time"
+        }
         model = recorder.model
         error = counted["transmission_error"]
         found = key_numbers(counted, model.pair, None, False) | {

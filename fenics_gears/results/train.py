@@ -82,7 +82,13 @@ def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
 
 def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.ndarray, np.ndarray]:
     """Times (s) over a cycle of the slowest mesh, at the steps of the fastest; and the lag (rad) of the last shaft
-    there: of each row that of its last gear, through the ratios behind it. Between steps it is linear."""
+    there: of each row that of its last gear, through the ratios behind it. Between steps it is linear.
+
+    Where all meshes move together, at all steps: the rotation of the last gear, and of the first one through the
+    ratios."""
+    if model.scene.shafts.moving:
+        first, last = (np.asarray(meshes[number].variables["rotation"][1]) for number in (0, -1))
+        return np.asarray(meshes[0].variables["time"][1]), last[:, 1] + first[:, 0] / model.scene.ratio
     frequencies = [own.scene.motion.mesh_frequency for own in model.models]
     steps = [frequency * each.numbers["steps_per_mesh_cycle"] for frequency, each in zip(frequencies, meshes)]
     cycles = model.models[0].scene.motion.mesh_cycles
@@ -173,6 +179,10 @@ def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.nda
     mean = 0.0
     for own, each in zip(model.models, meshes):
         mean = mean * own.pair.rotation_ratio + each.numbers["mean_transmission_error"]
+    if scene.shafts.moving:
+        # Shafts twist too.
+        overall = overall[-1 - model.rows[0].recorded :]
+        mean = float(overall[:-1].mean())
     return {
         "title": scene.title,
         "scene": scene.text,
@@ -190,9 +200,10 @@ def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.nda
 def _of_rows(model: TrainModel) -> list[str]:
     """Warnings before the run of those meshes that were not run as pairs, which tell their own."""
     coupled: list[RowModel] = [row for row in model.rows if not row.single]
-    return [
+    of_meshes = [
         f"{mesh.name}: {said}" for row in coupled for mesh, own in zip(row.meshes, row.models) for said in own.warnings
     ]
+    return [*of_meshes, *(said for row in coupled for said in row.warnings)]
 
 
 def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:

@@ -34,13 +34,15 @@ from .train_shafts import TrainShafts
 @dataclass(frozen=True)
 class MeshOfScene:
     """A mesh of a train: the `scene` of its pair, its name, and the direction (rad) of its wheel from its pinion.
-    `idler`: of its pinion, where this is also the wheel of the mesh before; None on a shaft of two gears."""
+    `idler`: of its pinion, where this is also the wheel of the mesh before; None on a shaft of two gears. `gears`:
+    names of pinion and wheel."""
 
     name: str
     scene: Scene
     pair: GearPair
     direction: float
     idler: SecondMesh | None = None
+    gears: tuple[str, str] = ("pinion", "wheel")
 
 
 @dataclass(frozen=True)
@@ -248,7 +250,10 @@ def _joined(
             angles = sense * (directions[number - 1] + pi), sense * directions[number]
             idler = second_mesh(before.pair, pair, *angles)
         name = f"{stage}: gears {number + 1} and {number + 2}" if len(scenes) > 1 else stage
-        meshes.append(MeshOfScene(name, scene, pair, directions[number], idler))
+        gears = f"{stage}.{number + 1}", f"{stage}.{number + 2}"
+        if len(scenes) == 1:
+            gears = f"{stage}.pinion", f"{stage}.wheel"
+        meshes.append(MeshOfScene(name, scene, pair, directions[number], idler, gears))
     _check_overlap(meshes, label)
     return meshes
 

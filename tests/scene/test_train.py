@@ -7,6 +7,9 @@ from fenics_gears import GearsError, SceneError, train_from_text
 
 TWO = stage("first", 2.0, (20, 30)) + stage("second", 3.0, (20, 40))
 LOAD = '[load]\noutput_torque = "400 N m"'
+DENSITY = '[inertia]\ndensity = "7.8 g/cm^3"\n'
+MOVING = '[motion]\ninput_speed = "900 rpm"\nmesh_cycles = 3'
+SHAFT = '[shafts.one]\ncarries = ["{}"]\ntorsional_stiffness = "1e8 N mm/rad"'
 
 
 @pytest.mark.parametrize(
@@ -16,7 +19,20 @@ LOAD = '[load]\noutput_torque = "400 N m"'
         (f'{TWO}[load]\npower = "3 kW"', "needs a speed"),
         (f'{TWO}[load]\nwheel_torque = "3 N m"', "is not known here.*output_torque"),
         (f'{TWO}[load]\noutput_torque = "3 N m"\ninput_torque = "1 N m"', "output_torque"),
-        (f"{TWO}{LOAD}\n[inertia]\n", "is not of a train"),
+        (f"{TWO}{LOAD}\n[speed_ramp]\n", "is not of a train"),
+        (f'{TWO}{LOAD}\n{DENSITY}[motion]\nmesh_cycles = 3', r"motion.input_speed\n    is missing, which \[inertia\]"),
+        (f'{TWO}{LOAD}\n{DENSITY}[motion]\ninput_speed = "9 rpm"', r"motion.mesh_cycles\n    is missing"),
+        (f"{TWO}{LOAD}\n[damping]\nratio = 0.1", r"needs the section \[inertia\]"),
+        (f"{TWO}{LOAD}\n[damping]\nratio = 0.1\n[damping.pinion]", "is of a pair. Allowed: one damping"),
+        (f"{TWO}{LOAD}\n[shafts]\nstiff = 3", r"sections \[shafts.NAME\]"),
+        (f"{TWO}{LOAD}\n{SHAFT.format('first.weel')}", 'are not the gears of one shaft. Did you mean "first.wheel"'),
+        (f"{TWO}{LOAD}\n{SHAFT.format('first.wheel')}", 'carry: "first.pinion"; "first.wheel", "second.pinion"; "sec'),
+        (
+            f"{TWO}{LOAD}\n{DENSITY}{SHAFT.format('second.wheel')}\n{MOVING}",
+            r"inertia.load\n    is missing. The far end of the last shaft",
+        ),
+        (TWO.replace("pressure", 'helix_angle = "9 deg"\npressure', 1) + f"{LOAD}\n{DENSITY}{MOVING}", "in the plane"),
+        (stage("one", 2.0, (20, 30), '[stages.one.inertia]\ndensity = "7.8 g/cm^3"') + LOAD, "is of one stage"),
         (f"{TWO}{LOAD}\n[tip_relief]\n", r"\[stages.NAME.tip_relief\]"),
         (f'[stages.one]\nkind = "planetary"\n{LOAD}', "is not computed yet"),
         (f'[stages.one]\nkind = "row"\ngears = [{{ teeth = 20 }}]\n{LOAD}', "has not the gears of a row"),
@@ -24,7 +40,8 @@ LOAD = '[load]\noutput_torque = "400 N m"'
         (f"title = 3\n{TWO}{LOAD}", "is no text"),
         (stage('".."', 2.0, (20, 30)) + LOAD, "is no name of a stage"),
         (stage("one", 2.0, (20, 30), 'direction = "3 mm"') + LOAD, "is no angle"),
-        (stage("one", 2.0, (20, 30), "[stages.one.bearings]\nx = 3") + LOAD, "is not yet computed in trains"),
+        (stage("one", 2.0, (20, 30), "[stages.one.bearings]\nx = 3") + LOAD, r"not a known field of \[bearings\]"),
+        (stage("one", 2.0, (20, 30), "[stages.one.eccentricity]\nx = 3") + LOAD, "is not yet computed of a stage"),
         (stage("one", 2.0, (20, 30)).replace("teeth = 30", "tooth = 30") + LOAD, "stage one"),
     ],
 )
@@ -54,6 +71,13 @@ def test_torques_and_speeds_follow_from_the_ratios():
     assert train.output_torque == pytest.approx(3.0 * train.input_torque, rel=1e-12)
     frequencies = [mesh.scene.motion.mesh_frequency for mesh in train.meshes]
     assert frequencies == pytest.approx([400.0, 20.0 * 20.0 / 1.5], rel=1e-12)
+
+
+def test_an_idler_does_not_twist():
+    """Between the meshes of one gear there is no shaft."""
+    text = row([24, 31, 40], [0, 60], 100).text
+    with pytest.raises(SceneError, match="is of an idler"):
+        train_from_text(f"{text}\n{SHAFT.format('row.2')}")
 
 
 def test_helical_rows_are_refused():

@@ -82,6 +82,11 @@ def check_train(scene: TrainScene) -> int:
         begun = begun_at([mesh.idler for mesh in row.meshes])
         for mesh, own, (phase, _) in zip(row.meshes, row.models, begun):
             print_rows(f"Mesh {mesh.name}", _mesh_rows(mesh, own, phase))
+    if scene.shafts.moving:
+        from fenics_gears.model.train_motion_rows import frequency_rows, motion_rows
+
+        print_rows("Motion of all stages together", motion_rows(model.rows[0]))
+        print_rows("Natural frequencies, about, with one tooth pair in each mesh", frequency_rows(model.rows[0]))
     print_rows("Expected cost", _cost_rows(model))
     if model.warnings:
         print_rows("Warnings", [("", said, "") for said in model.warnings])

@@ -1,0 +1,66 @@
+"""Equations of motion of trains."""
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+from tests.trains import row, two_stages
+
+from fenics_gears.dynamics.frequencies import natural_frequencies
+from fenics_gears.model.train import train_model_of, whole_steps
+
+MORE = """
+    [inertia]
+    density = "7.85 g/cm^3"
+    [inertia.load]
+    moment_of_inertia = "0.05 kg m^2"
+    [shafts.middle]
+    carries = ["first.wheel", "second.pinion"]
+    torsional_stiffness = "1e8 N mm/rad"
+    [shafts.end]
+    carries = ["second.wheel"]
+    torsional_stiffness = "3e8 N mm/rad"
+    [motion]
+    input_speed = "1500 rpm"
+    mesh_cycles = 2
+    """
+
+
+def test_natural_frequencies_of_geared_shafts():
+    """Rotors in their rotations in space, joined by torsional springs and by mesh springs between base circles: the
+    matrices of textbooks (Rao, Mechanical Vibrations, branched systems), put together here in other coordinates."""
+    (model,) = train_model_of(two_stages(more=MORE)).rows
+    first, second = (mesh.pair for mesh in model.meshes)
+    of_mesh = 3e5, 5e5
+    found = natural_frequencies(model.drivetrain, np.array(of_mesh))
+    masses = [1e-3 * each for each in moments(model)]
+    # Wheel 1, pinion 2, wheel 2, load; the first shaft turns as prescribed. External gears turn against each other.
+    rows = [
+        (of_mesh[0], [first.wheel.base_radius, 0, 0, 0]),
+        (1e8, [1, -1, 0, 0]),
+        (of_mesh[1], [0, second.pinion.base_radius, second.wheel.base_radius, 0]),
+        (3e8, [0, 0, 1, -1]),
+    ]
+    stiffness = sum(spring * np.outer(along, along) for spring, along in rows)
+    squares = eigh(stiffness, np.diag(masses), eigvals_only=True)
+    assert found == pytest.approx(np.sqrt(squares) / (2.0 * np.pi), rel=1e-10)
+
+
+def moments(model) -> list[float]:
+    """Moments of inertia (g mm^2) as `gears check` says them, in kg mm^2 times 1000."""
+    from fenics_gears.model.train_motion_rows import motion_rows
+
+    said = {name: value for name, value, _ in motion_rows(model)}
+    names = ("first.wheel", "second.pinion", "second.wheel", "load")
+    return [said[f"{name}: moment of inertia"] for name in names]
+
+
+def test_all_meshes_have_steps_of_one_length():
+    """Steps of a cycle times the mesh frequency are the same number a second for all; an idler's meshes have one
+    frequency."""
+    meshes = two_stages().meshes
+    steps = whole_steps(meshes, [100, 200])
+    frequencies = [mesh.scene.motion.mesh_frequency for mesh in meshes]
+    assert np.ptp(np.multiply(steps, frequencies)) < 1e-9 * steps[0] * frequencies[0]
+    assert steps[0] >= 100
+    assert steps[1] >= 200
+    assert len(set(whole_steps(row([24, 31, 40], [0, 60], 300).meshes, [100, 120]))) == 1

@@ -1,0 +1,144 @@
+"""Trains whose stages move together: masses, bearings, and shafts that twist."""
+
+from functools import reduce
+
+import numpy as np
+import pytest
+from tests.trains import COARSE, row, stage, two_stages
+
+from fenics_gears import scene_from_text, simulate, train_from_text
+from fenics_gears.dynamics.energy_account import account, quadratic
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.steps import Steps
+from fenics_gears.model.train import RowModel, train_model_of
+from fenics_gears.results.contact_variables import energy_of_teeth
+from fenics_gears.simulation.train import row_cycle, simulate_train
+from fenics_gears.system.progress import SilentProgress
+
+INERTIA = '\n[inertia]\ndensity = "7.85 g/cm^3"\n[inertia.load]\nmoment_of_inertia = "0.05 kg m^2"\n'
+BEARINGS = '\n[bearings]\nstiffness = "2e5 N/mm"\n'
+FRICTION = "\n[friction]\ncoefficient = 0.08\n"
+
+
+def shaft(name: str, gears: str, stiffness: float) -> str:
+    return f'\n[shafts.{name}]\ncarries = [{gears}]\ntorsional_stiffness = "{stiffness} N mm/rad"\n'
+
+
+def motion(speed: float, cycles: int) -> str:
+    return f'\n[motion]\ninput_speed = "{speed} rpm"\nmesh_cycles = {cycles}\n'
+
+
+@pytest.mark.parametrize("damping", ["ratio = 0.05", 'stiffness_proportional = "1e-5 s"\nmass_proportional = "3 1/s"'])
+def test_a_train_of_one_mesh_vibrates_as_the_pair(damping):
+    """With masses, shafts that twist at both ends, bearings, damping and friction it has the pair's motion, force for
+    force: two ways to the same equations."""
+    gears = stage("one", 3.0, (20, 40))
+    both = f'{INERTIA}[damping]\n{damping}{FRICTION}[bearings]\nstiffness_x = "2e5 N/mm"\nstiffness_y = "1e5 N/mm"\n'
+    both += f"[accuracy]\n{COARSE}\n"
+    ends = shaft("a", '"one.pinion"', 1e8) + shaft("b", '"one.wheel"', 2e8)
+    train = train_from_text(f'{gears}[load]\noutput_torque = "400 N m"{motion(1500, 3)}{both}{ends}')
+    of_pair = '[load]\nwheel_torque = "400 N m"\n[motion]\npinion_speed = "1500 rpm"\nmesh_cycles = 3\n'
+    ends = '[shafts.input]\ntorsional_stiffness = "1e8 N mm/rad"\n[shafts.output]\ntorsional_stiffness = "2e8 N mm/rad"'
+    expected = simulate(scene_from_text(f"{gears.replace('stages.one', 'gears')}{of_pair}{both}{ends}"))
+    found = simulate_train(train).isel(mesh=0)
+    for name in ("transmission_error", "normal_force", "centre_x", "centre_y", "rotation"):
+        assert found[name].values == pytest.approx(expected[name].values, rel=1e-9, abs=1e-15), name
+    assert float(found["friction_loss"]) == pytest.approx(expected.attrs["friction_loss"], rel=1e-9)
+
+
+def marched(model: RowModel) -> Steps:
+    cycle = row_cycle(model, SilentProgress(), None)
+    blocks: list[Steps] = []
+    march = Marcher(cycle, model.equations_of_motion)
+    march.run(model.steps, 1, observe=lambda solved, so_far: blocks.append(solved))
+    return reduce(Steps.followed_by, blocks)
+
+
+def test_the_energy_account_of_vibrating_stages_closes():
+    """Work of drive, load, friction and damping is the change of kinetic and elastic energy, to round-off: over an
+    idler, a shaft that twists between two stages, and bearings."""
+    gears = ", ".join(f'{{ teeth = {each}, profile_shift = 0, bore_diameter = "20 mm" }}' for each in (20, 25, 30))
+    idlers = f"""
+        [stages.row]
+        kind = "row"
+        module = "2 mm"
+        pressure_angle = "20 deg"
+        face_width = "20 mm"
+        gears = [{gears}]
+        directions = ["0 deg", "50 deg"]
+        material = "steel"
+        """
+    more = INERTIA + BEARINGS + FRICTION + "[damping]\nratio = 0.04" + motion(2000, 2)
+    more += shaft("middle", '"row.3", "second.pinion"', 1e8) + shaft("end", '"second.wheel"', 2e8)
+    load = f'[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n'
+    (model,) = train_model_of(train_from_text(idlers + stage("second", 3.0, (20, 40)) + load + more)).rows
+    steps = marched(model)
+    drivetrain = model.drivetrain
+    elastic = energy_of_teeth(steps) + 0.5 * quadratic(steps.states[:, 0], drivetrain.stiffness)
+    energy = elastic + 0.5 * quadratic(steps.states[:, 1], drivetrain.mass)
+    work = account(drivetrain, model.equations_of_motion.clock, steps, energy)
+    assert min(work.friction[-1], work.damping[-1]) > 1e-3 * np.ptp(energy)
+    assert np.abs(work.defect).max() < 1e-9 * energy.max()
+
+
+def test_a_shaft_that_twists_at_rest_adds_its_twist():
+    """Without masses the torque of a shaft is constant: its stages have what they have on rigid shafts, and the last
+    gear lags by the shaft's twist through the ratio behind it besides."""
+    rigid = simulate_train(two_stages())
+    stiffness = 1e8
+    twisting = simulate_train(two_stages(more=shaft("middle", '"first.wheel", "second.pinion"', stiffness)))
+    # Of the first stage; steps of the second are made as long in time.
+    own = float(rigid["mean_transmission_error"][0])
+    assert float(twisting["mean_transmission_error"][0]) == pytest.approx(own, rel=1e-9)
+    twist = 0.5 * 400e3 / stiffness
+    lag = twisting["overall_transmission_error"].values
+    errors = twisting["transmission_error"].values
+    assert lag == pytest.approx(errors[:, 1] + 0.5 * (errors[:, 0] + twist), rel=1e-9)
+
+
+def test_slow_stages_move_as_at_rest():
+    """Far below the lowest natural frequency masses change nothing."""
+    at_rest = simulate_train(two_stages(more=shaft("middle", '"first.wheel", "second.pinion"', 1e8)))
+    more = INERTIA + shaft("middle", '"first.wheel", "second.pinion"', 1e8) + "[damping]\nratio = 0.1" + motion(0.3, 1)
+    slow = simulate_train(two_stages(more=more))
+    expected = at_rest["overall_transmission_error"].values
+    assert slow["overall_transmission_error"].values == pytest.approx(expected, abs=2e-3 * np.ptp(expected))
+
+
+@pytest.mark.parametrize("direction", [0.0, 60.0, -80.0])
+def test_the_bearing_of_an_idler_carries_both_of_its_forces(direction):
+    """Without friction each mesh presses along its line of action with torque over base radius. Seen from the front,
+    with gear 1 turning counter-clockwise, the first line leans by the pressure angle from the way that the first pitch
+    point moves, towards gear 2, and the second likewise towards gear 3."""
+    scene = row([24, 31, 40], [20, 20 + direction], 300, more=BEARINGS)
+    found = simulate_train(scene).isel(mesh=0)
+    force = 300e3 / scene.meshes[1].pair.wheel.base_radius
+    first, second = (mesh.pair.operating_pressure_angle for mesh in scene.meshes)
+    along = np.deg2rad(20.0) + 0.5 * np.pi - first
+    # The idler turns clockwise; gear 3 pushes back on it.
+    of_second = np.deg2rad(20.0 + direction) - 0.5 * np.pi + second + np.pi
+    both = force * np.array([np.cos(along) + np.cos(of_second), np.sin(along) + np.sin(of_second)])
+    axes = np.array([[np.cos(along), np.sin(along)], [-np.sin(along), np.cos(along)]])
+    moved = np.array([float(found[f"centre_{axis}"].isel(gear=1)[3]) for axis in "xy"])
+    assert 2e5 * moved == pytest.approx(axes @ both, rel=1e-9, abs=1e-6 * force)
+
+
+def test_a_row_behind_a_stage_is_its_mirror_image():
+    """Its first gear turns clockwise: the idler stands in its second mesh as in the mirrored row, driven the other way
+    round."""
+    gears = ", ".join(f'{{ teeth = {each}, profile_shift = 0, bore_diameter = "30 mm" }}' for each in (24, 31, 40))
+    idlers = f"""
+        [stages.row]
+        kind = "row"
+        module = "3 mm"
+        pressure_angle = "20 deg"
+        face_width = "30 mm"
+        gears = [{gears}]
+        directions = ["10 deg", "75 deg"]
+        material = "steel"
+        """
+    load = '[load]\noutput_torque = "400 N m"\n'
+    behind = train_from_text(stage("first", 2.0, (20, 30)) + idlers + load).meshes[2].idler
+    alone = row([24, 31, 40], [-10, -75], 400).meshes[1].idler
+    assert behind.phase == pytest.approx(alone.phase, abs=1e-12)
+    assert (behind.teeth - alone.teeth) % 31 == 0
