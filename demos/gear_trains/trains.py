@@ -1,4 +1,5 @@
-"""An idler whose third gear stands at several angles, and the two helical stages of an electric axle."""
+"""An idler whose third gear stands at several angles, two stages that vibrate together at several speeds, and the two
+helical stages of an electric axle."""
 
 from __future__ import annotations
 
@@ -11,6 +12,8 @@ HERE = Path(__file__).parent
 FIRST_ANGLE = 60.0
 ANGLES = 13
 IDLER = "the idler"
+# Of the first shaft, rpm.
+SPEEDS = (300, 500, 750, 1000, 1300, 1600, 1800, 2000, 2200, 2600, 3000, 3600, 4300, 5000, 5600, 6000, 6500, 7500, 9000)
 
 
 def angles(teeth: int, count: int = ANGLES) -> list[float]:
@@ -55,8 +58,42 @@ def chart(directions: list[float], errors: list[float]):
     )
 
 
+def at_speed(text: str, speed: float) -> str:
+    """The scene's text with its first shaft at another speed (rpm)."""
+    return text.replace('"3000 rpm"', f'"{speed!r} rpm"')
+
+
+def over_speeds(text: str, speeds: tuple[float, ...]) -> list[float]:
+    """Overall transmission error, peak to peak, µrad of the last gear, at each speed (rpm) of the first shaft."""
+    from fenics_gears import simulate_train, train_from_text
+
+    found = []
+    for speed in speeds:
+        result = simulate_train(train_from_text(at_speed(text, speed)))
+        found.append(1e6 * result.attrs["peak_to_peak_overall_transmission_error"])
+        print(f"{speed:g} rpm: {found[-1]:.1f} µrad", flush=True)
+    return found
+
+
+def chart_of_speeds(speeds: tuple[float, ...], errors: list[float]):
+    """Peak-to-peak overall transmission error over the speed of the first shaft."""
+    import numpy as np
+
+    from fenics_gears.charts import MARKED_LINES, Chart, Curve
+
+    curve = Curve("peak to peak", np.array(speeds, dtype=float), np.array(errors), mode=MARKED_LINES)
+    return Chart(
+        f"Peak to peak over the speed: {min(errors):.3g} to {max(errors):.3g} µrad",
+        [curve],
+        "Speed of the first shaft (rpm)",
+        "Overall transmission error (µrad)",
+        y_range=(0.0, 1.1 * max(errors)),
+        height=320,
+    )
+
+
 def main(arguments: list[str] | None = None) -> None:
-    """Run all trains; write their results and pictures, and `idler_angle.png`."""
+    """Run all trains; write their results and pictures, `idler_angle.png` and `two_stages_speed.png`."""
     directory = output_directory("gear_trains", __doc__.splitlines()[0], arguments)
     from fenics_gears.charts import draw_charts
     from fenics_gears.commands.cli import main as gears
@@ -67,7 +104,10 @@ def main(arguments: list[str] | None = None) -> None:
     errors = over_angles(directory, text, directions)
     subject = "Overall transmission error", [chart(directions, errors)]
     draw_charts({"idler_angle.png": subject}, directory, "gears of 24, 31 and 40 teeth in a row, 300 N m on the last")
-    for name in ("idler", "electric_axle"):
+    text = (HERE / "two_stages.toml").read_text(encoding="utf-8")
+    subject = "Overall transmission error", [chart_of_speeds(SPEEDS, over_speeds(text, SPEEDS))]
+    draw_charts({"two_stages_speed.png": subject}, directory, "two stages with masses and shafts that twist, 1 kN m")
+    for name in ("idler", "two_stages", "electric_axle"):
         gears(["run", str(HERE / f"{name}.toml"), "-o", str(directory / name)])
 
 

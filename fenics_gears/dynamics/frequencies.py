@@ -92,7 +92,9 @@ def modes(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray) -> tuple[n
     normals = _along(drivetrain)
     if np.isinf(mesh_stiffness).any():
         return _tied_modes(drivetrain, normals)
-    springs = np.broadcast_to(mesh_stiffness if np.ndim(mesh_stiffness) else mesh_stiffness / len(normals), len(normals))
+    springs = np.broadcast_to(
+        mesh_stiffness if np.ndim(mesh_stiffness) else mesh_stiffness / len(normals), len(normals)
+    )
     stiffness = drivetrain.stiffness_at_work + (normals.T * springs) @ normals
     squares, shapes = eigh(stiffness, drivetrain.mass)
     return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * pi), shapes

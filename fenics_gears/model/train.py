@@ -73,9 +73,7 @@ class RowModel:
     def equations_of_motion(self) -> EquationsOfMotion:
         first = self.models[0]
         clock = SteadyClock(first.time_step)
-        return EquationsOfMotion(
-            self.drivetrain, first.time_step, first.friction_coefficient, self.time_scales, clock
-        )
+        return EquationsOfMotion(self.drivetrain, first.time_step, first.friction_coefficient, self.time_scales, clock)
 
     def in_a_row(self, number: int) -> bool:
         """Whether a gear of a mesh is an idler."""

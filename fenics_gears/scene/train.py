@@ -270,9 +270,7 @@ def _check_overlap(meshes: Sequence[MeshOfScene], label: str) -> None:
             check_apart(gears[one], gears[other], distance, f"{label}: gears {one + 1} and {other + 1}")
 
 
-def _completed(
-    title: str, name: str, text: str, meshes: Sequence[MeshOfScene], sections: TrainSections
-) -> TrainScene:
+def _completed(title: str, name: str, text: str, meshes: Sequence[MeshOfScene], sections: TrainSections) -> TrainScene:
     """The train with steps, speeds and torques of all meshes."""
     load = sections.load
     motion = sections.motion

@@ -122,7 +122,8 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[TrainSections | None, list[P
     problems += wrong
     if problems:
         return None, problems
-    sections = TrainSections(*found, shafts)
+    load, motion = found
+    sections = TrainSections(load, motion, shafts)
     problems += _needed(tree, sections)
     return (None if problems else sections), problems
 

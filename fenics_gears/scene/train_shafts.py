@@ -110,7 +110,9 @@ def _sections(tree: Mapping[str, Any], name: str, problems: list[Problem]) -> It
         if isinstance(content, Mapping):
             yield each, content
         else:
-            said = f"is not of a train. Allowed: sections [{name}.NAME], each of a shaft with the gears that it carries."
+            said = (
+                f"is not of a train. Allowed: sections [{name}.NAME], each of a shaft with the gears that it carries."
+            )
             problems.append(Problem((name, each), as_written(content), said))
 
 
@@ -118,9 +120,7 @@ def _tables(written: Mapping[str, Any]) -> list[Mapping[str, Any]]:
     return [each for each in written.values() if isinstance(each, Mapping)]
 
 
-def _put(
-    torsion: list[float], shaft: TrainShaft, shafts: Sequence[Sequence[str]], place: Path
-) -> Iterator[Problem]:
+def _put(torsion: list[float], shaft: TrainShaft, shafts: Sequence[Sequence[str]], place: Path) -> Iterator[Problem]:
     """Enter the stiffness of a shaft."""
     carried = [sorted(each) for each in shafts]
     if sorted(shaft.carries) not in carried:

@@ -12,7 +12,7 @@ import xarray as xr
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.row import Idler, MeshOfRow, RowCycle, at_phase, begun_at
+from fenics_gears.contact.row import Idler, JoinedPosition, MeshOfRow, RowCycle, at_phase, begun_at
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.steps import Steps
@@ -154,7 +154,7 @@ def _cycle(model: Model, bodies: tuple[Body, Body], phase: float) -> Cycle:
 def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:
     """The steps of a row as one of its meshes has them: its contact nodes, and the rotations of its gears."""
     mesh = cycle.meshes[number]
-    own = [position.of_meshes[number] for position in steps.positions]
+    own = [position.of_meshes[number] for position in steps.positions if isinstance(position, JoinedPosition)]
     positions = [position for position, _ in own]
     counts = np.array([position.operator.nodes for position in positions], dtype=np.int64)
     ahead = np.array([first for _, first in own], dtype=np.int64)

@@ -20,7 +20,7 @@ SHAFT = '[shafts.one]\ncarries = ["{}"]\ntorsional_stiffness = "1e8 N mm/rad"'
         (f'{TWO}[load]\nwheel_torque = "3 N m"', "is not known here.*output_torque"),
         (f'{TWO}[load]\noutput_torque = "3 N m"\ninput_torque = "1 N m"', "output_torque"),
         (f"{TWO}{LOAD}\n[speed_ramp]\n", "is not of a train"),
-        (f'{TWO}{LOAD}\n{DENSITY}[motion]\nmesh_cycles = 3', r"motion.input_speed\n    is missing, which \[inertia\]"),
+        (f"{TWO}{LOAD}\n{DENSITY}[motion]\nmesh_cycles = 3", r"motion.input_speed\n    is missing, which \[inertia\]"),
         (f'{TWO}{LOAD}\n{DENSITY}[motion]\ninput_speed = "9 rpm"', r"motion.mesh_cycles\n    is missing"),
         (f"{TWO}{LOAD}\n[damping]\nratio = 0.1", r"needs the section \[inertia\]"),
         (f"{TWO}{LOAD}\n[damping]\nratio = 0.1\n[damping.pinion]", "is of a pair. Allowed: one damping"),
