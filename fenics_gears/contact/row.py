@@ -13,16 +13,13 @@ from math import floor
 
 import numpy as np
 
-from fenics_gears.elasticity.compliance import BothFlanksCompliance
-from fenics_gears.geometry.gear_train import SecondMesh
-
-from .kinematics import IN_THE_PLANE
+from .idler import Part, RowCompliance
 from .mesh import Mesh
 from .mesh_cycle import Cycle, Kept
 from .operator import ContactOperator, Position
-from .pairing import Flank, FlankTable, Numbered, add_products, matched
+from .places import counted_from
 from .step_solver import StepProblem, StepSolution, solve_step
-from .tooth_pair import PairNodes, count_of
+from .tooth_pair import PairNodes
 
 
 def at_phase(mesh: Mesh, phase: float) -> Mesh:
@@ -31,26 +28,9 @@ def at_phase(mesh: Mesh, phase: float) -> Mesh:
     def nodes(phases: Sequence[float]) -> list[tuple[PairNodes, ...]]:
         passed = [floor(each + phase) for each in phases]
         found = mesh.nodes([each + phase - whole for each, whole in zip(phases, passed)])
-        return [_earlier_by(whole, pairs) for whole, pairs in zip(passed, found)]
+        return [counted_from(-whole, pairs) for whole, pairs in zip(passed, found)]
 
     return replace(mesh, nodes=nodes) if phase else mesh
-
-
-def _earlier_by(cycles: int, pairs: tuple[PairNodes, ...]) -> tuple[PairNodes, ...]:
-    """Pairs whose index counts from so many mesh cycles before."""
-    if not cycles:
-        return pairs
-    return tuple(replace(each, place=replace(each.place, index=each.place.index - cycles)) for each in pairs)
-
-
-def begun_at(idlers: Sequence[SecondMesh | None]) -> list[tuple[float, int]]:
-    """Of each mesh the mesh cycles (0 to 1) by which it is past a start of contact as the run begins; and by how many
-    whole ones its pairs are counted later, so that this is below 1. `idlers`: of its pinion, where this is one."""
-    found = [(0.0, 0)]
-    for idler in idlers[1:]:
-        ahead = 0.0 if idler is None else found[-1][0] + idler.phase
-        found.append((ahead - floor(ahead), floor(ahead)))
-    return found
 
 
 @dataclass(frozen=True)
@@ -62,70 +42,14 @@ class MeshOfRow:
     rotations: np.ndarray
 
 
-@dataclass(frozen=True)
-class Idler:
-    """A gear of so many `teeth` that is driven in one mesh, by its number, and drives in the next one: the `body` that
-    both load, where the `second` mesh is as the first starts, and the face width (mm) of both."""
-
-    mesh: int
-    teeth: int
-    body: BothFlanksCompliance
-    second: SecondMesh
-    face_width: float
-
-    @property
-    def meshes(self) -> tuple[int, int]:
-        return self.mesh, self.mesh + 1
-
-    def flank(self, gear: int, flank: Flank) -> Flank:
-        """A flank of the idler as the first mesh counts teeth and flanks, from how the mesh in which it is the driven
-        (1) or the driving gear (0) counts them."""
-        tooth, side = flank
-        return flank if gear == 1 else (self.second.teeth - tooth, 1 - side)
-
-    def block(self, responding: Flank, loaded: Flank) -> np.ndarray:
-        """Compliance of one flank under forces on one of the other mesh, mm per N/mm: from one side of a tooth to the
-        other side of another, round the gear either way."""
-        (tooth, side), (other, other_side) = responding, loaded
-        sense = 1 if side == 0 else -1
-        first = self.body.first_across
-        ahead = first + (sense * (tooth - other) - first) % self.teeth
-        return self.body.between(sense * ahead, 0, (side, other_side))
-
-
-@dataclass(frozen=True)
-class _Part:
-    """A mesh at a position: now, and how its pairs were a step before; its first node among all, then and now."""
-
-    position: Position
-    before: tuple[PairNodes, ...]
-    first: int
-    first_before: int
-
-    @property
-    def nodes(self) -> int:
-        return self.position.operator.nodes
-
-    def rows(self, kinds: int, nodes: int) -> np.ndarray:
-        """Where its forces are among all, of which so many are normal."""
-        own = self.first + np.arange(self.nodes)
-        return np.concatenate([own + kind * nodes for kind in range(kinds)])
-
-    def rows_before(self, nodes: int) -> np.ndarray:
-        """The same a step before, with friction."""
-        own = self.first_before + np.arange(count_of(self.before))
-        return np.concatenate([own, own + nodes])
-
-
 class RowCycle(Cycle):
     """Contact equations of all meshes of a row, whose cycles have as many steps as one another."""
 
-    def __init__(self, meshes: Sequence[MeshOfRow], idlers: Sequence[Idler]):
+    def __init__(self, meshes: Sequence[MeshOfRow], compliance: RowCompliance):
         first = meshes[0].cycle
         super().__init__(first.mesh, first.steps, [], first.tangential)
         self.meshes = meshes
-        self._blocks: dict[tuple[int, Flank, Flank], tuple[tuple[int, int, int], np.ndarray]] = {}
-        self._idlers = idlers
+        self._compliance = compliance
         self._joined: dict[float, Position] = {}
         # At each position, how many contact nodes there are before those of each mesh.
         self._firsts: dict[float, tuple[int, ...]] = {}
@@ -187,10 +111,11 @@ class RowCycle(Cycle):
         first_before = 0
         for each in self.meshes:
             earlier = _pairs_before(each.cycle, step, before)
-            parts.append(_Part(_part(each.cycle, step, before), earlier, first, first_before))
+            parts.append(Part(each.cycle.between(step, before), earlier, first, first_before))
             first += parts[-1].nodes
-            first_before += count_of(parts[-1].before)
-        compliance, compliance_before = self._compliance(parts, (first, first_before), step - before)
+            first_before += parts[-1].nodes_before
+        cycles = [each.cycle for each in self.meshes]
+        compliance, compliance_before = self._compliance.of(cycles, parts, (first, first_before), step - before)
         operators = [part.position.operator for part in parts]
         jacobian = _stacked([each.jacobian @ mesh.rotations for each, mesh in zip(operators, self.meshes)], operators)
         rigid_slip = None
@@ -210,81 +135,18 @@ class RowCycle(Cycle):
             previous_compliance=compliance_before,
             previous_jacobian=jacobian_before,
             dependent_rows=sum(each.dependent_rows for each in operators),
-            face=IN_THE_PLANE,
+            face=operators[0].face,
             coordinates=jacobian.shape[1],
         )
         self._firsts[step % self.steps] = tuple(part.first for part in parts)
         before_now = [_moved(part.position.node_before, part.first_before) for part in parts]
         return Position(operator, np.concatenate(before_now), step % self.steps)
 
-    def _compliance(
-        self, parts: list[_Part], counts: tuple[int, int], steps: float
-    ) -> tuple[np.ndarray, np.ndarray | None]:
-        """C (m, m) of all meshes, and with friction E (n, m before), mm/N, after so many steps."""
-        nodes, nodes_before = counts
-        kinds = 2 if self.tangential else 1
-        compliance = np.zeros((kinds * nodes, kinds * nodes))
-        # By columns, as compiled code reads it.
-        before = np.zeros((2 * nodes_before, nodes))
-        for part in parts:
-            rows = part.rows(kinds, nodes)
-            compliance[np.ix_(rows, rows)] = part.position.operator.compliance
-            if self.tangential:
-                earlier = part.position.operator.previous_compliance
-                before[np.ix_(part.rows_before(nodes_before), part.rows(1, nodes))] = earlier.T
-        for idler in self._idlers:
-            at = compliance.ctypes.data, before.ctypes.data, nodes, nodes_before
-            self._add_through(idler, [parts[mesh] for mesh in idler.meshes], at, steps)
-        return compliance, before.T if self.tangential else None
-
-    def _add_through(self, idler: Idler, parts: list[_Part], at: tuple[int, ...], steps: float) -> None:
-        """Add how both meshes of an idler feel each other through it."""
-        flanks = FlankTable()
-        now = []
-        earlier = []
-        for gear, part in zip((1, 0), parts):
-            own = flanks.of(part.position.operator.pairs, gear)
-            now.append([_shifted(idler.flank(gear, each[0]), each, part.first) for each in own])
-            own = flanks.of(part.before, gear) if self.tangential else []
-            earlier.append([_shifted(idler.flank(gear, each[0]), each, part.first_before) for each in own])
-        products = []
-        back = []
-        for responding, other in ((0, 1), (1, 0)):
-            # Nodes of the first mesh stand before those of the second: the other half follows by symmetry.
-            loads = matched(now[other] if responding == 1 else [], earlier[other])
-            cycle = self.meshes[idler.meshes[responding]].cycle
-            side = cycle.pair.sides[1 - responding]
-            for flank, number, place in now[responding]:
-                for loaded, *numbers in loads:
-                    block = self._block(idler, flank, loaded)
-                    products.append((0, *block, number, numbers[0], numbers[2], place, numbers[1], numbers[3]))
-                    back.append(side.turn * steps / cycle.steps)
-        add_products([at], flanks, (products, back), self.tangential, idler.face_width)
-
-    def _block(self, idler: Idler, responding: Flank, loaded: Flank) -> tuple[int, int, int]:
-        """Address, size and columns of the compliance between two flanks of an idler."""
-        key = idler.mesh, responding, loaded
-        if key not in self._blocks:
-            block = np.ascontiguousarray(idler.block(responding, loaded))
-            # With the block itself, which holds the memory.
-            self._blocks[key] = (block.ctypes.data, block.size, block.shape[1]), block
-        return self._blocks[key][0]
-
-
-def _shifted(flank: Flank, numbered: Numbered, first: int) -> Numbered:
-    return flank, numbered[1], numbered[2] + first
-
-
-def _part(cycle: Cycle, step: float, before: float) -> Position:
-    if step == int(step) and before == step - 1:
-        return cycle.position(int(step))
-    return cycle.between(step, before)
-
 
 def _pairs_before(cycle: Cycle, step: float, before: float) -> tuple[PairNodes, ...]:
     """Pairs a step before, their index counted from the mesh cycle of the step."""
     pairs = cycle.pairs_at(before % cycle.steps)
-    return _earlier_by(-int(step // cycle.steps - before // cycle.steps), pairs)
+    return counted_from(int(step // cycle.steps - before // cycle.steps), pairs)
 
 
 def _moved(node_before: np.ndarray, first: int) -> np.ndarray:

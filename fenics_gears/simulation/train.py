@@ -12,7 +12,8 @@ import xarray as xr
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.row import Idler, MeshOfRow, RowCycle, at_phase, begun_at
+from fenics_gears.contact.row import MeshOfRow, RowCycle, at_phase
+from fenics_gears.contact.row_in_plane import IdlerInPlane, RowInPlane
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.row import rotations_of
@@ -20,6 +21,7 @@ from fenics_gears.dynamics.steps import Steps
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.elasticity.compliance import Body
 from fenics_gears.elasticity.gear_compliance import flank_compliance
+from fenics_gears.geometry.gear_train import begun_at
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import RowModel, TrainModel, train_model_of
@@ -111,12 +113,12 @@ def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
         second = row.meshes[mesh + 1].idler
         second = replace(second, teeth=second.teeth + begun[mesh + 1][1])
         pair = row.models[mesh].pair
-        idlers.append(Idler(mesh, pair.wheel.teeth, bodies[mesh + 1].section, second, pair.face_width))
+        idlers.append(IdlerInPlane(mesh, pair.wheel.teeth, second, bodies[mesh + 1].section, pair.face_width))
     meshes = []
     rotations = rotations_of([each.pair for each in row.models])
     for number, (own, (phase, _), rows) in enumerate(zip(row.models, begun, rotations)):
         meshes.append(MeshOfRow(_cycle(own, (bodies[number], bodies[number + 1]), phase), rows))
-    return RowCycle(meshes, idlers)
+    return RowCycle(meshes, RowInPlane(idlers))
 
 
 def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body]:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears import results
-from fenics_gears.contact.row import begun_at
+from fenics_gears.geometry.gear_train import begun_at
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of

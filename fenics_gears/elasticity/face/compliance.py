@@ -78,16 +78,16 @@ def idler_compliance(
     for name in ("blocks", "coast", "across"):
         arrays[name] *= 1.0 / (material.youngs_modulus * gear.module)
     arrays["plane"] *= 1.0 / material.youngs_modulus
+    # In the mirror a tooth ahead is one behind.
     near = NearField.of_arrays(arrays).scaled(gear.module, material.youngs_modulus)
-    flanks = []
-    for number, name in enumerate(("blocks", "coast")):
-        own = slice(number * 2 * len(arrays["roll_angle"]), (number + 1) * 2 * len(arrays["roll_angle"]))
-        plane = arrays["plane"][:, own, own]
-        # In the mirror a tooth ahead is one behind.
-        parts = arrays[name], plane.swapaxes(1, 2) if number else plane, near.of_flank(number)
-        flanks.append(_body(gear, arrays, parts, 1, timings))
+    half = 2 * len(arrays["roll_angle"])
+    plane = arrays["plane"][:, :half, :half], arrays["plane"][:, half:, half:].swapaxes(1, 2)
+    drive, coast = (
+        _body(gear, arrays, (arrays[name], plane[number], near.of_flank(number)), 1, timings)
+        for number, name in enumerate(("blocks", "coast"))
+    )
     motions = arrays["drive_motions"], arrays["coast_motions"]
-    return IdlerCompliance(*flanks, AcrossFlanks(*motions, arrays["across"], reach.across[0]))
+    return IdlerCompliance(drive, coast, AcrossFlanks(*motions, arrays["across"], reach.across[0]))
 
 
 def _body(
