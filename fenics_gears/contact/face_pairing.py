@@ -63,12 +63,11 @@ class FacePairing:
         offsets = range(-body.plane.offsets, body.plane.offsets + 1)
         blocks = np.stack([body.plane.block(offset) for offset in offsets])
         size = blocks.shape[1]
+        rises = rises_of(self.face, side)[: body.flanks]
         found = np.zeros((len(blocks), *2 * (size * len(self._widths),)))
         for kind, width in enumerate(self._widths):
             own = slice(size * kind, size * (kind + 1))
-            found[:, own, own] = oblique_sections(
-                blocks, body.roll_angle, rises_of(self.face, side)[: body.flanks], width
-            )
+            found[:, own, own] = oblique_sections(blocks, body.roll_angle, rises, width)
         return by_nodes(found, 2)
 
     def _on_slices(self, side: Side, body: FaceCompliance) -> SliceCompliance:

@@ -30,7 +30,7 @@ def at_phase(mesh: Mesh, phase: float) -> Mesh:
         found = mesh.nodes([each + phase - whole for each, whole in zip(phases, passed)])
         return [counted_from(-whole, pairs) for whole, pairs in zip(passed, found)]
 
-    return replace(mesh, nodes=nodes) if phase else mesh
+    return replace(mesh, nodes=nodes, ahead=phase) if phase else mesh
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ from .data import Load, Motion, Scene
 from .parsing import is_train, parsed
 from .read import name_of, scene_from_text, text_of
 from .schema import NOMINAL_FREQUENCY
-from .train_rules import OF_A_ROW, OF_A_STAGE, PAIR, ROW, SHARED, TrainLoad, TrainMotion, checked_train
+from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED, TrainLoad, TrainMotion, checked_train
 
 
 @dataclass(frozen=True)
@@ -173,12 +173,7 @@ def _pair_scene(sections: Mapping[str, Any], name: str, source: str, folder: Pat
 
 
 def _check_in_row(scene: Scene, source: str) -> None:
-    """Raise SceneError for a mesh of a row with idlers that is not of elastic spur gears in the plane."""
-    if scene.three_dimensional:
-        raise SceneError(
-            f"{source}: helical gears are not yet computed in rows with idlers. Allowed: spur gears with"
-            f" {', '.join(OF_A_ROW)}. {NOTHING_DONE}"
-        )
+    """Raise SceneError for a mesh of a row with idlers that is not of elastic teeth condensed once."""
     if not scene.resolves_contact or scene.accuracy.condensation is not None:
         raise SceneError(
             f"{source}: rigid teeth, accuracy.model and accuracy.condensation are not yet computed in rows with idlers."

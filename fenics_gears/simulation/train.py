@@ -4,7 +4,6 @@ rotation alone."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -21,7 +20,6 @@ from fenics_gears.dynamics.steps import Steps
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.elasticity.compliance import Body
 from fenics_gears.elasticity.gear_compliance import flank_compliance
-from fenics_gears.geometry.gear_train import begun_at
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import RowModel, TrainModel, train_model_of
@@ -106,17 +104,20 @@ def _coupled(row: RowModel, progress: Progress, cache: Cache | None) -> list[Mes
 
 def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
     """The contact equations of all meshes of a row, on the bodies of all gears."""
+    if row.over_face:
+        # Runs in the plane load none of it.
+        from .row_over_face import row_cycle_over_face
+
+        return row_cycle_over_face(row, progress, cache)
     bodies = list(_bodies(row, progress, cache))
-    begun = begun_at([mesh.idler for mesh in row.meshes])
     idlers = []
     for mesh in range(len(row.models) - 1):
-        second = row.meshes[mesh + 1].idler
-        second = replace(second, teeth=second.teeth + begun[mesh + 1][1])
         pair = row.models[mesh].pair
-        idlers.append(IdlerInPlane(mesh, pair.wheel.teeth, second, bodies[mesh + 1].section, pair.face_width))
+        place = mesh, pair.wheel.teeth, row.second_mesh(mesh)
+        idlers.append(IdlerInPlane(*place, bodies[mesh + 1].section, pair.face_width))
     meshes = []
     rotations = rotations_of([each.pair for each in row.models])
-    for number, (own, (phase, _), rows) in enumerate(zip(row.models, begun, rotations)):
+    for number, (own, (phase, _), rows) in enumerate(zip(row.models, row.begun, rotations)):
         meshes.append(MeshOfRow(_cycle(own, (bodies[number], bodies[number + 1]), phase), rows))
     return RowCycle(meshes, RowInPlane(idlers))
 
