@@ -54,9 +54,3 @@ def test_torques_and_speeds_follow_from_the_ratios():
     assert train.output_torque == pytest.approx(3.0 * train.input_torque, rel=1e-12)
     frequencies = [mesh.scene.motion.mesh_frequency for mesh in train.meshes]
     assert frequencies == pytest.approx([400.0, 20.0 * 20.0 / 1.5], rel=1e-12)
-
-
-def test_helical_rows_are_refused():
-    """Idlers are computed in the plane; stages of two gears over the face too."""
-    with pytest.raises(SceneError, match="helical gears are not yet computed in rows with idlers"):
-        train_from_text(row([24, 31, 40], [0, 60], 100).text.replace("material", 'helix_angle = "9 deg"\nmaterial', 1))
