@@ -1,4 +1,4 @@
-"""Trains of spur gears for tests, with coarse elements."""
+"""Trains for tests, with coarse elements."""
 
 from fenics_gears import train_from_text
 from fenics_gears.scene.train import TrainScene
@@ -28,6 +28,37 @@ def row(teeth, directions, torque: float, *, more: str = "", accuracy: str = "")
         {more}
         """
     )
+
+
+def helical_row(
+    teeth,
+    directions,
+    torque: float,
+    *,
+    helix: float = 15.0,
+    hand: str = "right",
+    poissons_ratio: float = 0.3,
+    more: str = "",
+) -> TrainScene:
+    """Such a row over the face, its first gear of that hand; spur and in the plane without helix (deg) and `more`."""
+    coarse = """
+        slices = 4
+        layers = 2
+        body_element_size = "3 mm"
+        steps_per_mesh_cycle = 12
+        flank_element_size = "0.2 mm"
+        """
+    lean = f'helix_angle = "{helix} deg"\npinion_hand = "{hand}"\n' if helix else ""
+    if not (helix or more):
+        coarse = 'steps_per_mesh_cycle = 12\nflank_element_size = "0.2 mm"\n'
+    steel = f'{{ youngs_modulus = "206e3 N/mm^2", poissons_ratio = {poissons_ratio} }}'
+    text = row(teeth, directions, torque).text
+    text = (
+        text.replace('face_width = "30 mm"', 'face_width = "12 mm"')
+        .replace('material = "steel"', f"{lean}material = {steel}\n{more}")
+        .replace(COARSE, coarse)
+    )
+    return train_from_text(text)
 
 
 def stage(name: str, module: float, teeth: tuple[int, int], more: str = "") -> str:

@@ -88,7 +88,7 @@ def opening_over_face(cycle: Cycle, drive: OverFace, coast: OverFace | None = No
 
     def lines(position: Position) -> OnLines:
         pairs = position.operator.pairs
-        phase = position.index / cycle.steps
+        phase = position.index / cycle.steps + cycle.mesh.ahead
         places = [each.place for each in pairs]
         flanks, heights = (np.array([getattr(place, name) for place in places]) for name in ("flank", "height"))
         along = pair.base_radii[0] * np.array([roll(place, phase) for place in places])

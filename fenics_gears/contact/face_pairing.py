@@ -25,7 +25,7 @@ from fenics_gears.geometry.gear import Side
 from .addresses import form_rows
 from .compliance_product import directions
 from .face import Face
-from .fine_sections import BEGIN, IN_SLICE, OF_SLICE, SECTION, SLICE, TOOTH, Fine, SectionNodes, by_nodes, stacked
+from .fine_sections import SECTION, SLICE, TOOTH, Fine, SectionNodes, by_nodes, groups_of, stacked, together
 from .formed_rows import FormedRows, fine_section, uncertain_slices
 from .interpolation import FlankInterpolation
 from .operator import Passage, Response
@@ -58,26 +58,21 @@ class FacePairing:
         self._widths, self._kinds = np.unique(face.widths, return_inverse=True)
         self._bodies = tuple((self._on_slices(*each), self._plane(*each)) for each in zip(self._sides, bodies))
 
-    def _rises(self, side: Side, body: FaceCompliance) -> list[float]:
-        """By how much (rad/mm) the lines of contact of the body's flanks rise along the face; a coast flank's goes the
-        other way along the profile."""
-        rise = side.sense * self.face.slope / side.gear.base_radius
-        return [rise, -rise][: body.flanks]
-
     def _plane(self, side: Side, body: FaceCompliance) -> np.ndarray:
         """Averages over slices of the body's section in plane strain (k, n, n, 4), for one width after the other."""
         offsets = range(-body.plane.offsets, body.plane.offsets + 1)
         blocks = np.stack([body.plane.block(offset) for offset in offsets])
         size = blocks.shape[1]
+        rises = rises_of(self.face, side)[: body.flanks]
         found = np.zeros((len(blocks), *2 * (size * len(self._widths),)))
         for kind, width in enumerate(self._widths):
             own = slice(size * kind, size * (kind + 1))
-            found[:, own, own] = oblique_sections(blocks, body.roll_angle, self._rises(side, body), width)
+            found[:, own, own] = oblique_sections(blocks, body.roll_angle, rises, width)
         return by_nodes(found, 2)
 
     def _on_slices(self, side: Side, body: FaceCompliance) -> SliceCompliance:
         face = self.face
-        rises = self._rises(side, body)
+        rises = rises_of(self.face, side)[: body.flanks]
         positions = face.positions - face.middles[side.number]
         additions: list[Addition] = []
 
@@ -125,7 +120,7 @@ class FacePairing:
         if before is not None:
             # The tangents as they were before. Reciprocal, so that rows are those of nodes before, as the march reads
             # them.
-            turned = [self._axes(side, pairs, True, side.turn * passage.advance) for side in self._sides]
+            turned = [contact_axes(self.face, side, pairs, True, side.turn * passage.advance) for side in self._sides]
             tangents = now._replace(axes=np.stack(turned))
             earlier = self._rows(before, tangents, np.zeros_like(layers), by_columns=True)
         if not len(pairs):
@@ -151,7 +146,7 @@ class FacePairing:
         slices, flanks = (np.array([getattr(each, name) for each in places], np.int64) for name in ("slice", "flank"))
         begins = np.cumsum(counts) - counts
         on_gears = np.empty((2, 6, len(pairs)), dtype=np.int64)
-        first, near, _ = _together([pair.coarse for pair in pairs])
+        first, near, _ = together([pair.coarse for pair in pairs])
         for gear, count in enumerate(self._nodes):
             widths = np.array([pair.coarse[gear].near.shape[1] for pair in pairs], dtype=np.int64)
             # Groups always have nodes.
@@ -163,23 +158,12 @@ class FacePairing:
             section = flanks * self.face.slices + slices
             plane_node = count * (flanks + self._flanks * self._kinds[slices]) + lowest
             on_gears[gear] = teeth, under, place, section, lowest, plane_node
-        axes = np.stack([self._axes(side, pairs, tangential) for side in self._sides])
-        fine = _together([pair.interpolation for pair in pairs], padded=False)
+        axes = np.stack([contact_axes(self.face, side, pairs, tangential) for side in self._sides])
+        fine = together([pair.interpolation for pair in pairs], padded=False)
         return SectionNodes(
-            np.repeat(np.arange(len(pairs)), counts), first, _groups(begins, counts, slices), on_gears, near, axes,
+            np.repeat(np.arange(len(pairs)), counts), first, groups_of(begins, counts, slices), on_gears, near, axes,
             flanks, *fine[:2], *fine[2],
         )  # fmt: skip
-
-    def _axes(self, side: Side, pairs: Sequence[FacePair], tangential: bool, turned: float | None = None) -> np.ndarray:
-        """Directions (P, d, 5) of contact in the tooth's frame, in the body and in its section: of normal and tangent,
-        or with `turned` (rad) of the tangent as it was before."""
-        places = [pair.place for pair in pairs]
-        plane = _plane_directions(side.number, places, tangential, turned)
-        axes = np.concatenate([plane, np.zeros((*plane.shape[:2], 1)), plane], axis=2)
-        if turned is None:
-            axes[:, 0, :2] *= self.face.cosine
-            axes[:, 0, 2] = [self.face.axial_share(side, place.turn) for place in places]
-        return axes
 
     def _dependent(self, compliance: FormedRows, layers: np.ndarray) -> int:
         """Dependent rows of all slices; sections that have some get a thin layer."""
@@ -219,43 +203,6 @@ def _softest(section: FlankCompliance) -> float:
     return least
 
 
-def _together(views: Sequence[tuple[FlankInterpolation, FlankInterpolation]], padded: bool = True):
-    """Interpolations of both gears together: the first flank node (2, n), weights, and where those of a group begin and
-    how many there are for a node (2, P).
-
-    `padded`: weights are (2, n, w), with zeros behind the narrower ones; else those of one group after the other.
-    """
-    of_gears = list(zip(*views)) or [(), ()]
-    widths = np.array([[view.near.shape[1] for view in own] for own in of_gears], dtype=np.int64)
-    sizes = np.array([[view.near.size for view in own] for own in of_gears], dtype=np.int64)
-    first = np.array([_joined([view.first for view in own], np.int64) for own in of_gears])
-    flat = [_joined([view.near.ravel() for view in own], float) for own in of_gears]
-    begins = (np.cumsum(sizes) - sizes.ravel()).reshape(2, -1)
-    if not padded:
-        return first, np.concatenate(flat), (begins, widths)
-    near = np.zeros((2, first.shape[1], widths.max(initial=1)))
-    for weights, width, size, values in zip(near, widths, sizes, flat):
-        weights[np.arange(near.shape[2]) < np.repeat(width, size // width)[:, None]] = values
-    return first, near, (begins, widths)
-
-
-def _joined(arrays: Sequence[np.ndarray], kind) -> np.ndarray:
-    return np.concatenate([np.empty(0, kind), *arrays]).astype(kind, copy=False)
-
-
-def _groups(begins: np.ndarray, counts: np.ndarray, slices: np.ndarray) -> np.ndarray:
-    """Of groups of so many nodes that begin there among all: numbers (4, P) as of `fine_sections.SectionNodes`."""
-    found = np.zeros((4, len(begins)), dtype=np.int64)
-    found[BEGIN] = begins
-    found[SLICE] = slices
-    in_slice = np.zeros(slices.max(initial=-1) + 1, dtype=np.int64)
-    for group, (number, count) in enumerate(zip(slices.tolist(), counts.tolist())):
-        found[IN_SLICE, group] = in_slice[number]
-        in_slice[number] += count
-    found[OF_SLICE] = in_slice[slices]
-    return found
-
-
 def _check_sections(fine: np.ndarray, apart: np.ndarray, flanks: tuple[np.ndarray, np.ndarray], same: np.ndarray):
     """Raise ComputationError where the sections' compliance is not known between teeth so far `apart` (P, Q) that touch
     in the same slice."""
@@ -288,6 +235,27 @@ def directions_on_face(place: Place, face: Face, side: Side, tangential: bool) -
     axes = np.pad(directions(place.contact_rolls[side.number], tangential), ((0, 0), (0, 1)))
     axes[0] *= face.cosine
     axes[0, 2] = face.axial_share(side, place.turn)
+    return axes
+
+
+def rises_of(face: Face, side: Side) -> list[float]:
+    """By how much (rad/mm) the lines of contact of drive and coast flanks of a gear rise along the face; a coast
+    flank's goes the other way along the profile."""
+    rise = side.sense * face.slope / side.gear.base_radius
+    return [rise, -rise]
+
+
+def contact_axes(
+    face: Face, side: Side, pairs: Sequence[ToothPair], tangential: bool, turned: float | None = None
+) -> np.ndarray:
+    """Directions (P, d, 5) of contact in the tooth's frame, in the body and in its section: of normal and tangent, or
+    with `turned` (rad) of the tangent as it was before."""
+    places = [pair.place for pair in pairs]
+    plane = _plane_directions(side.number, places, tangential, turned)
+    axes = np.concatenate([plane, np.zeros((*plane.shape[:2], 1)), plane], axis=2)
+    if turned is None:
+        axes[:, 0, :2] *= face.cosine
+        axes[:, 0, 2] = [face.axial_share(side, place.turn) for place in places]
     return axes
 
 

@@ -3,6 +3,7 @@ between the nodes in a slice."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +13,7 @@ from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.errors import ComputationError
 
 from .compliance_product import add_multiple
+from .interpolation import FlankInterpolation
 
 # Of a group: its first node, its slice, the place of that node among those in the slice, and how many these are.
 BEGIN, SLICE, IN_SLICE, OF_SLICE = range(4)
@@ -75,6 +77,43 @@ def stacked(section: FlankCompliance) -> np.ndarray:
         except ComputationError:
             # Further apart than flanks that touch at a time.
             continue
+    return found
+
+
+def together(views: Sequence[tuple[FlankInterpolation, FlankInterpolation]], padded: bool = True):
+    """Interpolations of both gears together: the first flank node (2, n), weights, and where those of a group begin and
+    how many there are for a node (2, P).
+
+    `padded`: weights are (2, n, w), with zeros behind the narrower ones; else those of one group after the other.
+    """
+    of_gears = list(zip(*views)) or [(), ()]
+    widths = np.array([[view.near.shape[1] for view in own] for own in of_gears], dtype=np.int64)
+    sizes = np.array([[view.near.size for view in own] for own in of_gears], dtype=np.int64)
+    first = np.array([_joined([view.first for view in own], np.int64) for own in of_gears])
+    flat = [_joined([view.near.ravel() for view in own], float) for own in of_gears]
+    begins = (np.cumsum(sizes) - sizes.ravel()).reshape(2, -1)
+    if not padded:
+        return first, np.concatenate(flat), (begins, widths)
+    near = np.zeros((2, first.shape[1], widths.max(initial=1)))
+    for weights, width, size, values in zip(near, widths, sizes, flat):
+        weights[np.arange(near.shape[2]) < np.repeat(width, size // width)[:, None]] = values
+    return first, near, (begins, widths)
+
+
+def _joined(arrays: Sequence[np.ndarray], kind) -> np.ndarray:
+    return np.concatenate([np.empty(0, kind), *arrays]).astype(kind, copy=False)
+
+
+def groups_of(begins: np.ndarray, counts: np.ndarray, slices: np.ndarray) -> np.ndarray:
+    """Of groups of so many nodes that begin there among all: numbers (4, P) as of `fine_sections.SectionNodes`."""
+    found = np.zeros((4, len(begins)), dtype=np.int64)
+    found[BEGIN] = begins
+    found[SLICE] = slices
+    in_slice = np.zeros(slices.max(initial=-1) + 1, dtype=np.int64)
+    for group, (number, count) in enumerate(zip(slices.tolist(), counts.tolist())):
+        found[IN_SLICE, group] = in_slice[number]
+        in_slice[number] += count
+    found[OF_SLICE] = in_slice[slices]
     return found
 
 

@@ -68,7 +68,8 @@ class Mesh:
     `nodes`: of the tooth pairs that can touch; `responses`: how these yield; `solve`: a step at a position.
     `bodies`: flank compliance of pinion and wheel; empty where they have none. `corner`: tip edges that touch off the
     line of action; `face`: its slices along the axes; one unless given. `of_cycle(number)`: the mesh in a mesh cycle;
-    where None this one, as teeth are all alike.
+    where None this one, as teeth are all alike. `ahead`: mesh cycles by which its pairs are past a start of contact at
+    phase 0.
     """
 
     pair: GearPair
@@ -82,6 +83,7 @@ class Mesh:
     corner: CornerContact | None = None
     face: Face | None = None
     of_cycle: Callable[[int], Mesh] | None = None
+    ahead: float = 0.0
 
 
 def nodes_at(places: Iterable[Place], nodes_of: Callable[[Place], PairNodes | None]) -> tuple[PairNodes, ...]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import groupby
 from math import ceil, inf
 from typing import Any, Generic, TypeVar
@@ -25,6 +25,7 @@ from .face import one_slice
 from .kinematics import nodes_before
 from .mesh import Mesh, contact_operators
 from .operator import Passage, Position, StepRows
+from .places import counted_from
 from .step_solver import StepProblem, StepSolution
 from .tooth_pair import Nodes, PairNodes, over_nodes
 
@@ -246,14 +247,8 @@ class Cycle:
         previous = []
         for (step, before), (index, index_before) in zip(steps, indices):
             pairs.append(pairs_at[mesh.nodes, index])
-            earlier = pairs_at[mesh.nodes, index_before]
             cycles = int(step // self.steps - before // self.steps)
-            if cycles:
-                # Passing the end of a cycle every pair's index rises by one.
-                earlier = tuple(
-                    replace(pair, place=replace(pair.place, index=pair.place.index + cycles)) for pair in earlier
-                )
-            previous.append(earlier)
+            previous.append(counted_from(cycles, pairs_at[mesh.nodes, index_before]))
         same = nodes_before(list(zip(pairs, previous)), self.grid.spacing)
         passages = [
             Passage(own, earlier if self.tangential else None, node_before, *index, (step - before) / self.steps)

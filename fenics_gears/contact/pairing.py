@@ -3,7 +3,7 @@ layer for contact nodes that elasticity cannot tell apart."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Hashable, Sequence
 
 import numpy as np
 from scipy.linalg.lapack import dpstrf
@@ -42,13 +42,28 @@ def of_full_rank(compliance: np.ndarray) -> tuple[np.ndarray, int]:
 Flank = tuple[int, int]
 
 
+class Blocks:
+    """Compliance blocks as compiled code finds them, each by a key."""
+
+    def __init__(self) -> None:
+        self._known: dict[Hashable, tuple[tuple[int, int, int], np.ndarray]] = {}
+
+    def of(self, key: Hashable, block: Callable[[], np.ndarray]) -> tuple[int, int, int]:
+        """Address, size and columns of the `block` of a key."""
+        if key not in self._known:
+            found = np.ascontiguousarray(block())
+            # With the block itself, which holds the memory.
+            self._known[key] = (found.ctypes.data, found.size, found.shape[1]), found
+        return self._known[key][0]
+
+
 class CompliancePairing:
     """Compliance between the contact nodes of tooth pairs, from the flank compliances of both gears."""
 
-    def __init__(self, flanks: Flanks, blocks: tuple[dict, dict] | None = None):
+    def __init__(self, flanks: Flanks, blocks: tuple[Blocks, Blocks] | None = None):
         """`blocks`: of either gear, by pairs of teeth, which pairings of the same bodies may share."""
         self.flanks = flanks
-        self._blocks = blocks or ({}, {})
+        self._blocks = blocks or (Blocks(), Blocks())
 
     def responses(self, passages: Sequence[Passage]) -> list[Response]:
         """How the contact nodes of some passages yield, all with previous pairs or all without."""
@@ -61,14 +76,8 @@ class CompliancePairing:
     def _block(self, gear: int, responding: Flank, loaded: Flank) -> tuple[int, int, int]:
         """Address, size and columns of the compliance of one flank under forces on another."""
         body = self.flanks.compliance[gear]
-        blocks = self._blocks[gear]
         teeth, sides = zip(responding, loaded)
-        key = body.key(*teeth), sides
-        if key not in blocks:
-            block = np.ascontiguousarray(body.between(*teeth, sides))
-            # With the block itself, which holds the memory.
-            blocks[key] = (block.ctypes.data, block.size, block.shape[1]), block
-        return blocks[key][0]
+        return self._blocks[gear].of((body.key(*teeth), sides), lambda: body.between(*teeth, sides))
 
     def compliances(self, passages: Sequence[Passage]) -> list[tuple[np.ndarray, np.ndarray | None]]:
         """Sum over both gears of `N A N^T`, mm/N, at the end of each passage: C (m, m) between the nodes of its pairs,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 from math import ceil
 from typing import TYPE_CHECKING
@@ -11,7 +12,7 @@ import numpy as np
 from fenics_gears.geometry.pair import GearPair
 
 from .face import one_slice
-from .tooth_pair import COAST, DRIVE, Place, coast_place, drive_place
+from .tooth_pair import COAST, DRIVE, PairNodes, Place, coast_place, drive_place
 from .window import ContactGrid, coast_roll_angles, contact_roll_angles, ends_of, exists, windows
 
 if TYPE_CHECKING:
@@ -31,6 +32,13 @@ def pair_places(
     touch by their edges too; places are theoretical ones all the same.
     """
     return tuple(face_places(pair, grid, one_slice(pair.face_width), phase, coast_flanks, corner))
+
+
+def counted_from(cycles: int, pairs: tuple[PairNodes, ...]) -> tuple[PairNodes, ...]:
+    """Pairs counted from so many mesh cycles later: each index rises as a pair passes the end of a cycle."""
+    if not cycles:
+        return pairs
+    return tuple(replace(each, place=replace(each.place, index=each.place.index + cycles)) for each in pairs)
 
 
 def face_places(

@@ -17,7 +17,7 @@ from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 from fenics_gears.geometry.gear import Side
 
 from .mesh import Mesh, elastic_mesh
-from .pairing import CompliancePairing
+from .pairing import Blocks, CompliancePairing
 from .places import pair_places
 from .tooth_pair import Flanks
 from .window import ContactGrid
@@ -79,7 +79,7 @@ class MeshesAlike:
         self._grid = grid
         self._steps = steps
         self._corner = corner
-        self._blocks: tuple[dict, dict] = ({}, {})
+        self._blocks = Blocks(), Blocks()
         self._first_alike: tuple[dict[int, int], ...] = ({}, {})
         self.meshes: dict[tuple[int, int], tuple[tuple, Mesh]] = {}
 

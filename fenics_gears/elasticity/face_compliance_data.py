@@ -40,3 +40,25 @@ class FaceCompliance:
     def offsets(self) -> int:
         """Largest distance, in pitches, between two teeth whose interaction is known."""
         return len(self.blocks) - 1
+
+
+@dataclass(frozen=True)
+class AcrossFlanks:
+    """How drive and coast flanks of a gear feel each other through its body: motions (f, r) of a drive flank's dofs and
+    (f, r') of a coast flank's, dofs as of a FaceCompliance; `between` (k, r, r'), mm/N: of a drive flank `first` and
+    more pitches ahead of a loaded coast flank."""
+
+    drive: np.ndarray
+    coast: np.ndarray
+    between: np.ndarray
+    first: int
+
+
+@dataclass(frozen=True)
+class IdlerCompliance:
+    """The body of a gear that one mate loads on its `drive` flanks and another one on its `coast` flanks: of the latter
+    as the drive flanks of its mirror image, in which heights stay; and what is `across`."""
+
+    drive: FaceCompliance
+    coast: FaceCompliance
+    across: AcrossFlanks

@@ -6,6 +6,7 @@ clockwise, is pushed on its counter-clockwise flanks and pushes with the others.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import floor, pi
 
@@ -49,6 +50,16 @@ def second_mesh(first: GearPair, second: GearPair, to_first: float, to_second: f
     pitches = (roll_of_second * radius - second.path_start) / idler.base_pitch
     whole = floor(pitches)
     return SecondMesh(pitches - whole, whole, to_first, to_second)
+
+
+def begun_at(idlers: Sequence[SecondMesh | None]) -> list[tuple[float, int]]:
+    """Of each mesh the mesh cycles (0 to 1) by which it is past a start of contact as the run begins; and by how many
+    whole ones its pairs are counted later, so that this is below 1. `idlers`: of its pinion, where this is one."""
+    found = [(0.0, 0)]
+    for idler in idlers[1:]:
+        ahead = 0.0 if idler is None else found[-1][0] + idler.phase
+        found.append((ahead - floor(ahead), floor(ahead)))
+    return found
 
 
 def check_apart(one: Gear, other: Gear, distance: float, words: str) -> None:

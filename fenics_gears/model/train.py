@@ -27,7 +27,9 @@ from fenics_gears.dynamics.train import (
 )
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
+from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.gear_train import SecondMesh, begun_at
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Motion, Scene
@@ -35,6 +37,7 @@ from fenics_gears.scene.train import MeshOfScene, TrainScene, rows_of
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import lumped_gears, mesh_stiffness
+from .face_resolution import face_discretisation
 from .model import Model, model_of
 
 if TYPE_CHECKING:
@@ -74,11 +77,6 @@ class RowModel:
         first = self.models[0]
         clock = SteadyClock(first.time_step)
         return EquationsOfMotion(self.drivetrain, first.time_step, first.friction_coefficient, self.time_scales, clock)
-
-    def in_a_row(self, number: int) -> bool:
-        """Whether a gear of a mesh is an idler."""
-        behind = self.meshes[number + 1 : number + 2]
-        return number > 0 and self.meshes[number].idler is not None or any(each.idler is not None for each in behind)
 
     @property
     def steps(self) -> int:
@@ -120,6 +118,22 @@ class RowModel:
         frequency = fastest.scene.motion.mesh_frequency
         return time_step_warnings(self.vibrations, frequency, steps, self.time_scales, fastest.time_step)
 
+    @property
+    def over_face(self) -> bool:
+        """Whether flanks are resolved over the face: of all meshes or of none."""
+        return self.models[0].scene.three_dimensional
+
+    @property
+    def begun(self) -> list[tuple[float, int]]:
+        """See `gear_train.begun_at`."""
+        return begun_at([mesh.idler for mesh in self.meshes])
+
+    def second_mesh(self, mesh: int) -> SecondMesh:
+        """Where the mesh behind an idler is as the one before it begins, its pairs counted as in the run."""
+        second = self.meshes[mesh + 1].idler
+        assert second is not None
+        return replace(second, teeth=second.teeth + self.begun[mesh + 1][1])
+
     def reach_through(self, mesh: int) -> Reach:
         """Between which teeth of the idler behind a mesh compliance is needed: on its flanks of either mesh, and from
         one to the other."""
@@ -131,6 +145,7 @@ class RowModel:
         least = -(one[1] + 1) - idler.teeth + other[0] - 1
         most = -(one[0] - 1) - idler.teeth + other[1] + 1
         teeth = first.pair.wheel.teeth
+        most = min(most, least + teeth - 1)
         round_about = teeth * round(0.5 * (least + most) / teeth)
         same = max(model.touching.reach.same for model in (first, second))
         return Reach(same, (least - round_about, most - round_about))
@@ -141,6 +156,12 @@ class RowModel:
         tips = [part.mate_tip for part in parts if part.mate_tip is not None]
         both = (min(each[0] for each in tips), max(each[1] for each in tips)) if tips else None
         return replace(parts[0], mate_tip=both)
+
+    def solid_discretisation_of_idler(self, mesh: int) -> FaceDiscretisation:
+        """How the body of the idler behind a mesh is divided: in the layers of the mesh that has more."""
+        first = face_discretisation(self.models[mesh], 1)
+        second = face_discretisation(self.models[mesh + 1], 0)
+        return replace(first, layers=max(first.layers, second.layers))
 
 
 @dataclass(frozen=True)

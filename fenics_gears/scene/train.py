@@ -27,7 +27,7 @@ from .data import Load, Motion, Scene
 from .parsing import is_train, parsed
 from .read import name_of, scene_from_text, text_of
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
-from .train_rules import OF_A_ROW, OF_A_STAGE, PAIR, ROW, SHARED, TrainSections, checked_train
+from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED, TrainSections, checked_train
 from .train_shafts import TrainShafts
 
 
@@ -130,7 +130,7 @@ def train_of(tree: Mapping[str, Any], text: str, name: str, source: str, folder:
         meshes += _meshes_of(stage, content, tree, (source, folder, len(meshes)))
     if sections.shafts.moving:
         for mesh in meshes:
-            check_moving(mesh.scene, f"{source}, {mesh.name}")
+            _check_together(mesh.scene, f"{source}, {mesh.name}")
     return _completed(tree.get("title") or name, name, text, meshes, sections)
 
 
@@ -162,7 +162,7 @@ def _meshes_of(
             sections["motion"] = {"pinion_speed": "1 rpm", "mesh_cycles": 1}
         found = _pair_scene(sections, f"{stage} {number + 1}" if count > 1 else stage, label, folder)
         if count > 1:
-            _check_in_row(found, label)
+            _check_together(found, label)
         return found
 
     scenes = [scene(number) for number in range(count)]
@@ -187,26 +187,13 @@ def _pair_scene(sections: Mapping[str, Any], name: str, source: str, folder: Pat
     return found
 
 
-def _check_in_row(scene: Scene, source: str) -> None:
-    """Raise SceneError for a mesh of a row with idlers that is not of elastic spur gears in the plane."""
-    if scene.three_dimensional:
-        raise SceneError(
-            f"{source}: helical gears are not yet computed in rows with idlers. Allowed: spur gears with"
-            f" {', '.join(OF_A_ROW)}. {NOTHING_DONE}"
-        )
+def _check_together(scene: Scene, source: str) -> None:
+    """Raise SceneError for a mesh that cannot yet move together with others."""
     if not scene.resolves_contact or scene.accuracy.condensation is not None:
         raise SceneError(
-            f"{source}: rigid teeth, accuracy.model and accuracy.condensation are not yet computed in rows with idlers."
-            f" Allowed: elastic teeth, by a material. {NOTHING_DONE}"
-        )
-
-
-def check_moving(scene: Scene, source: str) -> None:
-    """Raise SceneError for a mesh that cannot yet move together with others."""
-    if scene.three_dimensional or not scene.resolves_contact or scene.accuracy.condensation is not None:
-        raise SceneError(
-            f"{source}: stages that move together, by [shafts], [inertia] or [bearings], are computed in the plane with"
-            f" elastic teeth so far. Allowed: spur gears with a material, without sections over the face. {NOTHING_DONE}"
+            f"{source}: rigid teeth, accuracy.model and accuracy.condensation are not yet computed where meshes move"
+            f" together, by idlers, [shafts], [inertia] or [bearings]. Allowed: elastic teeth, by a material."
+            f" {NOTHING_DONE}"
         )
     bearings = scene.bearings
     if bearings is not None and (bearings.places is not None or bearings.each is not None):

@@ -19,8 +19,9 @@ ROW = "row"
 # Sections that a train may have for all of its stages, and those that a row may have of its own; and a stage of two
 # gears. Others are of a pair alone so far.
 SHARED = ("friction", "accuracy", "inertia", "bearings")
-OF_A_ROW = (*SHARED, "tip_relief", "root_relief", "profile_modifications", "corner_contact")
-OF_A_STAGE = (*OF_A_ROW, "lead_modifications", "misalignment", "coast_flanks", "body_meshes")
+OVER_THE_FACE = ("lead_modifications", "misalignment")
+OF_A_ROW = (*SHARED, "tip_relief", "root_relief", "profile_modifications", "corner_contact", *OVER_THE_FACE)
+OF_A_STAGE = (*OF_A_ROW, "coast_flanks", "body_meshes")
 OF_A_PAIR = ("shafts", "damping", "torque_ripple", "speed_ramp", "flank_errors", "eccentricity")
 OF_A_TRAIN = ("title", "stages", "load", "motion", *SHARED, "shafts", "damping")
 MOST_STAGES = 20

@@ -3,8 +3,7 @@ alone, and all meshes together where they have masses, bearings or shafts that t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 import xarray as xr
@@ -12,7 +11,9 @@ import xarray as xr
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.row import Idler, JoinedPosition, MeshOfRow, RowCycle, at_phase, begun_at
+from fenics_gears.contact.meshes_apart import MeshesApart
+from fenics_gears.contact.row import JoinedPosition, MeshOfRow, RowCycle, at_phase
+from fenics_gears.contact.row_in_plane import IdlerInPlane, RowInPlane
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.steps import Steps
@@ -25,11 +26,11 @@ from fenics_gears.model.train import RowModel, TrainModel, train_model_of
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.row import RowResult
 from fenics_gears.results.train import MeshResult, dataset_of, mesh_result
-from fenics_gears.scene.train import MeshOfScene, TrainScene
+from fenics_gears.scene.train import MeshOfScene, TrainScene, rows_of
 from fenics_gears.system.memory import allowed_memory
 from fenics_gears.system.progress import Progress, SilentProgress
 
-from .bodies import gear_body
+from .bodies import gear_bodies, gear_body
 from .elastic_route import flanks_of, gaps_of, mesh_cycle
 from .simulate import MARCH, solved
 from .warm_up import compile_kernels, compile_loops
@@ -102,37 +103,56 @@ def _coupled(row: RowModel, progress: Progress, cache: Cache | None) -> list[Mes
 
 
 def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
-    """The contact equations of all meshes of a row, on the bodies of all gears."""
+    """The contact equations of all meshes of a train that move together, on the bodies of all gears."""
+    members = []
+    for numbers in rows_of(row.meshes):
+        own = RowModel(*(tuple(each[number] for number in numbers) for each in (row.meshes, row.models)))
+        coordinates = [row.drivetrain.of_meshes[number] for number in numbers]
+        members.append(_member(own, coordinates, progress, cache))
+    if len(members) == 1 and isinstance(members[0].cycle, RowCycle):
+        return members[0].cycle
+    return RowCycle(members, MeshesApart())
+
+
+def _member(row: RowModel, coordinates: Sequence[np.ndarray], progress: Progress, cache: Cache) -> MeshOfRow:
+    """A single mesh, or meshes that idlers couple, over the coordinates of the train; `coordinates` of each mesh."""
+    if len(row.models) == 1:
+        bodies = gear_bodies(row.models[0], progress, cache)
+        return MeshOfRow(mesh_cycle(row.models[0], bodies), coordinates[0])
+    if row.over_face:
+        # Runs in the plane load none of it.
+        from .row_over_face import row_cycle_over_face
+
+        cycle = row_cycle_over_face(row, coordinates, progress, cache)
+    else:
+        cycle = _row_in_plane(row, coordinates, progress, cache)
+    return MeshOfRow(cycle, np.eye(coordinates[0].shape[1]))
+
+
+def _row_in_plane(row: RowModel, coordinates: Sequence[np.ndarray], progress: Progress, cache: Cache) -> RowCycle:
     bodies = list(_bodies(row, progress, cache))
-    begun = begun_at([mesh.idler for mesh in row.meshes])
     idlers = []
+    for mesh in range(len(row.models) - 1):
+        pair = row.models[mesh].pair
+        place = mesh, pair.wheel.teeth, row.second_mesh(mesh)
+        idlers.append(IdlerInPlane(*place, bodies[mesh + 1].section, pair.face_width))
     meshes = []
-    gear = 0
-    of_meshes = row.drivetrain.of_meshes
-    for number, (mesh, own, (phase, whole), rows) in enumerate(zip(row.meshes, row.models, begun, of_meshes)):
-        if number and mesh.idler is not None:
-            second = replace(mesh.idler, teeth=mesh.idler.teeth + whole)
-            idlers.append(Idler(number - 1, own.pair.pinion.teeth, bodies[gear].section, second, own.pair.face_width))
-        elif number:
-            gear += 1
-        pair = bodies[gear], bodies[gear + 1]
-        gear += 1
-        coupled = row.in_a_row(number)
-        meshes.append(MeshOfRow(_cycle(own, pair, phase) if coupled else mesh_cycle(own, pair), rows))
-    return RowCycle(meshes, idlers)
+    for number, (own, (phase, _), rows) in enumerate(zip(row.models, row.begun, coordinates)):
+        meshes.append(MeshOfRow(_cycle(own, (bodies[number], bodies[number + 1]), phase), rows))
+    return RowCycle(meshes, RowInPlane(idlers))
 
 
 def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body]:
-    """The gears of meshes that move together, one after the other; an idler is one gear."""
-    last = len(row.models) - 1
-    for number, (mesh, model) in enumerate(zip(row.meshes, row.models)):
-        idler_before = number > 0 and mesh.idler is not None
-        idler_behind = number < last and row.meshes[number + 1].idler is not None
-        if not idler_before:
-            progress.stage(f"condense pinion of {mesh.name}")
-            yield gear_body(model, GEARS[0], cache)
-        progress.stage(f"condense wheel of {mesh.name}")
-        yield _idler(row, number, cache) if idler_behind else gear_body(model, GEARS[1], cache)
+    """The gears of a row, one after the other."""
+    last = len(row.models)
+    for gear in range(last + 1):
+        progress.stage(f"condense gear {gear + 1}")
+        if gear == 0:
+            yield gear_body(row.models[0], GEARS[0], cache)
+        elif gear == last:
+            yield gear_body(row.models[-1], GEARS[1], cache)
+        else:
+            yield _idler(row, gear - 1, cache)
 
 
 def _idler(row: RowModel, mesh: int, cache: Cache) -> Body:

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from tests.trains import row
 
-from fenics_gears.contact.row import begun_at
 from fenics_gears.dynamics.stepping import Stepper
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.geometry.gear_train import begun_at
 from fenics_gears.model.train import train_model_of
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress

@@ -31,7 +31,6 @@ SHAFT = '[shafts.one]\ncarries = ["{}"]\ntorsional_stiffness = "1e8 N mm/rad"'
             f"{TWO}{LOAD}\n{DENSITY}{SHAFT.format('second.wheel')}\n{MOVING}",
             r"inertia.load\n    is missing. The far end of the last shaft",
         ),
-        (TWO.replace("pressure", 'helix_angle = "9 deg"\npressure', 1) + f"{LOAD}\n{DENSITY}{MOVING}", "in the plane"),
         (stage("one", 2.0, (20, 30), '[stages.one.inertia]\ndensity = "7.8 g/cm^3"') + LOAD, "is of one stage"),
         (f"{TWO}{LOAD}\n[tip_relief]\n", r"\[stages.NAME.tip_relief\]"),
         (f'[stages.one]\nkind = "planetary"\n{LOAD}', "is not computed yet"),
@@ -78,9 +77,3 @@ def test_an_idler_does_not_twist():
     text = row([24, 31, 40], [0, 60], 100).text
     with pytest.raises(SceneError, match="is of an idler"):
         train_from_text(f"{text}\n{SHAFT.format('row.2')}")
-
-
-def test_helical_rows_are_refused():
-    """Idlers are computed in the plane; stages of two gears over the face too."""
-    with pytest.raises(SceneError, match="helical gears are not yet computed in rows with idlers"):
-        train_from_text(row([24, 31, 40], [0, 60], 100).text.replace("material", 'helix_angle = "9 deg"\nmaterial', 1))

@@ -5,7 +5,7 @@ from functools import reduce
 
 import numpy as np
 import pytest
-from tests.trains import COARSE, row, stage, two_stages
+from tests.trains import COARSE, helical_row, row, stage, two_stages
 
 from fenics_gears import model_of, simulate, train_from_text
 from fenics_gears.dynamics.energy_account import account
@@ -92,10 +92,14 @@ def test_an_idler_that_both_meshes_load_is_softer():
     assert coupled > 1.05 * alone.attrs["mean_overall_transmission_error"]
 
 
-def test_the_energy_account_of_a_train_closes():
+@pytest.mark.parametrize("over_face", [False, True])
+def test_the_energy_account_of_a_train_closes(over_face):
     """Work of drive, load and friction is the change of the teeth's energy, to round-off: also what one mesh displaces
     in the other a step before has to be counted."""
-    (model,) = train_model_of(row([24, 31, 40], [0, 60], 300, more=FRICTION.format(0.1))).rows
+    scene = row([24, 31, 40], [0, 60], 300, more=FRICTION.format(0.1))
+    if over_face:
+        scene = helical_row([24, 31, 40], [0, 60], 300, more="[stages.row.friction]\ncoefficient = 0.1")
+    (model,) = train_model_of(scene).rows
     steps = marched(model)
     energy = energy_of_teeth(steps)
     work = account(model.drivetrain, model.models[0].clock, steps, energy)

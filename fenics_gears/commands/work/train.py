@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears import results
-from fenics_gears.contact.row import begun_at
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of
@@ -79,8 +78,7 @@ def check_train(scene: TrainScene) -> int:
     print_rows("Train", _train_rows(model))
     print_rows("Shafts", list(_shaft_rows(model)))
     for row in model.rows:
-        begun = begun_at([mesh.idler for mesh in row.meshes])
-        for mesh, own, (phase, _) in zip(row.meshes, row.models, begun):
+        for mesh, own, (phase, _) in zip(row.meshes, row.models, row.begun):
             print_rows(f"Mesh {mesh.name}", _mesh_rows(mesh, own, phase))
     if scene.shafts.moving:
         from fenics_gears.model.train_motion_rows import frequency_rows, motion_rows

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
+
+import numpy as np
+
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.system.job import together
@@ -9,7 +13,7 @@ from fenics_gears.system.second_process import SecondProcess
 
 from ..cache import Cache, kept
 from ..compliance import FlankCompliance, Reach
-from ..face_compliance_data import FaceCompliance
+from ..face_compliance_data import AcrossFlanks, FaceCompliance, IdlerCompliance
 from ..gear_compliance import check_inputs, similar_inputs
 from .discretisation import FaceDiscretisation
 from .near_field import NearField
@@ -51,14 +55,54 @@ def face_compliance(
     # In place: the arrays are large, and nothing else refers to them.
     arrays["blocks"] *= 1.0 / (material.youngs_modulus * gear.module)
     arrays["plane"] *= 1.0 / material.youngs_modulus
-    rolls, flanks = arrays["roll_angle"], 2 if both else 1
+    near = NearField.of_arrays(arrays).scaled(gear.module, material.youngs_modulus)
+    return _body(gear, arrays, (arrays["blocks"], arrays["plane"], near), 2 if both else 1, timings)
+
+
+def idler_compliance(
+    gear: Gear, material: Material, discretisation: FaceDiscretisation, reach: Reach, cache: Cache | None = None
+) -> IdlerCompliance:
+    """The body of a gear that drives with its coast flanks; `reach.across` is given. Arguments and errors are those of
+    `face_compliance`."""
+    check_inputs(gear, material, reach)
+    discretisation.check()
+    similar, scaled = gear.of_module_one, discretisation.in_modules_of(gear)
+    inputs = similar_inputs("idler over the face", gear, material, discretisation) | {"reach": asdict(reach)}
+
+    def compute() -> tuple[dict, dict]:
+        from .computed import computed_idler
+
+        return computed_idler(similar, scaled, material.poissons_ratio, reach, None)
+
+    arrays, timings = kept(cache, inputs, compute)
+    for name in ("blocks", "coast", "across"):
+        arrays[name] *= 1.0 / (material.youngs_modulus * gear.module)
+    arrays["plane"] *= 1.0 / material.youngs_modulus
+    # In the mirror a tooth ahead is one behind.
+    near = NearField.of_arrays(arrays).scaled(gear.module, material.youngs_modulus)
+    half = 2 * len(arrays["roll_angle"])
+    plane = arrays["plane"][:, :half, :half], arrays["plane"][:, half:, half:].swapaxes(1, 2)
+    drive, coast = (
+        _body(gear, arrays, (arrays[name], plane[number], near.of_flank(number)), 1, timings)
+        for number, name in enumerate(("blocks", "coast"))
+    )
+    motions = arrays["drive_motions"], arrays["coast_motions"]
+    return IdlerCompliance(drive, coast, AcrossFlanks(*motions, arrays["across"], reach.across[0]))
+
+
+def _body(
+    gear: Gear, arrays: dict, parts: tuple[np.ndarray, np.ndarray, NearField], flanks: int, timings: dict
+) -> FaceCompliance:
+    """The body of these blocks, blocks of its section and near field."""
+    blocks, plane, near = parts
+    rolls = arrays["roll_angle"]
     return FaceCompliance(
         roll_angle=rolls,
         element_order=ORDER,
         heights=gear.module * arrays["heights"],
-        blocks=arrays["blocks"],
-        plane=FlankCompliance(rolls, ORDER, arrays["plane"], flanks=flanks),
+        blocks=blocks,
+        plane=FlankCompliance(rolls, ORDER, np.ascontiguousarray(plane), flanks=flanks),
         timings=timings,
         flanks=flanks,
-        near=NearField.of_arrays(arrays).scaled(gear.module, material.youngs_modulus),
+        near=near,
     )

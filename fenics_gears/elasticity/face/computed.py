@@ -1,5 +1,6 @@
 """The flank compliance of a gear over its face: mesh a section, sweep and condense a tooth sector, join the ring."""
 
+from collections.abc import Callable
 from time import perf_counter
 
 import numpy as np
@@ -7,15 +8,17 @@ import numpy as np
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import centreline_angle
 
+from ..compliance import Reach
 from ..condensation import by_radius
 from ..element_nodes import node_roll_angles
 from ..element_sizes import ElementSizes
 from ..mesh_data import BodyMesh
 from ..ring import condensed_sector, ring_compliance
 from ..sector_mesh import sector_mesh
-from .condensed import condensed_swept_sector, ring_blocks
+from .condensed import SweptSector, condensed_swept_sector, parts_of_ring, ring_blocks
 from .discretisation import FaceDiscretisation
 from .held_tooth import near_field
+from .idler_ring import idler_blocks
 from .swept_stiffness import ELEMENT
 from .web import webbed_section
 
@@ -24,22 +27,54 @@ def computed_body(
     gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, _communicator: None
 ) -> tuple[dict, dict]:
     """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
+
+    def blocks(sector: SweptSector) -> dict[str, np.ndarray]:
+        return {"blocks": _in_mirrored_frame(ring_blocks(sector, gear.teeth, farthest), gear, both)}
+
+    return _computed(gear, face, poissons_ratio, farthest, both, blocks)
+
+
+def computed_idler(
+    gear: Gear, face: FaceDiscretisation, poissons_ratio: float, reach: Reach, _communicator: None
+) -> tuple[dict, dict]:
+    """The same of a gear that one mate loads on the drive flanks and another one on the coast flanks."""
+
+    def blocks(sector: SweptSector) -> dict[str, np.ndarray]:
+        held, to_cuts, link = parts_of_ring(sector)
+        mirror = _mirror(gear, 3)
+        half = len(held) // 2
+        into_mirror(held[half:], mirror)
+        into_mirror(held[:, half:].T, mirror)
+        into_mirror(to_cuts[half:], mirror)
+        return idler_blocks(held, to_cuts, link, gear.teeth, reach)
+
+    return _computed(gear, face, poissons_ratio, reach.same, True, blocks)
+
+
+def _computed(
+    gear: Gear,
+    face: FaceDiscretisation,
+    poissons_ratio: float,
+    offsets: int,
+    both: bool,
+    blocks_of: Callable[[SweptSector], dict[str, np.ndarray]],
+) -> tuple[dict, dict]:
+    """Arrays of a body, those of the ring of its sectors by `blocks_of`, and the times that they took."""
     clock = perf_counter()
     mesh = swept_section(gear, face.sizes)
     meshed = perf_counter()
     sector = condensed_swept_sector(mesh, face.sweep, poissons_ratio, gear.teeth, both)
-    blocks = ring_blocks(sector, gear.teeth, farthest)
+    blocks = blocks_of(sector)
     spent = sector.timings
     del sector
-    blocks = _in_mirrored_frame(blocks, gear, both)
     flanks = ("flank", "coast") if both else ("flank",)
     flank = np.vstack([by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in flanks])
     section = condensed_sector(mesh, ELEMENT, poissons_ratio, flank)
-    plane = _in_mirrored_frame(ring_compliance(section, gear.teeth, farthest), gear, both, components=2)
+    plane = _in_mirrored_frame(ring_compliance(section, gear.teeth, offsets), gear, both, components=2)
     rolls = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), ELEMENT.order)
     near = near_field(gear, mesh, face.sweep, poissons_ratio, rolls, both)
     timings = {**spent, "time_mesh": meshed - clock, "time_condense": perf_counter() - meshed - spent["time_compile"]}
-    arrays = {"roll_angle": rolls, "heights": face.sweep.heights, "blocks": blocks, "plane": plane}
+    arrays = {"roll_angle": rolls, "heights": face.sweep.heights, **blocks, "plane": plane}
     return arrays | near.arrays, timings
 
 
@@ -53,14 +88,24 @@ def _in_mirrored_frame(blocks: np.ndarray, gear: Gear, both: bool, components: i
     centreline."""
     if not both:
         return blocks
+    mirror = _mirror(gear, components)
+    half = blocks.shape[1] // 2
+    for block in blocks:
+        into_mirror(block[half:], mirror)
+        into_mirror(block[:, half:].T, mirror)
+    blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
+    return blocks
+
+
+def _mirror(gear: Gear, components: int) -> np.ndarray:
+    """Reflection (c, c) at the centreline of a tooth."""
     angle = centreline_angle(gear)
     axis, mirror = np.array([np.cos(angle), np.sin(angle)]), np.eye(components)
     mirror[:2, :2] = 2.0 * np.outer(axis, axis) - np.eye(2)
-    half = blocks.shape[1] // 2
-    for block in blocks:
-        coast = block[half:].reshape(-1, components, 2 * half)
-        block[half:] = np.einsum("ab,nbk->nak", mirror, coast).reshape(half, -1)
-        coast = block[:, half:].reshape(2 * half, -1, components)
-        block[:, half:] = (coast @ mirror).reshape(2 * half, half)
-    blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
-    return blocks
+    return mirror
+
+
+def into_mirror(rows: np.ndarray, mirror: np.ndarray) -> None:
+    """In place, rows (c n, k) of nodes by their components."""
+    by_nodes = rows.reshape(-1, len(mirror), rows.shape[1])
+    rows[:] = np.einsum("ab,nbk->nak", mirror, by_nodes).reshape(rows.shape)

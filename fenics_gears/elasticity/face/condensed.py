@@ -69,10 +69,15 @@ def _turn(stiffness: np.ndarray, last: int, turn: np.ndarray) -> None:
 
 def ring_blocks(sector: SweptSector, teeth: int, offsets: int) -> np.ndarray:
     """Flank compliance blocks (offsets + 1, f, f) of the ring of such sectors, as `ring.ring_compliance`."""
+    return joined_blocks(*parts_of_ring(sector), teeth, offsets)
+
+
+def parts_of_ring(sector: SweptSector) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of a sector between cuts that move in few ways, what `ring.between_cuts` gives of all their dofs."""
     stiffness = sector.stiffness
     flanks = len(stiffness) - 2 * sector.lower.size
     on_flanks = loads_on_flanks(flanks, sector.profile)
     loads = np.zeros((len(stiffness), on_flanks.shape[1]))
     loads[:flanks] = on_flanks
     motions = cut_motions(stiffness, loads, sector.lower, sector.web)
-    return joined_blocks(*flank_free(over_motions(stiffness, motions), flanks), teeth, offsets)
+    return flank_free(over_motions(stiffness, motions), flanks)

@@ -1,0 +1,82 @@
+"""Gears that are driven in one mesh of a row and drive in the next one, and the meshes of a row at a position."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from fenics_gears.geometry.gear_train import SecondMesh
+
+from .mesh_cycle import Cycle
+from .operator import Position
+from .pairing import Flank
+from .tooth_pair import PairNodes, count_of
+
+if TYPE_CHECKING:
+    from .formed_rows import FormedRows
+
+
+@dataclass(frozen=True)
+class Idler:
+    """A gear of so many `teeth` that is driven in one `mesh`, by its number, and drives in the next one, and where the
+    `second` mesh is as the first starts."""
+
+    mesh: int
+    teeth: int
+    second: SecondMesh
+
+    @property
+    def meshes(self) -> tuple[int, int]:
+        return self.mesh, self.mesh + 1
+
+    def flank(self, gear: int, flank: Flank) -> Flank:
+        """A flank of the idler as the first mesh counts teeth and flanks, from how the mesh in which it is the driven
+        (1) or the driving gear (0) counts them."""
+        tooth, side = flank
+        return flank if gear == 1 else (self.second.teeth - tooth, 1 - side)
+
+    def ahead(self, drive: int, coast: int, first: int) -> int:
+        """Pitches by which the tooth of a drive flank is ahead of that of a coast flank, of `first` and more: round the
+        gear either way."""
+        return first + (drive - coast - first) % self.teeth
+
+
+@dataclass(frozen=True)
+class Part:
+    """A mesh at a position: now, and how its pairs were a step before; its first node among all, then and now."""
+
+    position: Position
+    before: tuple[PairNodes, ...]
+    first: int
+    first_before: int
+
+    @property
+    def nodes(self) -> int:
+        return self.position.operator.nodes
+
+    @property
+    def nodes_before(self) -> int:
+        return count_of(self.before)
+
+    def rows(self, kinds: int, nodes: int) -> np.ndarray:
+        """Where its forces are among all, of which so many are normal."""
+        own = self.first + np.arange(self.nodes)
+        return np.concatenate([own + kind * nodes for kind in range(kinds)])
+
+    def rows_before(self, nodes: int) -> np.ndarray:
+        """The same a step before, with friction."""
+        own = self.first_before + np.arange(self.nodes_before)
+        return np.concatenate([own, own + nodes])
+
+
+class RowCompliance(Protocol):
+    """How the contact nodes of all meshes of a row yield."""
+
+    def of(
+        self, cycles: Sequence[Cycle], parts: Sequence[Part], counts: tuple[int, int], steps: float
+    ) -> tuple[np.ndarray | FormedRows, np.ndarray | FormedRows | None]:
+        """C (m, m) of all meshes, and with friction E (n, m before), mm/N, after so many steps; `counts`: of nodes now
+        and a step before."""

@@ -1,0 +1,143 @@
+"""Contact of gears in a row over the face: meshes feel each other through the body of the gear between them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.contact.test_row import overall_errors
+from tests.trains import helical_row
+
+from fenics_gears import ComputationError, model_of
+from fenics_gears.contact.idler import Idler
+from fenics_gears.contact.row_over_face import IdlerOverFace
+from fenics_gears.dynamics.train import drivetrain_of_mesh
+from fenics_gears.dynamics.stepping import Stepper
+from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.face_compliance_data import AcrossFlanks
+from fenics_gears.geometry.gear_train import SecondMesh
+from fenics_gears.model.train import RowModel, train_model_of
+from fenics_gears.simulation.routes import prepared
+from fenics_gears.simulation.train import row_cycle
+from fenics_gears.system.progress import SilentProgress
+
+FRICTION = "[stages.row.friction]\ncoefficient = 0.1\n"
+LEVEL = '[stages.row.misalignment]\nin_plane = "0 um"\n'
+STEPS = np.array([1.0, 3.5, 9.25])
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory):
+    return Cache(tmp_path_factory.mktemp("gears"))
+
+
+@pytest.fixture(scope="module")
+def cycle_of(cache):
+    def made(scene):
+        (model,) = train_model_of(scene).rows
+        return model, row_cycle(model, SilentProgress(), cache)
+
+    return made
+
+
+def one_end_relieved(gear: str) -> str:
+    """Of one gear of each mesh, at the right end alone."""
+    return f'[stages.row.lead_modifications.{gear}]\ncrowning = "4 um"\nhelix_slope = "12 um"\n'
+
+
+@pytest.mark.parametrize("hand", ["left", pytest.param("right", marks=pytest.mark.nightly)])
+def test_a_train_driven_from_its_other_end_has_the_same_transmission_error(cycle_of, hand):
+    """As in the plane. The mirrored train has gears of the other hand and the same right end, where flanks stand back:
+    hands, the order of slices, and drive and coast flanks of the idler have to be right for this. Both trains leave
+    out other motions of the idler, of 1e-6 of the largest."""
+    other = {"left": "right", "right": "left"}[hand]
+    model, cycle = cycle_of(helical_row([24, 31, 40], [0, 60], 300, hand=hand, more=one_end_relieved("pinion")))
+    mirrored, reversed_cycle = cycle_of(
+        helical_row([40, 31, 24], [120, 180], 180, hand=other, more=one_end_relieved("wheel"))
+    )
+    phase, _ = mirrored.begun[1]
+    ahead = model.models[0].pair.contact_ratio - STEPS / cycle.steps - phase
+    driven = overall_errors(model, cycle, STEPS) * 40 / 24
+    driving = overall_errors(mirrored, reversed_cycle, (ahead % 1.0) * cycle.steps)
+    assert driving == pytest.approx(driven, rel=5e-8)
+
+
+def test_compliance_is_symmetric_and_positive_and_of_pairs(cycle_of):
+    """Betti between the flanks of any meshes; springs store energy under any forces; each mesh by itself has the
+    compliance of its pair; meshes without a common gear do not feel each other."""
+    _, cycle = cycle_of(helical_row([24, 31, 24, 31], [0, 60, 20], 300, more=FRICTION))
+    for step in (0, 7):
+        compliance = cycle.position(step).operator.compliance
+        largest = np.abs(compliance).max()
+        assert np.abs(compliance - compliance.T).max() < 1e-14 * largest
+        assert np.linalg.eigvalsh(compliance).min() > 0.0
+        counts = [mesh.cycle.position(step).operator.nodes for mesh in cycle.meshes]
+        ends = np.cumsum([0, *counts])
+        rows = [np.concatenate([np.arange(*each), ends[-1] + np.arange(*each)]) for each in zip(ends, ends[1:])]
+        one, two, three = rows
+        assert np.abs(compliance[np.ix_(one, two)]).max() > 0.01 * largest
+        assert not compliance[np.ix_(one, three)].any()
+        for own, mesh in zip(rows, cycle.meshes):
+            alone = mesh.cycle.position(step).operator.compliance
+            assert np.array_equal(compliance[np.ix_(own, own)], alone)
+
+
+def test_forces_of_both_meshes_and_their_thrusts(cycle_of):
+    """Without friction each mesh carries torque over base radius, and the thrusts on the idler cancel: its hand is one
+    in both meshes, in which opposite flanks carry."""
+    model, cycle = cycle_of(helical_row([24, 31, 40], [0, 60], 300))
+    stepper = Stepper(cycle, model.equations_of_motion)
+    for step in STEPS:
+        position = cycle.between(step, step - 1.0)
+        forces = stepper.in_balance(step, position).solution.forces
+        thrust = []
+        first = 0
+        for gear, own, mesh in zip((1, 0), model.models, cycle.meshes):
+            nodes = mesh.cycle.between(step, step - 1.0).operator.nodes
+            normal = forces[first : first + nodes].sum()
+            expected = own.scene.load.wheel_torque / own.pair.wheel.base_radius
+            assert normal * own.face.cosine == pytest.approx(expected, rel=1e-9)
+            thrust.append(own.face.axial_share(own.pair.sides[gear], 1.0) * normal)
+            first += nodes
+        assert abs(thrust[0]) == pytest.approx(expected * abs(own.face.slope), rel=1e-9)
+        assert sum(thrust) == pytest.approx(0.0, abs=1e-9 * abs(thrust[0]))
+
+
+def test_a_row_of_one_mesh_is_the_pair_over_the_face(cache):
+    """The rows of a single mesh, joined as those of a row, are those of the pair, to the last digit."""
+    (pair,) = helical_row([24, 31], [0], 300, more=FRICTION).meshes
+    own = model_of(pair.scene)
+    row = RowModel((pair,), (replace(own, drivetrain=drivetrain_of_mesh(own.pair, pair.scene.load.wheel_torque)),))
+    joined = row_cycle(row, SilentProgress(), cache).position(3).operator
+    alone = prepared(own, SilentProgress(), cache)[1].position(3).operator
+    for name in ("compliance", "previous_compliance", "gap", "rigid_slip"):
+        assert np.array_equal(getattr(joined, name), getattr(alone, name)), name
+
+
+def test_a_spur_row_that_does_not_vary_along_the_face_is_the_plane_row(cycle_of):
+    """Without Poisson's effect a spur body under an even load is in plane strain: over the face and in the plane are
+    the same, but for what the coarse section misses between both meshes."""
+    plane, over_face = (
+        overall_errors(
+            *cycle_of(helical_row([24, 31, 24], [0, 60], 300, helix=0.0, poissons_ratio=0.0, more=more)), [5]
+        )
+        for more in ("", LEVEL)
+    )
+    assert over_face == pytest.approx(plane, rel=2e-3)
+
+
+def test_flanks_beyond_what_is_known_are_refused():
+    """Compiled code would read beyond the body's numbers."""
+    nothing = np.zeros((3, 1))
+    idler = IdlerOverFace(0, 31, SecondMesh(0.0, 12, 0.0, 0.0), AcrossFlanks(nothing, nothing, np.zeros((5, 1, 1)), 8), ())
+    assert idler.between(np.array([0]), np.array([-9]), 1).shape == (1, 1, 1, 1)
+    with pytest.raises(ComputationError, match="further apart"):
+        idler.between(np.array([0]), np.array([0]), 1)
+
+
+def test_an_idler_counts_the_teeth_of_both_meshes():
+    """The mirror counts the other way; a tooth ahead round the gear is one behind the other way round."""
+    idler = Idler(0, 31, SecondMesh(0.25, 12, 0.0, 0.0))
+    assert idler.flank(1, (2, 0)) == (2, 0)
+    assert idler.flank(0, (2, 0)) == (10, 1)
+    assert idler.ahead(2, 10, 5) == 23
+    assert idler.ahead(2, 10, -20) == -8
