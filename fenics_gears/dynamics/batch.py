@@ -108,6 +108,10 @@ class Batch:
         count = len(lasts)
         numbers = range(numbers[0] - 1, numbers[-1] + 1)
         positions = self._at(numbers)
+        (last, *_) = lasts.values()
+        if self.opened is None and not last.parts:
+            # If it is not kept it was built once more, without the rows that the last step has formed.
+            positions[0] = last.position
         rows = self._rows_of(numbers, positions)[list(lasts)]
         sets = [self.common.sets.before_all(numbers, rows[0, :, NODES])] * count
         before = list(lasts.values())

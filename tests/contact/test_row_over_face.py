@@ -128,7 +128,9 @@ def test_a_spur_row_that_does_not_vary_along_the_face_is_the_plane_row(cycle_of)
 def test_flanks_beyond_what_is_known_are_refused():
     """Compiled code would read beyond the body's numbers."""
     nothing = np.zeros((3, 1))
-    idler = IdlerOverFace(0, 31, SecondMesh(0.0, 12, 0.0, 0.0), AcrossFlanks(nothing, nothing, np.zeros((5, 1, 1)), 8), ())
+    idler = IdlerOverFace(
+        0, 31, SecondMesh(0.0, 12, 0.0, 0.0), AcrossFlanks(nothing, nothing, np.zeros((5, 1, 1)), 8), ()
+    )
     assert idler.between(np.array([0]), np.array([-9]), 1).shape == (1, 1, 1, 1)
     with pytest.raises(ComputationError, match="further apart"):
         idler.between(np.array([0]), np.array([0]), 1)

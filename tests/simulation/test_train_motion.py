@@ -46,17 +46,34 @@ def test_a_train_of_one_mesh_vibrates_as_the_pair(damping):
     assert float(found["friction_loss"]) == pytest.approx(expected.attrs["friction_loss"], rel=1e-9)
 
 
-def marched(model: RowModel) -> Steps:
+def test_a_helical_train_of_one_mesh_vibrates_as_the_pair():
+    """The same over the face, where rows of the compliance are formed as nodes close."""
+    more = 'helix_angle = "15 deg"\n[{}.accuracy]\nslices = 6\nlayers = 4\nsteps_per_mesh_cycle = 20'
+    gears = stage("one", 3.0, (20, 40), more.format("stages.one"))
+    train = train_from_text(f'{gears}[load]\noutput_torque = "400 N m"{motion(900, 1)}{INERTIA}')
+    gears = (
+        stage("one", 3.0, (20, 40), more.format("X")).replace("stages.one", "gears").replace("X.accuracy", "accuracy")
+    )
+    of_pair = '[load]\nwheel_torque = "400 N m"\n[motion]\npinion_speed = "900 rpm"\nmesh_cycles = 1\n'
+    expected = simulate(scene_from_text(f"{gears}{of_pair}{INERTIA}"))
+    found = simulate_train(train).isel(mesh=0)
+    for name in ("transmission_error", "normal_force", "line_load", "rotation"):
+        assert found[name].values == pytest.approx(expected[name].values, rel=1e-8, abs=1e-12), name
+
+
+def marched(model: RowModel, memory: float) -> Steps:
     cycle = row_cycle(model, SilentProgress(), None)
+    cycle.share(memory)
     blocks: list[Steps] = []
     march = Marcher(cycle, model.equations_of_motion)
     march.run(model.steps, 1, observe=lambda solved, so_far: blocks.append(solved))
     return reduce(Steps.followed_by, blocks)
 
 
-def test_the_energy_account_of_vibrating_stages_closes():
+@pytest.mark.parametrize("memory", [1e9, 0.0])
+def test_the_energy_account_of_vibrating_stages_closes(memory):
     """Work of drive, load, friction and damping is the change of kinetic and elastic energy, to round-off: over an
-    idler, a shaft that twists between two stages, and bearings."""
+    idler, a shaft that twists between two stages, and bearings; also where there is no memory to keep positions."""
     gears = ", ".join(f'{{ teeth = {each}, profile_shift = 0, bore_diameter = "20 mm" }}' for each in (20, 25, 30))
     idlers = f"""
         [stages.row]
@@ -72,7 +89,7 @@ def test_the_energy_account_of_vibrating_stages_closes():
     more += shaft("middle", '"row.3", "second.pinion"', 1e8) + shaft("end", '"second.wheel"', 2e8)
     load = f'[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n'
     (model,) = train_model_of(train_from_text(idlers + stage("second", 3.0, (20, 40)) + load + more)).rows
-    steps = marched(model)
+    steps = marched(model, memory)
     drivetrain = model.drivetrain
     elastic = energy_of_teeth(steps) + 0.5 * quadratic(steps.states[:, 0], drivetrain.stiffness)
     energy = elastic + 0.5 * quadratic(steps.states[:, 1], drivetrain.mass)
