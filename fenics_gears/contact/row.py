@@ -58,9 +58,11 @@ class RowCycle(Cycle):
 
     def share(self, memory: float) -> None:
         """Let operators take so many bytes, those of single meshes among them."""
-        self.kept = Kept(memory)
+        count = len(self.meshes)
+        # Operators grow with the square of their nodes, and those of all meshes have count times as many.
+        self.kept = Kept(memory * count / (count + 1))
         for each in self.meshes:
-            each.cycle.kept = Kept(memory / (2 + len(self.meshes)))
+            each.cycle.kept = Kept(memory / (count * (count + 1)))
 
     def position(self, step: int) -> Position:
         key = step % self.steps

@@ -123,11 +123,11 @@ def train_model_of(scene: TrainScene) -> TrainModel:
     rows = []
     for numbers in rows_of(scene.meshes):
         meshes = tuple(scene.meshes[number] for number in numbers)
-        rows.append(RowModel(meshes, _models([mesh.scene for mesh in meshes])))
+        rows.append(RowModel(meshes, models_of_row([mesh.scene for mesh in meshes])))
     return TrainModel(scene, tuple(rows))
 
 
-def _models(scenes: list[Scene]) -> tuple[Model, ...]:
+def models_of_row(scenes: list[Scene]) -> tuple[Model, ...]:
     """Of a single mesh as of a pair; of those of a row with one division of flanks and cycles."""
     models = [model_of(each) for each in scenes]
     if len(models) == 1:
