@@ -142,6 +142,9 @@ def _mesh_rows(mesh: MeshOfScene, own: Model, phase: float) -> list[Row]:
         ("begins at mesh phase", f"{phase:.6g}", ""),
         ("flank elements", f"{own.resolution.flank_element_size:.3g}", "mm"),
     ]
+    slices, layers = own.slices_and_layers
+    if slices:
+        rows.append(("slices over the face, layers of the bodies", f"{slices}, {layers}", ""))
     if own.scene.motion.speed_given:
         rows.append(("mesh frequency", f"{own.scene.motion.mesh_frequency:.6g}", "Hz"))
     return rows
