@@ -1,4 +1,4 @@
-"""An idler whose third gear stands at several angles, and the two helical stages of an electric axle."""
+"""An idler whose third gear stands at several angles, a helical one, and two helical stages of an electric axle."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def main(arguments: list[str] | None = None) -> None:
     errors = over_angles(directory, text, directions)
     subject = "Overall transmission error", [chart(directions, errors)]
     draw_charts({"idler_angle.png": subject}, directory, "gears of 24, 31 and 40 teeth in a row, 300 N m on the last")
-    for name in ("idler", "electric_axle"):
+    for name in ("idler", "helical_idler", "electric_axle"):
         gears(["run", str(HERE / f"{name}.toml"), "-o", str(directory / name)])
 
 
