@@ -6,6 +6,7 @@ from tests.trains import row, stage
 from fenics_gears import GearsError, SceneError, train_from_text
 
 TWO = stage("first", 2.0, (20, 30)) + stage("second", 3.0, (20, 40))
+ROW = row([24, 31, 40], [0, 60], 100).text
 LOAD = '[load]\noutput_torque = "400 N m"'
 
 
@@ -25,6 +26,7 @@ LOAD = '[load]\noutput_torque = "400 N m"'
         (stage('".."', 2.0, (20, 30)) + LOAD, "is no name of a stage"),
         (stage("one", 2.0, (20, 30), 'direction = "3 mm"') + LOAD, "is no angle"),
         (stage("one", 2.0, (20, 30), "[stages.one.bearings]\nx = 3") + LOAD, "is not yet computed in trains"),
+        (ROW.replace("[load]", "[stages.row.coast_flanks]\n[load]"), "in rows with idlers"),
         (stage("one", 2.0, (20, 30)).replace("teeth = 30", "tooth = 30") + LOAD, "stage one"),
     ],
 )
