@@ -1,5 +1,5 @@
-"""An idler whose third gear stands at several angles, two stages that vibrate together at several speeds, and the two
-helical stages of an electric axle."""
+"""An idler whose third gear stands at several angles, a helical one, two stages that vibrate together at several speeds,
+and two helical stages of an electric axle."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def main(arguments: list[str] | None = None) -> None:
     text = (HERE / "two_stages.toml").read_text(encoding="utf-8")
     subject = "Overall transmission error", [chart_of_speeds(SPEEDS, over_speeds(text, SPEEDS))]
     draw_charts({"two_stages_speed.png": subject}, directory, "two stages with masses and shafts that twist, 1 kN m")
-    for name in ("idler", "two_stages", "electric_axle"):
+    for name in ("idler", "helical_idler", "two_stages", "electric_axle"):
         gears(["run", str(HERE / f"{name}.toml"), "-o", str(directory / name)])
 
 

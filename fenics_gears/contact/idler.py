@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
 
@@ -17,6 +17,10 @@ from .tooth_pair import PairNodes, count_of
 
 if TYPE_CHECKING:
     from .formed_rows import FormedRows
+
+
+# One tooth or several, by their places.
+Teeth = TypeVar("Teeth", int, np.ndarray)
 
 
 @dataclass(frozen=True)
@@ -38,7 +42,7 @@ class Idler:
         tooth, side = flank
         return flank if gear == 1 else (self.second.teeth - tooth, 1 - side)
 
-    def ahead(self, drive: int, coast: int, first: int) -> int:
+    def ahead(self, drive: Teeth, coast: Teeth, first: int) -> Teeth:
         """Pitches by which the tooth of a drive flank is ahead of that of a coast flank, of `first` and more: round the
         gear either way."""
         return first + (drive - coast - first) % self.teeth

@@ -77,9 +77,11 @@ class RowCycle(Cycle):
 
     def share(self, memory: float) -> None:
         """Let operators take so many bytes, those of single meshes among them."""
-        self.kept = Kept(memory)
+        count = len(self._members)
+        # Operators grow with the square of their nodes, and those of all meshes have count times as many.
+        self.kept = Kept(memory * count / (count + 1))
         for each in self._members:
-            own = memory / (2 + len(self._members))
+            own = memory / (count * (count + 1))
             if isinstance(each.cycle, RowCycle):
                 each.cycle.share(own)
             else:

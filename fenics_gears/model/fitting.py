@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from math import ceil
 
@@ -22,25 +23,32 @@ def too_large(model: Model, cost: ExpectedCost, allowed: float) -> str:
     """Why a run that may take `allowed` bytes does not fit, and what to change; empty where it does."""
     if cost.held <= allowed:
         return ""
-    fits = _settings_that_fit(model, allowed)
+
+    def held(accuracy: Accuracy) -> float:
+        return expected_cost(model_of(replace(model.scene, accuracy=accuracy))).held
+
+    target = ' In place of settings, target = "5 %" has the run look for some that fit and keep the error;'
+    return refused(cost, allowed, settings_that_fit(model, held, allowed), target)
+
+
+def refused(cost: ExpectedCost, allowed: float, fits: str, target: str = "") -> str:
+    """Why a run does not fit, and what to change: settings that fit, in words, if there are any, or a `target`."""
     less = f"{fits} in [accuracy] fit" if fits else "Larger elements, fewer mesh cycles or time steps take less"
     return (
         f"The run would take {cost.held / 1e9:.3g} GB of memory, contact operators apart, and {allowed / 1e9:.3g} GB"
-        f' are allowed. Nothing was computed. {less}. In place of settings, target = "5 %" has the run look for some'
-        " that fit and keep the error; `--memory` or FENICS_GEARS_MEMORY allow more."
+        f" are allowed. Nothing was computed. {less}.{target} `--memory` or FENICS_GEARS_MEMORY allow more."
     )
 
 
-def _settings_that_fit(model: Model, allowed: float) -> str:
-    """The least coarse ones that are tried, in words; empty where none fits."""
+def settings_that_fit(model: Model, held: Callable[[Accuracy], float], allowed: float) -> str:
+    """The least coarse ones that are tried, in words; empty where none fits. `held`: bytes of a run with settings."""
     for times in range(1, TRIES + 1):
         accuracy, words = _coarser(model, COARSER**times)
         try:
-            coarser = model_of(replace(model.scene, accuracy=accuracy))
+            if held(accuracy) <= allowed:
+                return words
         except SceneError:
             continue
-        if expected_cost(coarser).held <= allowed:
-            return words
     return ""
 
 

@@ -231,13 +231,13 @@ def train_model_of(scene: TrainScene) -> TrainModel:
         if len(meshes) == 1 and not scene.shafts.moving:
             rows.append(RowModel(meshes, (model_of(meshes[0].scene),)))
         else:
-            rows.append(_together(meshes, scene))
+            rows.append(together(meshes, scene.shafts, scene.recorded_cycles))
     return TrainModel(scene, tuple(rows))
 
 
-def _together(meshes: Sequence[MeshOfScene], scene: TrainScene) -> RowModel:
-    """Meshes that move together, their cycles divided into steps of one length in time."""
-    shafts = scene.shafts
+def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles: int = 1) -> RowModel:
+    """Meshes that move together, their cycles divided into steps of one length in time; `recorded_cycles` as of
+    TrainScene."""
     _check_supports(meshes)
     models = [model_of(mesh.scene) for mesh in meshes]
     steps = whole_steps(meshes, [model.resolution.steps_per_mesh_cycle for model in models])
@@ -248,7 +248,7 @@ def _together(meshes: Sequence[MeshOfScene], scene: TrainScene) -> RowModel:
     for number, (mesh, own, size) in enumerate(zip(meshes, steps, sizes)):
         accuracy = replace(mesh.scene.accuracy, steps_per_mesh_cycle=own, flank_element_size=size)
         passed = ceil(cycles * max(steps) / own)
-        recorded = min(ceil(scene.recorded_cycles * max(steps) / own), passed)
+        recorded = min(ceil(recorded_cycles * max(steps) / own), passed)
         motion = Motion(mesh.scene.motion.mesh_frequency, passed, recorded, True, mesh.scene.motion.speed_given)
         # Masses are of the whole train.
         model = model_of(replace(mesh.scene, accuracy=accuracy, motion=motion, inertia=None))
@@ -257,7 +257,7 @@ def _together(meshes: Sequence[MeshOfScene], scene: TrainScene) -> RowModel:
         drivetrain = drivetrain_of_mesh(mesh.pair, mesh.scene.load.wheel_torque, names, supports)
         found.append(replace(model, drivetrain=drivetrain))
     _check(found)
-    recorded = scene.recorded_cycles * max(steps) if shafts.moving else 0
+    recorded = recorded_cycles * max(steps) if shafts.moving else 0
     return RowModel(tuple(meshes), tuple(found), shafts, recorded)
 
 

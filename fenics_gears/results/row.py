@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import isfinite
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.marched import March
@@ -48,10 +50,16 @@ class RowResult:
         found = []
         for mesh, recorder in zip(self._row.meshes, self._recorders):
             recorder.finish()
-            own = {name: (dims, values, labels) for name, dims, values, labels in variables_of(recorder, 0)}
-            own |= coordinates_of(recorder, recorder.arrays)
-            own = {name: of for name, of in own.items() if not name.startswith(OF_ENERGY)}
-            found.append(MeshResult(mesh.name, own, self._numbers(recorder), self._said(march)))
+            curves = {name: (dims, values, labels) for name, dims, values, labels in variables_of(recorder, 0)}
+            places = _along_the_row(coordinates_of(recorder, recorder.arrays))
+            numbers = self._numbers(recorder)
+            said = self._said(march)
+            labelled = xr.Dataset(curves, places)
+            for along in recorder.along_face:
+                numbers |= _finite(along.numbers(labelled, numbers))
+                said += along.warnings(labelled)
+            own = {name: of for name, of in (curves | places).items() if not name.startswith(OF_ENERGY)}
+            found.append(MeshResult(mesh.name, own, numbers, said))
         if self._row.models[0].scene.friction is not None:
             found[-1].numbers["friction_loss"] = self._friction_loss()
         return found
@@ -85,10 +93,26 @@ class RowResult:
             "newton_iterations_total": int(counted["newton_iterations"][1:].sum()),
             "steps": recorder.steps - 1,
         }
-        return {name: value for name, value in found.items() if isinstance(value, float | int) and isfinite(value)}
+        return _finite(found)
 
     def _driving_work(self, steps: int) -> float:
         """Work (N mm) of the drive over so many steps without losses."""
         first = self._row.models[0]
         torque = first.scene.load.wheel_torque * first.pair.rotation_ratio
         return torque * first.pair.pinion.angular_pitch * steps / first.resolution.steps_per_mesh_cycle
+
+
+def _finite(numbers: Mapping[str, Any]) -> dict[str, float]:
+    return {name: value for name, value in numbers.items() if isinstance(value, float | int) and isfinite(value)}
+
+
+def _along_the_row(places: dict[str, tuple]) -> dict[str, tuple]:
+    """Coordinates of a mesh; those along the axes run one way in all meshes, whichever way their gears turn."""
+    if "face_position" not in places:
+        return places
+    dims, values, labels = places["face_position"]
+    words = (
+        "distance along the axes from the middle of the face, towards the end from which the first gear of the row is"
+        " seen to turn counter-clockwise"
+    )
+    return places | {"face_position": (dims, values, labels | {"long_name": words})}

@@ -20,9 +20,11 @@ from fenics_gears.dynamics.steps import Steps
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.elasticity.compliance import Body
 from fenics_gears.elasticity.gear_compliance import flank_compliance
+from fenics_gears.errors import ComputationError
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import RowModel, TrainModel, train_model_of
+from fenics_gears.model.train_cost import row_cost, row_too_large
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.row import RowResult
 from fenics_gears.results.train import MeshResult, dataset_of, mesh_result
@@ -34,10 +36,6 @@ from .bodies import gear_bodies, gear_body
 from .elastic_route import flanks_of, gaps_of, mesh_cycle
 from .simulate import MARCH, solved
 from .warm_up import compile_kernels, compile_loops
-
-# Of the memory that is allowed, for contact operators.
-SHARE_OF_OPERATORS = 0.5
-
 
 Keep = Callable[[MeshOfScene, xr.Dataset], None]
 
@@ -84,10 +82,11 @@ def _single(row: RowModel, progress: Progress, cache: Cache | None, keep: Keep |
 
 def _coupled(row: RowModel, progress: Progress, cache: Cache | None) -> list[MeshResult]:
     """All meshes of a row together."""
+    for_operators = _memory_for_operators(row)
     compile_loops(progress)
     with writing_meanwhile(cache or user_cache()) as kept:
         cycle = row_cycle(row, progress, kept)
-    cycle.share(SHARE_OF_OPERATORS * allowed_memory())
+    cycle.share(for_operators)
     progress.stage("compile")
     compile_kernels(cycle.tangential, False)
     result = RowResult(row, [Recorder(each, mesh.cycle) for each, mesh in zip(row.models, cycle.meshes)])
@@ -100,6 +99,14 @@ def _coupled(row: RowModel, progress: Progress, cache: Cache | None) -> list[Mes
     if march.interrupted:
         raise KeyboardInterrupt
     return result.of_meshes(march)
+
+
+def _memory_for_operators(row: RowModel) -> float:
+    """As `simulate.memory_for_operators`, of a row."""
+    allowed = allowed_memory()
+    if said := row_too_large(row, allowed):
+        raise ComputationError(said)
+    return allowed - row_cost(row).held
 
 
 def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:

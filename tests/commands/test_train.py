@@ -1,7 +1,9 @@
 """`gears run` and `gears check` of a train."""
 
+import re
+
 import pytest
-from tests.trains import COARSE, stage
+from tests.trains import COARSE, helical_row, stage
 
 from fenics_gears import load, load_scene
 from fenics_gears.commands.cli import main
@@ -44,6 +46,23 @@ def test_check_tells_shafts_and_meshes(scene, capsys):
     assert "turns of the first shaft in one of the last  3" in said
     for shaft in ("counter-clockwise, 133.33 N m", "clockwise, 200 N m", "counter-clockwise, 400 N m"):
         assert shaft in said
+
+
+def test_a_row_that_memory_does_not_hold_is_refused(tmp_path, monkeypatch, capsys):
+    """Before anything is computed, by check and by run: with the size, what is allowed, and settings that fit. More
+    gears take more."""
+    path = tmp_path / "row.toml"
+    needed = []
+    for teeth, directions in (([24, 31], [0]), ([24, 31, 40], [0, 60]), ([24, 31, 40, 25], [0, 60, 20])):
+        path.write_text(helical_row(teeth, directions, 300).text)
+        assert main(["check", str(path), "--memory", "20 GB"]) == 0
+        needed.append(float(re.search(r"memory +(\d+) MB", capsys.readouterr().out)[1]))
+    assert needed[0] < needed[1] < needed[2]
+    monkeypatch.setattr("fenics_gears.simulation.train.row_cycle", lambda *arguments: pytest.fail("computed"))
+    for command in ("check", "run"):
+        assert main([command, str(path), "--memory", "20 MB"]) == 3
+        said = capsys.readouterr().err
+        assert "contact operators apart, and 0.02 GB are allowed. Nothing was computed" in said
 
 
 @pytest.mark.parametrize("command", ["effects", "accuracy"])

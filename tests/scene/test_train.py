@@ -6,6 +6,7 @@ from tests.trains import row, stage
 from fenics_gears import GearsError, SceneError, train_from_text
 
 TWO = stage("first", 2.0, (20, 30)) + stage("second", 3.0, (20, 40))
+ROW = row([24, 31, 40], [0, 60], 100).text
 LOAD = '[load]\noutput_torque = "400 N m"'
 DENSITY = '[inertia]\ndensity = "7.8 g/cm^3"\n'
 MOVING = '[motion]\ninput_speed = "900 rpm"\nmesh_cycles = 3'
@@ -41,6 +42,7 @@ SHAFT = '[shafts.one]\ncarries = ["{}"]\ntorsional_stiffness = "1e8 N mm/rad"'
         (stage("one", 2.0, (20, 30), 'direction = "3 mm"') + LOAD, "is no angle"),
         (stage("one", 2.0, (20, 30), "[stages.one.bearings]\nx = 3") + LOAD, r"not a known field of \[bearings\]"),
         (stage("one", 2.0, (20, 30), "[stages.one.eccentricity]\nx = 3") + LOAD, "is not yet computed of a stage"),
+        (ROW.replace("[load]", "[stages.row.coast_flanks]\n[load]"), "in rows with idlers"),
         (stage("one", 2.0, (20, 30)).replace("teeth = 30", "tooth = 30") + LOAD, "stage one"),
     ],
 )

@@ -85,6 +85,23 @@ def test_forces_of_an_idler_follow_from_the_torque():
     assert found["normal_force"].values == pytest.approx(np.full((21, 2), expected), rel=1e-9)
 
 
+def test_thrusts_on_a_helical_idler_cancel():
+    """Its hand is one in both meshes, in which opposite flanks carry: the axial forces of both meshes on it cancel, on
+    the other gears they remain, F tan(beta_b) each. Flanks that stand back at one end carry at the same end in both."""
+    leaning = '[stages.row.lead_modifications.pinion]\nhelix_slope = "20 um"'
+    scene = helical_row([24, 31, 40], [0, 60], 300, more=leaning)
+    found = simulate_train(scene)
+    thrust = found["reaction_z"].transpose("step", "mesh", "gear").values
+    force = 300e3 / scene.meshes[1].pair.wheel.base_radius
+    expected = force * scene.meshes[0].pair.slope
+    assert thrust[:, 0, 1] + thrust[:, 1, 0] == pytest.approx(np.zeros(len(thrust)), abs=1e-9 * force)
+    assert np.abs(thrust[:, [0, 1], [0, 1]]) == pytest.approx(np.full((len(thrust), 2), expected), rel=1e-9)
+    assert (found["face_load_factor"].values > 1.1).all()
+    load = found["line_load"].sum("slot").mean("contact_step").transpose("mesh", "face_position").values
+    assert ((load[:, 0] > load[:, -1]) == (load[0, 0] > load[0, -1])).all()
+    assert "the first gear of the row" in found["face_position_of_mesh"].attrs["long_name"]
+
+
 def test_an_idler_that_both_meshes_load_is_softer():
     """An idler's force in one mesh turns its teeth in the other the same way: T_E is larger than without coupling."""
     coupled = simulate_train(row([24, 31, 40], [0, 60], 300)).attrs["mean_overall_transmission_error"]

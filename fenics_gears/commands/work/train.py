@@ -10,12 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears import results
-from fenics_gears.model.cost import expected_cost
+from fenics_gears.errors import ComputationError
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of
+from fenics_gears.model.train_cost import row_too_large, train_cost
 from fenics_gears.scene.train import MeshOfScene, TrainScene
 from fenics_gears.show import TRAIN_PICTURE_FILES
 from fenics_gears.system.console import print_rows
+from fenics_gears.system.memory import allowed_memory
 from fenics_gears.system.output import check_writable, write_whole
 from fenics_gears.system.progress import Interruption
 
@@ -72,7 +74,8 @@ def _save(found, file: Path) -> None:
 
 
 def check_train(scene: TrainScene) -> int:
-    """Print the description of a train: speeds, torques, meshes and their phases."""
+    """Print the description of a train: speeds, torques, meshes and their phases. Raises ComputationError, as a run
+    would, where memory does not hold it."""
     model = train_model_of(scene)
     print(f"{scene.title}\n")
     print_rows("Train", _train_rows(model))
@@ -88,6 +91,9 @@ def check_train(scene: TrainScene) -> int:
     print_rows("Expected cost", _cost_rows(model))
     if model.warnings:
         print_rows("Warnings", [("", said, "") for said in model.warnings])
+    for row in model.rows:
+        if said := row_too_large(row, allowed_memory()):
+            raise ComputationError(f"CANNOT FIT: {said}")
     return 0
 
 
@@ -105,12 +111,11 @@ def _train_rows(model: TrainModel) -> list[Row]:
 
 
 def _cost_rows(model: TrainModel) -> list[Row]:
-    """Of one stage after the other, each as a pair by itself."""
-    costs = [expected_cost(each) for each in model.models]
+    cost = train_cost(model)
     return [
-        ("meshing and condensing, unless cached", f"{sum(each.condensing or 0.0 for each in costs):.1f}", "s"),
-        ("marching", f"{sum(each.marching for each in costs):.1f}", "s"),
-        ("memory", f"{max(each.memory for each in costs) / 1e6:.0f}", "MB"),
+        ("meshing and condensing, unless cached", f"{cost.condensing:.1f}", "s"),
+        ("marching", f"{cost.marching:.1f}", "s"),
+        ("memory", f"{cost.memory / 1e6:.0f}", "MB"),
     ]
 
 
@@ -142,6 +147,9 @@ def _mesh_rows(mesh: MeshOfScene, own: Model, phase: float) -> list[Row]:
         ("begins at mesh phase", f"{phase:.6g}", ""),
         ("flank elements", f"{own.resolution.flank_element_size:.3g}", "mm"),
     ]
+    slices, layers = own.slices_and_layers
+    if slices:
+        rows.append(("slices over the face, layers of the bodies", f"{slices}, {layers}", ""))
     if own.scene.motion.speed_given:
         rows.append(("mesh frequency", f"{own.scene.motion.mesh_frequency:.6g}", "Hz"))
     return rows

@@ -1,0 +1,58 @@
+"""Expected time and memory of a train: of its rows one after the other, of a row by what its meshes take as pairs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fenics_gears.scene.data import Accuracy
+
+from .cost import expected_cost
+from .cost_parts import CONDENSING_PROGRAM, ExpectedCost
+from .fitting import refused, settings_that_fit, too_large
+from .train import RowModel, TrainModel, together
+
+# Contact operators of all meshes together, in the square of their nodes: with factors of what is closed, which those of
+# a pair are counted without (measured, of rows of two meshes over the face).
+WITH_FACTORS = 1.3
+
+
+def train_cost(model: TrainModel) -> ExpectedCost:
+    """Of all rows, one after the other."""
+    costs = [row_cost(row) for row in model.rows]
+    return ExpectedCost(
+        sum(each.condensing or 0.0 for each in costs),
+        sum(each.marching for each in costs),
+        max(each.memory for each in costs),
+    )
+
+
+def row_cost(row: RowModel) -> ExpectedCost:
+    """Of a row: the operators of each mesh are those of its pair, and those of all meshes stand beside them. An idler,
+    condensed once with both of its flanks, takes what its two meshes would as pairs."""
+    costs = [expected_cost(each) for each in row.models]
+    if row.single:
+        return costs[0]
+    together = WITH_FACTORS * sum(each.operators**0.5 for each in costs) ** 2
+    operators = sum(each.operators for each in costs) + together
+    held = CONDENSING_PROGRAM + sum(each.held - CONDENSING_PROGRAM for each in costs)
+    return ExpectedCost(
+        sum(each.condensing or 0.0 for each in costs),
+        # A step of all meshes takes as many times longer as there are.
+        len(costs) * sum(each.marching for each in costs),
+        held + operators,
+        operators,
+    )
+
+
+def row_too_large(row: RowModel, allowed: float) -> str:
+    """As `fitting.too_large`, of a row."""
+    cost = row_cost(row)
+    if row.single or cost.held <= allowed:
+        return too_large(row.models[0], cost, allowed)
+
+    def held(accuracy: Accuracy) -> float:
+        meshes = [replace(mesh, scene=replace(mesh.scene, accuracy=accuracy)) for mesh in row.meshes]
+        return row_cost(together(meshes, row.shafts)).held
+
+    fits = settings_that_fit(row.models[0], held, allowed)
+    return f"{row.meshes[0].name} and those behind it: {refused(cost, allowed, fits)}"
