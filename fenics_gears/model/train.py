@@ -13,7 +13,10 @@ from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.gear_data import Material
 from fenics_gears.inputs.problem import NOTHING_DONE
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.train import MeshOfScene, TrainScene, rows_of
 
@@ -58,6 +61,12 @@ class RowModel:
         same = max(model.touching.reach.same for model in (first, second))
         return Reach(same, (least - round_about, most - round_about))
 
+    def key_of_idler(self, mesh: int) -> tuple[Gear, Material, Discretisation, Reach]:
+        """What the body of the idler behind a mesh depends on, gear and material first."""
+        own = self.models[mesh]
+        material = own.scene.gears.material_of(GEARS[1])
+        return own.pair.wheel, material, self.discretisation_of_idler(mesh), self.reach_through(mesh)
+
     def discretisation_of_idler(self, mesh: int) -> Discretisation:
         """How the idler behind a mesh is divided: finer where the tip of either mate may press."""
         parts = self.models[mesh].resolution.discretisation(1), self.models[mesh + 1].resolution.discretisation(0)
@@ -77,6 +86,12 @@ class TrainModel:
     def models(self) -> list[Model]:
         """Of all meshes in the order of the train."""
         return [model for row in self.rows for model in row.models]
+
+    @property
+    def bare(self) -> TrainModel:
+        """The same without what its models have computed of themselves."""
+        rows = (replace(row, models=tuple(each.bare for each in row.models)) for row in self.rows)
+        return replace(self, rows=tuple(rows))
 
     @property
     def warnings(self) -> list[str]:

@@ -45,13 +45,15 @@ class RowResult:
 
     def of_meshes(self, march: March) -> list[MeshResult]:
         """All meshes; the friction loss of the row is that of its last mesh."""
-        found = []
+        found: list[MeshResult] = []
         for mesh, recorder in zip(self._row.meshes, self._recorders):
             recorder.finish()
             own = {name: (dims, values, labels) for name, dims, values, labels in variables_of(recorder, 0)}
             own |= coordinates_of(recorder, recorder.arrays)
             own = {name: of for name, of in own.items() if not name.startswith(OF_ENERGY)}
-            found.append(MeshResult(mesh.name, own, self._numbers(recorder), self._said(march)))
+            # All of them took that march.
+            seconds = (0.0 if found else march.seconds, 0.0)
+            found.append(MeshResult(mesh.name, own, self._numbers(recorder), self._said(march), seconds))
         if self._row.models[0].scene.friction is not None:
             found[-1].numbers["friction_loss"] = self._lost / (self._driven + self._driving_work(march.steps))
         return found

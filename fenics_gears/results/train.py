@@ -3,7 +3,7 @@ meshes, and the transmission error of the whole over time."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -35,6 +35,8 @@ class MeshResult:
     variables: dict[str, tuple]
     numbers: dict[str, float]
     warnings: Sequence[str] = ()
+    # s, of its march and of its numbers.
+    seconds: tuple[float, float] = (0.0, 0.0)
 
     @property
     def cycle(self) -> np.ndarray:
@@ -56,7 +58,8 @@ def mesh_result(name: str, result: RunResult) -> MeshResult:
         for each in RESULT_ATTRIBUTES
         if each.units and not each.name.startswith("time_") and isinstance(dataset.attrs.get(each.name), float | int)
     }
-    return MeshResult(name, own, numbers, dataset.attrs["warnings"].splitlines())
+    seconds = dataset.attrs["time_march"], result.seconds
+    return MeshResult(name, own, numbers, dataset.attrs["warnings"].splitlines(), seconds)
 
 
 def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
@@ -87,16 +90,19 @@ def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.n
     steps = [frequency * each.numbers["steps_per_mesh_cycle"] for frequency, each in zip(frequencies, meshes)]
     cycles = model.models[0].scene.motion.mesh_cycles
     times = np.arange(int(np.ceil(cycles * max(steps) / min(frequencies))) + 1) / max(steps)
-    lag = np.zeros(len(times))
-    first = 0
-    for row in model.rows:
-        for model_of_mesh, each in zip(row.models, meshes[first : first + len(row.models)]):
-            phase = times * model_of_mesh.scene.motion.mesh_frequency
-            curve = each.cycle
-            own = np.interp(phase * len(curve), np.arange(len(curve)), curve, period=len(curve))
-            lag = lag * model_of_mesh.pair.rotation_ratio + own
-        first += len(row.models)
-    return times, lag
+    cycles_of = [(times * frequency, each.cycle) for frequency, each in zip(frequencies, meshes)]
+    lags = (
+        np.interp(phase * len(curve), np.arange(len(curve)), curve, period=len(curve)) for phase, curve in cycles_of
+    )
+    return times, of_last_shaft(model, lags)
+
+
+def of_last_shaft(model: TrainModel, lags: Iterable[Any]) -> Any:
+    """Lag (rad) of the last shaft, of what the wheel of each mesh lags: each through the ratios behind it."""
+    whole: Any = 0.0
+    for own, lag in zip(model.models, lags):
+        whole = whole * own.pair.rotation_ratio + lag
+    return whole
 
 
 def _size(mesh: MeshResult, name: str) -> int:
@@ -170,9 +176,7 @@ def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.nda
     for each in meshes:
         left *= 1.0 - each.numbers.get("friction_loss", 0.0)
     losses = {"friction_loss": 1.0 - left} if left != 1.0 else {}
-    mean = 0.0
-    for own, each in zip(model.models, meshes):
-        mean = mean * own.pair.rotation_ratio + each.numbers["mean_transmission_error"]
+    mean = of_last_shaft(model, (each.numbers["mean_transmission_error"] for each in meshes))
     return {
         "title": scene.title,
         "scene": scene.text,
@@ -183,8 +187,18 @@ def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.nda
         "warnings": "\n".join(dict.fromkeys([*said, *_of_rows(model)])),
         "mean_overall_transmission_error": mean,
         "peak_to_peak_overall_transmission_error": float(np.ptp(overall)),
+        "newton_iterations_total": _iterations(model, meshes),
+        "time_march": sum(each.seconds[0] for each in meshes),
+        "time_numbers": sum(each.seconds[1] for each in meshes),
         **losses,
     }
+
+
+def _iterations(model: TrainModel, meshes: Sequence[MeshResult]) -> int:
+    """Newton iterations of all rows; the meshes of one have the same."""
+    counts = [int(each.numbers["newton_iterations_total"]) for each in meshes]
+    rows = iter(counts)
+    return sum(max(next(rows) for _ in row.models) for row in model.rows)
 
 
 def _of_rows(model: TrainModel) -> list[str]:

@@ -19,6 +19,7 @@ from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.stored import stored
 from fenics_gears.system.output import remove_left_over, unsealed, write_whole
 
+from .one_run import RunOfTrain
 from .record import RunRecord, record_of
 from .run import Run
 from .runs import Failure, failure_of
@@ -50,7 +51,7 @@ class Folder:
                     os.replace(path, self._file(run, ENDING))
         return records
 
-    def keep(self, run: Run, ran: RunResult) -> RunRecord:
+    def keep(self, run: Run, ran: RunResult | RunOfTrain) -> RunRecord:
         """Write the result and return its record; a note on an earlier failure goes."""
         result = ran.dataset
         said = {"case_key": run.key, "case_values": json.dumps(run.values)}

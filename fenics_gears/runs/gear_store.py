@@ -1,5 +1,7 @@
 """What runs of one process share in memory: the gears condensed last, and contact operators."""
 
+from __future__ import annotations
+
 import functools
 from dataclasses import replace
 
@@ -36,10 +38,18 @@ class GearStore:
     def __init__(self, most: int | None = 2, cycles: bool = True):
         self._gears: dict[tuple, Body] = {}
         self._most = most
+        self._pairs = 1
         self._cycles = cycles
         self._operators: dict[tuple, tuple[Bodies, Cycle]] = {}
         self._cycle_key: tuple | None = None
         self._cycle: Cycle | None = None
+
+    def of_pairs(self, pairs: int) -> GearStore:
+        """This store, which from now on keeps the contact operators and gears of so many pairs of gears that come one
+        after the other: those of the stages of a train."""
+        self._pairs = pairs
+        self._most = None if self._most is None else 2 * pairs
+        return self
 
     def prepared(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Bodies, Cycle]:
         """Bodies and mesh cycle for ``simulate``, kept or made."""
@@ -75,8 +85,9 @@ class GearStore:
         """Give up the contact operators of other gears than a key's, and the oldest where there are many or they take
         much."""
         # Keys begin with the gears.
-        if any(each[0] != key[0] for each in self._operators):
-            self._operators.clear()
+        others = [gears for gears in dict.fromkeys(each[0] for each in self._operators) if gears != key[0]]
+        for gears in others[: max(len(others) + 1 - self._pairs, 0)]:
+            self._operators = {each: of for each, of in self._operators.items() if each[0] != gears}
         while self._operators and (
             len(self._operators) >= MOST_CYCLES
             or self._taken > SHARE_OF_OTHERS * min(cycle.kept.most for _, cycle in self._operators.values())

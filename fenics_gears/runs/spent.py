@@ -5,8 +5,10 @@ from dataclasses import dataclass
 
 from fenics_gears.results.dataset import RunResult
 
+from .one_run import RunOfTrain
 
-def seconds_of(result: RunResult) -> tuple[float, float, float]:
+
+def seconds_of(result: RunResult | RunOfTrain) -> tuple[float, float, float]:
     """Seconds that a run took, in all, in the march, and for its numbers."""
     return result.attrs["wall_time"], result.attrs["time_march"], result.seconds
 

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import os
 from cmath import rect
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import pi
+from math import pi, prod
 from pathlib import Path
 from typing import Any
 
@@ -64,10 +64,7 @@ class TrainScene:
     @property
     def ratio(self) -> float:
         """Turns of the first shaft in one turn of the last."""
-        found = 1.0
-        for mesh in self.meshes:
-            found /= mesh.pair.rotation_ratio
-        return found
+        return 1.0 / turns_of_last(self.meshes)
 
 
 def load_train(path: str | os.PathLike) -> TrainScene:
@@ -101,6 +98,11 @@ def train_from_text(
     if not is_train(tree):
         raise SceneError(f"{source}: has no [stages.NAME]: it is the scene of a pair, or none. {NOTHING_DONE}")
     return train_of(tree, text, name, source, directory)
+
+
+def turns_of_last(meshes: Iterable[MeshOfScene]) -> float:
+    """Turns of the last shaft in one turn of the first."""
+    return prod(mesh.pair.rotation_ratio for mesh in meshes)
 
 
 def rows_of(meshes: Sequence[MeshOfScene]) -> list[list[int]]:
@@ -238,10 +240,7 @@ def _completed(
     title: str, name: str, text: str, meshes: Sequence[MeshOfScene], load: TrainLoad, motion: TrainMotion
 ) -> TrainScene:
     """The train with steps, speeds and torques of all meshes."""
-    ratios = [mesh.pair.rotation_ratio for mesh in meshes]
-    through = 1.0
-    for each in ratios:
-        through *= each
+    through = turns_of_last(meshes)
     speed = motion.input_speed
     frequency = NOMINAL_FREQUENCY if speed is None else speed / (2.0 * pi) * meshes[0].pair.pinion.teeth
     driving = 2.0 * pi * frequency / meshes[0].pair.pinion.teeth
@@ -254,8 +253,8 @@ def _completed(
     cycles = motion.mesh_cycles or 1
     found: list[MeshOfScene] = []
     torque = output * through
-    for mesh, ratio in zip(meshes, ratios):
-        torque /= ratio
+    for mesh in meshes:
+        torque /= mesh.pair.rotation_ratio
         moving = Motion(frequency, cycles, cycles, False, speed is not None)
         behind = meshes[len(found) + 1 : len(found) + 2]
         frequency *= behind[0].pair.pinion.teeth / mesh.pair.wheel.teeth if behind else 1.0

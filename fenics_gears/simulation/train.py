@@ -32,6 +32,7 @@ from fenics_gears.system.progress import Progress, SilentProgress
 
 from .bodies import gear_body
 from .elastic_route import flanks_of, gaps_of
+from .routes import Preparation
 from .simulate import MARCH, solved
 from .warm_up import compile_kernels, compile_loops
 
@@ -47,9 +48,11 @@ def simulate_train(
     progress: Progress | None = None,
     cache: Cache | None = None,
     keep: Keep | None = None,
+    preparation: Preparation | None = None,
 ) -> xr.Dataset:
     """Run a train and return its result: the variables of a pair over steps and `mesh`, the numbers of each mesh, and
     the transmission error of the whole over time. `keep`: is given each stage of two gears and its result as a pair.
+    `preparation`: as in `simulate`, of each of these.
 
     Raises GeometryError and SceneError before any computation, ComputationError where a stage fails, KeyboardInterrupt
     on Ctrl-C.
@@ -64,7 +67,7 @@ def simulate_train(
     found: list[MeshResult] = []
     for row in model.rows:
         try:
-            found += _single(row, progress, cache, keep) if row.single else _coupled(row, progress, cache)
+            found += _single(row, progress, cache, keep, preparation) if row.single else _coupled(row, progress, cache)
         except ContactNotConverged as failure:
             failure.reason = f"{row.meshes[0].name}: {failure.reason}"
             failure.partial = None
@@ -72,9 +75,11 @@ def simulate_train(
     return dataset_of(model, found)
 
 
-def _single(row: RowModel, progress: Progress, cache: Cache | None, keep: Keep | None) -> list[MeshResult]:
+def _single(
+    row: RowModel, progress: Progress, cache: Cache | None, keep: Keep | None, preparation: Preparation | None
+) -> list[MeshResult]:
     """A stage of two gears, as a pair by itself."""
-    result = solved(row.models[0], progress=progress, cache=cache)
+    result = solved(row.models[0], progress=progress, cache=cache, preparation=preparation)
     if not result.attrs["complete"]:
         raise KeyboardInterrupt
     if keep is not None:
@@ -129,14 +134,12 @@ def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body]:
         elif gear == last:
             yield gear_body(row.models[-1], GEARS[1], cache)
         else:
-            yield _idler(row, gear - 1, cache)
+            yield idler_body(row, gear - 1, cache)
 
 
-def _idler(row: RowModel, mesh: int, cache: Cache) -> Body:
-    own = row.models[mesh]
-    material = own.scene.gears.material_of(GEARS[1])
-    division = row.discretisation_of_idler(mesh)
-    return Body.of(flank_compliance(own.pair.wheel, material, division, row.reach_through(mesh), cache))
+def idler_body(row: RowModel, mesh: int, cache: Cache) -> Body:
+    """The idler behind a mesh of a row."""
+    return Body.of(flank_compliance(*row.key_of_idler(mesh), cache))
 
 
 def _cycle(model: Model, bodies: tuple[Body, Body], phase: float) -> Cycle:

@@ -1,11 +1,13 @@
 """The scenes of a study's cases: the base scene with the changes of each."""
 
+from __future__ import annotations
+
 import functools
 import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fenics_gears.effects import effect_named
 from fenics_gears.errors import SceneError
@@ -14,11 +16,14 @@ from fenics_gears.inputs.section import read
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.model import RELIEFS, Model, model_of, with_reliefs
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.parsing import values_of
+from fenics_gears.scene.parsing import is_train, values_of
 from fenics_gears.scene.rules import broken_by_numbers
 
 from . import fields
 from .axis import Axis, label
+
+if TYPE_CHECKING:
+    from fenics_gears.model.train import TrainModel
 
 # Cases whose scenes and models are held, of 8 kB each.
 MOST_HELD = 1000
@@ -62,9 +67,10 @@ class Scenes:
     def values(self, index: int) -> dict[str, str]:
         return {axis.dotted: label(value) for axis, value in zip(self._changes.axes, self.points[index])}
 
-    def _model(self, index: int) -> Model:
+    def _model(self, index: int) -> Model | TrainModel:
         tree = self._changes.apply(self._tree, self.points[index])
-        return model_of_tree(f"{self._name}-{index:04d}", tree, self._directory)
+        of_tree = train_of_tree if is_train(tree) else model_of_tree
+        return of_tree(f"{self._name}-{index:04d}", tree, self._directory)
 
 
 class Models:
@@ -122,7 +128,7 @@ class NoScene(SceneError):
 
 
 def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Model:
-    """The model of a parsed scene. Raises NoScene."""
+    """The model of a parsed scene of a pair. Raises NoScene."""
     try:
         text = as_toml(tree)
         values, problems = values_of(tree, text, name, directory)
@@ -135,5 +141,23 @@ def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Model:
     except NoScene:
         raise
     except SceneError as error:
-        said = str(error).removesuffix(NOTHING_DONE).strip()
-        raise NoScene([Problem((), None, each) for each in said.splitlines()]) from error
+        raise _no_scene(error) from error
+
+
+def train_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> TrainModel:
+    """The model of a parsed train. Raises NoScene."""
+    from fenics_gears.model.train import train_model_of
+    from fenics_gears.scene.train import train_of
+    from fenics_gears.scene.train_rules import checked_train
+
+    if problems := checked_train(tree)[2]:
+        raise NoScene(problems)
+    try:
+        return train_model_of(train_of(tree, as_toml(tree), name, "the train", directory))
+    except SceneError as error:
+        raise _no_scene(error) from error
+
+
+def _no_scene(error: SceneError) -> NoScene:
+    said = str(error).replace(NOTHING_DONE, "").strip()
+    return NoScene([Problem((), None, each) for each in said.splitlines()])
