@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import isfinite
+from typing import Any
 
 import numpy as np
 
@@ -65,7 +66,7 @@ class RowResult:
         return [f"no flanks of the row touch in {len(march.separations)} of {march.steps} steps"]
 
     @staticmethod
-    def _numbers(recorder: Recorder) -> dict[str, float]:
+    def _numbers(recorder: Recorder) -> dict[str, Any]:
         counted = {name: recorder.arrays[name] for name, (dims, _) in recorder.stored.items() if dims[0] == "time"}
         model = recorder.model
         error = counted["transmission_error"]
@@ -77,7 +78,7 @@ class RowResult:
             "newton_iterations_total": int(counted["newton_iterations"][1:].sum()),
             "steps": recorder.steps - 1,
         }
-        return {name: value for name, value in found.items() if isinstance(value, float | int) and isfinite(value)}
+        return {name: value for name, value in found.items() if isinstance(value, str) or isfinite(value)}
 
     def _driving_work(self, steps: int) -> float:
         """Work (N mm) of the drive over so many steps without losses."""

@@ -1,5 +1,7 @@
 """Runs in a folder: a NetCDF file for each, or a text on why it failed."""
 
+from __future__ import annotations
+
 import contextlib
 import fcntl
 import json
@@ -11,7 +13,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import BinaryIO, ClassVar
+from typing import TYPE_CHECKING, BinaryIO, ClassVar
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
@@ -19,11 +21,13 @@ from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.stored import stored
 from fenics_gears.system.output import remove_left_over, unsealed, write_whole
 
-from .one_run import RunOfTrain
 from .record import RunRecord, record_of
 from .run import Run
 from .runs import Failure, failure_of
 from .spent import seconds_of
+
+if TYPE_CHECKING:
+    from .train import RunOfTrain
 
 LOGGER = logging.getLogger(__name__)
 ENDING = ".nc"

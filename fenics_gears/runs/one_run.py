@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
 
 from fenics_gears.model.model import Model
 from fenics_gears.results.dataset import RunResult
@@ -13,34 +12,7 @@ from fenics_gears.simulation.routes import Preparation
 from fenics_gears.simulation.simulate import Ended, solved
 from fenics_gears.system.progress import Progress, SilentProgress
 
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from fenics_gears.model.train import TrainModel
-
 Tick = Callable[[], None]
-
-
-class RunOfTrain:
-    """As `RunResult`, of a train: its `dataset`, its `attrs` and the `seconds` that its numbers took."""
-
-    def __init__(self, dataset: xr.Dataset, seconds: float):
-        self.dataset = dataset
-        self.seconds = seconds
-
-    @property
-    def attrs(self) -> dict[str, Any]:
-        return self.dataset.attrs
-
-
-def train_completed(model: TrainModel, preparation: Preparation, progress: Progress | None = None) -> RunOfTrain:
-    """As `completed`, of a train."""
-    from fenics_gears.simulation.train import simulate_train
-
-    begun = time.perf_counter()
-    dataset = simulate_train(model, progress, preparation=preparation)
-    dataset.attrs["wall_time"] = time.perf_counter() - begun
-    return RunOfTrain(dataset, dataset.attrs["time_numbers"])
 
 
 def completed(

@@ -19,7 +19,7 @@ from fenics_gears.system.progress import Progress
 
 from .condensing import condense, gear_tasks
 from .gear_store import operators_key, own_gear_store
-from .one_run import RunOfTrain, Tick, Ticking, completed, train_completed
+from .one_run import Tick, Ticking, completed
 from .run import Run
 from .simulate import settled
 from .spent import Spent
@@ -27,6 +27,8 @@ from .team import Alone, Together
 
 if TYPE_CHECKING:
     from fenics_gears.model.train import TrainModel
+
+    from .train import RunOfTrain
 
 LOGGER = logging.getLogger(__name__)
 # Runs that are computed together at most, and tasks that each process gets at least.
@@ -174,6 +176,8 @@ def _kept(store: Store, run: Run, result: Any, progress: Progress) -> Any:
 def _computed(model: Model | TrainModel, progress: Progress) -> RunResult | RunOfTrain:
     """The result of a run, whose `wall_time` has the choice of its settings too."""
     if not isinstance(model, Model):
+        from .train import train_completed
+
         return train_completed(model, own_gear_store().of_pairs(len(model.rows)).prepared, progress)
     chosen = settled(model, progress)
     result = completed(chosen.scene, own_gear_store().prepared, progress, chosen.describe)

@@ -1,11 +1,15 @@
 """What computing runs took: how many a second, and what limits them."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from fenics_gears.results.dataset import RunResult
 
-from .one_run import RunOfTrain
+if TYPE_CHECKING:
+    from .train import RunOfTrain
 
 
 def seconds_of(result: RunResult | RunOfTrain) -> tuple[float, float, float]:

@@ -10,8 +10,9 @@ from __future__ import annotations
 
 import os
 from cmath import rect
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from math import pi, prod
 from pathlib import Path
 from typing import Any
@@ -19,15 +20,19 @@ from typing import Any
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.gear_train import SecondMesh, check_apart, second_mesh
 from fenics_gears.geometry.pair import GearPair, gear_pair
-from fenics_gears.inputs.problem import NOTHING_DONE, line_numbers, listed
+from fenics_gears.inputs.problem import NOTHING_DONE, Problem, line_numbers, listed
+from fenics_gears.inputs.problem import Path as Field
 from fenics_gears.inputs.units import QuantityError, of_kind
 from fenics_gears.inputs.written import as_toml, as_written
 
 from .data import Load, Motion, Scene
-from .parsing import is_train, parsed
-from .read import name_of, scene_from_text, text_of
+from .parsing import is_train, parsed, values_of
+from .read import name_of, text_of
 from .schema import NOMINAL_FREQUENCY
 from .train_rules import OF_A_ROW, OF_A_STAGE, PAIR, ROW, SHARED, TrainLoad, TrainMotion, checked_train
+
+STAGES = "stages"
+ROW_GEARS = "gears"
 
 
 @dataclass(frozen=True)
@@ -64,7 +69,28 @@ class TrainScene:
     @property
     def ratio(self) -> float:
         """Turns of the first shaft in one turn of the last."""
-        return 1.0 / turns_of_last(self.meshes)
+        return 1.0 / self.turns_of_last
+
+    @property
+    def turns_of_last(self) -> float:
+        """Turns of the last shaft in one turn of the first."""
+        return turns_of_last(self.meshes)
+
+
+class MistakesOfStage(SceneError):
+    """All that is wrong with a stage, at its places in the train."""
+
+    def __init__(self, problems: list[Problem]):
+        super().__init__("; ".join(each.message for each in problems))
+        self.problems = problems
+
+
+class TrainMistakes(SceneError):
+    """All that is wrong with a train, in words, and as `problems`."""
+
+    def __init__(self, words: str, problems: list[Problem]):
+        super().__init__(words)
+        self.problems = problems
 
 
 def load_train(path: str | os.PathLike) -> TrainScene:
@@ -119,11 +145,14 @@ def train_of(tree: Mapping[str, Any], text: str, name: str, source: str, folder:
     """The train of a parsed text. Raises SceneError, naming all mistakes of the train or of one of its stages at once,
     and GeometryError for gears that overlap."""
     load, motion, problems = checked_train(tree)
-    if problems:
-        raise SceneError(listed(problems, line_numbers(text), source))
     meshes: list[MeshOfScene] = []
-    for stage, content in tree["stages"].items():
-        meshes += _meshes_of(stage, content, tree, source, folder)
+    try:
+        for stage, content in tree["stages"].items() if not problems else ():
+            meshes += _meshes_of(stage, content, tree, source, folder)
+    except MistakesOfStage as error:
+        problems = error.problems
+    if problems:
+        raise TrainMistakes(listed(problems, line_numbers(text), source), problems)
     return _completed(tree.get("title") or name, name, text, meshes, load, motion)
 
 
@@ -147,7 +176,9 @@ def _meshes_of(
         given = {name: gear for name, gear in both.items() if gear is not None}
         shared = {name: tree[name] for name in SHARED if name in tree}
         sections = {"gears": fields | given, **shared, **inner, "load": {"wheel_torque": "1 N m"}}
-        found = _pair_scene(sections, f"{stage} {number + 1}" if count > 1 else stage, label, folder)
+        places = {name: (ROW_GEARS, str(number + place)) for place, name in enumerate(both, 1)} if row else {}
+        name = f"{stage} {number + 1}" if count > 1 else stage
+        found = _pair_scene(sections, name, label, folder, partial(_in_stage, stage, places))
         if count > 1:
             _check_in_row(found, label)
         return found
@@ -163,14 +194,33 @@ def _meshes_of(
     return _joined(stage, scenes, pairs, directions, label)
 
 
-def _pair_scene(sections: Mapping[str, Any], name: str, source: str, folder: Path) -> Scene:
-    """The scene of one mesh. Raises SceneError that says which stage it is of."""
+def _in_stage(stage: str, places: Mapping[str, Field], path: Field) -> Field:
+    """Where a train has what its pair's scene has at a path; `places`: of the gears of a row."""
+    if path[:1] != ("gears",):
+        return path if path[:1] == ("load",) else (STAGES, stage, *path)
+    gear = places.get(path[1], path[1:2]) if len(path) > 1 else ()
+    return (STAGES, stage, *gear, *path[2:])
+
+
+def _placed(problem: Problem, place: Callable[[Field], Field]) -> Problem:
+    """A mistake in a pair's scene at its place in the train."""
+    home = f"[{'.'.join(place(('gears',)))}"
+    return replace(problem, path=place(problem.path), message=problem.message.replace("[gears", home))
+
+
+def _pair_scene(
+    sections: Mapping[str, Any], name: str, source: str, folder: Path, place: Callable[[Field], Field]
+) -> Scene:
+    """The scene of one mesh; `place`: where the train has what it has. Raises MistakesOfStage."""
+    text = as_toml(sections)
     try:
-        found = scene_from_text(as_toml(sections), name, source=source, directory=folder, with_lines=False)
-    except SceneError as error:
-        raise SceneError(f"{error}\n[gears] and its effects stand for the stage's own section.") from None
-    if found.accuracy.target is not None:
-        raise SceneError(f"{source}: accuracy.target is not yet computed in trains. {NOTHING_DONE}")
+        values, problems = values_of(parsed(text, source), text, name, folder)
+    except GeometryError as error:
+        raise GeometryError(f"{source}: {error}") from error
+    if values is None:
+        raise MistakesOfStage([_placed(each, place) for each in problems])
+    found = Scene(**values)
+    found.__dict__["text"] = text
     return found
 
 
@@ -180,6 +230,11 @@ def _check_in_row(scene: Scene, source: str) -> None:
         raise SceneError(
             f"{source}: helical gears are not yet computed in rows with idlers. Allowed: spur gears with"
             f" {', '.join(OF_A_ROW)}. {NOTHING_DONE}"
+        )
+    if scene.accuracy.target is not None:
+        raise SceneError(
+            f"{source}: accuracy.target is not yet computed in rows with idlers. Allowed: settings of [accuracy] there,"
+            f" and a target within stages of two gears, [stages.NAME.accuracy]. {NOTHING_DONE}"
         )
     if not scene.resolves_contact or scene.accuracy.condensation is not None:
         raise SceneError(

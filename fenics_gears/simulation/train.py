@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import Any, Protocol
 
 import numpy as np
 import xarray as xr
@@ -23,12 +24,13 @@ from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import RowModel, TrainModel, train_model_of
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.row import RowResult
 from fenics_gears.results.train import MeshResult, dataset_of, mesh_result
 from fenics_gears.scene.train import MeshOfScene, TrainScene
 from fenics_gears.system.memory import allowed_memory
-from fenics_gears.system.progress import Progress, SilentProgress
+from fenics_gears.system.progress import Progress
 
 from .bodies import gear_body
 from .elastic_route import flanks_of, gaps_of
@@ -43,31 +45,35 @@ SHARE_OF_OPERATORS = 0.5
 Keep = Callable[[MeshOfScene, xr.Dataset], None]
 
 
-def simulate_train(
+class Settled(Protocol):
+    """A scene, or its model, with settled settings, which describes them in its result."""
+
+    scene: Any
+
+    def describe(self, result: RunResult) -> None: ...
+
+
+Settle = Callable[[Model, Progress], Settled]
+
+
+def solved_train(
     scene: TrainScene | TrainModel,
-    progress: Progress | None = None,
+    progress: Progress,
     cache: Cache | None = None,
     keep: Keep | None = None,
     preparation: Preparation | None = None,
+    settle: Settle | None = None,
 ) -> xr.Dataset:
-    """Run a train and return its result: the variables of a pair over steps and `mesh`, the numbers of each mesh, and
-    the transmission error of the whole over time. `keep`: is given each stage of two gears and its result as a pair.
-    `preparation`: as in `simulate`, of each of these.
-
-    Raises GeometryError and SceneError before any computation, ComputationError where a stage fails, KeyboardInterrupt
-    on Ctrl-C.
-
-    >>> from fenics_gears import load_train, simulate_train
-    >>> found = simulate_train(load_train("demos/gear_trains/idler.toml"))
-    >>> list(found["mesh"].values)
-    ['idler: gears 1 and 2', 'idler: gears 2 and 3']
-    """
-    progress = progress or SilentProgress()
+    """The result of a train; arguments and errors are those of `runs.train.simulate_train`. `settle`: settles the
+    settings of a stage of two gears."""
     model = scene if isinstance(scene, TrainModel) else train_model_of(scene)
     found: list[MeshResult] = []
     for row in model.rows:
         try:
-            found += _single(row, progress, cache, keep, preparation) if row.single else _coupled(row, progress, cache)
+            if row.single:
+                found.append(_single(row, progress, cache, keep, preparation, settle))
+            else:
+                found += _coupled(row, progress, cache)
         except ContactNotConverged as failure:
             failure.reason = f"{row.meshes[0].name}: {failure.reason}"
             failure.partial = None
@@ -76,15 +82,25 @@ def simulate_train(
 
 
 def _single(
-    row: RowModel, progress: Progress, cache: Cache | None, keep: Keep | None, preparation: Preparation | None
-) -> list[MeshResult]:
+    row: RowModel,
+    progress: Progress,
+    cache: Cache | None,
+    keep: Keep | None,
+    preparation: Preparation | None,
+    settle: Settle | None,
+) -> MeshResult:
     """A stage of two gears, as a pair by itself."""
-    result = solved(row.models[0], progress=progress, cache=cache, preparation=preparation)
+    model = row.models[0]
+    chosen = None if settle is None else settle(model, progress)
+    result = solved(
+        model if chosen is None else chosen.scene, progress=progress, cache=cache, preparation=preparation,
+        ended=None if chosen is None else chosen.describe,
+    )  # fmt: skip
     if not result.attrs["complete"]:
         raise KeyboardInterrupt
     if keep is not None:
         keep(row.meshes[0], result.dataset)
-    return [mesh_result(row.meshes[0].name, result)]
+    return mesh_result(row.meshes[0].name, result)
 
 
 def _coupled(row: RowModel, progress: Progress, cache: Cache | None) -> list[MeshResult]:

@@ -147,13 +147,12 @@ def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Model:
 def train_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> TrainModel:
     """The model of a parsed train. Raises NoScene."""
     from fenics_gears.model.train import train_model_of
-    from fenics_gears.scene.train import train_of
-    from fenics_gears.scene.train_rules import checked_train
+    from fenics_gears.scene.train import TrainMistakes, train_of
 
-    if problems := checked_train(tree)[2]:
-        raise NoScene(problems)
     try:
         return train_model_of(train_of(tree, as_toml(tree), name, "the train", directory))
+    except TrainMistakes as error:
+        raise NoScene(error.problems) from error
     except SceneError as error:
         raise _no_scene(error) from error
 

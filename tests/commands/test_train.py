@@ -19,7 +19,7 @@ def scene(tmp_path):
 def test_run_writes_result_and_pictures(scene, tmp_path):
     """What the page on trains says."""
     assert main(["run", str(scene), "-o", str(tmp_path / "out"), "-q"]) == 0
-    written = {"run.nc", "train.png", "transmission_error.png", "first", "second"}
+    written = {"run.nc", "train.png", "transmission_error.png", "order_spectrum.png", "first", "second"}
     assert {each.name for each in (tmp_path / "out").iterdir()} == written
     found = load(tmp_path / "out" / "run.nc")
     assert found.sizes["mesh"] == 2
@@ -53,9 +53,26 @@ def test_commands_of_pairs_say_that_it_is_a_train(command, scene, capsys):
     assert "is a train of gears" in capsys.readouterr().err
 
 
-def test_commands_of_runs_say_that_it_is_a_train(scene, tmp_path, capsys):
-    """Not a traceback for a dimension that pairs do not have."""
+def test_commands_of_runs_take_a_train(scene, tmp_path, capsys):
+    """Its pictures again, its curves, one page with a section for each mesh, its sound."""
+    scene.write_text(scene.read_text() + '[motion]\ninput_speed = "3000 rpm"\n')
+    out = tmp_path / "out"
+    assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
+    assert main(["plot", str(out), "-q"]) == 0
+    assert main(["export", str(out), "-q"]) == 0
+    assert main(["report", str(out), "-q"]) == 0
+    assert main(["listen", str(out), "--seconds", "0.5", "-q"]) == 0
+    assert (out / "train.png").is_file() and (out / "curves.csv").is_file()
+    page = (out / "report.html").read_text()
+    for heading in ("Power flow", "Orders of the overall transmission error", "Mesh: first", "Mesh: second"):
+        assert heading in page
+    assert (out / "overall_transmission_error.wav").stat().st_size > 2 * 0.5 * 48000
+    capsys.readouterr()
+
+
+def test_commands_of_pairs_name_the_stages(scene, tmp_path, capsys):
+    """What has no meaning for a train yet says which runs it takes."""
     assert main(["run", str(scene), "-o", str(tmp_path / "out"), "-q", "--no-pictures"]) == 0
-    for command in ("plot", "export", "report"):
-        assert main([command, str(tmp_path / "out")]) != 0
-        assert "is the run of a train" in capsys.readouterr().err
+    assert main(["plot", str(tmp_path / "out"), "--spectrum"]) == 2
+    said = capsys.readouterr().err
+    assert "is the run of a train" in said and str(tmp_path / "out" / "second") in said

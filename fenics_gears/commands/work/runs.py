@@ -53,7 +53,7 @@ def loaded_run(file: Path, load: Callable | None = None, trains: bool = False):
     except ComputationError as error:
         raise SceneError(str(error)) from error
     if load is None and not trains and of_train(dataset):
-        raise SceneError(f"{file} is the run of a train, which this command does not take. {_stages_beside(file)}")
+        raise SceneError(f"{file} is the run of a train, which this command does not take. {stages_beside(file)}")
     return dataset
 
 
@@ -62,8 +62,8 @@ def of_train(dataset) -> bool:
     return OVERALL in dataset
 
 
-def _stages_beside(file: Path) -> str:
-    """Which runs of the train's stages are beside its own, in words."""
+def stages_beside(file: Path) -> str:
+    """Which runs of a train's stages are beside its own, in words."""
     stages = [str(each.parent) for each in sorted(file.parent.glob(f"*/{RUN_FILE}"))]
     if not stages:
         return "It takes the run of a stage of two gears, which stands in a folder of its own; this train has none."
