@@ -14,7 +14,8 @@ from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel
 from fenics_gears.scene.parsing import parsed
-from fenics_gears.scene.train import STAGES, TrainScene
+from fenics_gears.scene.train import TrainScene
+from fenics_gears.scene.train_pair import STAGES
 from fenics_gears.simulation.routes import Preparation
 from fenics_gears.simulation.train import Keep, solved_train
 from fenics_gears.system.progress import Progress, SilentProgress

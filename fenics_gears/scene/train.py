@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 from cmath import rect
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import pi, prod
@@ -20,19 +20,16 @@ from typing import Any
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.gear_train import SecondMesh, check_apart, second_mesh
 from fenics_gears.geometry.pair import GearPair, gear_pair
-from fenics_gears.inputs.problem import NOTHING_DONE, Problem, line_numbers, listed
-from fenics_gears.inputs.problem import Path as Field
+from fenics_gears.inputs.problem import NOTHING_DONE, line_numbers, listed
 from fenics_gears.inputs.units import QuantityError, of_kind
-from fenics_gears.inputs.written import as_toml, as_written
+from fenics_gears.inputs.written import as_written
 
 from .data import Load, Motion, Scene
-from .parsing import is_train, parsed, values_of
+from .parsing import is_train, parsed
 from .read import name_of, text_of
 from .schema import NOMINAL_FREQUENCY
-from .train_rules import OF_A_ROW, OF_A_STAGE, PAIR, ROW, SHARED, TrainLoad, TrainMotion, checked_train
-
-STAGES = "stages"
-ROW_GEARS = "gears"
+from .train_pair import ROW_GEARS, MistakesOfStage, TrainMistakes, check_in_row, in_stage, pair_scene
+from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED, TrainLoad, TrainMotion, checked_train
 
 
 @dataclass(frozen=True)
@@ -75,22 +72,6 @@ class TrainScene:
     def turns_of_last(self) -> float:
         """Turns of the last shaft in one turn of the first."""
         return turns_of_last(self.meshes)
-
-
-class MistakesOfStage(SceneError):
-    """All that is wrong with a stage, at its places in the train."""
-
-    def __init__(self, problems: list[Problem]):
-        super().__init__("; ".join(each.message for each in problems))
-        self.problems = problems
-
-
-class TrainMistakes(SceneError):
-    """All that is wrong with a train, in words, and as `problems`."""
-
-    def __init__(self, words: str, problems: list[Problem]):
-        super().__init__(words)
-        self.problems = problems
 
 
 def load_train(path: str | os.PathLike) -> TrainScene:
@@ -178,9 +159,11 @@ def _meshes_of(
         sections = {"gears": fields | given, **shared, **inner, "load": {"wheel_torque": "1 N m"}}
         places = {name: (ROW_GEARS, str(number + place)) for place, name in enumerate(both, 1)} if row else {}
         name = f"{stage} {number + 1}" if count > 1 else stage
-        found = _pair_scene(sections, name, label, folder, partial(_in_stage, stage, places))
+        found = pair_scene(
+            sections, name, label, folder, partial(in_stage, stage, places, shared.keys() - inner.keys())
+        )
         if count > 1:
-            _check_in_row(found, label)
+            check_in_row(found, label)
         return found
 
     scenes = [scene(number) for number in range(count)]
@@ -192,55 +175,6 @@ def _meshes_of(
             scenes[number - 1 : number + 1] = [scene(number - 1), scene(number)]
     pairs = [gear_pair(each.gears) for each in scenes]
     return _joined(stage, scenes, pairs, directions, label)
-
-
-def _in_stage(stage: str, places: Mapping[str, Field], path: Field) -> Field:
-    """Where a train has what its pair's scene has at a path; `places`: of the gears of a row."""
-    if path[:1] != ("gears",):
-        return path if path[:1] == ("load",) else (STAGES, stage, *path)
-    gear = places.get(path[1], path[1:2]) if len(path) > 1 else ()
-    return (STAGES, stage, *gear, *path[2:])
-
-
-def _placed(problem: Problem, place: Callable[[Field], Field]) -> Problem:
-    """A mistake in a pair's scene at its place in the train."""
-    home = f"[{'.'.join(place(('gears',)))}"
-    return replace(problem, path=place(problem.path), message=problem.message.replace("[gears", home))
-
-
-def _pair_scene(
-    sections: Mapping[str, Any], name: str, source: str, folder: Path, place: Callable[[Field], Field]
-) -> Scene:
-    """The scene of one mesh; `place`: where the train has what it has. Raises MistakesOfStage."""
-    text = as_toml(sections)
-    try:
-        values, problems = values_of(parsed(text, source), text, name, folder)
-    except GeometryError as error:
-        raise GeometryError(f"{source}: {error}") from error
-    if values is None:
-        raise MistakesOfStage([_placed(each, place) for each in problems])
-    found = Scene(**values)
-    found.__dict__["text"] = text
-    return found
-
-
-def _check_in_row(scene: Scene, source: str) -> None:
-    """Raise SceneError for a mesh of a row with idlers that is not of elastic spur gears in the plane."""
-    if scene.three_dimensional:
-        raise SceneError(
-            f"{source}: helical gears are not yet computed in rows with idlers. Allowed: spur gears with"
-            f" {', '.join(OF_A_ROW)}. {NOTHING_DONE}"
-        )
-    if scene.accuracy.target is not None:
-        raise SceneError(
-            f"{source}: accuracy.target is not yet computed in rows with idlers. Allowed: settings of [accuracy] there,"
-            f" and a target within stages of two gears, [stages.NAME.accuracy]. {NOTHING_DONE}"
-        )
-    if not scene.resolves_contact or scene.accuracy.condensation is not None:
-        raise SceneError(
-            f"{source}: rigid teeth, accuracy.model and accuracy.condensation are not yet computed in rows with idlers."
-            f" Allowed: elastic teeth, by a material. {NOTHING_DONE}"
-        )
 
 
 def _angle(written: Any, stage: str, source: str) -> float:

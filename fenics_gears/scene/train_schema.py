@@ -13,7 +13,6 @@ from .accuracy import Accuracy
 from .gear_schema import Gears, GearText
 from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED, TrainLoad, TrainMotion
 
-STAGES = "stages"
 ACCURACY = "accuracy"
 ANGLES = "-360 deg to 360 deg"
 GEARS_OF_A_ROW = AllowedTables(

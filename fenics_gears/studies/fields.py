@@ -11,8 +11,9 @@ from fenics_gears.inputs.problem import LISTED, did_you_mean
 from fenics_gears.inputs.section import AllowedTables, Section, allowed_in, names_in, section_within
 from fenics_gears.inputs.tree import LOADS, value_at
 from fenics_gears.scene.schema import known_paths, paths_in, scene_text
+from fenics_gears.scene.train_pair import STAGES
 from fenics_gears.scene.train_rules import TrainLoad
-from fenics_gears.scene.train_schema import STAGES, stage_text, train_text
+from fenics_gears.scene.train_schema import stage_text, train_text
 
 Path = tuple[str, ...]
 ABSENT = "absent"
@@ -62,7 +63,7 @@ def why_unknown(path: Path) -> str | None:
     """Why a path is unknown, with the nearest known one; None for a known path."""
     if _field_at(path) is not None:
         return None
-    known = known_paths() if path[0] != STAGES else [path[:2] + each for each in paths_in(stage_text())]
+    known = known_paths() if path[0] != STAGES else [path[:2] + each for each in of_stages()]
     dotted = [".".join(each) for each in known]
     hint = did_you_mean(".".join(path), dotted)
     if not hint:
@@ -71,6 +72,11 @@ def why_unknown(path: Path) -> str | None:
     if not hint:
         hint = f" Sections: {', '.join(each[0] for each in known_paths() if len(each) == 1)}, {STAGES}."
     return f"is no section or field of a scene.{hint}"
+
+
+def of_stages() -> dict[Path, bool]:
+    """Every path within a stage of a train; True for a section, False for a field."""
+    return paths_in(stage_text())
 
 
 def changed(tree: Mapping[str, Any], path: Path, value: Any) -> dict[str, Any]:

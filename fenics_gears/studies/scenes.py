@@ -69,8 +69,7 @@ class Scenes:
 
     def _model(self, index: int) -> Model | TrainModel:
         tree = self._changes.apply(self._tree, self.points[index])
-        of_tree = train_of_tree if is_train(tree) else model_of_tree
-        return of_tree(f"{self._name}-{index:04d}", tree, self._directory)
+        return model_of_tree(f"{self._name}-{index:04d}", tree, self._directory)
 
 
 class Models:
@@ -84,8 +83,10 @@ class Models:
         # Parsed scenes without reliefs, the names of all that their reliefs say, and their models.
         self._known: list[tuple[dict[str, Any], Any, Model]] = []
 
-    def of(self, tree: Mapping[str, Any]) -> Model:
+    def of(self, tree: Mapping[str, Any]) -> Any:
         """The model of a parsed scene. Raises NoScene."""
+        if is_train(tree):
+            return model_of_tree(self._name, tree, self._directory)
         rest = {name: section for name, section in tree.items() if name not in RELIEFS}
         said = _names({name: tree.get(name) for name in RELIEFS})
         known = next((model for others, names, model in self._known if names == said and others == rest), None)
@@ -127,8 +128,10 @@ class NoScene(SceneError):
         self.problems = problems
 
 
-def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Model:
-    """The model of a parsed scene of a pair. Raises NoScene."""
+def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Any:
+    """The `Model` of a parsed scene, of a train its `TrainModel`. Raises NoScene."""
+    if is_train(tree):
+        return _train_of_tree(name, tree, directory)
     try:
         text = as_toml(tree)
         values, problems = values_of(tree, text, name, directory)
@@ -144,10 +147,10 @@ def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Model:
         raise _no_scene(error) from error
 
 
-def train_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> TrainModel:
-    """The model of a parsed train. Raises NoScene."""
+def _train_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> TrainModel:
     from fenics_gears.model.train import train_model_of
-    from fenics_gears.scene.train import TrainMistakes, train_of
+    from fenics_gears.scene.train import train_of
+    from fenics_gears.scene.train_pair import TrainMistakes
 
     try:
         return train_model_of(train_of(tree, as_toml(tree), name, "the train", directory))

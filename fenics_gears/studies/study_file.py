@@ -13,7 +13,7 @@ from fenics_gears.inputs.written import as_written
 from fenics_gears.runs.run import Run, run_of, scene_key
 from fenics_gears.scene.parsing import is_train, parsed
 from fenics_gears.scene.read import load_scene_or_train, name_of, text_of
-from fenics_gears.scene.train_schema import STAGES
+from fenics_gears.scene.train_pair import STAGES
 
 from . import fields
 from .axis import Axis, AxisError, label, unit_of, values_of

@@ -26,6 +26,7 @@ LOAD = '[load]\noutput_torque = "400 N m"'
         (stage("one", 2.0, (20, 30), 'direction = "3 mm"') + LOAD, "is no angle"),
         (stage("one", 2.0, (20, 30), "[stages.one.bearings]\nx = 3") + LOAD, "is not yet computed in trains"),
         (stage("one", 2.0, (20, 30)).replace("teeth = 30", "tooth = 30") + LOAD, "train:7: stages.one.wheel.tooth"),
+        (stage("one", 2.0, (20, 30)) + LOAD + "\n[accuracy]\nelements = 3", "accuracy.elements = 3"),
     ],
 )
 def test_mistakes_are_told(text, said):

@@ -122,7 +122,7 @@ def harris_charts(outcome: SearchOutcome) -> list[Chart]:
     if "transmission_error" not in maps:
         return []
     before = model_of_tree("", outcome.design.before, outcome.design.directory)
-    maps.attrs["base_radius_wheel"] = before.pair.wheel.base_radius
+    maps.attrs["base_radius_wheel"] = before.models[-1].pair.wheel.base_radius
     charts = [
         harris_map(maps.sel(choice=choice).drop_vars("choice"), f"Harris map, {words}")
         for choice, words in (("before", BEFORE), ("best", BEST))
