@@ -67,6 +67,11 @@ class RowModel:
         material = own.scene.gears.material_of(GEARS[1])
         return own.pair.wheel, material, self.discretisation_of_idler(mesh), self.reach_through(mesh)
 
+    @property
+    def keys_of_idlers(self) -> list[tuple]:
+        """Of all its idlers."""
+        return [self.key_of_idler(mesh) for mesh in range(len(self.models) - 1)]
+
     def discretisation_of_idler(self, mesh: int) -> Discretisation:
         """How the idler behind a mesh is divided: finer where the tip of either mate may press."""
         parts = self.models[mesh].resolution.discretisation(1), self.models[mesh + 1].resolution.discretisation(0)

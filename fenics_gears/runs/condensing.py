@@ -72,8 +72,8 @@ def _tasks(model: Model | TrainModel) -> Iterator[tuple[str, tuple, GearTask | I
         if row.single:
             continue
         yield from _of_pair(last, GEARS[1:])
-        for mesh in range(len(row.models) - 1):
-            yield BODY, row.key_of_idler(mesh), IdlerTask(replace(row, models=tuple(e.bare for e in row.models)), mesh)
+        for mesh, key in enumerate(row.keys_of_idlers):
+            yield BODY, key, IdlerTask(replace(row, models=tuple(e.bare for e in row.models)), mesh)
 
 
 def _of_pair(model: Model, names: Iterable[str]) -> Iterator[tuple[str, tuple, GearTask]]:

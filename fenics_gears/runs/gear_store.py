@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.window import ContactGrid
@@ -17,6 +19,10 @@ from fenics_gears.simulation.bodies import body_key, gear_bodies, gear_body
 from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_of_gaps, yielding_seats
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
+
+if TYPE_CHECKING:
+    from fenics_gears.contact.row import RowCycle
+    from fenics_gears.model.train import RowModel
 
 # How many mesh cycles of the same gears are kept, such as for torques with other elements or contact nodes. The part of
 # the memory for contact operators that they and their bodies may take in addition to another one.
@@ -43,13 +49,13 @@ class GearStore:
         self._operators: dict[tuple, tuple[Bodies, Cycle]] = {}
         self._cycle_key: tuple | None = None
         self._cycle: Cycle | None = None
+        self._row: tuple[tuple, RowCycle] | None = None
 
-    def of_pairs(self, pairs: int) -> GearStore:
-        """This store, which from now on keeps the contact operators and gears of so many pairs of gears that come one
-        after the other: those of the stages of a train."""
+    def of_pairs(self, pairs: int) -> None:
+        """Keep from now on the contact operators and gears of so many pairs of gears that come one after the other:
+        those of the stages of a train."""
         self._pairs = pairs
         self._most = None if self._most is None else 2 * pairs
-        return self
 
     def prepared(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Bodies, Cycle]:
         """Bodies and mesh cycle for ``simulate``, kept or made."""
@@ -75,6 +81,15 @@ class GearStore:
             # Of springs there are none.
             bodies = tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in bodies)
         return bodies, self._cycle
+
+    def row(self, row: RowModel, make: Callable[[], RowCycle]) -> RowCycle:
+        """The contact equations of a row with idlers: those of the last one where they are the same, else made."""
+        key = tuple(map(cycle_key, row.models)), tuple(mesh.idler for mesh in row.meshes), tuple(row.keys_of_idlers)
+        if self._row is None or self._row[0] != key:
+            # Frees memory before the next is made.
+            self._row = None
+            self._row = key, make()
+        return self._row[1]
 
     @property
     def _taken(self) -> float:

@@ -178,7 +178,7 @@ def _computed(model: Model | TrainModel, progress: Progress) -> RunResult | RunO
     if not isinstance(model, Model):
         from .train import train_completed
 
-        return train_completed(model, own_gear_store().of_pairs(len(model.rows)).prepared, progress)
+        return train_completed(model, own_gear_store(), progress)
     chosen = settled(model, progress)
     result = completed(chosen.scene, own_gear_store().prepared, progress, chosen.describe)
     result.attrs["wall_time"] += result.attrs.get("time_choose", 0.0)

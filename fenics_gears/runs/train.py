@@ -17,9 +17,10 @@ from fenics_gears.scene.parsing import parsed
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_pair import STAGES
 from fenics_gears.simulation.routes import Preparation
-from fenics_gears.simulation.train import Keep, solved_train
+from fenics_gears.simulation.train import Keep, KeptRow, solved_train
 from fenics_gears.system.progress import Progress, SilentProgress
 
+from .gear_store import GearStore
 from .simulate import SettledScene, settled
 
 
@@ -29,11 +30,15 @@ def simulate_train(
     cache: Cache | None = None,
     keep: Keep | None = None,
     preparation: Preparation | None = None,
+    kept_row: KeptRow | None = None,
 ) -> xr.Dataset:
     """Run a train and return its result: the variables of a pair over steps and `mesh`, the numbers of each mesh, and
-    the transmission error of the whole over time. `keep`: is given each stage of two gears and its result as a pair.
-    `preparation`: as in `simulate`, of each of these. Of stages with `[accuracy] target` settings are chosen first, and
-    the scene in the result has them.
+    the transmission error of the whole over time. Of stages with `[accuracy] target` settings are chosen first, and the
+    scene in the result has them.
+
+    keep: is given each stage of two gears and its result as a pair.
+    preparation: as in `simulate`, of each of these; kept_row: keeps the contact equations of rows with idlers, or makes
+        them.
 
     Raises GeometryError and SceneError before any computation, ComputationError where a stage fails, KeyboardInterrupt
     on Ctrl-C.
@@ -49,7 +54,7 @@ def simulate_train(
         chosen[model.scene.name] = found = settled(model, progress)
         return found
 
-    result = solved_train(scene, progress or SilentProgress(), cache, keep, preparation, settle)
+    result = solved_train(scene, progress or SilentProgress(), cache, keep, preparation, settle, kept_row)
     with_settings = {name: each for name, each in chosen.items() if each.chosen}
     if with_settings:
         result.attrs["scene"] = _with_settings(str(result.attrs["scene"]), with_settings)
@@ -81,9 +86,10 @@ class RunOfTrain:
         return self.attrs["time_numbers"]
 
 
-def train_completed(model: TrainModel, preparation: Preparation, progress: Progress | None = None) -> RunOfTrain:
+def train_completed(model: TrainModel, store: GearStore, progress: Progress | None = None) -> RunOfTrain:
     """The whole result of a train's run and its `wall_time`, s. Raises KeyboardInterrupt on Ctrl-C."""
     begun = time.perf_counter()
-    dataset = simulate_train(model, progress, preparation=preparation)
+    store.of_pairs(len(model.rows))
+    dataset = simulate_train(model, progress, preparation=store.prepared, kept_row=store.row)
     dataset.attrs["wall_time"] = time.perf_counter() - begun
     return RunOfTrain(dataset)

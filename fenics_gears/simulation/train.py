@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
@@ -54,6 +55,7 @@ class Settled(Protocol):
 
 
 Settle = Callable[[Model, Progress], Settled]
+KeptRow = Callable[[RowModel, Callable[[], RowCycle]], RowCycle]
 
 
 def solved_train(
@@ -63,9 +65,10 @@ def solved_train(
     keep: Keep | None = None,
     preparation: Preparation | None = None,
     settle: Settle | None = None,
+    kept_row: KeptRow | None = None,
 ) -> xr.Dataset:
     """The result of a train; arguments and errors are those of `runs.train.simulate_train`. `settle`: settles the
-    settings of a stage of two gears."""
+    settings of a stage of two gears. `kept_row`: keeps the contact equations of rows, or makes them."""
     model = scene if isinstance(scene, TrainModel) else train_model_of(scene)
     found: list[MeshResult] = []
     for row in model.rows:
@@ -73,7 +76,7 @@ def solved_train(
             if row.single:
                 found.append(_single(row, progress, cache, keep, preparation, settle))
             else:
-                found += _coupled(row, progress, cache)
+                found += _coupled(row, progress, cache, kept_row)
         except ContactNotConverged as failure:
             failure.reason = f"{row.meshes[0].name}: {failure.reason}"
             failure.partial = None
@@ -103,12 +106,12 @@ def _single(
     return mesh_result(row.meshes[0].name, result)
 
 
-def _coupled(row: RowModel, progress: Progress, cache: Cache | None) -> list[MeshResult]:
+def _coupled(row: RowModel, progress: Progress, cache: Cache | None, kept_row: KeptRow | None) -> list[MeshResult]:
     """All meshes of a row together."""
     compile_loops(progress)
     with writing_meanwhile(cache or user_cache()) as kept:
-        cycle = row_cycle(row, progress, kept)
-    cycle.share(SHARE_OF_OPERATORS * allowed_memory())
+        make = partial(row_cycle, row, progress, kept)
+        cycle = make() if kept_row is None else kept_row(row, make)
     progress.stage("compile")
     compile_kernels(cycle.tangential, False)
     result = RowResult(row, [Recorder(each, mesh.cycle) for each, mesh in zip(row.models, cycle.meshes)])
@@ -137,7 +140,9 @@ def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
     rotations = rotations_of([each.pair for each in row.models])
     for number, (own, (phase, _), rows) in enumerate(zip(row.models, begun, rotations)):
         meshes.append(MeshOfRow(_cycle(own, (bodies[number], bodies[number + 1]), phase), rows))
-    return RowCycle(meshes, idlers)
+    cycle = RowCycle(meshes, idlers)
+    cycle.share(SHARE_OF_OPERATORS * allowed_memory())
+    return cycle
 
 
 def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body]:

@@ -1,5 +1,6 @@
 """Studies of trains: what they compute, keep and show."""
 
+import functools
 from pathlib import Path
 
 import numpy as np
@@ -9,8 +10,11 @@ from tests.trains import COARSE, stage
 
 from fenics_gears import SceneError, load, load_train, simulate_train
 from fenics_gears.commands.cli import main
+from fenics_gears.runs import runs
 from fenics_gears.runs.condensing import gear_tasks
+from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.runs.run import scene_key
+from fenics_gears.simulation import train as train_simulation
 from fenics_gears.studies.combine import load_combined
 from fenics_gears.studies.study_file import load_study
 
@@ -88,6 +92,27 @@ def test_a_row_is_condensed_idler_and_all(gearbox):
     )
     assert [task.name for task in gear_tasks(turned.cases[:1])] == ["pinion", "wheel", "idler of row: gears 1 and 2"]
     assert turned.axes[0].coordinate()[0] == '["0 deg", "60 deg"]'
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_rows_with_other_friction_share_their_contact_equations(gearbox, monkeypatch):
+    """They are made once, and every case is what a run of its train alone gives."""
+    made = []
+    row_cycle = train_simulation.row_cycle
+    monkeypatch.setattr(train_simulation, "row_cycle", lambda *given: made.append(given) or row_cycle(*given))
+    monkeypatch.setattr(runs, "own_gear_store", functools.lru_cache(GearStore))
+    gear = '{{ teeth = {}, profile_shift = 0, bore_diameter = "30 mm" }}'.format
+    text = '[stages.row]\nkind = "row"\nmodule = "3 mm"\npressure_angle = "20 deg"\nface_width = "30 mm"\n'
+    text += f'gears = [{gear(20)}, {gear(24)}, {gear(30)}]\nmaterial = "steel"\n'
+    Path("row.toml").write_text(f'{text}[load]\noutput_torque = "100 N m"\n[accuracy]\n{COARSE}\n')
+    Path("study.toml").write_text('scene = "row.toml"\n[sweep]\nfriction.coefficient = [0.05, 0.1]\n')
+    assert main(["study", "study.toml", "--quiet"]) == 0
+    assert len(made) == 1
+    combined = load_combined(gearbox / "results/study/study.nc")
+    for case in load_study("study.toml").cases:
+        alone = simulate_train(case.model)
+        found = combined["overall_transmission_error"].isel(coefficient=case.index)
+        assert found.values == pytest.approx(alone["overall_transmission_error"].values, rel=1e-12)
 
 
 def test_the_key_is_of_what_a_train_computes(gearbox):

@@ -94,13 +94,13 @@ def _power(flow: PowerFlow) -> PageSection:
         (
             f"shaft {number}",
             "counter-clockwise" if number % 2 else "clockwise",
-            digits(60.0 * each.speed) if flow.speed_given else "",
             digits(each.torque * factor("N mm", "N m")),
-            digits(1e-6 * each.power) if flow.speed_given else "",
+            *((digits(60.0 * each.speed), digits(1e-6 * each.power)) if flow.speed_given else ()),
         )
         for number, each in enumerate(flow.shafts, 1)
     ]
-    headings = ("Shaft", "Turns", "Speed (rpm)", "Torque (N m)", "Power (kW)")
+    of_speed = ("Speed (rpm)", "Power (kW)") if flow.speed_given else ()
+    headings = ("Shaft", "Turns", "Torque (N m)", *of_speed)
     blocks: list[Block] = [Table(headings, rows, "Shafts, the first one driven", numbers=2)]
     if not flow.speed_given:
         blocks.append(Words("The scene has no speed (`motion.input_speed`), and so no power."))
@@ -118,11 +118,12 @@ def _orders(dataset: xr.Dataset, train: TrainScene) -> PageSection:
     rows = [
         (
             each.meshes, f"{each.harmonic}", f"{each.order:.5g}", digits(MICRO * each.amplitude),
-            digits(each.frequency) if train.speed_given else "",
+            *((digits(each.frequency),) if train.speed_given else ()),
         )
         for each in found
     ]  # fmt: skip
-    headings = ("Mesh", "Harmonic", "Order of the first shaft", "Amplitude (µrad)", "Frequency (Hz)")
+    of_speed = ("Frequency (Hz)",) if train.speed_given else ()
+    headings = ("Mesh", "Harmonic", "Order of the first shaft", "Amplitude (µrad)", *of_speed)
     chart = orders(train, dataset)
     return PageSection("orders", "Orders of the overall transmission error", [chart, Table(headings, rows)])
 
