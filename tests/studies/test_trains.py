@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.programs import gears
 from tests.studies.conftest import stamps
 from tests.trains import COARSE, stage
 
@@ -142,11 +143,13 @@ def test_a_mistake_says_what_it_is(gearbox, swept, said):
     assert str(refused.value).startswith("other.toml:3: ")
 
 
+@pytest.mark.ranks
 @pytest.mark.nightly
-def test_two_processes_give_what_one_gives(gearbox, capsys):
+def test_two_processes_give_what_one_gives(gearbox):
     """Pictures and page too, which take longer than the runs."""
     assert main(["study", "study.toml", "--quiet", "-o", "alone"]) == 0
-    assert main(["study", "study.toml", "--quiet", "-o", "both", "-n", "2"]) == 0
+    together = gears(gearbox, "study", "study.toml", "-o", "both", ranks=2)
+    assert together.returncode == 0, together.stderr
     alone, both = (load_combined(Path(each, "study.nc")) for each in ("alone", "both"))
     varying = ["wall_time", "newton_iterations"]
     assert alone.drop_vars(varying).equals(both.drop_vars(varying))
