@@ -42,8 +42,13 @@ from fenics_gears.results.curves_table import save_tables as save_tables
 from fenics_gears.results.files import load as load
 from fenics_gears.results.key_numbers import HARMONIC_NAMES as HARMONIC_NAMES
 from fenics_gears.results.key_numbers import MICROMETRE as MICROMETRE
+from fenics_gears.results.layout import OVERALL as OVERALL
+from fenics_gears.results.mesh_of_train import carried_train as carried_train
+from fenics_gears.results.mesh_of_train import mesh_run as mesh_run
+from fenics_gears.results.overall_orders import cycles_of_meshes as cycles_of_meshes
 from fenics_gears.results.settled import of_settled as of_settled
 from fenics_gears.runs.simulate import simulate as simulate
+from fenics_gears.runs.train import simulate_train as simulate_train
 from fenics_gears.scene.data import Load as Load
 from fenics_gears.scene.data import Scene as Scene
 from fenics_gears.scene.read import build_scene as build_scene
@@ -51,7 +56,6 @@ from fenics_gears.scene.read import load_scene as load_scene
 from fenics_gears.scene.read import scene_from_text as scene_from_text
 from fenics_gears.scene.train import load_train as load_train
 from fenics_gears.scene.train import train_from_text as train_from_text
-from fenics_gears.simulation.train import simulate_train as simulate_train
 from fenics_gears.system import user_file as user_file
 
 __version__: str

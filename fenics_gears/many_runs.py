@@ -24,7 +24,7 @@ from fenics_gears.runs.condensing import BODY, gear_tasks
 from fenics_gears.runs.folder import sole_writer
 from fenics_gears.runs.gear_store import operators_key
 from fenics_gears.runs.lines import FolderOfLines, kept
-from fenics_gears.runs.record import NUMBERS, numbers_of
+from fenics_gears.runs.record import NUMBERS, OF_TRAINS, numbers_of, record_of
 from fenics_gears.runs.run import Run, run_of
 from fenics_gears.runs.runs import Failure, Runs, most_together, solved_at_once
 from fenics_gears.runs.spent import Spent, seconds_of
@@ -38,9 +38,9 @@ from fenics_gears.studies.summary import last_words, summary_rows
 from fenics_gears.system.progress import Interruption, Progress
 
 __all__ = [
-    "BODY", "NO_MEANING", "NUMBERS", "OVER_FACE", "RESULT_ATTRIBUTES", "Alone", "CommonWindows", "Failure",
+    "BODY", "NO_MEANING", "NUMBERS", "OF_TRAINS", "OVER_FACE", "RESULT_ATTRIBUTES", "Alone", "CommonWindows", "Failure",
     "Interruption", "FolderOfLines", "Outcome", "Progress", "Run", "RunResult", "Runs", "Spent", "Study", "Together",
     "common_period", "effects_on", "gear_tasks", "kept", "last_words", "load_combined", "most_together", "numbers_of",
-    "operators_key", "quasi_static", "ranks", "run_of", "run_with", "save", "seconds_of", "settling_time",
+    "operators_key", "quasi_static", "ranks", "record_of", "run_of", "run_with", "save", "seconds_of", "settling_time",
     "sole_writer", "solved_at_once", "study_of", "summary_rows",
 ]  # fmt: skip

@@ -18,17 +18,19 @@ from fenics_gears.inputs.section import Section, names_in, read
 from fenics_gears.inputs.tree import GEARS, Tree, value_at, wheel_torque
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import LOAD_WORDS
-from fenics_gears.scene.parsing import parsed
-from fenics_gears.scene.read import name_of, text_of
+from fenics_gears.scene.parsing import is_train, parsed
+from fenics_gears.scene.read import load_scene_or_train, name_of, text_of
 from fenics_gears.scene.schema import known_paths
+from fenics_gears.scene.train_pair import STAGES
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import AxisError, factor_of, number_in, values_in_words, values_of
 from fenics_gears.studies.scenes import Models, NoScene, SceneChanges, model_of_tree
 from fenics_gears.studies.study_file import Mistakes, entries, left_out
 
 __all__ = [
-    "GEARS", "LOAD_WORDS", "NOTHING_DONE", "AllowedFile", "AllowedNumber", "AxisError", "Mistakes", "Models", "NoScene",
-    "SceneChanges", "Section", "Tree", "as_written", "choice", "declared", "did_you_mean", "entries", "factor_of",
-    "fields", "known_paths", "left_out", "line_numbers", "model_of_tree", "name_of", "names_in", "number_in", "parsed",
-    "read", "text_of", "value_at", "values_in_words", "values_of", "wheel_torque", "whole_number",
+    "GEARS", "LOAD_WORDS", "NOTHING_DONE", "STAGES", "AllowedFile", "AllowedNumber", "AxisError", "Mistakes", "Models",
+    "NoScene", "SceneChanges", "Section", "Tree", "as_written", "choice", "declared", "did_you_mean", "entries",
+    "factor_of", "fields", "is_train", "known_paths", "left_out", "line_numbers", "load_scene_or_train",
+    "model_of_tree", "name_of", "names_in", "number_in", "parsed", "read", "text_of", "value_at", "values_in_words",
+    "values_of", "wheel_torque", "whole_number",
 ]  # fmt: skip

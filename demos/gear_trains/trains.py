@@ -1,5 +1,5 @@
-"""An idler whose third gear stands at several angles, a helical one, two stages that vibrate together at several speeds,
-and two helical stages of an electric axle."""
+"""An idler whose third gear stands at several angles, a helical one, two stages that vibrate together at several
+speeds, and two helical stages of an electric axle."""
 
 from __future__ import annotations
 

@@ -45,6 +45,16 @@ class Model:
     removal: tuple
     contact_cycles: int = 0
 
+    @property
+    def models(self) -> list[Model]:
+        """Of all meshes, as of a train: this one."""
+        return [self]
+
+    @property
+    def bare(self) -> Model:
+        """The same without what it has computed of itself."""
+        return replace(self)
+
     @cached_property
     def clock(self) -> Clock:
         steady = SteadyClock(1.0 / (self.scene.motion.mesh_frequency * self.resolution.steps_per_mesh_cycle))

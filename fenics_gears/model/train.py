@@ -29,6 +29,8 @@ from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.gear_train import SecondMesh, begun_at
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
@@ -150,6 +152,28 @@ class RowModel:
         same = max(model.touching.reach.same for model in (first, second))
         return Reach(same, (least - round_about, most - round_about))
 
+    @property
+    def members(self) -> list[list[int]]:
+        """Numbers of its meshes, those together that idlers couple."""
+        return rows_of(self.meshes)
+
+    @property
+    def idlers(self) -> list[int]:
+        """Numbers of the meshes whose wheel is an idler."""
+        return [number - 1 for number, mesh in enumerate(self.meshes) if number and mesh.idler is not None]
+
+    def key_of_idler(self, mesh: int) -> tuple[Gear, Material, Discretisation, Reach]:
+        """What the section of the idler behind a mesh depends on, gear and material first."""
+        own = self.models[mesh]
+        material = own.scene.gears.material_of(GEARS[1])
+        return own.pair.wheel, material, self.discretisation_of_idler(mesh), self.reach_through(mesh)
+
+    def keys_of_idler(self, mesh: int) -> tuple:
+        """What the body of the idler behind a mesh depends on, gear and material first."""
+        over_face = self.models[mesh].scene.three_dimensional
+        solid = self.solid_discretisation_of_idler(mesh) if over_face else None
+        return *self.key_of_idler(mesh), solid
+
     def discretisation_of_idler(self, mesh: int) -> Discretisation:
         """How the idler behind a mesh is divided: finer where the tip of either mate may press."""
         parts = self.models[mesh].resolution.discretisation(1), self.models[mesh + 1].resolution.discretisation(0)
@@ -175,6 +199,12 @@ class TrainModel:
     def models(self) -> list[Model]:
         """Of all meshes in the order of the train."""
         return [model for row in self.rows for model in row.models]
+
+    @property
+    def bare(self) -> TrainModel:
+        """The same without what its models have computed of themselves."""
+        rows = (replace(row, models=tuple(each.bare for each in row.models)) for row in self.rows)
+        return replace(self, rows=tuple(rows))
 
     @property
     def warnings(self) -> list[str]:

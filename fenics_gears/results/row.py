@@ -47,7 +47,7 @@ class RowResult:
 
     def of_meshes(self, march: March) -> list[MeshResult]:
         """All meshes; the friction loss of the row is that of its last mesh."""
-        found = []
+        found: list[MeshResult] = []
         for mesh, recorder in zip(self._row.meshes, self._recorders):
             recorder.finish()
             curves = {name: (dims, values, labels) for name, dims, values, labels in variables_of(recorder, 0)}
@@ -59,7 +59,9 @@ class RowResult:
                 numbers |= _finite(along.numbers(labelled, numbers))
                 said += along.warnings(labelled)
             own = {name: of for name, of in (curves | places).items() if not name.startswith(OF_ENERGY)}
-            found.append(MeshResult(mesh.name, own, numbers, said))
+            # All of them took that march.
+            seconds = (0.0 if found else march.seconds, 0.0)
+            found.append(MeshResult(mesh.name, own, numbers, said, seconds))
         if self._row.models[0].scene.friction is not None:
             found[-1].numbers["friction_loss"] = self._friction_loss()
         return found
@@ -75,7 +77,7 @@ class RowResult:
             return []
         return [f"no flanks touch in any mesh in {len(march.separations)} of {march.steps} steps"]
 
-    def _numbers(self, recorder: Recorder) -> dict[str, float]:
+    def _numbers(self, recorder: Recorder) -> dict[str, Any]:
         """Numbers of a mesh, of the last whole mesh cycles among the recorded steps."""
         cycle = recorder.cycle.steps
         last = recorder.steps - 1

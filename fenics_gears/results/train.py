@@ -3,7 +3,7 @@ meshes, and the transmission error of the whole over time."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,6 +15,7 @@ from fenics_gears.model.train import RowModel, TrainModel
 from fenics_gears.numbers_version import NUMBERS_VERSION
 
 from .attributes import RESULT_ATTRIBUTES
+from .carried_scene import scene_attributes
 from .dataset import RunResult
 from .layout import OVERALL
 
@@ -25,16 +26,24 @@ STEPS = {"time": "step", "contact_time": "contact_step"}
 OF_ENERGY = ("energy", "work_")
 MICROMETRE = 1e-3
 SHARED = ("gear", "path_point", "slot")
+# What a result tells in words of its whole run.
+OF_THE_WHOLE = (
+    "title", "scene", "scene_name", "scene_folder", "scene_files", "fenics_gears_version", "numbers_version",
+    "complete", "failed_afterwards", "stopped", "warnings",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
 class MeshResult:
-    """A mesh of a train: its variables, as dimensions, values and labels, its numbers, and its warnings."""
+    """A mesh of a train: its variables, as dimensions, values and labels, its numbers, also those in words, and its
+    warnings."""
 
     name: str
     variables: dict[str, tuple]
-    numbers: dict[str, float]
+    numbers: dict[str, Any]
     warnings: Sequence[str] = ()
+    # s, of its march and of its numbers.
+    seconds: tuple[float, float] = (0.0, 0.0)
 
     @property
     def cycle(self) -> np.ndarray:
@@ -51,12 +60,15 @@ def mesh_result(name: str, result: RunResult) -> MeshResult:
         for each, of in dataset.variables.items()
         if not str(each).startswith(OF_ENERGY)
     }
-    numbers = {
+    numbers: dict[str, float | str] = {
         each.name: float(dataset.attrs[each.name])
         for each in RESULT_ATTRIBUTES
         if each.units and not each.name.startswith("time_") and isinstance(dataset.attrs.get(each.name), float | int)
     }
-    return MeshResult(name, own, numbers, dataset.attrs["warnings"].splitlines())
+    texts = [each.name for each in RESULT_ATTRIBUTES if not each.units and each.name not in OF_THE_WHOLE]
+    numbers |= {name: said for name in texts if isinstance(said := dataset.attrs.get(name), str)}
+    seconds = dataset.attrs["time_march"], result.seconds
+    return MeshResult(name, own, numbers, dataset.attrs["warnings"].splitlines(), seconds)
 
 
 def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
@@ -93,16 +105,19 @@ def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.n
     steps = [frequency * each.numbers["steps_per_mesh_cycle"] for frequency, each in zip(frequencies, meshes)]
     cycles = model.models[0].scene.motion.mesh_cycles
     times = np.arange(int(np.ceil(cycles * max(steps) / min(frequencies))) + 1) / max(steps)
-    lag = np.zeros(len(times))
-    first = 0
-    for row in model.rows:
-        for model_of_mesh, each in zip(row.models, meshes[first : first + len(row.models)]):
-            phase = times * model_of_mesh.scene.motion.mesh_frequency
-            curve = each.cycle
-            own = np.interp(phase * len(curve), np.arange(len(curve)), curve, period=len(curve))
-            lag = lag * model_of_mesh.pair.rotation_ratio + own
-        first += len(row.models)
-    return times, lag
+    cycles_of = [(times * frequency, each.cycle) for frequency, each in zip(frequencies, meshes)]
+    lags = (
+        np.interp(phase * len(curve), np.arange(len(curve)), curve, period=len(curve)) for phase, curve in cycles_of
+    )
+    return times, of_last_shaft(model, lags)
+
+
+def of_last_shaft(model: TrainModel, lags: Iterable[Any]) -> Any:
+    """Lag (rad) of the last shaft, of what the wheel of each mesh lags: each through the ratios behind it."""
+    whole: Any = 0.0
+    for own, lag in zip(model.models, lags):
+        whole = whole * own.pair.rotation_ratio + lag
+    return whole
 
 
 def _size(mesh: MeshResult, name: str) -> int:
@@ -122,10 +137,20 @@ def _over_meshes(meshes: Sequence[MeshResult]) -> Iterator[tuple[str, tuple]]:
         )
         behind = 1 if dims and dims[0] in STEPS else 0
         renamed = [STEPS.get(each, each) for each in dims]
-        labels = next(each[2] for each in there if each is not None)
+        labels = _labels([each[2] for each in there if each is not None], len(meshes))
         # Times and places of one mesh are no coordinate of all.
         known = f"{name}_of_mesh" if name in dims else name
         yield known, ((*renamed[:behind], MESH, *renamed[behind:]), np.moveaxis(values, 0, behind), labels)
+
+
+def _labels(of_meshes: Sequence[Mapping[str, Any]], meshes: int) -> dict[str, Any]:
+    """Labels of a variable of several meshes; a number that differs between all meshes is a list."""
+    labels = dict(of_meshes[0])
+    for name, value in labels.items():
+        every = [each[name] for each in of_meshes]
+        if not isinstance(value, str) and len(every) == meshes and any(each != value for each in every):
+            labels[name] = every
+    return labels
 
 
 def _over(dims: tuple[str, ...], variable: tuple) -> np.ndarray:
@@ -159,13 +184,14 @@ def _side_by_side(arrays: Sequence[np.ndarray | None], shape: Sequence[int]) -> 
     return values
 
 
-def _numbers_of_meshes(numbers: Sequence[Mapping[str, float]]) -> dict[str, tuple]:
+def _numbers_of_meshes(numbers: Sequence[Mapping[str, Any]]) -> dict[str, tuple]:
     described = {each.name: each for each in RESULT_ATTRIBUTES}
     found = {}
     for name in dict.fromkeys(name for own in numbers for name in own):
-        values = np.array([own.get(name, np.nan) for own in numbers], dtype=float)
-        labels = {"units": described[name].units or "1", "long_name": described[name].meaning}
-        found[name] = ((MESH,), values, labels)
+        in_words = not described[name].units
+        values = np.array([own.get(name, "" if in_words else np.nan) for own in numbers], object if in_words else float)
+        units = {} if in_words else {"units": described[name].units}
+        found[name] = ((MESH,), values, units | {"long_name": described[name].meaning})
     return found
 
 
@@ -176,9 +202,7 @@ def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.nda
     for each in meshes:
         left *= 1.0 - each.numbers.get("friction_loss", 0.0)
     losses = {"friction_loss": 1.0 - left} if left != 1.0 else {}
-    mean = 0.0
-    for own, each in zip(model.models, meshes):
-        mean = mean * own.pair.rotation_ratio + each.numbers["mean_transmission_error"]
+    mean = of_last_shaft(model, (each.numbers["mean_transmission_error"] for each in meshes))
     if scene.shafts.moving:
         # Shafts twist too.
         overall = overall[-1 - model.rows[0].recorded :]
@@ -190,11 +214,28 @@ def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.nda
         "fenics_gears_version": fenics_gears.__version__,
         "numbers_version": NUMBERS_VERSION,
         "complete": 1,
+        **_folder(model),
         "warnings": "\n".join(dict.fromkeys([*said, *_of_rows(model)])),
         "mean_overall_transmission_error": mean,
         "peak_to_peak_overall_transmission_error": float(np.ptp(overall)),
+        "newton_iterations_total": _iterations(model, meshes),
+        "time_march": sum(each.seconds[0] for each in meshes),
+        "time_numbers": sum(each.seconds[1] for each in meshes),
         **losses,
     }
+
+
+def _folder(model: TrainModel) -> dict[str, str]:
+    """The folder from which files are looked for, where the train names any."""
+    named = [scene_attributes(each.scene) for each in model.models]
+    return next(({"scene_folder": each["scene_folder"]} for each in named if "scene_folder" in each), {})
+
+
+def _iterations(model: TrainModel, meshes: Sequence[MeshResult]) -> int:
+    """Newton iterations of all rows; the meshes of one have the same."""
+    counts = [int(each.numbers["newton_iterations_total"]) for each in meshes]
+    rows = iter(counts)
+    return sum(max(next(rows) for _ in row.models) for row in model.rows)
 
 
 def _of_rows(model: TrainModel) -> list[str]:

@@ -1,7 +1,10 @@
 """The gears of many runs, each condensed once, a process a gear, before the runs that share them."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar
 
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.inputs.tree import GEARS
@@ -15,6 +18,9 @@ from fenics_gears.system.second_process import threads
 
 from .gear_store import own_gear_store
 from .run import Run
+
+if TYPE_CHECKING:
+    from fenics_gears.model.train import RowModel, TrainModel
 
 # What is condensed of a gear.
 BODY = "body"
@@ -30,21 +36,54 @@ class GearTask:
     part: str = BODY
 
 
-def gear_tasks(runs: Iterable[Run]) -> list[GearTask]:
+@dataclass(frozen=True)
+class IdlerTask:
+    """The idler behind a `mesh` of a row, which is to be condensed."""
+
+    row: RowModel
+    mesh: int
+    part: ClassVar[str] = BODY
+
+    @property
+    def name(self) -> str:
+        return f"idler of {self.row.meshes[self.mesh].name}"
+
+
+def gear_tasks(runs: Iterable[Run]) -> list[GearTask | IdlerTask]:
     """The distinct gears of the runs; first what takes longest."""
-    tasks: dict[str, dict[tuple, GearTask]] = {ROOT_STRESS: {}, BODY: {}}
+    tasks: dict[str, dict[tuple, GearTask | IdlerTask]] = {ROOT_STRESS: {}, BODY: {}}
     # Runs that share contact operators share their gears.
     for run in {run.sharing[0]: run for run in runs}.values():
-        model = run.model
-        # With a target the gears' meshes are known only after settings are chosen.
-        if model.scene.accuracy.target is not None or not route_of(model).condensed_once:
-            continue
-        for name in GEARS:
-            for part, key in _keys(model, name):
-                # Young's modulus is a factor, so the cache keeps one entry for all its values.
-                key = (key[0], key[1].poissons_ratio, *key[2:])
-                tasks[part].setdefault(key, GearTask(model.scene, name, part))
+        for part, key, task in _tasks(run.model):
+            # Young's modulus is a factor, so the cache keeps one entry for all its values.
+            key = (key[0], key[1].poissons_ratio, *key[2:])
+            tasks[part].setdefault(key, task)
     return [task for of_part in tasks.values() for task in of_part.values()]
+
+
+def _tasks(model: Model | TrainModel) -> Iterator[tuple[str, tuple, GearTask | IdlerTask]]:
+    """Part, key and task of each gear of a model."""
+    if isinstance(model, Model):
+        yield from _of_pair(model, GEARS)
+        return
+    for row in model.rows:
+        for numbers in row.members:
+            first, last = row.models[numbers[0]], row.models[numbers[-1]]
+            yield from _of_pair(first, GEARS if len(numbers) == 1 else GEARS[:1])
+            if len(numbers) > 1:
+                yield from _of_pair(last, GEARS[1:])
+        for mesh in row.idlers:
+            bare = replace(row, models=tuple(e.bare for e in row.models))
+            yield BODY, row.keys_of_idler(mesh), IdlerTask(bare, mesh)
+
+
+def _of_pair(model: Model, names: Iterable[str]) -> Iterator[tuple[str, tuple, GearTask]]:
+    # With a target the gears' meshes are known only after settings are chosen.
+    if model.scene.accuracy.target is not None or not route_of(model).condensed_once:
+        return
+    for name in names:
+        for part, key in _keys(model, name):
+            yield part, key, GearTask(model.scene, name, part)
 
 
 def _keys(model: Model, name: str) -> Iterator[tuple[str, tuple]]:
@@ -55,8 +94,13 @@ def _keys(model: Model, name: str) -> Iterator[tuple[str, tuple]]:
         yield ROOT_STRESS, (*key, slices, model.scene.coast_flanks is not None)
 
 
-def condense(task: GearTask, tick: Callable[[], None] | None = None) -> None:
-    """Condense a gear into the cache and into this process's store."""
+def condense(task: GearTask | IdlerTask, tick: Callable[[], None] | None = None) -> None:
+    """Condense a gear into the cache and into this process's store; an idler into the cache."""
+    if isinstance(task, IdlerTask):
+        from fenics_gears.simulation.train import condense_idler
+
+        condense_idler(task.row, task.mesh, user_cache())
+        return
     model = model_of(task.scene)
     if task.part == ROOT_STRESS:
         rows_of(model, task.name, user_cache())

@@ -1,5 +1,7 @@
 """Runs in a folder: a NetCDF file for each, or a text on why it failed."""
 
+from __future__ import annotations
+
 import contextlib
 import fcntl
 import json
@@ -11,7 +13,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import BinaryIO, ClassVar
+from typing import TYPE_CHECKING, BinaryIO, ClassVar
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
@@ -23,6 +25,9 @@ from .record import RunRecord, record_of
 from .run import Run
 from .runs import Failure, failure_of
 from .spent import seconds_of
+
+if TYPE_CHECKING:
+    from .train import RunOfTrain
 
 LOGGER = logging.getLogger(__name__)
 ENDING = ".nc"
@@ -50,7 +55,7 @@ class Folder:
                     os.replace(path, self._file(run, ENDING))
         return records
 
-    def keep(self, run: Run, ran: RunResult) -> RunRecord:
+    def keep(self, run: Run, ran: RunResult | RunOfTrain) -> RunRecord:
         """Write the result and return its record; a note on an earlier failure goes."""
         result = ran.dataset
         said = {"case_key": run.key, "case_values": json.dumps(run.values)}

@@ -1,7 +1,11 @@
 """What runs of one process share in memory: the gears condensed last, and contact operators."""
 
+from __future__ import annotations
+
 import functools
+from collections.abc import Callable
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.window import ContactGrid
@@ -15,6 +19,10 @@ from fenics_gears.simulation.bodies import body_key, gear_bodies, gear_body
 from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_of_gaps, yielding_seats
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
+
+if TYPE_CHECKING:
+    from fenics_gears.contact.row import RowCycle
+    from fenics_gears.model.train import RowModel
 
 # How many mesh cycles of the same gears are kept, such as for torques with other elements or contact nodes. The part of
 # the memory for contact operators that they and their bodies may take in addition to another one.
@@ -36,10 +44,18 @@ class GearStore:
     def __init__(self, most: int | None = 2, cycles: bool = True):
         self._gears: dict[tuple, Body] = {}
         self._most = most
+        self._pairs = 1
         self._cycles = cycles
         self._operators: dict[tuple, tuple[Bodies, Cycle]] = {}
         self._cycle_key: tuple | None = None
         self._cycle: Cycle | None = None
+        self._row: tuple[tuple, RowCycle] | None = None
+
+    def of_pairs(self, pairs: int) -> None:
+        """Keep from now on the contact operators and gears of so many pairs of gears that come one after the other:
+        those of the stages of a train."""
+        self._pairs = pairs
+        self._most = None if self._most is None else 2 * pairs
 
     def prepared(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Bodies, Cycle]:
         """Bodies and mesh cycle for ``simulate``, kept or made."""
@@ -66,6 +82,18 @@ class GearStore:
             bodies = tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in bodies)
         return bodies, self._cycle
 
+    def row(self, row: RowModel, make: Callable[[], RowCycle]) -> RowCycle:
+        """The contact equations of meshes that move together: those of the last ones where they are the same, else
+        made."""
+        idlers = [(row.meshes[mesh + 1].idler, row.keys_of_idler(mesh)) for mesh in row.idlers]
+        of_meshes = [each.tobytes() for each in row.drivetrain.of_meshes]
+        key = tuple(map(cycle_key, row.models)), tuple(idlers), tuple(of_meshes)
+        if self._row is None or self._row[0] != key:
+            # Frees memory before the next is made.
+            self._row = None
+            self._row = key, make()
+        return self._row[1]
+
     @property
     def _taken(self) -> float:
         """Bytes that all contact operators and their bodies take."""
@@ -75,8 +103,9 @@ class GearStore:
         """Give up the contact operators of other gears than a key's, and the oldest where there are many or they take
         much."""
         # Keys begin with the gears.
-        if any(each[0] != key[0] for each in self._operators):
-            self._operators.clear()
+        others = [gears for gears in dict.fromkeys(each[0] for each in self._operators) if gears != key[0]]
+        for gears in others[: max(len(others) + 1 - self._pairs, 0)]:
+            self._operators = {each: of for each, of in self._operators.items() if each[0] != gears}
         while self._operators and (
             len(self._operators) >= MOST_CYCLES
             or self._taken > SHARE_OF_OTHERS * min(cycle.kept.most for _, cycle in self._operators.values())

@@ -1,5 +1,7 @@
 """One run of many, whose settings are settled: its whole result and the time that it took."""
 
+from __future__ import annotations
+
 import time
 from collections.abc import Callable
 

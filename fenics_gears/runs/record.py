@@ -9,6 +9,7 @@ import xarray as xr
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.key_numbers import STUDIED
+from fenics_gears.results.layout import OVERALL
 from fenics_gears.results.pairs import shown_steps
 from fenics_gears.results.settled import settled_steps
 from fenics_gears.results.stored import StoredResult
@@ -25,10 +26,18 @@ NUMBERS = {
     "steps_per_mesh_cycle": ("1", "steps per mesh cycle"),
     "wall_time": ("s", "wall time of the run"),
 }
+# Those of a train: of the whole, and in place of a pair's, by which its pictures are drawn.
+OF_TRAINS = {
+    "peak_to_peak_overall_transmission_error": ("rad", "overall transmission error, peak to peak"),
+    "mean_overall_transmission_error": ("rad", "overall transmission error, mean"),
+    **{name: NUMBERS[name] for name in ("newton_iterations", "wall_time")},
+}
+# Of trains with friction.
+OF_LOSS = ("friction_loss",)
 # Curves of the last cycles, taken where a run has them.
 CURVES = (
     "transmission_error", "centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "shaft_end_rotation",
-    "normal_force", "friction_force", "mesh_stiffness",
+    "normal_force", "friction_force", "mesh_stiffness", OVERALL,
 )  # fmt: skip
 
 
@@ -39,6 +48,9 @@ class RunRecord:
     `numbers`: by name, including the ones of `STUDIED` that the run has. `curves`: (steps,) or (steps, 2), in the units
     of the run. `mesh_phase` (steps,): mesh cycles since the first recorded step. `base_radius`: of the wheel, mm.
     `labels`: units and long name of each curve. `seconds`: as in `spent.seconds_of`, of a run that was computed here.
+
+    Of a train, numbers and curves are those of the whole, mesh cycles those of its first mesh, and `of_meshes` has by
+    name what pairs have as numbers, for each of the `meshes`.
     """
 
     numbers: dict[str, float]
@@ -48,6 +60,33 @@ class RunRecord:
     labels: dict[str, dict[str, str]] = field(default_factory=dict)
     warnings: str = ""
     seconds: tuple[float, ...] = ()
+    meshes: tuple[str, ...] = ()
+    of_meshes: dict[str, np.ndarray] = field(default_factory=dict)
+
+
+def _of_train(run: xr.Dataset | StoredResult) -> RunRecord:
+    """The record of a train's run."""
+    names = tuple(each.decode() if isinstance(each, bytes) else str(each) for each in run["mesh"].values)
+    error = run[OVERALL]
+    time, phase = (run[name].values[1, 0] for name in ("time_of_mesh", "mesh_phase"))
+    known = [name for name in (*NUMBERS, *STUDIED) if name in run]
+    return RunRecord(
+        train_numbers_of(run),
+        run["time"].values * phase / time,
+        {OVERALL: error.values},
+        np.nan,
+        {OVERALL: {key: error.attrs[key] for key in ("units", "long_name")}},
+        run.attrs.get("warnings", ""),
+        meshes=names,
+        of_meshes={name: values for name in known if (values := run[name].values).shape == (len(names),)}
+        | {"max_normal_force": np.nanmax(run["normal_force"].values, axis=0)},
+    )
+
+
+def train_numbers_of(run: xr.Dataset | StoredResult) -> dict[str, float]:
+    """The numbers of a train's complete run, of the whole."""
+    said = ChainMap({"newton_iterations": run.attrs["newton_iterations_total"]}, run.attrs)
+    return {name: float(said[name]) for name in (*OF_TRAINS, *(name for name in OF_LOSS if name in said))}
 
 
 def numbers_of(run: RunResult | xr.Dataset | StoredResult) -> dict[str, float]:
@@ -65,6 +104,8 @@ def numbers_of(run: RunResult | xr.Dataset | StoredResult) -> dict[str, float]:
 
 def record_of(run: xr.Dataset | StoredResult) -> RunRecord:
     """The record of a complete run."""
+    if OVERALL in run:
+        return _of_train(run)
     last = shown_steps(run)
     phase = run["mesh_phase"].values[last]
     taken = {name: run[name] for name in CURVES if name in run}

@@ -1,12 +1,14 @@
 """Runs that are asked for by their scenes: what a store has is taken from there, the others are computed by a team of
 processes."""
 
+from __future__ import annotations
+
 import contextlib
 import functools
 import logging
 import time
 from collections.abc import Callable, Collection, Iterable, Sequence
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from fenics_gears.errors import GearsError
 from fenics_gears.model.model import Model
@@ -22,6 +24,11 @@ from .run import Run
 from .simulate import settled
 from .spent import Spent
 from .team import Alone, Together
+
+if TYPE_CHECKING:
+    from fenics_gears.model.train import TrainModel
+
+    from .train import RunOfTrain
 
 LOGGER = logging.getLogger(__name__)
 # Runs that are computed together at most, and tasks that each process gets at least.
@@ -40,7 +47,7 @@ class Store(Protocol):
     def known(self, runs: Iterable[Run]) -> dict[str, Any]:
         """What is kept of runs, by their keys."""
 
-    def keep(self, run: Run, result: RunResult) -> Any:
+    def keep(self, run: Run, result: RunResult | RunOfTrain) -> Any:
         """Keep the result of a run."""
 
     @property
@@ -120,10 +127,11 @@ def most_together(missing: int, processes: int) -> int:
     return min(MOST_TOGETHER, missing // (TASKS * processes) or 1)
 
 
-def solved_at_once(models: Sequence[Model], asked: Collection[str]) -> bool:
+def solved_at_once(models: Sequence[Model | TrainModel], asked: Collection[str]) -> bool:
     """Whether runs of these models are solved together where the numbers `asked` alone are kept."""
-    same = len({operators_key(model) for model in models}) == 1
-    return same and all(can_be_solved_together(model, asked) for model in models)
+    pairs = [model for model in models if isinstance(model, Model)]
+    same = len(pairs) == len(models) and len({operators_key(model) for model in pairs}) == 1
+    return same and all(can_be_solved_together(model, asked) for model in pairs)
 
 
 def in_order_of_sharing(runs: Iterable[Run]) -> list[Run]:
@@ -165,8 +173,12 @@ def _kept(store: Store, run: Run, result: Any, progress: Progress) -> Any:
         return store.keep_failure(run, error)
 
 
-def _computed(model: Model, progress: Progress) -> RunResult:
+def _computed(model: Model | TrainModel, progress: Progress) -> RunResult | RunOfTrain:
     """The result of a run, whose `wall_time` has the choice of its settings too."""
+    if not isinstance(model, Model):
+        from .train import train_completed
+
+        return train_completed(model, own_gear_store(), progress)
     chosen = settled(model, progress)
     result = completed(chosen.scene, own_gear_store().prepared, progress, chosen.describe)
     result.attrs["wall_time"] += result.attrs.get("time_choose", 0.0)
@@ -181,7 +193,7 @@ def _together(runs: Sequence[Run], asked: Collection[str]) -> dict[str, Any]:
         group = next((each for each in groups if alike(each[0][1], model)), None)
         if group is not None:
             group.append((run.key, model))
-        elif can_be_solved_together(model, asked):
+        elif isinstance(model, Model) and can_be_solved_together(model, asked):
             groups.append([(run.key, model)])
     by_key: dict[str, Any] = {}
     for group in groups:

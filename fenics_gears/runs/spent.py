@@ -1,12 +1,18 @@
 """What computing runs took: how many a second, and what limits them."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from fenics_gears.results.dataset import RunResult
 
+if TYPE_CHECKING:
+    from .train import RunOfTrain
 
-def seconds_of(result: RunResult) -> tuple[float, float, float]:
+
+def seconds_of(result: RunResult | RunOfTrain) -> tuple[float, float, float]:
     """Seconds that a run took, in all, in the march, and for its numbers."""
     return result.attrs["wall_time"], result.attrs["time_march"], result.seconds
 

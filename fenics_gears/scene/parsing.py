@@ -76,8 +76,9 @@ def values_of_text(
         raise SceneError(f"{source}: is a study, not a scene; `gears study {source}` runs it. {NOTHING_DONE}")
     if is_train(tree):
         raise SceneError(
-            f"{source}: is a train of gears. `gears check` and `gears run` take it, fenics_gears.load_train in Python;"
-            f" other commands are of a pair. {NOTHING_DONE}"
+            f"{source}: is a train of gears, where the scene of a pair is wanted. `gears run` writes that of each stage"
+            " of two gears, as scene.toml into a folder by the stage's name; take it. In Python"
+            f" fenics_gears.load_train reads a train. {NOTHING_DONE}"
         )
     try:
         values, problems = values_of(tree, text, name, directory)

@@ -1,9 +1,11 @@
 """Scenes from files, texts and dictionaries."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import NOTHING_DONE, did_you_mean
@@ -12,7 +14,10 @@ from fenics_gears.system import user_file
 from fenics_gears.system.console import printable
 
 from . import data
-from .parsing import values_of_text
+from .parsing import is_train, parsed, values_of_text
+
+if TYPE_CHECKING:
+    from .train import TrainScene
 
 
 def load_scene(path: str | os.PathLike) -> data.Scene:
@@ -27,6 +32,16 @@ def load_scene(path: str | os.PathLike) -> data.Scene:
     """
     path = Path(path)
     return scene_from_text(text_of(path, "scene"), name_of(path), source=str(path), directory=path.parent)
+
+
+def load_scene_or_train(path: Path) -> data.Scene | TrainScene:
+    """The scene of a pair or the train that a file has. Errors as of `load_scene` and `load_train`."""
+    text = text_of(path, "scene")
+    if "stages" in text and is_train(tree := parsed(text, str(path))):
+        from .train import train_of
+
+        return train_of(tree, text, name_of(path), str(path), path.parent)
+    return scene_from_text(text, name_of(path), source=str(path), directory=path.parent)
 
 
 def text_of(path: Path, kind: str) -> str:

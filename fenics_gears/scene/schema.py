@@ -180,16 +180,17 @@ def _scene_text(effects: tuple[str, ...]) -> type[Section]:
 
 def known_paths() -> dict[tuple[str, ...], bool]:
     """Every path of a scene; True for a section, False for a field."""
-    return _paths(scene_text(), ())
+    return paths_in(scene_text())
 
 
 @functools.cache
-def _paths(section: type[Section], home: tuple[str, ...]) -> dict[tuple[str, ...], bool]:
+def paths_in(section: type[Section], home: tuple[str, ...] = ()) -> dict[tuple[str, ...], bool]:
+    """Every path of a section that lies at a path itself; True for a section, False for a field."""
     paths: dict[tuple[str, ...], bool] = {}
     for name in names_in(section):
         inner = section_within(section, name)
         path = (*home, name)
-        paths |= {path: inner is not None} | (_paths(inner, path) if inner is not None else {})
+        paths |= {path: inner is not None} | (paths_in(inner, path) if inner is not None else {})
     return paths
 
 

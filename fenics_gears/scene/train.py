@@ -10,9 +10,10 @@ from __future__ import annotations
 
 import os
 from cmath import rect
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import pi
+from functools import partial
+from math import pi, prod
 from pathlib import Path
 from typing import Any
 
@@ -21,12 +22,13 @@ from fenics_gears.geometry.gear_train import SecondMesh, check_apart, second_mes
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.inputs.problem import NOTHING_DONE, line_numbers, listed
 from fenics_gears.inputs.units import QuantityError, of_kind
-from fenics_gears.inputs.written import as_toml, as_written
+from fenics_gears.inputs.written import as_written
 
 from .data import Load, Motion, Scene
 from .parsing import is_train, parsed
-from .read import name_of, scene_from_text, text_of
+from .read import name_of, text_of
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
+from .train_pair import ROW_GEARS, MistakesOfStage, TrainMistakes, check_together, in_stage, pair_scene
 from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED, TrainSections, checked_train
 from .train_shafts import TrainShafts
 
@@ -70,10 +72,12 @@ class TrainScene:
     @property
     def ratio(self) -> float:
         """Turns of the first shaft in one turn of the last."""
-        found = 1.0
-        for mesh in self.meshes:
-            found /= mesh.pair.rotation_ratio
-        return found
+        return 1.0 / self.turns_of_last
+
+    @property
+    def turns_of_last(self) -> float:
+        """Turns of the last shaft in one turn of the first."""
+        return turns_of_last(self.meshes)
 
 
 def load_train(path: str | os.PathLike) -> TrainScene:
@@ -109,6 +113,11 @@ def train_from_text(
     return train_of(tree, text, name, source, directory)
 
 
+def turns_of_last(meshes: Iterable[MeshOfScene]) -> float:
+    """Turns of the last shaft in one turn of the first."""
+    return prod(mesh.pair.rotation_ratio for mesh in meshes)
+
+
 def rows_of(meshes: Sequence[MeshOfScene], moving: bool = False) -> list[list[int]]:
     """Numbers of meshes, those together that idlers couple, or all where stages move together (`moving`)."""
     rows: list[list[int]] = []
@@ -123,14 +132,17 @@ def train_of(tree: Mapping[str, Any], text: str, name: str, source: str, folder:
     """The train of a parsed text. Raises SceneError, naming all mistakes of the train or of one of its stages at once,
     and GeometryError for gears that overlap."""
     sections, problems = checked_train(tree)
-    if sections is None:
-        raise SceneError(listed(problems, line_numbers(text), source))
     meshes: list[MeshOfScene] = []
-    for stage, content in tree["stages"].items():
-        meshes += _meshes_of(stage, content, tree, (source, folder, len(meshes)))
+    try:
+        for stage, content in tree["stages"].items() if sections is not None else ():
+            meshes += _meshes_of(stage, content, tree, (source, folder, len(meshes)))
+    except MistakesOfStage as error:
+        problems = error.problems
+    if problems or sections is None:
+        raise TrainMistakes(listed(problems, line_numbers(text), source), problems)
     if sections.shafts.moving:
         for mesh in meshes:
-            _check_together(mesh.scene, f"{source}, {mesh.name}")
+            check_together(mesh.scene, f"{source}, {mesh.name}")
     return _completed(tree.get("title") or name, name, text, meshes, sections)
 
 
@@ -160,9 +172,13 @@ def _meshes_of(
             # The load is on the last shaft; speed and length of the run are put in for the train's.
             sections["inertia"] = {each: value for each, value in sections["inertia"].items() if each != "load"}
             sections["motion"] = {"pinion_speed": "1 rpm", "mesh_cycles": 1}
-        found = _pair_scene(sections, f"{stage} {number + 1}" if count > 1 else stage, label, folder)
+        places = {name: (ROW_GEARS, str(number + place)) for place, name in enumerate(both, 1)} if row else {}
+        name = f"{stage} {number + 1}" if count > 1 else stage
+        found = pair_scene(
+            sections, name, label, folder, partial(in_stage, stage, places, shared.keys() - inner.keys())
+        )
         if count > 1:
-            _check_together(found, label)
+            check_together(found, label)
         return found
 
     scenes = [scene(number) for number in range(count)]
@@ -174,33 +190,6 @@ def _meshes_of(
             scenes[number - 1 : number + 1] = [scene(number - 1), scene(number)]
     pairs = [gear_pair(each.gears) for each in scenes]
     return _joined(stage, scenes, pairs, directions, (label, before))
-
-
-def _pair_scene(sections: Mapping[str, Any], name: str, source: str, folder: Path) -> Scene:
-    """The scene of one mesh. Raises SceneError that says which stage it is of."""
-    try:
-        found = scene_from_text(as_toml(sections), name, source=source, directory=folder, with_lines=False)
-    except SceneError as error:
-        raise SceneError(f"{error}\n[gears] and its effects stand for the stage's own section.") from None
-    if found.accuracy.target is not None:
-        raise SceneError(f"{source}: accuracy.target is not yet computed in trains. {NOTHING_DONE}")
-    return found
-
-
-def _check_together(scene: Scene, source: str) -> None:
-    """Raise SceneError for a mesh that cannot yet move together with others."""
-    if not scene.resolves_contact or scene.accuracy.condensation is not None:
-        raise SceneError(
-            f"{source}: rigid teeth, accuracy.model and accuracy.condensation are not yet computed where meshes move"
-            f" together, by idlers, [shafts], [inertia] or [bearings]. Allowed: elastic teeth, by a material."
-            f" {NOTHING_DONE}"
-        )
-    bearings = scene.bearings
-    if bearings is not None and (bearings.places is not None or bearings.each is not None):
-        raise SceneError(
-            f"{source}: bearings with places are not yet computed in trains. Allowed: bearings.stiffness, which holds"
-            f" the centre of each gear. {NOTHING_DONE}"
-        )
 
 
 def _angle(written: Any, stage: str, source: str) -> float:
@@ -261,10 +250,7 @@ def _completed(title: str, name: str, text: str, meshes: Sequence[MeshOfScene], 
     """The train with steps, speeds and torques of all meshes."""
     load = sections.load
     motion = sections.motion
-    ratios = [mesh.pair.rotation_ratio for mesh in meshes]
-    through = 1.0
-    for each in ratios:
-        through *= each
+    through = turns_of_last(meshes)
     speed = motion.input_speed
     frequency = NOMINAL_FREQUENCY if speed is None else speed / (2.0 * pi) * meshes[0].pair.pinion.teeth
     driving = 2.0 * pi * frequency / meshes[0].pair.pinion.teeth
@@ -277,8 +263,8 @@ def _completed(title: str, name: str, text: str, meshes: Sequence[MeshOfScene], 
     cycles = motion.mesh_cycles or 1
     found: list[MeshOfScene] = []
     torque = output * through
-    for mesh, ratio in zip(meshes, ratios):
-        torque /= ratio
+    for mesh in meshes:
+        torque /= mesh.pair.rotation_ratio
         moving = Motion(frequency, cycles, cycles, False, speed is not None)
         behind = meshes[len(found) + 1 : len(found) + 2]
         frequency *= behind[0].pair.pinion.teeth / mesh.pair.wheel.teeth if behind else 1.0

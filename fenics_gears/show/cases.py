@@ -1,6 +1,7 @@
 """The cases of a study: swept values, results and file of each."""
 
 import os
+import re
 import urllib.parse
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,6 +12,7 @@ import xarray as xr
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
+from fenics_gears.results.layout import OVERALL
 from fenics_gears.results.stored import stored
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.system.output import unsealed
@@ -20,7 +22,12 @@ from .panels import factor
 PRESENT = "present"
 ABSENT = "absent"
 # Sections whose name says nothing that their fields' names do not.
-PLAIN_SECTIONS = ("motion", "load", "gears", "accuracy", "output")
+PLAIN_SECTIONS = ("motion", "load", "gears", "accuracy", "output", "stages")
+PEAK_TO_PEAK = "peak_to_peak_transmission_error"
+OF_THE_WHOLE = f"peak_to_peak_{OVERALL}"
+# Between what a measure is and the mesh that it is of.
+OF_MESH = ", of mesh "
+MEAN_OF_THE_WHOLE = f"mean_{OVERALL}"
 # A value this many times the largest of the other cases would make them a line along the axis.
 FAR_OFF = 10.0
 LISTED_CASES = 12
@@ -87,7 +94,7 @@ class Cases:
         shape = self.dataset["failed"]
         swept = []
         for name, coordinate in self.dataset.coords.items():
-            if name in ("case", "mesh_phase", "gear") or not set(coordinate.dims) <= set(shape.dims):
+            if name in ("case", "mesh_phase", "gear", "mesh") or not set(coordinate.dims) <= set(shape.dims):
                 continue
             values = coordinate.broadcast_like(shape).transpose(*shape.dims).values.ravel()
             unit, path = (str(coordinate.attrs.get(*each)) for each in (("units", ""), ("long_name", name)))
@@ -96,8 +103,15 @@ class Cases:
         return sorted(swept, key=lambda field: order.get(field.name, 0))
 
     def numbers(self, name: str) -> np.ndarray:
-        """A number of each case (n,), not a number where there is none."""
-        return self.dataset[name].values.ravel().astype(float)
+        """A number of each case (n,), not a number where there is none; of trains the largest of their meshes."""
+        values = self.dataset[name]
+        values = values.max("mesh") if "mesh" in values.dims else values
+        return values.values.ravel().astype(float)
+
+    @property
+    def of_trains(self) -> bool:
+        """Whether the cases are trains."""
+        return OF_THE_WHOLE in self.dataset
 
     def texts(self, name: str) -> list[str]:
         """A text of each case, empty where there is none."""
@@ -106,7 +120,7 @@ class Cases:
     @cached_property
     def states(self) -> list[str]:
         """The state of each case: one of `STATES`."""
-        done = np.isfinite(self.numbers("peak_to_peak_transmission_error"))
+        done = np.isfinite(self.numbers(PEAK_TO_PEAK))
         failed = self.dataset["failed"].values.ravel()
         return [
             STATES[1] if ready and said else STATES[0] if ready else STATES[2] if wrong else STATES[3]
@@ -176,9 +190,25 @@ class Cases:
     @cached_property
     def measures(self) -> dict[str, tuple[np.ndarray, str, str]]:
         """What is compared between cases: values (n,), unit, name."""
+        if self.of_trains:
+            return self._of_trains
         measures = {
-            "peak_to_peak_transmission_error": (*self.error_scale, "Transmission error, peak to peak"),
+            PEAK_TO_PEAK: (*self.error_scale, "Transmission error, peak to peak"),
             "mean_transmission_error": (*self.error_scale, "Transmission error, mean"),
             "max_normal_force": (1.0, "N", "Largest mesh force"),
         }
         return {name: (self.numbers(name) * scale, unit, words) for name, (scale, unit, words) in measures.items()}
+
+    @property
+    def _of_trains(self) -> dict[str, tuple[np.ndarray, str, str]]:
+        """The measures of trains: of the last shaft, and of the wheel of each mesh."""
+        scale, unit = factor("rad", "µrad"), "µrad"
+        found = {
+            OF_THE_WHOLE: (self.numbers(OF_THE_WHOLE) * scale, unit, "Overall transmission error, peak to peak"),
+            MEAN_OF_THE_WHOLE: (self.numbers(MEAN_OF_THE_WHOLE) * scale, unit, "Overall transmission error, mean"),
+        }
+        for mesh in self.dataset["mesh"].values:
+            values = self.dataset[PEAK_TO_PEAK].sel(mesh=mesh).values.ravel() * scale
+            name = f"{PEAK_TO_PEAK}_{re.sub(r'[^A-Za-z0-9-]+', '_', str(mesh))}"
+            found[name] = (values, unit, f"Transmission error, peak to peak{OF_MESH}{mesh}")
+        return found

@@ -50,10 +50,10 @@ STILL_POINTS = 1000  # of a curve; a still image is 900 points wide
 @styled
 def picture(heading: str, charts: Sequence[Chart], colour: str = DARK) -> Figure:
     """Charts below each other under a heading; neighbours of the same first axis have its name once."""
-    following = [chart.x_title for chart in charts[1:]] + [None]
+    axes = [(chart.x_title, chart.x_range) for chart in charts]
     panels = [
-        Panel(chart, "\n".join(textwrap.wrap(chart.caption, LETTERS)), chart.x_title != below)
-        for chart, below in zip(charts, following)
+        Panel(chart, "\n".join(textwrap.wrap(chart.caption, LETTERS)), own != below)
+        for chart, own, below in zip(charts, axes, [*axes[1:], None])
     ]
     figure = _figure(panels, HEADING_LINE * (heading.count("\n") + 1) + GAP)
     # A title may hold dollar signs that are no formula.

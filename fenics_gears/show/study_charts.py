@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from .cases import Cases, SweptField
+from .cases import OF_MESH, Cases, SweptField
 from .chart import LINES, MARKED_LINES, Chart, Curve, Field
 from .panels import LOW_TO_HIGH, PALETTE
 
@@ -46,7 +46,9 @@ def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note:
     axis = main_field(cases)
     others = [field for field in cases.fields if field is not axis and not _zipped(cases)]
     lines = _lines(cases, axis, others)
-    y_title = f"{name} ({unit})" if unit else name
+    # The heading has the mesh.
+    short = name.partition(OF_MESH)[0]
+    y_title = f"{short} ({unit})" if unit else short
     if len(lines) > MOST_LINES:
         two = len(others) == 1 and axis.numeric and others[0].numeric
         if two and np.isfinite(others[0].values).all():

@@ -1,8 +1,10 @@
-"""The pictures of a train's run: the train drawn to scale; transmission errors of the whole and of its meshes."""
+"""The pictures of a train's run: the train drawn to scale; transmission errors of the whole and of its meshes; orders
+of the whole; line loads of its meshes over the face."""
 
 from __future__ import annotations
 
 from cmath import rect
+from dataclasses import replace
 from math import cos
 from pathlib import Path
 
@@ -11,25 +13,44 @@ import xarray as xr
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.results.mesh_of_train import carried_train, mesh_run
+from fenics_gears.results.overall_orders import overall_orders
 from fenics_gears.scene.train import TrainScene
 
 from . import TRAIN_PICTURE_FILES
-from .chart import LEAST_SHARE, Chart, Curve
+from .chart import BARS, LEAST_SHARE, Chart, Curve, Flag
 from .drawing import picture
+from .line_load import line_loads
 from .panels import PALETTE
 from .plots import heading, save_figures
+from .run import ShownRun
 
 POINTS_OF_A_CIRCLE = 181
 MICRO = 1e6
+HARMONICS_SHOWN = 4
+# Part of the largest amplitude below which a bar has no words.
+LEAST_FLAGGED = 0.1
+ORDERS_NOTE = (
+    "Every tooth is like the others, so that nothing repeats with a turn of a shaft: all orders are harmonics of mesh"
+    " frequencies."
+)
 
 
-def draw_train(scene: TrainScene, dataset: xr.Dataset, directory: Path) -> list[Path]:
-    """Draw the pictures of a train's run, as PNG, and return the files."""
-    subjects = {
-        TRAIN_PICTURE_FILES[0]: ("Gear train", [drawing_of(scene)]),
-        TRAIN_PICTURE_FILES[1]: ("Transmission error", _errors(scene, dataset)),
+def draw_train(dataset: xr.Dataset, directory: Path) -> list[Path]:
+    """Draw the pictures of a train's run, as PNG, and return the files. Raises SceneError where the train in it is none
+    of this version."""
+    scene = carried_train(dataset)
+    subjects = (
+        ("Gear train", [drawing_of(scene)]),
+        ("Transmission error", errors(scene, dataset)),
+        ("Orders of the overall transmission error", [orders(scene, dataset)]),
+        ("Line load along the face", loads_along_face(scene, dataset)),
+    )
+    figures = {
+        name: picture(heading(subject, scene.title), charts)
+        for name, (subject, charts) in zip(TRAIN_PICTURE_FILES, subjects)
+        if charts
     }
-    figures = {name: picture(heading(subject, scene.title), charts) for name, (subject, charts) in subjects.items()}
     return save_figures(figures, directory)
 
 
@@ -68,7 +89,7 @@ def _circles(centre: complex, gear: Gear, pair: GearPair, name: str, colour: str
     ]
 
 
-def _errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
+def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     """Of the whole over time, and of each mesh over its own mesh cycles."""
     frequency = scene.meshes[0].scene.motion.mesh_frequency
     overall = MICRO * np.asarray(dataset["overall_transmission_error"])
@@ -99,6 +120,41 @@ def _errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
                 height=240,
             )
         )
+    return charts
+
+
+def orders(scene: TrainScene, dataset: xr.Dataset) -> Chart:
+    """Amplitudes of the overall transmission error over orders of the first shaft, by the meshes that make them."""
+    found = overall_orders(dataset, scene)
+    highest = max(each.order for each in found if each.harmonic <= HARMONICS_SHOWN)
+    shown = [each for each in found if each.order <= highest * (1.0 + 1e-9)]
+    curves = []
+    flags = []
+    top = MICRO * max(each.amplitude for each in shown)
+    # The meshes in the order of the train.
+    for number, meshes in enumerate(dict.fromkeys(each.meshes for each in sorted(found, key=lambda each: each.place))):
+        own = [each for each in shown if each.meshes == meshes]
+        places = np.array([each.order for each in own])
+        heights = MICRO * np.array([each.amplitude for each in own])
+        curves.append(Curve(meshes, places, heights, _colour(number), width=0.012 * highest, mode=BARS))
+        flags += [
+            Flag(place, height, f"{each.harmonic} × mesh", _colour(number))
+            for each, place, height in zip(own, places, heights)
+            if height > LEAST_FLAGGED * top
+        ]
+    return Chart(
+        "Harmonics of the meshes, as they reach the last shaft", curves, "Order (events a turn of the first shaft)",
+        "Amplitude of the last shaft (µrad)", ORDERS_NOTE, height=420, x_range=(0.0, 1.12 * highest), flags=flags,
+    )  # fmt: skip
+
+
+def loads_along_face(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
+    """Line load along the face of each mesh over the face."""
+    charts = []
+    for number, mesh in enumerate(scene.meshes):
+        run = ShownRun(mesh_run(dataset, scene, number))
+        drawn = line_loads(run)[-1:] if run.over_face else []
+        charts += [replace(each, caption=f"{mesh.name}: {each.caption.lower()}") for each in drawn]
     return charts
 
 

@@ -50,7 +50,7 @@ def _bodies(row: RowModel, progress: Progress, cache: Cache) -> tuple[list[tuple
     found = []
     for mesh in range(len(row.models) - 1):
         progress.stage(f"condense gear {mesh + 2}")
-        section, solid = _idler(row, mesh, cache)
+        section, solid = idler_bodies(row, mesh, cache)
         found.append((driving, Body.of(section, solid.drive)))
         driving = Body.of(section, solid.coast)
         idlers.append(solid)
@@ -59,15 +59,12 @@ def _bodies(row: RowModel, progress: Progress, cache: Cache) -> tuple[list[tuple
     return found, idlers
 
 
-def _idler(row: RowModel, mesh: int, cache: Cache):
+def idler_bodies(row: RowModel, mesh: int, cache: Cache):
     """The section of an idler, which is alike for both of its meshes, and its body."""
-    own = row.models[mesh]
-    gear = own.pair.wheel
-    material = own.scene.gears.material_of(GEARS[1])
-    reach = row.reach_through(mesh)
+    gear, material, division, reach = row.key_of_idler(mesh)
     # A web is in the body; in its sections it would be twice.
     section = replace(gear, web=None)
-    fine = flank_compliance(section, material, row.discretisation_of_idler(mesh), Reach(reach.same), cache)
+    fine = flank_compliance(section, material, division, Reach(reach.same), cache)
     return fine, idler_compliance(gear, material, row.solid_discretisation_of_idler(mesh), reach, cache)
 
 

@@ -4,6 +4,8 @@ alone, and all meshes together where they have masses, bearings or shafts that t
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import Any, Protocol
 
 import numpy as np
 import xarray as xr
@@ -25,44 +27,54 @@ from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import RowModel, TrainModel, train_model_of
 from fenics_gears.model.train_cost import row_cost, row_too_large
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.row import RowResult
 from fenics_gears.results.train import MeshResult, dataset_of, mesh_result
 from fenics_gears.scene.train import MeshOfScene, TrainScene, rows_of
 from fenics_gears.system.memory import allowed_memory
-from fenics_gears.system.progress import Progress, SilentProgress
+from fenics_gears.system.progress import Progress
 
 from .bodies import gear_bodies, gear_body
 from .elastic_route import flanks_of, gaps_of, mesh_cycle
+from .routes import Preparation
 from .simulate import MARCH, solved
 from .warm_up import compile_kernels, compile_loops
 
 Keep = Callable[[MeshOfScene, xr.Dataset], None]
 
 
-def simulate_train(
+class Settled(Protocol):
+    """A scene, or its model, with settled settings, which describes them in its result."""
+
+    scene: Any
+
+    def describe(self, result: RunResult) -> None: ...
+
+
+Settle = Callable[[Model, Progress], Settled]
+KeptRow = Callable[[RowModel, Callable[[], RowCycle]], RowCycle]
+
+
+def solved_train(
     scene: TrainScene | TrainModel,
-    progress: Progress | None = None,
+    progress: Progress,
     cache: Cache | None = None,
     keep: Keep | None = None,
+    preparation: Preparation | None = None,
+    settle: Settle | None = None,
+    kept_row: KeptRow | None = None,
 ) -> xr.Dataset:
-    """Run a train and return its result: the variables of a pair over steps and `mesh`, the numbers of each mesh, and
-    the transmission error of the whole over time. `keep`: is given each stage of two gears and its result as a pair.
-
-    Raises GeometryError and SceneError before any computation, ComputationError where a stage fails, KeyboardInterrupt
-    on Ctrl-C.
-
-    >>> from fenics_gears import load_train, simulate_train
-    >>> found = simulate_train(load_train("demos/gear_trains/idler.toml"))
-    >>> list(found["mesh"].values)
-    ['idler: gears 1 and 2', 'idler: gears 2 and 3']
-    """
-    progress = progress or SilentProgress()
+    """The result of a train; arguments and errors are those of `runs.train.simulate_train`. `settle`: settles the
+    settings of a stage of two gears. `kept_row`: keeps the contact equations of rows, or makes them."""
     model = scene if isinstance(scene, TrainModel) else train_model_of(scene)
     found: list[MeshResult] = []
     for row in model.rows:
         try:
-            found += _single(row, progress, cache, keep) if row.single else _coupled(row, progress, cache)
+            if row.single:
+                found.append(_single(row, progress, cache, keep, preparation, settle))
+            else:
+                found += _coupled(row, progress, cache, kept_row)
         except ContactNotConverged as failure:
             failure.reason = f"{row.meshes[0].name}: {failure.reason}"
             failure.partial = None
@@ -70,23 +82,35 @@ def simulate_train(
     return dataset_of(model, found)
 
 
-def _single(row: RowModel, progress: Progress, cache: Cache | None, keep: Keep | None) -> list[MeshResult]:
+def _single(
+    row: RowModel,
+    progress: Progress,
+    cache: Cache | None,
+    keep: Keep | None,
+    preparation: Preparation | None,
+    settle: Settle | None,
+) -> MeshResult:
     """A stage of two gears, as a pair by itself."""
-    result = solved(row.models[0], progress=progress, cache=cache)
+    model = row.models[0]
+    chosen = None if settle is None else settle(model, progress)
+    result = solved(
+        model if chosen is None else chosen.scene, progress=progress, cache=cache, preparation=preparation,
+        ended=None if chosen is None else chosen.describe,
+    )  # fmt: skip
     if not result.attrs["complete"]:
         raise KeyboardInterrupt
     if keep is not None:
         keep(row.meshes[0], result.dataset)
-    return [mesh_result(row.meshes[0].name, result)]
+    return mesh_result(row.meshes[0].name, result)
 
 
-def _coupled(row: RowModel, progress: Progress, cache: Cache | None) -> list[MeshResult]:
+def _coupled(row: RowModel, progress: Progress, cache: Cache | None, kept_row: KeptRow | None) -> list[MeshResult]:
     """All meshes of a row together."""
     for_operators = _memory_for_operators(row)
     compile_loops(progress)
     with writing_meanwhile(cache or user_cache()) as kept:
-        cycle = row_cycle(row, progress, kept)
-    cycle.share(for_operators)
+        make = partial(_cycle_with_room, row, for_operators, progress, kept)
+        cycle = make() if kept_row is None else kept_row(row, make)
     progress.stage("compile")
     compile_kernels(cycle.tangential, False)
     result = RowResult(row, [Recorder(each, mesh.cycle) for each, mesh in zip(row.models, cycle.meshes)])
@@ -99,6 +123,12 @@ def _coupled(row: RowModel, progress: Progress, cache: Cache | None) -> list[Mes
     if march.interrupted:
         raise KeyboardInterrupt
     return result.of_meshes(march)
+
+
+def _cycle_with_room(row: RowModel, for_operators: float, progress: Progress, cache: Cache) -> RowCycle:
+    cycle = row_cycle(row, progress, cache)
+    cycle.share(for_operators)
+    return cycle
 
 
 def _memory_for_operators(row: RowModel) -> float:
@@ -159,14 +189,22 @@ def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body]:
         elif gear == last:
             yield gear_body(row.models[-1], GEARS[1], cache)
         else:
-            yield _idler(row, gear - 1, cache)
+            yield idler_body(row, gear - 1, cache)
 
 
-def _idler(row: RowModel, mesh: int, cache: Cache) -> Body:
-    own = row.models[mesh]
-    material = own.scene.gears.material_of(GEARS[1])
-    division = row.discretisation_of_idler(mesh)
-    return Body.of(flank_compliance(own.pair.wheel, material, division, row.reach_through(mesh), cache))
+def condense_idler(row: RowModel, mesh: int, cache: Cache) -> None:
+    """Condense the idler behind a mesh of a row into the cache."""
+    if row.models[mesh].scene.three_dimensional:
+        from .row_over_face import idler_bodies
+
+        idler_bodies(row, mesh, cache)
+    else:
+        idler_body(row, mesh, cache)
+
+
+def idler_body(row: RowModel, mesh: int, cache: Cache) -> Body:
+    """The idler behind a mesh of a row."""
+    return Body.of(flank_compliance(*row.key_of_idler(mesh), cache))
 
 
 def _cycle(model: Model, bodies: tuple[Body, Body], phase: float) -> Cycle:

@@ -17,6 +17,7 @@ from .fields import ABSENT, PRESENT, Path, is_section
 RANGE_KEYS = ("start", "stop", "count", "step", "spacing")
 SPACINGS = ("linear", "logarithmic")
 MOST_VALUES = 100_000
+LONGEST_LABEL = 60
 # "50 .. 500 N m in 10", "... in 10, logarithmic", "50 .. 500 N m by 50 N m".
 RANGE_IN_WORDS = re.compile(
     r"(?P<start>.+?)\s*\.\.\s*(?P<stop>.+?)"
@@ -54,6 +55,8 @@ def label(value: Any) -> str:
     """A swept value in words: "absent", "200 Hz", "coefficient = 0.1"."""
     if isinstance(value, Mapping):
         return ", ".join(f"{name} = {toml_value(inner)}" for name, inner in value.items())
+    if isinstance(value, list) and len(listed := toml_value(value)) <= LONGEST_LABEL:
+        return listed
     return value if isinstance(value, str) else as_written(value)
 
 

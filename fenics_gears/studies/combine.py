@@ -13,13 +13,14 @@ from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.files import read, save
 from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.runs.record import CURVES, NUMBERS, RunRecord
+from fenics_gears.runs.record import CURVES, NUMBERS, OF_TRAINS, RunRecord
 from fenics_gears.system.output import write_whole
 
 from .axis import Axis
 from .study import Study
 
 STUDY_FILE = "study.nc"
+MESH = "mesh"
 # 800 MB; beyond, the curves stay in the files of the cases.
 MOST_CURVE_VALUES = 100_000_000
 
@@ -38,7 +39,7 @@ def combined(study: Study, records: Mapping[int, RunRecord], failures: Mapping[i
         values = np.array([of_case.get(i, missing) for i in range(len(study.cases))], dtype=kind)
         result[name] = (study.dimensions, values.reshape(study.shape), attributes)
     curves, why_not = _curves(study, records)
-    result = result.assign(curves)
+    result = result.assign(_of_meshes(study, records)).assign(curves)
     return result.assign_attrs(
         title=study.title,
         study=study.text,
@@ -56,9 +57,8 @@ def _variables(
     study: Study, records: Mapping[int, RunRecord], failures: Mapping[int, str]
 ) -> dict[str, tuple[Mapping, Any, dict]]:
     """By name the values of the cases that have one, what stands for the others, and the attributes."""
-    known = {name for record in records.values() for name in record.numbers}
-    studied = (each for each in RESULT_ATTRIBUTES if each.name in known.intersection(STUDIED))
-    numbers = NUMBERS | {each.name: (each.units, each.meaning) for each in studied}
+    of_trains = any(record.meshes for record in records.values())
+    numbers = (OF_TRAINS if of_trains else NUMBERS) | _studied({n for each in records.values() for n in each.numbers})
     variables: dict[str, tuple[Mapping, Any, dict]] = {
         name: (
             {i: each.numbers[name] for i, each in records.items() if name in each.numbers},
@@ -75,6 +75,28 @@ def _variables(
         "warnings": ({i: each.warnings for i, each in records.items()}, "", {"long_name": "warnings of the run"}),
         "case_file": ({i: f"cases/{study.cases[i].name}.nc" for i in records}, "", {"long_name": "file of the case"}),
     }
+
+
+def _studied(known: set[str]) -> dict[str, tuple[str, str]]:
+    """Units and meaning of those numbers that not every record has."""
+    return {each.name: (each.units, each.meaning) for each in RESULT_ATTRIBUTES if each.name in known & {*STUDIED}}
+
+
+def _of_meshes(study: Study, records: Mapping[int, RunRecord]) -> dict[str, tuple]:
+    """What trains have mesh by mesh, over the study's dimensions and the meshes of all its trains."""
+    meshes = list(dict.fromkeys(name for record in records.values() for name in record.meshes))
+    if not meshes:
+        return {}
+    known = {name for record in records.values() for name in record.of_meshes}
+    found: dict[str, tuple] = {MESH: (MESH, np.array(meshes, dtype=object), {"long_name": "mesh"})}
+    for name, (units, words) in ({n: of for n, of in NUMBERS.items() if n in known} | _studied(known)).items():
+        values = np.full((len(study.cases), len(meshes)), np.nan)
+        for index, record in records.items():
+            if name in record.of_meshes:
+                values[index, [meshes.index(mesh) for mesh in record.meshes]] = record.of_meshes[name]
+        labels = {"units": units, "long_name": words}
+        found[name] = ((*study.dimensions, MESH), values.reshape(*study.shape, len(meshes)), labels)
+    return found
 
 
 def save_study(dataset: xr.Dataset, directory: Path) -> Path:

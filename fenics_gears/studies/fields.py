@@ -1,5 +1,5 @@
 """Sections and fields of a scene by their dotted paths, and changes of a parsed scene. Tables that are listed have
-numbers from 1: ``shafts.input.sections.2.diameter``."""
+numbers from 1: ``shafts.input.sections.2.diameter``. Those of a train too: ``stages.first.pinion.profile_shift``."""
 
 import math
 from collections.abc import Mapping
@@ -10,11 +10,16 @@ from fenics_gears.inputs.allowed import Allowed, AllowedEither, AllowedList, All
 from fenics_gears.inputs.problem import LISTED, did_you_mean
 from fenics_gears.inputs.section import AllowedTables, Section, allowed_in, names_in, section_within
 from fenics_gears.inputs.tree import LOADS, value_at
-from fenics_gears.scene.schema import known_paths, scene_text
+from fenics_gears.scene.schema import known_paths, paths_in, scene_text
+from fenics_gears.scene.train_pair import STAGES
+from fenics_gears.scene.train_rules import TrainLoad
+from fenics_gears.scene.train_schema import stage_text, train_text
 
 Path = tuple[str, ...]
 ABSENT = "absent"
 PRESENT = "present"
+# Of a pair, and of a train.
+ALL_LOADS = (*LOADS, *TrainLoad.alternatives[0])
 
 
 def is_section(path: Path) -> bool:
@@ -31,7 +36,13 @@ def has_parts(path: Path) -> bool:
 
 def _field_at(path: Path) -> tuple[type[Section] | None, Allowed | None] | None:
     """The section at a path, or what its field allows; None where a scene has nothing of that name."""
-    section: type[Section] | None = scene_text()
+    if path[0] != STAGES:
+        return _field_within(scene_text(), path) or _field_within(train_text(), path)
+    # Stages have any names: the scene says which.
+    return _field_within(stage_text(), path[2:])
+
+
+def _field_within(section: type[Section] | None, path: Path) -> tuple[type[Section] | None, Allowed | None] | None:
     allowed: Allowed | None = None
     for name in path:
         if name.isdigit():
@@ -52,14 +63,20 @@ def why_unknown(path: Path) -> str | None:
     """Why a path is unknown, with the nearest known one; None for a known path."""
     if _field_at(path) is not None:
         return None
-    dotted = [".".join(each) for each in known_paths()]
+    known = known_paths() if path[0] != STAGES else [path[:2] + each for each in of_stages()]
+    dotted = [".".join(each) for each in known]
     hint = did_you_mean(".".join(path), dotted)
     if not hint:
         homes = [name for name in dotted if name.split(".")[-1] == path[-1]]
         hint = f" Did you mean {' or '.join(homes)}?" if homes else ""
     if not hint:
-        hint = f" Sections: {', '.join(each[0] for each in known_paths() if len(each) == 1)}."
+        hint = f" Sections: {', '.join(each[0] for each in known_paths() if len(each) == 1)}, {STAGES}."
     return f"is no section or field of a scene.{hint}"
+
+
+def of_stages() -> dict[Path, bool]:
+    """Every path within a stage of a train; True for a section, False for a field."""
+    return paths_in(stage_text())
 
 
 def changed(tree: Mapping[str, Any], path: Path, value: Any) -> dict[str, Any]:
@@ -68,8 +85,8 @@ def changed(tree: Mapping[str, Any], path: Path, value: Any) -> dict[str, Any]:
     both."""
     if value == PRESENT:
         return dict(tree)
-    if path[0] == "load" and path[-1] in LOADS and value != ABSENT and isinstance(tree.get("load"), Mapping):
-        tree = {**tree, "load": {name: each for name, each in tree["load"].items() if name not in LOADS}}
+    if path[0] == "load" and path[-1] in ALL_LOADS and value != ABSENT and isinstance(tree.get("load"), Mapping):
+        tree = {**tree, "load": {name: each for name, each in tree["load"].items() if name not in ALL_LOADS}}
     return _changed(tree, path, value, path)
 
 

@@ -1,11 +1,13 @@
 """The scenes of a study's cases: the base scene with the changes of each."""
 
+from __future__ import annotations
+
 import functools
 import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fenics_gears.effects import effect_named
 from fenics_gears.errors import SceneError
@@ -14,11 +16,14 @@ from fenics_gears.inputs.section import read
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.model import RELIEFS, Model, model_of, with_reliefs
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.parsing import values_of
+from fenics_gears.scene.parsing import is_train, values_of
 from fenics_gears.scene.rules import broken_by_numbers
 
 from . import fields
 from .axis import Axis, label
+
+if TYPE_CHECKING:
+    from fenics_gears.model.train import TrainModel
 
 # Cases whose scenes and models are held, of 8 kB each.
 MOST_HELD = 1000
@@ -62,7 +67,7 @@ class Scenes:
     def values(self, index: int) -> dict[str, str]:
         return {axis.dotted: label(value) for axis, value in zip(self._changes.axes, self.points[index])}
 
-    def _model(self, index: int) -> Model:
+    def _model(self, index: int) -> Model | TrainModel:
         tree = self._changes.apply(self._tree, self.points[index])
         return model_of_tree(f"{self._name}-{index:04d}", tree, self._directory)
 
@@ -78,8 +83,10 @@ class Models:
         # Parsed scenes without reliefs, the names of all that their reliefs say, and their models.
         self._known: list[tuple[dict[str, Any], Any, Model]] = []
 
-    def of(self, tree: Mapping[str, Any]) -> Model:
+    def of(self, tree: Mapping[str, Any]) -> Any:
         """The model of a parsed scene. Raises NoScene."""
+        if is_train(tree):
+            return model_of_tree(self._name, tree, self._directory)
         rest = {name: section for name, section in tree.items() if name not in RELIEFS}
         said = _names({name: tree.get(name) for name in RELIEFS})
         known = next((model for others, names, model in self._known if names == said and others == rest), None)
@@ -121,8 +128,10 @@ class NoScene(SceneError):
         self.problems = problems
 
 
-def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Model:
-    """The model of a parsed scene. Raises NoScene."""
+def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Any:
+    """The `Model` of a parsed scene, of a train its `TrainModel`. Raises NoScene."""
+    if is_train(tree):
+        return _train_of_tree(name, tree, directory)
     try:
         text = as_toml(tree)
         values, problems = values_of(tree, text, name, directory)
@@ -135,5 +144,22 @@ def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Model:
     except NoScene:
         raise
     except SceneError as error:
-        said = str(error).removesuffix(NOTHING_DONE).strip()
-        raise NoScene([Problem((), None, each) for each in said.splitlines()]) from error
+        raise _no_scene(error) from error
+
+
+def _train_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> TrainModel:
+    from fenics_gears.model.train import train_model_of
+    from fenics_gears.scene.train import train_of
+    from fenics_gears.scene.train_pair import TrainMistakes
+
+    try:
+        return train_model_of(train_of(tree, as_toml(tree), name, "the train", directory))
+    except TrainMistakes as error:
+        raise NoScene(error.problems) from error
+    except SceneError as error:
+        raise _no_scene(error) from error
+
+
+def _no_scene(error: SceneError) -> NoScene:
+    said = str(error).replace(NOTHING_DONE, "").strip()
+    return NoScene([Problem((), None, each) for each in said.splitlines()])

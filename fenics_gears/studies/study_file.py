@@ -11,8 +11,9 @@ from fenics_gears.inputs.problem import Problem, counted, did_you_mean, line_num
 from fenics_gears.inputs.tree import value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.runs.run import Run, run_of, scene_key
-from fenics_gears.scene.parsing import parsed
-from fenics_gears.scene.read import load_scene, name_of, text_of
+from fenics_gears.scene.parsing import is_train, parsed
+from fenics_gears.scene.read import load_scene_or_train, name_of, text_of
+from fenics_gears.scene.train_pair import STAGES
 
 from . import fields
 from .axis import Axis, AxisError, label, unit_of, values_of
@@ -23,7 +24,7 @@ KEYS = ("title", "scene", "combine", "without", "set", "sweep")
 COMBINATIONS = ("product", "zip")
 MOST_CASES = 100_000
 # Names of the combined dataset's own variables.
-TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear"}
+TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear", "mesh"}
 
 
 class Mistakes:
@@ -50,7 +51,7 @@ def load_study(path: str | Path) -> Study:
     path = Path(path)
     text = text_of(path, "study")
     tree = parsed(text, str(path))
-    if "gears" in tree and "sweep" not in tree:
+    if ("gears" in tree or is_train(tree)) and "sweep" not in tree:
         raise SceneError(
             f"{path}: is a scene, not a study; `gears run {path}` runs it. Nothing was computed or written."
         )
@@ -71,9 +72,10 @@ def study_of(
     changes = _changes(tree, mistakes)
     mistakes.check()
     scene_file = path.parent / tree["scene"]
-    base = load_scene(scene_file)
+    base = load_scene_or_train(scene_file)
     scene_tree = parsed(base.text, str(scene_file))
     _check_present(changes, scene_tree, str(scene_file), mistakes)
+    _check_stages(changes, scene_tree, str(scene_file), mistakes)
     mistakes.check()
     name = name_of(path)
     combine = changes.combine
@@ -209,6 +211,19 @@ def _check_present(changes: SceneChanges, scene_tree: Mapping[str, Any], scene_f
         if value_at(changes.apply(scene_tree, ()), *path) is None and any(value == fields.PRESENT for value in listed):
             message = f"means the section as {scene_file} has it, but that has none. Write its fields as a table."
             mistakes.add(place, f'"{fields.PRESENT}"', message)
+
+
+def _check_stages(changes: SceneChanges, scene_tree: Mapping[str, Any], scene_file: str, mistakes: Mistakes) -> None:
+    """Stages are those of the scene: another one would be a new stage without gears."""
+    places = [(("sweep", axis.dotted), axis.path) for axis in changes.axes]
+    places += [(("set", ".".join(path)), path) for path in changes.fixed]
+    places += [(("without",), path) for path in changes.without]
+    known = list(scene_tree.get(STAGES, {}))
+    for place, path in places:
+        if path[0] == STAGES and len(path) > 1 and path[1] not in known:
+            there = f"has the stages {', '.join(known)}" if known else "has no stages"
+            hint = did_you_mean(path[1], known)
+            mistakes.add(place, None, f"is of a stage {path[1]}, but {scene_file} {there}.{hint}")
 
 
 def _cases(scenes: Scenes, changes: SceneChanges, mistakes: Mistakes) -> tuple[Run, ...]:

@@ -1,11 +1,13 @@
 """What `gears study` prints when a study ends."""
 
+from fenics_gears.results.layout import OVERALL
 from fenics_gears.results.summary import MICROMETRES
 from fenics_gears.results.validity import NO_MEANING
 
 from .run_study import Outcome
 
 MOST_FAILURES = 5
+PEAK_TO_PEAK = f"peak_to_peak_{OVERALL}"
 
 
 def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
@@ -15,7 +17,7 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
     if outcome.failures:
         rows.append(("failed", f"{len(outcome.failures)}", ""))
     if records:
-        rows.append(("transmission error, peak to peak", _transmission_errors(outcome), ""))
+        rows.append(_transmission_errors(outcome))
         warned = sum(bool(record.warnings) for record in records)
         if warned:
             rows.append(("cases with warnings", f"{warned}, see the variable warnings", ""))
@@ -25,11 +27,17 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
     return rows
 
 
-def _transmission_errors(outcome: Outcome) -> str:
-    """Smallest and largest of all cases, as lengths at the wheel's base circle and as angles of the wheel."""
+def _transmission_errors(outcome: Outcome) -> tuple[str, str, str]:
+    """Smallest and largest of all cases, as lengths at the wheel's base circle and as angles of the wheel; of trains
+    as angles of the last shaft."""
+    overall = [each.numbers[PEAK_TO_PEAK] for each in outcome.records.values() if each.meshes]
+    if overall:
+        return "overall transmission error, peak to peak", f"{min(overall):.4g} to {max(overall):.4g}", "rad"
     angles = {index: record.numbers["peak_to_peak_transmission_error"] for index, record in outcome.records.items()}
     lengths = [angle * outcome.records[index].base_radius * MICROMETRES for index, angle in angles.items()]
-    return f"{min(lengths):.4g} to {max(lengths):.4g} um = {min(angles.values()):.4g} to {max(angles.values()):.4g} rad"
+    least, most = min(angles.values()), max(angles.values())
+    said = f"{min(lengths):.4g} to {max(lengths):.4g} um = {least:.4g} to {most:.4g} rad"
+    return "transmission error, peak to peak", said, ""
 
 
 def last_words(outcome: Outcome, again: str = "the study") -> str:

@@ -2,10 +2,11 @@
 
 import re
 
+import numpy as np
 import pytest
 from tests.trains import COARSE, helical_row, stage
 
-from fenics_gears import load, load_scene
+from fenics_gears import load, load_scene, load_train, simulate, simulate_train, train_from_text
 from fenics_gears.commands.cli import main
 
 LOAD = f'[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n'
@@ -21,7 +22,7 @@ def scene(tmp_path):
 def test_run_writes_result_and_pictures(scene, tmp_path):
     """What the page on trains says."""
     assert main(["run", str(scene), "-o", str(tmp_path / "out"), "-q"]) == 0
-    written = {"run.nc", "train.png", "transmission_error.png", "first", "second"}
+    written = {"run.nc", "train.png", "transmission_error.png", "order_spectrum.png", "first", "second"}
     assert {each.name for each in (tmp_path / "out").iterdir()} == written
     found = load(tmp_path / "out" / "run.nc")
     assert found.sizes["mesh"] == 2
@@ -65,16 +66,93 @@ def test_a_row_that_memory_does_not_hold_is_refused(tmp_path, monkeypatch, capsy
         assert "contact operators apart, and 0.02 GB are allowed. Nothing was computed" in said
 
 
-@pytest.mark.parametrize("command", ["effects", "accuracy"])
-def test_commands_of_pairs_say_that_it_is_a_train(command, scene, capsys):
-    """A scene without [gears] would have been called incomplete."""
-    assert main([command, str(scene)]) != 0
-    assert "is a train of gears" in capsys.readouterr().err
+def test_a_map_says_that_it_is_a_train(scene, capsys):
+    """A scene without [gears] would have been called incomplete; it names the scenes that it takes."""
+    assert main(["map", str(scene)]) == 2
+    said = capsys.readouterr().err
+    assert "is a train of gears" in said and "scene.toml" in said
 
 
-def test_commands_of_runs_say_that_it_is_a_train(scene, tmp_path, capsys):
-    """Not a traceback for a dimension that pairs do not have."""
+@pytest.mark.nightly
+def test_stages_are_measured_one_by_one(scene, tmp_path, capsys):
+    """A table and a picture for each stage of two gears, and the standard error says so."""
+    assert main(["effects", str(scene), "-o", str(tmp_path / "out")]) == 0
+    assert "Each stage of two gears by itself" in capsys.readouterr().err
+    for name in ("first", "second"):
+        assert (tmp_path / "out" / name / "effects.csv").is_file()
+
+
+def test_rows_with_idlers_are_not_measured(tmp_path, capsys):
+    """Before anything is computed, with what can be done."""
+    path = tmp_path / "idler.toml"
+    gear = '{ teeth = 24, profile_shift = 0, bore_diameter = "30 mm" }'
+    text = '[stages.a]\nkind = "row"\nmodule = "3 mm"\npressure_angle = "20 deg"\nface_width = "30 mm"\n'
+    path.write_text(f'{text}gears = [{gear}, {gear}, {gear}]\nmaterial = "steel"\n{LOAD}')
+    assert main(["accuracy", str(path)]) == 2
+    assert "rows with idlers alone (a: gears 1 and 2, a: gears 2 and 3)" in capsys.readouterr().err
+    path.write_text(path.read_text().replace(COARSE, 'target = "2 %"'))
+    assert main(["check", str(path)]) == 2
+    assert "[stages.NAME.accuracy]" in capsys.readouterr().err
+
+
+def test_a_train_is_rated_mesh_by_mesh(scene, tmp_path, capsys):
+    """One table; a stage has the rows that its own run has."""
+    scene.write_text(scene.read_text() + '[motion]\ninput_speed = "3000 rpm"\n')
+    out = tmp_path / "out"
+    assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
+    assert main(["rate", str(out), "-q"]) == 0
+    rows = (out / "rating.csv").read_text().splitlines()
+    assert rows[0] == "mesh,quantity,unit,ISO 6336,this run"
+    for name in ("first", "second"):
+        assert main(["rate", str(out / name), "-q"]) == 0
+        own = (out / name / "rating.csv").read_text().splitlines()
+        assert [row.removeprefix(f"{name},") for row in rows if row.startswith(f"{name},")] == own[1:]
+    capsys.readouterr()
+
+
+@pytest.mark.nightly
+def test_a_target_is_kept_stage_by_stage(scene, tmp_path):
+    """Settings are those that the pair alone gets for its target, and the scene in the result has them: it repeats the
+    run."""
+    text = scene.read_text().partition("[accuracy]")[0]
+    scene.write_text(f'{text}[stages.first.accuracy]\ntarget = "5 %"\n[stages.second.accuracy]\n{COARSE}\n')
+    found = simulate_train(load_train(scene))
+    alone = simulate(load_train(scene).meshes[0].scene)
+    own = found.sel(mesh="first")
+    assert float(own["estimated_error"]) == alone.attrs["estimated_error"]
+    assert float(own["mean_transmission_error"]) == alone.attrs["mean_transmission_error"]
+    again = simulate_train(train_from_text(found.attrs["scene"]))
+    for name in ("mean_transmission_error", "peak_to_peak_transmission_error"):
+        assert np.array_equal(again[name], found[name])
+
+
+def test_a_stage_is_drawn_where_its_run_is(scene, tmp_path, capsys):
+    """Not on the run of the whole: which of its meshes would it be?"""
     assert main(["run", str(scene), "-o", str(tmp_path / "out"), "-q", "--no-pictures"]) == 0
-    for command in ("plot", "export", "report"):
-        assert main([command, str(tmp_path / "out")]) != 0
-        assert "is the run of a train" in capsys.readouterr().err
+    assert main(["picture", str(tmp_path / "out"), "-o", str(tmp_path / "one.png")]) == 2
+    assert str(tmp_path / "out" / "first") in capsys.readouterr().err
+
+
+def test_commands_of_runs_take_a_train(scene, tmp_path, capsys):
+    """Its pictures again, its curves, one page with a section for each mesh, its sound."""
+    scene.write_text(scene.read_text() + '[motion]\ninput_speed = "3000 rpm"\n')
+    out = tmp_path / "out"
+    assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
+    assert main(["plot", str(out), "-q"]) == 0
+    assert main(["export", str(out), "-q"]) == 0
+    assert main(["report", str(out), "-q"]) == 0
+    assert main(["listen", str(out), "--seconds", "0.5", "-q"]) == 0
+    assert (out / "train.png").is_file() and (out / "curves.csv").is_file()
+    page = (out / "report.html").read_text()
+    for heading in ("Power flow", "Orders of the overall transmission error", "Mesh: first", "Mesh: second"):
+        assert heading in page
+    assert (out / "overall_transmission_error.wav").stat().st_size > 2 * 0.5 * 48000
+    capsys.readouterr()
+
+
+def test_commands_of_pairs_name_the_stages(scene, tmp_path, capsys):
+    """What has no meaning for a train yet says which runs it takes."""
+    assert main(["run", str(scene), "-o", str(tmp_path / "out"), "-q", "--no-pictures"]) == 0
+    assert main(["plot", str(tmp_path / "out"), "--spectrum"]) == 2
+    said = capsys.readouterr().err
+    assert "is the run of a train" in said and str(tmp_path / "out" / "second") in said

@@ -40,10 +40,14 @@ SHAFT = '[shafts.one]\ncarries = ["{}"]\ntorsional_stiffness = "1e8 N mm/rad"'
         (f"title = 3\n{TWO}{LOAD}", "is no text"),
         (stage('".."', 2.0, (20, 30)) + LOAD, "is no name of a stage"),
         (stage("one", 2.0, (20, 30), 'direction = "3 mm"') + LOAD, "is no angle"),
-        (stage("one", 2.0, (20, 30), "[stages.one.bearings]\nx = 3") + LOAD, r"not a known field of \[bearings\]"),
+        (
+            stage("one", 2.0, (20, 30), "[stages.one.bearings]\nx = 3") + LOAD,
+            r"stages.one.bearings.x = 3.*not a known field of \[bearings\]",
+        ),
         (stage("one", 2.0, (20, 30), "[stages.one.eccentricity]\nx = 3") + LOAD, "is not yet computed of a stage"),
         (ROW.replace("[load]", "[stages.row.coast_flanks]\n[load]"), "in rows with idlers"),
-        (stage("one", 2.0, (20, 30)).replace("teeth = 30", "tooth = 30") + LOAD, "stage one"),
+        (stage("one", 2.0, (20, 30)).replace("teeth = 30", "tooth = 30") + LOAD, "train:7: stages.one.wheel.tooth"),
+        (stage("one", 2.0, (20, 30)) + LOAD + "\n[accuracy]\nelements = 3", "accuracy.elements = 3"),
     ],
 )
 def test_mistakes_are_told(text, said):

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from tests.trains import COARSE, helical_row, row, stage, two_stages
 
-from fenics_gears import model_of, simulate, train_from_text
+from fenics_gears import model_of, simulate, simulate_train, train_from_text
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.dynamics.train import drivetrain_of_mesh
 from fenics_gears.model.train import RowModel, train_model_of
 from fenics_gears.results.contact_variables import energy_of_teeth
-from fenics_gears.simulation.train import row_cycle, simulate_train
+from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 
 FRICTION = "\n[friction]\ncoefficient = {}\n"

@@ -13,6 +13,6 @@ from .shared import file_to_write, print_files
 def export(options: argparse.Namespace) -> int:
     file = run_file(options.run)
     output = file_to_write(options, file.parent / CURVES_FILE, "the table")
-    dataset = loaded_run(file)
+    dataset = loaded_run(file, trains=True)
     print_files([write_whole(output, lambda path: save_curves(dataset, path))], options.quiet)
     return 0

@@ -15,7 +15,7 @@ from fenics_gears.system.console import printable
 from fenics_gears.system.output import check_writable, write_whole
 
 from ..shared import ANIMATION_FILE, PICTURE_FILE
-from .runs import loaded_run, run_file
+from .runs import loaded_run, of_train, run_file, stages_beside
 from .shared import print_files, shown_progress
 
 
@@ -25,7 +25,10 @@ def picture(options: argparse.Namespace) -> int:
     output = options.output or file.parent / (ANIMATION_FILE if options.animate else PICTURE_FILE)
     drawn = options.animate or options.output is not None or options.vtu is None and options.pvd is None
     _check_outputs(options, output if drawn else None)
-    dataset, scene = _loaded(file)
+    dataset = loaded_run(file, trains=True)
+    if of_train(dataset):
+        return _of_stages(options, file, dataset)
+    scene = _scene_of(file, dataset)
     index = stored_index(dataset, options.at)
     with closing(shown_progress(options.quiet)) as progress:
         progress.stage("factorise sectors")
@@ -53,14 +56,38 @@ def _written(options, dataset, scene, index: int, output: Path | None, progress)
     return written
 
 
-def _loaded(file: Path):
-    dataset = loaded_run(file)
+def _of_stages(options: argparse.Namespace, file: Path, dataset) -> int:
+    """Draw each stage of two gears of a train, in a folder by its name. Bodies of idlers have the forces of two meshes,
+    which are not drawn."""
+    from fenics_gears.results.mesh_of_train import carried_train, mesh_run
+    from fenics_gears.scene.train import rows_of
+
+    train = carried_train(dataset)
+    alone = [row[0] for row in rows_of(train.meshes) if len(row) == 1]
+    if options.output is not None or options.vtu is not None or options.pvd is not None:
+        raise SceneError(f"--output, --vtu and --pvd are for the run of a pair. {stages_beside(file)}")
+    if not alone:
+        raise SceneError(
+            f"{file}: gears of a row with idlers are not drawn yet. Allowed: trains with stages of two gears."
+        )
+    for number in alone:
+        mesh = train.meshes[number]
+        own = mesh_run(dataset, train, number)
+        output = file.parent / mesh.name / (ANIMATION_FILE if options.animate else PICTURE_FILE)
+        check_writable(output.parent, output.name)
+        with closing(shown_progress(options.quiet)) as progress:
+            written = _written(options, own, mesh.scene, stored_index(own, options.at), output, progress)
+        print_files(written, options.quiet)
+    return 0
+
+
+def _scene_of(file: Path, dataset):
     scene = scene_of(dataset)
     if scene is None:
         raise SceneError(f"{file}: the scene in it is none of this version. Run the scene again.")
     if not dataset.sizes["time"]:
         raise SceneError(f"{file}: no step is stored; there is nothing to draw")
-    return dataset, scene
+    return scene
 
 
 def _check_outputs(options, output: Path | None) -> None:

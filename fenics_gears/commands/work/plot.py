@@ -5,7 +5,7 @@ import argparse
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
 from fenics_gears.system.output import check_writable
 
-from .runs import loaded_run, run_file
+from .runs import loaded_run, of_train, run_file
 from .shared import plots, print_files
 
 
@@ -13,5 +13,10 @@ def plot(options: argparse.Namespace) -> int:
     file = run_file(options.run)
     directory = options.output or file.parent
     check_writable(directory, *PICTURE_FILES, *FACE_PICTURE_FILES)
-    print_files(plots().draw_run(loaded_run(file), directory), options.quiet)
+    dataset = loaded_run(file, trains=True)
+    if of_train(dataset):
+        written = plots("train").draw_train(dataset, directory)
+    else:
+        written = plots().draw_run(dataset, directory)
+    print_files(written, options.quiet)
     return 0

@@ -20,7 +20,7 @@ from fenics_gears.system.output import check_writable, write_whole
 
 from ..shared import CASES, JOURNAL, REPORT_FILE, RUN_FILE, STUDY_FILE
 from .measuring import NO_TIMES, write_report
-from .runs import loaded_run, run_or_journal
+from .runs import loaded_run, of_train, run_or_journal, stages_beside
 from .shared import print_files, shown_progress
 
 EFFECTS_FILES = "effects.csv", "effects.png"
@@ -76,7 +76,15 @@ def _check(options: argparse.Namespace, file: Path, output: Path, is_study: bool
 
 
 def _run(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
-    run = ShownRun(loaded_run(file), file, at=options.at, stress=not options.no_stress)
+    dataset = loaded_run(file, trains=True)
+    if of_train(dataset):
+        if options.effects or options.at is not None:
+            raise SceneError(f"--effects and --at are for the run of a pair. {stages_beside(file)}")
+        # Pages on pairs need none of it.
+        from fenics_gears.show.report.train_page import train_page
+
+        return [_write(train_page(dataset, file, progress), output)]
+    run = ShownRun(dataset, file, at=options.at, stress=not options.no_stress)
     written = []
     if options.at is not None and run.steps:
         stored_index(run.dataset, options.at)

@@ -40,9 +40,10 @@ def run_or_journal(path: Path) -> Path:
     return path / (JOURNAL if not (path / RUN_FILE).is_file() and is_journal(path / JOURNAL) else RUN_FILE)
 
 
-def loaded_run(file: Path, load: Callable | None = None):
+def loaded_run(file: Path, load: Callable | None = None, trains: bool = False):
     """The dataset of a run's file, by `load` where it is another kind of result. Where the run has not ended it is that
-    of its journal, and the standard error says what is missing. Raises SceneError where it cannot be read."""
+    of its journal, and the standard error says what is missing. Raises SceneError where it cannot be read, and for the
+    run of a train unless the command takes `trains`."""
     try:
         if file.name == JOURNAL:
             dataset = unfinished(file)
@@ -51,8 +52,19 @@ def loaded_run(file: Path, load: Callable | None = None):
         dataset = (load or results.load)(file)
     except ComputationError as error:
         raise SceneError(str(error)) from error
-    if OVERALL in dataset:
-        raise SceneError(
-            f"{file} is the run of a train, which this command does not take yet; its pictures stand beside it."
-        )
+    if load is None and not trains and of_train(dataset):
+        raise SceneError(f"{file} is the run of a train, which this command does not take. {stages_beside(file)}")
     return dataset
+
+
+def of_train(dataset) -> bool:
+    """Whether a run is that of a train."""
+    return OVERALL in dataset
+
+
+def stages_beside(file: Path) -> str:
+    """Which runs of a train's stages are beside its own, in words."""
+    stages = [str(each.parent) for each in sorted(file.parent.glob(f"*/{RUN_FILE}"))]
+    if not stages:
+        return "It takes the run of a stage of two gears, which stands in a folder of its own; this train has none."
+    return f"It takes the run of a stage of two gears: {', '.join(stages)}."

@@ -4,8 +4,8 @@ from pathlib import Path
 
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import placed
-from fenics_gears.scene.parsing import is_train, parsed
-from fenics_gears.scene.read import load_scene, text_of
+from fenics_gears.scene.data import Scene
+from fenics_gears.scene.read import load_scene, load_scene_or_train
 from fenics_gears.system.output import check_writable
 
 from ..shared import RUN_FILE
@@ -27,11 +27,8 @@ def train_in(path: Path):
     """The train of a scene file, its values and geometry found right; None of another file."""
     if not path.is_file() or b"stages" not in path.read_bytes():
         return None
-    if not is_train(parsed(text_of(path, "scene"), str(path))):
-        return None
-    from fenics_gears.scene.train import load_train
-
-    return load_train(path)
+    found = load_scene_or_train(path)
+    return None if isinstance(found, Scene) else found
 
 
 def checked_model_and_directory(options, *names: str):

@@ -34,7 +34,7 @@ def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
     check_writable(directory, RUN_FILE, *TRAIN_PICTURE_FILES)
     model = train_model_of(scene)
     from fenics_gears.results.train import train_rows
-    from fenics_gears.simulation.train import simulate_train
+    from fenics_gears.runs.train import simulate_train
 
     file = directory / RUN_FILE
     pictures: list[Path] | None = []
@@ -44,7 +44,7 @@ def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
         _save(found, file)
         if not options.no_pictures:
             interruption.stage("draw pictures")
-            pictures = after_result(file, "pictures", lambda: plots("train").draw_train(scene, found, directory))
+            pictures = after_result(file, "pictures", lambda: plots("train").draw_train(found, directory))
             for own, of in stages:
                 after_result(own / RUN_FILE, "pictures", partial(plots().draw_run, of, own))
     if not options.quiet:
@@ -57,11 +57,12 @@ def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
 
 
 def _stage(directory: Path, mesh: MeshOfScene, found) -> tuple[Path, Any]:
-    """Write the result of a stage, and the scene of its pair, into a folder of its own; the folder and the result."""
+    """Write the result of a stage, and the scene of its pair as it was run, into a folder of its own; the folder and
+    the result."""
     own = directory / mesh.name
     own.mkdir(parents=True, exist_ok=True)
     write_whole(own / RUN_FILE, lambda path: results.save(found, path))
-    write_whole(own / SCENE_FILE, lambda path: Path(path).write_text(mesh.scene.text, encoding="utf-8"))
+    write_whole(own / SCENE_FILE, lambda path: Path(path).write_text(str(found.attrs["scene"]), encoding="utf-8"))
     return own, found
 
 
@@ -150,6 +151,8 @@ def _mesh_rows(mesh: MeshOfScene, own: Model, phase: float) -> list[Row]:
     slices, layers = own.slices_and_layers
     if slices:
         rows.append(("slices over the face, layers of the bodies", f"{slices}, {layers}", ""))
+    if own.scene.accuracy.target is not None:
+        rows.append(("target", f"{own.scene.accuracy.target:.3%}", "a run chooses steps and elements first"))
     if own.scene.motion.speed_given:
         rows.append(("mesh frequency", f"{own.scene.motion.mesh_frequency:.6g}", "Hz"))
     return rows

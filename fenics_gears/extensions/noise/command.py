@@ -15,8 +15,8 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser, and an option to the core's ``plot``."""
     command = commands.add_parser("listen", parents=[shared])
     add_run_argument(command)
-    curve = "variable over time to hear (default: normal_force, the mesh force)"
-    command.add_argument("--curve", default="normal_force", metavar="NAME", help=curve)
+    curve = "variable over time to hear (default: normal_force, the mesh force; of a train overall_transmission_error)"
+    command.add_argument("--curve", metavar="NAME", help=curve)
     seconds = f"length of a steady run's sound (default: {SECONDS:g}); a speed ramp is heard once"
     command.add_argument("--seconds", type=float, default=SECONDS, metavar="N", help=seconds)
     full = 'value of the curve at which the file is full, such as "500 N" (default: from the loudest sample)'

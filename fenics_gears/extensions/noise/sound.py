@@ -10,7 +10,7 @@ from scipy.interpolate import CubicSpline
 from scipy.io import wavfile
 from scipy.signal import resample_poly
 
-from fenics_gears import of_settled
+from fenics_gears import OVERALL, carried_train, cycles_of_meshes, of_settled
 
 SAMPLE_RATE = 48_000
 # Hz; lower sounds are felt rather than heard.
@@ -47,7 +47,32 @@ def sound(result: xr.Dataset, name: str, seconds: float, full_scale: float | Non
     values = heard.values - heard.values[:-1].mean()
     if not np.ptp(values) > ROUND_OFF * np.abs(heard.values).max():
         raise ValueError("does not fluctuate")
-    samples = _samples(time - time[0], values, seconds if steady else None)
+    return _faded(_samples(time - time[0], values, seconds if steady else None), full_scale)
+
+
+def train_sound(result: xr.Dataset, name: str, seconds: float, full_scale: float | None = None) -> Sound:
+    """The overall transmission error of a train's run: what each of its meshes adds repeats with its own mesh cycle, so
+    that the whole goes on without a seam. Raises ValueError where nothing fluctuates."""
+    cycles = cycles_of_meshes(result, carried_train(result))
+    spans = [np.ptp(each.values) for each in cycles]
+    if not max(spans) > ROUND_OFF * max(np.abs(each.values).max() for each in cycles):
+        raise ValueError("does not fluctuate")
+    samples = np.zeros(round(seconds * SAMPLE_RATE))
+    for each in cycles:
+        values = np.append(each.values, each.values[0]) - each.values.mean()
+        samples += _samples(np.linspace(0.0, 1.0 / each.frequency, len(values)), values, seconds)
+    return _faded(samples, full_scale)
+
+
+def fastest_mesh(result: xr.Dataset) -> float:
+    """The largest mesh frequency (Hz) of a run, 0 for one without steps."""
+    if OVERALL in result:
+        return max(each.frequency for each in cycles_of_meshes(result, carried_train(result)))
+    phase, time = (result[name].values for name in ("mesh_phase", "time"))
+    return abs(phase[-1] - phase[0]) / (time[-1] - time[0]) if len(time) > 1 else 0.0
+
+
+def _faded(samples: np.ndarray, full_scale: float | None) -> Sound:
     fade = np.minimum(np.arange(len(samples)) / (FADE * SAMPLE_RATE), 1.0)
     samples = samples * fade * fade[::-1]
     return Sound(samples, np.abs(samples).max() / HEADROOM if full_scale is None else full_scale)

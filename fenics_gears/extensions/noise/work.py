@@ -18,7 +18,7 @@ from fenics_gears.command_line import (
 from .charts import noise_charts
 from .command import AUTOMATIC
 from .figures import noise_figures
-from .sound import LOWEST_HEARD, save_sound, sound
+from .sound import LOWEST_HEARD, OVERALL, fastest_mesh, save_sound, sound, train_sound
 
 LONGEST = 600.0
 NOISE_FILES = "noise.png", "noise.nc"
@@ -27,13 +27,15 @@ NOISE_FILES = "noise.png", "noise.nc"
 def listen(options: argparse.Namespace) -> int:
     """Write the sound of a run."""
     file = run_file(options.run)
-    output = file_to_write(options, file.parent / f"{options.curve}.wav", "the sound")
     if not 0.1 <= options.seconds <= LONGEST:
         raise SceneError(f"--seconds {options.seconds:g}: allowed are 0.1 to {LONGEST:g} seconds.")
-    result = loaded_run(file)
+    result = loaded_run(file, trains=True)
+    of_train = OVERALL in result
+    options.curve = options.curve or (OVERALL if of_train else "normal_force")
+    output = file_to_write(options, file.parent / f"{options.curve}.wav", "the sound")
     full_scale = _checked(result, options)
     try:
-        heard = sound(result, options.curve, options.seconds, full_scale)
+        heard = (train_sound if of_train else sound)(result, options.curve, options.seconds, full_scale)
     except ValueError as error:
         why = f"{error} in this run. Without inertia and friction the force is constant"
         raise SceneError(f"--curve {options.curve}: {why}: take --curve transmission_error.") from None
@@ -49,12 +51,11 @@ def _checked(result, options: argparse.Namespace) -> float | None:
     curves = [name for name in result.data_vars if result[name].dims == ("time",) and result[name].dtype.kind == "f"]
     if options.curve not in curves:
         raise SceneError(f"--curve {options.curve}: is no curve of this run. Allowed: {', '.join(curves)}.")
-    phase = result["mesh_phase"].values
-    time = result["time"].values
-    fastest = abs(phase[-1] - phase[0]) / (time[-1] - time[0]) if len(time) > 1 else 0.0
+    fastest = fastest_mesh(result)
     if fastest < LOWEST_HEARD:
         low = f"has a mesh frequency of {fastest:.3g} Hz, too low to hear (from {LOWEST_HEARD:g} Hz)"
-        raise SceneError(f"{options.run}: {low}. Give the scene a higher motion.mesh_frequency or motion.pinion_speed.")
+        speeds = "motion.input_speed" if OVERALL in result else "motion.mesh_frequency or motion.pinion_speed"
+        raise SceneError(f"{options.run}: {low}. Give the scene a higher {speeds}.")
     unit = result[options.curve].attrs["units"]
     return None if options.full_scale is None else number_of_option("--full-scale", options.full_scale, unit)
 

@@ -4,12 +4,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
 
-from fenics_gears.charts import GREY, MARKED_LINES, MARKERS, PALETTE, Chart, Curve, draw_charts, harris_map
-from fenics_gears.scene_text import model_of_tree
+from fenics_gears.charts import GREY, MARKED_LINES, MARKERS, PALETTE, Chart, Curve, draw_charts, harris_map, shades
+from fenics_gears.scene_text import is_train, model_of_tree
 
 from .design import QUANTILE, Goal, Variable
 from .evaluations import Evaluation
+from .goals import MICRORADIANS
 from .optimize import SearchOutcome, score
 from .result import harris_dataset
 
@@ -26,8 +28,13 @@ def called(name: str) -> str:
 def title(name: str, unit: str) -> str:
     """A variable or goal in words with its unit, for an axis."""
     words = sentence(called(name))
-    unit = unit.replace("um", "µm")
+    unit = in_symbols(unit)
     return f"{words} ({unit})" if unit not in ("", "1") else words
+
+
+def in_symbols(unit: str) -> str:
+    """A unit as pages and pictures have it."""
+    return unit.replace("um", "µm").replace("urad", "µrad")
 
 
 def sentence(words: str) -> str:
@@ -122,14 +129,27 @@ def harris_charts(outcome: SearchOutcome) -> list[Chart]:
     if "transmission_error" not in maps:
         return []
     before = model_of_tree("", outcome.design.before, outcome.design.directory)
-    maps.attrs["base_radius_wheel"] = before.pair.wheel.base_radius
+    maps.attrs["base_radius_wheel"] = before.models[-1].pair.wheel.base_radius
+    draw = _lags if is_train(outcome.design.before) else harris_map
     charts = [
-        harris_map(maps.sel(choice=choice).drop_vars("choice"), f"Harris map, {words}")
+        draw(maps.sel(choice=choice).drop_vars("choice"), f"Harris map, {words}")
         for choice, words in (("before", BEFORE), ("best", BEST))
     ]
     every = np.concatenate([curve.y for chart in charts for curve in chart.curves])
     room = 0.04 * np.ptp(every)
     return [replace(chart, y_range=(float(every.min() - room), float(every.max() + room))) for chart in charts]
+
+
+def _lags(maps: xr.Dataset, caption: str) -> Chart:
+    """The overall transmission errors of a train over its torque. Its meshes have cycles of their own, so that it does
+    not repeat after one of them."""
+    cycles = maps["mesh_phase"].values
+    colours = shades(maps.sizes["load"])
+    curves = [
+        Curve(f"{load:.4g} N m", cycles, MICRORADIANS * maps["transmission_error"].sel(load=load).values, colour)
+        for load, colour in zip(maps["load"].values, colours)
+    ]
+    return Chart(caption, curves, "Time (cycles of the first mesh)", "Lag of the last shaft (µrad)", height=420)
 
 
 def write_pictures(outcome: SearchOutcome) -> list[Path]:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from fenics_gears.scene_text import GEARS, factor_of, fields, number_in, value_at
+from fenics_gears.scene_text import GEARS, STAGES, factor_of, fields, number_in, value_at
 
 from .design import Design, Scatter
 
@@ -30,7 +30,15 @@ def samples(design: Design, fresh: bool = False) -> np.ndarray:
 def value_of(tree: Mapping[str, Any], path: fields.Path) -> Any:
     """What a parsed scene has at a path; of one gear, where it has nothing of its own, what both gears have."""
     own = value_at(tree, *path)
-    return value_at(tree, path[0], *path[2:]) if own is None and path[1] in GEARS else own
+    inner = within(path)
+    if own is not None or len(inner) < 2 or inner[1] not in GEARS:
+        return own
+    return value_at(tree, *path[: len(path) - len(inner)], inner[0], *inner[2:])
+
+
+def within(path: fields.Path) -> fields.Path:
+    """A path in the scene of a pair, or within the stage of a train."""
+    return path[2:] if path[0] == STAGES else path
 
 
 def scattered(tree: Mapping[str, Any], scatters: Sequence[Scatter], deviations: np.ndarray) -> dict[str, Any]:
@@ -39,7 +47,7 @@ def scattered(tree: Mapping[str, Any], scatters: Sequence[Scatter], deviations: 
     changed = dict(tree)
     for scatter, deviation in zip(scatters, deviations):
         written = value_of(tree, scatter.path)
-        if written is None and scatter.path[0] not in FROM_ZERO:
+        if written is None and within(scatter.path)[0] not in FROM_ZERO:
             continue
         factor = factor_of(scatter.unit)
         nominal = 0.0 if written is None else number_in(written, scatter.unit)

@@ -12,6 +12,7 @@ from fenics_gears.scene_text import (
     SceneChanges,
     entries,
     fields,
+    is_train,
     left_out,
     model_of_tree,
     name_of,
@@ -19,7 +20,7 @@ from fenics_gears.scene_text import (
     text_of,
 )
 
-from .conditions import FROM_ZERO, samples, scattered, value_of
+from .conditions import FROM_ZERO, samples, scattered, value_of, within
 from .design import Design, Scatter
 from .goals import lacking
 from .sections import Sections
@@ -30,7 +31,7 @@ def load_design(path: str | Path) -> Design:
     path = Path(path)
     text = text_of(path, "design")
     tree = parsed(text, str(path))
-    if "variables" not in tree and ("gears" in tree or "sweep" in tree):
+    if "variables" not in tree and ("gears" in tree or "sweep" in tree or is_train(tree)):
         kind, command = ("a study", "study") if "sweep" in tree else ("a scene", "run")
         raise SceneError(
             f"{path}: is {kind}, not a design file; `gears {command} {path}` runs it. Nothing was computed or written."
@@ -43,20 +44,25 @@ def load_design(path: str | Path) -> Design:
     without = left_out(tree, sections.mistakes)
     fixed = dict(entries(tree, "set", sections.mistakes))
     sections.mistakes.check()
-    varied = {variable.path[0] for variable in parts_read["variables"]}
-    before = {place: value for place, value in fixed.items() if place[0] not in varied}
+    varied = {_section(variable.path) for variable in parts_read["variables"]}
+    before = {place: value for place, value in fixed.items() if _section(place) not in varied}
     scene_tree, before_tree = (
         SceneChanges(without, changes, (), "product").apply(base, ()) for changes in (fixed, before)
     )
     name = name_of(path)
     design = Design(name, tree.get("title", name), scene_tree, before_tree, directory, text, **parts_read)
     scene = _checked_ranges(design, sections)
-    design = _with_class(design, scene)
+    design = _with_class(design, scene, sections)
     _check_scatter(design, sections)
     return design
 
 
-def _checked_ranges(design: Design, sections: Sections) -> Scene:
+def _section(path: fields.Path) -> fields.Path:
+    """The section of the scene, or of a stage, that a path is in."""
+    return path[: len(path) - len(within(path)) + 1]
+
+
+def _checked_ranges(design: Design, sections: Sections) -> Any:
     """The scene in the middle of all ranges. Raises SceneError where it is none, where ends of a range, operating
     points or what is before make none, or where it has no such results as are wanted."""
     middle = _middle(design)
@@ -94,9 +100,7 @@ def _middle(design: Design) -> dict[str, Any]:
     return {each.name: each.words[0] if each.words else 0.5 * (each.low + each.high) for each in design.variables}
 
 
-def _try(
-    design: Design, sections: Sections, tree: Mapping[str, Any], place: tuple[str, ...], where: str
-) -> Scene | None:
+def _try(design: Design, sections: Sections, tree: Mapping[str, Any], place: tuple[str, ...], where: str) -> Any:
     """The scene of a tree; None, with its mistakes noted at a place of the design file, where it is none."""
     try:
         return model_of_tree(design.name, tree, design.directory).scene
@@ -109,11 +113,16 @@ def _try(
     return None
 
 
-def _with_class(design: Design, scene: Scene) -> Design:
+def _with_class(design: Design, scene: Any, sections: Sections) -> Design:
     """The design with the scatter that a flank tolerance class allows."""
     tolerance_class = design.tolerances.tolerance_class
     if tolerance_class is None:
         return design
+    if not isinstance(scene, Scene):
+        example = 'stages.first.profile_modifications.pinion.slope = "5 um"'
+        message = f"is of a pair. Allowed in a train: fields of its stages, such as {example}."
+        sections.wrong("tolerances", "tolerance_class", tolerance_class, message)
+        sections.mistakes.check()
     pair = gear_pair(scene.gears)
     scatters = list(design.tolerances.scatters)
     for name, width in zip(GEARS, pair.face_widths):
@@ -139,7 +148,7 @@ def _check_scatter(design: Design, sections: Sections) -> None:
     tree = design.scene_tree(_middle(design))
     scatters = design.tolerances.scatters
     for scatter in scatters:
-        if scatter.path[0] not in FROM_ZERO and value_of(tree, scatter.path) is None:
+        if within(scatter.path)[0] not in FROM_ZERO and value_of(tree, scatter.path) is None:
             remedy = f'Give it a value below [set], such as "0 {scatter.unit}".'
             message = f"is not in the scene, so that it cannot scatter. {remedy}"
             sections.wrong("tolerances", scatter.name, "", message)

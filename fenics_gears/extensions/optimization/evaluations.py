@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from fenics_gears import OVERALL, Scene
 from fenics_gears.many_runs import (
     NO_MEANING,
     Alone,
@@ -21,14 +22,15 @@ from fenics_gears.many_runs import (
     Together,
     kept,
     numbers_of,
+    record_of,
     run_of,
     seconds_of,
 )
-from fenics_gears.scene_text import Models, NoScene
+from fenics_gears.scene_text import Models, NoScene, is_train
 
 from .conditions import trees_of
 from .design import Design, Goal
-from .goals import ERROR, OVER_FACE
+from .goals import ERROR, MICRORADIANS, OVER_FACE, OVERALL_ERROR
 
 UNUSABLE = 1e6
 """What the search is told instead of a goal where a design failed; one that breaks bounds is told a thousandth of it
@@ -123,7 +125,7 @@ class Evaluator:
 
     def _without_fields(self, tree: Mapping[str, Any]) -> Mapping[str, Any]:
         """Fields over the flanks take memory and time, and only face load factors need them."""
-        if any(name in OVER_FACE for name in self.design.asked):
+        if is_train(tree) or any(name in OVER_FACE for name in self.design.asked):
             return tree
         return {**tree, "output": {**tree.get("output", {}), "contact_fields": False}}
 
@@ -161,6 +163,17 @@ class Evaluator:
         return Evaluation(values, goals, of_samples, at_points, violation)
 
 
+def _of_train(result: Any) -> dict[str, Any]:
+    """What is kept of a train's run: numbers of the whole, and of its meshes the largest."""
+    record = record_of(result.dataset)
+    of_meshes = dict(record.of_meshes)
+    of_meshes[ERROR] = of_meshes[ERROR] * 1e3 * result.dataset["base_radius_wheel"].values
+    numbers = {name: float(np.nanmax(values)) for name, values in of_meshes.items()} | record.numbers
+    numbers[OVERALL_ERROR] *= MICRORADIANS
+    curve = [record.mesh_phase.tolist(), record.curves[OVERALL].tolist()]
+    return {"numbers": numbers, "curve": curve, "seconds": seconds_of(result)}
+
+
 def _curve(run: RunResult) -> list[list[float]]:
     """Mesh phase from 0 on, and transmission error, rad."""
     phase = run["mesh_phase"]
@@ -173,6 +186,8 @@ def line_of(run: Run, result: RunResult) -> dict[str, Any]:
     worthless = [said for said in result.attrs.get("warnings", "").splitlines() if NO_MEANING in said]
     if worthless:
         return {"failure": worthless[0]}
+    if not isinstance(run.scene, Scene):
+        return _of_train(result)
     numbers = numbers_of(result)
     numbers[ERROR] *= 1e3 * result.attrs["base_radius_wheel"]
     return {"numbers": numbers, "curve": _curve(result) if run.values else [], "seconds": seconds_of(result)}

@@ -83,31 +83,37 @@ def expected_work(design: Design, kept: int, processes: int = 1) -> ExpectedWork
     if not ends:
         return ExpectedWork(runs, None)
     cases = [case for end in ends for case in end]
-    costs = [expected_cost(case.model) for case in cases]
+    costs = [expected_cost(model) for case in cases for model in case.model.models]
     marching, building, condensing = (
-        sum(getattr(cost, name) or 0.0 for cost in costs) / len(costs)
+        sum(getattr(cost, name) or 0.0 for cost in costs) / len(cases)
         for name in ("marching", "building", "condensing")
     )
     tasks = len(gear_tasks(cases))
     bodies = 1 if tasks == len(gear_tasks(ends[0])) else designs
     first = marching - building
-    position = building / cases[0].model.resolution.steps_per_mesh_cycle
-    operators = len({operators_key(case.model) for case in cases})
+    model = cases[0].model.models[0]
+    position = building / model.resolution.steps_per_mesh_cycle
+    operators = len({_operators(case) for case in cases})
     together = solved_at_once([end[0].model for end in ends], design.asked)
-    if cases[0].scene.three_dimensional:
+    if model.scene.three_dimensional:
         own, march = TOGETHER_OVER_FACE if together else ALONE_OVER_FACE
-        again = (own + march * first) * (WITH_FRICTION if cases[0].scene.friction else 1.0)
-        again *= ON_ROLLING_BEARINGS if cases[0].model.drivetrain.rolling is not None else 1.0
+        again = (own + march * first) * (WITH_FRICTION if model.scene.friction else 1.0)
+        again *= ON_ROLLING_BEARINGS if model.drivetrain.rolling is not None else 1.0
         made = designs * points if bodies > 1 else operators * processes
         seconds = runs * again + min(made, runs) * (building + EXTREMES * position + first)
     elif together:
         in_a_task = most_together(design.search.population * points * samples, processes)
         seconds = runs * (TIME_OF_NUMBERS + TIME_OF_A_TASK / in_a_task + first)
     else:
-        shared = operators == len({operators_key(case.model) for case in ends[0]})
+        shared = operators == len({_operators(case) for case in ends[0]})
         seconds = runs * (TIME_OF_A_RESULT + EXTREMES * position + first + (0.0 if shared else building))
     pairs = ceil(sum(task.part == BODY for task in gear_tasks(ends[0])) / len(GEARS))
     return ExpectedWork(runs, seconds + (bodies * pairs * condensing if runs else 0.0))
+
+
+def _operators(case: Run) -> tuple:
+    """What the contact operators of all meshes of a run depend on."""
+    return tuple(operators_key(model) for model in case.model.models)
 
 
 def at_ends(design: Design) -> list[list[Run]]:

@@ -1,13 +1,18 @@
 """The numbers of a result that goals and constraints may name, and what a scene needs to have them."""
 
-from fenics_gears import HARMONIC_NAMES, Scene
-from fenics_gears.many_runs import NUMBERS, OVER_FACE, RESULT_ATTRIBUTES
+from typing import Any
+
+from fenics_gears import HARMONIC_NAMES, OVERALL, Scene
+from fenics_gears.many_runs import NUMBERS, OF_TRAINS, OVER_FACE, RESULT_ATTRIBUTES
 
 ERROR = "peak_to_peak_transmission_error"
+# Of trains, in urad of the last shaft.
+OVERALL_ERROR = f"peak_to_peak_{OVERALL}"
+MICRORADIANS = 1e6
 ROOT = ("largest_root_stress_pinion", "largest_root_stress_wheel")
 ON_SHAFTS = ("largest_bearing_force",)
 NAMES = (
-    ERROR, *HARMONIC_NAMES, "max_normal_force", "largest_pair_force", "dynamic_factor_by_force",
+    ERROR, OVERALL_ERROR, *HARMONIC_NAMES, "max_normal_force", "largest_pair_force", "dynamic_factor_by_force",
     "dynamic_factor_by_stress", "peak_contact_pressure",
     *ROOT, "friction_loss", *OVER_FACE, *ON_SHAFTS,
 )  # fmt: skip
@@ -17,14 +22,26 @@ def unit_and_words(name: str) -> tuple[str, str]:
     """Unit and meaning of a number; transmission errors are lengths along the line of action."""
     if name == ERROR:
         return "um", NUMBERS[ERROR][1]
+    if name == OVERALL_ERROR:
+        return "urad", OF_TRAINS[OVERALL_ERROR][1]
     if name in NUMBERS:
         return NUMBERS[name]
     attribute = next(each for each in RESULT_ATTRIBUTES if each.name == name)
     return attribute.units, attribute.meaning
 
 
-def lacking(name: str, scene: Scene) -> str:
-    """What the scene lacks to have this number, completing "needs ..."; empty where it has it."""
+def lacking(name: str, scene: Any) -> str:
+    """What the scene, or one mesh of a train at least, lacks to have this number, completing "needs ..."; empty where
+    it has it."""
+    if isinstance(scene, Scene):
+        return "a train of gears, [stages.NAME]" if name == OVERALL_ERROR else _lacking(name, scene)
+    if name == OVERALL_ERROR:
+        return ""
+    lacks = [_lacking(name, mesh.scene) for mesh in scene.meshes]
+    return lacks[0] if all(lacks) else ""
+
+
+def _lacking(name: str, scene: Scene) -> str:
     if scene.speed_ramp is not None and name in HARMONIC_NAMES:
         return "a constant speed: leave [speed_ramp] out"
     if name.startswith("dynamic_factor") and scene.inertia is None:

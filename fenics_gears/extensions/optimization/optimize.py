@@ -11,7 +11,7 @@ import numpy as np
 from fenics_gears import ComputationError
 from fenics_gears.command_line import check_writable
 from fenics_gears.many_runs import Alone, Interruption, Progress, Spent, Together, ranks, sole_writer
-from fenics_gears.scene_text import Tree, fields, model_of_tree, number_in
+from fenics_gears.scene_text import Tree, fields, is_train, model_of_tree, number_in
 
 from .conditions import samples
 from .design import Design
@@ -167,13 +167,14 @@ def _look_around(outcome: SearchOutcome, evaluator: Evaluator) -> None:
 
 
 def _torque_of(design: Design, tree: Tree) -> float:
-    """The torque (N m) on the wheel of a parsed scene."""
-    return 1e-3 * model_of_tree(design.name, tree, design.directory).scene.load.wheel_torque
+    """The torque (N m) on the wheel of a parsed scene, on the last shaft of a train."""
+    scene = model_of_tree(design.name, tree, design.directory).scene
+    return 1e-3 * (scene.output_torque if is_train(tree) else scene.load.wheel_torque)
 
 
 def _harris(design: Design, evaluator: Evaluator, best: Evaluation) -> tuple[np.ndarray, list[list[np.ndarray | None]]]:
     """Quasi-static transmission errors over the torque of the scene before and of the chosen design."""
-    path = ("load", "wheel_torque")
+    path = ("load", "output_torque" if is_train(design.tree) else "wheel_torque")
     trees = [design.before, design.scene_tree(best.values)]
     torques = sorted({number_in(point[path], "N m") for point in design.loads.points if path in point})
     if len(torques) < 2:

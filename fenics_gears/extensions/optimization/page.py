@@ -18,6 +18,7 @@ from fenics_gears.pages import (
     rendered,
     scene_section,
 )
+from fenics_gears.scene_text import is_train
 
 from . import charts
 from .optimize import PAGE, SearchOutcome
@@ -35,12 +36,13 @@ def write_page(outcome: SearchOutcome) -> Path:
 def optimization_page(outcome: SearchOutcome) -> Page:
     design = outcome.design
     maps: list[Block] = [*charts.harris_charts(outcome)] or [Words("A run of the Harris maps failed.", warns=True)]
+    over = "transmission error over two mesh cycles"
+    if is_train(design.tree):
+        over = "overall transmission error over a cycle of the slowest mesh"
     sections = [
         _summary(outcome),
         PageSection(
-            "harris",
-            "Harris maps before and after",
-            [Words("Quasi-static transmission error over two mesh cycles, a curve for each torque."), *maps],
+            "harris", "Harris maps before and after", [Words(f"Quasi-static {over}, a curve for each torque."), *maps]
         ),
         PageSection(
             "variables",
@@ -58,7 +60,8 @@ def optimization_page(outcome: SearchOutcome) -> Page:
     designs = counted(len(outcome.tried), "design")
     points = counted(len(design.loads.points), "operating point")
     subtitle = f"{designs} of {counted(len(design.variables), 'variable')} at {points}"
-    return Page("Gear pair: optimisation", design.title, subtitle, sections, made_by(), charts.no_gain(outcome))
+    subject = f"Gear {'train' if is_train(design.tree) else 'pair'}: optimisation"
+    return Page(subject, design.title, subtitle, sections, made_by(), charts.no_gain(outcome))
 
 
 def _summary(outcome: SearchOutcome) -> PageSection:
@@ -66,7 +69,7 @@ def _summary(outcome: SearchOutcome) -> PageSection:
     goals = outcome.design.goals
     for goal in goals:
         value = f"{outcome.chosen.goals[goal.name]:.4g}"
-        unit = goal.unit.replace("um", "µm").removeprefix("1")
+        unit = charts.in_symbols(goal.unit).removeprefix("1")
         note = f"before: {charts.goal_words(outcome, goal, outcome.before)}"
         tiles.append(Tile(charts.sentence(charts.called(goal.name)), value, unit, note))
     rows = charts.summary_rows(outcome)
@@ -116,7 +119,7 @@ def _tolerances(outcome: SearchOutcome) -> PageSection:
     blocks: list[Block] = []
     heads = ("Tolerance", "Limit", "At the lower limit", "Without scatter", "At the upper limit")
     for goal in outcome.design.goals:
-        caption = f"{charts.sentence(charts.called(goal.name))} ({goal.unit.replace('um', 'µm')}) of the chosen design"
+        caption = f"{charts.sentence(charts.called(goal.name))} ({charts.in_symbols(goal.unit)}) of the chosen design"
         blocks.append(Table(heads, charts.tolerance_rows(outcome, goal), caption))
     words = "One deviation at its limit, all others zero; the largest change first."
     if not outcome.limits:

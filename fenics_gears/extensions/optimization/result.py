@@ -1,7 +1,9 @@
 """The files of an optimisation: all designs as a dataset and as a table, and the chosen one as a scene."""
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -10,7 +12,7 @@ import fenics_gears
 from fenics_gears import as_toml
 from fenics_gears.command_line import write_whole
 from fenics_gears.many_runs import save
-from fenics_gears.scene_text import AllowedFile, fields, known_paths, value_at
+from fenics_gears.scene_text import STAGES, AllowedFile, fields, known_paths, value_at
 
 from .design import QUANTILE
 from .optimize import BEST, RESULT, TABLE, SearchOutcome
@@ -90,16 +92,28 @@ def harris_dataset(outcome: SearchOutcome) -> xr.Dataset:
         {"transmission_error": (("choice", "load", "mesh_phase"), values, described)},
         coords={
             "choice": np.array(["before", "best"], dtype=object),
-            "load": ("load", torques, {"units": "N m", "long_name": "torque on the wheel"}),
+            "load": (
+                "load",
+                torques,
+                {"units": "N m", "long_name": "torque on the wheel, of a train on the last shaft"},
+            ),
             "mesh_phase": ("mesh_phase", every[0][0], {"units": "1", "long_name": "mesh cycles"}),
         },
     )
 
 
+def _paths(tree: Mapping[str, Any]) -> dict[fields.Path, bool]:
+    """Every path that a scene may have, within its stages too; True for a section."""
+    within = {
+        (STAGES, name, *path): section for name in tree.get(STAGES, ()) for path, section in fields.of_stages().items()
+    }
+    return known_paths() | within
+
+
 def best_scene(outcome: SearchOutcome) -> str:
     """The chosen design as the text of a scene file in the folder of the result."""
     tree = outcome.design.scene_tree(outcome.chosen.values)
-    for path, is_section in known_paths().items():
+    for path, is_section in _paths(tree).items():
         name = None if is_section else value_at(tree, *path)
         if isinstance(name, str) and isinstance(fields.allowed_at(path)[0], AllowedFile):
             file = (outcome.design.directory / name).resolve()

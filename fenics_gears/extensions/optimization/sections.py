@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from fenics_gears import load_scene, units
+from fenics_gears import units
 from fenics_gears.scene_text import (
     AxisError,
     Mistakes,
@@ -17,6 +17,7 @@ from fenics_gears.scene_text import (
     factor_of,
     fields,
     line_numbers,
+    load_scene_or_train,
     names_in,
     number_in,
     parsed,
@@ -75,7 +76,7 @@ class Sections:
         if isinstance(named, Mapping):
             return named, self.path.parent
         file = self.path.parent / named
-        return parsed(load_scene(file).text, str(file)), file.parent
+        return parsed(load_scene_or_train(file).text, str(file)), file.parent
 
     def variables(self) -> tuple[Variable, ...]:
         """The fields that vary, with their ranges or words."""

@@ -1,7 +1,7 @@
 """A run's load capacity, row by row: by the standard's formulas from the nominal load, and by what the run has
 computed."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from math import isnan, nan
 
@@ -33,6 +33,8 @@ KILOGRAM = 1e3
 INCLINED = "mean_axis_inclination_in_plane"
 # Points along the path of contact at which the standard's flash temperature is taken.
 POINTS = 201
+# Of the endurance limit of the root, for teeth that are bent both ways (ISO 6336-5, idlers and planets).
+REVERSED = 0.7
 # How near to a place, in base pitches, is there.
 BESIDE = 0.03
 
@@ -47,8 +49,9 @@ class RatingRow:
     computed: float
 
 
-def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[RatingRow]:
-    """The rows of a run. Raises SceneError for a scene without speed, load or elastic teeth."""
+def rate(result: xr.Dataset, scene: Scene, finish: Finish, idlers: Collection[str] = ()) -> list[RatingRow]:
+    """The rows of a run; `idlers`: which of "pinion" and "wheel" are bent both ways. Raises SceneError for a scene
+    without speed, load or elastic teeth."""
     operation = _operation(scene, finish, result)
     factors = load_factors(operation)
     numbers = result.attrs
@@ -74,7 +77,8 @@ def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[RatingRow]:
     for name, root in zip(("pinion", "wheel"), roots):
         computed = numbers.get(f"largest_root_stress_{name}", nan)
         rows.append(RatingRow(f"sigma_F, root stress of the {name}", "MPa", root.stress, computed))
-        safeties = root.limit / root.stress, root.limit / computed
+        limit = root.limit * (REVERSED if name in idlers else 1.0)
+        safeties = limit / root.stress, limit / computed
         rows.append(RatingRow(f"S_F, safety against tooth breakage of the {name}", "1", *safeties))
     return rows + _flash(operation, result)
 

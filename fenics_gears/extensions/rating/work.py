@@ -1,10 +1,14 @@
 """What ``gears rate`` does."""
 
 import argparse
+from collections.abc import Mapping
+from dataclasses import dataclass
 from math import isnan
 from pathlib import Path
 
-from fenics_gears import SceneError, carried_scene, gear_pair
+import xarray as xr
+
+from fenics_gears import OVERALL, Scene, SceneError, carried_scene, carried_train, gear_pair, mesh_run
 from fenics_gears.command_line import file_to_write, loaded_run, number_of_option, run_file, write_whole
 
 from . import rating
@@ -15,21 +19,55 @@ from .finish import Finish
 def rate(options: argparse.Namespace) -> int:
     file = run_file(options.run)
     output = file_to_write(options, file.parent / FILE, "the table")
-    result = loaded_run(file)
-    scene = carried_scene(result)
-    finish = _finish(options, scene)
-    rows = rating.rate(result, scene, finish)
-    write_whole(output, lambda path: _save(rows, path))
+    meshes = _meshes(loaded_run(file, trains=True))
+    finishes = [_finish(options, mesh.scene) for mesh in meshes]
+    tables = [rating.rate(mesh.result, mesh.scene, finish, mesh.idlers) for mesh, finish in zip(meshes, finishes)]
+    write_whole(output, lambda path: _save({mesh.name: rows for mesh, rows in zip(meshes, tables)}, path))
     if not options.quiet:
-        _show(rows)
-        if end := result.attrs.get("peak_contact_pressure_beside"):
-            why = "where lines of contact end and their line load rises (buttressing); ISO 6336-2 has no such rise"
-            print(f"sigma_H of this run is near the {end} of the pinion's active profile, {why}.")
-        if place := rating.of_place(result.attrs, gear_pair(scene.gears)):
-            print(place)
-        print(rating.of_misalignment(scene, finish))
+        for mesh, finish, rows in zip(meshes, finishes, tables):
+            _tell(mesh, finish, rows)
+        _explain([row for rows in tables for row in rows], meshes)
         print(output)
     return 0
+
+
+@dataclass(frozen=True)
+class RatedMesh:
+    """A mesh with its result and its scene, as of a pair: a name in a train, and which of its gears are idlers."""
+
+    name: str
+    result: xr.Dataset
+    scene: Scene
+    idlers: tuple[str, ...] = ()
+
+
+def _meshes(result: xr.Dataset) -> list[RatedMesh]:
+    """The meshes of a run, of which a pair has one."""
+    if OVERALL not in result:
+        return [RatedMesh("", result, carried_scene(result))]
+    train = carried_train(result)
+    behind = [*train.meshes[1:], None]
+    found = []
+    for number, (mesh, following) in enumerate(zip(train.meshes, behind)):
+        turned = {"pinion": mesh.idler, "wheel": following and following.idler}
+        idlers = tuple(name for name, idler in turned.items() if idler is not None)
+        found.append(RatedMesh(mesh.name, mesh_run(result, train, number), mesh.scene, idlers))
+    return found
+
+
+def _tell(mesh: RatedMesh, finish: Finish, rows: list[rating.RatingRow]) -> None:
+    """The table of a mesh, and what is said of it."""
+    if mesh.name:
+        print(f"Mesh {mesh.name}")
+    _show(rows)
+    if end := mesh.result.attrs.get("peak_contact_pressure_beside"):
+        why = "where lines of contact end and their line load rises (buttressing); ISO 6336-2 has no such rise"
+        print(f"sigma_H of this run is near the {end} of the pinion's active profile, {why}.")
+    if place := rating.of_place(mesh.result.attrs, gear_pair(mesh.scene.gears)):
+        print(place)
+    print(rating.of_misalignment(mesh.scene, finish))
+    if mesh.name:
+        print()
 
 
 def _finish(options: argparse.Namespace, scene):
@@ -52,13 +90,18 @@ def _finish(options: argparse.Namespace, scene):
     return Finish(**given)
 
 
-def _save(rows, path: Path) -> None:
+def _save(tables: Mapping[str, list[rating.RatingRow]], path: Path) -> None:
+    """One table of all meshes; that of a pair has no column for the mesh."""
     import csv
 
     with open(path, "w", encoding="utf-8", newline="") as table:
         writer = csv.writer(table)
-        writer.writerow(["quantity", "unit", "ISO 6336", "this run"])
-        writer.writerows([row.name, row.unit, _written(row.standard, 8), _written(row.computed, 8)] for row in rows)
+        writer.writerow([*(["mesh"] if any(tables) else []), "quantity", "unit", "ISO 6336", "this run"])
+        for name, rows in tables.items():
+            of = [name] if name else []
+            writer.writerows(
+                [*of, row.name, row.unit, _written(row.standard, 8), _written(row.computed, 8)] for row in rows
+            )
 
 
 def _show(rows) -> None:
@@ -67,12 +110,25 @@ def _show(rows) -> None:
         unit = "" if row.unit == "1" else f" {row.unit}"
         name = row.name + ("," + unit if unit else "")
         print(f"{name:50}{_written(row.standard, 4):>10}{_written(row.computed, 4) or '-':>10}")
+
+
+def _explain(rows: list[rating.RatingRow], meshes: list[RatedMesh]) -> None:
     print("K_v of this run: largest force of a tooth pair over that without inertia. Safeties: by the same limits.")
-    if any(isnan(row.computed) for row in rows):
+    if meshes[0].name:
+        print(
+            "-: not in this run. Root stress and dynamic factor: run a stage's own scene.toml, which is in its folder,"
+        )
+        print(
+            "   with [output] root_stress = true and [inertia]. Face and transverse factors: helical stages have them."
+        )
+    elif any(isnan(row.computed) for row in rows):
         print(
             "-: not in this run. Root stress needs [output] root_stress = true, the dynamic factor [inertia], face and"
         )
         print("   transverse factors a run over the face, such as with [misalignment].")
+
+    if any(mesh.idlers for mesh in meshes):
+        print(f"S_F of idlers: their teeth are bent both ways, which leaves {rating.REVERSED:g} of sigma_Flim.")
 
 
 def _written(value: float, digits: int) -> str:

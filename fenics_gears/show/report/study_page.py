@@ -6,9 +6,10 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from fenics_gears.results.layout import OVERALL
 from fenics_gears.system.progress import Progress, SilentProgress
 
-from ..cases import LISTED_CASES, STATES, Cases
+from ..cases import LISTED_CASES, OF_THE_WHOLE, PEAK_TO_PEAK, STATES, Cases
 from ..chart import Chart, Curve
 from ..panels import PALETTE, digits
 from ..study_charts import effort_charts, result_charts
@@ -38,7 +39,8 @@ def study_page(dataset: xr.Dataset, file: Path, output: Path, progress: Progress
     values = {field.called: len(set(map(str, field.values.tolist()))) for field in cases.fields}
     swept = ", ".join(f"{name} ({counted(count, 'value')})" for name, count in values.items())
     subtitle = f"{counted(cases.count, 'case')} over {swept}"
-    return Page("Gear pair: report on a study", title, subtitle, sections, made_by(), _alarm(cases))
+    subject = f"Gear {'train' if cases.of_trains else 'pair'}: report on a study"
+    return Page(subject, title, subtitle, sections, made_by(), _alarm(cases))
 
 
 def _alarm(cases: Cases) -> str:
@@ -120,22 +122,31 @@ def _standing_out(cases: Cases) -> PageSection:
     curves = []
     links = []
     for (case, why, run), colour in zip(chosen, PALETTE):
-        phase = run["mesh_phase"].values
-        error = run["transmission_error"].values * scale
+        phase, error = _of_the_whole(run) if cases.of_trains else (run["mesh_phase"].values, run["transmission_error"])
+        error = np.asarray(error) * scale
         curves.append(Curve(f"case {case}", phase - np.floor(phase[0]), error, colour))
         file = Cell(cases.texts("case_file")[case], link=cases.link(case))
         links.append((str(case), cases.words(case), ", ".join(why), file))
     title = "Time (mesh cycles since the first recorded one)"
-    drawn = Chart("Transmission error", curves, title, f"Transmission error ({unit})", height=360)
+    what = "Transmission error"
+    if cases.of_trains:
+        title, what = "Time (cycles of the first mesh)", "Overall transmission error"
+    drawn = Chart(what, curves, title, f"{what} ({unit})", height=360)
     said = Table(("Case", "Values", "Has the", "File"), links, numbers=9)
     command = Words("`gears report DIR/cases/FILE.nc` makes a report on a case; the table of cases then leads to it.")
     return PageSection("outstanding", heading, [said, drawn, command])
 
 
+def _of_the_whole(run: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
+    """Cycles of the first mesh, and the lag of the last shaft, rad."""
+    cycles_in_a_second = float(run["mesh_phase"][1, 0] / run["time_of_mesh"][1, 0])
+    return run["time"].values * cycles_in_a_second, run[OVERALL].values
+
+
 def standing_out(cases: Cases) -> dict[int, list[str]]:
     """Cases that are worth a look, each with what it is distinguished by."""
-    errors, _, _ = cases.measures["peak_to_peak_transmission_error"]
-    forces, _, _ = cases.measures["max_normal_force"]
+    errors, _, _ = cases.measures[OF_THE_WHOLE if cases.of_trains else PEAK_TO_PEAK]
+    forces = cases.numbers("max_normal_force")
     known = np.flatnonzero(np.isfinite(errors))
     if not len(known):
         return {}
@@ -153,7 +164,8 @@ def standing_out(cases: Cases) -> dict[int, list[str]]:
 def _table(cases: Cases) -> PageSection:
     measures = [(values, unit) for values, unit, _ in cases.measures.values()]
     measures.append((cases.numbers("wall_time"), "s"))
-    names = ("T_EPP", "Mean error", "Largest force", "Wall time")
+    of_meshes = [f"T_EPP of {mesh}" for mesh in cases.dataset["mesh"].values] if cases.of_trains else ["Largest force"]
+    names = ("T_EPP", "Mean error", *of_meshes, "Wall time")
     measured = [f"{name} ({unit})" for name, (_, unit) in zip(names, measures)]
     headings = ["Case", *(field.title for field in cases.fields), "State", *measured, "Newton iterations"]
     rows = []

@@ -1,0 +1,108 @@
+"""A mesh of a train's result as the result of its pair: what charts, tables and ratings of pairs take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.model.storage import CONTACT_COORDINATES, COORDINATES
+from fenics_gears.scene.train import TrainScene, train_from_text
+
+from .attributes import RESULT_ATTRIBUTES
+from .carried_scene import scene_attributes
+from .layout import OF_PAIRS
+
+MESH = "mesh"
+OF_MESH = "_of_mesh"
+COORDINATES_OF_PAIRS = (
+    *COORDINATES, *CONTACT_COORDINATES, "face_position", "face_slice_width", "gear", "path_point", "slot",
+)  # fmt: skip
+SAID = ("fenics_gears_version", "numbers_version", "complete")
+
+
+def carried_train(result: xr.Dataset) -> TrainScene:
+    """The train that was run. Raises SceneError where its text is no train of this version.
+
+    >>> from pathlib import Path
+    >>> text = Path("demos/gear_trains/idler.toml").read_text()
+    >>> [mesh.name for mesh in carried_train(xr.Dataset(attrs={"scene": text})).meshes]
+    ['idler: gears 1 and 2', 'idler: gears 2 and 3']
+    """
+    text, name, folder = (str(result.attrs.get(each, "")) for each in ("scene", "scene_name", "scene_folder"))
+    return train_from_text(text, name or "train", directory=Path(folder))
+
+
+def mesh_run(result: xr.Dataset, train: TrainScene, number: int) -> xr.Dataset:
+    """The result of one mesh as that of its pair: variables over its own steps, numbers as attributes; without what the
+    mesh does not have.
+
+    >>> from pathlib import Path
+    >>> from fenics_gears import simulate_train
+    >>> coarse = "[accuracy]\\nsteps_per_mesh_cycle = 20\\nflank_element_size = '0.2 mm'"
+    >>> train = train_from_text(Path("demos/gear_trains/idler.toml").read_text() + coarse)
+    >>> mesh_run(simulate_train(train), train, 1)["pair_normal_force"].dims
+    ('time', 'slot')
+    """
+    mesh = train.meshes[number]
+    own = {
+        str(name): (tuple(each for each in variable.dims if each != MESH), _of_mesh(variable, number), variable.attrs)
+        for name, variable in result.variables.items()
+        if "time" not in variable.dims and name != MESH
+    }
+    sizes = _sizes(own)
+    numbers = {each.name: each for each in RESULT_ATTRIBUTES}
+    attributes = {name: values.item() for name, (dims, values, _) in own.items() if name in numbers and not dims}
+    variables = dict(_trimmed(own, sizes, number, len(train.meshes)))
+    prefix = f"{mesh.name}: "
+    warnings = str(result.attrs.get("warnings", "")).splitlines()
+    attributes = {
+        "shown_cycles": mesh.scene.motion.recorded_cycles,
+        **{name: value for name, value in attributes.items() if value and isinstance(value, str) or _is_number(value)},
+        **{name: result.attrs[name] for name in SAID if name in result.attrs},
+        "title": f"{train.title}, {mesh.name}",
+        **scene_attributes(mesh.scene),
+        "warnings": "\n".join(each.removeprefix(prefix) for each in warnings if each.startswith(prefix)),
+    }
+    return xr.Dataset(variables, attrs=attributes).set_coords(
+        [name for name in COORDINATES_OF_PAIRS if name in variables]
+    )
+
+
+def _of_mesh(variable: xr.Variable, number: int) -> np.ndarray:
+    return np.asarray(variable.isel({MESH: number}) if MESH in variable.dims else variable)
+
+
+def _is_number(value: Any) -> bool:
+    return not isinstance(value, str) and bool(np.isfinite(value))
+
+
+def _sizes(own: dict[str, tuple]) -> dict[str, int]:
+    """How far the numbers of a mesh go over each dimension."""
+    sizes: dict[str, int] = {}
+    for dims, values, _ in own.values():
+        if values.dtype.kind != "f" or not dims:
+            continue
+        there = np.nonzero(np.isfinite(values))
+        for name, places in zip(dims, there):
+            sizes[name] = max(sizes.get(name, 0), int(places.max(initial=-1)) + 1)
+    return sizes
+
+
+def _trimmed(own: dict[str, tuple], sizes: dict[str, int], number: int, meshes: int) -> Iterator[tuple[str, tuple]]:
+    """Name, and dimensions, values and labels of each variable that the mesh has, as its pair would have it."""
+    in_plane = not np.isfinite(own[f"face_position{OF_MESH}"][1]).any() if f"face_position{OF_MESH}" in own else True
+    for name, (dims, values, labels) in own.items():
+        values = values[tuple(slice(sizes.get(each)) for each in dims)]
+        if not dims or values.dtype.kind == "f" and not np.isfinite(values).any():
+            continue
+        if in_plane and "face_position" in dims:
+            values = values.take(0, dims.index("face_position"))
+            dims = tuple(each for each in dims if each != "face_position")
+        # Of labels that differ from mesh to mesh there is a list.
+        labels = {each: said[number] if np.shape(said) == (meshes,) else said for each, said in labels.items()}
+        renamed = tuple(OF_PAIRS.get(each, each) for each in dims)
+        yield name.removesuffix(OF_MESH), (renamed, values, labels)

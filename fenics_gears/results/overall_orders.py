@@ -1,0 +1,85 @@
+"""The overall transmission error of a train by its orders: each mesh repeats with its own mesh cycle and reaches the
+last shaft through the ratios behind it. Amplitudes are of the last shaft, rad; order 1 is a turn of the first shaft."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.scene.train import TrainScene
+
+HARMONICS = 10
+
+
+@dataclass(frozen=True, eq=False)
+class CycleOfMesh:
+    """What a mesh adds to the lag of the last shaft: `values` (n,), rad, over one mesh cycle, and its mesh `frequency`,
+    Hz; `order`: mesh cycles in a turn of the first shaft."""
+
+    name: str
+    values: np.ndarray
+    frequency: float
+    order: float
+
+
+@dataclass(frozen=True)
+class OverallOrder:
+    """A harmonic of meshes that have one mesh frequency: their names, place of the first of them in the train,
+    harmonic, order of the first shaft, amplitude."""
+
+    meshes: str
+    place: int
+    harmonic: int
+    order: float
+    frequency: float
+    amplitude: float
+
+
+def cycles_of_meshes(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]:
+    """What each mesh of a result adds to the lag of the last shaft: `name`, `values` (rad) over its mesh cycle, mesh
+    `frequency` (Hz), and `order`, its mesh cycles in a turn of the first shaft.
+
+    >>> from pathlib import Path
+    >>> from fenics_gears import simulate_train, train_from_text
+    >>> coarse = "[accuracy]\\nsteps_per_mesh_cycle = 20\\nflank_element_size = '0.2 mm'"
+    >>> train = train_from_text(Path("demos/gear_trains/idler.toml").read_text() + coarse)
+    >>> [round(each.order, 9) for each in cycles_of_meshes(simulate_train(train), train)]
+    [24.0, 24.0]
+    """
+    found = []
+    behind = train.turns_of_last
+    for number, mesh in enumerate(train.meshes):
+        behind /= mesh.pair.rotation_ratio
+        frequency = mesh.scene.motion.mesh_frequency
+        steps = int(result["steps_per_mesh_cycle"][number])
+        error = result["transmission_error"].isel(mesh=number).values
+        error = error[np.isfinite(error)]
+        found.append(CycleOfMesh(mesh.name, behind * error[-1 - steps : -1], frequency, frequency / train.input_speed))
+    return found
+
+
+def overall_orders(result: xr.Dataset, train: TrainScene) -> list[OverallOrder]:
+    """The first harmonics of each mesh frequency, by their order; of meshes that have the same one, which an idler
+    couples, the sum."""
+    alike: list[list[CycleOfMesh]] = []
+    cycles = cycles_of_meshes(result, train)
+    for each in cycles:
+        known = next((group for group in alike if abs(group[0].order / each.order - 1.0) < 1e-9), None)
+        if known is None:
+            alike.append([each])
+        else:
+            known.append(each)
+    found = []
+    for group in alike:
+        names = ", ".join(each.name for each in group)
+        spectra = [np.fft.rfft(each.values)[1 : HARMONICS + 1] * (2.0 / len(each.values)) for each in group]
+        most = min(map(len, spectra))
+        amplitudes = np.abs(sum(each[:most] for each in spectra))
+        first = group[0]
+        found += [
+            OverallOrder(names, cycles.index(first), n, n * first.order, n * first.frequency, float(amplitude))
+            for n, amplitude in enumerate(amplitudes, 1)
+        ]
+    return sorted(found, key=lambda each: each.order)

@@ -1,0 +1,87 @@
+"""The scene of a mesh of a train, and mistakes in it at their places in the train."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from fenics_gears.errors import GeometryError, SceneError
+from fenics_gears.inputs.problem import NOTHING_DONE, Problem
+from fenics_gears.inputs.problem import Path as Field
+from fenics_gears.inputs.written import as_toml
+
+from .data import Scene
+from .parsing import parsed, values_of
+
+STAGES = "stages"
+ROW_GEARS = "gears"
+
+
+class MistakesOfStage(SceneError):
+    """All that is wrong with a stage, at its places in the train."""
+
+    def __init__(self, problems: list[Problem]):
+        super().__init__("; ".join(each.message for each in problems))
+        self.problems = problems
+
+
+class TrainMistakes(SceneError):
+    """All that is wrong with a train, in words, and as `problems`."""
+
+    def __init__(self, words: str, problems: list[Problem]):
+        super().__init__(words)
+        self.problems = problems
+
+
+def in_stage(stage: str, places: Mapping[str, Field], shared: Collection[str], path: Field) -> Field:
+    """Where a train has what its pair's scene has at a path; `places`: of the gears of a row; `shared`: sections of all
+    stages."""
+    if path[:1] != ("gears",):
+        return path if {*path[:1]} & {"load", *shared} else (STAGES, stage, *path)
+    gear = places.get(path[1], path[1:2]) if len(path) > 1 else ()
+    return (STAGES, stage, *gear, *path[2:])
+
+
+def _placed(problem: Problem, place: Callable[[Field], Field]) -> Problem:
+    """A mistake in a pair's scene at its place in the train."""
+    home = f"[{'.'.join(place(('gears',)))}"
+    return replace(problem, path=place(problem.path), message=problem.message.replace("[gears", home))
+
+
+def pair_scene(
+    sections: Mapping[str, Any], name: str, source: str, folder: Path, place: Callable[[Field], Field]
+) -> Scene:
+    """The scene of one mesh; `place`: where the train has what it has. Raises MistakesOfStage."""
+    text = as_toml(sections)
+    try:
+        values, problems = values_of(parsed(text, source), text, name, folder)
+    except GeometryError as error:
+        raise GeometryError(f"{source}: {error}") from error
+    if values is None:
+        raise MistakesOfStage([_placed(each, place) for each in problems])
+    found = Scene(**values)
+    found.__dict__["text"] = text
+    return found
+
+
+def check_together(scene: Scene, source: str) -> None:
+    """Raise SceneError for a mesh that cannot yet move together with others."""
+    together = "where meshes move together, by idlers, [shafts], [inertia] or [bearings]"
+    if scene.accuracy.target is not None:
+        raise SceneError(
+            f"{source}: accuracy.target is not yet computed {together}. Allowed: settings of [accuracy] there, and a"
+            f" target within stages of two gears by themselves, [stages.NAME.accuracy]. {NOTHING_DONE}"
+        )
+    if not scene.resolves_contact or scene.accuracy.condensation is not None:
+        raise SceneError(
+            f"{source}: rigid teeth, accuracy.model and accuracy.condensation are not yet computed {together}."
+            f" Allowed: elastic teeth, by a material. {NOTHING_DONE}"
+        )
+    bearings = scene.bearings
+    if bearings is not None and (bearings.places is not None or bearings.each is not None):
+        raise SceneError(
+            f"{source}: bearings with places are not yet computed in trains. Allowed: bearings.stiffness, which holds"
+            f" the centre of each gear. {NOTHING_DONE}"
+        )

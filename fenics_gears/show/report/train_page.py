@@ -1,0 +1,143 @@
+"""The report on the run of a train: the train drawn, its power flow, motion and orders of the whole, and each mesh."""
+
+from __future__ import annotations
+
+from math import pi
+from pathlib import Path
+
+import xarray as xr
+
+from fenics_gears.results.mesh_of_train import carried_train, mesh_run
+from fenics_gears.results.overall_orders import overall_orders
+from fenics_gears.results.power_flow import PowerFlow, power_flow
+from fenics_gears.results.summary import result_rows
+from fenics_gears.results.train import train_rows
+from fenics_gears.scene.train import MeshOfScene, TrainScene
+from fenics_gears.system.progress import Progress, SilentProgress
+
+from ..line_load import line_loads
+from ..motion import pair_forces
+from ..panels import digits, factor
+from ..pressure import has_pressure, largest_pressures
+from ..run import ShownRun
+from ..train import drawing_of, errors, orders
+from .face import FACTORS
+from .origin import made_by, scene_section, version_section
+from .overview import warnings
+from .page import Block, Facts, Page, PageSection, Table, Tile, Tiles, Words
+
+MICRO = 1e6
+LISTED_ORDERS = 20
+
+
+def train_page(dataset: xr.Dataset, file: Path, progress: Progress | None = None) -> Page:
+    """The page of a train's run, read from `file`. Raises SceneError where the train in it is none of this version."""
+    progress = progress or SilentProgress()
+    progress.stage("sections")
+    train = carried_train(dataset)
+    flow = power_flow(dataset, train)
+    sections = [
+        _summary(dataset, train, flow), warnings(ShownRun(dataset)), _geometry(train), _power(flow),
+        PageSection("motion", "Transmission error", errors(train, dataset)), _orders(dataset, train),
+    ]  # fmt: skip
+    sections += [_mesh(dataset, train, number) for number in range(len(train.meshes))]
+    sections += [
+        PageSection("numbers", "Numbers", [Facts(train_rows(dataset), "Of the whole and of each mesh")]),
+        version_section(dataset.attrs, file), scene_section(str(dataset.attrs.get("scene", ""))),
+    ]  # fmt: skip
+    title = " ".join(train.title.split()) or file.stem
+    return Page("Gear train: report on a run", title, _conditions(train), sections, made_by())
+
+
+def _conditions(train: TrainScene) -> str:
+    speed = f", {digits(60.0 * train.input_speed)} rpm" if train.speed_given else ""
+    torque = digits(train.input_torque * factor("N mm", "N m"))
+    return f"{torque} N m on the first shaft{speed}, {len(train.meshes)} meshes, quasi-static"
+
+
+def _summary(dataset: xr.Dataset, train: TrainScene, flow: PowerFlow) -> PageSection:
+    said = dataset.attrs
+    tiles = [
+        Tile(f"Overall transmission error, {words}", digits(MICRO * said[f"{name}_overall_transmission_error"]), "µrad")
+        for name, words in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
+    ]
+    tiles.append(Tile("Ratio", digits(train.ratio), "", "turns of the first shaft in one of the last"))
+    for words, torque in (("first", train.input_torque), ("last", train.output_torque)):
+        value = digits(torque * factor("N mm", "N m"))
+        tiles.append(Tile(f"Torque on the {words} shaft", value, "N m", "without losses" if words == "first" else ""))
+    if "friction_loss" in said:
+        tiles.append(Tile("Efficiency", f"{100.0 * flow.efficiency:.4g}", "%", "of all meshes, by their friction"))
+    return PageSection("summary", "Summary", [Tiles(tiles)])
+
+
+def _geometry(train: TrainScene) -> PageSection:
+    headings = (
+        "Mesh", "Teeth", "Module (mm)", "Helix angle (°)", "Centre distance (mm)", "Direction (°)", "Contact ratio",
+    )  # fmt: skip
+    rows = [_of_mesh(each) for each in train.meshes]
+    note = Words("Direction: of the wheel's centre from the pinion's. Contact ratio: with overlap.")
+    return PageSection("geometry", "Gears", [drawing_of(train), Table(headings, rows), note])
+
+
+def _of_mesh(mesh: MeshOfScene) -> tuple[str, ...]:
+    pair = mesh.pair
+    gears = mesh.scene.gears
+    return (
+        mesh.name, f"{pair.pinion.teeth} / {pair.wheel.teeth}", f"{gears.module:g}",
+        f"{gears.helix_angle * factor('rad', 'deg'):g}", f"{pair.centre_distance:.6g}",
+        f"{180.0 / pi * mesh.direction:.4g}", f"{pair.total_contact_ratio:.4g}",
+    )  # fmt: skip
+
+
+def _power(flow: PowerFlow) -> PageSection:
+    rows = [
+        (
+            f"shaft {number}",
+            "counter-clockwise" if number % 2 else "clockwise",
+            digits(each.torque * factor("N mm", "N m")),
+            *((digits(60.0 * each.speed), digits(1e-6 * each.power)) if flow.speed_given else ()),
+        )
+        for number, each in enumerate(flow.shafts, 1)
+    ]
+    of_speed = ("Speed (rpm)", "Power (kW)") if flow.speed_given else ()
+    headings = ("Shaft", "Turns", "Torque (N m)", *of_speed)
+    blocks: list[Block] = [Table(headings, rows, "Shafts, the first one driven", numbers=2)]
+    if not flow.speed_given:
+        blocks.append(Words("The scene has no speed (`motion.input_speed`), and so no power."))
+    lost = [(each.name, f"{100.0 * each.efficiency:.4g}") for each in flow.meshes]
+    if lost:
+        blocks.append(Table(("Mesh", "Efficiency (%)"), lost, "Friction in the meshes"))
+        blocks.append(
+            Words("The last shaft has the torque of the load. Before each mesh the torque is higher by what it loses.")
+        )
+    return PageSection("power", "Power flow", blocks)
+
+
+def _orders(dataset: xr.Dataset, train: TrainScene) -> PageSection:
+    found = sorted(overall_orders(dataset, train), key=lambda each: -each.amplitude)[:LISTED_ORDERS]
+    rows = [
+        (
+            each.meshes, f"{each.harmonic}", f"{each.order:.5g}", digits(MICRO * each.amplitude),
+            *((digits(each.frequency),) if train.speed_given else ()),
+        )
+        for each in found
+    ]  # fmt: skip
+    of_speed = ("Frequency (Hz)",) if train.speed_given else ()
+    headings = ("Mesh", "Harmonic", "Order of the first shaft", "Amplitude (µrad)", *of_speed)
+    chart = orders(train, dataset)
+    return PageSection("orders", "Orders of the overall transmission error", [chart, Table(headings, rows)])
+
+
+def _mesh(dataset: xr.Dataset, train: TrainScene, number: int) -> PageSection:
+    """What a mesh has as a pair: shares of its tooth pairs, pressure, line load over the face."""
+    run = ShownRun(mesh_run(dataset, train, number))
+    charts = list(pair_forces(run))[:1]
+    charts += largest_pressures(run) if has_pressure(run) else []
+    said: list[Block] = []
+    if run.over_face:
+        charts += line_loads(run)
+        attributes = run.dataset.attrs
+        said = [Words(words.format(attributes[name])) for name, words in FACTORS.items() if name in attributes]
+    rows = result_rows(run.dataset)
+    name = train.meshes[number].name
+    return PageSection(f"mesh-{number + 1}", f"Mesh: {name}", [*charts, *said, Facts(rows, f"Of mesh {name}")])

@@ -1,0 +1,158 @@
+"""Studies of trains: what they compute, keep and show."""
+
+import functools
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.programs import gears
+from tests.studies.conftest import stamps
+from tests.trains import COARSE, stage
+
+from fenics_gears import SceneError, load, load_train, simulate_train
+from fenics_gears.commands.cli import main
+from fenics_gears.runs import runs
+from fenics_gears.runs.condensing import gear_tasks
+from fenics_gears.runs.gear_store import GearStore
+from fenics_gears.runs.run import scene_key
+from fenics_gears.simulation import train as train_simulation
+from fenics_gears.studies.combine import load_combined
+from fenics_gears.studies.study_file import load_study
+
+SWEEP = """
+scene = "gearbox.toml"
+[sweep]
+stages.second.pinion.profile_shift = [0.0, 0.2]
+load.input_torque = ["100 N m", "200 N m"]
+"""
+
+
+@pytest.fixture
+def gearbox(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = f"{stage('first', 2.0, (20, 30))}{stage('second', 3.0, (20, 40))}\n"
+    Path("gearbox.toml").write_text(f'{text}[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n')
+    Path("study.toml").write_text(SWEEP)
+    return tmp_path
+
+
+def study_of(text: str, name: str = "other.toml"):
+    Path(name).write_text(text)
+    return load_study(name)
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_every_case_is_what_a_run_of_its_train_gives(gearbox, capsys):
+    """Exact identity with a run of each train alone: of the whole and of each mesh; and a study that is run again
+    computes nothing."""
+    assert main(["study", "study.toml", "--quiet"]) == 0
+    combined = load_combined(gearbox / "results/study/study.nc")
+    assert combined.sizes == {
+        "profile_shift": 2,
+        "input_torque": 2,
+        "mesh": 2,
+        "mesh_phase": combined.sizes["mesh_phase"],
+    }
+    for case in load_study("study.toml").cases:
+        alone = simulate_train(case.model)
+        row = combined.isel(profile_shift=case.index // 2, input_torque=case.index % 2)
+        for name in ("peak_to_peak_overall_transmission_error", "mean_overall_transmission_error"):
+            assert float(row[name]) == alone.attrs[name]
+        for name in ("peak_to_peak_transmission_error", "peak_contact_pressure", "largest_pair_force"):
+            assert np.array_equal(row[name].values, alone[name].values)
+        assert np.array_equal(row["overall_transmission_error"].values, alone["overall_transmission_error"].values)
+        kept = load(gearbox / "results/study" / str(row["case_file"].values))
+        assert np.array_equal(kept["pair_normal_force"], alone["pair_normal_force"], equal_nan=True)
+    before = stamps(gearbox / "results/study")
+    assert main(["study", "study.toml"]) == 0
+    said = capsys.readouterr()
+    assert "4 kept, 0 to be computed" in said.err
+    assert "overall transmission error, peak to peak" in said.out
+    assert stamps(gearbox / "results/study") == before
+
+
+def test_gears_that_cases_share_are_condensed_once(gearbox):
+    """Four cases of four gears each, which differ in two of them: a pinion's shift changes its wheel's tip too."""
+    assert len(gear_tasks(study_of(SWEEP.replace("200 N m", "101 N m")).cases)) == 6
+
+
+def test_a_row_is_condensed_idler_and_all(gearbox):
+    """Three gears of a row, whatever their directions and torques."""
+    Path("row.toml").write_text(
+        '[stages.row]\nkind = "row"\nmodule = "3 mm"\npressure_angle = "20 deg"\nface_width = "30 mm"\n'
+        + "gears = [{}]".format(
+            ", ".join(f'{{ teeth = {each}, profile_shift = 0, bore_diameter = "30 mm" }}' for each in (20, 24, 30))
+        )
+        + f'\nmaterial = "steel"\n[load]\noutput_torque = "100 N m"\n[accuracy]\n{COARSE}\n'
+    )
+    text = 'scene = "row.toml"\n[sweep]\nstages.row.gears.2.profile_shift = [0, 0.1]\n'
+    shifted = study_of(text)
+    assert [case.model.models[0].pair.wheel.profile_shift for case in shifted.cases] == [0.0, 0.1]
+    turned = study_of(
+        text.replace("gears.2.profile_shift = [0, 0.1]", 'directions = [["0 deg", "60 deg"], ["0 deg", "61 deg"]]')
+    )
+    assert [task.name for task in gear_tasks(turned.cases[:1])] == ["pinion", "wheel", "idler of row: gears 1 and 2"]
+    assert turned.axes[0].coordinate()[0] == '["0 deg", "60 deg"]'
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_rows_with_other_friction_share_their_contact_equations(gearbox, monkeypatch):
+    """They are made once, and every case is what a run of its train alone gives."""
+    made = []
+    row_cycle = train_simulation.row_cycle
+    monkeypatch.setattr(train_simulation, "row_cycle", lambda *given: made.append(given) or row_cycle(*given))
+    monkeypatch.setattr(runs, "own_gear_store", functools.lru_cache(GearStore))
+    gear = '{{ teeth = {}, profile_shift = 0, bore_diameter = "30 mm" }}'.format
+    text = '[stages.row]\nkind = "row"\nmodule = "3 mm"\npressure_angle = "20 deg"\nface_width = "30 mm"\n'
+    text += f'gears = [{gear(20)}, {gear(24)}, {gear(30)}]\nmaterial = "steel"\n'
+    Path("row.toml").write_text(f'{text}[load]\noutput_torque = "100 N m"\n[accuracy]\n{COARSE}\n')
+    Path("study.toml").write_text('scene = "row.toml"\n[sweep]\nfriction.coefficient = [0.05, 0.1]\n')
+    assert main(["study", "study.toml", "--quiet"]) == 0
+    assert len(made) == 1
+    combined = load_combined(gearbox / "results/study/study.nc")
+    for case in load_study("study.toml").cases:
+        alone = simulate_train(case.model)
+        found = combined["overall_transmission_error"].isel(coefficient=case.index)
+        assert found.values == pytest.approx(alone["overall_transmission_error"].values, rel=1e-12)
+
+
+def test_the_key_is_of_what_a_train_computes(gearbox):
+    """Words change nothing; a direction of an idler does, since phases follow from it."""
+    train = load_train("gearbox.toml")
+    text = Path("gearbox.toml").read_text()
+    Path("named.toml").write_text(f'title = "Another"\n{text}')
+    assert scene_key(load_train("named.toml")) == scene_key(train)
+    Path("loaded.toml").write_text(text.replace("400 N m", "401 N m"))
+    assert scene_key(load_train("loaded.toml")) != scene_key(train)
+
+
+@pytest.mark.parametrize(
+    ("swept", "said"),
+    [
+        ("stages.frist.wheel.profile_shift = [0, 0.1]", 'has the stages first, second. Did you mean "first"?'),
+        ("stages.first.wheel.profile_shft = [0, 0.1]", 'Did you mean "stages.first.wheel.profile_shift"?'),
+        ('load.wheel_torque = ["1 N m", "2 N m"]', "Known: output_torque, input_torque, power"),
+        ("stages.first.wheel.profile_shift = [0, 9]", "profile_shift = 9\n    is too large"),
+    ],
+)
+def test_a_mistake_says_what_it_is(gearbox, swept, said):
+    """Before anything is computed, at its line of the study."""
+    with pytest.raises(SceneError) as refused:
+        study_of(f'scene = "gearbox.toml"\n[sweep]\n{swept}\n')
+    assert said in str(refused.value)
+    assert str(refused.value).startswith("other.toml:3: ")
+
+
+@pytest.mark.ranks
+@pytest.mark.nightly
+def test_two_processes_give_what_one_gives(gearbox):
+    """Pictures and page too, which take longer than the runs."""
+    assert main(["study", "study.toml", "--quiet", "-o", "alone"]) == 0
+    together = gears(gearbox, "study", "study.toml", "-o", "both", ranks=2)
+    assert together.returncode == 0, together.stderr
+    alone, both = (load_combined(Path(each, "study.nc")) for each in ("alone", "both"))
+    varying = ["wall_time", "newton_iterations"]
+    assert alone.drop_vars(varying).equals(both.drop_vars(varying))
+    assert Path("both/peak_to_peak_overall_transmission_error.png").is_file()
+    assert main(["report", "both"]) == 0
+    assert "Gear train: report on a study" in Path("both/report.html").read_text()
