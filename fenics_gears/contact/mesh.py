@@ -95,9 +95,7 @@ def flank_nodes(
     """The contact nodes of elastic flanks at those places whose window is not empty; `corner`: with tip edges."""
     if corner is None:
         return tooth_pairs(flanks, grid, places)
-    from .corner import corner_pairs
-
-    return corner_pairs(flanks, grid, corner, places)
+    return corner.pairs(flanks, grid, places)
 
 
 def elastic_mesh(

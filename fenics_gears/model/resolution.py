@@ -9,7 +9,7 @@ of action, the time step from the mesh cycle and the drivetrain's frequencies.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from math import ceil, pi, sqrt
+from math import ceil, floor, log, pi, sqrt
 
 import numpy as np
 
@@ -32,7 +32,6 @@ from fenics_gears.scene.accuracy import (
 from fenics_gears.scene.data import ISO_6336, Material, Scene
 
 from .drivetrain import line_load, mesh_stiffness
-from .face_resolution import in_steps, inner_length
 from .modification import steepest_relief
 
 DEFAULT_ELEMENT = "P2"
@@ -137,6 +136,8 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain, removal: tuple
     condensation = asked.condensation or ONCE
     inner = None
     if scene.three_dimensional:
+        from .face_resolution import inner_length
+
         modulus = plane_contact_modulus(scene)
         half_width_of = partial(hertz_half_width, relative_radius=_widest(pair), plane_modulus=modulus)
         needed = inner_length(scene, pair, load, half_width_of) + 2.0 * shift + 2.0 * spacing
@@ -154,6 +155,20 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain, removal: tuple
         elastic_teeth=asked.elastic_teeth,
         mate_tips=mate_tips(pair) if condensation == ONCE else (None, None),
     )
+
+
+# Windows differ by this factor, so that loads and designs that are near to each other have the same contact nodes.
+WINDOW_STEP = 2.0**0.25
+
+
+def in_steps(wanted: float, whole: float) -> float:
+    """The shortest of a row of lengths (mm) that is as long as `wanted`: the `whole` one, and each shorter by
+    WINDOW_STEP.
+
+    >>> in_steps(0.9, 1.0), round(in_steps(0.8, 1.0), 3)
+    (1.0, 0.841)
+    """
+    return whole * WINDOW_STEP ** -max(floor(log(whole / wanted, WINDOW_STEP)), 0)
 
 
 def _flank_element_size(scene: Scene, half_width: float) -> float:

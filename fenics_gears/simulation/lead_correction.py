@@ -33,6 +33,7 @@ from fenics_gears.dynamics.batch import Batch
 from fenics_gears.dynamics.march import Marcher, thread_pools
 from fenics_gears.dynamics.marched import BetweenSteps
 from fenics_gears.dynamics.steps import Record
+from fenics_gears.errors import attempted
 from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
 from fenics_gears.model.model import Model
 from fenics_gears.results.dataset import RunResult
@@ -40,6 +41,7 @@ from fenics_gears.results.face_ends import inner_widths, windows
 from fenics_gears.results.load_factors import face_load_factor, mean_line_load
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Scene
+from fenics_gears.system.progress import Progress
 
 from .dynamic_factor import at_rest, quasi_static
 from .elastic_route import gaps_apart, gaps_of
@@ -87,15 +89,21 @@ def wanted(model: Model) -> bool:
     )
 
 
-def add_proposal(dataset: xr.Dataset, recorder: Recorder) -> None:
-    found = proposed(recorder)
-    if found is None:
+def add_proposal(dataset: xr.Dataset, recorder: Recorder, progress: Progress) -> None:
+    """Add the proposal for a run to its dataset, where one is wanted and there is one."""
+    if wanted(recorder.model):
+        progress.stage("propose lead modifications")
+        attempted(dataset.attrs, "proposal of lead modifications", lambda: _add(dataset, proposed(recorder)))
+
+
+def _add(dataset: xr.Dataset, proposal: Proposal | None) -> None:
+    if proposal is None:
         return
     for name in ("helix_slope", "crowning"):
-        dataset.attrs[f"proposed_{name}"] = getattr(found, name) / MICROMETRE
-    dataset.attrs["proposed_face_load_factor"] = found.face_load_factor
+        dataset.attrs[f"proposed_{name}"] = getattr(proposal, name) / MICROMETRE
+    dataset.attrs["proposed_face_load_factor"] = proposal.face_load_factor
     words = "line load of all tooth pairs, mean over the mesh cycle, with the proposed lead modifications"
-    dataset["proposed_line_load"] = "face_position", found.line_load, {"units": "N/mm", "long_name": words}
+    dataset["proposed_line_load"] = "face_position", proposal.line_load, {"units": "N/mm", "long_name": words}
 
 
 def proposed(recorder: Recorder) -> Proposal | None:
