@@ -61,7 +61,7 @@ def face_places(
     # A slice that is a whole mesh cycle ahead has the next pair where the middle has this one.
     indices = (candidates - passed[:, None]).astype(int)
     heights = face.positions.tolist()
-    found = []
+    places = []
     kinds = (DRIVE, drive_place, contact_roll_angles), (COAST, coast_place, coast_roll_angles)
     for flank, place_of, rolls_of in kinds[: 1 + coast_flanks]:
         rolls = np.array(rolls_of(pair, xi))
@@ -74,11 +74,11 @@ def face_places(
         # By pair, then slice.
         order = np.lexsort((slices, indices[touches]))
         each = zip(indices[touches][order].tolist(), slices[order].tolist(), rolls[:, touches].T[order].tolist())
-        found += [
+        places += [
             Place(index, flank, tuple(both), same.axes, same.turn, slice=number, height=heights[number])
             for index, number, both in each
         ]
-    return found
+    return places
 
 
 def _with_edges(pair: GearPair, grid: ContactGrid, corner: CornerContact, place_of, xi: np.ndarray) -> np.ndarray:
@@ -163,11 +163,13 @@ def touching_at(places_at: Callable[[int], Iterable[Place]], steps: int, coast_f
 
     def ends(flank: int) -> tuple[int, int] | None:
         looked_at = range(0, steps, max(1, steps // LOOKED_AT))
-        found = [step + place.index * steps for step in looked_at for place in places_at(step) if place.flank == flank]
-        if not found:
+        positions = [
+            step + place.index * steps for step in looked_at for place in places_at(step) if place.flank == flank
+        ]
+        if not positions:
             return None
-        return _end(lambda position: touches(position, flank), min(found), -1, steps), _end(
-            lambda position: touches(position, flank), max(found), 1, steps
+        return _end(lambda position: touches(position, flank), min(positions), -1, steps), _end(
+            lambda position: touches(position, flank), max(positions), 1, steps
         )
 
     return Touching(steps, ends(DRIVE), ends(COAST) if coast_flanks else None)

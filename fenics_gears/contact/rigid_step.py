@@ -66,12 +66,12 @@ def rigid_step(equations, sides, iterate, method):
 @njit(cache=True)
 def _leaders(gap, on_drive_flanks):
     """The node with the smallest gap of the drive and of the coast flanks, as far as there are such nodes."""
-    found = np.full(2, -1)
+    nodes = np.full(2, -1)
     for node in range(len(gap)):
         side = 0 if on_drive_flanks[node] else 1
-        if found[side] < 0 or gap[node] < gap[found[side]]:
-            found[side] = node
-    return found[found >= 0]
+        if nodes[side] < 0 or gap[node] < gap[nodes[side]]:
+            nodes[side] = node
+    return nodes[nodes >= 0]
 
 
 @njit(cache=True)

@@ -128,10 +128,10 @@ def put_modes(coordinates, load, modes):
 
 def with_modes(coordinates, load, modes):
     """All coordinates (k,), of the others (c,) under the load (k,) on all."""
-    found = np.zeros_like(load)
-    found[: len(coordinates)] = coordinates
-    put_modes(found, load, modes)
-    return found
+    whole = np.zeros_like(load)
+    whole[: len(coordinates)] = coordinates
+    put_modes(whole, load, modes)
+    return whole
 
 
 _eliminated, _left_load, _put_modes = (njit(cache=True)(each) for each in (eliminated, left_load, put_modes))

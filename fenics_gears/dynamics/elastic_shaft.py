@@ -104,9 +104,9 @@ class Line:
             bent, heavy = (properties(of, self.material, ends, MASS_POINTS) for of in (self.sections, self.heavy))
             weights = np.zeros((len(kinds), 12, 12))
             weights[long] = masses(bent, heavy, ends, self.density / self.material[0])
-        found = beams(self.name, range(len(places)), places, light, weights if self.density else ())
-        outside = tuple(each for each, own in zip(found, kinds) if not own)
-        inside = tuple(each for each, own in zip(found, kinds) if own)
+        pieces = beams(self.name, range(len(places)), places, light, weights if self.density else ())
+        outside = tuple(each for each, own in zip(pieces, kinds) if not own)
+        inside = tuple(each for each, own in zip(pieces, kinds) if own)
         return Chain(places, faces, outside, inside)
 
 
@@ -260,8 +260,8 @@ def in_series(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """
     size = np.sqrt(np.diag(first) + np.diag(second))
     size = np.outer(*2 * [np.where(size > 0.0, size, 1.0)])
-    found = first @ (np.linalg.pinv((first + second) / size, hermitian=True) / size) @ second
-    return 0.5 * (found + found.T)
+    both = first @ (np.linalg.pinv((first + second) / size, hermitian=True) / size) @ second
+    return 0.5 * (both + both.T)
 
 
 def free_motions(shafts: Sequence[ElasticShaft], springs: np.ndarray) -> dict[str, list[str]]:

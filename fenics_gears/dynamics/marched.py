@@ -135,9 +135,9 @@ class BetweenSteps:
         friction = self._batch.common.friction
         lasts = []
         if friction:
-            found = {each: last for each in places if (last := self._record_before(*each)) is not None}
-            places = list(found)
-            lasts = list(found.values())
+            before = {each: last for each in places if (last := self._record_before(*each)) is not None}
+            places = list(before)
+            lasts = list(before.values())
         if not places:
             return
         block = self._batch.between(places, lasts)

@@ -78,12 +78,12 @@ class Scheme:
 def average_history(step, mass, damping):
     """What position, velocity and acceleration at the start of a step add to its load: matrices (3, k, k); the first is
     also what inertia and damping add to the stiffness."""
-    found = np.empty((3, *mass.shape))
+    matrices = np.empty((3, *mass.shape))
     for i, j in np.ndindex(mass.shape):
-        found[0, i, j] = 4.0 / (step * step) * mass[i, j] + 2.0 / step * damping[i, j]
-        found[1, i, j] = 4.0 / step * mass[i, j] + damping[i, j]
-        found[2, i, j] = mass[i, j]
-    return found
+        matrices[0, i, j] = 4.0 / (step * step) * mass[i, j] + 2.0 / step * damping[i, j]
+        matrices[1, i, j] = 4.0 / step * mass[i, j] + damping[i, j]
+        matrices[2, i, j] = mass[i, j]
+    return matrices
 
 
 @njit(cache=True)
@@ -101,11 +101,11 @@ def average_advanced(step, before, position):
 @njit(cache=True)
 def backward_history(step, mass, damping):
     """As `average_history`."""
-    found = np.zeros((3, *mass.shape))
+    matrices = np.zeros((3, *mass.shape))
     for i, j in np.ndindex(mass.shape):
-        found[0, i, j] = mass[i, j] / (step * step) + damping[i, j] / step
-        found[1, i, j] = mass[i, j] / step
-    return found
+        matrices[0, i, j] = mass[i, j] / (step * step) + damping[i, j] / step
+        matrices[1, i, j] = mass[i, j] / step
+    return matrices
 
 
 @njit(cache=True)

@@ -1,4 +1,5 @@
-"""Expected time and memory of a run, and settings that fit: operations are counted, their times measured on one machine.
+"""Expected time and memory of a run, and settings that fit: operations are counted, their times were measured on one
+machine.
 
 Seconds are those of one core of the reference machine (Intel Xeon of 2023, 2 cores, Debian 12's OpenBLAS, one thread);
 machines differ by a factor of two. `python -m tests.benchmarks.expected_cost` prints what is expected beside what is

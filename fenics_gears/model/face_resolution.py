@@ -129,15 +129,15 @@ def check_layers(model: Model) -> None:
 def face_warnings(model: Model) -> list[str]:
     """Sentences where too few slices carry the load."""
     slices = model.face.evenly
-    found = []
+    sentences = []
     part = loaded_part(model)
     if part < 1.0 and part * slices < FEWEST_LOADED_SLICES:
-        found.append(
+        sentences.append(
             f"accuracy.slices = {slices}: about {part:.2g} of the face carries under this load, {part * slices:.2g}"
             " slices of it; pairs that carry on less than a slice are missed. Take accuracy.slices ="
             f" {ceil(FEWEST_LOADED_SLICES / part)}"
         )
-    return found
+    return sentences
 
 
 def loaded_part(model: Model) -> float:

@@ -161,32 +161,32 @@ class Model:
     def time_scales(self) -> TimeScales:
         """How mesh frequency and time step compare with the drivetrain's vibrations."""
         elastic = np.array([vibration.frequency for vibration in self.vibrations])
-        found = time_scales(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
+        scales = time_scales(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
         if self.scene.tooth_elasticity is not None or self.drivetrain.mass is None:
-            return found
+            return scales
         # Above its drivetrain's vibrations a pair with rigid flanks still moves as its geometry says.
-        return replace(found, impulsive=True, outruns_vibration=False)
+        return replace(scales, impulsive=True, outruns_vibration=False)
 
     @property
     def warnings(self) -> list[str]:
         """Sentences for the user before the run."""
-        found = [*self._of_a_part(), *self._without_fields()]
-        found += [each.unusual for each in self.scene.derived if each.unusual]
-        found += [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
-        found += [*locking_warnings(self.resolution, self.scene.gears.materials), *rim_warnings(self)]
-        for sentences in from_effects(self.scene, "warnings", self):
-            found += sentences
+        sentences = [*self._of_a_part(), *self._without_fields()]
+        sentences += [each.unusual for each in self.scene.derived if each.unusual]
+        sentences += [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
+        sentences += [*locking_warnings(self.resolution, self.scene.gears.materials), *rim_warnings(self)]
+        for of_effect in from_effects(self.scene, "warnings", self):
+            sentences += of_effect
         if self.scene.three_dimensional:
-            found += _over_face().face_warnings(self)
+            sentences += _over_face().face_warnings(self)
         if self.corner is not None:
-            found += self.corner.warnings(self.pair)
+            sentences += self.corner.warnings(self.pair)
         if self.vibrations:
             from fenics_gears.dynamics.guidance import judged_frequency, time_step_warnings
 
             steps = self.resolution.steps_per_mesh_cycle
             judged = judged_frequency(self.vibrations, self.scene.mesh_frequencies)
-            found += time_step_warnings(self.vibrations, judged, steps, self.time_scales, self.time_step)
-        return found
+            sentences += time_step_warnings(self.vibrations, judged, steps, self.time_scales, self.time_step)
+        return sentences
 
     def _of_a_part(self) -> list[str]:
         period = common_period(self.scene)

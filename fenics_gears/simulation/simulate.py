@@ -158,8 +158,8 @@ def _add_dynamic_factors(result: RunResult, progress: Progress) -> None:
         return
     if dynamic_factor.wanted(recorder.model.scene):
         progress.stage("quasi-static run")
-        found = attempted(result.attrs, "dynamic factor", lambda: dynamic_factor.dynamic_factors(recorder, result))
-        result.attrs.update(found or {})
+        factors = attempted(result.attrs, "dynamic factor", lambda: dynamic_factor.dynamic_factors(recorder, result))
+        result.attrs.update(factors or {})
 
 
 def with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:

@@ -110,7 +110,7 @@ def test_the_surface_beside_a_web_encloses_its_body():
     a, b, c = np.moveaxis(gear.points.reshape(-1, 3)[surface(gear.points, gear)], 1, 0)
     along, across = (nodes.points[nodes.cells[:, corner]] - nodes.points[nodes.cells[:, 0]] for corner in (1, 2))
     area = 0.5 * np.cross(along, across)
-    layers = [area.sum() if within else area[sweep.web.beside(nodes.middles)].sum() for within in in_web]
+    layers = [area.sum() if within else area[sweep.web.outside(nodes.middles)].sum() for within in in_web]
     volume = len(teeth) * (layers @ sweep.thicknesses)
     assert np.einsum("ki,ki->", a, np.cross(b, c)) / 6.0 == pytest.approx(volume, rel=1e-12)
     assert len(wedges(gear)) == len(teeth) * (len(nodes.cells) + len(beside[0].cells))
