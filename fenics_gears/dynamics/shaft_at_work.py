@@ -136,7 +136,7 @@ def _balanced(system: ShaftSystem, load: np.ndarray) -> np.ndarray:
     count = len(flexibility)
     scale = np.tile([1.0, 1.0, 1.0, 1.0 / ARM, 1.0 / ARM], (count + len(load)) // MOTIONS)
     start = np.linalg.solve(system.gear_stiffness, load)
-    # A place beside the seat does not yield: there it does as little as does not count.
+    # A bearing at the seat itself does not yield, so that its flexibility has no inverse; so little changes nothing.
     beam = np.linalg.inv(flexibility + np.diag(YIELDING * scale[:count] ** 2))
     bent = np.hstack([np.eye(count), -rigid])
     of_beam = bent.T @ beam @ bent

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 
     from .bearings import Bearing
 
-# mm/N that a place moves at least whose motions are coordinates: beside the seat it does as little as does not count.
+# Flexibility, mm/N, between a rolling bearing and the end of a seat at the same place: none would have no inverse, and
+# so little changes nothing.
 LEAST_YIELDING = 1e-12
 # N/mm of a rolling bearing in a housing, whose own motions are coordinates.
 RIGID = 1e6 * STIFFNESS
