@@ -32,13 +32,13 @@ NO_FLANK = -1
 class Entries(NamedTuple):
     """Where a compliance between all contact nodes has those of two flanks: the first `row`, of the loaded flank's
     normal forces, and the one of tangential forces `rows` below; the first `column`, and the one of the next direction
-    `columns` on. `count`: contact nodes of the flank that responds."""
+    `columns` on. `responding`: how many contact nodes of the flank that responds."""
 
     row: int
     rows: int
     column: int
     columns: int
-    count: int
+    responding: int
 
 
 @njit(cache=True)
