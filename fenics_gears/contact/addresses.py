@@ -232,5 +232,5 @@ def row_of(nodes: int, arrays: Sequence[np.ndarray | int | None]) -> tuple[np.nd
     """
     held = [np.ascontiguousarray(array) for array in arrays if isinstance(array, np.ndarray)]
     pieces = iter(held)
-    found = [next(pieces).ctypes.data if isinstance(each, np.ndarray) else each or 0 for each in arrays]
-    return np.array([nodes, *found], dtype=np.int64), held
+    numbers = [next(pieces).ctypes.data if isinstance(each, np.ndarray) else each or 0 for each in arrays]
+    return np.array([nodes, *numbers], dtype=np.int64), held

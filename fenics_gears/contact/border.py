@@ -129,8 +129,8 @@ def put_equations(equations, changes, rows_then, slip_then, compliance, unit):
 
 
 @njit(cache=True)
-def put_changes(matrix, found, changes, system, products):
-    """Put equations of changes, the first of all, into a `matrix` (c + k, c + k), right side `found`, of y and of the
+def put_changes(matrix, right_side, changes, system, products):
+    """Put equations of changes, the first of all, into a `matrix` (c + k, c + k), the `right_side`, of y and of the
     coordinates q: what is left where x is eliminated.
 
     `system`: as of `factored_compliance`; `products`: of G~ of forces (k, .) and of D (c, .) with A^-1 G, A^-1 g and
@@ -140,7 +140,7 @@ def put_changes(matrix, found, changes, system, products):
     n, count, k = len(compliance) // 2, len(changes.places), len(by_forces)
     for i in range(count):
         place, part, row = changes.places[i], changes.parts[i], changes.places[i, ROW]
-        found[i] = by_changes[i, k] - (system.opening[place[AT]] if row >= 0 else 0.0)
+        right_side[i] = by_changes[i, k] - (system.opening[place[AT]] if row >= 0 else 0.0)
         for other in range(count):
             matrix[i, other] = _entry(changes, i, other, compliance, unit) - by_changes[i, k + 1 + other]
         for c in range(k):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import carray, njit
 
@@ -25,6 +27,18 @@ COMPLIANCE, NODES = 0, 2
 NEAR, WIDTH, FIRST, COUNT = range(4)
 POSITION, BLOCK, SIZE, COLUMNS, OWN, LOADED, OWN_PLACE, LOADED_PLACE = 0, 1, 2, 3, 4, 5, 7, 8
 NO_FLANK = -1
+
+
+class Entries(NamedTuple):
+    """Where a compliance between all contact nodes has those of two flanks: the first `row`, of the loaded flank's
+    normal forces, and the one of tangential forces `rows` below; the first `column`, and the one of the next direction
+    `columns` on. `responding`: how many contact nodes of the flank that responds."""
+
+    row: int
+    rows: int
+    column: int
+    columns: int
+    responding: int
 
 
 @njit(cache=True)
@@ -55,9 +69,9 @@ def compliance_products(tables, near, first, axes, responding):
                 rows = along[kinds * n :] if before else along[: kinds * n]
                 shape = kinds * nodes, len(rows) // n * position[NODES]
                 result = carray(to_number(position[COMPLIANCE + before]), shape)
-                places = product[LOADED_PLACE + before], nodes, product[OWN_PLACE], position[NODES]
-                half = not before and places[0] == places[2]
-                _at_nodes(result, rows, (places, n, start, half), (flanks[loaded], near, first), axes[loaded])
+                entries = Entries(product[LOADED_PLACE + before], nodes, product[OWN_PLACE], position[NODES], n)
+                half = not before and entries.row == entries.column
+                _at_nodes(result, rows, entries, (flanks[loaded], near, first), axes[loaded], start, half)
     for position in positions:
         size = kinds * position[NODES]
         _mirror(carray(to_number(position[COMPLIANCE]), (size, size)), kinds)
@@ -90,14 +104,14 @@ def _put_along(along, sums, of, near, first, directions):
 
 
 @njit(cache=True)
-def _at_nodes(result, along, of, loaded, axes):
-    """Add what forces on the contact nodes of a `loaded` flank displace to the rows of these forces in `result`.
+def _at_nodes(result, along, entries, loaded, axes, start, half):
+    """Add what forces along `axes` (e, 2) on the contact nodes of a `loaded` flank displace to these entries of
+    `result`.
 
-    `of`: the first row, that of the next kind after so many, and the same of columns; how many nodes n `along` has of
-    each direction, the flank node it begins with; and whether those before the loaded node are left out. `axes` (e, 2):
-    of forces.
+    `along` (d n, 2 k): by forces on flank nodes from `start` on. `half`: responding nodes before the loaded one are
+    left out.
     """
-    (row, rows, column, columns), n, start, half = of
+    row, rows, column, columns, n = entries
     flank, near, first = loaded
     kinds, forces, values = len(along) // n, along.shape[1], along.reshape(-1)
     for node in range(flank[COUNT]):
@@ -159,7 +173,7 @@ def _put_both(total, a, one, b, other):
 @njit(cache=True)
 def _weighted_by_turns(weights, values, first):
     """Sums of the weights times every second value from the `first` on, and times those between."""
-    # Two weights at a time, which do not wait for each other; unsigned places are not looked at for a negative index.
+    # Two weights at a time, which do not wait for each other; uint64 avoids numba's wraparound check.
     a, b, c, d = 0.0, 0.0, 0.0, 0.0
     one, two, three, four = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
     at, k, size = np.uint64(first), np.uint64(0), np.uint64(len(weights))
@@ -176,8 +190,8 @@ def _weighted_by_turns(weights, values, first):
 @njit(cache=True)
 def add_multiple(total, weight, values, first):
     """Add weight times the values from `first` on."""
-    # A function of its own, and unsigned places (no look for a negative index): so the loop is compiled for several
-    # numbers at a time.
+    # uint64 avoids numba's wraparound check, in a function of its own: so the loop is compiled for several numbers at a
+    # time.
     first = np.uint64(first)
     for i in range(len(total)):
         total[i] += weight * values[first + np.uint64(i)]

@@ -46,6 +46,61 @@ class CornerContact:
                 return gear, edge
         return None
 
+    def ends(self, pair: GearPair, place: Place) -> Ends:
+        """Offsets (mm) from the place's line where the flanks end, as of `window.flank_ends`; tips at the far end of
+        their edge."""
+        ends = []
+        line = place.line_in(pair)
+        for side, edge, roll, arm in zip(pair.sides, self.edges, place.contact_rolls, line.lever_arms):
+            tip = edge_position(edge, roll, edge.centre + edge.radius * edge.tip_normal)[1]
+            form = flank_point(side.gear.base_radius, side.gear.form_roll_angle, roll)[1]
+            # The first gear's tip is below the line, and the second one's above it.
+            ends.append((side.sense * (arm - tip), side.sense * (arm - form))[:: side.sense])
+        return tuple(zip(*ends))
+
+    def reaches(self, pair: GearPair, grid: ContactGrid, theoretical: Place) -> bool:
+        """Whether a pair's flanks may touch: a window that is not empty, and a tip edge at most a window's length
+        beyond the path.
+
+        A tip's gap grows with the distance squared, as the gap between flanks does across the window, but slower: half
+        a window's length is not always enough.
+        """
+        beyond = self.edge_beyond(theoretical)
+        if beyond is not None:
+            gear, edge = beyond
+            if abs(theoretical.contact_rolls[gear] - edge.flank_roll) * pair.base_radii[gear] > grid.length:
+                return False
+        return window(self.ends(pair, corner_place(pair, self, theoretical)), grid) is not None
+
+    def pairs(self, flanks: Flanks, grid: ContactGrid, theoretical: Sequence[Place]) -> list[ToothPair]:
+        """The contact nodes of the flanks at those theoretical places, tip edges included, whose window is not
+        empty."""
+        view = INTERPOLATIONS[grid.interpolation]
+        nodes = []
+        for place in (corner_place(flanks.pair, self, each) for each in theoretical):
+            offsets = node_offsets(self.ends(flanks.pair, place), grid)
+            if len(offsets):
+                at = view.places(offsets, np.array([0, len(offsets)]))
+                nodes.append((place, offsets, *_difference_and_gap(flanks, self, place, at)))
+        if not nodes:
+            return []
+        places, offsets, difference, gap = zip(*nodes)
+        at = np.concatenate(offsets), np.cumsum([0, *map(len, offsets)])
+        return nodes_on_flanks(flanks, grid, list(places), at, np.concatenate(difference), np.concatenate(gap))
+
+    def warnings(self, pair: GearPair) -> list[str]:
+        """A warning where the edges leave the flanks less than one base pitch of the path of contact, so that at times
+        only edges carry."""
+        end, start = (side.position(edge.flank_roll) for side, edge in zip(pair.sides, self.edges))
+        ratio = (min(end, pair.path_end) - max(start, pair.path_start)) / pair.base_pitch
+        if ratio >= 1.0:
+            return []
+        return [
+            f"the rounded edges of corner_contact leave the flanks a contact ratio of {ratio:.3g}: at some positions"
+            " only the tips' edges touch; lower corner_contact.edge_radius, or see that accuracy.contact_length reaches"
+            " to the next pair"
+        ]
+
 
 def corner_contact(pair: GearPair, edge_radius: float | tuple[float, float] = 0.0) -> CornerContact:
     """Corner contact of a pair whose tips have edges of `edge_radius` (mm, one or pinion's and wheel's; 0: sharp).
@@ -56,20 +111,6 @@ def corner_contact(pair: GearPair, edge_radius: float | tuple[float, float] = 0.
     gears = [side.gear for side in pair.sides]
     tips = tuple(tip_edge(gear, radius) for gear, radius in zip(gears, radii))
     return CornerContact(tips, tuple(form_edge(gear) if gear.undercut else None for gear in gears))
-
-
-def edge_warnings(pair: GearPair, corner: CornerContact) -> list[str]:
-    """A warning where the edges leave the flanks less than one base pitch of the path of contact, so that at times only
-    edges carry."""
-    end, start = (side.position(edge.flank_roll) for side, edge in zip(pair.sides, corner.edges))
-    ratio = (min(end, pair.path_end) - max(start, pair.path_start)) / pair.base_pitch
-    if ratio >= 1.0:
-        return []
-    return [
-        f"the rounded edges of corner_contact leave the flanks a contact ratio of {ratio:.3g}: at some positions only"
-        " the tips' edges touch; lower corner_contact.edge_radius, or see that accuracy.contact_length reaches to the"
-        " next pair"
-    ]
 
 
 def corner_place(pair: GearPair, corner: CornerContact, place: Place) -> Place:
@@ -115,24 +156,6 @@ def edge_position(edge: TipEdge, contact_roll: float, point: np.ndarray | None =
     return float(cosine * x - sine * y), float(-(sine * x + cosine * y))
 
 
-def corner_pairs(
-    flanks: Flanks, grid: ContactGrid, corner: CornerContact, theoretical: Sequence[Place]
-) -> list[ToothPair]:
-    """The contact nodes of the flanks at those theoretical places, tip edges included, whose window is not empty."""
-    view = INTERPOLATIONS[grid.interpolation]
-    nodes = []
-    for place in (corner_place(flanks.pair, corner, each) for each in theoretical):
-        offsets = node_offsets(edge_ends(flanks.pair, corner, place), grid)
-        if len(offsets):
-            at = view.places(offsets, np.array([0, len(offsets)]))
-            nodes.append((place, offsets, *_difference_and_gap(flanks, corner, place, at)))
-    if not nodes:
-        return []
-    places, offsets, difference, gap = zip(*nodes)
-    at = np.concatenate(offsets), np.cumsum([0, *map(len, offsets)])
-    return nodes_on_flanks(flanks, grid, list(places), at, np.concatenate(difference), np.concatenate(gap))
-
-
 def _difference_and_gap(
     flanks: Flanks, corner: CornerContact, place: Place, offsets: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -147,19 +170,6 @@ def _difference_and_gap(
     return first - second, line.length - first - second
 
 
-def edge_ends(pair: GearPair, corner: CornerContact, place: Place) -> Ends:
-    """Offsets (mm) from the place's line where the flanks end, as of `window.flank_ends`; tips at the far end of their
-    edge."""
-    ends = []
-    line = place.line_in(pair)
-    for side, edge, roll, arm in zip(pair.sides, corner.edges, place.contact_rolls, line.lever_arms):
-        tip = edge_position(edge, roll, edge.centre + edge.radius * edge.tip_normal)[1]
-        form = flank_point(side.gear.base_radius, side.gear.form_roll_angle, roll)[1]
-        # The first gear's tip is below the line, and the second one's above it.
-        ends.append((side.sense * (arm - tip), side.sense * (arm - form))[:: side.sense])
-    return tuple(zip(*ends))
-
-
 def _surface(gear, edge: TipEdge, contact_roll: float, height: np.ndarray, removal) -> np.ndarray:
     """Distance (mm, shape of `height`) from the line's foot to a tooth's surface at heights (mm): involute, then the
     edge's arc."""
@@ -169,18 +179,3 @@ def _surface(gear, edge: TipEdge, contact_roll: float, height: np.ndarray, remov
         arc = centre_x + np.sqrt(np.maximum(edge.radius**2 - (height - centre_height) ** 2, 0.0))
         x = np.where(roll > edge.flank_roll, arc, x)
     return x if removal is None else x - removal(roll)
-
-
-def pair_reaches(pair: GearPair, grid: ContactGrid, corner: CornerContact, theoretical: Place) -> bool:
-    """Whether a pair's flanks may touch: a window that is not empty, and a tip edge at most a window's length beyond
-    the path.
-
-    A tip's gap grows with the distance squared, as the gap between flanks does across the window, but slower: half a
-    window's length is not always enough.
-    """
-    beyond = corner.edge_beyond(theoretical)
-    if beyond is not None:
-        gear, edge = beyond
-        if abs(theoretical.contact_rolls[gear] - edge.flank_roll) * pair.base_radii[gear] > grid.length:
-            return False
-    return window(edge_ends(pair, corner, corner_place(pair, corner, theoretical)), grid) is not None

@@ -15,6 +15,7 @@ from .errors import ContactNotConverged, MoreThanOneSolution, NoStaticEquilibriu
 from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD
 from .newton import CYCLED, OUTCOMES
 from .operator import ContactOperator
+from .uniqueness import flexibility, is_only_solution
 
 # A cycle of sets is rarely longer.
 LAST_SETS = 6
@@ -137,15 +138,11 @@ def _locking(problem, visited: np.ndarray, weights: Sequence[Balance]) -> str:
 
 def _own_response(problem, signs: np.ndarray) -> np.ndarray:
     """How far a sliding node (n,) yields under its own normal force, mm/N."""
-    from .uniqueness import flexibility
-
     n, matrix = len(signs), flexibility(problem.stiffness, problem.compliance, problem.jacobian)
     return np.diag(matrix)[:n] + problem.friction * signs * np.diag(matrix[:n, n:])
 
 
 def _several(problem, visited: np.ndarray) -> str:
-    from .uniqueness import is_only_solution
-
     for sets in visited:
         certified = is_only_solution(
             problem.stiffness,

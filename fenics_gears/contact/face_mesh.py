@@ -47,13 +47,15 @@ def face_mesh(
         for place in places:
             # Slices of a spur pair are all alike.
             first.setdefault(alike(place), place)
-        found = flank_nodes(flanks, grid, corner, list(first.values()))
-        if not found:
+        nodes_on_flanks = flank_nodes(flanks, grid, corner, list(first.values()))
+        if not nodes_on_flanks:
             return ()
-        there = [each.place for each in found]
-        at = over_nodes(found, "offsets"), node_ends(found)
+        there = [each.place for each in nodes_on_flanks]
+        at = over_nodes(nodes_on_flanks, "offsets"), node_ends(nodes_on_flanks)
         on_bodies = interpolations(pairing.sections, grid, there, at, rolls_of(pair, there, at))
-        made = {alike(each.place): FacePair(**vars(each), coarse=coarse) for each, coarse in zip(found, on_bodies)}
+        made = {
+            alike(each.place): FacePair(**vars(each), coarse=coarse) for each, coarse in zip(nodes_on_flanks, on_bodies)
+        }
         return tuple(_in_slice(made[alike(place)], place) for place in places if alike(place) in made)
 
     return Mesh(
@@ -98,11 +100,11 @@ def opening_over_face(cycle: Cycle, drive: OverFace, coast: OverFace | None = No
 
     def opening(position: Position) -> np.ndarray:
         flanks, heights, along, counts = lines_of(position)
-        found = np.zeros(len(flanks))
+        gaps = np.zeros(len(flanks))
         for flank, over_face in ((DRIVE, drive), (COAST, coast)):
             if over_face is not None:
                 own = flanks == flank
-                found[own] = over_face(heights[own], along[own])
-        return np.repeat(found, counts)
+                gaps[own] = over_face(heights[own], along[own])
+        return np.repeat(gaps, counts)
 
     return PerPosition(opening)

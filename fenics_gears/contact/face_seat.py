@@ -50,12 +50,12 @@ def _of_nodes(body: FaceCompliance, gear: Gear) -> np.ndarray:
 
 def _turned_back(angles: np.ndarray | float) -> np.ndarray:
     """Matrices (..., 6, 6) that take motions of an axis into a frame that is turned counter-clockwise by angles."""
-    found = np.zeros((*np.shape(angles), 6, 6))
+    matrices = np.zeros((*np.shape(angles), 6, 6))
     cosine = np.cos(angles)
     sine = np.sin(angles)
     for first in (0, 3):
-        found[..., first, first] = found[..., first + 1, first + 1] = cosine
-        found[..., first, first + 1] = sine
-        found[..., first + 1, first] = -sine
-    found[..., 2, 2] = found[..., 5, 5] = 1.0
-    return found
+        matrices[..., first, first] = matrices[..., first + 1, first + 1] = cosine
+        matrices[..., first, first + 1] = sine
+        matrices[..., first + 1, first] = -sine
+    matrices[..., 2, 2] = matrices[..., 5, 5] = 1.0
+    return matrices

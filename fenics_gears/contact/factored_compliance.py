@@ -259,19 +259,19 @@ def _solve_with(factored, system, changes, result):
     put_equations(equations, changes, factored.rows, factored.slip, compliance, unit)
     _put_solutions(factored, lines[k if frictional else 0 :], frictional)
     by_forces, by_changes = np.dot(factored.of_forces, lines.T), np.dot(equations, lines.T)
-    matrix, found = system_of(count + k), np.empty(count + k)
-    put_changes(matrix, found, changes, system, (by_forces, by_changes))
+    matrix, right_side = system_of(count + k), np.empty(count + k)
+    put_changes(matrix, right_side, changes, system, (by_forces, by_changes))
     for c in range(k):
-        found[count + c] = system.load[c] / unit + by_forces[c, k]
+        right_side[count + c] = system.load[c] / unit + by_forces[c, k]
         for d in range(k):
             matrix[count + c, count + d] = system.stiffness[c, d] / unit + by_forces[c, d]
-    if not put_solution(matrix, found, np.int64(0)):
+    if not put_solution(matrix, right_side, np.int64(0)):
         return 0
     for i in range(count):
         if abs(matrix[i, i]) < LEAST_PIVOT:
             return 0
     parts = np.empty(k + 1 + count)
-    parts[:k], parts[k], parts[k + 1 :] = found[count:], -1.0, -found[:count]
-    put_forces(system, changes, np.dot(parts, lines), found, result)
-    result[len(jacobian) :] = found[count:]
+    parts[:k], parts[k], parts[k + 1 :] = right_side[count:], -1.0, -right_side[:count]
+    put_forces(system, changes, np.dot(parts, lines), right_side, result)
+    result[len(jacobian) :] = right_side[count:]
     return 1

@@ -81,11 +81,11 @@ def quadrature_offsets(offsets: np.ndarray) -> np.ndarray:
 @njit(cache=True)
 def offsets_of_cells(offsets: np.ndarray, ends: np.ndarray) -> np.ndarray:
     """The same of the nodes of many pairs, each from its place in `ends` (P + 1,) on, one after the other."""
-    found = np.empty((len(offsets) - len(ends) + 1, len(GAUSS_POINTS)))
+    points = np.empty((len(offsets) - len(ends) + 1, len(GAUSS_POINTS)))
     for pair in range(len(ends) - 1):
         for cell in range(ends[pair], ends[pair + 1] - 1):
-            found[cell - pair] = offsets[cell] + (offsets[cell + 1] - offsets[cell]) * GAUSS_POINTS
-    return found.ravel()
+            points[cell - pair] = offsets[cell] + (offsets[cell + 1] - offsets[cell]) * GAUSS_POINTS
+    return points.ravel()
 
 
 @njit(cache=True)
@@ -108,13 +108,13 @@ def node_average(offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
 def node_averages(offsets: np.ndarray, ends: np.ndarray, values: np.ndarray) -> np.ndarray:
     """The same (n,) of the nodes of many pairs, each from its place in `ends` (P + 1,) on, of values at the quadrature
     offsets of one pair after the other."""
-    found = np.empty(len(offsets))
+    averages = np.empty(len(offsets))
     cells = values.reshape((-1, len(GAUSS_POINTS)))
     for pair in range(len(ends) - 1):
         begin = ends[pair]
         end = ends[pair + 1]
-        found[begin:end] = node_average(offsets[begin:end], cells[begin - pair : end - pair - 1])
-    return found
+        averages[begin:end] = node_average(offsets[begin:end], cells[begin - pair : end - pair - 1])
+    return averages
 
 
 @njit(cache=True)
@@ -236,13 +236,13 @@ def flank_interpolations(nodes: GearContacts) -> list[FlankInterpolation]:
         np.array([nodes.base_radius, nodes.sense]), nodes.element_order,
     )  # fmt: skip
     ends = nodes.ends.tolist()
-    found = []
+    of_pairs = []
     begin = 0
     for size, width, start, end in zip(sizes, widths.tolist(), ends, ends[1:]):
         last = begin + (end - start) * width
-        found.append(FlankInterpolation(near[begin:last].reshape(-1, width), first[start:end], size))
+        of_pairs.append(FlankInterpolation(near[begin:last].reshape(-1, width), first[start:end], size))
         begin = last
-    return found
+    return of_pairs
 
 
 class Averages:
@@ -280,7 +280,7 @@ class Points:
     def of_flank(self, nodes: GearContacts) -> list[FlankInterpolation]:
         """The element's shape functions at the nodes' roll angles."""
         order = nodes.element_order
-        found = []
+        of_pairs = []
         for flank_rolls, start, end in zip(nodes.flank_rolls, nodes.ends[:-1], nodes.ends[1:]):
             rolls = nodes.rolls[start:end], flank_rolls[::order]
             arc, places = (0.5 * nodes.base_radius * each**2 for each in rolls)
@@ -290,8 +290,8 @@ class Points:
                 shapes = (1.0 - local, local)
             else:
                 shapes = ((1.0 - local) * (1.0 - 2.0 * local), 4.0 * local * (1.0 - local), local * (2.0 * local - 1.0))
-            found.append(FlankInterpolation(np.stack(shapes, axis=1), order * element, len(flank_rolls)))
-        return found
+            of_pairs.append(FlankInterpolation(np.stack(shapes, axis=1), order * element, len(flank_rolls)))
+        return of_pairs
 
 
 # By their names in a scene.

@@ -175,31 +175,31 @@ def nodes_before(steps: Sequence[Step], spacing: float) -> list[np.ndarray]:
             all_pairs += own
     ends = [node_ends(each) for each in every]
     (offsets, now), before = ((over_nodes(each, "offsets"), at) for each, at in zip(every, ends))
-    found = _nodes_before(offsets, now, *before, np.array(same, dtype=np.int64), spacing)
+    same_nodes = _nodes_before(offsets, now, *before, np.array(same, dtype=np.int64), spacing)
     # Counted from the first node of the step before.
     first, first_before = (at[list(begin)] for at, begin in zip(ends, zip(*begins)))
-    found -= np.where(found >= 0, np.repeat(first_before, np.diff([*first, len(found)])), 0)
-    return np.split(found, first[1:])
+    same_nodes -= np.where(same_nodes >= 0, np.repeat(first_before, np.diff([*first, len(same_nodes)])), 0)
+    return np.split(same_nodes, first[1:])
 
 
 @njit(cache=True)
 def _nodes_before(offsets, ends, offsets_before, ends_before, same, spacing):
     """From offsets (n,), mm, and ends (P + 1,) of each pair's nodes, now and before; `same` (P,): the pair before, -1
     for none."""
-    found = np.full(len(offsets), -1)
+    same_nodes = np.full(len(offsets), -1)
     for pair in range(len(same)):
         if same[pair] >= 0:
             first = ends_before[same[pair]]
             last = ends_before[same[pair] + 1]
             own = slice(ends[pair], ends[pair + 1])
-            _same_nodes(found[own], offsets[own], offsets_before[first:last], spacing)
+            _same_nodes(same_nodes[own], offsets[own], offsets_before[first:last], spacing)
             for node in range(ends[pair], ends[pair + 1]):
-                found[node] += first if found[node] >= 0 else 0
-    return found
+                same_nodes[node] += first if same_nodes[node] >= 0 else 0
+    return same_nodes
 
 
 @njit(cache=True)
-def _same_nodes(found, now, before, spacing):
+def _same_nodes(places, now, before, spacing):
     """For each node now, at offsets (n,), mm, the place of the same one among those before, -1 for none."""
     low, high = _closer(now, spacing)
     low_before, high_before = _closer(before, spacing)
@@ -213,8 +213,8 @@ def _same_nodes(found, now, before, spacing):
             place = np.abs(before - now[node]).argmin()
             if abs(now[node] - before[place]) > 0.75 * spacing:
                 place = -1
-        found[node] = place if place < len(before) else -1
-        found[node] = max(found[node], -1)
+        places[node] = place if place < len(before) else -1
+        places[node] = max(places[node], -1)
 
 
 @njit(cache=True)

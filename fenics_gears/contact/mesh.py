@@ -97,9 +97,7 @@ def flank_nodes(
     """The contact nodes of elastic flanks at those places whose window is not empty; `corner`: with tip edges."""
     if corner is None:
         return tooth_pairs(flanks, grid, places)
-    from .corner import corner_pairs
-
-    return corner_pairs(flanks, grid, corner, places)
+    return corner.pairs(flanks, grid, places)
 
 
 def elastic_mesh(
@@ -119,8 +117,8 @@ def elastic_mesh(
         if corner is not None:
             return [tuple(flank_nodes(flanks, grid, corner, each)) for each in places]
         # All in one go: for each pair by itself Python would take several times as long.
-        found = {pair.place: pair for pair in flank_nodes(flanks, grid, None, list(chain(*places)))}
-        return [nodes_at(each, found.get) for each in places]
+        by_place = {pair.place: pair for pair in flank_nodes(flanks, grid, None, list(chain(*places)))}
+        return [nodes_at(each, by_place.get) for each in places]
 
     return Mesh(
         flanks.pair, grid, nodes, (pairing or CompliancePairing(flanks)).responses,
@@ -162,12 +160,12 @@ def contact_operators(
         rows = _step_by_step(rows, starts, counts)
     gap = over_nodes(lines.pairs, "gap") * face.cosine
     drive, pair_of_node = _pairs_of_nodes(passages)
-    found = []
+    operators = []
     for passage, response, start, count in zip(passages, responses, starts.tolist(), counts):
         own = slice(start, start + count)
         kinds = len(rows) // len(gap) if len(gap) else 1
         earlier = response.previous_compliance
-        found.append(ContactOperator(
+        operators.append(ContactOperator(
             pairs=passage.pairs,
             sides=gears.sides,
             normal_lever_arms=arms[:, own],
@@ -183,8 +181,8 @@ def contact_operators(
             coordinates=len(coordinates),
         ))  # fmt: skip
         # Known here; each would find its own when asked.
-        found[-1].__dict__.update(on_drive_flanks=drive[own], node_pair=pair_of_node[own])
-    return found
+        operators[-1].__dict__.update(on_drive_flanks=drive[own], node_pair=pair_of_node[own])
+    return operators
 
 
 def _pairs_of_nodes(passages: Sequence[Passage]) -> tuple[np.ndarray, np.ndarray]:
@@ -201,10 +199,10 @@ def _step_by_step(rows: np.ndarray, starts: np.ndarray, counts: Sequence[int]) -
     then its tangents; the first nodes and how many each has."""
     n = len(rows) // 2
     normals = np.arange(n) + np.repeat(starts, counts)
-    found = np.empty_like(rows)
-    found[normals] = rows[:n]
-    found[normals + np.repeat(counts, counts)] = rows[n:]
-    return found
+    by_step = np.empty_like(rows)
+    by_step[normals] = rows[:n]
+    by_step[normals + np.repeat(counts, counts)] = rows[n:]
+    return by_step
 
 
 def _of_unknowns(rows: np.ndarray, coordinates: list[int]) -> np.ndarray:

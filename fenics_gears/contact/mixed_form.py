@@ -69,7 +69,7 @@ def _slip_factor(status, friction):
 @njit(cache=True)
 def put_entries(entries, values, places, first, unit):
     """Put the values at the places from the `first` on, times the unit."""
-    # A function of its own, and unsigned places: so no entry is looked at for a negative index.
+    # uint64 avoids numba's wraparound check, in a function of its own.
     for b in range(np.uint64(first), np.uint64(len(places))):
         entries[b] = unit * values[np.uint64(places[b])]
 
@@ -229,8 +229,8 @@ def _bring_pivot(matrix, right_side, column):
 @njit(cache=True)
 def _subtract(numbers, first, end, factor, other):
     """Subtract from the numbers `first` to `end`, groups of four, the factor times those from `other` on."""
-    # All four are read before one is written, and unsigned places are not looked at for a negative index: so they are
-    # compiled for four numbers at a time.
+    # All four are read before one is written, and uint64 avoids numba's wraparound check: so they are compiled for four
+    # numbers at a time.
     at, end, other = np.uint64(first), np.uint64(end), np.uint64(other)
     one, two, three, four = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
     while at < end:

@@ -67,11 +67,11 @@ class CompliancePairing:
 
     def responses(self, passages: Sequence[Passage]) -> list[Response]:
         """How the contact nodes of some passages yield, all with previous pairs or all without."""
-        found = []
+        of_passages = []
         for compliance, before in self.compliances(passages):
             compliance, dependent = of_full_rank(compliance)
-            found.append(Response(compliance, before, dependent))
-        return found
+            of_passages.append(Response(compliance, before, dependent))
+        return of_passages
 
     def _block(self, gear: int, responding: Flank, loaded: Flank) -> tuple[int, int, int]:
         """Address, size and columns of the compliance of one flank under forces on another."""
@@ -89,7 +89,7 @@ class CompliancePairing:
         tangential = passages[0].previous is not None
         kinds = 2 if tangential else 1
         flanks = FlankTable()
-        found = []
+        matrices = []
         positions = []
         products = []
         back = []
@@ -99,19 +99,19 @@ class CompliancePairing:
             compliance = np.zeros((kinds * nodes, kinds * nodes))
             before = np.zeros((2 * nodes_before, nodes))
             positions.append((compliance.ctypes.data, before.ctypes.data, nodes, nodes_before))
-            found.append((compliance, before.T if tangential else None))
+            matrices.append((compliance, before.T if tangential else None))
             for side in self.flanks.pair.sides:
                 new = self._products(side.number, *(flanks.of(each or (), side.number) for each in passage[:2]))
                 products += [(number, *each) for each in new]
                 back += [side.turn * passage.advance] * len(new)
         add_products(positions, flanks, (products, back), tangential, self.flanks.pair.face_width)
-        return found
+        return matrices
 
     def _products(self, gear: int, now: list[Numbered], before: list[Numbered]) -> list[tuple[int, ...]]:
         """What is to be multiplied of a gear at a position, as `compliance_products` takes it: responding flanks by the
         flanks that are loaded now or were a step before."""
         loads = matched(now, before)
-        found = []
+        products = []
         for flank, own, place in now:
             for other, loaded, at, loaded_before, at_before in loads:
                 if at > place:
@@ -119,8 +119,8 @@ class CompliancePairing:
                     loaded = NO_FLANK
                 if loaded != NO_FLANK or loaded_before != NO_FLANK:
                     block = self._block(gear, flank, other)
-                    found.append((*block, own, loaded, loaded_before, place, at, at_before))
-        return found
+                    products.append((*block, own, loaded, loaded_before, place, at, at_before))
+        return products
 
 
 def add_products(
@@ -151,11 +151,11 @@ def matched(now: list[Numbered], before: list[Numbered]) -> list[tuple[Flank, in
     """Flanks that are loaded now, each with its number and place a step before, or NO_FLANK; and those loaded then
     alone."""
     left = list(before)
-    found = []
+    flanks = []
     for flank, *numbers in now:
         same = next((place for place, (other, *_) in enumerate(left) if other == flank), None)
-        found.append((flank, *numbers, *((NO_FLANK, 0) if same is None else left.pop(same)[1:])))
-    return found + [(flank, NO_FLANK, 0, *numbers) for flank, *numbers in left]
+        flanks.append((flank, *numbers, *((NO_FLANK, 0) if same is None else left.pop(same)[1:])))
+    return flanks + [(flank, NO_FLANK, 0, *numbers) for flank, *numbers in left]
 
 
 class FlankTable:
@@ -171,9 +171,9 @@ class FlankTable:
 
     def of(self, pairs: Sequence[ToothPair], gear: int) -> list[Numbered]:
         """Flanks of a gear at a position, whose pairs are held as long as this table is."""
-        found = self._known.setdefault((id(pairs), gear), [])
-        if found:
-            return found
+        flanks = self._known.setdefault((id(pairs), gear), [])
+        if flanks:
+            return flanks
         start = 0
         for pair in pairs:
             view = pair.interpolation[gear]
@@ -184,9 +184,9 @@ class FlankTable:
                 self.near.append(view.near.ravel())
                 self.first.append(view.first)
                 self._sizes.append((*view.near.shape, place.contact_rolls[gear], place.turn))
-            found.append(((place.teeth[gear], place.flank), number, start))
+            flanks.append(((place.teeth[gear], place.flank), number, start))
             start += len(view.near)
-        return found
+        return flanks
 
     @property
     def table(self) -> np.ndarray:

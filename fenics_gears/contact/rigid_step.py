@@ -1,4 +1,4 @@
-"""A step between rigid flanks, in compiled code: of either side only the node with the smallest gap can touch.
+"""A step between rigid flanks, mostly in compiled code: of either side only the node with the smallest gap can touch.
 
 All contact nodes of the drive flanks move alike with the gears, by the base radii and along the line of action; so do
 those of the coast flanks. Where several pairs have the same gap, as true involutes do wherever two pairs are in mesh,
@@ -17,9 +17,12 @@ import numpy as np
 from numba import njit
 
 from .addresses import not_inlined
+from .errors import NoStaticEquilibrium
 from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
-from .mixed_form import product, solved, system_of
-from .newton import CONVERGED, SINGULAR
+from .mixed_form import Iterate, product, solved, system_of
+from .newton import ALL_AT_ONCE, CONVERGED, SINGULAR, Method
+from .operator import ContactOperator, Position
+from .step_solver import NEWTON, StepProblem, StepSolution
 
 # Gaps (mm) that differ by less are the same: the round-off of positions on the line of action.
 SAME_GAP = 1e-10
@@ -63,12 +66,12 @@ def rigid_step(equations, sides, iterate, method):
 @njit(cache=True)
 def _leaders(gap, on_drive_flanks):
     """The node with the smallest gap of the drive and of the coast flanks, as far as there are such nodes."""
-    found = np.full(2, -1)
+    nodes = np.full(2, -1)
     for node in range(len(gap)):
         side = 0 if on_drive_flanks[node] else 1
-        if found[side] < 0 or gap[node] < gap[found[side]]:
-            found[side] = node
-    return found[found >= 0]
+        if nodes[side] < 0 or gap[node] < gap[nodes[side]]:
+            nodes[side] = node
+    return nodes[nodes >= 0]
 
 
 @njit(cache=True)
@@ -182,3 +185,38 @@ def _set(status, unit):
             if unit[row, node] != 0.0:
                 sense = unit[row, n + node] if m > n else 1.0
                 status[node] = SLIP_FORWARD if sense > 0.0 else SLIP_BACKWARD if sense < 0.0 else STICK
+
+
+def solve_rigid(
+    position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+) -> StepSolution:
+    """A step between rigid flanks, as `mesh.Mesh` solves one. Raises NoStaticEquilibrium where nothing holds the
+    load."""
+    operator = position.operator
+    tolerance = problem.tolerance
+    sliding = np.empty(0) if operator.sliding is None else operator.sliding
+    sides = Sides(operator.on_drive_flanks, operator.node_pair, sliding)
+    method = Method(1.0, ALL_AT_ONCE, tolerance.length, tolerance.force)
+    m = len(problem.compliance)
+    iterate = Iterate(status, np.zeros(m), np.zeros(len(problem.load)), np.zeros(m))
+    outcome, iterations = rigid_step(problem.equations, sides, iterate, method)
+    if outcome != CONVERGED:
+        raise _no_equilibrium(operator, problem)
+    return StepSolution(iterate.forces, iterate.coordinates, iterate.displacement, status, iterations, NEWTON)
+
+
+def _no_equilibrium(operator: ContactOperator, problem: StepProblem) -> NoStaticEquilibrium:
+    """The error of a load that no set of nodes holds."""
+    drive = operator.on_drive_flanks
+    words = problem.free_words or "the load moves the drivetrain freely"
+    reason = f"no equilibrium: neither the drive flanks nor the coast flanks hold the load: {words}"
+    leaders = [nodes[np.argmin(problem.gap[nodes])] for nodes in map(np.flatnonzero, (drive, ~drive)) if len(nodes)]
+    play = float(problem.gap[leaders].sum())
+    if len(leaders) == 2 and play < 0.0 and np.linalg.matrix_rank(problem.jacobian[leaders], tol=1e-9) < 2:
+        reason = (
+            f"no equilibrium: rigid teeth are wedged between drive and coast flanks, by {-1e3 * play:.4g} um more than"
+            " there is backlash: raise gears.centre_distance, lower the flank deviations, or make teeth or bearings"
+            " elastic ([gears.material], [bearings])"
+        )
+    sets = np.full((1, len(problem.gap)), OPEN, dtype=np.int8)
+    return NoStaticEquilibrium([("rigid flanks", "no solution", np.zeros((1, 5)), sets)], reason)

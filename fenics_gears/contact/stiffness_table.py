@@ -51,12 +51,12 @@ class StiffnessTable:
         # sum includes that.
         gained = np.maximum(np.diff(np.diff(shares, axis=1) / np.diff(approach), axis=1, prepend=0.0), 0.0)
         stiffness = np.diff(slopes, prepend=0.0) * gained / np.maximum(gained.sum(axis=0), np.finfo(float).tiny)
-        found = []
+        springs = []
         for index, row in zip(indices, stiffness):
             level = np.flatnonzero(row > NEGLIGIBLE * slopes[-1])
             if len(level):
-                found.append(PairSprings(index, flank, level, approach[level], row[level]))
-        return found
+                springs.append(PairSprings(index, flank, level, approach[level], row[level]))
+        return springs
 
 
 def _at(values: np.ndarray, phase: float) -> np.ndarray:

@@ -254,7 +254,7 @@ def interpolations(
     """Interpolation of either flank at contact nodes, as of `nodes_on_flanks`, of each place; `rolls` (2, n), rad:
     their roll angles."""
     offsets, ends = nodes
-    found = []
+    of_gears = []
     of_sides = flanks.pair.sides, rolls, contact_rolls_of(places), _lever_arms(flanks.pair, places), flanks.compliance
     for side, own, contact, arms, flank in zip(*of_sides):
         # Offsets from the line at the gear's own base radius.
@@ -263,8 +263,8 @@ def interpolations(
         on_flank = GearContacts(
             own_offsets, ends, own, contact, teeth, side.gear.base_radius, side.sense, flank.element_order
         )
-        found.append(INTERPOLATIONS[grid.interpolation].of_flank(on_flank))
-    return list(zip(*found))
+        of_gears.append(INTERPOLATIONS[grid.interpolation].of_flank(on_flank))
+    return list(zip(*of_gears))
 
 
 def node_slices(pairs: Sequence[PairNodes]) -> list[slice]:

@@ -120,18 +120,18 @@ def frozen_friction(problem, bounds: np.ndarray, first: np.ndarray, work: Work) 
     while work.allows(np.count_nonzero(chosen)):
         nodes = np.flatnonzero(chosen)
         rows = nodes if not len(problem.slip_before) else np.concatenate((nodes, n + nodes))
-        found = _programme(_of_nodes(problem, nodes, rows), bounds[nodes])
-        if found is None:
+        programme = _programme(_of_nodes(problem, nodes, rows), bounds[nodes])
+        if programme is None:
             if chosen.all():
                 return None
             chosen[:] = True
             continue
         forces, sets = np.zeros(len(problem.compliance)), np.full(n, OPEN, dtype=np.int8)
-        forces[rows], sets[nodes] = found.forces, found.sets
-        displacement = problem.jacobian[:n] @ found.coordinates - problem.compliance[:n] @ forces
+        forces[rows], sets[nodes] = programme.forces, programme.sets
+        displacement = problem.jacobian[:n] @ programme.coordinates - problem.compliance[:n] @ forces
         missed = (displacement - problem.gap > NO_PENETRATION * problem.tolerance.length) & ~chosen
         if not missed.any():
-            return Frozen(forces, found.coordinates, sets)
+            return Frozen(forces, programme.coordinates, sets)
         chosen |= missed
     return None
 
@@ -167,10 +167,10 @@ def _programme(problem, bounds: np.ndarray) -> Frozen | None:
     limits[n : n + tangents, n:size], limits[n + tangents :, n:size] = -np.eye(tangents), np.eye(tangents)
     least = -np.concatenate((np.zeros(n), bounds[rubbing], bounds[rubbing])) / force
     balance = np.hstack((problem.jacobian[rows].T, root))
-    found = _least(energy, distance, limits, least, balance, problem.load / force)
-    if found is None:
+    minimum = _least(energy, distance, limits, least, balance, problem.load / force)
+    if minimum is None:
         return None
-    minimiser, held, multipliers = found
+    minimiser, held, multipliers = minimum
     forces = np.zeros(len(problem.compliance))
     forces[rows] = minimiser[:size] * force
     coordinates = multipliers * force * soft

@@ -96,9 +96,9 @@ def _plainly_only(stiffness: np.ndarray, friction: float, judged: list[tuple]) -
     """Whether D = 1 is a certificate, or D = diag(b/a) where contact alone holds the load, of many at once (operator,
     closed nodes, sigma): those with as many closed nodes m together."""
     values, vectors, held = _motions(stiffness.tobytes(), len(stiffness))
-    found, of_size, free = [False] * len(judged), defaultdict(list), not held.all()
+    certified, of_size, free = [False] * len(judged), defaultdict(list), not held.all()
     if np.count_nonzero(~held) > 1:
-        return found
+        return certified
     for place, (_, nodes, _) in enumerate(judged):
         of_size[len(nodes)].append(place)
     for m, places in of_size.items():
@@ -122,8 +122,8 @@ def _plainly_only(stiffness: np.ndarray, friction: float, judged: list[tuple]) -
             matrices = _across(b[apart], (b / a)[apart, :, None] * matrices[apart])
         together = _positive(matrices)
         for place, matrix in zip(places, matrices):
-            found[place] = together or _positive(matrix)
-    return found
+            certified[place] = together or _positive(matrix)
+    return certified
 
 
 @njit(cache=True)

@@ -122,13 +122,13 @@ class MeshesAlike:
             for step in range(self._steps)
             for place in pair_places(self._flanks.pair, self._grid, step / self._steps, corner=self._corner)
         ]
-        found = []
+        ranges = []
         for side in self._flanks.pair.sides:
             teeth = [place.teeth[side.number] for place in places]
             # At the start of a cycle the pairs of the step before it have indices higher by one.
             teeth += [tooth + side.sense for tooth in teeth]
-            found.append(range(min(teeth), max(teeth) + 1))
-        return tuple(found)
+            ranges.append(range(min(teeth), max(teeth) + 1))
+        return tuple(ranges)
 
     def _made(self, first: tuple[int, int]) -> tuple[tuple, Mesh]:
         """Both gears as that mesh cycle meets them, and its mesh."""

@@ -98,7 +98,7 @@ def flank_ends(pair: GearPair, contact_rolls: tuple[float, float]) -> Ends:
 
 def ends_of(pair: GearPair, contact_rolls: np.ndarray) -> np.ndarray:
     """The same (P, 2, 2) of many contact roll angles (2, P), rad."""
-    found = np.empty((contact_rolls.shape[1], 2, 2))
+    ends = np.empty((contact_rolls.shape[1], 2, 2))
     for side, contact in zip(pair.sides, contact_rolls):
         gear = side.gear
         # The first gear's tip is below the line, and the second one's above it.
@@ -106,8 +106,8 @@ def ends_of(pair: GearPair, contact_rolls: np.ndarray) -> np.ndarray:
             # As `flank_point`.
             turned = contact - roll
             height = gear.base_radius * (np.cos(turned) - roll * np.sin(turned))
-            found[:, end, side.number] = side.sense * (gear.base_radius - height)
-    return found
+            ends[:, end, side.number] = side.sense * (gear.base_radius - height)
+    return ends
 
 
 def window(ends: Ends, grid: ContactGrid) -> tuple[float, float] | None:
@@ -146,7 +146,7 @@ def offsets_of(ends: np.ndarray, grid: ContactGrid) -> tuple[np.ndarray, np.ndar
 def _offsets(ends, sizes, most, cells, evenly, from_an_edge):
     length, spacing, near = sizes
     half = 0.5 * length
-    found = np.empty(most * len(ends))
+    of_all = np.empty(most * len(ends))
     counts = np.zeros(len(ends), dtype=np.int64)
     last = 0
     for flank in range(len(ends)):
@@ -164,10 +164,10 @@ def _offsets(ends, sizes, most, cells, evenly, from_an_edge):
         high = end if end < half else max(near, start + 2.0 * near)
         for offset in offsets:
             if low - 1e-9 * half <= offset <= high + 1e-9 * half:
-                found[last] = offset
+                of_all[last] = offset
                 last += 1
                 counts[flank] += 1
-    return found[:last].copy(), counts
+    return of_all[:last].copy(), counts
 
 
 @njit(cache=True)

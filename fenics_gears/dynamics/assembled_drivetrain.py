@@ -125,10 +125,10 @@ def _mass_of_all(names: tuple[str, ...], supports: Supports) -> tuple[np.ndarray
 
 def _spread(names: tuple[str, ...], system: ShaftSystem, matrix: np.ndarray) -> np.ndarray:
     """A matrix over a system's own coordinates as one over all (k, k)."""
-    found = np.zeros((len(names), len(names)))
+    spread = np.zeros((len(names), len(names)))
     own = [names.index(name) for name in system.coordinates]
-    found[np.ix_(own, own)] = matrix
-    return found
+    spread[np.ix_(own, own)] = matrix
+    return spread
 
 
 def _moving_coordinates(supports: Supports) -> tuple[str, ...]:
@@ -151,7 +151,7 @@ def _leaning(bearings: Bearings) -> set[str]:
 def _torsion(supports: Supports) -> dict[str, float]:
     """Torsional stiffness (N mm/rad) of the shafts that twist, by coordinate: the input shaft's between the prescribed
     rotation and phi1; the output shaft's, whose twist is phi3 - phi2 [4]-[6]."""
-    found = {}
+    stiffnesses = {}
     for name, shaft in (("rotation_1", "input"), ("shaft_twist", "output")) if supports.shafts is not None else ():
         bent = [
             system.torsional_stiffness(each)
@@ -161,8 +161,8 @@ def _torsion(supports: Supports) -> dict[str, float]:
         ]
         torsion = bent[0] if bent else supports.shafts.of(shaft)
         if torsion is not None and isfinite(torsion):
-            found[name] = torsion
-    return found
+            stiffnesses[name] = torsion
+    return stiffnesses
 
 
 def _mass(names: tuple[str, ...], inertia: Inertia, gears: Mapping[str, LumpedGear]) -> np.ndarray:
@@ -196,15 +196,15 @@ def _check_load(end: float, wheel: float) -> None:
 def _damping(supports: Supports, undamped: Drivetrain, mesh_stiffness: float, scale: np.ndarray) -> np.ndarray | None:
     """D (k, k): alpha K + beta M of either shaft, or by the ratios of the modes with one tooth pair in mesh, and what
     elements of shafts have of their own."""
-    found = sum(scale * _spread(undamped.coordinates, each, each.damping) for each in supports.systems)
+    damping_of_shafts = sum(scale * _spread(undamped.coordinates, each, each.damping) for each in supports.systems)
     damping = supports.damping
     if damping is None:
-        return found if np.any(found) else None
+        return damping_of_shafts if np.any(damping_of_shafts) else None
     if damping.modal:
         from .modal_damping import modal_damping
 
-        return found + modal_damping(undamped, mesh_stiffness, damping.modal)
+        return damping_of_shafts + modal_damping(undamped, mesh_stiffness, damping.modal)
     # A row and its column have the same factors, but for springs of a housing that joins both sides of the mesh.
     factors = np.array([damping.rayleigh(gear_of(name)) for name in undamped.coordinates]).T
     alpha, beta = 0.5 * (factors[:, :, None] + factors[:, None, :])
-    return found + alpha * undamped.stiffness_at_work + beta * undamped.mass
+    return damping_of_shafts + alpha * undamped.stiffness_at_work + beta * undamped.mass

@@ -92,15 +92,15 @@ def flexibilities(along: Properties, ends: np.ndarray) -> np.ndarray:
     def summed(per_length: np.ndarray, power: int = 0) -> np.ndarray:
         return np.bincount(own, (along.weights * per_length)[inside] * arms**power, minlength=len(ends) - 1)
 
-    found = np.zeros((len(ends) - 1, SIX, SIX))
-    found[:, 0, 0] = found[:, 1, 1] = summed(along.shear) + summed(along.bending, 2)
-    found[:, 0, 4] = found[:, 4, 0] = summed(along.bending, 1)
+    flexibility = np.zeros((len(ends) - 1, SIX, SIX))
+    flexibility[:, 0, 0] = flexibility[:, 1, 1] = summed(along.shear) + summed(along.bending, 2)
+    flexibility[:, 0, 4] = flexibility[:, 4, 0] = summed(along.bending, 1)
     # A positive tilt about x moves what lies further along the axis to negative y.
-    found[:, 1, 3] = found[:, 3, 1] = -found[:, 0, 4]
-    found[:, 3, 3] = found[:, 4, 4] = summed(along.bending)
-    found[:, 2, 2] = summed(along.axial)
-    found[:, 5, 5] = summed(along.torsion)
-    return found
+    flexibility[:, 1, 3] = flexibility[:, 3, 1] = -flexibility[:, 0, 4]
+    flexibility[:, 3, 3] = flexibility[:, 4, 4] = summed(along.bending)
+    flexibility[:, 2, 2] = summed(along.axial)
+    flexibility[:, 5, 5] = summed(along.torsion)
+    return flexibility
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,12 +124,12 @@ class Beam(Element):
 
 def beams(shaft: str, nodes: Sequence[int], ends: np.ndarray, along: Properties, masses: Sequence = ()) -> list[Beam]:
     """The beams of a shaft between neighbouring nodes of such numbers, at `ends` (n,), mm; their `masses`."""
-    found = []
+    pieces = []
     for number, flexibility in enumerate(flexibilities(along, ends)):
         motions = (*motions_of(shaft, nodes[number]), *motions_of(shaft, nodes[number + 1]))
         mass = masses[number] if len(masses) else 0.0
-        found.append(Beam(motions, float(ends[number + 1] - ends[number]), flexibility, mass))
-    return found
+        pieces.append(Beam(motions, float(ends[number + 1] - ends[number]), flexibility, mass))
+    return pieces
 
 
 def masses(light: Properties, heavy: Properties, ends: np.ndarray, density: float) -> np.ndarray:
@@ -162,14 +162,14 @@ def motion_within(within: np.ndarray, length: np.ndarray, give: np.ndarray) -> n
         6.0 * (x**2 - x) / length, 1.0 - 4.0 * x + 3.0 * x**2 + give * (1.0 - x),
         6.0 * (x - x**2) / length, 3.0 * x**2 - 2.0 * x + give * x,
     ]) / whole  # fmt: skip
-    found = np.zeros((SIX, 2 * SIX, *x.shape))
-    found[0, [0, 4, 6, 10]] = moved
-    found[4, [0, 4, 6, 10]] = turned
+    motions = np.zeros((SIX, 2 * SIX, *x.shape))
+    motions[0, [0, 4, 6, 10]] = moved
+    motions[4, [0, 4, 6, 10]] = turned
     # A positive tilt about x moves what lies further along the axis to negative y.
     sense = np.array([1.0, -1.0, 1.0, -1.0])[:, None, None]
-    found[1, [1, 3, 7, 9]] = sense * moved
-    found[3, [1, 3, 7, 9]] = -sense * turned
+    motions[1, [1, 3, 7, 9]] = sense * moved
+    motions[3, [1, 3, 7, 9]] = -sense * turned
     for motion in (2, 5):
-        found[motion, motion] = 1.0 - x
-        found[motion, motion + SIX] = x
-    return np.moveaxis(found, (0, 1), (2, 3))
+        motions[motion, motion] = 1.0 - x
+        motions[motion, motion + SIX] = x
+    return np.moveaxis(motions, (0, 1), (2, 3))

@@ -60,10 +60,10 @@ class CycleOfBendingFaces(Cycle):
         return CycleOfBendingFaces(self.mesh, self.steps, coordinates, False, self._faces)
 
     def _built_of(self, mesh: Mesh, steps: list[tuple[float, float]]) -> list[Position]:
-        found = super()._built_of(mesh, steps)
-        for position in found:
+        positions = super()._built_of(mesh, steps)
+        for position in positions:
             self._widen(position.operator)
-        return found
+        return positions
 
     def _widen(self, operator: ContactOperator) -> None:
         slices = per_node(operator.pairs, np.array([pair.place.slice for pair in operator.pairs], dtype=int))

@@ -28,8 +28,8 @@ NO_SETS = np.empty(0, dtype=np.int8)
 
 
 class Motion(NamedTuple):
-    """What of the equations of motion is the same at every step: the `method` in time, matrices (k, k) of the
-    drivetrain, friction, tolerance of length (mm) and force (N).
+    """The constants of the equations of motion: the `method` in time, the drivetrain's matrices (k, k), the coefficient
+    of friction, tolerances of length (mm) and force (N).
 
     `free_motion` (f k,): how a load moves the drivetrain where only contact holds it, else empty; `rigid`: steps are
     those of `contact.rigid_step`; `modes`: how many of the coordinates, the last ones, are modes of shafts, which
@@ -70,9 +70,9 @@ class Motion(NamedTuple):
 
 
 class Course(NamedTuple):
-    """What differs from step to step: how long they last (`durations` (s,), s), `loads` (s, k), N, and the sets (N,) as
-    `begin` takes them of a mesh cycle before, or none; `at_rest`: a position had them whatever the step before it.
-    """
+    """What differs from step to step: `durations` (s,), s, `loads` (s, k), N, and the sets (N,) of a mesh cycle before,
+    with which `begin` begins, or none. `at_rest`: steps are static, and the sets of a position do not depend on the
+    step before it."""
 
     durations: np.ndarray
     loads: np.ndarray
@@ -128,10 +128,10 @@ def put_modes(coordinates, load, modes):
 
 def with_modes(coordinates, load, modes):
     """All coordinates (k,), of the others (c,) under the load (k,) on all."""
-    found = np.zeros_like(load)
-    found[: len(coordinates)] = coordinates
-    put_modes(found, load, modes)
-    return found
+    whole = np.zeros_like(load)
+    whole[: len(coordinates)] = coordinates
+    put_modes(whole, load, modes)
+    return whole
 
 
 _eliminated, _left_load, _put_modes = (njit(cache=True)(each) for each in (eliminated, left_load, put_modes))

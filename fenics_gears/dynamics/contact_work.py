@@ -188,11 +188,11 @@ def _by_others(here, rows, forces, other_rows, same):
 def _at_other(row, here, rows, there, other_rows):
     """Displacement G x - C p (mm) that a row of the end `here` would have at the end `there`: `rows` here are
     `other_rows` there, with the forces there."""
-    compliance, forces, found = (
+    compliance, forces, displacement = (
         here.contact.compliance,
         there.forces,
         product(here.contact.jacobian[row], there.coordinates),
     )
     for column in range(len(rows)):
-        found -= compliance[row, rows[column]] * forces[other_rows[column]]
-    return found
+        displacement -= compliance[row, rows[column]] * forces[other_rows[column]]
+    return displacement

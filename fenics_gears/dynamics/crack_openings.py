@@ -42,25 +42,25 @@ def openings_of(cycle, side: Side, record: Record) -> np.ndarray:
 def crack_openings(cycle, records: Sequence[Record]) -> dict[str, np.ndarray]:
     """Smallest and largest opening at each record, (records,), mm, by the gear's name; only of gears that have
     cracks."""
-    found = {}
+    by_gear = {}
     for side, body, name in zip(cycle.pair.sides, cycle.bodies, NAMES):
         if not body.alike and body.openings:
             openings = [openings_of(cycle, side, record) for record in records]
             ends = np.array([(each.min(), each.max()) for each in openings])
-            found[f"least opening, {name}"], found[f"largest opening, {name}"] = ends.T
-    return found
+            by_gear[f"least opening, {name}"], by_gear[f"largest opening, {name}"] = ends.T
+    return by_gear
 
 
 def closed_cracks(watched: Mapping[str, np.ndarray]) -> list[str]:
     """Sentences on cracks that would be closed at times; their faces are not kept from passing through each other."""
-    found = []
+    sentences = []
     for name in NAMES:
         least, largest = (watched.get(f"{kind} opening, {name}", np.empty(0)) for kind in ("least", "largest"))
         overlaps = int((least < -LEAST_OVERLAP).sum())
         if overlaps:
-            found.append(
+            sentences.append(
                 f"the faces of a crack in the {name} would pass through each other in {overlaps} of {len(least)} steps,"
                 f" by up to {-1e3 * least.min():.3g} um (it opens by up to {1e3 * max(largest.max(), 0.0):.3g} um): a"
                 " real crack closes there and carries load, so that the gear is stiffer than computed"
             )
-    return found
+    return sentences

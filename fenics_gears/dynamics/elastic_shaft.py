@@ -104,9 +104,9 @@ class Line:
             bent, heavy = (properties(of, self.material, ends, MASS_POINTS) for of in (self.sections, self.heavy))
             weights = np.zeros((len(kinds), 12, 12))
             weights[long] = masses(bent, heavy, ends, self.density / self.material[0])
-        found = beams(self.name, range(len(places)), places, light, weights if self.density else ())
-        outside = tuple(each for each, own in zip(found, kinds) if not own)
-        inside = tuple(each for each, own in zip(found, kinds) if own)
+        pieces = beams(self.name, range(len(places)), places, light, weights if self.density else ())
+        outside = tuple(each for each, own in zip(pieces, kinds) if not own)
+        inside = tuple(each for each, own in zip(pieces, kinds) if own)
         return Chain(places, faces, outside, inside)
 
 
@@ -116,10 +116,12 @@ class ElasticShaft:
     ratio), the middle of the gear's seat, mm from the left end, the `seat`'s width, mm, where the torque is coupled,
     and the bearings.
 
-    `integral`: whether the gear is cut into the shaft, of which `sections` then have its root diameter within the face,
-    where it gives way as `elastic_shaft_seat` says; `hub`: with what it does so otherwise. `in_housing`: whether the
-    bearings are seated in one that gives way. Of a shaft that vibrates: the sections by which it is `heavy`, where not
-    those by which it bends, its `density`, N s^2/mm^4, and the frequency `up_to` which it has modes of its own, Hz.
+    `integral`: whether the gear is cut into the shaft. Its `sections` then have the root diameter within the face, and
+    it yields there (`elastic_shaft_seat`). `hub`: the gear's hub and the bore's part of the shaft, which yield under a
+    gear that is pressed on; None where neither does. `in_housing`: whether the bearings are in a housing that yields.
+
+    Of a shaft that vibrates: the sections that are `heavy`, where not all that bend are, its `density`, N s^2/mm^4, and
+    the frequency, Hz, `up_to` which it has modes of its own.
     """
 
     gear: str
@@ -260,8 +262,8 @@ def in_series(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """
     size = np.sqrt(np.diag(first) + np.diag(second))
     size = np.outer(*2 * [np.where(size > 0.0, size, 1.0)])
-    found = first @ (np.linalg.pinv((first + second) / size, hermitian=True) / size) @ second
-    return 0.5 * (found + found.T)
+    both = first @ (np.linalg.pinv((first + second) / size, hermitian=True) / size) @ second
+    return 0.5 * (both + both.T)
 
 
 def free_motions(shafts: Sequence[ElasticShaft], springs: np.ndarray) -> dict[str, list[str]]:

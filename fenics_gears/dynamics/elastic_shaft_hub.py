@@ -25,7 +25,7 @@ from .beam import OF_CYLINDER, Properties, flexibilities, gauss_rule
 from .shaft_elements import SIX, carried
 
 # Of the bore's radius: how far beside the face, and the size of elements.
-BESIDE = 1.5
+MARGIN = 1.5
 SIZE = 1.0 / 7.0
 
 
@@ -53,41 +53,41 @@ def hub_flexibility(hub: Hub, heights: np.ndarray, axis: np.ndarray) -> np.ndarr
 def _flexibility(hub: Hub, heights: tuple[float, ...], axis: tuple[float, ...]) -> np.ndarray:
     shaft = hub.shaft
     circles = np.array(heights)
-    beside = BESIDE * shaft.outer
+    margin = MARGIN * shaft.outer
     size = SIZE * shaft.outer
-    left = shaft.low - beside
-    right = shaft.high + beside
+    left = shaft.low - margin
+    right = shaft.high + margin
     body = BodyOfRevolution([shaft._replace(low=left, high=right), *hub.gear], size)
     harmonics = []
     for order in (1, 0):
         stiffness = body.stiffness(order)
         rim = body.of_circles(hub.outer, circles, order)
         held, *free = (body.of_section(each, shaft.outer, order) for each in (left, *axis, right))
-        found = flexibility(stiffness, held, np.concatenate([rim, *free]))
+        of_order = flexibility(stiffness, held, np.concatenate([rim, *free]))
         within = body.nodes[:, 0] < shaft.outer + 1e-9
-        found[: len(rim), : len(rim)] -= flexibility_outside(stiffness, within, rim)
-        harmonics.append(found)
-    found = _over_motions(*harmonics)
-    piece = _piece(shaft, beside, size)
+        of_order[: len(rim), : len(rim)] -= flexibility_outside(stiffness, within, rim)
+        harmonics.append(of_order)
+    motions = _over_motions(*harmonics)
+    piece = _piece(shaft, margin, size)
     # The left end of the body carries all places, and the right end is carried by that of the face.
     carry = np.stack([carried(each - shaft.low) for each in (*heights, *axis, right)])
-    found -= np.einsum("pia,ab,qjb->piqj", carry, piece, carry)
-    found[-1, :, -1] -= piece
-    back = carried(-beside)
-    found[-1] = np.einsum("ab,bqj->aqj", back, found[-1])
-    found[:, :, -1] = np.einsum("piq,bq->pib", found[:, :, -1], back)
-    return found
+    motions -= np.einsum("pia,ab,qjb->piqj", carry, piece, carry)
+    motions[-1, :, -1] -= piece
+    back = carried(-margin)
+    motions[-1] = np.einsum("ab,bqj->aqj", back, motions[-1])
+    motions[:, :, -1] = np.einsum("piq,bq->pib", motions[:, :, -1], back)
+    return motions
 
 
 def _over_motions(first: np.ndarray, zeroth: np.ndarray) -> np.ndarray:
     """Motions (p, 6, p, 6) of what harmonic 1 (2 p, 2 p) and harmonic 0 do: bending is alike in both planes."""
     first, zeroth = (each.reshape(len(each) // 2, 2, -1, 2) for each in (first, zeroth))
-    found = np.zeros((len(first), SIX, len(first), SIX))
+    flexibility = np.zeros((len(first), SIX, len(first), SIX))
     # A positive tilt about x moves what lies further along the axis to negative y.
     for motions, part, sense in (([0, 4], first, 1.0), ([1, 3], first, -1.0), ([2, 5], zeroth, 1.0)):
         for row, column in np.ndindex(2, 2):
-            found[:, motions[row], :, motions[column]] = sense ** (row + column) * part[:, row, :, column]
-    return found
+            flexibility[:, motions[row], :, motions[column]] = sense ** (row + column) * part[:, row, :, column]
+    return flexibility
 
 
 def _piece(shaft: Ring, length: float, size: float) -> np.ndarray:

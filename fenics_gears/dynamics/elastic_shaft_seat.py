@@ -85,24 +85,26 @@ class Seat:
         size = SIX * len(places)
         whole = free.reshape(size + SIX, -1)
         to_end = np.linalg.solve(whole[-SIX:, -SIX:], whole[-SIX:, :size])
-        found = whole[:size, :size] - whole[:size, -SIX:] @ to_end
+        compliance = whole[:size, :size] - whole[:size, -SIX:] @ to_end
         ends = np.zeros((2 * SIX, SIX * len(heights)))
         if not self.shaft.of_face:
             follows = self._follows(free, places).reshape(size, SIX)
             moved = np.linalg.solve(self.stiffness_apart, follows.T)
-            found += follows @ moved
+            compliance += follows @ moved
             ends = self.apart @ moved[:, : SIX * len(heights)]
-        found = (0.5 * (found + found.T)).reshape(len(places), SIX, len(places), SIX)[:, :, : len(heights)]
-        return YieldingSeat(found[: len(heights)], found[len(heights) :], ends.reshape(2, SIX, len(heights), SIX))
+        count = len(heights)
+        symmetric = 0.5 * (compliance + compliance.T)
+        by_height = symmetric.reshape(len(places), SIX, len(places), SIX)[:, :, :count]
+        return YieldingSeat(by_height[:count], by_height[count:], ends.reshape(2, SIX, count, SIX))
 
     def whole(self, heights: np.ndarray) -> np.ndarray:
         """D (h, 6, h, 6) with what the ends' motions apart do, also where these are coordinates."""
-        found = self.under(heights).compliance
+        compliance = self.under(heights).compliance
         if self.shaft.of_face:
             follows = self.follows(heights)
             moved = np.linalg.solve(self.stiffness_apart, follows.reshape(-1, SIX).T)
-            found = found + (follows.reshape(-1, SIX) @ moved).reshape(found.shape)
-        return found
+            compliance = compliance + (follows.reshape(-1, SIX) @ moved).reshape(compliance.shape)
+        return compliance
 
     @property
     def stiffness_apart(self) -> np.ndarray:

@@ -167,14 +167,14 @@ class Marcher:
         # Without friction a position at rest depends on no other.
         block = self.batch.at_rest(-1 if inert or stepper.friction else 0, 2 if inert else 1)
         self._solve(block, runs, lambda step: None)
-        found: dict[int, Record] = {}
+        first_records: dict[int, Record] = {}
         for run in [run for run in runs if run not in self.failures]:
             records = [block.record(run, at) for at in range(1, block.length)]
             try:
-                found[run] = self.batch.alone(run).started(*records) if inert else records[-1]
+                first_records[run] = self.batch.alone(run).started(*records) if inert else records[-1]
             except ContactNotConverged as failure:
                 self.failures[run] = failure.with_traceback(None)
-        return found
+        return first_records
 
     def _end_of_block(self, first: int, steps: int) -> int:
         """Number of the step after the last of the block that begins with `first`: whole mesh cycles, or equal parts of
@@ -264,5 +264,5 @@ class Marcher:
     def _judge(self, march: March, steps: Steps) -> None:
         from fenics_gears.contact.uniqueness import uncertified
 
-        found = uncertified(march.stiffness, march.friction, steps.solved)
-        march.judged, march.uncertified = march.judged + len(steps), march.uncertified + found
+        unproven = uncertified(march.stiffness, march.friction, steps.solved)
+        march.judged, march.uncertified = march.judged + len(steps), march.uncertified + unproven

@@ -31,7 +31,7 @@ Place = tuple[int, float]
 class March:
     """A march so far.
 
-    `kept`: the last steps; `period`: of the last two times as many steps the solutions are held (`held`);
+    `kept`: how many of the last steps are kept; `period`, in steps: solutions of the last two periods are `held`;
     `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of `METHODS` solved;
     `separations`: step and smallest opening (mm) of every step without contact of drive flanks; `locked`: steps at
     which friction locks a closed node (`contact.existence`); `uncertified`: how many of the `judged` last steps may
@@ -103,9 +103,10 @@ class BetweenSteps:
     """Solves the static motion of the runs of a `batch` between two steps, apart from their marches; its cycle is
     divisible.
 
-    Without friction a solution does not depend on the step before it. With friction that step is one of the march's
-    `held` records, by run and number, or else is solved on the way from a start some steps earlier: from further back,
-    at most a mesh cycle, until it is what was `marched`, which says so of a record.
+    Without friction a solution does not depend on the step before it. With friction it does. The march still has that
+    step (`held`, by run and number), or it is solved again from static equilibrium some steps earlier. The start is
+    moved back, twice as far each time, until the step agrees with the march (`marched` says so of a record); at most
+    two mesh cycles.
     """
 
     def __init__(
@@ -135,9 +136,9 @@ class BetweenSteps:
         friction = self._batch.common.friction
         lasts = []
         if friction:
-            found = {each: last for each in places if (last := self._record_before(*each)) is not None}
-            places = list(found)
-            lasts = list(found.values())
+            before = {each: last for each in places if (last := self._record_before(*each)) is not None}
+            places = list(before)
+            lasts = list(before.values())
         if not places:
             return
         block = self._batch.between(places, lasts)

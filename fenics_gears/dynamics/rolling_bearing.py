@@ -62,33 +62,33 @@ def reaction(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
     8056
     """
     braced = _braced(rolling)
-    found = _reaction(rolling, motion + braced)
+    braced_reaction = _reaction(rolling, motion + braced)
     if not braced.any():
-        return found
+        return braced_reaction
     rest = _reaction(rolling, braced)
-    energy = found.energy - rest.energy - float(rest.loads @ motion)
-    return found._replace(energy=energy, loads=found.loads - rest.loads)
+    energy = braced_reaction.energy - rest.energy - float(rest.loads @ motion)
+    return braced_reaction._replace(energy=energy, loads=braced_reaction.loads - rest.loads)
 
 
 def secant_stiffness(rolling: RollingBearing, motion: np.ndarray) -> np.ndarray:
     """Stiffness (5, 5), symmetric and not negative, that gives the bearing's loads at a motion (5,) from none at rest:
     the mean of its stiffness on the way there, of which the rest that a quadrature leaves is made up for as in the
     method of Broyden, Fletcher, Goldfarb and Shanno."""
-    found = reaction(rolling, motion)
+    at_motion = reaction(rolling, motion)
     mean = np.zeros((MOTIONS, MOTIONS))
     points, weights = np.polynomial.legendre.leggauss(ON_A_PART)
     for begin, end in pairwise(PARTS):
         for point, weight in zip(points, weights):
             place = 0.5 * (begin + end) + 0.5 * (end - begin) * point
             mean += 0.5 * (end - begin) * weight * reaction(rolling, place * motion).stiffness
-    work = float(motion @ found.loads)
+    work = float(motion @ at_motion.loads)
     if work <= 0.0:
         return mean
     if motion @ mean @ motion < SEEN * work:
         # The clearance is nearly all of the way.
-        mean = found.stiffness
+        mean = at_motion.stiffness
     spring = mean @ motion
-    return mean - np.outer(spring, spring) / (motion @ spring) + np.outer(found.loads, found.loads) / work
+    return mean - np.outer(spring, spring) / (motion @ spring) + np.outer(at_motion.loads, at_motion.loads) / work
 
 
 def nominal_stiffness(rolling: RollingBearing) -> np.ndarray:
@@ -160,7 +160,7 @@ def _spring_of_ball(rolling: RollingBearing) -> float:
     """Force, N/mm^(3/2), of a ball between both rings by Hertz's theory (ISO/TS 16281, 4.2.1; its 1.48 is
     sqrt(2) pi/3)."""
     ratio = rolling.diameter * cos(rolling.contact_angle) / rolling.pitch_diameter
-    found = 0.0
+    approach = 0.0
     for sign, groove in zip((1.0, -1.0), rolling.grooves):
         rolled = sign * ratio / (1.0 - sign * ratio)
         held = rolling.diameter / (2.0 * groove)
@@ -169,9 +169,9 @@ def _spring_of_ball(rolling: RollingBearing) -> float:
         slender = _axes_of_ellipse(difference)
         parameter = 1.0 - 1.0 / slender**2
         curvature = 2.0 / rolling.diameter * total
-        found += ellipk(parameter) * (curvature / (slender**2 * ellipe(parameter))) ** (1.0 / 3.0)
+        approach += ellipk(parameter) * (curvature / (slender**2 * ellipe(parameter))) ** (1.0 / 3.0)
     plane_modulus = YOUNGS_MODULUS / (1.0 - POISSONS_RATIO**2)
-    return sqrt(2.0) * pi / 3.0 * plane_modulus * found**-1.5
+    return sqrt(2.0) * pi / 3.0 * plane_modulus * approach**-1.5
 
 
 def _axes_of_ellipse(difference: float) -> float:

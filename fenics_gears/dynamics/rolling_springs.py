@@ -56,9 +56,10 @@ class RollingSpring(NamedTuple):
     def departure(self, coordinates: np.ndarray) -> Departure:
         """Of the loads (5,) at coordinates (k,) of the drivetrain."""
         motion = coordinates[self.rows]
-        found = reaction(self.rolling, motion)
+        reacted = reaction(self.rolling, motion)
         linear = self.secant @ motion
-        return Departure(found.energy - 0.5 * motion @ linear, found.loads - linear, found.stiffness - self.secant)
+        energy = reacted.energy - 0.5 * motion @ linear
+        return Departure(energy, reacted.loads - linear, reacted.stiffness - self.secant)
 
 
 class NoBalance(ContactNotConverged):
@@ -88,10 +89,10 @@ class RollingSprings:
         forces = np.zeros(size)
         stiffness = np.zeros((size, size))
         for spring in self.springs:
-            found = spring.departure(coordinates)
-            energy += found.energy
-            forces[spring.rows] += found.forces
-            stiffness[np.ix_(spring.rows, spring.rows)] += found.stiffness
+            own = spring.departure(coordinates)
+            energy += own.energy
+            forces[spring.rows] += own.forces
+            stiffness[np.ix_(spring.rows, spring.rows)] += own.stiffness
         return Departure(energy, forces, stiffness)
 
     def energies(self, states: np.ndarray) -> np.ndarray:
@@ -100,10 +101,10 @@ class RollingSprings:
 
     def loads(self, states: np.ndarray, linear: np.ndarray) -> np.ndarray:
         """Loads (s, b, 5) on all bearings of elastic shafts at states (s, k); `linear`: those of linear springs."""
-        found = linear.copy()
+        on_bearings = linear.copy()
         for spring in self.springs:
-            found[:, spring.bearing] += [spring.departure(each).forces for each in states]
-        return found
+            on_bearings[:, spring.bearing] += [spring.departure(each).forces for each in states]
+        return on_bearings
 
     def largest_force(self, coordinates: np.ndarray) -> float:
         """Largest force, N, of a rolling element."""
@@ -115,8 +116,8 @@ class RollingSprings:
         load = np.zeros(len(self.reference))
         for spring in self.springs:
             # Motions that the bearing does not hold, as a roller bearing's along the axis, stay where they are.
-            beside = np.diag([0.0, 0.0, spring.axial, 0.0, 0.0]) + FREE * np.abs(spring.secant).max() * np.eye(MOTIONS)
-            stiffness[np.ix_(spring.rows, spring.rows)] = spring.secant + beside
+            held = np.diag([0.0, 0.0, spring.axial, 0.0, 0.0]) + FREE * np.abs(spring.secant).max() * np.eye(MOTIONS)
+            stiffness[np.ix_(spring.rows, spring.rows)] = spring.secant + held
             load[spring.rows] = loads[spring.bearing]
         return self.largest_force(self.settled(stiffness, load, self.reference))
 
@@ -124,17 +125,17 @@ class RollingSprings:
         """Coordinates (k,) of which those that no contact moves are in balance, with a linear stiffness (k, k), under a
         load (k,): where energy is least. Raises NoBalance."""
         own = slice(len(load) - self.modes, len(load))
-        found = coordinates.copy()
+        balanced = coordinates.copy()
         change = np.inf
         for _ in range(MOST_ITERATIONS):
-            beyond = self.departure(found)
-            slope = (stiffness @ found - load + beyond.forces)[own]
+            beyond = self.departure(balanced)
+            slope = (stiffness @ balanced - load + beyond.forces)[own]
             step = -np.linalg.solve(stiffness[own, own] + beyond.stiffness[own, own], slope)
-            change = _change(step, found)
+            change = _change(step, balanced)
             if change <= SAME:
-                found[own] += step
-                return found
-            found = self._lower(stiffness, load, found, step, float(slope @ step))
+                balanced[own] += step
+                return balanced
+            balanced = self._lower(stiffness, load, balanced, step, float(slope @ step))
         raise NoBalance(change)
 
     def _lower(
@@ -150,12 +151,12 @@ class RollingSprings:
         # What energy is too coarse for, near its minimum, is taken whole.
         coarse = 1e-12 * abs(before)
         for _ in range(MOST_HALVINGS):
-            found = begun.copy()
-            found[-self.modes :] += part * step
-            if energy(found) <= before + DECREASE * part * slope + coarse:
-                return found
+            lower = begun.copy()
+            lower[-self.modes :] += part * step
+            if energy(lower) <= before + DECREASE * part * slope + coarse:
+                return lower
             part *= 0.5
-        return found
+        return lower
 
     def solved(
         self,
@@ -173,12 +174,12 @@ class RollingSprings:
             place = self.settled(stiffness, load, place)
             beyond = self.departure(place)
             solution = solve(stiffness + beyond.stiffness, load - beyond.forces + beyond.stiffness @ place)
-            found = solution.coordinates
-            change = _change(found - place, found)
+            coordinates = solution.coordinates
+            change = _change(coordinates - place, coordinates)
             if change <= SAME:
                 return solution
             part = min(1.0, 2.0 * part) if change < last else 0.5 * part
-            place = place + part * (found - place)
+            place = place + part * (coordinates - place)
             last = change
         raise NoBalance(change)
 
@@ -190,7 +191,7 @@ def _change(step: np.ndarray, coordinates: np.ndarray) -> float:
 def springs_of(drivetrain: Drivetrain, loads: Sequence[np.ndarray]) -> RollingSprings | None:
     """The rolling bearings of a drivetrain whose gears have loads (5,) on their elastic shafts; None where it has
     none."""
-    found = []
+    springs = []
     first = 0
     reference = np.zeros(len(drivetrain.coordinates))
     left = list(loads)
@@ -207,6 +208,6 @@ def springs_of(drivetrain: Drivetrain, loads: Sequence[np.ndarray]) -> RollingSp
             own = rows[len(gears) + MOTIONS * place :][:MOTIONS]
             axial = bearing.axial_stiffness
             secant = np.array(bearing.matrix) - np.diag([0.0, 0.0, axial, 0.0, 0.0])
-            found.append(RollingSpring(own, bearing.rolling, secant, first + number, axial))
+            springs.append(RollingSpring(own, bearing.rolling, secant, first + number, axial))
         first += len(system.bearings)
-    return RollingSprings(tuple(found), reference, drivetrain.modes) if found else None
+    return RollingSprings(tuple(springs), reference, drivetrain.modes) if springs else None

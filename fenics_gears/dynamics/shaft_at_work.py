@@ -58,7 +58,7 @@ def face_compliance_of_shafts(systems: Iterable[ShaftSystem], pair: GearPair, z:
     >>> face_compliance_of_shafts((), pair, middles_of_slices(pair, 2)).tolist()  # rigid shafts
     [[0.0, 0.0], [0.0, 0.0]]
     """
-    found = np.zeros((len(z), len(z)))
+    compliance = np.zeros((len(z), len(z)))
     along = pair.pitch_point, pair.pitch_point - pair.line_of_action_length
     across = -pair.pinion.base_radius, pair.wheel.base_radius
     for system in systems:
@@ -73,10 +73,10 @@ def face_compliance_of_shafts(systems: Iterable[ShaftSystem], pair: GearPair, z:
             heights = z - pair.gear_middles[gear]
             moves.append(sense * np.einsum("i,sij->sj", row, [carried(each) for each in heights])[:, :FIVE])
             if shaft.yields_within:
-                found += np.einsum("i,sitj,j->st", row, system.seat(shaft).whole(heights), row)
+                compliance += np.einsum("i,sitj,j->st", row, system.seat(shaft).whole(heights), row)
         moved_by = np.concatenate(moves, axis=1)
-        found += moved_by @ np.linalg.solve(system.gear_stiffness, moved_by.T)
-    return found
+        compliance += moved_by @ np.linalg.solve(system.gear_stiffness, moved_by.T)
+    return compliance
 
 
 def even_load(shaft: ElasticShaft, pair: GearPair, torque: float) -> np.ndarray:
@@ -136,7 +136,7 @@ def _balanced(system: ShaftSystem, load: np.ndarray) -> np.ndarray:
     count = len(flexibility)
     scale = np.tile([1.0, 1.0, 1.0, 1.0 / ARM, 1.0 / ARM], (count + len(load)) // MOTIONS)
     start = np.linalg.solve(system.gear_stiffness, load)
-    # A place beside the seat does not yield: there it does as little as does not count.
+    # A bearing at the seat itself does not yield, so that its flexibility has no inverse; so little changes nothing.
     beam = np.linalg.inv(flexibility + np.diag(YIELDING * scale[:count] ** 2))
     bent = np.hstack([np.eye(count), -rigid])
     of_beam = bent.T @ beam @ bent
@@ -151,15 +151,15 @@ def _balanced(system: ShaftSystem, load: np.ndarray) -> np.ndarray:
         return 0.5 * motion @ elastic + stored - worked @ motion, scale * slope
 
     def curvature(scaled: np.ndarray) -> np.ndarray:
-        found = of_beam.copy()
-        found[:count, :count] += _of_all(rolling, scale[:count] * scaled[:count])[2]
-        return scale[:, None] * found * scale
+        matrix = of_beam.copy()
+        matrix[:count, :count] += _of_all(rolling, scale[:count] * scaled[:count])[2]
+        return scale[:, None] * matrix * scale
 
     in_rolling = np.repeat([each.rolling is not None for each in system.bearings], MOTIONS)
     begun = np.concatenate([(system.bearings_at_rest @ start)[in_rolling], start]) / scale
     size = float(np.abs(load).max())
-    found = minimize(energy, begun, jac=True, hess=curvature, method="trust-exact", options={"gtol": NEAR * size})
-    motion = scale * found.x
+    minimum = minimize(energy, begun, jac=True, hess=curvature, method="trust-exact", options={"gtol": NEAR * size})
+    motion = scale * minimum.x
     near = False
     for _ in range(POLISHED):
         _, loads, stiffness = _of_all(rolling, motion[:count])
@@ -187,10 +187,10 @@ def _of_all(bearings: Sequence[Bearing], motions: np.ndarray) -> tuple[float, np
     stiffness = np.zeros((len(motions),) * 2)
     for number, bearing in enumerate(bearings):
         own = slice(MOTIONS * number, MOTIONS * (number + 1))
-        found = reaction(bearing.rolling, motions[own])
+        reacted = reaction(bearing.rolling, motions[own])
         axial = np.diag([0.0, 0.0, bearing.axial_stiffness, 0.0, 0.0])
         pushed = axial @ motions[own]
-        energy += found.energy + 0.5 * float(motions[own] @ pushed)
-        loads[own] = found.loads + pushed
-        stiffness[own, own] = found.stiffness + axial
+        energy += reacted.energy + 0.5 * float(motions[own] @ pushed)
+        loads[own] = reacted.loads + pushed
+        stiffness[own, own] = reacted.stiffness + axial
     return energy, loads, stiffness

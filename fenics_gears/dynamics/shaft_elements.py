@@ -139,12 +139,12 @@ class Assembly:
 
     def sum(self, kind: str) -> np.ndarray:
         """Sum (n, n) of "mass", "damping" or "stiffness" of all elements, but of the stiffness of flexible ones."""
-        found = np.zeros((len(self.names),) * 2)
+        total = np.zeros((len(self.names),) * 2)
         for each in self.elements:
             if kind != "stiffness" or each.flexible is None:
                 own = self.numbers(each.motions)
-                found[np.ix_(own, own)] += getattr(each, kind)
-        return found
+                total[np.ix_(own, own)] += getattr(each, kind)
+        return total
 
     @cached_property
     def flexible(self) -> Flexible:
@@ -186,8 +186,8 @@ class Held:
     def stiffness(self) -> np.ndarray:
         """Loads (h, h) on the given motions per such motion."""
         motions, forces = self._at_rest
-        found = self._stiffness[self._given] @ motions + self.assembly.flexible.rows[:, self._given].T @ forces
-        return 0.5 * (found + found.T)
+        loads = self._stiffness[self._given] @ motions + self.assembly.flexible.rows[:, self._given].T @ forces
+        return 0.5 * (loads + loads.T)
 
     def loads_on(self, element: Element) -> np.ndarray:
         """Loads on an element over its own motions per given motion."""
@@ -202,11 +202,11 @@ class Held:
     @cached_property
     def flexibility(self) -> np.ndarray:
         """Motions (n, n) per load, with the given ones held."""
-        found = np.zeros((len(self.assembly.names),) * 2)
-        found[np.ix_(self._free, self._free)] = self._solved(np.eye(len(self._scale), len(self._free)))[
+        motions = np.zeros((len(self.assembly.names),) * 2)
+        motions[np.ix_(self._free, self._free)] = self._solved(np.eye(len(self._scale), len(self._free)))[
             : len(self._free)
         ]
-        return 0.5 * (found + found.T)
+        return 0.5 * (motions + motions.T)
 
     @cached_property
     def _at_rest(self) -> tuple[np.ndarray, np.ndarray]:
@@ -244,11 +244,11 @@ class Held:
         right = self._scale[:, None] * right
         # Not kept: factors cannot be sent to another process.
         factors = splu(self._matrix)
-        found = factors.solve(right)
+        solution = factors.solve(right)
         # One step of refinement makes each equation right by itself (R. D. Skeel, Mathematics of Computation 35, 1980):
         # that of a soft bearing is not lost beside those of stiff beams.
-        found += factors.solve(right - self._matrix @ found)
-        return self._scale[:, None] * found
+        solution += factors.solve(right - self._matrix @ solution)
+        return self._scale[:, None] * solution
 
 
 def _turns(name: str) -> bool:

@@ -70,10 +70,10 @@ class ShaftSystem(ShaftsAtRest):
     @cached_property
     def bearing_stiffness(self) -> np.ndarray:
         """The part (k, k) of the stiffness whose energy is in bearings and housing."""
-        found = np.zeros((len(self.coordinates),) * 2)
+        stiffness = np.zeros((len(self.coordinates),) * 2)
         for each in self._springs:
-            found += self._moved(each.motions).T @ self._loads_on(each)
-        return found
+            stiffness += self._moved(each.motions).T @ self._loads_on(each)
+        return stiffness
 
     @cached_property
     def at_bearings(self) -> np.ndarray:
@@ -93,16 +93,16 @@ class ShaftSystem(ShaftsAtRest):
         """A shaft whose gear is loaded at `heights` (h,), mm from its middle, and `places` (p,), mm from the left end:
         what is beside the face follows its ends."""
         within = (places > shaft.seat_ends[0]) & (places < shaft.seat_ends[1])
-        found = self.seat(shaft).under(heights, places[within] - shaft.gear_at)
+        yielding = self.seat(shaft).under(heights, places[within] - shaft.gear_at)
         own, carry = self.face(shaft)
-        ends = carry @ found.ends.reshape(2 * SIX, -1)
+        ends = carry @ yielding.ends.reshape(2 * SIX, -1)
         line = np.zeros((len(places), FIVE, len(heights), SIX))
-        line[within] = found.axis[:, :FIVE]
-        beside = self.shaft_motions(shaft, places[~within], ()) @ np.eye(len(self.ends))[:, own]
-        line[~within] = (beside @ ends).reshape(-1, *line.shape[1:])
+        line[within] = yielding.axis[:, :FIVE]
+        outside = self.shaft_motions(shaft, places[~within], ()) @ np.eye(len(self.ends))[:, own]
+        line[~within] = (outside @ ends).reshape(-1, *line.shape[1:])
         moved = self.at_rest.motions_of(self.in_bearings)[:, own] @ ends
         loads = self.springs @ moved
-        return BentBySeat(found.compliance, line, loads.reshape(-1, *line.shape[2:]))
+        return BentBySeat(yielding.compliance, line, loads.reshape(-1, *line.shape[2:]))
 
     def deflection(self, shaft: ElasticShaft, places: Sequence[float]) -> np.ndarray:
         """Motions (p, 5, k) of places on a shaft's axis (mm from its left end) per coordinate."""
@@ -163,13 +163,13 @@ class ShaftSystem(ShaftsAtRest):
         counted = dict.fromkeys((shaft.gear for shaft in self.shafts), 0)
         shafts = np.array([name.partition("/")[0] for name in self._nodes.names])
         motions = np.arange(len(shafts)) % SIX
-        found = []
+        names = []
         for energy in energies.T:
             gear = max(counted, key=lambda each: energy[shafts == each].sum())
             kind = max(KINDS, key=lambda each: energy[np.isin(motions, KINDS[each])].sum())
             counted[gear] += 1
-            found.append(f"{kind}_mode_{counted[gear]}_{gear}")
-        return tuple(found)
+            names.append(f"{kind}_mode_{counted[gear]}_{gear}")
+        return tuple(names)
 
     @property
     def _shapes(self) -> np.ndarray:
@@ -190,10 +190,10 @@ class ShaftSystem(ShaftsAtRest):
         root = np.linalg.cholesky(self._mass_of_nodes[np.ix_(nodes, nodes)])
         flexible = root.T @ held.flexibility[np.ix_(places, places)] @ root
         slowest = (2.0 * np.pi * min(shaft.up_to for shaft in self.shafts)) ** -2
-        squares, found = eigh(0.5 * (flexible + flexible.T), subset_by_value=(slowest, np.inf))
+        squares, vectors = eigh(0.5 * (flexible + flexible.T), subset_by_value=(slowest, np.inf))
         own = sum(shaft.mass_of_all for shaft in self.shafts)
         shapes = np.zeros((len(names), len(squares)))
-        shapes[nodes] = np.sqrt(own) * np.linalg.solve(root.T, found)
+        shapes[nodes] = np.sqrt(own) * np.linalg.solve(root.T, vectors)
         return own / squares[::-1], shapes[:, ::-1]
 
     @property
@@ -215,18 +215,18 @@ class ShaftSystem(ShaftsAtRest):
         """Motions (n, g) of all nodes per given one."""
         names = self._nodes.names
         known = [name in self.held.assembly for name in names]
-        found = np.zeros((len(names), len(self.given)))
-        found[known] = self.held.motions_of(each for each, has in zip(names, known) if has) @ self.of_given
+        motions = np.zeros((len(names), len(self.given)))
+        motions[known] = self.held.motions_of(each for each, has in zip(names, known) if has) @ self.of_given
         for shaft in self.shafts:
             left, right = shaft.chain.faces[0]
             for node in range(left + 1, right):
                 rows = self._nodes.numbers(motions_of(shaft.gear, node))
                 height = shaft.chain.places[node] - shaft.gear_at
-                found[rows] = carried(height) @ self.selected(motions_of(shaft.gear, "gear")).T
+                motions[rows] = carried(height) @ self.selected(motions_of(shaft.gear, "gear")).T
                 if shaft.of_face:
                     bent = self.seat(shaft).axis_follows(np.array([height]))[0]
-                    found[rows] += bent @ self.selected(motions_of(shaft.gear, "face")).T
-        return found
+                    motions[rows] += bent @ self.selected(motions_of(shaft.gear, "face")).T
+        return motions
 
     @property
     def _tied(self) -> Iterator[str]:
@@ -260,8 +260,8 @@ class ShaftSystem(ShaftsAtRest):
     @cached_property
     def _node_of(self) -> dict[str, str]:
         """The motion of a node that each ring has."""
-        found: dict[str, str] = {}
+        motion_of_node: dict[str, str] = {}
         for shaft in self.shafts:
             for number in range(len(shaft.bearings)):
-                found |= dict(zip(shaft.ring(number), shaft.at_bearing(shaft.chain, number)))
-        return found
+                motion_of_node |= dict(zip(shaft.ring(number), shaft.at_bearing(shaft.chain, number)))
+        return motion_of_node

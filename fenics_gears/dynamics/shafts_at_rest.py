@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 
     from .bearings import Bearing
 
-# mm/N that a place moves at least whose motions are coordinates: beside the seat it does as little as does not count.
+# Flexibility, mm/N, between a rolling bearing and the end of a seat at the same place: none would have no inverse, and
+# so little changes nothing.
 LEAST_YIELDING = 1e-12
 # N/mm of a rolling bearing in a housing, whose own motions are coordinates.
 RIGID = 1e6 * STIFFNESS
@@ -74,12 +75,12 @@ class ShaftsAtRest:
     @cached_property
     def given(self) -> tuple[str, ...]:
         """Names (g,) of all motions that others follow at rest."""
-        found: list[str] = []
+        names: list[str] = []
         for shaft in self.shafts:
-            found += motions_of(shaft.gear, "gear")
-            found += motions_of(shaft.gear, "face") if shaft.of_face else ()
-            found += shaft.coupling(shaft.chain)
-        return (*found, *self.in_rolling_motions)
+            names += motions_of(shaft.gear, "gear")
+            names += motions_of(shaft.gear, "face") if shaft.of_face else ()
+            names += shaft.coupling(shaft.chain)
+        return (*names, *self.in_rolling_motions)
 
     @cached_property
     def bending_names(self) -> tuple[str, ...]:
@@ -99,11 +100,11 @@ class ShaftsAtRest:
 
     def ends_of(self, chains: Sequence[Chain]) -> tuple[str, ...]:
         """The same of shafts with such chains."""
-        found: list[str] = []
+        names: list[str] = []
         for shaft, chain in zip(self.shafts, chains):
             left, right = shaft.ends(chain)
-            found += [*left, *right, *shaft.coupling(chain)]
-        return tuple(found)
+            names += [*left, *right, *shaft.coupling(chain)]
+        return tuple(names)
 
     def face(self, shaft: ElasticShaft) -> tuple[list[int], np.ndarray]:
         """Numbers (12,) of the motions of both ends of a face among `ends`, and these motions per motion of either end
@@ -115,8 +116,8 @@ class ShaftsAtRest:
     @cached_property
     def gear_stiffness(self) -> np.ndarray:
         """Of shafts and bearings at the middles of all gears (5 g, 5 g) on rigid seats: their loads per motion."""
-        found = self.rigid.T @ self.at_rest.stiffness @ self.rigid
-        return 0.5 * (found + found.T)
+        stiffness = self.rigid.T @ self.at_rest.stiffness @ self.rigid
+        return 0.5 * (stiffness + stiffness.T)
 
     def stiffness_at(self, shaft: ElasticShaft) -> np.ndarray:
         """The same (5, 5) of the gear on one shaft, with no load on the other."""
@@ -136,8 +137,8 @@ class ShaftsAtRest:
     @cached_property
     def springs(self) -> np.ndarray:
         """Stiffness (5 b, 5 b) of all bearings in their housing, those that roll as under an even load."""
-        found = block_diag(*(each.matrix for each in self.bearings))
-        return found if self.housing is None else in_series(found, np.array(self.housing))
+        stiffness = block_diag(*(each.matrix for each in self.bearings))
+        return stiffness if self.housing is None else in_series(stiffness, np.array(self.housing))
 
     @cached_property
     def bearings_at_rest(self) -> np.ndarray:
@@ -171,17 +172,17 @@ class ShaftsAtRest:
     @cached_property
     def of_given(self) -> np.ndarray:
         """Motions of `ends` and in rolling bearings per given one."""
-        found = np.zeros((len(self.held.names), len(self.given)))
+        motions = np.zeros((len(self.held.names), len(self.given)))
         for shaft in self.shafts:
             own, carry = self.face(shaft)
             gear = np.concatenate([np.eye(SIX)] * 2) @ self.selected(motions_of(shaft.gear, "gear")).T
             if shaft.of_face:
                 gear += self.seat(shaft).apart @ self.selected(motions_of(shaft.gear, "face")).T
-            found[own] = carry @ gear
+            motions[own] = carry @ gear
         for number, name in enumerate(self.held.names):
             if name in self.given:
-                found[number] = self.selected((name,))[:, 0]
-        return found
+                motions[number] = self.selected((name,))[:, 0]
+        return motions
 
     @cached_property
     def bending(self) -> np.ndarray:
@@ -193,8 +194,8 @@ class ShaftsAtRest:
         chains = [each.chain_with(places) if each is shaft else each.chain for each in self.shafts]
         held = self.assembled(chains).held((*self.ends_of(chains), *more))
         chain = chains[self.shafts.index(shaft)]
-        found = [held.motions_of(shaft.motions_at(chain, place)) for place in places]
-        return np.reshape(found, (len(places), FIVE, len(held.names)))
+        motions = [held.motions_of(shaft.motions_at(chain, place)) for place in places]
+        return np.reshape(motions, (len(places), FIVE, len(held.names)))
 
     def assembled(self, chains: Sequence[Chain] = (), loaded: bool = True) -> Assembly:
         """The sum of all elements, of shafts with such chains, their own unless given; without rolling bearings where

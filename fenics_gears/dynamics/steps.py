@@ -277,22 +277,22 @@ def drive_flanks_touch(steps: Steps) -> np.ndarray:
 @njit(cache=True)
 def _openings(block):
     steps = in_block(block)
-    found = np.full((len(steps.rows), 2), np.inf)
+    smallest = np.full((len(steps.rows), 2), np.inf)
     for s in range(len(steps.rows)):
         contact, displacement = operator_at(steps, s), steps.displacement[forces_at(steps, s)]
         gap, drive = contact.gap, contact.on_drive_flanks
         for node in range(len(gap)):
             side = DRIVE if drive[node] else COAST
-            found[s, side] = min(found[s, side], gap[node] - displacement[node])
-    return found
+            smallest[s, side] = min(smallest[s, side], gap[node] - displacement[node])
+    return smallest
 
 
 @njit(cache=True)
 def _touching(block):
     steps = in_block(block)
-    found = np.zeros(len(steps.rows), dtype=np.bool_)
+    touching = np.zeros(len(steps.rows), dtype=np.bool_)
     for s in range(len(steps.rows)):
         drive, status = operator_at(steps, s).on_drive_flanks, steps.status[nodes_at(steps, s)]
         for node in range(len(drive)):
-            found[s] |= drive[node] and status[node] != OPEN
-    return found
+            touching[s] |= drive[node] and status[node] != OPEN
+    return touching

@@ -51,7 +51,7 @@ def gyroscopic_warnings(vibrations: Iterable[Vibration], speeds: Mapping[str, fl
         for gear, speed in speeds.items()
         if each.motion.startswith(f"{gear} tilts")
     ]
-    share, mode, gear = max(tilting, key=lambda found: found[0], default=(0.0, None, ""))
+    share, mode, gear = max(tilting, key=lambda of_mode: of_mode[0], default=(0.0, None, ""))
     if share < GYROSCOPIC:
         return []
     return [

@@ -78,12 +78,12 @@ class Scheme:
 def average_history(step, mass, damping):
     """What position, velocity and acceleration at the start of a step add to its load: matrices (3, k, k); the first is
     also what inertia and damping add to the stiffness."""
-    found = np.empty((3, *mass.shape))
+    matrices = np.empty((3, *mass.shape))
     for i, j in np.ndindex(mass.shape):
-        found[0, i, j] = 4.0 / (step * step) * mass[i, j] + 2.0 / step * damping[i, j]
-        found[1, i, j] = 4.0 / step * mass[i, j] + damping[i, j]
-        found[2, i, j] = mass[i, j]
-    return found
+        matrices[0, i, j] = 4.0 / (step * step) * mass[i, j] + 2.0 / step * damping[i, j]
+        matrices[1, i, j] = 4.0 / step * mass[i, j] + damping[i, j]
+        matrices[2, i, j] = mass[i, j]
+    return matrices
 
 
 @njit(cache=True)
@@ -100,17 +100,17 @@ def average_advanced(step, before, position):
 
 @njit(cache=True)
 def backward_history(step, mass, damping):
-    """As `average_history`."""
-    found = np.zeros((3, *mass.shape))
+    """Matrices (3, k, k) of backward Euler, as `average_history` has those of average acceleration."""
+    matrices = np.zeros((3, *mass.shape))
     for i, j in np.ndindex(mass.shape):
-        found[0, i, j] = mass[i, j] / (step * step) + damping[i, j] / step
-        found[1, i, j] = mass[i, j] / step
-    return found
+        matrices[0, i, j] = mass[i, j] / (step * step) + damping[i, j] / step
+        matrices[1, i, j] = mass[i, j] / step
+    return matrices
 
 
 @njit(cache=True)
 def backward_advanced(step, before, position):
-    """As `average_advanced`."""
+    """The state (3, k) at the end of a step of backward Euler, as `average_advanced` has it."""
     after = np.empty_like(before)
     for c in range(len(position)):
         after[0, c], after[1, c] = position[c], (position[c] - before[0, c]) / step
@@ -123,7 +123,7 @@ def with_history(load, history, states):
     """A load (k,) with what the states (3, k) at the start of a step add, by symmetric matrices `history` (3, k, k)."""
     result, rows, numbers, three = load.copy(), history.reshape(-1, len(load)), states.reshape(-1), np.uint64(3)
     # Three rows at a time, which are columns too: to write and read the result for each term takes longer than the
-    # term. Unsigned places are not looked at for a negative index.
+    # term. uint64 avoids numba's wraparound check.
     for j in range(np.uint64(0), np.uint64(len(numbers)), three):
         a, b, c = rows[j], rows[j + np.uint64(1)], rows[j + np.uint64(2)]
         of_a, of_b, of_c = numbers[j], numbers[j + np.uint64(1)], numbers[j + np.uint64(2)]

@@ -12,8 +12,7 @@ from .condensation import by_radius
 from .element_nodes import node_roll_angles
 from .element_sizes import ElementSizes
 from .elements import Element
-from .half_sector import centreline_direction
-from .sector_mesh import half_sector_mesh, sector_mesh
+from .sector_mesh import centreline_direction, half_sector_mesh, sector_mesh
 
 
 def computed_ring(

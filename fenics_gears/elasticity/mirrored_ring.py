@@ -15,8 +15,8 @@ from .compliance import Reach
 from .condensation import CondensedBody, by_radius, condense, line_of
 from .elements import Element
 from .mesh_data import BodyMesh
+from .mumps import symmetric
 from .ring import cut_response, definite_factor, inverse_of_factor, sector_response, turned_nodes
-from .triangle import symmetric
 
 # Compliance (f, f) of the flank with the cuts held, its response (f, c) to motions of the cut, stiffness (c, c) of the
 # cut with the flank free.

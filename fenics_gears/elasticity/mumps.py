@@ -12,11 +12,12 @@ from scipy import sparse
 from fenics_gears.errors import ComputationError
 
 from .petsc import PETSc
-from .triangle import symmetric
 
 LIBRARY = ctypes.CDLL(PETSc.__file__)
 # Right-hand sides solved at once; more take memory and save no time.
 COLUMNS_AT_ONCE = 64
+# Rows that are transposed at once.
+ROWS_TRANSPOSED = 128
 
 
 class Factor:
@@ -127,3 +128,14 @@ def _call(name: str, *arguments) -> None:
     error = getattr(LIBRARY, name)(*arguments)
     if error:
         raise ComputationError(f"{name} failed with PETSc error {error}")
+
+
+def symmetric(upper: np.ndarray) -> np.ndarray:
+    """The symmetric or Hermitian matrix whose upper triangle is given, in its place."""
+    # Block by block: a transposed copy of a large matrix takes as long as a product of smaller ones.
+    for first in range(0, len(upper), ROWS_TRANSPOSED):
+        last = first + ROWS_TRANSPOSED
+        upper[last:, first:last] = upper[first:last, last:].conj().T
+        own = upper[first:last, first:last]
+        own[:] = np.triu(own) + np.triu(own, 1).conj().T
+    return upper

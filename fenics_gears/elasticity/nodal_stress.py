@@ -43,8 +43,8 @@ class NodalStress:
         self._slopes = {True: whole}
         self._there = {True: np.ones(len(nodes.points))}
         if sweep is not None and sweep.web is not None:
-            beside = replace(nodes, cells=nodes.cells[sweep.web.beside(nodes.middles)])
-            self._slopes[False], area = _averaged_slopes(beside)
+            outside = replace(nodes, cells=nodes.cells[sweep.web.outside(nodes.middles)])
+            self._slopes[False], area = _averaged_slopes(outside)
             self._there[False] = (area > 0.0).astype(float)
         self._shear = 0.5 / (1.0 + poissons_ratio)
         self._lame = poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))

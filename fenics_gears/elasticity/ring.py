@@ -16,7 +16,7 @@ from .condensation import CondensedBody, by_radius, condense, line_of
 from .cut_chain import CutResponse, chain_is_quicker, chain_response
 from .elements import Element
 from .mesh_data import BodyMesh
-from .triangle import symmetric
+from .mumps import symmetric
 
 
 def condensed_sector(

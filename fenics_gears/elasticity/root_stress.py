@@ -14,6 +14,7 @@ from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 
 from .cache import Cache, kept
+from .gear_compliance import similar_inputs
 from .slice_averages import slice_averages
 
 # Right-hand sides in memory at once.
@@ -57,8 +58,6 @@ def root_stress_rows(
     takes many slices. slices: of the face, middles from the gear's mid-width and widths (S,), mm; stress is averaged
     over a slice, and its force spreads over it.
     """
-    from .gear_compliance import similar_inputs
-
     over_face = len(slices[0]) > 1
     inputs = similar_inputs("root stress", gear, material, discretisation, coast_flank)
     inputs |= {"slices": [gear.in_modules(*each.tolist()) for each in (slices if over_face else ())]}

@@ -1,4 +1,7 @@
-"""The mesh of one tooth sector."""
+"""The mesh of one tooth sector. Where it is symmetric about its tooth's centreline a half is meshed; the other is its
+mirror image."""
+
+from collections.abc import Callable
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -6,9 +9,8 @@ from scipy.spatial import cKDTree
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear import Gear
 
-from .element_sizes import ElementSizes, SizeField
+from .element_sizes import ElementSizes, SizeField, along, divided
 from .gmsh_session import gmsh_model
-from .half_sector import drive_half, with_image
 from .mesh_data import BodyMesh, oriented, split_to_quadrilaterals
 from .sector_boundary import SectorBoundary, sector_boundary
 
@@ -19,6 +21,9 @@ QUADRILATERAL = 3
 # Outlines that differ in their last bit get different meshes from gmsh, and their compliances differ by up to 1 %.
 # Outlines are rounded to so many decimals (modules): far coarser than round-off, far finer than any element.
 DECIMALS = 9
+CENTRELINE_SAMPLES = 400
+# Parts of the half on the drive flank's side and their mirror images.
+IMAGES = {"flank": "coast", "upper cut": "lower cut", "hub": "hub"}
 
 
 def sector_mesh(
@@ -42,7 +47,7 @@ def half_sector_mesh(
     gear: Gear, sizes: ElementSizes, quadrilaterals: bool = False, flank_rolls: np.ndarray | None = None
 ) -> BodyMesh:
     """The half with the drive flank of the symmetric `sector_mesh` of both working flanks
-    (`half_sector.drive_half`)."""
+    (`drive_half`)."""
     boundary, field = sector_boundary(gear.of_module_one, sizes.in_modules_of(gear), flank_rolls)
     return _scaled(drive_half(boundary, field, _filling(quadrilaterals)), gear)
 
@@ -147,3 +152,60 @@ def _odd_points(boundary: SectorBoundary) -> dict[tuple[int, int], np.ndarray]:
 def _edges(boundary: SectorBoundary, index: np.ndarray, names: tuple[str, ...]) -> dict[str, np.ndarray]:
     parts = {name: index[boundary.part(name)] for name in names}
     return {name: np.stack([part[:-1], part[1:]], axis=-1) for name, part in parts.items()}
+
+
+def drive_half(
+    boundary: SectorBoundary, field: SizeField, fill: Callable[[SectorBoundary, SizeField, tuple[str, ...]], BodyMesh]
+) -> BodyMesh:
+    """Mesh of a sector's half with the drive flank, from the sector's boundary; its edge "centreline" is the line of
+    symmetry.
+
+    fill: meshes the inside of a closed boundary by a size field, with edges for the named parts.
+    """
+    half = _half(boundary, field)
+    mesh = fill(half, field, (*IMAGES, "centreline"))
+    axis = centreline_direction(mesh)
+    shared = mesh.edge_points("centreline")
+    # They lie on the line but for round-off.
+    points = mesh.points.copy()
+    points[shared] = (points[shared] @ axis)[:, None] * axis
+    return BodyMesh(points, mesh.cells, mesh.edges)
+
+
+def centreline_direction(half: BodyMesh) -> np.ndarray:
+    """Unit vector (2,) from the gear's centre along the line of symmetry."""
+    on_it = half.points[half.edge_points("centreline")]
+    outermost = on_it[np.argmax(np.linalg.norm(on_it, axis=1))]
+    return outermost / np.linalg.norm(outermost)
+
+
+def with_image(half: BodyMesh) -> BodyMesh:
+    """Mesh of the whole sector: the half and its mirror image, joined along the centreline."""
+    axis = centreline_direction(half)
+    shared = half.edge_points("centreline")
+    image = 2.0 * (half.points @ axis)[:, None] * axis - half.points
+    own = np.setdiff1d(np.arange(len(half.points)), shared)
+    index = np.arange(len(half.points))
+    index[own] = len(half.points) + np.arange(len(own))
+    points = np.vstack([half.points, image[own]])
+    edges = {name: half.edges[name] for name in IMAGES}
+    mirrored = {other: index[half.edges[name]] for name, other in IMAGES.items()}
+    edges = {
+        name: np.vstack([part[name] for part in (edges, mirrored) if name in part]) for name in {**edges, **mirrored}
+    }
+    return BodyMesh(points, oriented(points, np.vstack([half.cells, index[half.cells]])), edges, half.web)
+
+
+def _half(boundary: SectorBoundary, field: SizeField) -> SectorBoundary:
+    """The drive flank's side: from the bore up the cut, root, flank and half the tip, down the centreline, half the
+    bore back."""
+    tip_first, tip_last = boundary.parts["tip"]
+    hub_first, hub_last = boundary.parts["hub"]
+    top = (tip_first + tip_last) // 2
+    bottom = (hub_first + hub_last) // 2
+    line = np.linspace(boundary.points[top], boundary.points[bottom], CENTRELINE_SAMPLES)
+    inner = along(line, divided(line, field.at(line), 4))
+    points = np.vstack([boundary.points[: top + 1], inner[1:-1], boundary.points[bottom:]])
+    end = top + len(inner) - 1
+    parts = {name: ends for name, ends in boundary.parts.items() if ends[1] <= top}
+    return SectorBoundary(points, {**parts, "centreline": (top, end), "hub": (end, len(points))})

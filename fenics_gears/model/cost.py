@@ -1,15 +1,21 @@
-"""Expected time and memory of a run: operations are counted, their times were measured on one machine.
+"""Expected time and memory of a run, and settings that fit: operations are counted, their times were measured on one
+machine.
 
 Seconds are those of one core of the reference machine (Intel Xeon of 2023, 2 cores, Debian 12's OpenBLAS, one thread);
 machines differ by a factor of two. `python -m tests.benchmarks.expected_cost` prints what is expected beside what is
 measured.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import ceil
 
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.sector_boundary import flank_roll_angles
+from fenics_gears.errors import SceneError
 from fenics_gears.inputs.tree import GEARS
+from fenics_gears.scene.accuracy import FEWEST_LAYERS, FEWEST_SLICES, SECTION_SIZE
+from fenics_gears.scene.data import Accuracy
 
 from .cost_parts import (
     BYTES_OF_A_NUMBER,
@@ -25,8 +31,7 @@ from .cost_parts import (
     operator_bytes,
     root_stress_cost,
 )
-from .face_cost import face_cost
-from .model import Model
+from .model import Model, model_of
 from .resolution import EVERY_STEP
 
 # Unknowns of a sector mesh: a body part and one part per flank node; fitted to meshes from 0.16 to 0.01 mm of the
@@ -90,6 +95,8 @@ def expected_cost(model: Model) -> ExpectedCost:
     sections = _sections(model, gears)
     if model.face.slices == 1:
         return _with_root_stress(model, gears, sections)
+    from .face_cost import face_cost
+
     # Of teeth ahead and behind, between all flanks.
     reach = 2 * model.touching.reach.farthest + 1
     flanks = 2 if scene.coast_flanks is not None else 1
@@ -217,3 +224,60 @@ def _remeshed_cost(model: Model, gears: list[_Gear]) -> ExpectedCost:
         CONDENSING_PROGRAM + model.stored_bytes + BYTES_OF_A_NUMBER * positions * MATRICES_OF_A_POSITION * rows**2,
         unknowns=tuple((gear.words, gear.unknowns) for gear in gears),
     )
+
+
+# By how much elements and layers are made coarser from try to try, and how often.
+COARSER = 1.2
+TRIES = 12
+
+
+def too_large(model: Model, cost: ExpectedCost, allowed: float) -> str:
+    """Why a run that may take `allowed` bytes does not fit, and what to change; empty where it does."""
+    if cost.held <= allowed:
+        return ""
+
+    def held(accuracy: Accuracy) -> float:
+        return expected_cost(model_of(replace(model.scene, accuracy=accuracy))).held
+
+    target = ' In place of settings, target = "5 %" has the run look for some that fit and keep the error;'
+    return refused(cost, allowed, settings_that_fit(model, held, allowed), target)
+
+
+def refused(cost: ExpectedCost, allowed: float, fits: str, target: str = "") -> str:
+    """Why a run does not fit, and what to change: settings that fit, in words, if there are any, or a `target`."""
+    less = f"{fits} in [accuracy] fit" if fits else "Larger elements, fewer mesh cycles or time steps take less"
+    return (
+        f"The run would take {cost.held / 1e9:.3g} GB of memory, contact operators apart, and {allowed / 1e9:.3g} GB"
+        f" are allowed. Nothing was computed. {less}.{target} `--memory` or FENICS_GEARS_MEMORY allow more."
+    )
+
+
+def settings_that_fit(model: Model, held: Callable[[Accuracy], float], allowed: float) -> str:
+    """The least coarse ones that are tried, in words; empty where none fits. `held`: bytes of a run with settings."""
+    for times in range(1, TRIES + 1):
+        accuracy, words = _coarser(model, COARSER**times)
+        try:
+            if held(accuracy) <= allowed:
+                return words
+        except SceneError:
+            continue
+    return ""
+
+
+def _coarser(model: Model, factor: float) -> tuple[Accuracy, str]:
+    """Settings with larger elements: of the flanks, or over a face of the bodies, with fewer layers and slices."""
+    asked = model.scene.accuracy
+    slices_now, layers_now = model.slices_and_layers
+    if slices_now is None or layers_now is None:
+        size = _rounded(factor * model.resolution.flank_element_size)
+        return replace(asked, flank_element_size=size), f'flank_element_size = "{size:g} mm"'
+    size = _rounded(factor * (asked.body_element_size or SECTION_SIZE * model.scene.gears.module))
+    layers = max(ceil(layers_now / factor), FEWEST_LAYERS)
+    slices = max(ceil(slices_now / factor), FEWEST_SLICES)
+    words = f'body_element_size = "{size:g} mm", layers = {layers}, slices = {slices}'
+    return replace(asked, body_element_size=size, layers=layers, slices=slices), words
+
+
+def _rounded(size: float) -> float:
+    """To two digits."""
+    return float(f"{size:.2g}")

@@ -112,29 +112,29 @@ def _face_rows(model: Model) -> Rows:
     if not scene.three_dimensional:
         return [*widths, *_plane_rows(model)]
     low, high = pair.common_face
-    found: Rows = [
+    rows: Rows = [
         *widths,
         ("flanks are resolved over the face", f"z from {low:g} mm to {high:g} mm", "from its middle, left to right"),
     ]
     if pair.helix is not None:
         hands = (pair.helix.pinion_hand, "left" if pair.helix.pinion_hand == "right" else "right")
-        found.append(("hand of the helix", f"pinion {hands[0]}, wheel {hands[1]}", ""))
+        rows.append(("hand of the helix", f"pinion {hands[0]}, wheel {hands[1]}", ""))
     for name in GEARS if scene.lead_modifications is not None else ():
         own = getattr(scene.lead_modifications, name)
         relief = None if own is None else own.end_relief
         amounts = _amounts(own, ("crowning", "helix_slope"))
-        found += [(f"{name} {words}", 1e3 * amount, "um") for words, amount in amounts]
+        rows += [(f"{name} {words}", 1e3 * amount, "um") for words, amount in amounts]
         if relief is not None:
             ends = "both ends" if relief.sides == "both" else f"the {relief.sides} end"
-            found.append(
+            rows.append(
                 (f"{name} end relief", 1e3 * relief.depth, f"um, {relief.shape} over {relief.length:g} mm at {ends}")
             )
     if scene.tooth_elasticity is not None:
         common = layers_of_common_face(scene, pair)
         layers = [f"{name} {face_discretisation(model, gear).layers}" for gear, name in enumerate(GEARS)]
-        found.append(("layers of the bodies", f"{', '.join(layers)},", f"{common} of them on the common face"))
+        rows.append(("layers of the bodies", f"{', '.join(layers)},", f"{common} of them on the common face"))
     about = "um over the common face, about the pitch point in its middle"
-    return found + [
+    return rows + [
         (f"misalignment {words}", 1e3 * amount, about)
         for words, amount in _amounts(scene.misalignment, ("in_plane", "out_of_plane"))
     ]
@@ -178,19 +178,19 @@ def _plane_rows(model: Model) -> Rows:
     strain leaves out of a narrow face."""
     pair = model.pair
     scene = model.scene
-    found: Rows = []
+    rows: Rows = []
     if scene.tooth_elasticity is None or scene.accuracy.model == ISO_6336:
         return []
     if pair.effective_face_widths != (pair.face_width, pair.face_width):
         counts = ", ".join(f"{name} {width:.4g} mm" for name, width in zip(GEARS, pair.effective_face_widths))
         words = "of the bodies: the common width, and of what stands out beyond it as much as helps to carry"
-        found.append(("face width that counts", counts, words))
+        rows.append(("face width that counts", counts, words))
     modules = pair.face_width / pair.pinion.module
     softer = too_stiff(modules, scene.gears.materials)
     if softer >= NOTABLE_STIFFNESS:
         words = f"too stiff (mean transmission error): the face is {modules:.3g} modules wide; {OVER_THE_FACE}"
-        found.append(("plane strain", f"about {softer:.1f}%", words))
-    return found
+        rows.append(("plane strain", f"about {softer:.1f}%", words))
+    return rows
 
 
 # By how many per cent the mean transmission error in three dimensions is larger, over the face width in modules:

@@ -61,13 +61,13 @@ def expected_errors(model: Model) -> dict[str, dict[str, float]]:
         FLANK: RESOLVED * model.resolution.flank_element_size / model.resolution.half_width,
         LAYERS: pair.face_width / layers_of_common_face(model.scene, pair) / (LAYER_THICKNESS * module),
     }
-    found = {
+    errors = {
         name: {size: error * sizes[size] ** power for size, (error, power) in parts.items()}
         for name, parts in MEASURED.items()
     }
     if rise:
-        found[SPAN][SLICES] *= max(lines_in_step(pair.overlap_ratio, 1.0 / (rise * SLICE_RISE)), LEAST_IN_STEP)
-    return found
+        errors[SPAN][SLICES] *= max(lines_in_step(pair.overlap_ratio, 1.0 / (rise * SLICE_RISE)), LEAST_IN_STEP)
+    return errors
 
 
 def all_together(model: Model) -> dict[str, float]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cmath import exp, pi
 from collections.abc import Callable
-from math import ceil, floor, log
+from math import ceil
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +12,8 @@ import numpy as np
 from fenics_gears.contact.face import Face, even_slices, finer_ends
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.layers import SweptWeb
+from fenics_gears.geometry.face import coast_face_opening as coast_face_opening
+from fenics_gears.geometry.face import face_opening as face_opening
 from fenics_gears.geometry.gear_data import mean_youngs_modulus
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.accuracy import (
@@ -79,20 +81,6 @@ def layers_of_common_face(scene: Scene, pair: GearPair) -> int:
     return max(ceil(pair.face_width / min(LAYER_THICKNESS * scene.gears.module, turns) - 1e-9), FEWEST_LAYERS)
 
 
-# Windows differ by this factor, so that loads and designs that are near to each other have the same contact nodes.
-WINDOW_STEP = 2.0**0.25
-
-
-def in_steps(wanted: float, whole: float) -> float:
-    """The shortest of a row of lengths (mm) that is as long as `wanted`: the `whole` one, and each shorter by
-    WINDOW_STEP.
-
-    >>> in_steps(0.9, 1.0), round(in_steps(0.8, 1.0), 3)
-    (1.0, 0.841)
-    """
-    return whole * WINDOW_STEP ** -max(floor(log(whole / wanted, WINDOW_STEP)), 0)
-
-
 # Length of the window of contact nodes where no edge is near, in half-widths of the contact; and mesh stiffness per
 # face width, as a part of Young's modulus:
 # the largest line load is the mean one and this stiffness times the largest difference of openings along the face.
@@ -105,8 +93,6 @@ MESH_STIFFNESS = 0.1
 def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: Callable[[float], float]) -> float:
     """Length (mm) of that window, for the largest line load that is expected; `half_width_of`: half-width (mm) of the
     contact under a line load (N/mm)."""
-    from fenics_gears.geometry.face import face_opening
-
     opening = face_opening(pair, scene.lead_modifications, scene.misalignment, np.linspace(*pair.common_face, 21))
     largest = line_load + MESH_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity) * float(np.ptp(opening))
     many = INNER_HALF_WIDTHS if scene.flank_errors is None else INNER_HALF_WIDTHS_OF_ERRORS
@@ -143,15 +129,15 @@ def check_layers(model: Model) -> None:
 def face_warnings(model: Model) -> list[str]:
     """Sentences where too few slices carry the load."""
     slices = model.face.evenly
-    found = []
+    sentences = []
     part = loaded_part(model)
     if part < 1.0 and part * slices < FEWEST_LOADED_SLICES:
-        found.append(
+        sentences.append(
             f"accuracy.slices = {slices}: about {part:.2g} of the face carries under this load, {part * slices:.2g}"
             " slices of it; pairs that carry on less than a slice are missed. Take accuracy.slices ="
             f" {ceil(FEWEST_LOADED_SLICES / part)}"
         )
-    return found
+    return sentences
 
 
 def loaded_part(model: Model) -> float:

@@ -6,12 +6,13 @@ from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from math import inf, lcm
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.contact.face import Face, one_slice
-from fenics_gears.contact.touching import Touching, touching
+from fenics_gears.contact.places import Touching, touching
 from fenics_gears.dynamics.clock import FOLLOWING, Clock, SteadyClock, TimeScales, time_scales
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.stepping import EquationsOfMotion
@@ -23,7 +24,6 @@ from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 from fenics_gears.scene.schema import WORDS
 
 from .drivetrain import drivetrain, mesh_stiffness
-from .face_resolution import check_layers, face_discretisation, face_of, face_warnings, layers_of_common_face
 from .modification import corner, removals, rim_warnings
 from .resolution import Resolution, locking_warnings, resolution_warnings, resolve
 from .storage import Arrays, counted_bytes, packed_bytes, sizes, stored_arrays
@@ -110,35 +110,32 @@ class Model:
     def face(self) -> Face:
         if not self.scene.three_dimensional:
             return one_slice(self.pair.face_width)
-        return face_of(self.scene, self.pair)
+        return _over_face().face_of(self.scene, self.pair)
 
     def face_opening(self, z: np.ndarray, position: np.ndarray | None = None) -> np.ndarray:
         """Gap (k,), mm, along the line of action by lead modifications and misalignment at places z (k,), mm; see
         `geometry.face`."""
-        from fenics_gears.geometry.face import face_opening
-
-        return face_opening(self.pair, self.scene.lead_modifications, self.scene.misalignment, z, position)
+        leads = self.scene.lead_modifications
+        return _over_face().face_opening(self.pair, leads, self.scene.misalignment, z, position)
 
     @property
     def coast_face_opening(self) -> Callable[[np.ndarray, np.ndarray], np.ndarray] | None:
         """The same between the coast flanks, along their own line of action; None where nothing opens them."""
-        from fenics_gears.geometry.face import coast_face_opening
-
         leaning = self.scene.misalignment
-        return None if leaning is None else partial(coast_face_opening, self.pair, leaning)
+        return None if leaning is None else partial(_over_face().coast_face_opening, self.pair, leaning)
 
     @property
     def slices_and_layers(self) -> tuple[int | None, int | None]:
         """How many slices of one width the common face has, and layers either body in it; None of a plane scene."""
         if not self.scene.three_dimensional:
             return None, None
-        return self.face.evenly, layers_of_common_face(self.scene, self.pair)
+        return self.face.evenly, _over_face().layers_of_common_face(self.scene, self.pair)
 
     def solid_discretisation(self, gear: int) -> FaceDiscretisation | None:
         """How the body of the pinion (0) or the wheel (1) is divided over its face; None of a plane scene."""
         if not self.scene.three_dimensional:
             return None
-        return face_discretisation(self, gear)
+        return _over_face().face_discretisation(self, gear)
 
     def transmission_error(self, position: np.ndarray) -> np.ndarray:
         """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k)."""
@@ -174,34 +171,32 @@ class Model:
     def time_scales(self) -> TimeScales:
         """How mesh frequency and time step compare with the drivetrain's vibrations."""
         elastic = np.array([vibration.frequency for vibration in self.vibrations])
-        found = time_scales(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
+        scales = time_scales(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
         if self.scene.tooth_elasticity is not None or self.drivetrain.mass is None:
-            return found
+            return scales
         # Above its drivetrain's vibrations a pair with rigid flanks still moves as its geometry says.
-        return replace(found, impulsive=True, outruns_vibration=False)
+        return replace(scales, impulsive=True, outruns_vibration=False)
 
     @property
     def warnings(self) -> list[str]:
         """Sentences for the user before the run."""
-        found = [*self._of_a_part(), *self._without_fields()]
-        found += [each.unusual for each in self.scene.derived if each.unusual]
-        found += [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
-        found += [*locking_warnings(self.resolution, self.scene.gears.materials), *rim_warnings(self)]
-        for sentences in from_effects(self.scene, "warnings", self):
-            found += sentences
+        sentences = [*self._of_a_part(), *self._without_fields()]
+        sentences += [each.unusual for each in self.scene.derived if each.unusual]
+        sentences += [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
+        sentences += [*locking_warnings(self.resolution, self.scene.gears.materials), *rim_warnings(self)]
+        for of_effect in from_effects(self.scene, "warnings", self):
+            sentences += of_effect
         if self.scene.three_dimensional:
-            found += face_warnings(self)
+            sentences += _over_face().face_warnings(self)
         if self.corner is not None:
-            from fenics_gears.contact.corner import edge_warnings
-
-            found += edge_warnings(self.pair, self.corner)
+            sentences += self.corner.warnings(self.pair)
         if self.vibrations:
             from fenics_gears.dynamics.guidance import judged_frequency, time_step_warnings
 
             steps = self.resolution.steps_per_mesh_cycle
             judged = judged_frequency(self.vibrations, self.scene.mesh_frequencies)
-            found += time_step_warnings(self.vibrations, judged, steps, self.time_scales, self.time_step)
-        return found
+            sentences += time_step_warnings(self.vibrations, judged, steps, self.time_scales, self.time_step)
+        return sentences
 
     def _of_a_part(self) -> list[str]:
         period = common_period(self.scene)
@@ -224,6 +219,13 @@ class Model:
             f" {motion.mesh_cycles} mesh cycles only: those of all would take more than"
             f" {MOST_UNASKED_BYTES / 1e9:g} GB; output.contact_fields says how many to store"
         ]
+
+
+def _over_face() -> ModuleType:
+    """How a face is resolved and what opens it; of scenes over the face alone."""
+    from . import face_resolution
+
+    return face_resolution
 
 
 # Largest result; and the largest where the scene does not say how many contact fields to store.
@@ -249,7 +251,7 @@ def model_of(scene: Scene) -> Model:
     model = Model(scene, pair, shafts, resolve(scene, pair, shafts, removal), removal)
     from_effects(scene, "fits", model)
     if scene.three_dimensional:
-        check_layers(model)
+        _over_face().check_layers(model)
     cycles = scene.motion.recorded_cycles if scene.output.contact_fields and scene.resolves_contact else 0
     whole = replace(model, contact_cycles=cycles)
     if cycles and scene.motion.fewer_where_too_large and whole.stored_bytes > MOST_UNASKED_BYTES:

@@ -47,8 +47,8 @@ def corner(scene: Scene, pair: GearPair):
 def removals(scene: Scene, pair: GearPair) -> tuple:
     """Material that the scene's effects remove from the drive flanks of pinion and wheel: functions of the roll angle,
     or None. Raises GeometryError where an effect asks for what the flank does not have."""
-    found = from_effects(scene, "removal", pair)
-    parts = [tuple(part for part in of_gear if part is not None) for of_gear in zip(*found)] or [(), ()]
+    of_effects = from_effects(scene, "removal", pair)
+    parts = [tuple(part for part in of_gear if part is not None) for of_gear in zip(*of_effects)] or [(), ()]
     return tuple(Removals(of_gear) if len(of_gear) > 1 else (of_gear[0] if of_gear else None) for of_gear in parts)
 
 
@@ -117,7 +117,7 @@ def too_stiff(gear: Gear) -> float:
 def rim_warnings(model: Model) -> list[str]:
     """A sentence on each gear of finite elements whose rim is thin for a rigid bore."""
     scene = model.scene
-    found = []
+    sentences = []
     if scene.tooth_elasticity is None or scene.accuracy.model not in (None, ELASTIC):
         return []
     for name in GEARS:
@@ -126,10 +126,10 @@ def rim_warnings(model: Model) -> list[str]:
         if off < NOTABLE or getattr(scene.body_meshes, name, None) is not None:
             continue
         rim = gear.root_radius - gear.bore_radius
-        found.append(
+        sentences.append(
             f"{name}: thin rim: {rim:.4g} mm = {rim / gear.normal_module:.3g} modules between bore and root circle, and"
             f" the bore is a rigid ring: tooth and rim give way about {off:.0f}% less than in a solid body: take a"
             f" smaller gears.{name}.bore_diameter where rim and shaft are one body, or [gears.{name}.web] for a rim on"
             " a web, in a plane scene [body_meshes] for any other seat"
         )
-    return found
+    return sentences

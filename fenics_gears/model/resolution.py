@@ -9,7 +9,7 @@ of action, the time step from the mesh cycle and the drivetrain's frequencies.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from math import ceil, pi, sqrt
+from math import ceil, floor, log, pi, sqrt
 
 import numpy as np
 
@@ -32,13 +32,12 @@ from fenics_gears.scene.accuracy import (
 from fenics_gears.scene.data import ISO_6336, Material, Scene
 
 from .drivetrain import line_load, mesh_stiffness
-from .face_resolution import in_steps, inner_length
 from .modification import steepest_relief
 
 DEFAULT_ELEMENT = "P2"
 # Half of the rough stiffness of a pair bounds its deflection from above.
 LEAST_PAIR_STIFFNESS = 0.5 * PAIR_STIFFNESS
-HALF_WIDTHS_BESIDE = 2.0
+SPARE_HALF_WIDTHS = 2.0
 # Beyond this the window would reach past the tooth; the load that asks for it breaks teeth. In modules.
 LONGEST_WINDOW = 3.0
 # Where the mate's tip edge presses, along the flank from the start of its active profile, in modules. Of the paper's
@@ -137,6 +136,8 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain, removal: tuple
     condensation = asked.condensation or ONCE
     inner = None
     if scene.three_dimensional:
+        from .face_resolution import inner_length
+
         modulus = plane_contact_modulus(scene)
         half_width_of = partial(hertz_half_width, relative_radius=_widest(pair), plane_modulus=modulus)
         needed = inner_length(scene, pair, load, half_width_of) + 2.0 * shift + 2.0 * spacing
@@ -156,6 +157,20 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain, removal: tuple
     )
 
 
+# Windows differ by this factor, so that loads and designs that are near to each other have the same contact nodes.
+WINDOW_STEP = 2.0**0.25
+
+
+def in_steps(wanted: float, whole: float) -> float:
+    """The shortest of a row of lengths (mm) that is as long as `wanted`: the `whole` one, and each shorter by
+    WINDOW_STEP.
+
+    >>> in_steps(0.9, 1.0), round(in_steps(0.8, 1.0), 3)
+    (1.0, 0.841)
+    """
+    return whole * WINDOW_STEP ** -max(floor(log(whole / wanted, WINDOW_STEP)), 0)
+
+
 def _flank_element_size(scene: Scene, half_width: float) -> float:
     module = scene.gears.module
     wanted = half_width / scene.fineness.elements_per_half_width
@@ -171,13 +186,13 @@ def mate_tips(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]
     contact."""
     gears = (pair.pinion, pair.wheel)
     ends = (pair.path_start, pair.line_of_action_length - pair.path_end)
-    found = []
+    ranges = []
     for gear, end in zip(gears, ends):
         arc = arc_length(gear.base_radius, end / gear.base_radius)
         around = np.maximum([arc - BELOW_MATE_TIP * gear.module, arc + ABOVE_MATE_TIP * gear.module], 0.0)
         first, last = roll_angle_at_arc_length(gear.base_radius, around)
-        found.append((float(max(first, gear.form_roll_angle)), float(min(last, gear.tip_roll_angle))))
-    return found[0], found[1]
+        ranges.append((float(max(first, gear.form_roll_angle)), float(min(last, gear.tip_roll_angle))))
+    return ranges[0], ranges[1]
 
 
 def _rigid_resolution(scene: Scene, drivetrain: Drivetrain) -> Resolution:
@@ -198,7 +213,7 @@ def _contact_length(
     contact (mm)."""
     deflection = line_load / (LEAST_PAIR_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity))
     reach = max(sqrt(2.0 * _widest(pair) * deflection), shift)
-    wanted = 2.0 * (reach + HALF_WIDTHS_BESIDE * half_width + 2.0 * size)
+    wanted = 2.0 * (reach + SPARE_HALF_WIDTHS * half_width + 2.0 * size)
     return min(wanted, LONGEST_WINDOW * scene.gears.module)
 
 
@@ -224,24 +239,24 @@ def _steps_per_mesh_cycle(scene: Scene, pair: GearPair, drivetrain: Drivetrain) 
 def resolution_warnings(resolution: Resolution) -> list[str]:
     """Sentences on settings too coarse for the contact or the mesh cycle, or contact nodes too close for the
     elements."""
-    found: list[str] = []
+    sentences: list[str] = []
     spacing = resolution.contact_grid.spacing
     if resolution.steps_per_mesh_cycle < FEWEST_STEPS:
-        found.append(
+        sentences.append(
             f"accuracy.steps_per_mesh_cycle is {resolution.steps_per_mesh_cycle}: the peak-to-peak transmission error"
             f" may miss an extreme; from {FEWEST_STEPS} on it is right within about 1%, without vibrations"
         )
-    found += _unresolved(resolution)
+    sentences += _unresolved(resolution)
     node_distance = resolution.flank_element_size / resolution.order
     if spacing < CLOSEST_NODES * node_distance:
         most = max(int(resolution.contact_grid.length / (CLOSEST_NODES * node_distance)) + 1, 2)
         finer = 0.99 * spacing * resolution.order / CLOSEST_NODES
-        found.append(
+        sentences.append(
             f"contact nodes stand {spacing:.3g} mm apart, the flank's own nodes {node_distance:.3g} mm: the pressure"
             f" oscillates; lower accuracy.contact_nodes to {most}, or accuracy.flank_element_size to"
             f' "{finer:.3g} mm"'
         )
-    return found
+    return sentences
 
 
 def _unresolved(resolution: Resolution) -> list[str]:
@@ -250,7 +265,7 @@ def _unresolved(resolution: Resolution) -> list[str]:
         return []
     half_width = resolution.half_width
     grid = resolution.contact_grid
-    found = []
+    sentences = []
     enough = half_width / RESOLVED
     for name, size, remedy in (
         ("accuracy.flank_element_size", resolution.flank_element_size, f'flank_element_size = "{enough:.2g} mm"'),
@@ -265,11 +280,11 @@ def _unresolved(resolution: Resolution) -> list[str]:
             harm = (
                 "contact is not resolved; pressures are not right, and the transmission error may be off by per cents"
             )
-        found.append(
+        sentences.append(
             f"{name} is {size:.3g} mm, more than {of}the Hertz half-width of {half_width:.3g} mm at full load: {harm};"
             f" take accuracy.{remedy}"
         )
-    return found
+    return sentences
 
 
 def locking_warnings(resolution: Resolution, materials: Sequence[Material] | None) -> list[str]:

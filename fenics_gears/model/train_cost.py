@@ -6,9 +6,8 @@ from dataclasses import replace
 
 from fenics_gears.scene.data import Accuracy
 
-from .cost import expected_cost
+from .cost import expected_cost, refused, settings_that_fit, too_large
 from .cost_parts import CONDENSING_PROGRAM, ExpectedCost
-from .fitting import refused, settings_that_fit, too_large
 from .train import RowModel, TrainModel, together
 
 # Contact operators of all meshes together, in the square of their nodes: with factors of what is closed, which those of
@@ -45,7 +44,7 @@ def row_cost(row: RowModel) -> ExpectedCost:
 
 
 def row_too_large(row: RowModel, allowed: float) -> str:
-    """As `fitting.too_large`, of a row."""
+    """As `cost.too_large`, of a row."""
     cost = row_cost(row)
     if row.single or cost.held <= allowed:
         return too_large(row.models[0], cost, allowed)

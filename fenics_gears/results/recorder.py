@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.touching import Touching, touching_at
+from fenics_gears.contact.places import Touching, touching_at
 from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps

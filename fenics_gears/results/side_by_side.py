@@ -90,11 +90,9 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
     cut = (cycle.pair.pinion.undercut, cycle.pair.wheel.undercut)
     of_flanks = of_flanks.copy()
     by_line = np.array([pair.place.line is None for pair in pairs], dtype=bool)
-    if any(cut) and not by_line.all():
-        from fenics_gears.contact.corner import edge_ends
-
+    if any(cut) and cycle.corner is not None:
         for pair in np.flatnonzero(~by_line):
-            of_flanks[pair] = edge_ends(cycle.pair, cycle.corner, pairs[pair].place)
+            of_flanks[pair] = cycle.corner.ends(cycle.pair, pairs[pair].place)
     first = ends[:-1]
     last = ends[1:] - 1
     below = of_flanks[:, 0].T

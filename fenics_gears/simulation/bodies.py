@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import nullcontext
 from dataclasses import replace
-from functools import partial
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from fenics_gears.effects import effects_on, from_effects
@@ -14,23 +12,17 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies, Body
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.model.face_cost import both_at_once
-from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
 from fenics_gears.system.progress import Progress
-from fenics_gears.system.second_process import second_process, threads
 
 if TYPE_CHECKING:
     from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-    from fenics_gears.elasticity.face_compliance_data import FaceCompliance
-    from fenics_gears.system.second_process import SecondProcess
-
-    Solids = tuple[FaceCompliance | None, FaceCompliance | None]
 
 
 def gear_bodies(model: Model, progress: Progress, cache: Cache | None) -> Bodies:
     """Pinion and wheel, from the cache or condensed."""
-    with _begun(model, progress, cache) as solids:
+    over_face = model.scene.three_dimensional
+    with _solids().begun(model, progress, cache) if over_face else nullcontext(lambda: (None, None)) as solids:
         sections = []
         for name in GEARS:
             progress.stage(f"condense {name}")
@@ -41,13 +33,20 @@ def gear_bodies(model: Model, progress: Progress, cache: Cache | None) -> Bodies
 
 def gear_body(model: Model, name: str, cache: Cache | None) -> Body:
     """The "pinion" or the "wheel" over the teeth that interact, from the cache or condensed."""
-    solid = None if model.solid_discretisation(GEARS.index(name)) is None else solid_of(model, name, cache)
+    solid = _solids().solid_of(model, name, cache) if model.scene.three_dimensional else None
     return Body.of(_section(model, name, cache), solid)
+
+
+def _solids() -> ModuleType:
+    """Bodies in three dimensions; of scenes over the face alone."""
+    from . import solids
+
+    return solids
 
 
 def body_key(model: Model, name: str) -> tuple:
     sections = (getattr(model.scene, effect.section) for effect in effects_on(model.scene) if effect.elasticity)
-    own = tuple(found for each in sections if (found := getattr(each, name, None)) is not None)
+    own = tuple(given for each in sections if (given := getattr(each, name, None)) is not None)
     number = GEARS.index(name)
     return (
         getattr(model.pair, name),
@@ -77,43 +76,3 @@ def _section(model: Model, name: str, cache: Cache | None):
         # The web is in the body; here it would be in both sections of which one corrects the other.
         gear = replace(gear, web=None)
     return flank_compliance(gear, material, division, reach, cache)
-
-
-def solids_of(model: Model, progress: Progress, cache: Cache | None) -> Solids:
-    """Both bodies in three dimensions, at once where there are cores and memory for it; None of a plane scene."""
-    with _begun(model, progress, cache) as solids:
-        return solids()
-
-
-@contextmanager
-def _begun(model: Model, progress: Progress, cache: Cache | None) -> Iterator[Callable[[], Solids]]:
-    """What gives both bodies in three dimensions. Where there are cores and memory for both at once, a second process
-    begins the wheel's here: to start it takes as long as both gears' sections."""
-    if model.solid_discretisation(0) is None:
-        yield lambda: (None, None)
-        return
-
-    def begin(number: int) -> None:
-        progress.stage(f"condense {GEARS[number]}'s body")
-
-    def by(wheel: Callable[[], FaceCompliance]) -> Solids:
-        begin(0)
-        pinion = solid_of(model, GEARS[0], cache)
-        begin(1)
-        return pinion, wheel()
-
-    if threads() > 1 and both_at_once(model):
-        with ThreadPoolExecutor(1) as waiting, second_process() as second:
-            yield partial(by, waiting.submit(solid_of, model, GEARS[1], cache, second).result)
-    else:
-        yield partial(by, lambda: solid_of(model, GEARS[1], cache))
-
-
-def solid_of(model: Model, name: str, cache: Cache | None, process: SecondProcess | None = None) -> FaceCompliance:
-    """The body of the "pinion" or the "wheel" in three dimensions, from the cache or condensed."""
-    from fenics_gears.elasticity.face.compliance import face_compliance
-
-    gear = getattr(model.pair, name)
-    material = model.scene.gears.material_of(name)
-    division = face_discretisation(model, GEARS.index(name))
-    return face_compliance(gear, material, division, model.touching.reach, cache, process)

@@ -43,7 +43,7 @@ def compile_loops(progress: Progress) -> None:
     _save_in_turn()
     places = _places()
     name = f"compiled-{_machine()}"
-    beside, kept = next(iter(places.items()))
+    sources, kept = next(iter(places.items()))
     if _is_of_these_sources(kept / name):
         return
     with one_at_a_time(kept / "compiling", lambda: progress.say("another process compiles; waiting for it")):
@@ -51,7 +51,7 @@ def compile_loops(progress: Progress) -> None:
             return
         if not any(map(_is_of_these_sources, kept.glob("compiled-*"))):
             _remove(places)
-        if _is_of_these_sources(beside / "__pycache__" / name):
+        if _is_of_these_sources(sources / "__pycache__" / name):
             _take_from_beside(places)
         else:
             progress.stage(STAGE)
@@ -66,8 +66,8 @@ def compile_loops(progress: Progress) -> None:
 def _places() -> dict[Path, Path]:
     """Where numba keeps what it compiles of a folder of the package, in the order of their names."""
     loops = (each for module in _modules() for each in vars(module).values() if isinstance(each, Dispatcher))
-    found = {Path(loop.py_func.__code__.co_filename).parent: loop for loop in loops}
-    own = {folder: loop for folder, loop in found.items() if PACKAGE in folder.parents and loop.stats.cache_path}
+    of_folders = {Path(loop.py_func.__code__.co_filename).parent: loop for loop in loops}
+    own = {folder: loop for folder, loop in of_folders.items() if PACKAGE in folder.parents and loop.stats.cache_path}
     return {folder: Path(own[folder].stats.cache_path) for folder in sorted(own)}
 
 
@@ -90,8 +90,8 @@ def _sources() -> str:
 
 
 def _stamp(file: Path) -> str:
-    found = file.stat()
-    return f"{found.st_mtime_ns} {found.st_size}"
+    status = file.stat()
+    return f"{status.st_mtime_ns} {status.st_size}"
 
 
 def _is_of_these_sources(mark: Path) -> bool:

@@ -22,7 +22,6 @@ from .bodies import gear_bodies
 from .routes import CONDENSED, route_of
 
 if TYPE_CHECKING:
-    from fenics_gears.dynamics.bending_faces import BendingFace
     from fenics_gears.dynamics.elastic_shaft import ElasticShaft
     from fenics_gears.dynamics.shaft_system import ShaftSystem
     from fenics_gears.elasticity.face_compliance_data import FaceCompliance
@@ -73,37 +72,28 @@ def yielding_seats(model: Model) -> list[tuple[ShaftSystem, ElasticShaft]]:
     return [(system, shaft) for system in systems for shaft in system.shafts if shaft.yields_within]
 
 
-def _bending_faces(model: Model) -> list[BendingFace]:
-    """The gears whose faces bend by coordinates of their own."""
-    found = []
-    for system, shaft in yielding_seats(model):
-        if shaft.of_face:
-            # Imported here: few faces bend so.
-            from fenics_gears.dynamics.bending_faces import bending_face
-
-            middles = model.face.positions - model.face.middles[GEARS.index(shaft.gear)]
-            found.append(bending_face(model.drivetrain, system, shaft, middles, model.face.widths))
-    return found
-
-
 def cycle_of(model: Model, mesh: Mesh) -> Cycle:
     """The contact equations of a mesh over the steps of the model, with what opens its nodes."""
     steps = model.resolution.steps_per_mesh_cycle
     friction = model.scene.friction is not None
     indices = model.drivetrain.indices
-    if faces := _bending_faces(model):
-        from fenics_gears.dynamics.bending_faces import CycleOfBendingFaces
-
-        cycle: Cycle = CycleOfBendingFaces(mesh, steps, indices, friction, faces)
-    else:
+    # Gears whose faces bend by coordinates of their own.
+    bending = [(system, shaft) for system, shaft in yielding_seats(model) if shaft.of_face]
+    if not bending:
         cycle = Cycle(mesh, steps, indices, friction)
+        return cycle.with_gaps(gaps_of(model, cycle))
+    from fenics_gears.dynamics.bending_faces import CycleOfBendingFaces, bending_face
+
+    faces = []
+    for system, shaft in bending:
+        middles = model.face.positions - model.face.middles[GEARS.index(shaft.gear)]
+        faces.append(bending_face(model.drivetrain, system, shaft, middles, model.face.widths))
+    cycle = CycleOfBendingFaces(mesh, steps, indices, friction, faces)
     return cycle.with_gaps(gaps_of(model, cycle))
 
 
 def flanks_of(model: Model, bodies: Bodies) -> Flanks:
     """Both gears as contact sees them: in the plane a load over the common face spreads in a gear that is wider."""
-    from fenics_gears.elasticity.overhang import with_overhang
-
     pair = model.pair
     removal = removal_of_nodes(model)
     first = bodies[0].section
@@ -111,6 +101,8 @@ def flanks_of(model: Model, bodies: Bodies) -> Flanks:
     within = pair.effective_face_widths == (pair.face_width, pair.face_width)
     if within or any(body.solid is not None for body in bodies):
         return Flanks(pair, (first, second), removal)
+    from fenics_gears.elasticity.overhang import with_overhang
+
     gears = (pair.pinion, pair.wheel)
     materials = model.scene.gears.materials
     pinion, wheel = (

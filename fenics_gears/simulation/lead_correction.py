@@ -33,6 +33,7 @@ from fenics_gears.dynamics.batch import Batch
 from fenics_gears.dynamics.march import Marcher, thread_pools
 from fenics_gears.dynamics.marched import BetweenSteps
 from fenics_gears.dynamics.steps import Record
+from fenics_gears.errors import attempted
 from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
 from fenics_gears.model.model import Model
 from fenics_gears.results.dataset import RunResult
@@ -40,6 +41,7 @@ from fenics_gears.results.face_ends import inner_widths, windows
 from fenics_gears.results.load_factors import face_load_factor, mean_line_load
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Scene
+from fenics_gears.system.progress import Progress
 
 from .dynamic_factor import at_rest, quasi_static
 from .elastic_route import gaps_apart, gaps_of
@@ -87,15 +89,21 @@ def wanted(model: Model) -> bool:
     )
 
 
-def add_proposal(dataset: xr.Dataset, recorder: Recorder) -> None:
-    found = proposed(recorder)
-    if found is None:
+def add_proposal(dataset: xr.Dataset, recorder: Recorder, progress: Progress) -> None:
+    """Add the proposal for a run to its dataset, where one is wanted and there is one."""
+    if wanted(recorder.model):
+        progress.stage("propose lead modifications")
+        attempted(dataset.attrs, "proposal of lead modifications", lambda: _add(dataset, proposed(recorder)))
+
+
+def _add(dataset: xr.Dataset, proposal: Proposal | None) -> None:
+    if proposal is None:
         return
     for name in ("helix_slope", "crowning"):
-        dataset.attrs[f"proposed_{name}"] = getattr(found, name) / MICROMETRE
-    dataset.attrs["proposed_face_load_factor"] = found.face_load_factor
+        dataset.attrs[f"proposed_{name}"] = getattr(proposal, name) / MICROMETRE
+    dataset.attrs["proposed_face_load_factor"] = proposal.face_load_factor
     words = "line load of all tooth pairs, mean over the mesh cycle, with the proposed lead modifications"
-    dataset["proposed_line_load"] = "face_position", found.line_load, {"units": "N/mm", "long_name": words}
+    dataset["proposed_line_load"] = "face_position", proposal.line_load, {"units": "N/mm", "long_name": words}
 
 
 def proposed(recorder: Recorder) -> Proposal | None:
@@ -103,23 +111,23 @@ def proposed(recorder: Recorder) -> Proposal | None:
     are confirmed."""
     loads = _LineLoads(recorder.model, recorder.cycle, recorder.along_face[0].coordinates())
     amounts = loads.own
-    found = first = loads.of(amounts)
-    if first is None or found is None:
+    along = first = loads.of(amounts)
+    if first is None or along is None:
         return None
     last = np.inf
     for _ in range(MOST_STEPS):
-        if last - found.factor < GAIN:
+        if last - along.factor < GAIN:
             break
-        last = found.factor
-        steps = [step for step in (loads.towards_even(amounts, found), loads.closing(found)) if step is not None]
+        last = along.factor
+        steps = [step for step in (loads.towards_even(amounts, along), loads.closing(along)) if step is not None]
         tried = [_better(loads, amounts, step, last, first) for step in steps]
         better = [each for each in tried if each is not None]
         if not better:
             break
-        amounts, found = min(better, key=lambda each: each[1].factor)
+        amounts, along = min(better, key=lambda each: each[1].factor)
     # As they are printed; a tenth of a micrometre is less than any flank is ground to.
     amounts = np.round(amounts, DECIMALS) + 0.0
-    if first.factor - found.factor < GAIN or np.abs(amounts - loads.own).max() < 10.0**-DECIMALS:
+    if first.factor - along.factor < GAIN or np.abs(amounts - loads.own).max() < 10.0**-DECIMALS:
         return None
     return loads.confirmed(amounts, first.factor)
 
@@ -149,9 +157,9 @@ def _better(
     inner = min(first.inner, EVEN * loads.inner_share)
     for _ in range(MOST_HALVINGS):
         if loads.taken_off(amounts + step) <= MOST_TAKEN * first.uneven:
-            found = loads.of(amounts + step)
-            if found is not None and found.factor < last and found.inner >= inner:
-                return amounts + step, found
+            along = loads.of(amounts + step)
+            if along is not None and along.factor < last and along.inner >= inner:
+                return amounts + step, along
         step = 0.5 * step
     return None
 
@@ -169,8 +177,8 @@ def _towards_even(values: np.ndarray, slopes: np.ndarray, crowning: float) -> np
     scale = steepest / largest
     table = np.column_stack([slopes / steepest, -np.ones(len(values))])
     bounds = [(None, None), (-crowning * scale, None), (None, None)]
-    found = linprog([0.0, 0.0, 1.0], A_ub=table, b_ub=-values / largest, bounds=bounds)
-    return found.x[:2] / scale if found.success else None
+    minimum = linprog([0.0, 0.0, 1.0], A_ub=table, b_ub=-values / largest, bounds=bounds)
+    return minimum.x[:2] / scale if minimum.success else None
 
 
 class _LineLoads:
@@ -207,11 +215,11 @@ class _LineLoads:
             solved = between.at([(0, place) for place in self._places])
         load, opening = np.zeros((2, cycle.face.slices))
         for record in solved.values():
-            found = None if record is None else _of_position(record, len(load))
-            if found is None:
+            of_position = None if record is None else _of_position(record, len(load))
+            if of_position is None:
                 return None
-            load += found[0]
-            opening += found[1]
+            load += of_position[0]
+            opening += of_position[1]
         load /= cycle.face.widths * len(solved)
         force = float(load @ cycle.face.widths)
         inner = float(load @ self._inner) * self.inner_share * cycle.face.widths.sum()
@@ -254,24 +262,24 @@ class _LineLoads:
         places = np.linspace(*self._model.pair.common_face, 21) / self._model.pair.face_widths[0]
         return float(np.ptp(slope * places + 4.0 * crowning * places**2))
 
-    def towards_even(self, amounts: np.ndarray, found: _Along) -> np.ndarray | None:
+    def towards_even(self, amounts: np.ndarray, along: _Along) -> np.ndarray | None:
         """The step of the amounts that makes the load even if it stays linear in them; None where there is none."""
-        if not np.isfinite(found.factor):
+        if not np.isfinite(along.factor):
             return None
-        step = DIFFERENCE * float(found.load.mean()) / STIFFNESS
-        beside = [self.of(amounts + step * each) for each in np.eye(2)]
-        if beside[0] is None or beside[1] is None:
+        step = DIFFERENCE * float(along.load.mean()) / STIFFNESS
+        varied = [self.of(amounts + step * each) for each in np.eye(2)]
+        if varied[0] is None or varied[1] is None:
             return None
-        slopes = np.stack([each.load - found.load for each in beside if each is not None], axis=1) / step
-        over = self._windows - found.factor * self._inner
-        return _towards_even(over @ found.load, over @ slopes, amounts[1])
+        slopes = np.stack([each.load - along.load for each in varied if each is not None], axis=1) / step
+        over = self._windows - along.factor * self._inner
+        return _towards_even(over @ along.load, over @ slopes, amounts[1])
 
-    def closing(self, found: _Along) -> np.ndarray | None:
+    def closing(self, along: _Along) -> np.ndarray | None:
         """The helix slope, mm, beside no crowning, that closes what is left open; None where all the face touches."""
-        if found.load.all():
+        if along.load.all():
             return None
         places = self._cycle.face.positions / self._model.pair.face_widths[0]
-        slope = np.polyfit(places, found.opening - found.load / STIFFNESS, 1)[0]
+        slope = np.polyfit(places, along.opening - along.load / STIFFNESS, 1)[0]
         return np.array([-slope, 0.0])
 
 

@@ -66,14 +66,14 @@ def iso_cycle(model: Model) -> Cycle:
     flanks = (DRIVE, COAST) if model.scene.coast_flanks is not None else (DRIVE,)
 
     def springs(phase: float) -> list[PairSprings]:
-        found = []
+        of_pairs = []
         for flank in flanks:
             gaps = _gaps_on_path(model, flank, phase)
             each = single * mesh_factor(len(gaps)) / max(len(gaps), 1)
-            found += [
+            of_pairs += [
                 PairSprings(index, flank, np.zeros(1), np.array([gap]), np.array([each])) for index, gap in gaps.items()
             ]
-        return found
+        return of_pairs
 
     return _cycle(model, springs, 1)
 
@@ -85,7 +85,7 @@ def _cycle(model: Model, springs: Springs, levels: int) -> Cycle:
 def _gaps_on_path(model: Model, flank: int, phase: float) -> dict[int, float]:
     """Gap (mm) of every pair whose flanks meet on the line of action at a phase, by its index."""
     pair = model.pair
-    found = {}
+    gaps = {}
     removal = model.removal if flank == DRIVE else (None, None)
     reach = int(np.ceil(pair.contact_ratio)) + 2
     for index in range(-reach, reach + 1):
@@ -93,5 +93,5 @@ def _gaps_on_path(model: Model, flank: int, phase: float) -> dict[int, float]:
         place = (drive_place if flank == DRIVE else coast_place)(pair, index, xi)
         ends = [side.gear.tip_roll_angle * (1.0 + 1e-12) for side in pair.sides]
         if all(0.0 < roll <= end for roll, end in zip(place.contact_rolls, ends)):
-            found[index] = float(facing_points_at(pair, removal, place, np.zeros(1))[2][0])
-    return found
+            gaps[index] = float(facing_points_at(pair, removal, place, np.zeros(1))[2][0])
+    return gaps

@@ -23,25 +23,36 @@ Preparation = Callable[[Model, Progress, Cache | None], Prepared]
 @dataclass(frozen=True)
 class Route:
     """A way to the contact equations: the function `module:function` that takes (model, progress, cache, job) and
-    returns gears and cycle. `condensed_once`: its gears are flank compliances that other runs can share; `stresses`:
-    stresses can be recovered in them."""
+    returns gears and cycle. `condensed_once`: its gears are flank compliances that other runs can share. Further
+    functions, empty where the route has none: `stresses`, which takes (model, cycle, progress, cache) and recovers root
+    stresses; `proposal`, which takes (dataset, recorder, progress) and adds lead modifications to a run over the
+    face."""
 
     function: str
     condensed_once: bool = False
-    stresses: bool = False
+    stresses: str = ""
+    proposal: str = ""
 
     def __call__(self, model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> Prepared:
-        module, _, function = self.function.partition(":")
-        return getattr(importlib.import_module(f"fenics_gears.simulation.{module}"), function)(
-            model, progress, cache, job
-        )
+        return function_named(self.function)(model, progress, cache, job)
+
+
+def function_named(name: str) -> Callable:
+    """The function `module:function` of this folder."""
+    module, _, function = name.partition(":")
+    return getattr(importlib.import_module(f"fenics_gears.simulation.{module}"), function)
 
 
 RIGID = Route("rigid_route:rigid_route")
 REMESHED = Route("reference_route:reference_route")
 ISO_SPRINGS = Route("mesh_springs:iso_route")
 TABLE_SPRINGS = Route("mesh_springs:table_route", condensed_once=True)
-CONDENSED = Route("elastic_route:elastic_route", condensed_once=True, stresses=True)
+CONDENSED = Route(
+    "elastic_route:elastic_route",
+    condensed_once=True,
+    stresses="root_stress:root_stress",
+    proposal="lead_correction:add_proposal",
+)
 BY_MODEL = {None: CONDENSED, ELASTIC: CONDENSED, ISO_6336: ISO_SPRINGS, STIFFNESS_TABLE: TABLE_SPRINGS}
 
 

@@ -28,7 +28,7 @@ from .routes import prepared
 from .stored_forces import StoredForces, stored_forces
 
 # Over the face, sectors on either side of the loaded teeth that are recovered; in the plane all are.
-BESIDE = 2
+ON_EITHER_SIDE = 2
 # Modules; nodes on a circle are as near to it.
 ON_CIRCLE = 1e-6
 
@@ -39,8 +39,8 @@ class GearInSpace:
     at the origin, z along the axes from the middle of the common face.
 
     sectors: numbers of those recovered. Nodes by sector, height (one in the plane) and the section's node; in_web:
-    (layers,), whether a layer over the face has the whole section; beside: what the others have, rim and hub, and the
-    sides of its boundary. points (s, h, n, 3), mm, without load. elastic: of the same shape, mm, displacement from
+    (layers,), whether a layer over the face has the whole section; rim_and_hub: what the others have, and the sides of
+    its boundary. points (s, h, n, 3), mm, without load. elastic: of the same shape, mm, displacement from
     where the hub is held. stress (s, h, n, 3, 3), MPa. others: points (t, h, n, 3) of all other sectors. centre: (2,),
     mm. motion: of the hub from its nominal one, mm, mm, rad. section: nodes and cells of a sector's section; outline:
     (k, 2) sides of its boundary, of first order, without those on the cuts. in_root, on_flank: (n,), whether a node
@@ -59,10 +59,10 @@ class GearInSpace:
     in_root: np.ndarray
     on_flank: np.ndarray
     in_web: np.ndarray
-    beside: tuple[ElementNodes, np.ndarray] | None = None
+    rim_and_hub: tuple[ElementNodes, np.ndarray] | None = None
 
     def of_layer(self, layer: int) -> tuple[ElementNodes, np.ndarray]:
-        return (self.section, self.outline) if self.in_web[layer] else self.beside
+        return (self.section, self.outline) if self.in_web[layer] else self.rim_and_hub
 
     @property
     def von_mises(self) -> np.ndarray:
@@ -160,21 +160,21 @@ class RunStresses:
         recovery = self.recoveries[gear]
         data = (self.model.pair.pinion, self.model.pair.wheel)[gear]
         forces = stored.on_flanks(self.model, gear, recovery.heights)
-        found = recovery.recovered(forces, self._sectors(data, forces))
+        body = recovery.recovered(forces, self._sectors(data, forces))
         centre, turns, places = self._standing(gear, stored.phase)
-        own = np.array(found.sectors) % data.teeth
+        own = np.array(body.sectors) % data.teeth
         # In the plane nothing moves along z.
-        moved = np.pad(found.displacement, [(0, 0)] * 3 + [(0, 3 - found.displacement.shape[-1])])
+        moved = np.pad(body.displacement, [(0, 0)] * 3 + [(0, 3 - body.displacement.shape[-1])])
         section = recovery.sector.section
         radius = np.linalg.norm(recovery.points, axis=1)
         outline = outer_sides(section, recovery.sector.mesh)
-        in_web, beside = layers_of(recovery.sector)
+        in_web, rim_and_hub = layers_of(recovery.sector)
         inner = data.bore_radius if data.web is None else data.web.rim_radius
         return GearInSpace(
-            sectors=found.sectors,
+            sectors=body.sectors,
             points=places[own],
             elastic=np.einsum("shij,shnj->shni", turns[own], moved),
-            stress=np.einsum("shia,shnab,shjb->shnij", turns[own], found.stress, turns[own], optimize=True),
+            stress=np.einsum("shia,shnab,shjb->shnij", turns[own], body.stress, turns[own], optimize=True),
             others=np.delete(places, own, axis=0),
             centre=centre,
             motion=motion,
@@ -183,14 +183,14 @@ class RunStresses:
             in_root=(radius < data.form_radius) & (radius > 0.5 * (inner + data.root_radius)),
             on_flank=_on_flank(data, recovery.points, outline, stored.on_coast_flanks),
             in_web=in_web,
-            beside=beside,
+            rim_and_hub=rim_and_hub,
         )
 
     def _sectors(self, gear: Gear, forces: dict[int, np.ndarray]) -> range:
         if self.model.face.slices == 1:
             return range(gear.teeth)
         loaded = [*forces] or [0]
-        return range(min(loaded) - BESIDE, max(loaded) + BESIDE + 1)[: gear.teeth]
+        return range(min(loaded) - ON_EITHER_SIDE, max(loaded) + ON_EITHER_SIDE + 1)[: gear.teeth]
 
     def _standing(self, gear: int, phase: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """A gear's centre (2,); how a section's frame stands (teeth, h, 3, 3), by sector and height, and its nodes'
@@ -252,12 +252,12 @@ def hub_motion(result: xr.Dataset, index: int) -> np.ndarray:
 
 
 def layers_of(sector: Sector) -> tuple[np.ndarray, tuple[ElementNodes, np.ndarray] | None]:
-    """`in_web` and `beside` of a `GearInSpace`."""
+    """`in_web` and `rim_and_hub` of a `GearInSpace`."""
     sweep = sector.sweep
     section = sector.section
     if sweep is None or sweep.web is None:
         return np.ones(0 if sweep is None else len(sweep.thicknesses), dtype=bool), None
-    part = replace(section, cells=section.cells[sweep.web.beside(section.middles)])
+    part = replace(section, cells=section.cells[sweep.web.outside(section.middles)])
     return sweep.in_web, (part, outer_sides(part, sector.mesh))
 
 

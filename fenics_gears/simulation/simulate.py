@@ -18,8 +18,7 @@ from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.errors import ComputationError, MemoryEnded, attempted
 from fenics_gears.model.bore_twist import bore_twist_stiffness
-from fenics_gears.model.cost import expected_cost
-from fenics_gears.model.fitting import too_large
+from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.extrema import repeating_steps
@@ -30,9 +29,8 @@ from fenics_gears.system.job import Job
 from fenics_gears.system.memory import allowed_memory, give_back
 from fenics_gears.system.progress import Progress, SilentProgress
 
-from . import dynamic_factor, lead_correction
-from .root_stress import root_stress
-from .routes import Preparation, prepared, route_of
+from . import dynamic_factor
+from .routes import Preparation, function_named, prepared, route_of
 from .warm_up import compile_kernels, compile_loops
 
 if TYPE_CHECKING:
@@ -106,9 +104,10 @@ def memory_for_operators(model: Model) -> float:
 
 def root_stress_of(model: Model, cycle, progress: Progress, cache: Cache):
     """What the recorder needs for root stresses where they are asked for; None for routes without stresses."""
-    if not (model.scene.output.root_stress and route_of(model).stresses):
+    recovered = route_of(model).stresses
+    if not (model.scene.output.root_stress and recovered):
         return None
-    return root_stress(model, cycle, progress, cache)
+    return function_named(recovered)(model, cycle, progress, cache)
 
 
 def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> March:
@@ -159,20 +158,17 @@ def _add_dynamic_factors(result: RunResult, progress: Progress) -> None:
         return
     if dynamic_factor.wanted(recorder.model.scene):
         progress.stage("quasi-static run")
-        found = attempted(result.attrs, "dynamic factor", lambda: dynamic_factor.dynamic_factors(recorder, result))
-        result.attrs.update(found or {})
+        factors = attempted(result.attrs, "dynamic factor", lambda: dynamic_factor.dynamic_factors(recorder, result))
+        result.attrs.update(factors or {})
 
 
 def with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
     """The result's dataset with the lead modifications that are proposed for its pinion, where there are any."""
     model = result.recorder.model
     dataset = result.dataset
-    if not model.scene.three_dimensional or not result.attrs["complete"]:
-        return dataset
-    if lead_correction.wanted(model):
-        progress.stage("propose lead modifications")
-        add = functools.partial(lead_correction.add_proposal, dataset, result.recorder)
-        attempted(dataset.attrs, "proposal of lead modifications", add)
+    proposal = route_of(model).proposal
+    if model.scene.three_dimensional and result.attrs["complete"] and proposal:
+        function_named(proposal)(dataset, result.recorder, progress)
     return dataset
 
 

@@ -52,12 +52,12 @@ def solved_together(
         compile_kernels(model.scene.friction is not None)
         involutes = cycle.with_gaps(Gaps())
         at_once = _most_at_once(model, cycle)
-        found = []
+        numbers = []
         for first in range(0, len(models) if at_once else 0, max(at_once, 1)):
             some = models[first : first + at_once]
             gaps = Profiles(involutes, [each.removal for each in some], [openings_of(each, involutes) for each in some])
-            found += numbers_together(some, involutes, gaps, asked)
-        return found or [None] * len(models)
+            numbers += numbers_together(some, involutes, gaps, asked)
+        return numbers or [None] * len(models)
     finally:
         give_back()
 

@@ -25,7 +25,7 @@ from fenics_gears.contact.interpolation import (
 from fenics_gears.contact.kinematics import nodes_before
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
 from fenics_gears.contact.operator import ContactOperator, Position
-from fenics_gears.contact.rigid_mesh import solve_rigid
+from fenics_gears.contact.rigid_step import solve_rigid
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, solve_step
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, nodal_gap
 from fenics_gears.contact.window import ContactGrid, node_offsets

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.contact.outlines import centres, distance, placed, rotation_to_touch
 
-from fenics_gears.contact.corner import corner_contact, corner_pairs, corner_place
+from fenics_gears.contact.corner import corner_contact, corner_place
 from fenics_gears.contact.mesh import contact_operators, elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import Passage
@@ -36,7 +36,7 @@ def test_the_mate_turned_by_the_gap_touches_the_tip(by, tip, radius, stand_in_fl
 
 
 def check_gap(flanks, corner, place, tip):
-    (nodes,) = corner_pairs(flanks, FINE, corner, [place])
+    (nodes,) = corner.pairs(flanks, FINE, [place])
     mate, curves = 1 - tip, placed(flanks.pair, corner.edges, place)
     turn = rotation_to_touch(curves[mate], curves[tip], centres(flanks.pair)[mate])
     base = (flanks.pair.pinion, flanks.pair.wheel)[mate].base_radius
@@ -61,7 +61,7 @@ def test_rigid_motions_change_the_gap_as_the_outlines_say(tip, radius, stand_in_
     """Brute force: differences of the least distance between both outlines."""
     corner, place = corner_contact(paper_pair, radius), beyond(paper_pair, tip, 0.9)
     cycle = Cycle(elastic_mesh(stand_in_flanks, GRID, corner), STEPS, ALL, tangential=False)
-    pairs = tuple(corner_pairs(stand_in_flanks, GRID, corner, [place]))
+    pairs = tuple(corner.pairs(stand_in_flanks, GRID, [place]))
     passage = Passage(pairs)
     (operator,) = contact_operators(paper_pair, [passage], ALL, cycle.mesh.responses([passage]))
     row = operator.jacobian[0]
@@ -83,7 +83,7 @@ def test_on_the_path_of_contact_nothing_changes(stand_in_flanks, paper_pair):
     corner = corner_contact(paper_pair)
     for xi in np.linspace(paper_pair.path_start + 1e-9, paper_pair.path_end - 1e-9, 9):
         place = drive_place(paper_pair, 0, xi)
-        (with_corner,) = corner_pairs(stand_in_flanks, GRID, corner, [place])
+        (with_corner,) = corner.pairs(stand_in_flanks, GRID, [place])
         (plain,) = tooth_pairs(stand_in_flanks, GRID, [place])
         assert with_corner.place == plain.place
         for name in ("offsets", "lengths", "gap", "friction_arms", "rolls"):
@@ -100,8 +100,7 @@ def test_nothing_jumps_where_the_edge_leaves_the_path(tip, radius, stand_in_flan
     roll, base = corner.edges[tip].flank_roll, gears[tip].base_radius
     xi = base * roll if tip == 0 else paper_pair.line_of_action_length - base * roll
     before, after = (
-        corner_pairs(stand_in_flanks, GRID, corner, [drive_place(paper_pair, 0, xi + sign * 1e-7)])[0]
-        for sign in (-1.0, 1.0)
+        corner.pairs(stand_in_flanks, GRID, [drive_place(paper_pair, 0, xi + sign * 1e-7)])[0] for sign in (-1.0, 1.0)
     )
     assert (before.place.line is None) != (after.place.line is None)
     assert len(before.offsets) == len(after.offsets)

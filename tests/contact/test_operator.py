@@ -9,9 +9,8 @@ from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.corner import corner_contact
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.places import pair_places
+from fenics_gears.contact.places import pair_places, touching
 from fenics_gears.contact.tooth_pair import over_nodes
-from fenics_gears.contact.touching import touching
 from fenics_gears.contact.window import ContactGrid
 
 GRID = ContactGrid(length=2.5, nodes=26)

@@ -9,8 +9,8 @@ from fenics_gears import GearPair, Scene, model_of
 from fenics_gears.contact.corner import CornerContact
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.places import touching
 from fenics_gears.contact.tooth_pair import Flanks
-from fenics_gears.contact.touching import touching
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.element_sizes import Discretisation

@@ -9,9 +9,8 @@ from fenics_gears.elasticity.condensation import by_radius
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import flank_compliance
-from fenics_gears.elasticity.half_sector import centreline_direction
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
-from fenics_gears.elasticity.sector_mesh import half_sector_mesh, sector_mesh
+from fenics_gears.elasticity.sector_mesh import centreline_direction, half_sector_mesh, sector_mesh
 
 BOTH = Reach(2, (-2, 2))
 

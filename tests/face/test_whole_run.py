@@ -13,8 +13,9 @@ from fenics_gears.inputs.tree import GEARS
 from fenics_gears.runs import condensing
 from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Accuracy
-from fenics_gears.simulation import bodies as of_run
-from fenics_gears.simulation.bodies import gear_bodies, solid_of, solids_of
+from fenics_gears.simulation import bodies, solids
+from fenics_gears.simulation.bodies import gear_bodies
+from fenics_gears.simulation.solids import solid_of, solids_of
 from fenics_gears.system import second_process
 from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.progress import SilentProgress
@@ -46,10 +47,10 @@ def test_the_wheels_body_is_begun_before_the_sections(scene, monkeypatch):
         raise ComputationError("begun")
 
     monkeypatch.setattr(SecondProcess, "together", fails)
-    for module in (second_process, of_run):
+    for module in (second_process, solids):
         monkeypatch.setattr(module, "threads", lambda: 2)
-    monkeypatch.setattr(of_run, "_section", lambda *given: begun.wait(timeout=60))
-    monkeypatch.setattr(of_run, "solid_of", lambda *given: given[-1] and solid_of(*given))
+    monkeypatch.setattr(bodies, "_section", lambda *given: begun.wait(timeout=60))
+    monkeypatch.setattr(solids, "solid_of", lambda *given: given[-1] and solid_of(*given))
     with pytest.raises(ComputationError, match="begun"):
         gear_bodies(model_of(scene), SilentProgress(), None)
     assert begun.is_set()
@@ -62,23 +63,23 @@ def test_both_bodies_at_once_are_those_one_after_the_other(scene, monkeypatch, t
     together = SecondProcess.together
     monkeypatch.setattr(SecondProcess, "together", lambda *given: started.append(given) or together(*given))
 
-    def bodies(threads, cache=None):
-        for module in (second_process, of_run):
+    def both(threads, cache=None):
+        for module in (second_process, solids):
             monkeypatch.setattr(module, "threads", lambda: threads)
         return solids_of(model, SilentProgress(), cache)
 
-    expected, kept = bodies(1), Cache(tmp_path)
+    expected, kept = both(1), Cache(tmp_path)
     assert not started
     store = GearStore()
     for name, value in (("own_gear_store", store), ("user_cache", kept), ("threads", 2)):
         monkeypatch.setattr(condensing, name, lambda value=value: value)
-    for module in (second_process, of_run):
+    for module in (second_process, solids):
         monkeypatch.setattr(module, "threads", lambda: 2)
     condensing.condense(condensing.GearTask(scene, "pinion"))
     found = [store.body(model, name, None).solid for name in GEARS]
     assert len(started) == 1 and not any(body.timings["from_cache"] for body in found)
     for one, other in zip(found, expected):
         np.testing.assert_allclose(one.blocks, other.blocks, rtol=0.0, atol=1e-13 * abs(other.blocks).max())
-    assert all(body.timings["from_cache"] for body in bodies(2, kept))
+    assert all(body.timings["from_cache"] for body in both(2, kept))
     monkeypatch.setenv(MEMORY_VARIABLE, "300 MB")
-    assert np.array_equal(bodies(2)[1].blocks, expected[1].blocks) and len(started) == 1
+    assert np.array_equal(both(2)[1].blocks, expected[1].blocks) and len(started) == 1

@@ -18,7 +18,7 @@ def check(options: argparse.Namespace) -> int:
         return check_train(train)
     model = checked_model(options.scene)
     # A scene that is refused waits for none of it.
-    from fenics_gears.model import cost, description, fitting
+    from fenics_gears.model import cost, description
 
     scene = model.scene
     described = description.describe(scene)
@@ -27,9 +27,7 @@ def check(options: argparse.Namespace) -> int:
         print_rows(heading, rows)
     print_rows("Effects", effect_rows(description.effect_states(scene)))
     # With a target a run computes with settings of its own.
-    if scene.accuracy.target is None and (
-        said := fitting.too_large(model, cost.expected_cost(model), allowed_memory())
-    ):
+    if scene.accuracy.target is None and (said := cost.too_large(model, cost.expected_cost(model), allowed_memory())):
         raise ComputationError(f"CANNOT FIT: {said}")
     return 0
 

@@ -26,7 +26,7 @@ class SweptWeb:
     low: float
     high: float
 
-    def beside(self, points: np.ndarray) -> np.ndarray:
+    def outside(self, points: np.ndarray) -> np.ndarray:
         """Which points (k, 2), middles of cells, are of rim or hub."""
         radius = np.linalg.norm(points, axis=1)
         return (radius < self.hub_radius) | (radius > self.rim_radius)

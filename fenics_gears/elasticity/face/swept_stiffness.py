@@ -32,7 +32,7 @@ QUADRATURE_DEGREE = 4
 class SectionForms:
     """Bilinear forms of a section's displacements (n nodes of `nodes`, three components), Young's modulus 1 MPa.
 
-    beside_web: those of rim and hub alone, and its nodes' numbers (k,) in the whole section; None without a web.
+    outside_web: those of rim and hub alone, and its nodes' numbers (k,) in the whole section; None without a web.
     """
 
     def __init__(self, mesh: BodyMesh, poissons_ratio: float, web: SweptWeb | None = None):
@@ -42,13 +42,13 @@ class SectionForms:
         self._numbers = adapter.constant(space.mesh, (poissons_ratio, 1.0, 0.0, 0.0, 0.0))
         self._forms = _forms(space, *(self._numbers[i] for i in range(5)))
 
-        self.beside_web: tuple[SectionForms, np.ndarray] | None = None
+        self.outside_web: tuple[SectionForms, np.ndarray] | None = None
         if web is not None:
             # Imported here: gears without web have none of it.
-            from .web import beside_web
+            from .web import outside_web
 
-            beside = SectionForms(beside_web(mesh, web), poissons_ratio)
-            self.beside_web = beside, numbers_at(self.nodes.points, beside.nodes.points)
+            outside = SectionForms(outside_web(mesh, web), poissons_ratio)
+            self.outside_web = outside, numbers_at(self.nodes.points, outside.nodes.points)
 
     def material(self, sweep: Sweep) -> np.ndarray:
         """Which nodes of the section (h, n) the body has at each height."""
@@ -60,9 +60,9 @@ class SectionForms:
     def in_layer(self, within_web: bool) -> np.ndarray:
         """Which nodes of the section (n,) a layer has, within the web or outside it."""
         nodes = len(self.nodes.points)
-        if within_web or self.beside_web is None:
+        if within_web or self.outside_web is None:
             return np.ones(nodes, dtype=bool)
-        return np.isin(np.arange(nodes), self.beside_web[1])
+        return np.isin(np.arange(nodes), self.outside_web[1])
 
     def at(self, turn: complex, sweep: complex) -> tuple[sparse.csr_matrix, ...]:
         """Forms (3n, 3n) where w = `turn` and w'/w = `sweep`: of u and v, of u and dv/dz (rows: v), of du/dz and
@@ -117,20 +117,20 @@ def layer_of_kind(
 ) -> dict[tuple[int, int], sparse.csr_matrix]:
     """`layer_stiffness` of one of `Sweep.kinds`."""
     thickness, within = kind
-    return (layer_stiffness if within else _layer_beside_web)(section, thickness, twist)
+    return (layer_stiffness if within else _layer_outside_web)(section, thickness, twist)
 
 
-def _layer_beside_web(
+def _layer_outside_web(
     section: SectionForms, thickness: float, twist: float
 ) -> dict[tuple[int, int], sparse.csr_matrix]:
     """As `layer_stiffness`, of rim and hub alone."""
-    assert section.beside_web is not None
-    beside, numbers = section.beside_web
+    assert section.outside_web is not None
+    outside, numbers = section.outside_web
     own = dofs_of(numbers, 3)
     placed = sparse.csr_matrix(
         (np.ones(len(own)), (own, np.arange(len(own)))), shape=(3 * len(section.nodes.points), len(own))
     )
-    blocks = layer_stiffness(beside, thickness, twist)
+    blocks = layer_stiffness(outside, thickness, twist)
     return {pair: (placed @ block @ placed.T).tocsr() for pair, block in blocks.items()}
 
 

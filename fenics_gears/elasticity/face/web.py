@@ -88,9 +88,9 @@ def _cells(grid: np.ndarray) -> np.ndarray:
     return np.vstack([one, np.where(left, np.column_stack([a, c, d]), np.column_stack([b, c, d]))])
 
 
-def beside_web(mesh: BodyMesh, web: SweptWeb) -> BodyMesh:
+def outside_web(mesh: BodyMesh, web: SweptWeb) -> BodyMesh:
     """The section of a body outside its web: rim and hub."""
-    cells = mesh.cells[web.beside(mesh.points[mesh.cells].mean(axis=1))]
+    cells = mesh.cells[web.outside(mesh.points[mesh.cells].mean(axis=1))]
     used = np.unique(cells)
     return BodyMesh(mesh.points[used], np.searchsorted(used, cells), {})
 

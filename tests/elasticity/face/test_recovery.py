@@ -101,19 +101,19 @@ def test_the_surface_beside_a_web_encloses_its_body():
     """Divergence theorem: the volume of the layers' cells; as many wedges as cells."""
     forms, mesh, sweep = webbed()
     nodes, sweep = forms.nodes, replace(sweep, twist=0.0)
-    in_web, beside = layers_of(SimpleNamespace(section=nodes, sweep=sweep, mesh=mesh))
+    in_web, rim_and_hub = layers_of(SimpleNamespace(section=nodes, sweep=sweep, mesh=mesh))
     one = swept_points(nodes.points, sweep).reshape(len(sweep.heights), -1, 3)
     teeth = [one @ rotation(angle, 3).T for angle in PINION.angular_pitch * np.arange(PINION.teeth)]
     shown = dict(sectors=range(len(teeth)), points=np.array(teeth), section=nodes, outline=outer_sides(nodes, mesh))
     unused = {each.name: None for each in fields(GearInSpace) if each.name not in shown}
-    gear = GearInSpace(**(unused | shown | {"in_web": in_web, "beside": beside}))
+    gear = GearInSpace(**(unused | shown | {"in_web": in_web, "rim_and_hub": rim_and_hub}))
     a, b, c = np.moveaxis(gear.points.reshape(-1, 3)[surface(gear.points, gear)], 1, 0)
     along, across = (nodes.points[nodes.cells[:, corner]] - nodes.points[nodes.cells[:, 0]] for corner in (1, 2))
     area = 0.5 * np.cross(along, across)
-    layers = [area.sum() if within else area[sweep.web.beside(nodes.middles)].sum() for within in in_web]
+    layers = [area.sum() if within else area[sweep.web.outside(nodes.middles)].sum() for within in in_web]
     volume = len(teeth) * (layers @ sweep.thicknesses)
     assert np.einsum("ki,ki->", a, np.cross(b, c)) / 6.0 == pytest.approx(volume, rel=1e-12)
-    assert len(wedges(gear)) == len(teeth) * (len(nodes.cells) + len(beside[0].cells))
+    assert len(wedges(gear)) == len(teeth) * (len(nodes.cells) + len(rim_and_hub[0].cells))
 
 
 def relative(difference, reference) -> float:
