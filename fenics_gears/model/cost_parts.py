@@ -42,7 +42,7 @@ class ExpectedCost:
     operators; unknowns (words, number) of the gears; how bodies over the face are condensed (words, way).
 
     Bytes: `memory` of all, of which `operators` need not be kept: they are made again each time the mesh cycle comes
-    round.
+    round; and `passing` are free again when the gears are condensed.
     """
 
     condensing: float | None
@@ -52,6 +52,7 @@ class ExpectedCost:
     unknowns: tuple[tuple[str, float], ...] = ()
     ways: tuple[tuple[str, str], ...] = ()
     building: float = 0.0
+    passing: float = 0.0
 
     @property
     def held(self) -> float:

@@ -104,7 +104,8 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
             stress_step += step
             # The sector factorised once more, and matrices of its cuts, beside what is held by then.
             recovering = max(recovering, BYTES_OF_AN_UNKNOWN * size.unknowns + BYTES_OF_A_LINK * (2 * size.cut) ** 2)
-    held = max(held, condensed + largest) + recovering
+    passing = max(condensed + largest - held, 0.0)
+    held += passing + recovering
     if model.scene.output.root_stress:
         held += ON_FLANKS * contact.positions * contact.nodes * (2.0 if friction else 1.0)
         pushing = PAIR_ON_FLANKS * contact.positions * contact.pairs
@@ -119,6 +120,7 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
         unknowns=(*sections.unknowns, *bodies),
         ways=tuple(ways),
         building=building,
+        passing=passing,
     )
 
 

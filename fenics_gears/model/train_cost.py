@@ -33,13 +33,16 @@ def row_cost(row: RowModel) -> ExpectedCost:
         return costs[0]
     together = WITH_FACTORS * sum(each.operators**0.5 for each in costs) ** 2
     operators = sum(each.operators for each in costs) + together
-    held = CONDENSING_PROGRAM + sum(each.held - CONDENSING_PROGRAM for each in costs)
+    # Gears are condensed one after the other.
+    passing = max(each.passing for each in costs)
+    held = CONDENSING_PROGRAM + passing + sum(each.held - each.passing - CONDENSING_PROGRAM for each in costs)
     return ExpectedCost(
         sum(each.condensing or 0.0 for each in costs),
         # A step of all meshes takes as many times longer as there are.
         len(costs) * sum(each.marching for each in costs),
         held + operators,
         operators,
+        passing=passing,
     )
 
 

@@ -23,7 +23,7 @@ from fenics_gears.model.train import RowModel
 from fenics_gears.system.progress import Progress
 
 from .bodies import gear_body
-from .elastic_route import flanks_of, gaps_of
+from .elastic_route import cycle_of, flanks_of
 
 
 def row_cycle_over_face(row: RowModel, coordinates: Sequence[np.ndarray], progress: Progress, cache: Cache) -> RowCycle:
@@ -73,7 +73,4 @@ def _cycle(model: Model, bodies: tuple[Body, Body], phase: float) -> Cycle:
     solids = bodies[0].solid, bodies[1].solid
     grid = model.resolution.contact_grid
     mesh = face_mesh(flanks_of(model, bodies), solids, model.face, grid, model.corner)
-    friction = model.scene.friction is not None
-    steps = model.resolution.steps_per_mesh_cycle
-    cycle = Cycle(at_phase(mesh, phase), steps, model.drivetrain.indices, friction)
-    return cycle.with_gaps(gaps_of(model, cycle))
+    return cycle_of(model, at_phase(mesh, phase))

@@ -36,7 +36,7 @@ from fenics_gears.system.memory import allowed_memory
 from fenics_gears.system.progress import Progress
 
 from .bodies import gear_bodies, gear_body
-from .elastic_route import flanks_of, gaps_of, mesh_cycle
+from .elastic_route import cycle_of, flanks_of, mesh_cycle
 from .routes import Preparation
 from .simulate import MARCH, solved
 from .warm_up import compile_kernels, compile_loops
@@ -210,10 +210,7 @@ def idler_body(row: RowModel, mesh: int, cache: Cache) -> Body:
 def _cycle(model: Model, bodies: tuple[Body, Body], phase: float) -> Cycle:
     """The contact equations of one mesh of a row."""
     mesh = elastic_mesh(flanks_of(model, bodies), model.resolution.contact_grid, model.corner, coast=False)
-    friction = model.scene.friction is not None
-    steps = model.resolution.steps_per_mesh_cycle
-    cycle = Cycle(at_phase(mesh, phase), steps, model.drivetrain.indices, friction)
-    return cycle.with_gaps(gaps_of(model, cycle))
+    return cycle_of(model, at_phase(mesh, phase))
 
 
 def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:

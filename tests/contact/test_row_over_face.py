@@ -16,6 +16,7 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.face_compliance_data import AcrossFlanks
 from fenics_gears.geometry.gear_train import SecondMesh
 from fenics_gears.model.train import RowModel, train_model_of
+from fenics_gears.model.train_cost import WITH_FACTORS, row_cost
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
@@ -129,6 +130,16 @@ def test_a_spur_row_that_does_not_vary_along_the_face_is_the_plane_row(cycle_of)
         for more in ("", LEVEL)
     )
     assert over_face == pytest.approx(plane, rel=2e-3)
+
+
+@pytest.mark.parametrize("more", ["", FRICTION])
+def test_expected_memory_of_operators_is_that_of_their_arrays(cycle_of, more):
+    """Counted arrays: of all meshes together, with their factors, and of each mesh beside them."""
+    model, cycle = cycle_of(helical_row([24, 31, 24], [0, 60], 300, more=more))
+    steps = range(cycle.steps)
+    together = sum(cycle.position(step).bytes for step in steps)
+    alone = sum(mesh.cycle.position(step).bytes for mesh in cycle.meshes for step in steps)
+    assert row_cost(model).operators == pytest.approx(WITH_FACTORS * together + alone, rel=0.3)
 
 
 def test_flanks_beyond_what_is_known_are_refused():
