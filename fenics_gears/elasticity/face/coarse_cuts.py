@@ -20,6 +20,8 @@ from .layers import Sweep, interpolation_along
 DEEP = 2 / 3
 # Pitches that two layers together may be thick: those measured are 1.1.
 THICKEST = 1.25
+# Of fewer layers all are kept: there is little to save.
+FEWEST = 4
 
 
 class CutNodes(NamedTuple):
@@ -37,9 +39,10 @@ def is_deep(radius: np.ndarray, teeth: int) -> np.ndarray:
 
 def boundaries_where_deep(sweep: Sweep, pitch: float) -> np.ndarray:
     """Boundaries of the layers that a cut's deep nodes see, the same from either end of the face; those of the body
-    beside a web, whose layers differ, and where two layers are thick for the `pitch` (mm) along the root circle."""
+    beside a web, whose layers differ, and where layers are few or two are thick for the `pitch` (mm) along the root
+    circle."""
     layers = len(sweep.boundaries) - 1
-    if sweep.web is not None or 2.0 * sweep.thicknesses.max() > THICKEST * pitch:
+    if sweep.web is not None or layers < FEWEST or 2.0 * sweep.thicknesses.max() > THICKEST * pitch:
         return sweep.boundaries
     half = np.arange(0, layers // 2 + 1, 2)
     middle = [layers // 2, layers // 2 + 1] if layers % 2 else []
