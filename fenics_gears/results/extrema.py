@@ -32,6 +32,9 @@ LARGEST_PART = 0.125
 PLACES = 800
 # Over a face positions cost a hundred times as much, and slices leave a peak-to-peak value some 2 % uncertain.
 SOUGHT_OVER_FACE = 2e-3
+# Nor is less sought than this part of the largest value. A helical pair's error may vary by 3 nm of 25 um; its
+# peak-to-peak value is promised to 0.2 % of the mean, ten times this (docs/third_dimension.md).
+LEAST_SOUGHT_OVER_FACE = 2e-4
 # Longer periods are not held in memory.
 MOST_RECORDS = 2000
 # A position solved again is that of the march if it is as near as this part of what is sought.
@@ -126,6 +129,8 @@ class Extrema:
     ) -> list[tuple[float, float, str]]:
         """Step, largest value, and the way, of each quantity by positions that are solved."""
         sought = self._sought * np.ptp(curves, axis=1) + round_off
+        if not self._corners:
+            sought = np.maximum(sought, LEAST_SOUGHT_OVER_FACE * np.abs(curves).max(axis=1))
         ways = [SOLVED] * len(quantities)
         search = Searches(*self._last_period(curves), sought, self._finest, self._corners)
         with thread_pools().limit(limits=1):

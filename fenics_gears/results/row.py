@@ -104,8 +104,9 @@ class RowResult:
         return torque * first.pair.pinion.angular_pitch * steps / first.resolution.steps_per_mesh_cycle
 
 
-def _finite(numbers: Mapping[str, Any]) -> dict[str, float]:
-    return {name: value for name, value in numbers.items() if isinstance(value, float | int) and isfinite(value)}
+def _finite(numbers: Mapping[str, Any]) -> dict[str, Any]:
+    """Numbers, also those in words."""
+    return {name: value for name, value in numbers.items() if isinstance(value, str) or isfinite(value)}
 
 
 def _along_the_row(places: dict[str, tuple]) -> dict[str, tuple]:

@@ -12,6 +12,7 @@ from ..mesh_data import BodyMesh
 from ..mirrored_ring import flank_free
 from ..mumps import schur_complement
 from ..ring import check_congruent, joined_blocks, rotation
+from .coarse_cuts import cut_nodes, on_cut_nodes
 from .cut_motions import cut_motions, loads_on_flanks, over_motions
 from .layers import Sweep, SweptWeb, swept_nodes
 from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
@@ -22,9 +23,9 @@ class SweptSector:
     """A swept sector with its hub held, Young's modulus 1 MPa, condensed onto its flank (or its drive and coast flank),
     its lower and its upper cut.
 
-    stiffness: (f + 2 c, f + 2 c), N/mm; dofs by height, radius, then x, y, z in the section's frame that turns with it.
-    Dofs of the upper cut are in the next sector's frame. lower: (c / 3, 3), X, Y, z of the lower cut's nodes. profile:
-    nodes of a flank at a height.
+    stiffness: (f + 2 c, f + 2 c), N/mm; dofs by height, radius, then x, y, z in the section's frame that turns with it,
+    of cuts as of `coarse_cuts.CutNodes`. Dofs of the upper cut are in the next sector's frame. lower: (c / 3, 3), X, Y,
+    z of the lower cut's nodes. profile: nodes of a flank at a height.
     """
 
     stiffness: np.ndarray
@@ -51,10 +52,15 @@ def condensed_swept_sector(
     there[swept_nodes(nodes, mesh.edge_nodes("hub", ELEMENT.order), len(sweep.heights))] = False
     free = dofs_of(np.flatnonzero(there), 3)
     stiffness = swept_stiffness(section, sweep)[free][:, free]
-    kept = dofs_of((np.cumsum(there) - 1)[np.concatenate(numbers)], 3)
+    placed = [(np.cumsum(there) - 1)[own] for own in numbers]
+    if sweep.web is None:
+        lower, weights = cut_nodes(cuts[0], sweep, teeth)
+        stiffness, kept = on_cut_nodes(stiffness, np.concatenate(placed[:-2]), placed[-2:], weights)
+    else:
+        kept = dofs_of(np.concatenate(placed), 3)
+        lower = np.column_stack([nodes[numbers[-2] % len(nodes)], sweep.heights[numbers[-2] // len(nodes)]])
     condensed = schur_complement(stiffness, kept)
-    _turn(condensed, 3 * len(numbers[-1]), rotation(2.0 * np.pi / teeth, 3))
-    lower = np.column_stack([nodes[numbers[-2] % len(nodes)], sweep.heights[numbers[-2] // len(nodes)]])
+    _turn(condensed, lower.size, rotation(2.0 * np.pi / teeth, 3))
     timings = {"time_compile": compiled - clock, "unknowns": len(free), "condensed_unknowns": len(kept)}
     return SweptSector(condensed, lower, len(flanks[0]), sweep.web, timings)
 

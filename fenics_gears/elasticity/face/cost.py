@@ -13,6 +13,7 @@ from fenics_gears.geometry.gear import Gear
 
 from ..element_sizes import ElementSizes, SizeField
 from ..sector_boundary import SectorBoundary, sector_boundary
+from .coarse_cuts import boundaries_where_deep, is_deep
 from .discretisation import FaceDiscretisation
 from .near_field import thin_layers
 
@@ -56,14 +57,15 @@ class BodyCost:
 
 @dataclass(frozen=True)
 class _Section:
-    """Nodes of a section, second order: all, of the tooth's part, on a flank, a cut, the bore. In a web's layers alone:
-    all and on a cut."""
+    """Nodes of a section, second order: all, of the tooth's part, on a flank, a cut, the bore; of the cut's those that
+    are deep (`coarse_cuts`), without the bore's. In a web's layers alone: all and on a cut."""
 
     nodes: float
     tooth: float
     flank: int
     cut: int
     hub: int
+    deep: int
     web: float = 0.0
     web_cut: int = 0
 
@@ -86,6 +88,8 @@ def _section(gear: Gear, sizes: ElementSizes) -> _Section:
 
 def _of_outline(gear: Gear, boundary: SectorBoundary, field: SizeField) -> _Section:
     flank, cut, hub = (2 * len(boundary.part(name)) - 1 for name in ("flank", "lower cut", "hub"))
+    radii = np.sort(np.linalg.norm(boundary.points[np.unique(boundary.part("lower cut"))], axis=1))
+    deep = is_deep(np.concatenate([radii[1:], 0.5 * (radii[1:] + radii[:-1])]), gear.teeth)
     low, high = boundary.points.min(axis=0), boundary.points.max(axis=0)
     steps = (np.arange(SAMPLES) + 0.5) / SAMPLES
     places = np.stack(np.meshgrid(*(low + (high - low) * steps[:, None]).T), axis=-1).reshape(-1, 2)
@@ -97,7 +101,7 @@ def _of_outline(gear: Gear, boundary: SectorBoundary, field: SizeField) -> _Sect
         above = [np.linalg.norm(points, axis=1) > least for points in (boundary.points, places)]
         return BY_OUTLINE * float(above[0].sum()) + BY_AREA * float(squares[above[1]].sum())
 
-    return _Section(nodes(0.0), nodes(neck), flank, cut, hub)
+    return _Section(nodes(0.0), nodes(neck), flank, cut, hub, int(deep.sum()))
 
 
 def _within(places: np.ndarray, outline: np.ndarray) -> np.ndarray:
@@ -115,7 +119,9 @@ def expected_size(gear: Gear, face: FaceDiscretisation, both_flanks: bool = Fals
     heights = len(scaled.sweep.heights)
     thin = heights if face.web is None else _heights_of_web(scaled)
     unknowns = 3 * heights * (section.nodes - section.hub - section.web) + 3 * thin * section.web
-    cut = 3 * heights * (section.cut - 1 - section.web_cut) + 3 * thin * section.web_cut
+    pitch = gear.of_module_one.root_radius * gear.angular_pitch
+    deep = 2 * len(boundaries_where_deep(scaled.sweep, pitch)) - 1 - heights
+    cut = 3 * heights * (section.cut - 1 - section.web_cut) + 3 * thin * section.web_cut + 3 * deep * section.deep
     return BodySize(round(unknowns), (2 if both_flanks else 1) * 3 * heights * section.flank, cut)
 
 

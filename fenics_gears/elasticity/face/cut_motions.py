@@ -86,13 +86,14 @@ def _motions(stiffness: np.ndarray, loads: np.ndarray, cut: int, sign: float) ->
     """Of a cut (c, k), where each tooth bears `sign` times what the one before it does."""
     lower = len(stiffness) - cut
     own = slice(lower - cut, lower)
-    joined = stiffness[:lower, :lower].copy(order="F")
+    joined = stiffness[:lower, :lower].copy()
     joined[:, own] += sign * stiffness[:lower, lower:]
     joined[own] += sign * stiffness[lower:, :lower]
     joined[own, own] += stiffness[lower:, lower:]
     forces = loads[:lower].copy(order="F")
     forces[own] += sign * loads[lower:]
-    factor = definite_factor(joined, "a ring of equal loads", overwrite=True)
+    # Transposed, it is in LAPACK's order.
+    factor = definite_factor(joined.T, "a ring of equal loads", overwrite=True)
     return cho_solve((factor, False), forces, overwrite_b=True, check_finite=False)[own]
 
 

@@ -14,7 +14,7 @@ from ..mesh_data import BodyMesh
 from ..mumps import schur_complement
 from .layers import Sweep, interpolation_along
 from .near_field import NearField, thin_boundaries, thin_layers
-from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
+from .swept_stiffness import ELEMENT, Blocks, SectionForms, swept_stiffness
 
 # Modules: how far below the root circle a tooth is held.
 DEPTH = 0.3
@@ -50,13 +50,14 @@ class _HeldTooth:
         free = np.linalg.norm(points, axis=1) > gear.root_radius - DEPTH
         for held in ("lower cut", "upper cut", "hub"):
             free[numbers_at(points, mesh.edge_nodes(held, ELEMENT.order))] = False
-        self._free = free
         flank = numbers_at(points, by_radius(mesh.edge_nodes("flank", ELEMENT.order)))
         self._flank = (np.cumsum(free) - 1)[flank]
         slope = -twist * gear.base_radius
         transverse = np.column_stack([np.cos(rolls), -np.sin(rolls), np.full(len(rolls), slope)])
         self.normals = transverse / np.sqrt(1.0 + slope**2)
-        self._along = _along_normals(int(free.sum()), self._flank, self.normals)
+        along = _along_normals(int(free.sum()), self._flank, self.normals)
+        self._motions = sparse.eye(3 * len(points), format="csr")[:, dofs_of(np.flatnonzero(free), 3)] @ along
+        self._layers: dict[tuple[float, bool], Blocks] = {}
         self._known: dict[tuple[float, ...], np.ndarray] = {}
 
     @property
@@ -79,12 +80,10 @@ class _HeldTooth:
     def _compliance(self, boundaries: np.ndarray) -> np.ndarray:
         """T (H n, H n), along the normals, of layers between boundaries."""
         sweep = Sweep(boundaries, self._twist)
-        heights, nodes = len(sweep.heights), int(self._free.sum())
-        free = dofs_of(np.flatnonzero(np.tile(self._free, heights)), 3)
-        along = sparse.kron(sparse.eye(heights), self._along, format="csr")
-        stiffness = along.T @ swept_stiffness(self._section, sweep)[free][:, free] @ along
-        on_flank = 3 * (nodes * np.arange(heights)[:, None] + self._flank).ravel()
-        compliance = cho_solve(cho_factor(schur_complement(stiffness.tocsr(), on_flank)), np.eye(len(on_flank)))
+        stiffness = swept_stiffness(self._section, sweep, self._motions, self._layers)
+        nodes = self._motions.shape[1] // 3
+        on_flank = 3 * (nodes * np.arange(len(sweep.heights))[:, None] + self._flank).ravel()
+        compliance = cho_solve(cho_factor(schur_complement(stiffness, on_flank)), np.eye(len(on_flank)))
         return 0.5 * (compliance + compliance.T)
 
 

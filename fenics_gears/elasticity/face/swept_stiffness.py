@@ -98,31 +98,49 @@ def _forms(space, poisson, a, b, c, d):
     ]
 
 
-def swept_stiffness(section: SectionForms, sweep: Sweep) -> sparse.csr_matrix:
+Blocks = dict[tuple[int, int], sparse.csr_matrix]
+
+
+def swept_stiffness(
+    section: SectionForms,
+    sweep: Sweep,
+    motions: sparse.csr_matrix | None = None,
+    known: dict[tuple[float, bool], Blocks] | None = None,
+) -> sparse.csr_matrix:
     """Stiffness (3 n h, 3 n h), N/mm, of the swept body: dofs by height, then the section's node, then x, y, z in the
-    section's frame."""
-    heights, size = len(sweep.heights), 3 * len(section.nodes.points)
+    section's frame.
+
+    With `motions` (3n, r) of the section at each height (r h, r h), of these alone. `known`: blocks of layers by kind,
+    of the same section, twist and motions, to which those of this body are added.
+    """
+    known = {} if known is None else known
+    for kind in set(sweep.kinds) - set(known):
+        blocks = layer_of_kind(section, sweep.twist, kind)
+        # Of one layer, not of the body: products of sparse matrices take as long as the factor.
+        known[kind] = blocks if motions is None else _of_motions(blocks, motions)
+    heights = len(sweep.heights)
+    size = 3 * len(section.nodes.points) if motions is None else motions.shape[1]
     # A block in every row and column, so that the matrix has all.
     rows = [[sparse.csr_matrix((size, size)) if 0 in (i, j) else None for j in range(heights)] for i in range(heights)]
-    known = {kind: layer_of_kind(section, sweep.twist, kind) for kind in set(sweep.kinds)}
     for layer, kind in enumerate(sweep.kinds):
         for (low, high), block in known[kind].items():
-            row, column = rows[2 * layer + low], 2 * layer + high
+            row = rows[2 * layer + low]
+            column = 2 * layer + high
             row[column] = block if row[column] is None else row[column] + block
     return sparse.bmat(rows, format="csr")
 
 
-def layer_of_kind(
-    section: SectionForms, twist: float, kind: tuple[float, bool]
-) -> dict[tuple[int, int], sparse.csr_matrix]:
+def _of_motions(blocks: Blocks, motions: sparse.csr_matrix) -> Blocks:
+    return {pair: (motions.T @ block @ motions).tocsr() for pair, block in blocks.items()}
+
+
+def layer_of_kind(section: SectionForms, twist: float, kind: tuple[float, bool]) -> Blocks:
     """`layer_stiffness` of one of `Sweep.kinds`."""
     thickness, within = kind
     return (layer_stiffness if within else _layer_outside_web)(section, thickness, twist)
 
 
-def _layer_outside_web(
-    section: SectionForms, thickness: float, twist: float
-) -> dict[tuple[int, int], sparse.csr_matrix]:
+def _layer_outside_web(section: SectionForms, thickness: float, twist: float) -> Blocks:
     """As `layer_stiffness`, of rim and hub alone."""
     assert section.outside_web is not None
     outside, numbers = section.outside_web
@@ -134,7 +152,7 @@ def _layer_outside_web(
     return {pair: (placed @ block @ placed.T).tocsr() for pair, block in blocks.items()}
 
 
-def layer_stiffness(section: SectionForms, thickness: float, twist: float) -> dict[tuple[int, int], sparse.csr_matrix]:
+def layer_stiffness(section: SectionForms, thickness: float, twist: float) -> Blocks:
     """Blocks (3n, 3n) between the lower, middle and upper nodes of a layer, each in the section's frame at its own
     height."""
     angles = 0.5 * twist * thickness * np.array([-1.0, 0.0, 1.0])

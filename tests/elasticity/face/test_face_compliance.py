@@ -13,7 +13,7 @@ from fenics_gears import SceneError
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import by_radius
-from fenics_gears.elasticity.face import condensed
+from fenics_gears.elasticity.face import coarse_cuts, condensed
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.condensed import SweptSector, condensed_swept_sector
 from fenics_gears.elasticity.face.cost import expected_size
@@ -41,7 +41,10 @@ def sector() -> SweptSector:
 
 
 def swept_sector(section_mesh, gear=GEAR) -> SweptSector:
-    return condensed_swept_sector(section_mesh, TWISTED, 0.3, gear.teeth, both=True)
+    """With all nodes of its cuts."""
+    with pytest.MonkeyPatch.context() as exact:
+        exact.setattr(coarse_cuts, "THICKEST", 0.0)
+        return condensed_swept_sector(section_mesh, TWISTED, 0.3, gear.teeth, both=True)
 
 
 def flank_nodes(section_mesh, side):
@@ -57,6 +60,20 @@ def test_the_shapes_of_a_flank_are_all_that_its_cuts_move():
         assert columns.shape[1] <= most
         assert difference(columns.T @ columns, np.eye(columns.shape[1])) < 1e-12
         assert difference(columns @ rows, matrix) < 1e-11
+
+
+def test_few_nodes_of_a_cut_deep_below_the_root_stand_for_all(monkeypatch):
+    """Brute force: the same ring with all nodes of the cuts. Under a load on a whole flank, along its normals, they
+    differ by a tenth of what the error of transmission is promised to, 0.3 %."""
+    gear = replace(PINION, teeth=24, tip_radius=59.0, root_radius=49.0, bore_radius=25.0)
+    face = FaceDiscretisation(2.7, 4, 24.0, 0.006)
+    few = face_compliance(gear, STEEL, face, Reach(1))
+    monkeypatch.setattr(coarse_cuts, "THICKEST", 0.0)
+    whole = face_compliance(gear, STEEL, face, Reach(1))
+    assert few.timings["condensed_unknowns"] < whole.timings["condensed_unknowns"]
+    assert 0.0 < abs(few.blocks - whole.blocks).max() < 1e-4 * abs(whole.blocks).max()
+    load = np.tile(whole.near.normals[0], (len(whole.heights), 1)).ravel()
+    assert load @ few.blocks[0] @ load == pytest.approx(load @ whole.blocks[0] @ load, rel=3e-4)
 
 
 @pytest.mark.nightly
@@ -154,10 +171,10 @@ def test_impossible_bodies_are_refused(change, message):
         face_compliance(PINION, STEEL, replace(TWISTED_PINION, **change), Reach(0))
 
 
-@pytest.mark.parametrize("reach", [Reach(0), BOTH])
-def test_expected_size(reach):
+@pytest.mark.parametrize(("layers", "reach"), [(1, Reach(0)), (1, BOTH), (4, Reach(0))])
+def test_expected_size(layers, reach):
     """The mesh itself: condensed unknowns exactly, all within 18 %."""
-    gear, face = replace(PINION, teeth=24, tip_radius=59.0, root_radius=49.0), FaceDiscretisation(1.35, 1, 3.0)
+    gear, face = replace(PINION, teeth=24, tip_radius=59.0, root_radius=49.0), FaceDiscretisation(1.35, layers, 3.0)
     found = face_compliance(gear, STEEL, face, reach).timings
     size = expected_size(gear, face, reach.across is not None)
     assert size.condensed == found["condensed_unknowns"]
