@@ -11,7 +11,7 @@ from fenics_gears.dynamics.guidance import resolved_frequency
 
 from .train import RowModel, parts_of
 
-Rows = list[tuple[str, object, str]]
+Rows = list[tuple[str, float | str, str]]
 # Of the kinetic energy of a mode, at least, for a motion to be named.
 NOTABLE_SHARE = 0.2
 

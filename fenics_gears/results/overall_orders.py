@@ -1,5 +1,8 @@
 """The overall transmission error of a train by its orders: each mesh repeats with its own mesh cycle and reaches the
-last shaft through the ratios behind it. Amplitudes are of the last shaft, rad; order 1 is a turn of the first shaft."""
+last shaft through the ratios behind it. Amplitudes are of the last shaft, rad; order 1 is a turn of the first shaft.
+
+Where stages move together, the lag of the last shaft has harmonics of all mesh frequencies: they are fitted to it, by
+least squares over the recorded cycles, which are whole ones of the slowest mesh alone."""
 
 from __future__ import annotations
 
@@ -48,6 +51,8 @@ def cycles_of_meshes(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]
     >>> [round(each.order, 9) for each in cycles_of_meshes(simulate_train(train), train)]
     [24.0, 24.0]
     """
+    if train.shafts.moving:
+        return _fitted(result, train)
     found = []
     behind = train.turns_of_last
     for number, mesh in enumerate(train.meshes):
@@ -57,6 +62,33 @@ def cycles_of_meshes(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]
         error = result["transmission_error"].isel(mesh=number).values
         error = error[np.isfinite(error)]
         found.append(CycleOfMesh(mesh.name, behind * error[-1 - steps : -1], frequency, frequency / train.input_speed))
+    return found
+
+
+def _fitted(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]:
+    """The harmonics of each mesh frequency in the overall transmission error; of meshes with one frequency, and of
+    harmonics that another mesh has too, those of the first of them."""
+    steps = result["steps_per_mesh_cycle"].values.astype(int)
+    last = slice(-1 - train.recorded_cycles * steps.max(), -1)
+    lag = result["overall_transmission_error"].values[last]
+    times = result["time"].values[last]
+    frequencies = [mesh.scene.motion.mesh_frequency for mesh in train.meshes]
+    # Within half of the steps of its cycle.
+    known = [(mesh, n) for mesh in range(len(steps)) for n in range(1, min(HARMONICS, steps[mesh] // 2 - 1) + 1)]
+    distinct: dict[float, tuple[int, int]] = {}
+    for mesh, n in known:
+        distinct.setdefault(round(n * frequencies[mesh] / frequencies[0], 9), (mesh, n))
+    angles = 2.0 * np.pi * np.outer(times, [n * frequencies[mesh] for mesh, n in distinct.values()])
+    columns = np.hstack([np.ones((len(times), 1)), np.cos(angles), np.sin(angles)])
+    fitted = np.linalg.lstsq(columns, lag, rcond=None)[0][1:].reshape(2, -1)
+    found = []
+    for number, (frequency, named) in enumerate(zip(frequencies, train.meshes)):
+        phase = 2.0 * np.pi * np.arange(steps[number]) / steps[number]
+        values = np.zeros(steps[number])
+        for (own, n), (cosine, sine) in zip(distinct.values(), fitted.T):
+            if own == number:
+                values += cosine * np.cos(n * phase) + sine * np.sin(n * phase)
+        found.append(CycleOfMesh(named.name, values, frequency, frequency / train.input_speed))
     return found
 
 

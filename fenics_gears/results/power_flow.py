@@ -8,7 +8,7 @@ from math import pi
 import numpy as np
 import xarray as xr
 
-from fenics_gears.scene.train import TrainScene, rows_of
+from fenics_gears.scene.train import TrainScene
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class ShaftFlow:
 
 @dataclass(frozen=True)
 class MeshFlow:
-    """A mesh, or a row of them that idlers couple, and its efficiency by friction."""
+    """A mesh, or meshes that are computed together, and the efficiency by friction."""
 
     name: str
     efficiency: float
@@ -59,6 +59,6 @@ def power_flow(result: xr.Dataset, train: TrainScene) -> PowerFlow:
     shafts = map(ShaftFlow, speeds, reversed(torques))
     meshes = [
         MeshFlow(", ".join(train.meshes[number].name for number in row), float(1.0 - lost[row[-1]]))
-        for row in rows_of(train.meshes)
+        for row in train.rows
     ]
     return PowerFlow(tuple(shafts), tuple(meshes) if lost.any() else (), train.speed_given)

@@ -64,6 +64,16 @@ class TrainScene:
     recorded_cycles: int = 1
 
     @property
+    def rows(self) -> list[list[int]]:
+        """Numbers of its meshes, those together that are computed together."""
+        return rows_of(self.meshes, self.shafts.moving)
+
+    @property
+    def alone(self) -> list[int]:
+        """Numbers of the meshes that are pairs by themselves."""
+        return [row[0] for row in self.rows if len(row) == 1 and not self.shafts.moving]
+
+    @property
     def input_speed(self) -> float:
         """Turns of the first shaft in a second."""
         first = self.meshes[0]

@@ -89,7 +89,7 @@ def test_rows_with_idlers_are_not_measured(tmp_path, capsys):
     text = '[stages.a]\nkind = "row"\nmodule = "3 mm"\npressure_angle = "20 deg"\nface_width = "30 mm"\n'
     path.write_text(f'{text}gears = [{gear}, {gear}, {gear}]\nmaterial = "steel"\n{LOAD}')
     assert main(["accuracy", str(path)]) == 2
-    assert "rows with idlers alone (a: gears 1 and 2, a: gears 2 and 3)" in capsys.readouterr().err
+    assert "computed together (a: gears 1 and 2, a: gears 2 and 3)" in capsys.readouterr().err
     path.write_text(path.read_text().replace(COARSE, 'target = "2 %"'))
     assert main(["check", str(path)]) == 2
     assert "[stages.NAME.accuracy]" in capsys.readouterr().err
@@ -156,3 +156,23 @@ def test_commands_of_pairs_name_the_stages(scene, tmp_path, capsys):
     assert main(["plot", str(tmp_path / "out"), "--spectrum"]) == 2
     said = capsys.readouterr().err
     assert "is the run of a train" in said and str(tmp_path / "out" / "second") in said
+
+
+def test_commands_take_stages_that_move_together(scene, tmp_path, capsys):
+    """They have no folders of their own; the page tells natural frequencies, and what is of single stages is refused in
+    words."""
+    more = '[motion]\ninput_speed = "900 rpm"\nmesh_cycles = 2\n[inertia]\ndensity = "7.85 g/cm^3"\n'
+    scene.write_text(scene.read_text() + more)
+    out = tmp_path / "out"
+    assert main(["check", str(scene)]) == 0
+    assert "mostly rotation of shaft 2" in capsys.readouterr().out
+    assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
+    for command in ("plot", "export", "rate", "report"):
+        assert main([command, str(out), "-q"]) == 0
+    page = (out / "report.html").read_text()
+    assert "with inertia" in page
+    assert "Natural frequencies" in page
+    assert not (out / "first").exists()
+    for command, file in (("accuracy", scene), ("picture", out)):
+        assert main([command, str(file)]) == 2
+        assert "computed together" in capsys.readouterr().err

@@ -4,6 +4,7 @@ import csv
 
 import numpy as np
 import pytest
+import xarray as xr
 from tests.trains import COARSE, row, stage, two_stages
 
 from fenics_gears import HARMONIC_NAMES, MICROMETRE, cycles_of_meshes, load, mesh_run, simulate_train, train_from_text
@@ -110,3 +111,26 @@ def test_a_stage_in_the_plane_beside_one_over_the_face():
     assert over_face["line_load"].identical(pairs[0]["line_load"])
     assert "line_load" not in plane and "face_load_factor" not in plane.attrs
     assert plane["contact_pressure"].identical(pairs[1]["contact_pressure"])
+
+
+def test_orders_of_stages_that_move_together():
+    """A lag that is put together of known harmonics of both meshes, over cycles that are whole of the slower mesh
+    alone, is taken apart into them."""
+    more = """
+        [shafts.one]
+        carries = ["first.wheel", "second.pinion"]
+        torsional_stiffness = "1e8 N mm/rad"
+        """
+    train = two_stages(more=more)
+    steps = np.array([80, 120])
+    times = np.arange(121) / (80 * train.meshes[0].scene.motion.mesh_frequency)
+    frequencies = [mesh.scene.motion.mesh_frequency for mesh in train.meshes]
+    parts = [(0, 1, 3e-5), (0, 4, 1e-6), (1, 1, 2e-5), (1, 2, 5e-6)]
+    lag = 1e-3 + sum(size * np.cos(2.0 * np.pi * n * frequencies[mesh] * times + n) for mesh, n, size in parts)
+    result = xr.Dataset(
+        {"overall_transmission_error": ("time", lag), "steps_per_mesh_cycle": ("mesh", steps)}, {"time": times}
+    )
+    found = {(each.place, each.harmonic): each.amplitude for each in overall_orders(result, train)}
+    for mesh, n, size in parts:
+        assert found.pop((mesh, n)) == pytest.approx(size, rel=1e-9)
+    assert max(found.values()) < 1e-9 * 3e-5

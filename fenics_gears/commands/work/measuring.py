@@ -46,16 +46,13 @@ def scenes_to_measure(options, command: str) -> list[tuple[Scene, Path]]:
 
 def _stages(train: TrainScene, options, command: str) -> list[tuple[Scene, Path]]:
     """The pairs of a train that are computed by themselves, and a folder for each; the standard error says so."""
-    from fenics_gears.scene.train import rows_of
-
-    rows = rows_of(train.meshes)
-    alone = [train.meshes[row[0]] for row in rows if len(row) == 1]
-    coupled = [train.meshes[number].name for row in rows if len(row) > 1 for number in row]
+    alone = [train.meshes[number] for number in train.alone]
+    coupled = [mesh.name for mesh in train.meshes if mesh not in alone]
     if not alone:
         raise SceneError(
-            f"gears {command} takes stages of two gears, each by itself; this train has rows with idlers alone"
-            f" ({', '.join(coupled)}). What idlers couple is not measured yet: run it with finer settings, or make a"
-            " scene of one of its pairs."
+            f"gears {command} takes stages of two gears, each by itself; the meshes of this train are computed together"
+            f" ({', '.join(coupled)}), which is not measured yet: run it with finer settings, or make a scene of one of"
+            " its pairs."
         )
     left = f" Left out, since idlers couple them: {', '.join(coupled)}." if coupled else ""
     if not options.quiet:

@@ -60,17 +60,16 @@ def _of_stages(options: argparse.Namespace, file: Path, dataset) -> int:
     """Draw each stage of two gears of a train, in a folder by its name. Bodies of idlers have the forces of two meshes,
     which are not drawn."""
     from fenics_gears.results.mesh_of_train import carried_train, mesh_run
-    from fenics_gears.scene.train import rows_of
 
     train = carried_train(dataset)
-    alone = [row[0] for row in rows_of(train.meshes) if len(row) == 1]
     if options.output is not None or options.vtu is not None or options.pvd is not None:
         raise SceneError(f"--output, --vtu and --pvd are for the run of a pair. {stages_beside(file)}")
-    if not alone:
+    if not train.alone:
         raise SceneError(
-            f"{file}: gears of a row with idlers are not drawn yet. Allowed: trains with stages of two gears."
+            f"{file}: gears of meshes that are computed together are not drawn yet. Allowed: trains with stages of two"
+            " gears, without [shafts], [inertia] and [bearings]."
         )
-    for number in alone:
+    for number in train.alone:
         mesh = train.meshes[number]
         own = mesh_run(dataset, train, number)
         output = file.parent / mesh.name / (ANIMATION_FILE if options.animate else PICTURE_FILE)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from fenics_gears.model.train_motion_rows import Rows, frequency_rows, motion_rows
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
 from fenics_gears.results.overall_orders import overall_orders
 from fenics_gears.results.power_flow import PowerFlow, power_flow
@@ -39,6 +40,7 @@ def train_page(dataset: xr.Dataset, file: Path, progress: Progress | None = None
     sections = [
         _summary(dataset, train, flow), warnings(ShownRun(dataset)), _geometry(train), _power(flow),
         PageSection("motion", "Transmission error", errors(train, dataset)), _orders(dataset, train),
+        *_frequencies(train),
     ]  # fmt: skip
     sections += [_mesh(dataset, train, number) for number in range(len(train.meshes))]
     sections += [
@@ -52,7 +54,30 @@ def train_page(dataset: xr.Dataset, file: Path, progress: Progress | None = None
 def _conditions(train: TrainScene) -> str:
     speed = f", {digits(60.0 * train.input_speed)} rpm" if train.speed_given else ""
     torque = digits(train.input_torque * factor("N mm", "N m"))
-    return f"{torque} N m on the first shaft{speed}, {len(train.meshes)} meshes, quasi-static"
+    return f"{torque} N m on the first shaft{speed}, {len(train.meshes)} meshes, {_motion(train)}"
+
+
+def _motion(train: TrainScene) -> str:
+    inert = train.meshes[0].scene.inertia is not None
+    return f"with inertia, numbers of the last {train.recorded_cycles} cycles" if inert else "quasi-static"
+
+
+def _frequencies(train: TrainScene) -> list[PageSection]:
+    """Natural frequencies of a train with inertia."""
+    if train.meshes[0].scene.inertia is None:
+        return []
+    from fenics_gears.model.train import train_model_of
+
+    (row,) = train_model_of(train).rows
+    facts = [
+        Facts(_said(motion_rows(row)), "Masses and shafts"),
+        Facts(_said(frequency_rows(row)), "About, with one tooth pair in each mesh"),
+    ]
+    return [PageSection("frequencies", "Natural frequencies", facts)]
+
+
+def _said(rows: Rows) -> list[tuple[str, str, str]]:
+    return [(label, value if isinstance(value, str) else digits(value), unit) for label, value, unit in rows]
 
 
 def _summary(dataset: xr.Dataset, train: TrainScene, flow: PowerFlow) -> PageSection:
