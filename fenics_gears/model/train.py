@@ -234,7 +234,7 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
             masses += [lumped[gear]] if inert else []
             supports.append(_support(mesh.scene, gear))
     torque = meshes[-1].scene.load.wheel_torque
-    torsion = shafts.torsion or (inf,) * (len(pairs) + 1)
+    torsion = [inf if each is None else each for each in shafts.torsion or (None,) * (len(pairs) + 1)]
     return TrainParts(pairs, idlers, torque, torsion, masses, supports, turned, shafts.load)
 
 

@@ -62,6 +62,7 @@ def _of_no_field(path: tuple[str, ...], value: Any) -> Iterator[Problem]:
 
 
 def is_train(tree: Mapping[str, Any]) -> bool:
+    """Whether a parsed text is of a train, not of a pair."""
     return "stages" in tree and "gears" not in tree
 
 

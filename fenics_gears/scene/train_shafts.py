@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import inf
 from typing import Any
 
 from fenics_gears.dynamics.damping import Damping
@@ -51,10 +50,10 @@ class TrainShaft(Section):
 
 @dataclass(frozen=True)
 class TrainShafts:
-    """Torsional stiffness (N mm/rad) of each shaft of a train, infinite where it is rigid; the moment of inertia
+    """Torsional stiffness (N mm/rad) of each shaft of a train, None where it is rigid; the moment of inertia
     (N mm s^2) of the load, and the damping, None where there is none. `moving`: whether stages move together."""
 
-    torsion: tuple[float, ...] = ()
+    torsion: tuple[float | None, ...] = ()
     load: float | None = None
     damping: Damping | None = None
     moving: bool = False
@@ -80,7 +79,7 @@ def gears_of_shafts(stages: Mapping[str, Any]) -> list[list[str]]:
 def checked_shafts(tree: Mapping[str, Any], shafts: Sequence[Sequence[str]]) -> tuple[TrainShafts, list[Problem]]:
     """What couples the stages of a parsed train, and what is wrong with it; `shafts`: names of the gears on each."""
     problems: list[Problem] = []
-    torsion = [inf] * len(shafts)
+    torsion: list[float | None] = [None] * len(shafts)
     for name, content in _sections(tree, "shafts", problems):
         place = ("shafts", name)
         shaft, wrong = read(TrainShaft, content, place)
@@ -94,7 +93,7 @@ def checked_shafts(tree: Mapping[str, Any], shafts: Sequence[Sequence[str]]) -> 
     )
     if damping is not None and "inertia" not in tree:
         problems.append(Problem(("damping",), "", "needs the section [inertia], which is missing. Add it."))
-    if "inertia" in tree and torsion[-1] < inf and load is None:
+    if "inertia" in tree and torsion[-1] is not None and load is None:
         said = "is missing. The far end of the last shaft needs a moment of inertia: add [inertia.load]."
         problems.append(Problem(("inertia", "load"), None, said))
     return TrainShafts(tuple(torsion), load, damping, moving), problems
@@ -120,7 +119,9 @@ def _tables(written: Mapping[str, Any]) -> list[Mapping[str, Any]]:
     return [each for each in written.values() if isinstance(each, Mapping)]
 
 
-def _put(torsion: list[float], shaft: TrainShaft, shafts: Sequence[Sequence[str]], place: Path) -> Iterator[Problem]:
+def _put(
+    torsion: list[float | None], shaft: TrainShaft, shafts: Sequence[Sequence[str]], place: Path
+) -> Iterator[Problem]:
     """Enter the stiffness of a shaft."""
     carried = [sorted(each) for each in shafts]
     if sorted(shaft.carries) not in carried:

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from tests.trains import COARSE, row, stage, two_stages
 
-from fenics_gears import scene_from_text, simulate, train_from_text
+from fenics_gears import scene_from_text, simulate, simulate_train, train_from_text
 from fenics_gears.dynamics.energy_account import account, quadratic
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.model.train import RowModel, train_model_of
 from fenics_gears.results.contact_variables import energy_of_teeth
-from fenics_gears.simulation.train import row_cycle, simulate_train
+from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 
 INERTIA = '\n[inertia]\ndensity = "7.85 g/cm^3"\n[inertia.load]\nmoment_of_inertia = "0.05 kg m^2"\n'

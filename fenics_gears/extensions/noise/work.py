@@ -21,6 +21,7 @@ from .figures import noise_figures
 from .sound import LOWEST_HEARD, OVERALL, fastest_mesh, save_sound, sound, train_sound
 
 LONGEST = 600.0
+FORCE = "normal_force"
 NOISE_FILES = "noise.png", "noise.nc"
 
 
@@ -29,10 +30,14 @@ def listen(options: argparse.Namespace) -> int:
     file = run_file(options.run)
     if not 0.1 <= options.seconds <= LONGEST:
         raise SceneError(f"--seconds {options.seconds:g}: allowed are 0.1 to {LONGEST:g} seconds.")
+    # Before the run is read: a place that cannot be written comes first.
+    output = file_to_write(options, file.parent / f"{options.curve or FORCE}.wav", "the sound")
     result = loaded_run(file, trains=True)
     of_train = OVERALL in result
-    options.curve = options.curve or (OVERALL if of_train else "normal_force")
-    output = file_to_write(options, file.parent / f"{options.curve}.wav", "the sound")
+    if of_train and options.curve is None:
+        options.curve = OVERALL
+        output = file_to_write(options, file.parent / f"{OVERALL}.wav", "the sound")
+    options.curve = options.curve or FORCE
     full_scale = _checked(result, options)
     try:
         heard = (train_sound if of_train else sound)(result, options.curve, options.seconds, full_scale)
