@@ -72,7 +72,8 @@ def test_a_wrong_answer_on_a_page_is_noticed(tmp_path):
 
 @pytest.mark.parametrize("page", holding("toml"))
 def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
-    """The program's own reading; a piece is put into the demo."""
+    """The program's own reading; a piece is put into the demo, or into the train that the page has before it."""
+    train = None
     for block in blocks(page):
         if block.language != "toml":
             continue
@@ -83,8 +84,9 @@ def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
             (tmp_path / tree["scene"]).write_text(relieved, encoding="utf-8")
             (tmp_path / "study.toml").write_text(block.code, encoding="utf-8")
             assert load_study(tmp_path / "study.toml").cases
-        elif "stages" in tree:
-            assert train_from_text(block.code, f"{name_of(page)}:{block.line}").meshes
+        elif "stages" in tree or train:
+            train = tree if "stages" in tree else merged(train, tree)
+            assert train_from_text(as_toml(train), f"{name_of(page)}:{block.line}").meshes
         elif "variables" in tree:
             (tmp_path / tree["scene"]).write_text(DEMO, encoding="utf-8")
             (tmp_path / "design.toml").write_text(block.code, encoding="utf-8")
