@@ -8,23 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cached_property
-from math import ceil, gcd, inf, lcm
+from math import ceil
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.dynamics.clock import FOLLOWING, SteadyClock, TimeScales
 from fenics_gears.dynamics.stepping import EquationsOfMotion
-from fenics_gears.dynamics.train import (
-    TrainDrivetrain,
-    TrainParts,
-    coordinates_of_mesh,
-    drivetrain_of_mesh,
-    idler_turn,
-    train_drivetrain,
-)
+from fenics_gears.dynamics.train import TrainDrivetrain, coordinates_of_mesh, drivetrain_of_mesh, train_drivetrain
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
@@ -34,20 +26,17 @@ from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.gear_train import SecondMesh, begun_at
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.scene.data import Motion, Scene
+from fenics_gears.scene.data import Motion
 from fenics_gears.scene.train import MeshOfScene, TrainScene, rows_of
 from fenics_gears.scene.train_shafts import TrainShafts
 
-from .drivetrain import lumped_gears, mesh_stiffness
+from .drivetrain import mesh_stiffness
 from .face_resolution import face_discretisation
 from .model import Model, model_of
+from .train_parts import check_supports, parts_of, whole_steps
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
-    from fenics_gears.geometry.gear_data import LumpedGear
-
-# Steps of the mesh cycles of all meshes together: each has its contact operators.
-MOST_POSITIONS = 20000
 
 
 @dataclass(frozen=True)
@@ -215,38 +204,6 @@ class TrainModel:
         return [*said, *(each for row in self.rows if not row.single for each in row.warnings)]
 
 
-def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
-    """What the equations of motion of some meshes are put together of."""
-    pairs = [mesh.pair for mesh in meshes]
-    idlers = [number > 0 and mesh.idler is not None for number, mesh in enumerate(meshes)]
-    turned = [
-        idler_turn(pairs[number - 1], pairs[number], mesh.idler.to_first, mesh.idler.to_second)
-        if idlers[number] and mesh.idler is not None
-        else None
-        for number, mesh in enumerate(meshes)
-    ]
-    masses: list[LumpedGear] = []
-    supports: list[tuple[float, float] | None] = []
-    for idler, mesh in zip(idlers, meshes):
-        inert = mesh.scene.inertia is not None
-        lumped = lumped_gears(mesh.scene, mesh.pair) if inert else {}
-        for gear in GEARS[1 if idler else 0 :]:
-            masses += [lumped[gear]] if inert else []
-            supports.append(_support(mesh.scene, gear))
-    torque = meshes[-1].scene.load.wheel_torque
-    torsion = [inf if each is None else each for each in shafts.torsion or (None,) * (len(pairs) + 1)]
-    return TrainParts(pairs, idlers, torque, torsion, masses, supports, turned, shafts.load)
-
-
-def _support(scene: Scene, gear: str) -> tuple[float, float] | None:
-    """Stiffness (N/mm) of a gear's support along and off the line of action; None where its centre is fixed."""
-    if scene.bearings is None:
-        return None
-    along = scene.bearings.of(gear, "x")
-    off = scene.bearings.of(gear, "y")
-    return None if along is None or off is None else (along, off)
-
-
 def _indices(model: Model) -> tuple[int, int]:
     """Least and largest index of a pair that touches in a mesh."""
     steps = model.touching.steps
@@ -268,7 +225,7 @@ def train_model_of(scene: TrainScene) -> TrainModel:
 def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles: int = 1) -> RowModel:
     """Meshes that move together, their cycles divided into steps of one length in time; `recorded_cycles` as of
     TrainScene."""
-    _check_supports(meshes)
+    check_supports(meshes)
     models = [model_of(mesh.scene) for mesh in meshes]
     steps = whole_steps(meshes, [model.resolution.steps_per_mesh_cycle for model in models])
     cycles = meshes[0].scene.motion.mesh_cycles
@@ -286,7 +243,7 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
         supports = [parts.support(gear) for gear in parts.gears[number]]
         drivetrain = drivetrain_of_mesh(mesh.pair, mesh.scene.load.wheel_torque, names, supports)
         found.append(replace(model, drivetrain=drivetrain))
-    _check(found)
+    _check(meshes, found)
     recorded = recorded_cycles * max(steps) if shafts.moving else 0
     return RowModel(tuple(meshes), tuple(found), shafts, recorded)
 
@@ -300,47 +257,14 @@ def _flank_sizes(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> list
     return found
 
 
-def whole_steps(meshes: Sequence[MeshOfScene], least: Sequence[int]) -> list[int]:
-    """Steps of the cycle of each mesh, all of one length in time and at least so many: whole numbers, by the teeth of
-    the gears on each shaft. Raises SceneError where they are too many."""
-    lengths = [Fraction(1)]
-    for before, mesh in zip(meshes, meshes[1:]):
-        lengths.append(lengths[-1] * Fraction(before.pair.wheel.teeth, mesh.pair.pinion.teeth))
-    whole = lcm(*(each.denominator for each in lengths))
-    units = [int(each * whole) for each in lengths]
-    common = gcd(*units)
-    units = [each // common for each in units]
-    times = max(ceil(wanted / unit) for wanted, unit in zip(least, units))
-    steps = [times * unit for unit in units]
-    if sum(steps) > MOST_POSITIONS:
-        raise SceneError(
-            f"stages: their mesh cycles have steps of one length in {' : '.join(map(str, steps))} steps; allowed are"
-            f" up to {MOST_POSITIONS} of all meshes together. Take numbers of teeth with common factors, fewer stages,"
-            f" or fewer accuracy.steps_per_mesh_cycle, or leave out what makes stages move together. {NOTHING_DONE}"
-        )
-    return steps
-
-
-def _check_supports(meshes: Sequence[MeshOfScene]) -> None:
-    """Raise SceneError for an idler whose support has directions: those of either mesh would be meant."""
-    for before, mesh in zip(meshes, meshes[1:]):
-        if mesh.idler is None:
-            continue
-        of_idler = [_support(before.scene, GEARS[1]), _support(mesh.scene, GEARS[0])]
-        if of_idler[0] != of_idler[1] or of_idler[0] is not None and of_idler[0][0] != of_idler[0][1]:
-            raise SceneError(
-                f"{mesh.name}: bearings of an idler have one stiffness in all directions. Allowed: bearings.stiffness,"
-                f" for all gears of the row. {NOTHING_DONE}"
-            )
-
-
-def _check(models: Sequence[Model]) -> None:
+def _check(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> None:
     """Raise SceneError for what meshes that move together do not have yet."""
-    for model in models:
+    in_rows = [models[number] for row in rows_of(meshes) if len(row) > 1 for number in row]
+    for model in in_rows:
         if model.pair.effective_face_widths != (model.pair.face_width,) * 2:
             raise SceneError(
-                "gears of meshes that move together that are not equally wide are not yet computed. Allowed: one"
-                f" face_width for a stage. {NOTHING_DONE}"
+                "gears of a row that are not equally wide are not yet computed. Allowed: one face_width for the row."
+                f" {NOTHING_DONE}"
             )
     coefficients = {model.friction_coefficient for model in models}
     if len(coefficients) > 1:

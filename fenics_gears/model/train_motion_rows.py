@@ -9,7 +9,8 @@ import numpy as np
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import resolved_frequency
 
-from .train import RowModel, parts_of
+from .train import RowModel
+from .train_parts import parts_of
 
 Rows = list[tuple[str, float | str, str]]
 # Of the kinetic energy of a mode, at least, for a motion to be named.

@@ -6,7 +6,8 @@ from scipy.linalg import eigh
 from tests.trains import row, two_stages
 
 from fenics_gears.dynamics.frequencies import natural_frequencies
-from fenics_gears.model.train import train_model_of, whole_steps
+from fenics_gears.model.train import train_model_of
+from fenics_gears.model.train_parts import whole_steps
 
 MORE = """
     [inertia]

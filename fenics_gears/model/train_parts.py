@@ -1,0 +1,90 @@
+"""What meshes of a train that move together are made of: gears, shafts, supports, and steps of one length in time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import ceil, gcd, inf, lcm
+from typing import TYPE_CHECKING
+
+from fenics_gears.dynamics.train import TrainParts, idler_turn
+from fenics_gears.errors import SceneError
+from fenics_gears.inputs.problem import NOTHING_DONE
+from fenics_gears.inputs.tree import GEARS
+from fenics_gears.scene.data import Scene
+from fenics_gears.scene.train import MeshOfScene
+from fenics_gears.scene.train_shafts import TrainShafts
+
+from .drivetrain import lumped_gears
+
+if TYPE_CHECKING:
+    from fenics_gears.geometry.gear_data import LumpedGear
+
+# Steps of the mesh cycles of all meshes together: each has its contact operators.
+MOST_POSITIONS = 20000
+
+
+def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
+    """What the equations of motion of some meshes are put together of."""
+    pairs = [mesh.pair for mesh in meshes]
+    idlers = [number > 0 and mesh.idler is not None for number, mesh in enumerate(meshes)]
+    turned = [
+        idler_turn(pairs[number - 1], pairs[number], mesh.idler.to_first, mesh.idler.to_second)
+        if idlers[number] and mesh.idler is not None
+        else None
+        for number, mesh in enumerate(meshes)
+    ]
+    masses: list[LumpedGear] = []
+    supports: list[tuple[float, float] | None] = []
+    for idler, mesh in zip(idlers, meshes):
+        inert = mesh.scene.inertia is not None
+        lumped = lumped_gears(mesh.scene, mesh.pair) if inert else {}
+        for gear in GEARS[1 if idler else 0 :]:
+            masses += [lumped[gear]] if inert else []
+            supports.append(_support(mesh.scene, gear))
+    torque = meshes[-1].scene.load.wheel_torque
+    torsion = [inf if each is None else each for each in shafts.torsion or (None,) * (len(pairs) + 1)]
+    return TrainParts(pairs, idlers, torque, torsion, masses, supports, turned, shafts.load)
+
+
+def _support(scene: Scene, gear: str) -> tuple[float, float] | None:
+    """Stiffness (N/mm) of a gear's support along and off the line of action; None where its centre is fixed."""
+    if scene.bearings is None:
+        return None
+    along = scene.bearings.of(gear, "x")
+    off = scene.bearings.of(gear, "y")
+    return None if along is None or off is None else (along, off)
+
+
+def whole_steps(meshes: Sequence[MeshOfScene], least: Sequence[int]) -> list[int]:
+    """Steps of the cycle of each mesh, all of one length in time and at least so many: whole numbers, by the teeth of
+    the gears on each shaft. Raises SceneError where they are too many."""
+    lengths = [Fraction(1)]
+    for before, mesh in zip(meshes, meshes[1:]):
+        lengths.append(lengths[-1] * Fraction(before.pair.wheel.teeth, mesh.pair.pinion.teeth))
+    whole = lcm(*(each.denominator for each in lengths))
+    units = [int(each * whole) for each in lengths]
+    common = gcd(*units)
+    units = [each // common for each in units]
+    times = max(ceil(wanted / unit) for wanted, unit in zip(least, units))
+    steps = [times * unit for unit in units]
+    if sum(steps) > MOST_POSITIONS:
+        raise SceneError(
+            f"stages: their mesh cycles have steps of one length in {' : '.join(map(str, steps))} steps; allowed are"
+            f" up to {MOST_POSITIONS} of all meshes together. Take numbers of teeth with common factors, fewer stages,"
+            f" or fewer accuracy.steps_per_mesh_cycle, or leave out what makes stages move together. {NOTHING_DONE}"
+        )
+    return steps
+
+
+def check_supports(meshes: Sequence[MeshOfScene]) -> None:
+    """Raise SceneError for an idler whose support has directions: those of either mesh would be meant."""
+    for before, mesh in zip(meshes, meshes[1:]):
+        if mesh.idler is None:
+            continue
+        of_idler = [_support(before.scene, GEARS[1]), _support(mesh.scene, GEARS[0])]
+        if of_idler[0] != of_idler[1] or of_idler[0] is not None and of_idler[0][0] != of_idler[0][1]:
+            raise SceneError(
+                f"{mesh.name}: bearings of an idler have one stiffness in all directions. Allowed: bearings.stiffness,"
+                f" for all gears of the row. {NOTHING_DONE}"
+            )
