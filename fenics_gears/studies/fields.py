@@ -14,8 +14,10 @@ from fenics_gears.scene.schema import known_paths, paths_in, scene_text
 from fenics_gears.scene.train_pair import STAGES
 from fenics_gears.scene.train_rules import TrainLoad
 from fenics_gears.scene.train_schema import stage_text, train_text
+from fenics_gears.scene.train_shafts import TrainShaft
 
 Path = tuple[str, ...]
+SHAFTS = "shafts"
 ABSENT = "absent"
 PRESENT = "present"
 # Of a pair, and of a train.
@@ -36,10 +38,11 @@ def has_parts(path: Path) -> bool:
 
 def _field_at(path: Path) -> tuple[type[Section] | None, Allowed | None] | None:
     """The section at a path, or what its field allows; None where a scene has nothing of that name."""
-    if path[0] != STAGES:
-        return _field_within(scene_text(), path) or _field_within(train_text(), path)
-    # Stages have any names: the scene says which.
-    return _field_within(stage_text(), path[2:])
+    # Stages and shafts of a train have any names: the scene says which.
+    if path[0] == STAGES:
+        return _field_within(stage_text(), path[2:])
+    found = _field_within(scene_text(), path) or _field_within(train_text(), path)
+    return found or (_field_within(TrainShaft, path[2:]) if path[0] == SHAFTS and len(path) > 1 else None)
 
 
 def _field_within(section: type[Section] | None, path: Path) -> tuple[type[Section] | None, Allowed | None] | None:

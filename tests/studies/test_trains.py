@@ -41,6 +41,18 @@ def study_of(text: str, name: str = "other.toml"):
     return load_study(name)
 
 
+def test_shafts_with_names_are_swept(gearbox):
+    """A train's own sections are fields of studies as those of pairs; a case has the value."""
+    Path("gearbox.toml").write_text(
+        Path("gearbox.toml").read_text() + '[shafts.middle]\ncarries = ["first.wheel", "second.pinion"]\n'
+    )
+    sweep = 'scene = "gearbox.toml"\n[sweep]\nshafts.middle.{} = ["1e8 N mm/rad", "2e8 N mm/rad"]\n'
+    cases = study_of(sweep.format("torsional_stiffness")).cases
+    assert [case.model.scene.shafts.torsion[1] for case in cases] == [1e8, 2e8]
+    with pytest.raises(SceneError, match="no section or field"):
+        study_of(sweep.format("stiffness_of_it"))
+
+
 @pytest.mark.usefixtures("undrawn")
 def test_every_case_is_what_a_run_of_its_train_gives(gearbox, capsys):
     """Exact identity with a run of each train alone: of the whole and of each mesh; and a study that is run again
