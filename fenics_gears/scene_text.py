@@ -18,8 +18,8 @@ from fenics_gears.inputs.section import Section, names_in, read
 from fenics_gears.inputs.tree import GEARS, Tree, value_at, wheel_torque
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import LOAD_WORDS
-from fenics_gears.scene.parsing import is_train, parsed
-from fenics_gears.scene.read import load_scene_or_train, name_of, text_of
+from fenics_gears.scene.parsing import is_train, name_of, parsed, text_of
+from fenics_gears.scene.read import load_scene_or_train
 from fenics_gears.scene.schema import known_paths
 from fenics_gears.scene.train_pair import STAGES
 from fenics_gears.studies import fields

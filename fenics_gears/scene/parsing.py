@@ -1,4 +1,4 @@
-"""From a TOML text to the fields of the scene that it describes, or all its mistakes at once."""
+"""From a TOML file or text to the fields of the scene that it describes, or all its mistakes at once."""
 
 import datetime
 import math
@@ -10,10 +10,11 @@ from typing import Any
 
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.inputs.problem import NOTHING_DONE, Problem, line_numbers, listed, placed
+from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean, line_numbers, listed, placed
 from fenics_gears.inputs.tree import MOST_NESTED, nested_too_deeply, written_out
 from fenics_gears.inputs.written import WrittenFloat, as_written
-from fenics_gears.system.console import control_character
+from fenics_gears.system import user_file
+from fenics_gears.system.console import control_character, printable
 
 from .drawing import gear_pair_data, load_data
 from .rules import broken_rules
@@ -22,6 +23,26 @@ from .schema import LAST_CYCLES, NOMINAL_FREQUENCY, Motion, checked_sections, wi
 ALLOWED_DEPTH = f"Allowed: {MOST_NESTED} tables and lists within one another."
 # The text of a scene that no file gives (`scene.write`).
 NO_FILE = "# No scene file gives this scene, which was made or changed in Python"
+
+
+def text_of(path: Path, kind: str) -> str:
+    """The text of a file that should be a "scene" or a "study". Raises SceneError where it cannot be read."""
+    try:
+        return user_file.text_of(path, user_file.LARGEST_SCENE)
+    except user_file.Missing as problem:
+        raise SceneError(f"{path}: {problem}{_nearest_file(path)}") from None
+    except user_file.Unreadable as problem:
+        raise SceneError(f"{path}: {problem}; a {kind} is a TOML file") from None
+
+
+def name_of(path: Path) -> str:
+    """What a scene or a study is called by its file: its name without the ending, as a text that can be stored."""
+    return printable(path.stem)
+
+
+def _nearest_file(path: Path) -> str:
+    neighbours = [each.name for each in path.parent.glob("*.toml")] if path.parent.is_dir() else []
+    return "." + did_you_mean(path.name, neighbours)
 
 
 def parsed(text: str, source: str) -> dict[str, Any]:

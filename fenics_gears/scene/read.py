@@ -8,13 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fenics_gears.errors import SceneError
-from fenics_gears.inputs.problem import NOTHING_DONE, did_you_mean
+from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.written import as_toml
-from fenics_gears.system import user_file
-from fenics_gears.system.console import printable
 
 from . import data
-from .parsing import is_train, parsed, values_of_text
+from .parsing import is_train, name_of, parsed, text_of, values_of_text
 
 if TYPE_CHECKING:
     from .train import TrainScene
@@ -42,21 +40,6 @@ def load_scene_or_train(path: Path) -> data.Scene | TrainScene:
 
         return train_of(tree, text, name_of(path), str(path), path.parent)
     return scene_from_text(text, name_of(path), source=str(path), directory=path.parent)
-
-
-def text_of(path: Path, kind: str) -> str:
-    """The text of a file that should be a "scene" or a "study". Raises SceneError where it cannot be read."""
-    try:
-        return user_file.text_of(path, user_file.LARGEST_SCENE)
-    except user_file.Missing as problem:
-        raise SceneError(f"{path}: {problem}{_nearest_file(path)}") from None
-    except user_file.Unreadable as problem:
-        raise SceneError(f"{path}: {problem}; a {kind} is a TOML file") from None
-
-
-def name_of(path: Path) -> str:
-    """What a scene or a study is called by its file: its name without the ending, as a text that can be stored."""
-    return printable(path.stem)
 
 
 def build_scene(sections: Mapping[str, Any], name: str = "scene", *, directory: str | os.PathLike = ".") -> data.Scene:
@@ -101,8 +84,3 @@ def scene_from_text(
     # Known already; a scene that is made of this one has to find its own.
     scene.__dict__["text"] = text
     return scene
-
-
-def _nearest_file(path: Path) -> str:
-    neighbours = [each.name for each in path.parent.glob("*.toml")] if path.parent.is_dir() else []
-    return "." + did_you_mean(path.name, neighbours)

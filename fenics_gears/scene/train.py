@@ -25,8 +25,7 @@ from fenics_gears.inputs.units import QuantityError, of_kind
 from fenics_gears.inputs.written import as_written
 
 from .data import Load, Motion, Scene
-from .parsing import is_train, parsed
-from .read import name_of, text_of
+from .parsing import is_train, name_of, parsed, text_of
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
 from .train_pair import ROW_GEARS, MistakesOfStage, TrainMistakes, check_together, in_stage, pair_scene
 from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED, TrainSections, checked_train

@@ -11,8 +11,8 @@ from fenics_gears.inputs.problem import Problem, counted, did_you_mean, line_num
 from fenics_gears.inputs.tree import value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.runs.run import Run, run_of, scene_key
-from fenics_gears.scene.parsing import is_train, parsed
-from fenics_gears.scene.read import load_scene_or_train, name_of, text_of
+from fenics_gears.scene.parsing import is_train, name_of, parsed, text_of
+from fenics_gears.scene.read import load_scene_or_train
 from fenics_gears.scene.train_pair import STAGES
 
 from . import fields
