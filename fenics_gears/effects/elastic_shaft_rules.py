@@ -15,7 +15,7 @@ from fenics_gears.dynamics.shaft_at_work import at_work, even_load
 from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.dynamics.shafts import INTEGRAL, RIGID_SEAT
 from fenics_gears.errors import SceneError
-from fenics_gears.inputs.problem import LISTED, Broken
+from fenics_gears.inputs.problem import LISTED, NOTHING_DONE, Broken
 from fenics_gears.inputs.section import names_in
 from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, given_for, shafts_with_sections, table, value_at
 
@@ -116,8 +116,19 @@ def systems_at_work(scene: Any, pair: Any) -> tuple[ShaftSystem, ...]:
         if system.in_rolling:
             loads = [even_load(shaft, pair, scene.load.wheel_torque) for shaft in system.shafts]
             system = at_work(system, np.concatenate(loads))
+            _check_held_at_work(system)
         systems.append(system)
     return tuple(systems)
+
+
+def _check_held_at_work(system: ShaftSystem) -> None:
+    """Raise SceneError where rolling elements that carry the load leave a shaft free, as one alone does across it."""
+    for gear, free in free_motions(system.shafts, system.springs).items():
+        if free:
+            raise SceneError(
+                f"bearings.{gear}: under the load of the teeth so few rolling elements carry that the shaft freely"
+                f" {' and '.join(free)}. Allowed: more rolling elements, less clearance or a preload. {NOTHING_DONE}"
+            )
 
 
 def shaft_systems(scene: Any, pair: Any) -> tuple[ShaftSystem, ...]:

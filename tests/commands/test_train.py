@@ -66,13 +66,6 @@ def test_a_row_that_memory_does_not_hold_is_refused(tmp_path, monkeypatch, capsy
         assert "contact operators apart, and 0.02 GB are allowed. Nothing was computed" in said
 
 
-def test_a_map_says_that_it_is_a_train(scene, capsys):
-    """A scene without [gears] would have been called incomplete; it names the scenes that it takes."""
-    assert main(["map", str(scene)]) == 2
-    said = capsys.readouterr().err
-    assert "is a train of gears" in said and "scene.toml" in said
-
-
 @pytest.mark.nightly
 def test_stages_are_measured_one_by_one(scene, tmp_path, capsys):
     """A table and a picture for each stage of two gears, and the standard error says so."""
@@ -93,21 +86,6 @@ def test_rows_with_idlers_are_not_measured(tmp_path, capsys):
     path.write_text(path.read_text().replace(COARSE, 'target = "2 %"'))
     assert main(["check", str(path)]) == 2
     assert "[stages.NAME.accuracy]" in capsys.readouterr().err
-
-
-def test_a_train_is_rated_mesh_by_mesh(scene, tmp_path, capsys):
-    """One table; a stage has the rows that its own run has."""
-    scene.write_text(scene.read_text() + '[motion]\ninput_speed = "3000 rpm"\n')
-    out = tmp_path / "out"
-    assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
-    assert main(["rate", str(out), "-q"]) == 0
-    rows = (out / "rating.csv").read_text().splitlines()
-    assert rows[0] == "mesh,quantity,unit,ISO 6336,this run"
-    for name in ("first", "second"):
-        assert main(["rate", str(out / name), "-q"]) == 0
-        own = (out / name / "rating.csv").read_text().splitlines()
-        assert [row.removeprefix(f"{name},") for row in rows if row.startswith(f"{name},")] == own[1:]
-    capsys.readouterr()
 
 
 @pytest.mark.nightly
@@ -134,28 +112,18 @@ def test_a_stage_is_drawn_where_its_run_is(scene, tmp_path, capsys):
 
 
 def test_commands_of_runs_take_a_train(scene, tmp_path, capsys):
-    """Its pictures again, its curves, one page with a section for each mesh, its sound."""
+    """Its pictures again, its curves, one page with a section for each mesh."""
     scene.write_text(scene.read_text() + '[motion]\ninput_speed = "3000 rpm"\n')
     out = tmp_path / "out"
     assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
     assert main(["plot", str(out), "-q"]) == 0
     assert main(["export", str(out), "-q"]) == 0
     assert main(["report", str(out), "-q"]) == 0
-    assert main(["listen", str(out), "--seconds", "0.5", "-q"]) == 0
     assert (out / "train.png").is_file() and (out / "curves.csv").is_file()
     page = (out / "report.html").read_text()
     for heading in ("Power flow", "Orders of the overall transmission error", "Mesh: first", "Mesh: second"):
         assert heading in page
-    assert (out / "overall_transmission_error.wav").stat().st_size > 2 * 0.5 * 48000
     capsys.readouterr()
-
-
-def test_commands_of_pairs_name_the_stages(scene, tmp_path, capsys):
-    """What has no meaning for a train yet says which runs it takes."""
-    assert main(["run", str(scene), "-o", str(tmp_path / "out"), "-q", "--no-pictures"]) == 0
-    assert main(["plot", str(tmp_path / "out"), "--spectrum"]) == 2
-    said = capsys.readouterr().err
-    assert "is the run of a train" in said and str(tmp_path / "out" / "second") in said
 
 
 def test_commands_take_stages_that_move_together(scene, tmp_path, capsys):
@@ -167,7 +135,7 @@ def test_commands_take_stages_that_move_together(scene, tmp_path, capsys):
     assert main(["check", str(scene)]) == 0
     assert "mostly rotation of shaft 2" in capsys.readouterr().out
     assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
-    for command in ("plot", "export", "rate", "report"):
+    for command in ("plot", "export", "report"):
         assert main([command, str(out), "-q"]) == 0
     page = (out / "report.html").read_text()
     assert "with inertia" in page

@@ -155,3 +155,36 @@ def test_objections_to_a_whole_scene_stand_one_below_another_each_with_its_line(
     assert first.startswith(f"pair.toml:{torque}: shafts.input.torque_at = 131 mm: is beyond the shaft")
     assert second.startswith(f"pair.toml:{bearings}: bearings.pinion: the bearing at 110 mm, place 2, overlaps")
     assert last == "Nothing was computed or written."
+
+
+def test_a_shaft_on_one_roller_is_refused():
+    """Three rollers under a force along the line of action: one carries, and nothing holds the shaft across it."""
+    text = """
+        [gears]
+        module = "1 mm"
+        pressure_angle = "20 deg"
+        backlash = "0 mm"
+        face_width = "2 mm"
+        material = "steel"
+        pinion = { teeth = 54, profile_shift = 0, bore_diameter = "17 mm" }
+        wheel = { teeth = 51, profile_shift = 0, bore_diameter = "36 mm" }
+        [load]
+        wheel_torque = "4 N m"
+        [accuracy]
+        slices = 5
+        layers = 3
+        [shafts.output]
+        sections = [{ length = "11 mm", diameter = "36 mm" }]
+        gear_at = "5.5 mm"
+        torque_at = "0 mm"
+        [[bearings.wheel]]
+        at = "0.9 mm"
+        axial_stiffness = "3e4 N/mm"
+        rolling = { number = 3, diameter = "14 mm", pitch_diameter = "58 mm", elements = "rollers", length = "1 mm" }
+        [[bearings.wheel]]
+        at = "10 mm"
+        radial_stiffness = "7e6 N/mm"
+        """
+    with pytest.raises(SceneError, match="bearings.wheel: under the load .* freely moves along y"):
+        model_of(scene_from_text(text))
+    assert model_of(scene_from_text(text.replace("number = 3", "number = 8"))).drivetrain.systems
