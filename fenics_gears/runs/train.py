@@ -45,7 +45,7 @@ def simulate_train(
 
     >>> from fenics_gears import load_train, simulate_train
     >>> found = simulate_train(load_train("demos/gear_trains/idler.toml"))
-    >>> list(found["mesh"].values)
+    >>> found["mesh"].values.tolist()
     ['idler: gears 1 and 2', 'idler: gears 2 and 3']
     """
     chosen: dict[str, SettledScene] = {}
