@@ -1,25 +1,33 @@
 """Trains for tests, with coarse elements."""
 
+from pathlib import Path
+
 from fenics_gears import train_from_text
 from fenics_gears.scene.train import TrainScene
 
 COARSE = 'steps_per_mesh_cycle = 20\nflank_element_size = "0.1 mm"'
 
 
-def row(teeth, directions, torque: float, *, more: str = "", accuracy: str = "") -> TrainScene:
-    """A row of gears of module 3 mm, directions in degrees, under a torque (N m) on the last one."""
-    gears = ", ".join(f'{{ teeth = {each}, profile_shift = 0, bore_diameter = "30 mm" }}' for each in teeth)
+def row_section(teeth, directions, module: int = 3, bore: int = 30) -> str:
+    """The section of a row of gears, ten modules wide, directions in degrees, lengths in mm."""
+    gears = ", ".join(f'{{ teeth = {each}, profile_shift = 0, bore_diameter = "{bore} mm" }}' for each in teeth)
     angles = ", ".join(f'"{each} deg"' for each in directions)
-    return train_from_text(
-        f"""
+    return f"""
         [stages.row]
         kind = "row"
-        module = "3 mm"
+        module = "{module} mm"
         pressure_angle = "20 deg"
-        face_width = "30 mm"
+        face_width = "{10 * module} mm"
         gears = [{gears}]
         directions = [{angles}]
         material = "steel"
+        """
+
+
+def row(teeth, directions, torque: float, *, more: str = "", accuracy: str = "") -> TrainScene:
+    """A row of gears of module 3 mm, directions in degrees, under a torque (N m) on the last one."""
+    return train_from_text(
+        f"""{row_section(teeth, directions)}
         [load]
         output_torque = "{torque} N m"
         [accuracy]
@@ -82,3 +90,11 @@ def two_stages(of_first: str = "", more: str = "") -> TrainScene:
     """Two stages on three shafts under 400 N m on the last one; `of_first`: more of the first stage."""
     stages = stage("first", 2.0, (20, 30), of_first) + stage("second", 3.0, (20, 40))
     return train_from_text(f'{stages}\n[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n{more}')
+
+
+def gearbox_file(folder: Path) -> Path:
+    """A scene file of such two stages."""
+    file = folder / "gearbox.toml"
+    stages = stage("first", 2.0, (20, 30)) + stage("second", 3.0, (20, 40))
+    file.write_text(f'{stages}\n[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n\n')
+    return file

@@ -43,19 +43,8 @@ def over_angles(directory: Path, text: str, directions: list[float]) -> list[flo
 
 def chart(directions: list[float], errors: list[float]):
     """Peak-to-peak overall transmission error over the angle of the third gear."""
-    import numpy as np
-
-    from fenics_gears.charts import MARKED_LINES, Chart, Curve
-
-    curve = Curve("peak to peak", np.array(directions), np.array(errors), mode=MARKED_LINES)
-    return Chart(
-        f"Peak to peak over a pitch of {IDLER}: {min(errors):.3g} to {max(errors):.3g} µrad",
-        [curve],
-        "Direction of the third gear from the idler (deg)",
-        "Overall transmission error (µrad)",
-        y_range=(0.0, 1.1 * max(errors)),
-        height=320,
-    )
+    over = f"over a pitch of {IDLER}"
+    return _peaks(over, "Direction of the third gear from the idler (deg)", directions, errors)
 
 
 def at_speed(text: str, speed: float) -> str:
@@ -77,15 +66,19 @@ def over_speeds(text: str, speeds: tuple[float, ...]) -> list[float]:
 
 def chart_of_speeds(speeds: tuple[float, ...], errors: list[float]):
     """Peak-to-peak overall transmission error over the speed of the first shaft."""
+    return _peaks("over the speed", "Speed of the first shaft (rpm)", list(speeds), errors)
+
+
+def _peaks(over: str, axis: str, places: list[float], errors: list[float]):
     import numpy as np
 
     from fenics_gears.charts import MARKED_LINES, Chart, Curve
 
-    curve = Curve("peak to peak", np.array(speeds, dtype=float), np.array(errors), mode=MARKED_LINES)
+    curve = Curve("peak to peak", np.array(places, dtype=float), np.array(errors), mode=MARKED_LINES)
     return Chart(
-        f"Peak to peak over the speed: {min(errors):.3g} to {max(errors):.3g} µrad",
+        f"Peak to peak {over}: {min(errors):.3g} to {max(errors):.3g} µrad",
         [curve],
-        "Speed of the first shaft (rpm)",
+        axis,
         "Overall transmission error (µrad)",
         y_range=(0.0, 1.1 * max(errors)),
         height=320,

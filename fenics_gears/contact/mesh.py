@@ -157,7 +157,7 @@ def contact_operators(
         else:
             before = np.concatenate([response.previous_jacobian for response in responses])
         before = _of_unknowns(before, coordinates)
-        rows = _step_by_step(rows, starts, counts)
+        rows = step_by_step(rows, starts, counts)
     gap = over_nodes(lines.pairs, "gap") * face.cosine
     drive, pair_of_node = _pairs_of_nodes(passages)
     operators = []
@@ -194,8 +194,8 @@ def _pairs_of_nodes(passages: Sequence[Passage]) -> tuple[np.ndarray, np.ndarray
     return per_node(pairs, drive), per_node(pairs, position)
 
 
-def _step_by_step(rows: np.ndarray, starts: np.ndarray, counts: Sequence[int]) -> np.ndarray:
-    """Rows (2 n, k) of the normals of all steps, then of all tangents, put in the order of steps: each one's normals,
+def step_by_step(rows: np.ndarray, starts: np.ndarray, counts: Sequence[int]) -> np.ndarray:
+    """Rows (2 n, ...) of the normals of all steps, then of all tangents, put in the order of steps: each one's normals,
     then its tangents; the first nodes and how many each has."""
     n = len(rows) // 2
     normals = np.arange(n) + np.repeat(starts, counts)

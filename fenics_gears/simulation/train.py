@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh import elastic_mesh, step_by_step
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.meshes_apart import MeshesApart
 from fenics_gears.contact.row import JoinedPosition, MeshOfRow, RowCycle, at_phase
@@ -224,17 +224,9 @@ def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:
     forces = nodes
     if steps.kinds == 2:
         normal = nodes + np.repeat(steps.starts[:-1], counts)
-        forces = _by_steps(normal, normal + np.repeat(np.diff(steps.starts), counts), counts)
+        both = np.concatenate([normal, normal + np.repeat(np.diff(steps.starts), counts)])
+        forces = step_by_step(both, np.cumsum(counts) - counts, counts)
     return Steps(
         steps.numbers, positions, steps.states @ mesh.coordinates.T, steps.forces[forces], steps.displacement[forces],
         steps.status[nodes], steps.iterations, steps.methods,
     )  # fmt: skip
-
-
-def _by_steps(normal: np.ndarray, tangential: np.ndarray, counts: np.ndarray) -> np.ndarray:
-    """Places of a step's normal forces, then of its tangential ones, then of the next step's."""
-    place = np.arange(len(normal)) + np.repeat(np.cumsum(counts) - counts, counts)
-    both = np.empty(2 * len(normal), dtype=np.int64)
-    both[place] = normal
-    both[place + np.repeat(counts, counts)] = tangential
-    return both

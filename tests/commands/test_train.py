@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from tests.trains import COARSE, helical_row, stage
+from tests.trains import COARSE, gearbox_file, helical_row
 
 from fenics_gears import load, load_scene, load_train, simulate, simulate_train, train_from_text
 from fenics_gears.commands.cli import main
@@ -14,9 +14,7 @@ LOAD = f'[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n'
 
 @pytest.fixture
 def scene(tmp_path):
-    path = tmp_path / "gearbox.toml"
-    path.write_text(f"{stage('first', 2.0, (20, 30))}{stage('second', 3.0, (20, 40))}\n{LOAD}")
-    return path
+    return gearbox_file(tmp_path)
 
 
 def test_run_writes_result_and_pictures(scene, tmp_path):

@@ -1,18 +1,14 @@
 """What commands of extensions do with a train."""
 
 import pytest
-from tests.trains import COARSE, stage
+from tests.trains import gearbox_file
 
 from fenics_gears.commands.cli import main
-
-LOAD = f'[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n'
 
 
 @pytest.fixture
 def scene(tmp_path):
-    path = tmp_path / "gearbox.toml"
-    path.write_text(f"{stage('first', 2.0, (20, 30))}{stage('second', 3.0, (20, 40))}\n{LOAD}")
-    return path
+    return gearbox_file(tmp_path)
 
 
 def test_a_map_says_that_it_is_a_train(scene, capsys):

@@ -4,7 +4,7 @@ from functools import reduce
 
 import numpy as np
 import pytest
-from tests.trains import COARSE, row, stage, two_stages
+from tests.trains import COARSE, row, row_section, stage, two_stages
 
 from fenics_gears import scene_from_text, simulate, simulate_train, train_from_text
 from fenics_gears.dynamics.energy_account import account, quadratic
@@ -76,17 +76,7 @@ def marched(model: RowModel, memory: float) -> Steps:
 def test_the_energy_account_of_vibrating_stages_closes(memory):
     """Work of drive, load, friction and damping is the change of kinetic and elastic energy, to round-off: over an
     idler, a shaft that twists between two stages, and bearings; also where there is no memory to keep positions."""
-    gears = ", ".join(f'{{ teeth = {each}, profile_shift = 0, bore_diameter = "20 mm" }}' for each in (20, 25, 30))
-    idlers = f"""
-        [stages.row]
-        kind = "row"
-        module = "2 mm"
-        pressure_angle = "20 deg"
-        face_width = "20 mm"
-        gears = [{gears}]
-        directions = ["0 deg", "50 deg"]
-        material = "steel"
-        """
+    idlers = row_section((20, 25, 30), (0, 50), module=2, bore=20)
     more = INERTIA + BEARINGS + FRICTION + "[damping]\nratio = 0.04" + motion(2000, 2)
     more += shaft("middle", '"row.3", "second.pinion"', 1e8) + shaft("end", '"second.wheel"', 2e8)
     load = f'[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n'
@@ -145,17 +135,7 @@ def test_the_bearing_of_an_idler_carries_both_of_its_forces(direction):
 def test_a_row_behind_a_stage_is_its_mirror_image():
     """Its first gear turns clockwise: the idler stands in its second mesh as in the mirrored row, driven the other way
     round."""
-    gears = ", ".join(f'{{ teeth = {each}, profile_shift = 0, bore_diameter = "30 mm" }}' for each in (24, 31, 40))
-    idlers = f"""
-        [stages.row]
-        kind = "row"
-        module = "3 mm"
-        pressure_angle = "20 deg"
-        face_width = "30 mm"
-        gears = [{gears}]
-        directions = ["10 deg", "75 deg"]
-        material = "steel"
-        """
+    idlers = row_section((24, 31, 40), (10, 75))
     load = '[load]\noutput_torque = "400 N m"\n'
     behind = train_from_text(stage("first", 2.0, (20, 30)) + idlers + load).meshes[2].idler
     alone = row([24, 31, 40], [-10, -75], 400).meshes[1].idler
