@@ -26,6 +26,7 @@ from .compiled_march import (
     begin,
     eliminated,
     left_load,
+    moved_by_contact,
     slip_at_start,
     turned,
     with_modes,
@@ -279,7 +280,7 @@ class Stepper:
         (compliance, rows), (jacobian, _) = operator.stored, operator.stored_jacobians
         free = self._moved_freely(scheme, load)
         if self.drivetrain.modes:
-            free = free[: len(modes.stiffness)]
+            free = moved_by_contact(free, len(load), len(modes.stiffness))
         return StepProblem(
             modes.stiffness, left_load(load, modes), compliance, jacobian, operator.gap, slip_before,
             self.friction, free, self.tolerance, self._free_words, rows,

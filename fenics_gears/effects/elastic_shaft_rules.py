@@ -123,10 +123,15 @@ def systems_at_work(scene: Any, pair: Any) -> tuple[ShaftSystem, ...]:
 
 def _check_held_at_work(system: ShaftSystem) -> None:
     """Raise SceneError where rolling elements that carry the load leave a shaft free, as one alone does across it."""
-    for gear, free in free_motions(system.shafts, system.springs).items():
+    check_held_at_work(system.shafts, system.springs, "bearings.{}")
+
+
+def check_held_at_work(shafts: Sequence[ElasticShaft], springs: np.ndarray, field: str) -> None:
+    """The same of whole shafts on bearings of a stiffness (5 b, 5 b); `field`: where bearings are in the scene."""
+    for gear, free in free_motions(shafts, springs).items():
         if free:
             raise SceneError(
-                f"bearings.{gear}: under the load of the teeth so few rolling elements carry that the shaft freely"
+                f"{field.format(gear)}: under the load of the teeth so few rolling elements carry that the shaft freely"
                 f" {' and '.join(free)}. Allowed: more rolling elements, less clearance or a preload. {NOTHING_DONE}"
             )
 

@@ -26,8 +26,9 @@ from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.gear_train import SecondMesh, begun_at
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.scene.data import Motion
+from fenics_gears.scene.data import Motion, Scene
 from fenics_gears.scene.train import MeshOfScene, TrainScene, rows_of
+from fenics_gears.scene.train_pair_shafts import in_words_of_train
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import mesh_stiffness
@@ -37,6 +38,7 @@ from .train_parts import check_supports, parts_of, whole_steps
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
+    from fenics_gears.dynamics.train_shafts import BentShafts
 
 
 @dataclass(frozen=True)
@@ -56,12 +58,24 @@ class RowModel:
 
     @cached_property
     def drivetrain(self) -> TrainDrivetrain:
-        return train_drivetrain(parts_of(self.meshes, self.shafts), self.shafts.damping, self.mesh_stiffness)
+        parts = parts_of(self.meshes, self.shafts)
+        if self.bent is None:
+            return train_drivetrain(parts, self.shafts.damping, self.mesh_stiffness)
+        from fenics_gears.dynamics.train_shafts import with_bent_shafts
+
+        names = [model.drivetrain.coordinates for model in self.models]
+        return with_bent_shafts(train_drivetrain(parts), self.bent, names, self.shafts.damping, self.mesh_stiffness)
+
+    @cached_property
+    def bent(self) -> BentShafts | None:
+        """The shafts that bend; None where none does."""
+        return _bent(self.meshes, self.shafts)
 
     @property
     def mesh_stiffness(self) -> np.ndarray:
-        """Of one tooth pair of each mesh (f,), N/mm, about."""
-        return np.array([mesh_stiffness(mesh.scene, mesh.pair) for mesh in self.meshes])
+        """Of one tooth pair of each mesh (f,), N/mm, about; on shafts that bend of either half of its face (2 f,)."""
+        found = np.array([mesh_stiffness(mesh.scene, mesh.pair) for mesh in self.meshes])
+        return found if self.bent is None else np.repeat(0.5 * found, 2)
 
     @property
     def equations_of_motion(self) -> EquationsOfMotion:
@@ -204,6 +218,15 @@ class TrainModel:
         return [*said, *(each for row in self.rows if not row.single for each in row.warnings)]
 
 
+def _bent(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShafts | None:
+    if not shafts.bent:
+        return None
+    # Trains on rigid shafts load neither beams nor bearings.
+    from .train_shafts import bent_shafts
+
+    return bent_shafts(meshes, shafts)
+
+
 def _indices(model: Model) -> tuple[int, int]:
     """Least and largest index of a pair that touches in a mesh."""
     steps = model.touching.steps
@@ -226,10 +249,11 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
     """Meshes that move together, their cycles divided into steps of one length in time; `recorded_cycles` as of
     TrainScene."""
     check_supports(meshes)
-    models = [model_of(mesh.scene) for mesh in meshes]
+    models = [_model_of(mesh, mesh.scene) for mesh in meshes]
     steps = whole_steps(meshes, [model.resolution.steps_per_mesh_cycle for model in models])
     cycles = meshes[0].scene.motion.mesh_cycles
     parts = parts_of(meshes, shafts)
+    bent = _bent(meshes, shafts)
     sizes = _flank_sizes(meshes, models)
     found = []
     for number, (mesh, own, size) in enumerate(zip(meshes, steps, sizes)):
@@ -238,14 +262,24 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
         recorded = min(ceil(recorded_cycles * max(steps) / own), passed)
         motion = Motion(mesh.scene.motion.mesh_frequency, passed, recorded, True, mesh.scene.motion.speed_given)
         # Masses are of the whole train.
-        model = model_of(replace(mesh.scene, accuracy=accuracy, motion=motion, inertia=None))
-        names = coordinates_of_mesh(parts, number)
+        model = _model_of(mesh, replace(mesh.scene, accuracy=accuracy, motion=motion, inertia=None))
+        names = coordinates_of_mesh(parts, number) + (() if bent is None else bent.names_in(number))
         supports = [parts.support(gear) for gear in parts.gears[number]]
         drivetrain = drivetrain_of_mesh(mesh.pair, mesh.scene.load.wheel_torque, names, supports)
         found.append(replace(model, drivetrain=drivetrain))
     _check(meshes, found)
     recorded = recorded_cycles * max(steps) if shafts.moving else 0
     return RowModel(tuple(meshes), tuple(found), shafts, recorded)
+
+
+def _model_of(mesh: MeshOfScene, scene: Scene) -> Model:
+    """As `model_of`, of a mesh with such a scene; what is wrong with shafts is said with their names in the train."""
+    try:
+        return model_of(scene)
+    except SceneError as error:
+        if not mesh.bent:
+            raise
+        raise SceneError(in_words_of_train(mesh.bent, str(error))) from error
 
 
 def _flank_sizes(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> list[float]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from math import ceil, gcd, inf, lcm
 from typing import TYPE_CHECKING
@@ -44,7 +44,19 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
             supports.append(_support(mesh.scene, gear))
     torque = meshes[-1].scene.load.wheel_torque
     torsion = [inf if each is None else each for each in shafts.torsion or (None,) * (len(pairs) + 1)]
+    for number, stiffness in torsions(meshes, shafts).items():
+        torsion[number] = stiffness
     return TrainParts(pairs, idlers, torque, torsion, masses, supports, turned, shafts.load)
+
+
+def torsions(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> Mapping[int, float]:
+    """Torsional stiffness (N mm/rad) of the shafts that bend, by their numbers."""
+    if not shafts.bent:
+        return {}
+    # Trains on rigid shafts load neither beams nor bearings.
+    from .train_shafts import torsions_of
+
+    return torsions_of(meshes, shafts)
 
 
 def _support(scene: Scene, gear: str) -> tuple[float, float] | None:

@@ -20,6 +20,9 @@ from .key_numbers import key_numbers
 from .recorder import Recorder
 from .train import OF_ENERGY, MeshResult
 
+# What a mesh of its own does not have.
+LEFT_OUT = (*OF_ENERGY, "shaft_end_rotation")
+
 
 class RowResult:
     """What a march of several meshes gives: `recorders` of each, and the work of all of them."""
@@ -58,7 +61,7 @@ class RowResult:
             for along in recorder.along_face:
                 numbers |= _finite(along.numbers(labelled, numbers))
                 said += along.warnings(labelled)
-            own = {name: of for name, of in (curves | places).items() if not name.startswith(OF_ENERGY)}
+            own = {name: of for name, of in (curves | places).items() if not name.startswith(LEFT_OUT)}
             # All of them took that march.
             seconds = (0.0 if found else march.seconds, 0.0)
             found.append(MeshResult(mesh.name, own, numbers, said, seconds))

@@ -27,16 +27,17 @@ from fenics_gears.inputs.written import as_written
 from .data import Load, Motion, Scene
 from .parsing import is_train, name_of, parsed, text_of
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
-from .train_pair import ROW_GEARS, MistakesOfStage, TrainMistakes, check_together, in_stage, pair_scene
+from .train_pair import ROW_GEARS, MistakesOfStage, Placed, TrainMistakes, check_together, in_stage, pair_scene
+from .train_pair_shafts import OfPair, in_train, in_words_of_train, of_pair, place_of, sections_of_pair
 from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED, TrainSections, checked_train
-from .train_shafts import TrainShafts
+from .train_shafts import BentShaft, TrainShafts
 
 
 @dataclass(frozen=True)
 class MeshOfScene:
     """A mesh of a train: the `scene` of its pair, its name, and the direction (rad) of its wheel from its pinion.
     `idler`: of its pinion, where this is also the wheel of the mesh before; None on a shaft of two gears. `gears`:
-    names of pinion and wheel."""
+    names of pinion and wheel. `bent`: with shafts that bend, those that both are on."""
 
     name: str
     scene: Scene
@@ -44,6 +45,7 @@ class MeshOfScene:
     direction: float
     idler: SecondMesh | None = None
     gears: tuple[str, str] = ("pinion", "wheel")
+    bent: OfPair = ()
 
 
 @dataclass(frozen=True)
@@ -144,7 +146,7 @@ def train_of(tree: Mapping[str, Any], text: str, name: str, source: str, folder:
     meshes: list[MeshOfScene] = []
     try:
         for stage, content in tree["stages"].items() if sections is not None else ():
-            meshes += _meshes_of(stage, content, tree, (source, folder, len(meshes)))
+            meshes += _meshes_of(stage, content, tree, (source, folder, len(meshes)), sections.shafts.bent)
     except MistakesOfStage as error:
         problems = error.problems
     if problems or sections is None:
@@ -156,9 +158,11 @@ def train_of(tree: Mapping[str, Any], text: str, name: str, source: str, folder:
 
 
 def _meshes_of(
-    stage: str, content: Mapping[str, Any], tree: Mapping[str, Any], place: tuple[str, Path, int]
-) -> list[MeshOfScene]:
-    """The meshes of a stage; its `place`: the file, its folder, and how many meshes there are before."""
+    stage: str, content: Mapping[str, Any], tree: Mapping[str, Any], place: tuple[str, Path, int],
+    bent: Sequence[BentShaft],
+) -> list[MeshOfScene]:  # fmt: skip
+    """The meshes of a stage; its `place`: the file, its folder, and how many meshes there are before; `bent`: the
+    shafts of the train that bend."""
     source, folder, before = place
     row = content.get("kind", PAIR) == ROW
     gears = list(content["gears"]) if row else [content.get("pinion"), content.get("wheel")]
@@ -181,11 +185,14 @@ def _meshes_of(
             # The load is on the last shaft; speed and length of the run are put in for the train's.
             sections["inertia"] = {each: value for each, value in sections["inertia"].items() if each != "load"}
             sections["motion"] = {"pinion_speed": "1 rpm", "mesh_cycles": 1}
+        on_shafts = of_pair(_names(stage, number, row), bent)
+        sections |= sections_of_pair(on_shafts, tree, sections)
         places = {name: (ROW_GEARS, str(number + place)) for place, name in enumerate(both, 1)} if row else {}
         name = f"{stage} {number + 1}" if count > 1 else stage
-        found = pair_scene(
-            sections, name, label, folder, partial(in_stage, stage, places, shared.keys() - inner.keys())
-        )
+        in_train_at = partial(in_stage, stage, places, shared.keys() - inner.keys())
+        put = Placed(lambda path: place_of(on_shafts, path) or in_train_at(path), partial(in_words_of_train, on_shafts))
+        found = pair_scene(sections, name, label, folder, put)
+        found = in_train(found) if bent else found
         if count > 1:
             check_together(found, label)
         return found
@@ -198,7 +205,14 @@ def _meshes_of(
             gears[number] = {**gears[number], "tip_diameter": f"{min(tips)!r} mm"}
             scenes[number - 1 : number + 1] = [scene(number - 1), scene(number)]
     pairs = [gear_pair(each.gears) for each in scenes]
-    return _joined(stage, scenes, pairs, directions, (label, before))
+    meshes = _joined(stage, scenes, pairs, directions, (label, before))
+    named = [(mesh, _names(stage, number, row)) for number, mesh in enumerate(meshes)]
+    return [replace(mesh, gears=names, bent=of_pair(names, bent) if bent else ()) for mesh, names in named]
+
+
+def _names(stage: str, number: int, row: bool) -> tuple[str, str]:
+    """Names of both gears of a mesh of a stage."""
+    return (f"{stage}.{number + 1}", f"{stage}.{number + 2}") if row else (f"{stage}.pinion", f"{stage}.wheel")
 
 
 def _angle(written: Any, stage: str, source: str) -> float:
@@ -235,10 +249,7 @@ def _joined(
             angles = sense * (directions[number - 1] + pi), sense * directions[number]
             idler = second_mesh(before.pair, pair, *angles)
         name = f"{stage}: gears {number + 1} and {number + 2}" if len(scenes) > 1 else stage
-        gears = f"{stage}.{number + 1}", f"{stage}.{number + 2}"
-        if len(scenes) == 1:
-            gears = f"{stage}.pinion", f"{stage}.wheel"
-        meshes.append(MeshOfScene(name, scene, pair, directions[number], idler, gears))
+        meshes.append(MeshOfScene(name, scene, pair, directions[number], idler))
     _check_overlap(meshes, label)
     return meshes
 

@@ -9,12 +9,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from fenics_gears.dynamics.bearings import MOST_BEARINGS, Bearing
 from fenics_gears.dynamics.damping import Damping
 from fenics_gears.dynamics.inertia import LoadInertia
+from fenics_gears.dynamics.shafts import MOST_SECTIONS, ShaftMaterial, ShaftSection
 from fenics_gears.inputs.allowed import Allowed, Refused
-from fenics_gears.inputs.fields import declared, quantity
+from fenics_gears.inputs.fields import declared, quantities, quantity
 from fenics_gears.inputs.problem import Path, Problem, did_you_mean
-from fenics_gears.inputs.section import Section, names_in, read
+from fenics_gears.inputs.section import AllowedTables, Section, names_in, read
 from fenics_gears.inputs.written import as_written
 
 # Sections of a train of which each makes its stages move together.
@@ -34,7 +36,9 @@ class AllowedGears(Allowed):
 @dataclass(frozen=True)
 class TrainShaft(Section):
     """``[shafts.NAME]`` of a train: the gears on one shaft, and how it twists between them, or between its gear and the
-    drive or the load."""
+    drive or the load; with `sections` it also bends."""
+
+    alternatives = (("torsional_stiffness", "sections"),)
 
     carries: tuple[str, ...] = declared(
         AllowedGears(description='a list of gears, such as ["first.wheel", "second.pinion"]'), default=()
@@ -44,19 +48,70 @@ class TrainShaft(Section):
         "0.2e9 N mm/rad",
         meaning="torsional stiffness between the gears of the shaft; of the first shaft between drive and gear, of the"
         " last between gear and load",
-        otherwise="the shaft is rigid",
+        otherwise="the shaft is rigid, or it follows from `sections`",
     )
+    sections: tuple[ShaftSection, ...] | None = declared(
+        AllowedTables(
+            description='a list of sections, such as [{ length = "32 mm", diameter = "28 mm" }], each with the fields'
+            f" {', '.join(names_in(ShaftSection))}",
+            section=ShaftSection,
+            singular="section",
+            empty="For a shaft that does not bend, leave it out.",
+            most=MOST_SECTIONS,
+            meaning="parts of the shaft from left to right, the right end being that from which the first gear of the"
+            " train is seen to turn counter-clockwise: it then bends, twists and stretches on bearings of its own",
+            otherwise="the shaft does not bend",
+        )
+    )
+    gears_at: tuple[float, ...] | None = quantities(
+        "0 mm to 100 m",
+        "25 mm",
+        "115 mm",
+        meaning="middles of the faces of the gears, in the order of `carries`, from the left end",
+        otherwise="required with `sections`",
+    )
+    torque_at: float | None = quantity(
+        "0 mm to 100 m",
+        "0 mm",
+        meaning="where the motor or the load is coupled, from the left end, of the first and the last shaft",
+        otherwise="required there with `sections`",
+    )
+    material: ShaftMaterial = ShaftMaterial()
+    bearings: tuple[Bearing, ...] | None = declared(
+        AllowedTables(
+            description='a list of bearings, such as [{ at = "12 mm", radial_stiffness = "0.3e6 N/mm" }], each with the'
+            f" fields {', '.join(names_in(Bearing))}",
+            section=Bearing,
+            singular="bearing",
+            empty="A shaft with sections turns in bearings.",
+            most=MOST_BEARINGS,
+            meaning="bearings of a shaft with sections, also written as tables `[[shafts.NAME.bearings]]`, as a pair"
+            " has them",
+            otherwise="required with `sections`",
+        )
+    )
+
+
+@dataclass(frozen=True)
+class BentShaft:
+    """A shaft with sections, its `name` and its `number` in the train."""
+
+    name: str
+    number: int
+    own: TrainShaft
 
 
 @dataclass(frozen=True)
 class TrainShafts:
     """Torsional stiffness (N mm/rad) of each shaft of a train, None where it is rigid; the moment of inertia
-    (N mm s^2) of the load, and the damping, None where there is none. `moving`: whether stages move together."""
+    (N mm s^2) of the load, and the damping, None where there is none. `moving`: whether stages move together. `bent`:
+    the shafts that also bend."""
 
     torsion: tuple[float | None, ...] = ()
     load: float | None = None
     damping: Damping | None = None
     moving: bool = False
+    bent: tuple[BentShaft, ...] = ()
 
 
 def gears_of_shafts(stages: Mapping[str, Any]) -> list[list[str]]:
@@ -80,12 +135,13 @@ def checked_shafts(tree: Mapping[str, Any], shafts: Sequence[Sequence[str]]) -> 
     """What couples the stages of a parsed train, and what is wrong with it; `shafts`: names of the gears on each."""
     problems: list[Problem] = []
     torsion: list[float | None] = [None] * len(shafts)
+    bent: list[BentShaft] = []
     for name, content in _sections(tree, "shafts", problems):
         place = ("shafts", name)
         shaft, wrong = read(TrainShaft, content, place)
         problems += [explained(each, TrainShaft) for each in wrong]
         if shaft is not None:
-            problems += _put(torsion, shaft, shafts, place)
+            problems += _put(torsion, bent, shaft, shafts, place)
     load = _load(tree, problems)
     damping = _damping(tree, problems)
     moving = any(name in tree for name in COUPLING) or any(
@@ -93,10 +149,11 @@ def checked_shafts(tree: Mapping[str, Any], shafts: Sequence[Sequence[str]]) -> 
     )
     if damping is not None and "inertia" not in tree:
         problems.append(Problem(("damping",), "", "needs the section [inertia], which is missing. Add it."))
-    if "inertia" in tree and torsion[-1] is not None and load is None:
+    at_load = torsion[-1] is not None or any(each.number == len(shafts) - 1 for each in bent)
+    if "inertia" in tree and load is None and at_load:
         said = "is missing. The far end of the last shaft needs a moment of inertia: add [inertia.load]."
         problems.append(Problem(("inertia", "load"), None, said))
-    return TrainShafts(tuple(torsion), load, damping, moving), problems
+    return TrainShafts(tuple(torsion), load, damping, moving, tuple(bent)), problems
 
 
 def _sections(tree: Mapping[str, Any], name: str, problems: list[Problem]) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -120,9 +177,9 @@ def _tables(written: Mapping[str, Any]) -> list[Mapping[str, Any]]:
 
 
 def _put(
-    torsion: list[float | None], shaft: TrainShaft, shafts: Sequence[Sequence[str]], place: Path
+    torsion: list[float | None], bent: list[BentShaft], shaft: TrainShaft, shafts: Sequence[Sequence[str]], place: Path
 ) -> Iterator[Problem]:
-    """Enter the stiffness of a shaft."""
+    """Enter the stiffness of a shaft, or its sections."""
     carried = [sorted(each) for each in shafts]
     if sorted(shaft.carries) not in carried:
         known = "; ".join(", ".join(f'"{gear}"' for gear in each) for each in shafts)
@@ -132,13 +189,47 @@ def _put(
         yield Problem((*place, "carries"), as_written(list(shaft.carries)), said)
         return
     number = carried.index(sorted(shaft.carries))
+    at_an_end = number in (0, len(shafts) - 1)
+    yield from _of_sections(shaft, place, at_an_end)
+    if shaft.sections is not None:
+        bent.append(BentShaft(place[-1], number, shaft))
     if shaft.torsional_stiffness is None:
         return
-    if 0 < number < len(shafts) - 1 and len(shafts[number]) == 1:
+    if not at_an_end and len(shafts[number]) == 1:
         said = "is of an idler, between whose gears nothing twists. Leave it out."
         yield Problem((*place, "torsional_stiffness"), "", said)
         return
     torsion[number] = shaft.torsional_stiffness
+
+
+def _of_sections(shaft: TrainShaft, place: Path, at_an_end: bool) -> Iterator[Problem]:
+    """A shaft with sections says where its gears are, has bearings and, at an end of the train, a coupling; another one
+    has nothing of it."""
+    if shaft.sections is None:
+        for name in ("gears_at", "torque_at", "material", "bearings"):
+            if getattr(shaft, name) not in (None, ShaftMaterial()):
+                said = "has no effect: it is of a shaft with sections. Add sections, or leave it out."
+                yield Problem((*place, name), "", said)
+        return
+    count = len(shaft.carries)
+    if shaft.gears_at is None or len(shaft.gears_at) != count:
+        allowed = (
+            f"Allowed: {count} {'length' if count == 1 else 'lengths'} from the left end, in the order of carries."
+        )
+        said = "is missing" if shaft.gears_at is None else f"has {len(shaft.gears_at)} places for {count} gears"
+        yield Problem((*place, "gears_at"), None if shaft.gears_at is None else "", f"{said}. {allowed}")
+    if shaft.bearings is None:
+        said = (
+            f"is missing: nothing holds the shaft, which has sections. Add its bearings, each as a table"
+            f" [[{'.'.join(place)}.bearings]] with at and radial_stiffness."
+        )
+        yield Problem((*place, "bearings"), None, said)
+    if at_an_end and shaft.torque_at is None:
+        said = 'is missing. Allowed: a length from the left end of the shaft, such as "0 mm".'
+        yield Problem((*place, "torque_at"), None, said)
+    elif not at_an_end and shaft.torque_at is not None:
+        said = "is of the first or the last shaft, where the drive or the load is coupled. Leave it out."
+        yield Problem((*place, "torque_at"), "", said)
 
 
 def _load(tree: Mapping[str, Any], problems: list[Problem]) -> float | None:

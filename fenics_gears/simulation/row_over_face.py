@@ -26,13 +26,15 @@ from .bodies import gear_body
 from .elastic_route import cycle_of, flanks_of
 
 
-def row_cycle_over_face(row: RowModel, coordinates: Sequence[np.ndarray], progress: Progress, cache: Cache) -> RowCycle:
+def row_cycle_over_face(
+    row: RowModel, coordinates: Sequence[np.ndarray], modes: int, progress: Progress, cache: Cache
+) -> RowCycle:
     """The contact equations of all meshes of a row over the face, on the bodies of all gears; `coordinates` of each
-    mesh as of `contact.row.MeshOfRow`."""
+    mesh, and `modes`, as of `contact.row.MeshOfRow`."""
     bodies, idlers = _bodies(row, progress, cache)
     meshes = []
     for number, (own, (phase, _), rows) in enumerate(zip(row.models, row.begun, coordinates)):
-        meshes.append(MeshOfRow(_cycle(own, bodies[number], phase), rows))
+        meshes.append(MeshOfRow(_cycle(own, bodies[number], phase), rows, modes))
     coupled = []
     for mesh, body in enumerate(idlers):
         first, second = (each.cycle for each in meshes[mesh : mesh + 2])

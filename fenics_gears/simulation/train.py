@@ -145,25 +145,29 @@ def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
     for numbers in rows_of(row.meshes):
         own = RowModel(*(tuple(each[number] for number in numbers) for each in (row.meshes, row.models)))
         coordinates = [row.drivetrain.of_meshes[number] for number in numbers]
-        members.append(_member(own, coordinates, progress, cache))
+        members.append(_member(own, coordinates, row.drivetrain.modes, progress, cache))
     if len(members) == 1 and isinstance(members[0].cycle, RowCycle):
         return members[0].cycle
     return RowCycle(members, MeshesApart())
 
 
-def _member(row: RowModel, coordinates: Sequence[np.ndarray], progress: Progress, cache: Cache) -> MeshOfRow:
-    """A single mesh, or meshes that idlers couple, over the coordinates of the train; `coordinates` of each mesh."""
+def _member(
+    row: RowModel, coordinates: Sequence[np.ndarray], modes: int, progress: Progress, cache: Cache
+) -> MeshOfRow:
+    """A single mesh, or meshes that idlers couple, over the coordinates of the train; `coordinates` of each mesh, and
+    how many `modes` are among them."""
     if len(row.models) == 1:
         bodies = gear_bodies(row.models[0], progress, cache)
-        return MeshOfRow(mesh_cycle(row.models[0], bodies), coordinates[0])
+        return MeshOfRow(mesh_cycle(row.models[0], bodies), coordinates[0], modes)
     if row.over_face:
         # Runs in the plane load none of it.
         from .row_over_face import row_cycle_over_face
 
-        cycle = row_cycle_over_face(row, coordinates, progress, cache)
+        cycle = row_cycle_over_face(row, coordinates, modes, progress, cache)
     else:
         cycle = _row_in_plane(row, coordinates, progress, cache)
-    return MeshOfRow(cycle, np.eye(coordinates[0].shape[1]))
+    count = coordinates[0].shape[1]
+    return MeshOfRow(cycle, np.eye(count)[: count - modes], modes)
 
 
 def _row_in_plane(row: RowModel, coordinates: Sequence[np.ndarray], progress: Progress, cache: Cache) -> RowCycle:
