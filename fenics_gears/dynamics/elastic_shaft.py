@@ -112,9 +112,9 @@ class Line:
 
 @dataclass(frozen=True)
 class ElasticShaft:
-    """The shaft of the "pinion", the "wheel" or another gear by its name: its `sections` of one `material` (Young's modulus, N/mm^2, Poisson's
-    ratio), the middle of the gear's seat, mm from the left end, the `seat`'s width, mm, where the torque is coupled,
-    and the bearings.
+    """The shaft of the "pinion", the "wheel" or another gear by its name: its `sections` of one `material` (Young's
+    modulus, N/mm^2, Poisson's ratio), the middle of the gear's seat, mm from the left end, the `seat`'s width, mm,
+    where the torque is coupled, and the bearings.
 
     `integral`: whether the gear is cut into the shaft. Its `sections` then have the root diameter within the face, and
     it yields there (`elastic_shaft_seat`). `hub`: the gear's hub and the bore's part of the shaft, which yield under a
