@@ -98,3 +98,53 @@ def gearbox_file(folder: Path) -> Path:
     stages = stage("first", 2.0, (20, 30)) + stage("second", 3.0, (20, 40))
     file.write_text(f'{stages}\n[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n\n')
     return file
+
+
+COARSE_FACE = """
+    slices = 4
+    layers = 2
+    body_element_size = "5 mm"
+    steps_per_mesh_cycle = 8
+    flank_element_size = "0.25 mm"
+    """
+
+
+def helical_stage(name: str, module: float, teeth: tuple[int, int], helix: float, more: str = "") -> str:
+    """The section of a helical stage of two gears, eight modules wide, in directions that are not alike."""
+    lean = f'helix_angle = "{helix} deg"\n{more}' if helix else more
+    return stage(name, module, teeth, lean).replace(f"{10 * module} mm", f"{8 * module} mm")
+
+
+def shaft_section(name: str, gears: dict[str, float], length: float, diameter: float, more: str = "") -> str:
+    """The section of a shaft that bends, lengths in mm; `gears`: places of its gears."""
+    carries = ", ".join(f'"{each}"' for each in gears)
+    places = ", ".join(f'"{each} mm"' for each in gears.values())
+    return f"""
+        [shafts.{name}]
+        carries = [{carries}]
+        sections = [{{ length = "{length} mm", diameter = "{diameter} mm" }}]
+        gears_at = [{places}]
+        {more}
+        """
+
+
+def bearing_sections(name: str, places: tuple[float, ...], radial: float, axial: float) -> str:
+    """Bearings of a shaft, N/mm; the first one holds it along its axis."""
+    return "".join(
+        f'[[shafts.{name}.bearings]]\nat = "{at} mm"\nradial_stiffness = "{radial!r} N/mm"\n'
+        + (f'axial_stiffness = "{axial!r} N/mm"\n' if not number else "")
+        for number, at in enumerate(places)
+    )
+
+
+def bent_two_stages(compliance: float | None = 1.0, more: str = "", helix: tuple[float, float] = (15.0, 20.0)):
+    """Two stages whose intermediate shaft bends, of such a part of steel's compliance and that of its bearings; on
+    rigid shafts where None."""
+    text = helical_stage("first", 2.0, (18, 24), helix[0], 'direction = "20 deg"')
+    text += helical_stage("second", 3.0, (24, 30), helix[1], 'direction = "-70 deg"')
+    text += f'[load]\noutput_torque = "300 N m"\n[accuracy]\n{COARSE_FACE}\n{more}'
+    if compliance is not None:
+        steel = f'material = {{ youngs_modulus = "{206e3 / compliance!r} N/mm^2", poissons_ratio = 0.3 }}'
+        text += shaft_section("middle", {"first.wheel": 35.0, "second.pinion": 100.0}, 150.0, 35.0, steel)
+        text += bearing_sections("middle", (10.0, 140.0), 1e6 / compliance, 1e5 / compliance)
+    return train_from_text(text)

@@ -113,8 +113,9 @@ def _parts(bent: BentShaft, meshes: Sequence[MeshOfScene], up_to: float) -> tupl
     if scene.inertia is not None:
         density = own.material.density or scene.inertia.of(SIDES[side]).density or 0.0
     parts = []
-    for (at, gear), width, (begin, end) in zip(order, widths, pairwise(cuts)):
-        bearings = [each for each in own.bearings if begin < each.at <= end or begin == each.at == 0.0]
+    part_of = np.searchsorted(cuts[1:-1], [each.at for each in own.bearings])
+    for number, ((at, gear), width, (begin, end)) in enumerate(zip(order, widths, pairwise(cuts))):
+        bearings = [each for each, part in zip(own.bearings, part_of) if part == number]
         torque_at = at if own.torque_at is None else own.torque_at
         parts.append(ElasticShaft(
             gear, sections_between(own.sections, begin, end), constants, at - begin, width, torque_at - begin,
