@@ -260,11 +260,14 @@ class Stepper:
         """The step of `scheme` from `state`, solved from the sets `status` (n,); `last`: the solution before, if there
         is one."""
         load, rolling = scheme.load(state, self.load(step)), self.drivetrain.rolling
+        sets = status.copy()
 
         def linear(stiffness: np.ndarray, load: np.ndarray) -> StepSolution:
             modes = eliminated(stiffness, self.drivetrain.modes)
             problem = self._problem(scheme, position.operator, modes, load, slip_before)
-            solution = self.cycle.solve(position, problem, status.copy(), last)
+            # On rolling bearings again and again: from the sets that were found last.
+            solution = self.cycle.solve(position, problem, sets.copy(), last)
+            sets[:] = solution.status
             return replace(solution, coordinates=with_modes(solution.coordinates, load, modes))
 
         try:

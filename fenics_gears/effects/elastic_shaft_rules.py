@@ -174,8 +174,12 @@ def shaft_warnings(scene: Any, pair: Any) -> list[str]:
             sentences.append(
                 f"shafts.{name}.sections: the shaft is {off[0]:g} mm thick under the {gear}'s face, whose bore is"
                 f" {bore:g} mm wide: the seat is rigid all the same, and the material between them is in neither"
-                f" body. Let the sections there and gears.{gear}.bore_diameter agree, or take seat ="
-                f' "{INTEGRAL}" where the teeth are cut into the shaft'
+                f" body. Let the sections there and gears.{gear}.bore_diameter agree"
+                + (
+                    ""
+                    if scene.shafts.in_train
+                    else f', or take seat = "{INTEGRAL}" where the teeth are cut into the shaft'
+                )
             )
     return sentences
 

@@ -20,13 +20,11 @@ from fenics_gears.dynamics.train import TrainDrivetrain, coordinates_of_mesh, dr
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.gear_train import SecondMesh, begun_at
-from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.scene.data import Motion, Scene
+from fenics_gears.scene.data import Motion
 from fenics_gears.scene.train import MeshOfScene, TrainScene, rows_of
 from fenics_gears.scene.train_pair_shafts import in_words_of_train
 from fenics_gears.scene.train_shafts import TrainShafts
@@ -34,7 +32,7 @@ from fenics_gears.scene.train_shafts import TrainShafts
 from .drivetrain import mesh_stiffness
 from .face_resolution import face_discretisation
 from .model import Model, model_of
-from .train_parts import check_supports, parts_of, whole_steps
+from .train_parts import bent_of, check_alike, check_supports, model_of_mesh, parts_of, whole_steps
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
@@ -69,7 +67,7 @@ class RowModel:
     @cached_property
     def bent(self) -> BentShafts | None:
         """The shafts that bend; None where none does."""
-        return _bent(self.meshes, self.shafts)
+        return bent_of(self.meshes, self.shafts)
 
     @property
     def mesh_stiffness(self) -> np.ndarray:
@@ -122,6 +120,14 @@ class RowModel:
         steps = fastest.resolution.steps_per_mesh_cycle
         frequency = fastest.scene.motion.mesh_frequency
         return time_step_warnings(self.vibrations, frequency, steps, self.time_scales, fastest.time_step)
+
+    @property
+    def warnings_of_meshes(self) -> list[str]:
+        """Sentences on each mesh, with its name."""
+        of_meshes = zip(self.meshes, self.models)
+        return [
+            f"{mesh.name}: {in_words_of_train(mesh.bent, said)}" for mesh, own in of_meshes for said in own.warnings
+        ]
 
     @property
     def over_face(self) -> bool:
@@ -212,19 +218,8 @@ class TrainModel:
     @property
     def warnings(self) -> list[str]:
         """Sentences for the user before the run, each of one mesh with its name."""
-        said = [
-            f"{mesh.name}: {said}" for mesh, model in zip(self.scene.meshes, self.models) for said in model.warnings
-        ]
+        said = [each for row in self.rows for each in row.warnings_of_meshes]
         return [*said, *(each for row in self.rows if not row.single for each in row.warnings)]
-
-
-def _bent(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShafts | None:
-    if not shafts.bent:
-        return None
-    # Trains on rigid shafts load neither beams nor bearings.
-    from .train_shafts import bent_shafts
-
-    return bent_shafts(meshes, shafts)
 
 
 def _indices(model: Model) -> tuple[int, int]:
@@ -249,11 +244,11 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
     """Meshes that move together, their cycles divided into steps of one length in time; `recorded_cycles` as of
     TrainScene."""
     check_supports(meshes)
-    models = [_model_of(mesh, mesh.scene) for mesh in meshes]
+    models = [model_of_mesh(mesh, mesh.scene) for mesh in meshes]
     steps = whole_steps(meshes, [model.resolution.steps_per_mesh_cycle for model in models])
     cycles = meshes[0].scene.motion.mesh_cycles
     parts = parts_of(meshes, shafts)
-    bent = _bent(meshes, shafts)
+    bent = bent_of(meshes, shafts)
     sizes = _flank_sizes(meshes, models)
     found = []
     for number, (mesh, own, size) in enumerate(zip(meshes, steps, sizes)):
@@ -262,24 +257,14 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
         recorded = min(ceil(recorded_cycles * max(steps) / own), passed)
         motion = Motion(mesh.scene.motion.mesh_frequency, passed, recorded, True, mesh.scene.motion.speed_given)
         # Masses are of the whole train.
-        model = _model_of(mesh, replace(mesh.scene, accuracy=accuracy, motion=motion, inertia=None))
+        model = model_of_mesh(mesh, replace(mesh.scene, accuracy=accuracy, motion=motion, inertia=None))
         names = coordinates_of_mesh(parts, number) + (() if bent is None else bent.names_in(number))
         supports = [parts.support(gear) for gear in parts.gears[number]]
         drivetrain = drivetrain_of_mesh(mesh.pair, mesh.scene.load.wheel_torque, names, supports)
         found.append(replace(model, drivetrain=drivetrain))
-    _check(meshes, found)
+    check_alike(meshes, found)
     recorded = recorded_cycles * max(steps) if shafts.moving else 0
     return RowModel(tuple(meshes), tuple(found), shafts, recorded)
-
-
-def _model_of(mesh: MeshOfScene, scene: Scene) -> Model:
-    """As `model_of`, of a mesh with such a scene; what is wrong with shafts is said with their names in the train."""
-    try:
-        return model_of(scene)
-    except SceneError as error:
-        if not mesh.bent:
-            raise
-        raise SceneError(in_words_of_train(mesh.bent, str(error))) from error
 
 
 def _flank_sizes(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> list[float]:
@@ -289,21 +274,3 @@ def _flank_sizes(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> list
     for row in rows_of(meshes):
         found += [min(sizes[number] for number in row)] * len(row)
     return found
-
-
-def _check(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> None:
-    """Raise SceneError for what meshes that move together do not have yet."""
-    in_rows = [models[number] for row in rows_of(meshes) if len(row) > 1 for number in row]
-    for model in in_rows:
-        if model.pair.effective_face_widths != (model.pair.face_width,) * 2:
-            raise SceneError(
-                "gears of a row that are not equally wide are not yet computed. Allowed: one face_width for the row."
-                f" {NOTHING_DONE}"
-            )
-    coefficients = {model.friction_coefficient for model in models}
-    if len(coefficients) > 1:
-        raise SceneError(
-            "friction: its formula gives each mesh another coefficient"
-            f" ({', '.join(f'{each:.4g}' for each in sorted(coefficients))}), which is not yet computed where meshes"
-            f" move together. Allowed: one friction.coefficient. {NOTHING_DONE}"
-        )

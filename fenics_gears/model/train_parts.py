@@ -12,12 +12,15 @@ from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.train import MeshOfScene
+from fenics_gears.scene.train import MeshOfScene, rows_of
+from fenics_gears.scene.train_pair_shafts import in_words_of_train
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import lumped_gears
+from .model import Model, model_of
 
 if TYPE_CHECKING:
+    from fenics_gears.dynamics.train_shafts import BentShafts
     from fenics_gears.geometry.gear_data import LumpedGear
 
 # Steps of the mesh cycles of all meshes together: each has its contact operators.
@@ -100,3 +103,40 @@ def check_supports(meshes: Sequence[MeshOfScene]) -> None:
                 f"{mesh.name}: bearings of an idler have one stiffness in all directions. Allowed: bearings.stiffness,"
                 f" for all gears of the row. {NOTHING_DONE}"
             )
+
+
+def model_of_mesh(mesh: MeshOfScene, scene: Scene) -> Model:
+    """As `model_of`, of a mesh with such a scene; what is wrong with shafts is said with their names in the train."""
+    try:
+        return model_of(scene)
+    except SceneError as error:
+        if not mesh.bent:
+            raise
+        raise SceneError(in_words_of_train(mesh.bent, str(error))) from error
+
+
+def bent_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShafts | None:
+    if not shafts.bent:
+        return None
+    # Trains on rigid shafts load neither beams nor bearings.
+    from .train_shafts import bent_shafts
+
+    return bent_shafts(meshes, shafts)
+
+
+def check_alike(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> None:
+    """Raise SceneError for what meshes that move together do not have yet."""
+    in_rows = [models[number] for row in rows_of(meshes) if len(row) > 1 for number in row]
+    for model in in_rows:
+        if model.pair.effective_face_widths != (model.pair.face_width,) * 2:
+            raise SceneError(
+                "gears of a row that are not equally wide are not yet computed. Allowed: one face_width for the row."
+                f" {NOTHING_DONE}"
+            )
+    coefficients = {model.friction_coefficient for model in models}
+    if len(coefficients) > 1:
+        raise SceneError(
+            "friction: its formula gives each mesh another coefficient"
+            f" ({', '.join(f'{each:.4g}' for each in sorted(coefficients))}), which is not yet computed where meshes"
+            f" move together. Allowed: one friction.coefficient. {NOTHING_DONE}"
+        )

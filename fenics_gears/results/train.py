@@ -249,9 +249,7 @@ def _iterations(model: TrainModel, meshes: Sequence[MeshResult]) -> int:
 def _of_rows(model: TrainModel) -> list[str]:
     """Warnings before the run of those meshes that were not run as pairs, which tell their own."""
     coupled: list[RowModel] = [row for row in model.rows if not row.single]
-    of_meshes = [
-        f"{mesh.name}: {said}" for row in coupled for mesh, own in zip(row.meshes, row.models) for said in own.warnings
-    ]
+    of_meshes = [said for row in coupled for said in row.warnings_of_meshes]
     return [*of_meshes, *(said for row in coupled for said in row.warnings)]
 
 

@@ -74,6 +74,7 @@ def in_words_of_train(both: OfPair, text: str) -> str:
             (f"shafts.{shaft}", f"shafts.{bent.name}"),
             (f"bearings.{side}", bearings),
             (f"the {side}", gear),
+            (f"gears.{side}.bore_diameter", "its bore_diameter"),
         ):
             text = text.replace(old, new)
     return text

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from typing import Any
 
 from fenics_gears.dynamics.bearings import MOST_BEARINGS, Bearing
@@ -19,6 +20,11 @@ from fenics_gears.inputs.problem import Path, Problem, did_you_mean
 from fenics_gears.inputs.section import AllowedTables, Section, names_in, read
 from fenics_gears.inputs.written import as_written
 
+# What shafts of pairs have beside.
+NOT_YET = {
+    "seat": "is not yet computed in trains: gears sit rigidly over their width. Leave it out.",
+    "housing": "is not yet computed in trains: bearings stand in a rigid housing. Leave it out.",
+}
 # Sections of a train of which each makes its stages move together.
 COUPLING = ("shafts", "inertia", "bearings")
 
@@ -142,6 +148,9 @@ def checked_shafts(tree: Mapping[str, Any], shafts: Sequence[Sequence[str]]) -> 
         problems += [explained(each, TrainShaft) for each in wrong]
         if shaft is not None:
             problems += _put(torsion, bent, shaft, shafts, place)
+    if "bearings" in tree and {gear for each in bent for gear in each.own.carries} >= {*chain(*shafts)}:
+        said = "has no effect: all gears are on shafts with bearings of their own. Leave it out."
+        problems.append(Problem(("bearings",), "", said))
     load = _load(tree, problems)
     damping = _damping(tree, problems)
     moving = any(name in tree for name in COUPLING) or any(
@@ -189,6 +198,9 @@ def _put(
         yield Problem((*place, "carries"), as_written(list(shaft.carries)), said)
         return
     number = carried.index(sorted(shaft.carries))
+    if torsion[number] is not None or any(each.number == number for each in bent):
+        yield Problem((*place, "carries"), as_written(list(shaft.carries)), "are on another shaft too. Leave one out.")
+        return
     at_an_end = number in (0, len(shafts) - 1)
     yield from _of_sections(shaft, place, at_an_end)
     if shaft.sections is not None:
@@ -216,7 +228,11 @@ def _of_sections(shaft: TrainShaft, place: Path, at_an_end: bool) -> Iterator[Pr
         allowed = (
             f"Allowed: {count} {'length' if count == 1 else 'lengths'} from the left end, in the order of carries."
         )
-        said = "is missing" if shaft.gears_at is None else f"has {len(shaft.gears_at)} places for {count} gears"
+        said = (
+            "is missing"
+            if shaft.gears_at is None
+            else f"has another number of places, {len(shaft.gears_at)}, than gears, {count}"
+        )
         yield Problem((*place, "gears_at"), None if shaft.gears_at is None else "", f"{said}. {allowed}")
     if shaft.bearings is None:
         said = (
@@ -265,6 +281,8 @@ def explained(problem: Problem, section: type[Section]) -> Problem:
     """A problem with an unknown name told with those of its section."""
     if not problem.unknown:
         return problem
+    if section is TrainShaft and problem.path[-1] in NOT_YET:
+        return replace(problem, message=NOT_YET[problem.path[-1]])
     names = names_in(section)
     said = f"is not known here.{did_you_mean(problem.path[-1], names)} Known: {', '.join(names)}."
     return replace(problem, message=said)
