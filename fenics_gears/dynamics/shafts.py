@@ -1,6 +1,6 @@
 """Shafts: their torsional stiffness, or their sections, of which they bend, twist and stretch."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from fenics_gears.geometry.gear_data import MATERIALS, Material, material_name, poissons_ratio, youngs_modulus
 from fenics_gears.inputs.allowed import Matrix
@@ -147,7 +147,7 @@ class Shafts(Section):
         "each shaft has its own, if any",
     )
     # Of a pair in a train, whose gears share shafts with those of other pairs; not of scenes.
-    in_train: bool = False
+    in_train: bool = field(default=False, compare=False)
 
     def of(self, shaft: str) -> float | None:
         """Torsional stiffness (N mm/rad) of the "input" or the "output" shaft; None where it has sections or is

@@ -131,12 +131,13 @@ def _finite(numbers: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _along_the_row(places: dict[str, tuple]) -> dict[str, tuple]:
-    """Coordinates of a mesh; those along the axes run one way in all meshes, whichever way their gears turn."""
+    """Coordinates of a mesh; those along the axes run one way in all meshes of a row, whichever way their gears
+    turn."""
     if "face_position" not in places:
         return places
     dims, values, labels = places["face_position"]
     words = (
-        "distance along the axes from the middle of the face, towards the end from which the first gear of the row is"
-        " seen to turn counter-clockwise"
+        "distance along the axes from the middle of the face, towards the end from which the first gear of the stage"
+        " is seen to turn counter-clockwise"
     )
     return places | {"face_position": (dims, values, labels | {"long_name": words})}

@@ -262,7 +262,7 @@ def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
     ]
     for name, label in OF_SHAFTS:
         if name in attrs:
-            rows.append((label, f"{attrs[name]:.4g}", "N"))
+            rows.append((label, f"{attrs[name]:.5g}", "N"))
     if "friction_loss" in attrs:
         rows.append(("friction loss, all meshes", f"{100.0 * attrs['friction_loss']:.4g}", "%"))
     for name in found[MESH].values:

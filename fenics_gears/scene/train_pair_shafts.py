@@ -74,10 +74,16 @@ def in_words_of_train(both: OfPair, text: str) -> str:
             (f"shafts.{shaft}", f"shafts.{bent.name}"),
             (f"bearings.{side}", bearings),
             (f"the {side}", gear),
-            (f"gears.{side}.bore_diameter", "its bore_diameter"),
+            (f"gears.{side}.", f"{_home(gear)}."),
         ):
             text = text.replace(old, new)
     return text
+
+
+def _home(gear: str) -> str:
+    """Where a train has what is said of a gear."""
+    stage, _, own = gear.rpartition(".")
+    return f"stages.{stage}.{f'gears.{own}' if own.isdigit() else own}"
 
 
 def in_train(scene: Scene) -> Scene:
