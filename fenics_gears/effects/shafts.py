@@ -117,7 +117,7 @@ EFFECT = Effect(
         ),
         *variables(
             ("time", "bearing"),
-            field="of_pair",
+            field="sections",
             bearing_force_x=("N", "force of the shaft on its bearing along the line of action"),
             bearing_force_y=("N", "force of the shaft on its bearing off the line of action"),
             bearing_force_z=("N", "axial force of the shaft on its bearing"),
@@ -126,7 +126,7 @@ EFFECT = Effect(
         ),
         *variables(
             ("contact_time", "gear", "shaft_point"),
-            field="of_pair",
+            field="sections",
             shaft_deflection_x=("mm", "displacement of the shaft's axis along the line of action"),
             shaft_deflection_y=("mm", "displacement of the shaft's axis off the line of action"),
         ),

@@ -24,9 +24,6 @@ from .train import OF_ENERGY, MeshResult
 if TYPE_CHECKING:
     from .train_shafts import ShaftsOfTrain
 
-# What a mesh of its own does not have.
-LEFT_OUT = (*OF_ENERGY, "shaft_end_rotation")
-
 
 class RowResult:
     """What a march of several meshes gives: `recorders` of each, and the work of all of them."""
@@ -68,7 +65,7 @@ class RowResult:
             for along in recorder.along_face:
                 numbers |= _finite(along.numbers(labelled, numbers))
                 said += along.warnings(labelled)
-            own = {name: of for name, of in (curves | places).items() if not name.startswith(LEFT_OUT)}
+            own = {name: of for name, of in (curves | places).items() if not name.startswith(OF_ENERGY)}
             # All of them took that march.
             seconds = (0.0 if found else march.seconds, 0.0)
             found.append(MeshResult(mesh.name, own, numbers, said, seconds))
