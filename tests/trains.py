@@ -146,5 +146,5 @@ def bent_two_stages(compliance: float | None = 1.0, more: str = "", helix: tuple
     if compliance is not None:
         steel = f'material = {{ youngs_modulus = "{206e3 / compliance!r} N/mm^2", poissons_ratio = 0.3 }}'
         text += shaft_section("middle", {"first.wheel": 35.0, "second.pinion": 100.0}, 150.0, 35.0, steel)
-        text += bearing_sections("middle", (10.0, 140.0), 1e6 / compliance, 1e5 / compliance)
+        text += bearing_sections("middle", (15.0, 135.0), 1e6 / compliance, 1e5 / compliance)
     return train_from_text(text)

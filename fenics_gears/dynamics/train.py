@@ -195,6 +195,9 @@ def train_drivetrain(
         own = (np.array([direction.get(name, 0.0) for name in names]) for names in names_of)
         return np.array([along @ of_mesh for along, of_mesh in zip(own, of_meshes)])
 
+    # Of helical teeth the normal leans along the axis.
+    cosines = np.array([[pair.cosine] for pair in parts.pairs])
+
     stiffness, in_bearings = _stiffness(rows)
     undamped = TrainDrivetrain(
         rows.names,
@@ -203,7 +206,7 @@ def train_drivetrain(
         parts.torque * rows.end,
         _mass(rows) if parts.masses else None,
         None,
-        MeshSprings(flanks(MESH_DIRECTION), flanks(ACROSS_DIRECTION)),
+        MeshSprings(cosines * flanks(MESH_DIRECTION), flanks(ACROSS_DIRECTION)),
         bearing_stiffness=in_bearings,
         motions=tuple(rows.motion_behind(mesh) for mesh in meshes),
         angle=rows.driven(len(parts.pairs) - 1),

@@ -56,7 +56,7 @@ def bent_shafts(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShaft
     for bent in shafts.bent:
         parts = _parts(bent, meshes, up_to)
         system = ShaftSystem(parts)
-        first, _ = _places(meshes, parts[0].gear)[0]
+        first, _ = _places(meshes, bent.own.carries[0])[0]
         axes.append(shaft_axes(frames[first].axes))
         own = [
             GearOnShaft(part, mesh, side, turned_motions(axes[-1], frames[mesh].axes))
