@@ -108,3 +108,5 @@ def test_what_bends_is_told():
     steel = 7.85e-6 * np.pi / 4.0 * 35.0**2 * 150.0
     assert said["mass of shaft middle"][0] == pytest.approx(steel, rel=1e-6)
     assert any("bending of shaft middle" in words for _, _, words in frequency_rows(row))
+    (at_rest,) = train_model_of(bent_two_stages()).rows
+    assert not frequency_rows(at_rest)
