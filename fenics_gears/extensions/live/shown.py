@@ -13,11 +13,17 @@ from fenics_gears.many_runs import result_rows
 
 # A hundredth of a micrometre.
 DIGITS = 5
+# What a designer looks at first; all else follows.
+FIRST = (
+    "Transmission error", "Line load along the face", "Contact pattern", "Load sharing between tooth pairs",
+    "Harmonics",
+)  # fmt: skip
 
 
 def shown(result: xr.Dataset, pair: GearPair) -> dict[str, Any]:
     """What the page needs of a result."""
     subjects = [*run_charts(result), *_harmonics(result)]
+    subjects.sort(key=lambda each: FIRST.index(each[0]) if each[0] in FIRST else len(FIRST))
     charts = [_chart(subject, number, chart) for subject, own in subjects for number, chart in enumerate(own)]
     return {
         "charts": charts,

@@ -55,7 +55,7 @@ def pinion_in_space(run: ShownRun) -> dict[str, Any] | None:
     scene: dict[str, Any] = {"xaxis": axis, "yaxis": axis | face, "zaxis": axis}
     # From the side of the flank that carries.
     side = float(np.sign(flank[0].mean()))
-    scene |= {"aspectmode": "data", "camera": {"eye": {"x": 1.3 * side, "y": -1.0, "z": 0.8}}, "dragmode": "turntable"}
+    scene |= {"aspectmode": "data", "camera": {"eye": {"x": 1.9 * side, "y": -1.2, "z": 1.1}}, "dragmode": "turntable"}
     return {"data": data, "layout": {"scene": scene, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}}
 
 
