@@ -1,7 +1,8 @@
 """The model of a train: the models of the pairs of its meshes, and which of them move together.
 
-Between stages rigid shafts hand on torque and rotation alone: each stage is computed by itself. The meshes of a row
-with idlers are computed together, and so are all meshes of a train that has masses, bearings or shafts that twist.
+Between stages rigid shafts hand on torque and rotation alone: each stage is computed by itself. Meshes that have a gear
+in common are computed together, and so are all meshes of a train that has several paths, masses, bearings or shafts
+that twist.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import combinations
 from math import ceil
 from typing import TYPE_CHECKING
 
@@ -23,11 +25,13 @@ from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
-from fenics_gears.geometry.gear_train import SecondMesh, begun_at
+from fenics_gears.geometry.gear_train import Layout, SharedGear
+from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Motion
-from fenics_gears.scene.train import MeshOfScene, TrainScene, rows_of
+from fenics_gears.scene.train import TrainScene
+from fenics_gears.scene.train_mesh import MeshOfScene, layout_of, rows_of
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import mesh_stiffness
@@ -114,67 +118,81 @@ class RowModel:
         """Whether flanks are resolved over the face: of all meshes or of none."""
         return self.models[0].scene.three_dimensional
 
+    @cached_property
+    def layout(self) -> Layout:
+        return layout_of(self.meshes)
+
     @property
-    def begun(self) -> list[tuple[float, int]]:
-        """See `gear_train.begun_at`."""
-        return begun_at([mesh.idler for mesh in self.meshes])
-
-    def second_mesh(self, mesh: int) -> SecondMesh:
-        """Where the mesh behind an idler is as the one before it begins, its pairs counted as in the run."""
-        second = self.meshes[mesh + 1].idler
-        assert second is not None
-        return replace(second, teeth=second.teeth + self.begun[mesh + 1][1])
-
-    def reach_through(self, mesh: int) -> Reach:
-        """Between which teeth of the idler behind a mesh compliance is needed: on its flanks of either mesh, and from
-        one to the other."""
-        first, second = self.models[mesh : mesh + 2]
-        idler = self.meshes[mesh + 1].idler
-        assert idler is not None
-        one, other = (_indices(model) for model in (first, second))
-        # One index further at either end: pairs a step before, and those of a mesh that is ahead by part of a cycle.
-        least = -(one[1] + 1) - idler.teeth + other[0] - 1
-        most = -(one[0] - 1) - idler.teeth + other[1] + 1
-        teeth = first.pair.wheel.teeth
-        most = min(most, least + teeth - 1)
-        round_about = teeth * round(0.5 * (least + most) / teeth)
-        same = max(model.touching.reach.same for model in (first, second))
-        return Reach(same, (least - round_about, most - round_about))
+    def graph(self) -> TrainGraph:
+        return self.layout.graph
 
     @property
     def members(self) -> list[list[int]]:
-        """Numbers of its meshes, those together that idlers couple."""
-        return rows_of(self.meshes)
+        """Numbers of its meshes, those together that have a gear in common."""
+        return self.graph.members
 
-    @property
-    def idlers(self) -> list[int]:
-        """Numbers of the meshes whose wheel is an idler."""
-        return [number - 1 for number, mesh in enumerate(self.meshes) if number and mesh.idler is not None]
+    def couplings(self, gear: int) -> list[SharedGear]:
+        """A gear of several meshes in each two of them."""
+        meshes = [mesh for mesh, _ in self.graph.sides[gear]]
+        return [self.layout.shared(gear, *both) for both in combinations(meshes, 2)]
 
-    def key_of_idler(self, mesh: int) -> tuple[Gear, Material, Discretisation, Reach]:
-        """What the section of the idler behind a mesh depends on, gear and material first."""
-        own = self.models[mesh]
-        material = own.scene.gears.material_of(GEARS[1])
-        return own.pair.wheel, material, self.discretisation_of_idler(mesh), self.reach_through(mesh)
+    def reach_of(self, gear: int) -> Reach:
+        """Between which teeth of a gear of several meshes compliance is needed: on its flanks of each mesh, and from
+        one to another."""
+        same = max(self.models[mesh].touching.reach.same for mesh, _ in self.graph.sides[gear])
+        teeth = self.gear(gear).teeth
+        across: list[tuple[int, int]] = []
+        for shared in self.couplings(gear):
+            least, most = self._between(shared)
+            most = min(most, least + teeth - 1)
+            round_about = teeth * round(0.5 * (least + most) / teeth)
+            if shared.mirrored:
+                across.append((least - round_about, most - round_about))
+            else:
+                farthest = max(abs(least - round_about), abs(most - round_about))
+                same = max(same, min(farthest, teeth // 2))
+        if not across:
+            return Reach(same)
+        hull = min(each[0] for each in across), max(each[1] for each in across)
+        return Reach(same, (hull[0], min(hull[1], hull[0] + teeth - 1)))
 
-    def keys_of_idler(self, mesh: int) -> tuple:
-        """What the body of the idler behind a mesh depends on, gear and material first."""
-        over_face = self.models[mesh].scene.three_dimensional
-        solid = self.solid_discretisation_of_idler(mesh) if over_face else None
-        return *self.key_of_idler(mesh), solid
+    def _between(self, shared: SharedGear) -> tuple[int, int]:
+        """Least and largest number of pitches by which a tooth of the first mesh of a shared gear is ahead of one of
+        the second: on opposite flanks as `Reach.across` counts them."""
+        one, other = (_teeth_on(self.models[mesh], side) for mesh, side in zip(shared.meshes, shared.sides))
+        if not shared.mirrored:
+            least, most = one[0] - shared.tooth - other[1], one[1] - shared.tooth - other[0]
+        else:
+            least, most = one[0] - shared.tooth + other[0], one[1] - shared.tooth + other[1]
+        # One further at either end: pairs a step before, and those of a mesh that is ahead by part of a cycle.
+        return least - 1, most + 1
 
-    def discretisation_of_idler(self, mesh: int) -> Discretisation:
-        """How the idler behind a mesh is divided: finer where the tip of either mate may press."""
-        parts = self.models[mesh].resolution.discretisation(1), self.models[mesh + 1].resolution.discretisation(0)
+    def gear(self, gear: int) -> Gear:
+        """A gear by its number."""
+        mesh, side = self.graph.sides[gear][0]
+        return (self.models[mesh].pair.pinion, self.models[mesh].pair.wheel)[side]
+
+    def key_of_shared(self, gear: int) -> tuple[Gear, Material, Discretisation, Reach]:
+        """What the section of a gear of several meshes depends on, gear and material first."""
+        mesh, side = self.graph.sides[gear][0]
+        material = self.models[mesh].scene.gears.material_of(GEARS[side])
+        return self.gear(gear), material, self._discretisation_of(gear), self.reach_of(gear)
+
+    def keys_of_shared(self, gear: int) -> tuple:
+        """What the body of a gear of several meshes depends on, gear and material first."""
+        return *self.key_of_shared(gear), self.solid_discretisation_of(gear) if self.over_face else None
+
+    def _discretisation_of(self, gear: int) -> Discretisation:
+        """How a gear of several meshes is divided: finer where the tip of any mate may press."""
+        parts = [self.models[mesh].resolution.discretisation(side) for mesh, side in self.graph.sides[gear]]
         tips = [part.mate_tip for part in parts if part.mate_tip is not None]
         both = (min(each[0] for each in tips), max(each[1] for each in tips)) if tips else None
         return replace(parts[0], mate_tip=both)
 
-    def solid_discretisation_of_idler(self, mesh: int) -> FaceDiscretisation:
-        """How the body of the idler behind a mesh is divided: in the layers of the mesh that has more."""
-        first = face_discretisation(self.models[mesh], 1)
-        second = face_discretisation(self.models[mesh + 1], 0)
-        return replace(first, layers=max(first.layers, second.layers))
+    def solid_discretisation_of(self, gear: int) -> FaceDiscretisation:
+        """How the body of a gear of several meshes is divided: in the layers of the mesh that has most."""
+        parts = [face_discretisation(self.models[mesh], side) for mesh, side in self.graph.sides[gear]]
+        return replace(parts[0], layers=max(part.layers for part in parts))
 
 
 @dataclass(frozen=True)
@@ -204,10 +222,10 @@ class TrainModel:
         return [*said, *(each for row in self.rows if not row.single for each in row.warnings)]
 
 
-def _indices(model: Model) -> tuple[int, int]:
-    """Least and largest index of a pair that touches in a mesh."""
-    steps = model.touching.steps
-    return model.touching.drive[0] // steps, model.touching.drive[1] // steps
+def _teeth_on(model: Model, side: int) -> tuple[int, int]:
+    """Least and largest place of a tooth of a mesh's pinion (0) or wheel (1) that touches, as `Place.teeth` has it."""
+    first, last = (position // model.touching.steps for position in model.touching.drive)
+    return (first, last) if side == 0 else (-last, -first)
 
 
 def train_model_of(scene: TrainScene) -> TrainModel:

@@ -99,7 +99,9 @@ def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.n
     Where all meshes move together, at all steps: the rotation of the last gear, and of the first one through the
     ratios."""
     if model.scene.shafts.moving:
-        first, last = (np.asarray(meshes[number].variables["rotation"][1]) for number in (0, -1))
+        graph = model.scene.graph
+        ends = graph.out_of(0)[0], graph.into(graph.last)[0]
+        first, last = (np.asarray(meshes[number].variables["rotation"][1]) for number in ends)
         return np.asarray(meshes[0].variables["time"][1]), last[:, 1] + first[:, 0] / model.scene.ratio
     frequencies = [own.scene.motion.mesh_frequency for own in model.models]
     steps = [frequency * each.numbers["steps_per_mesh_cycle"] for frequency, each in zip(frequencies, meshes)]

@@ -45,7 +45,7 @@ SHAFT = '[shafts.one]\ncarries = ["{}"]\ntorsional_stiffness = "1e8 N mm/rad"'
             r"stages.one.bearings.x = 3.*not a known field of \[bearings\]",
         ),
         (stage("one", 2.0, (20, 30), "[stages.one.eccentricity]\nx = 3") + LOAD, "is not yet computed of a stage"),
-        (ROW.replace("[load]", "[stages.row.coast_flanks]\n[load]"), "in rows with idlers"),
+        (ROW.replace("[load]", "[stages.row.coast_flanks]\n[load]"), "where a gear has several mates"),
         (stage("one", 2.0, (20, 30)).replace("teeth = 30", "tooth = 30") + LOAD, "train:7: stages.one.wheel.tooth"),
         (stage("one", 2.0, (20, 30)) + LOAD + "\n[accuracy]\nelements = 3", "accuracy.elements = 3"),
     ],
@@ -58,7 +58,7 @@ def test_mistakes_are_told(text, said):
 
 def test_an_idler_that_both_mates_would_thin_differently_is_refused():
     """Backlash is shared by both gears of a mesh; an idler has one tooth thickness in two meshes."""
-    with pytest.raises(SceneError, match="would thin the teeth of an idler differently"):
+    with pytest.raises(SceneError, match="would thin the teeth of a gear differently"):
         train_from_text(row([24, 31, 40], [0, 60], 100).text.replace("[load]", 'backlash = "0.1 mm"\n[load]', 1))
 
 

@@ -13,7 +13,8 @@ from fenics_gears.results.overall_orders import overall_orders
 from fenics_gears.results.power_flow import PowerFlow, power_flow
 from fenics_gears.results.summary import result_rows
 from fenics_gears.results.train import train_rows
-from fenics_gears.scene.train import MeshOfScene, TrainScene
+from fenics_gears.scene.train import TrainScene
+from fenics_gears.scene.train_mesh import MeshOfScene
 from fenics_gears.system.progress import Progress, SilentProgress
 
 from ..line_load import line_loads
