@@ -22,6 +22,9 @@ from .outline import centreline_angle
 from .pair import GearPair
 from .train_graph import PINION, TrainGraph
 
+# Of phases, in mesh cycles.
+ROUND_OFF = 1e-9
+
 
 @dataclass(frozen=True)
 class SharedGear:
@@ -66,8 +69,7 @@ class Layout:
                 known = {each[0]: each for each in self._links(found)}
                 waiting = bool(known)
                 for mesh, (_, gear, before) in known.items():
-                    ahead = found[before] + self._past(gear, before, mesh)
-                    found[mesh] = ahead - floor(ahead)
+                    found[mesh] = _within_a_cycle(found[before] + self._past(gear, before, mesh))
         return [found[mesh] for mesh in range(len(self.pairs))]
 
     def _links(self, found: dict[int, float]) -> list[tuple[int, int, int]]:
@@ -97,6 +99,11 @@ class Layout:
         ahead = round(self.phases[second] - self.phases[first] - self._past(gear, first, second))
         return SharedGear((first, second), (sides[first], sides[second]), self._sense(gear, first, second) * ahead)
 
+    def gear(self, number: int) -> Gear:
+        """A gear by its number."""
+        mesh, side = self.graph.sides[number][0]
+        return (self.pairs[mesh].pinion, self.pairs[mesh].wheel)[side]
+
     def axes(self, mesh: int) -> np.ndarray:
         """Directions (2, 2), in rows, along and off the line of action of a mesh."""
         sense = self.graph.sense(mesh)
@@ -108,7 +115,7 @@ class Layout:
         """Where the centreline of a tooth of a gear stands as the run begins, rad counter-clockwise."""
         mesh, side = self.graph.sides[gear][0]
         sense = self.graph.sense(mesh)
-        own = self.pairs[mesh].pinion if side == PINION else self.pairs[mesh].wheel
+        own = self.gear(gear)
         turned = (1.0 if side == PINION else -1.0) * own.angular_pitch * self.phases[mesh]
         # From the frame of a tooth to its centreline.
         return sense * (self._tooth_at_start(mesh, side, sense, False) + turned + centreline_angle(own))
@@ -127,9 +134,7 @@ class Layout:
         sense = self.graph.sense(first)
         tooth = self._tooth_at_start(first, sides[first], sense, False)
         there = self._tooth_at_start(second, sides[second], sense, mirrored)
-        pair = self.pairs[first]
-        teeth = (pair.pinion, pair.wheel)[sides[first]].teeth
-        return self._sense(gear, first, second) * (tooth - there) * teeth / (2.0 * pi)
+        return self._sense(gear, first, second) * (tooth - there) / self.gear(gear).angular_pitch
 
     def _tooth_at_start(self, mesh: int, side: int, sense: int, mirrored: bool) -> float:
         """Angle (rad) of the frame of a tooth at the start of contact of a mesh, in a frame that is the mirror image of
@@ -148,6 +153,11 @@ class Layout:
         if mirrored:
             return to_mate + pair.operating_pressure_angle - 2.0 * centreline_angle(gear) - 0.5 * pi - roll
         return to_mate - pair.operating_pressure_angle + 0.5 * pi + roll
+
+
+def _within_a_cycle(phase: float) -> float:
+    """The part of a phase beyond whole cycles; round-off does not part meshes that are at the same place."""
+    return 0.0 if abs(phase - round(phase)) < ROUND_OFF else phase - floor(phase)
 
 
 def check_apart(one: Gear, other: Gear, distance: float, words: str) -> None:

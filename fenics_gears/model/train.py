@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import combinations
 from math import ceil
 from typing import TYPE_CHECKING
 
@@ -25,19 +24,20 @@ from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
-from fenics_gears.geometry.gear_train import Layout, SharedGear
-from fenics_gears.geometry.train_graph import TrainGraph
+from fenics_gears.geometry.gear_train import Layout
+from fenics_gears.geometry.train_graph import PINION, WHEEL, TrainGraph
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.scene.data import Motion
+from fenics_gears.scene.data import Load, Motion
 from fenics_gears.scene.train import TrainScene
-from fenics_gears.scene.train_mesh import MeshOfScene, layout_of, rows_of
+from fenics_gears.scene.train_mesh import MeshOfScene, gear_names, layout_of, rows_of
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import mesh_stiffness
 from .face_resolution import face_discretisation
 from .model import Model, model_of
-from .train_parts import check_supports, parts_of, whole_steps
+from .shared_gears import reach_of
+from .train_parts import check_supports, parts_of, whole_steps, whole_torques
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
@@ -131,52 +131,15 @@ class RowModel:
         """Numbers of its meshes, those together that have a gear in common."""
         return self.graph.members
 
-    def couplings(self, gear: int) -> list[SharedGear]:
-        """A gear of several meshes in each two of them."""
-        meshes = [mesh for mesh, _ in self.graph.sides[gear]]
-        return [self.layout.shared(gear, *both) for both in combinations(meshes, 2)]
-
-    def reach_of(self, gear: int) -> Reach:
-        """Between which teeth of a gear of several meshes compliance is needed: on its flanks of each mesh, and from
-        one to another."""
-        same = max(self.models[mesh].touching.reach.same for mesh, _ in self.graph.sides[gear])
-        teeth = self.gear(gear).teeth
-        across: list[tuple[int, int]] = []
-        for shared in self.couplings(gear):
-            least, most = self._between(shared)
-            most = min(most, least + teeth - 1)
-            round_about = teeth * round(0.5 * (least + most) / teeth)
-            if shared.mirrored:
-                across.append((least - round_about, most - round_about))
-            else:
-                farthest = max(abs(least - round_about), abs(most - round_about))
-                same = max(same, min(farthest, teeth // 2))
-        if not across:
-            return Reach(same)
-        hull = min(each[0] for each in across), max(each[1] for each in across)
-        return Reach(same, (hull[0], min(hull[1], hull[0] + teeth - 1)))
-
-    def _between(self, shared: SharedGear) -> tuple[int, int]:
-        """Least and largest number of pitches by which a tooth of the first mesh of a shared gear is ahead of one of
-        the second: on opposite flanks as `Reach.across` counts them."""
-        one, other = (_teeth_on(self.models[mesh], side) for mesh, side in zip(shared.meshes, shared.sides))
-        if not shared.mirrored:
-            least, most = one[0] - shared.tooth - other[1], one[1] - shared.tooth - other[0]
-        else:
-            least, most = one[0] - shared.tooth + other[0], one[1] - shared.tooth + other[1]
-        # One further at either end: pairs a step before, and those of a mesh that is ahead by part of a cycle.
-        return least - 1, most + 1
-
     def gear(self, gear: int) -> Gear:
         """A gear by its number."""
-        mesh, side = self.graph.sides[gear][0]
-        return (self.models[mesh].pair.pinion, self.models[mesh].pair.wheel)[side]
+        return self.layout.gear(gear)
 
     def key_of_shared(self, gear: int) -> tuple[Gear, Material, Discretisation, Reach]:
         """What the section of a gear of several meshes depends on, gear and material first."""
         mesh, side = self.graph.sides[gear][0]
         material = self.models[mesh].scene.gears.material_of(GEARS[side])
-        return self.gear(gear), material, self._discretisation_of(gear), self.reach_of(gear)
+        return self.gear(gear), material, self._discretisation_of(gear), reach_of(self.models, self.layout, gear)
 
     def keys_of_shared(self, gear: int) -> tuple:
         """What the body of a gear of several meshes depends on, gear and material first."""
@@ -222,12 +185,6 @@ class TrainModel:
         return [*said, *(each for row in self.rows if not row.single for each in row.warnings)]
 
 
-def _teeth_on(model: Model, side: int) -> tuple[int, int]:
-    """Least and largest place of a tooth of a mesh's pinion (0) or wheel (1) that touches, as `Place.teeth` has it."""
-    first, last = (position // model.touching.steps for position in model.touching.drive)
-    return (first, last) if side == 0 else (-last, -first)
-
-
 def train_model_of(scene: TrainScene) -> TrainModel:
     """The model of a train. Raises SceneError for what trains do not have yet, and as `model_of` of each mesh."""
     rows = []
@@ -249,9 +206,14 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
     cycles = meshes[0].scene.motion.mesh_cycles
     parts = parts_of(meshes, shafts)
     sizes = _flank_sizes(meshes, models)
+    wholes = whole_torques(parts.layout, parts.torque)
     found = []
     for number, (mesh, own, size) in enumerate(zip(meshes, steps, sizes)):
         accuracy = replace(mesh.scene.accuracy, steps_per_mesh_cycle=own, flank_element_size=size)
+        if parts.graph.in_loop(number):
+            # It may have to carry what all paths do together.
+            loaded = model_of(replace(mesh.scene, accuracy=accuracy, load=Load(wholes[number]), inertia=None))
+            accuracy = replace(accuracy, contact_length=loaded.resolution.contact_grid.length)
         passed = ceil(cycles * max(steps) / own)
         recorded = min(ceil(recorded_cycles * max(steps) / own), passed)
         motion = Motion(mesh.scene.motion.mesh_frequency, passed, recorded, True, mesh.scene.motion.speed_given)
@@ -277,6 +239,15 @@ def _flank_sizes(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> list
 
 def _check(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> None:
     """Raise SceneError for what meshes that move together do not have yet."""
+    layout = layout_of(meshes)
+    names = gear_names(meshes)
+    for gear in layout.graph.shared if models[0].scene.three_dimensional else ():
+        if [side for _, side in layout.graph.sides[gear]] != [WHEEL, PINION]:
+            raise SceneError(
+                f"{names[gear]}: over the face a gear is so far computed in one mesh, or as an idler, driven in one and"
+                " then driving in another. Allowed: several mates of spur gears without sections of the face."
+                f" {NOTHING_DONE}"
+            )
     in_rows = [models[number] for row in rows_of(meshes) if len(row) > 1 for number in row]
     for model in in_rows:
         if model.pair.effective_face_widths != (model.pair.face_width,) * 2:

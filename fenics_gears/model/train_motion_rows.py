@@ -35,8 +35,10 @@ def motion_rows(row: RowModel) -> Rows:
 
 
 def frequency_rows(row: RowModel) -> Rows:
-    """Each natural frequency with the steps that a period has, and what moves most."""
+    """Each natural frequency with the steps that a period has, and what moves most; none without inertia."""
     rows: Rows = []
+    if not row.vibrations:
+        return rows
     time_step = row.models[0].time_step
     for number, (vibration, moving) in enumerate(zip(row.vibrations, _moving_most(row)), 1):
         damping = vibration.damping_ratio

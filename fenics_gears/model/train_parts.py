@@ -10,6 +10,7 @@ import numpy as np
 
 from fenics_gears.dynamics.train import TrainParts, coordinates_of_mesh
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.train_graph import turns_of_shafts
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
@@ -57,6 +58,12 @@ def offsets_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> list[np.nd
             own[names.index(f"rotation_{side + 1}")] = sign * mesh.pair.base_radii[side] * ahead.get(gear, 0.0)
         found.append(own)
     return found
+
+
+def whole_torques(layout: Layout, output: float) -> list[float]:
+    """Torque (N mm) on the wheel of each mesh without losses, as if it alone drove its shaft."""
+    turns = turns_of_shafts(layout.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in layout.pairs])
+    return [output * float(turns[-1] / turns[driven]) for _, driven in layout.graph.between]
 
 
 def _support(scene: Scene, gear: str) -> tuple[float, float] | None:

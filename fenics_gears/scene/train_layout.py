@@ -26,13 +26,8 @@ def check_layout(layout: Layout, names: Sequence[str], gears: Sequence[str], sou
     for said in _wrong(layout, names, gears):
         raise GeometryError(f"{source}: {said} {NOTHING_DONE}")
     for one, other, distance in _not_meshing(layout):
-        sizes = _gear(layout, one), _gear(layout, other)
+        sizes = layout.gear(one), layout.gear(other)
         check_apart(*sizes, distance, f"{source}: gears {gears[one]} and {gears[other]}")
-
-
-def _gear(layout: Layout, number: int):
-    mesh, side = layout.graph.sides[number][0]
-    return (layout.pairs[mesh].pinion, layout.pairs[mesh].wheel)[side]
 
 
 def _wrong(layout: Layout, names: Sequence[str], gears: Sequence[str]) -> Iterator[str]:

@@ -19,6 +19,7 @@ from fenics_gears.elasticity.face_compliance_data import IdlerCompliance
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
+from fenics_gears.model.shared_gears import couplings
 from fenics_gears.model.train import RowModel
 from fenics_gears.system.progress import Progress
 
@@ -37,7 +38,7 @@ def row_cycle_over_face(
         meshes.append(MeshOfRow(_cycle(own, both, phase), coordinates, offset))
     coupled = []
     for gear, body in idlers.items():
-        (shared,) = row.couplings(gear)
+        (shared,) = couplings(row.layout, gear)
         first, second = (meshes[mesh].cycle for mesh in shared.meshes)
         sides = (first.pair.sides[1], first.face), (second.pair.sides[0], second.face)
         coupled.append(idler_over_face(BetweenMeshes(row.gear(gear).teeth, shared), body, sides))

@@ -25,6 +25,7 @@ from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.errors import ComputationError
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
+from fenics_gears.model.shared_gears import couplings
 from fenics_gears.model.train import RowModel, TrainModel, train_model_of
 from fenics_gears.model.train_cost import row_cost, row_too_large
 from fenics_gears.model.train_parts import offsets_of
@@ -180,7 +181,7 @@ def _row_in_plane(
     coupled = [
         GearInPlane(row.gear(gear).teeth, shared, bodies[gear].section, row.models[shared.meshes[0]].pair.face_width)
         for gear in row.graph.shared
-        for shared in row.couplings(gear)
+        for shared in couplings(row.layout, gear)
     ]
     meshes = []
     for own, gears, phase, (coordinates, offset) in zip(row.models, row.graph.gears, row.layout.phases, placed):
@@ -231,7 +232,16 @@ def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:
         normal = nodes + np.repeat(steps.starts[:-1], counts)
         both = np.concatenate([normal, normal + np.repeat(np.diff(steps.starts), counts)])
         forces = step_by_step(both, np.cumsum(counts) - counts, counts)
+    states = steps.states @ mesh.coordinates.T
+    displacement = steps.displacement[forces]
+    if mesh.offset is not None and mesh.offset.any():
+        # Of its own gears the second one on a shaft stands ahead, and its flanks have the gaps of its pair.
+        states[:, 0] += mesh.offset
+        ends = np.cumsum(counts)
+        for position, end, count in zip(positions, ends, counts):
+            start = steps.kinds * (end - count)
+            displacement[start : start + count] += position.operator.jacobian[:count] @ mesh.offset
     return Steps(
-        steps.numbers, positions, steps.states @ mesh.coordinates.T, steps.forces[forces], steps.displacement[forces],
-        steps.status[nodes], steps.iterations, steps.methods,
+        steps.numbers, positions, states, steps.forces[forces], displacement, steps.status[nodes], steps.iterations,
+        steps.methods,
     )  # fmt: skip

@@ -11,6 +11,7 @@ from typing import Any
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
+from fenics_gears.model.loop_rows import loop_rows
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of
 from fenics_gears.model.train_cost import row_too_large, train_cost
@@ -82,6 +83,8 @@ def check_train(scene: TrainScene) -> int:
     print(f"{scene.title}\n")
     print_rows("Train", _train_rows(model))
     print_rows("Shafts", list(_shaft_rows(model)))
+    if scene.graph.loops:
+        print_rows("Loops of meshes", loop_rows(scene))
     for row in model.rows:
         for mesh, own, phase in zip(row.meshes, row.models, row.layout.phases):
             print_rows(f"Mesh {mesh.name}", _mesh_rows(mesh, own, phase))

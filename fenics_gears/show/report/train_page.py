@@ -39,7 +39,7 @@ def train_page(dataset: xr.Dataset, file: Path, progress: Progress | None = None
     train = carried_train(dataset)
     flow = power_flow(dataset, train)
     sections = [
-        _summary(dataset, train, flow), warnings(ShownRun(dataset)), _geometry(train), _power(flow),
+        _summary(dataset, train, flow), warnings(ShownRun(dataset)), _geometry(train), _power(flow, train),
         PageSection("motion", "Transmission error", errors(train, dataset)), _orders(dataset, train),
         *_frequencies(train),
     ]  # fmt: skip
@@ -115,15 +115,15 @@ def _of_mesh(mesh: MeshOfScene) -> tuple[str, ...]:
     )  # fmt: skip
 
 
-def _power(flow: PowerFlow) -> PageSection:
+def _power(flow: PowerFlow, train: TrainScene) -> PageSection:
     rows = [
         (
             f"shaft {number}",
-            "counter-clockwise" if number % 2 else "clockwise",
+            "counter-clockwise" if sense > 0 else "clockwise",
             digits(each.torque * factor("N mm", "N m")),
             *((digits(60.0 * each.speed), digits(1e-6 * each.power)) if flow.speed_given else ()),
         )
-        for number, each in enumerate(flow.shafts, 1)
+        for number, (each, sense) in enumerate(zip(flow.shafts, train.graph.senses), 1)
     ]
     of_speed = ("Speed (rpm)", "Power (kW)") if flow.speed_given else ()
     headings = ("Shaft", "Turns", "Torque (N m)", *of_speed)
