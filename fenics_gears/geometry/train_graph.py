@@ -18,11 +18,12 @@ PINION, WHEEL = 0, 1
 class TrainGraph:
     """Meshes between shafts. `gears`: of each mesh the numbers of its pinion and its wheel; `shafts`: of each gear the
     number of its shaft. Shafts are numbered from the driven one, 0, to that of the load, the last one, so that each
-    mesh leads to a higher number. `first_sense`: how the first one turns, 1 counter-clockwise, -1 clockwise."""
+    mesh leads to a higher number. `turning`: how each turns, 1 counter-clockwise, -1 clockwise; unless given the first
+    one counter-clockwise, and gears that mesh against each other."""
 
     gears: tuple[tuple[int, int], ...]
     shafts: tuple[int, ...]
-    first_sense: int = 1
+    turning: tuple[int, ...] = ()
 
     @property
     def last(self) -> int:
@@ -79,12 +80,14 @@ class TrainGraph:
         return self.between == [(mesh, mesh + 1) for mesh in range(len(self.gears))]
 
     @cached_property
-    def senses(self) -> list[int]:
-        """How each shaft turns, as `first_sense`. Gears with outer teeth turn against each other."""
-        found = [self.first_sense] * (self.last + 1)
+    def senses(self) -> Sequence[int]:
+        """How each shaft turns, as `turning` has it."""
+        if self.turning:
+            return self.turning
+        found = {0: 1}
         for driving, driven in sorted(self.between):
-            found[driven] = -found[driving]
-        return found
+            found.setdefault(driven, -found[driving])
+        return [found[shaft] for shaft in range(self.last + 1)]
 
     def sense(self, mesh: int) -> int:
         """How the pinion of a mesh turns, whose frame is the mirror image where this is -1."""
@@ -94,13 +97,6 @@ class TrainGraph:
     def members(self) -> list[list[int]]:
         """Numbers of meshes, those together in which one gear stands."""
         return [list(each) for each in groups(range(len(self.gears)), [[m for m, _ in own] for own in self.sides])]
-
-    def of(self, meshes: Sequence[int]) -> TrainGraph:
-        """The part of some meshes, its gears and shafts numbered anew in their order."""
-        kept = sorted({gear for mesh in meshes for gear in self.gears[mesh]})
-        shafts = sorted({self.shafts[gear] for gear in kept})
-        of_meshes = tuple((kept.index(pinion), kept.index(wheel)) for pinion, wheel in (self.gears[m] for m in meshes))
-        return TrainGraph(of_meshes, tuple(shafts.index(self.shafts[gear]) for gear in kept), self.senses[shafts[0]])
 
     @cached_property
     def cuts(self) -> list[list[int]]:

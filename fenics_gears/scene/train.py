@@ -16,7 +16,7 @@ from math import pi
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.errors import SceneError
+from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.geometry.train_graph import TrainGraph, turns_of_shafts
@@ -28,7 +28,7 @@ from fenics_gears.inputs.written import as_written
 from .data import Load, Motion, Scene
 from .parsing import is_train, name_of, parsed, text_of
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
-from .train_layout import check_layout
+from .train_layout import check_cut_alike, check_layout
 from .train_mesh import MeshOfScene, gear_names, layout_of, rows_of
 from .train_pair import MistakesOfStage, TrainMistakes, check_together, in_stage, pair_scene
 from .train_rules import OF_A_STAGE, SHARED, TrainSections, checked_train
@@ -159,6 +159,7 @@ def _meshes_of(tree: Mapping[str, Any], sections: TrainSections, source: str, fo
     together = [number for own in graph.members if len(own) > 1 for number in own]
     for number in range(len(named)) if sections.shafts.moving else together:
         check_together(scenes[number], f"{source}, {named[number].name}")
+    check_cut_alike(named, scenes, graph, source)
     for gear in graph.shared:
         # It has one tip circle: the lowest of those that its mates leave room for.
         sides = graph.sides[gear]
@@ -173,8 +174,11 @@ def _meshes_of(tree: Mapping[str, Any], sections: TrainSections, source: str, fo
     for number, (mesh, scene) in enumerate(zip(named, scenes)):
         both = shafts[mesh.gears[0]], shafts[mesh.gears[1]]
         direction = _direction(mesh, stages[mesh.stage], source)
-        own = MeshOfScene(mesh.name, scene, gear_pair(scene.gears), direction, mesh.gears, both, graph.sense(number))
-        found.append(own)
+        try:
+            pair = gear_pair(scene.gears)
+        except GeometryError as error:
+            raise GeometryError(f"{source}, stage {mesh.stage}: {error}") from error
+        found.append(MeshOfScene(mesh.name, scene, pair, direction, mesh.gears, both, graph.sense(number)))
     return found
 
 

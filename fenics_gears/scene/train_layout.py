@@ -10,10 +10,13 @@ from math import pi
 
 import numpy as np
 
-from fenics_gears.errors import GeometryError
+from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.gear_train import Layout, check_apart
-from fenics_gears.geometry.train_graph import turns_of_shafts
+from fenics_gears.geometry.train_graph import TrainGraph, turns_of_shafts
 from fenics_gears.inputs.problem import NOTHING_DONE
+
+from .data import Scene
+from .train_topology import NamedMesh
 
 # Centres may be so far from where two paths have them, in modules, and pairs from their places, in mesh cycles: what is
 # left of directions with few digits.
@@ -28,6 +31,20 @@ def check_layout(layout: Layout, names: Sequence[str], gears: Sequence[str], sou
     for one, other, distance in _not_meshing(layout):
         sizes = layout.gear(one), layout.gear(other)
         check_apart(*sizes, distance, f"{source}: gears {gears[one]} and {gears[other]}")
+
+
+def check_cut_alike(meshes: Sequence[NamedMesh], scenes: Sequence[Scene], graph: TrainGraph, source: str) -> None:
+    """Raise SceneError for a gear in several meshes that these have cut by different racks."""
+    for gear in graph.shared:
+        (first, side), *others = graph.sides[gear]
+        for mesh, _ in others:
+            for name in ("module", "pressure_angle", "helix_angle"):
+                here, there = (getattr(scenes[each].gears, name) for each in (mesh, first))
+                if here != there:
+                    raise SceneError(
+                        f"{source}: stages.{meshes[mesh].stage}.{name}: gear {meshes[first].gears[side]} has another"
+                        f" {name} in {meshes[first].name}. Allowed: one, for it is one gear. {NOTHING_DONE}"
+                    )
 
 
 def _wrong(layout: Layout, names: Sequence[str], gears: Sequence[str]) -> Iterator[str]:

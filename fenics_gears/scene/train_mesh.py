@@ -37,11 +37,11 @@ def layout_of(meshes: Sequence[MeshOfScene]) -> Layout:
     names = gear_names(meshes)
     of_gear = {name: shaft for mesh in meshes for name, shaft in zip(mesh.gears, mesh.shafts)}
     shafts = sorted({*of_gear.values()})
-    first = min(meshes, key=lambda mesh: mesh.shafts[0])
+    turning = {shaft: sense for mesh in meshes for shaft, sense in zip(mesh.shafts, (mesh.sense, -mesh.sense))}
     graph = TrainGraph(
         tuple((names.index(mesh.gears[0]), names.index(mesh.gears[1])) for mesh in meshes),
         tuple(shafts.index(of_gear[name]) for name in names),
-        first.sense,
+        tuple(turning[shaft] for shaft in shafts),
     )
     return Layout(graph, [mesh.pair for mesh in meshes], [mesh.direction for mesh in meshes])
 

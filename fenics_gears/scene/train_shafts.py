@@ -142,15 +142,15 @@ def _wrong_carries(sections: Mapping[str, TrainShaft], stages: Mapping[str, Any]
     carried: dict[str, str] = {}
     for name, shaft in sections.items():
         place = ("shafts", name, "carries")
-        written = as_written(list(shaft.carries))
-        unknown = next((gear for gear in shaft.carries if gear not in declared), None)
-        if unknown is not None or not shaft.carries:
-            meant = "" if unknown is None else did_you_mean(unknown, declared)
-            said = f"are not the gears of one shaft.{meant} {_by_order(stages)}"
-            yield Problem(place, written, said)
+        if not shaft.carries:
+            yield Problem(place, "[]", f"names no gear. {_by_order(stages)}")
+        for gear in shaft.carries:
+            if gear not in declared:
+                said = f"is no gear of this train.{did_you_mean(gear, declared)} {_by_order(stages)}"
+                yield Problem(place, f'"{gear}"', said)
         for gear in shaft.carries:
             if gear in carried:
-                yield Problem(place, written, f'"{gear}" is on [shafts.{carried[gear]}] already.')
+                yield Problem(place, f'"{gear}"', f"is on the shaft of [shafts.{carried[gear]}] already.")
             carried[gear] = name
 
 
@@ -174,7 +174,7 @@ def _put(
         looped = [gear for gear in gears if any(graph.in_loop(mesh) for mesh, _ in graph.sides[gear])]
         if len(gears) != 2 or looped != gears:
             said = "is not of a shaft with two gears in a loop of meshes, where it moves load. Leave it out."
-            yield Problem(("shafts", name, "clocking"), f"{shaft.clocking:g} rad", said)
+            yield Problem(("shafts", name, "clocking"), f'"{shaft.clocking:g} rad"', said)
         clocking[number] = shaft.clocking
 
 

@@ -115,7 +115,8 @@ def shafts_by_order(stages: Mapping[str, Any], carried: Iterable[Sequence[str]] 
         for place, (name, written) in enumerate(gears):
             if not _declared(written) or name in taken:
                 continue
-            if place == 0 and last is not None and last not in taken:
+            # A gear that the stage names again meshes here: it is not on a shaft with its mate.
+            if place == 0 and last is not None and last not in taken and last not in map(str, dict(gears).values()):
                 next(each for each in shafts if last in each).append(name)
             else:
                 shafts.append([name])
@@ -183,6 +184,7 @@ def _wrong_senses(meshes: Sequence[NamedMesh], graph: TrainGraph) -> Iterator[st
                 f"the loop that {mesh.name} closes locks: both of its gears, {_quoted(mesh.gears)}, would turn the same"
                 " way. Gears that mesh turn against each other, so that a loop has an even number of meshes."
             )
+            return
 
 
 def _quoted(names: Iterable[str]) -> str:

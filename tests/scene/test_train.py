@@ -26,7 +26,10 @@ SHAFT = '[shafts.one]\ncarries = ["{}"]\ntorsional_stiffness = "1e8 N mm/rad"'
         (f"{TWO}{LOAD}\n[damping]\nratio = 0.1", r"needs the section \[inertia\]"),
         (f"{TWO}{LOAD}\n[damping]\nratio = 0.1\n[damping.pinion]", "is of a pair. Allowed: one damping"),
         (f"{TWO}{LOAD}\n[shafts]\nstiff = 3", r"sections \[shafts.NAME\]"),
-        (f"{TWO}{LOAD}\n{SHAFT.format('first.weel')}", 'are not the gears of one shaft. Did you mean "first.wheel"'),
+        (
+            f"{TWO}{LOAD}\n{SHAFT.format('first.weel')}",
+            '"first.weel"\n    is no gear of this train. Did you mean "first.wheel"',
+        ),
         (f"{TWO}{LOAD}\n{SHAFT.format('first.wheel')}", 'carry: "first.pinion"; "first.wheel", "second.pinion"; "sec'),
         (
             f"{TWO}{LOAD}\n{DENSITY}{SHAFT.format('second.wheel')}\n{MOVING}",

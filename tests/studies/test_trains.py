@@ -103,7 +103,7 @@ def test_a_row_is_condensed_idler_and_all(gearbox):
     turned = study_of(
         text.replace("gears.2.profile_shift = [0, 0.1]", 'directions = [["0 deg", "60 deg"], ["0 deg", "61 deg"]]')
     )
-    assert [task.name for task in gear_tasks(turned.cases[:1])] == ["pinion", "wheel", "idler of row: gears 1 and 2"]
+    assert [task.name for task in gear_tasks(turned.cases[:1])] == ["pinion", "row.2", "wheel"]
     assert turned.axes[0].coordinate()[0] == '["0 deg", "60 deg"]'
 
 
