@@ -1,14 +1,25 @@
-"""Gears of a train that stand in several meshes: between which of their teeth compliance is needed."""
+"""Gears of a train that stand in several meshes: between which of their teeth compliance is needed, and what their
+meshes must have alike."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations
 
+import numpy as np
+
 from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear_train import Layout, SharedGear
+from fenics_gears.geometry.train_graph import PINION, WHEEL
+from fenics_gears.inputs.problem import NOTHING_DONE
+from fenics_gears.inputs.tree import GEARS
 
 from .model import Model
+
+# Reliefs (mm) of one flank that two meshes may have differently, and places along it that are compared.
+ROUND_OFF = 1e-9
+PLACES = 101
 
 
 def couplings(layout: Layout, gear: int) -> list[SharedGear]:
@@ -54,3 +65,48 @@ def _teeth_on(model: Model, side: int) -> tuple[int, int]:
     """Least and largest place of a tooth of a mesh's pinion (0) or wheel (1) that touches, as `Place.teeth` has it."""
     first, last = (position // model.touching.steps for position in model.touching.drive)
     return (first, last) if side == 0 else (-last, -first)
+
+
+def check_shared(layout: Layout, models: Sequence[Model], gears: Sequence[str], meshes: Sequence[str]) -> None:
+    """Raise SceneError for gears in several meshes that these describe differently, or that are not computed yet; names
+    of all `gears` and `meshes`."""
+    for gear in layout.graph.shared:
+        sides = layout.graph.sides[gear]
+        if models[0].scene.three_dimensional and [side for _, side in sides] != [WHEEL, PINION]:
+            raise SceneError(
+                f"{gears[gear]}: over the face a gear is so far computed in one mesh, or as an idler, driven in one and"
+                f" then driving in another. Allowed: several mates of spur gears in the plane. {NOTHING_DONE}"
+            )
+        _check_alike(models, gears[gear], [(mesh, side, meshes[mesh]) for mesh, side in sides])
+
+
+def _check_alike(models: Sequence[Model], gear: str, sides: Sequence[tuple[int, int, str]]) -> None:
+    """A gear in all its meshes, by their numbers, what it is in them, and their names."""
+    (first, side, name), *others = sides
+    one = models[first]
+    for mesh, other_side, other_name in others:
+        other = models[mesh]
+        widths = {each.pair.face_width for each in (one, other)}
+        widths |= {width for each in (one, other) for width in each.pair.effective_face_widths}
+        if len(widths) > 1:
+            raise SceneError(
+                f"{gear}: gears that are not equally wide are not yet computed in {name} and {other_name}, which have"
+                f" it in common. Allowed: one face_width for both. {NOTHING_DONE}"
+            )
+        materials = [each.scene.gears.material_of(GEARS[at]) for each, at in ((one, side), (other, other_side))]
+        if materials[0] != materials[1]:
+            raise SceneError(f"{gear}: has another material in {other_name} than in {name}. {NOTHING_DONE}")
+        if side == other_side and (apart := _reliefs_apart(one, other, side)) > ROUND_OFF:
+            raise SceneError(
+                f"{gear}: {name} and {other_name} load the same flanks of it, but their reliefs differ by up to"
+                f" {1e3 * apart:.3g} um. Allowed: one shape in both, with starts that do not depend on the mate."
+                f" {NOTHING_DONE}"
+            )
+
+
+def _reliefs_apart(one: Model, other: Model, side: int) -> float:
+    """The largest difference (mm) of what is removed from a flank of a gear in two meshes."""
+    gear = (one.pair.pinion, one.pair.wheel)[side]
+    rolls = np.linspace(gear.form_roll_angle, gear.tip_roll_angle, PLACES)
+    removed = [np.zeros(PLACES) if each.removal[side] is None else each.removal[side](rolls) for each in (one, other)]
+    return float(np.abs(removed[1] - removed[0]).max())

@@ -25,7 +25,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.gear_train import Layout
-from fenics_gears.geometry.train_graph import PINION, WHEEL, TrainGraph
+from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Load, Motion
@@ -36,7 +36,7 @@ from fenics_gears.scene.train_shafts import TrainShafts
 from .drivetrain import mesh_stiffness
 from .face_resolution import face_discretisation
 from .model import Model, model_of
-from .shared_gears import reach_of
+from .shared_gears import check_shared, reach_of
 from .train_parts import check_supports, parts_of, whole_steps, whole_torques
 
 if TYPE_CHECKING:
@@ -239,22 +239,7 @@ def _flank_sizes(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> list
 
 def _check(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> None:
     """Raise SceneError for what meshes that move together do not have yet."""
-    layout = layout_of(meshes)
-    names = gear_names(meshes)
-    for gear in layout.graph.shared if models[0].scene.three_dimensional else ():
-        if [side for _, side in layout.graph.sides[gear]] != [WHEEL, PINION]:
-            raise SceneError(
-                f"{names[gear]}: over the face a gear is so far computed in one mesh, or as an idler, driven in one and"
-                " then driving in another. Allowed: several mates of spur gears without sections of the face."
-                f" {NOTHING_DONE}"
-            )
-    in_rows = [models[number] for row in rows_of(meshes) if len(row) > 1 for number in row]
-    for model in in_rows:
-        if model.pair.effective_face_widths != (model.pair.face_width,) * 2:
-            raise SceneError(
-                "gears of a row that are not equally wide are not yet computed. Allowed: one face_width for the row."
-                f" {NOTHING_DONE}"
-            )
+    check_shared(layout_of(meshes), models, gear_names(meshes), [mesh.name for mesh in meshes])
     coefficients = {model.friction_coefficient for model in models}
     if len(coefficients) > 1:
         raise SceneError(
