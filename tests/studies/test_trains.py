@@ -171,7 +171,7 @@ def test_two_processes_give_what_one_gives(gearbox):
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_studies_sweep_the_clocking_of_a_shaft(gearbox):
+def test_studies_sweep_the_clocking_of_a_shaft(gearbox, capsys):
     """Two equal paths: turned back and ahead by the same angle, one has what the other has; a study has the shares."""
     Path("split.toml").write_text(split_text(of_shaft='clocking = "0 rad"'))
     sweep = 'scene = "split.toml"\n[sweep]\nshafts.path2.clocking = ["-2e-4 rad", "0 rad", "2e-4 rad"]\n'
@@ -182,3 +182,6 @@ def test_studies_sweep_the_clocking_of_a_shaft(gearbox):
     assert ahead == pytest.approx(1.0 - back, rel=1e-3)
     assert ahead[[1, 3]] == pytest.approx(ahead[1], rel=1e-9)
     assert ahead[1] > 0.52
+    Path("study.toml").write_text(sweep.replace("shafts.path2.clocking", "stages.in2.pinion.teeth"))
+    assert main(["study", "study.toml", "--quiet"]) != 0
+    assert "this is the gear in1.pinion of another stage" in capsys.readouterr().err
