@@ -110,7 +110,8 @@ def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.n
     frequencies = [own.scene.motion.mesh_frequency for own in model.models]
     steps = [frequency * each.numbers["steps_per_mesh_cycle"] for frequency, each in zip(frequencies, meshes)]
     cycles = model.models[0].scene.motion.mesh_cycles
-    times = np.arange(int(np.ceil(cycles * max(steps) / min(frequencies))) + 1) / max(steps)
+    # Of a whole number round-off makes no step more.
+    times = np.arange(int(np.ceil(cycles * max(steps) / min(frequencies) - 1e-9)) + 1) / max(steps)
     cycles_of = [(times * frequency, each.cycle) for frequency, each in zip(frequencies, meshes)]
     lags = (
         np.interp(phase * len(curve), np.arange(len(curve)), curve, period=len(curve)) for phase, curve in cycles_of

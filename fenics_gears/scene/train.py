@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property, partial
 from math import pi
 from pathlib import Path
@@ -127,8 +128,11 @@ def train_from_text(
 
 def turns_of(layout: Layout) -> list[float]:
     """Turns of each shaft in one turn of the first, in either sense."""
-    turns = turns_of_shafts(layout.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in layout.pairs])
-    return list(map(float, turns))
+    return list(map(float, exact_turns(layout)))
+
+
+def exact_turns(layout: Layout) -> list[Fraction]:
+    return turns_of_shafts(layout.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in layout.pairs])
 
 
 def train_of(tree: Mapping[str, Any], text: str, name: str, source: str, folder: Path) -> TrainScene:
@@ -226,9 +230,12 @@ def _completed(title: str, name: str, text: str, meshes: Sequence[MeshOfScene], 
     layout = layout_of(meshes)
     graph = layout.graph
     turns = turns_of(layout)
+    exact = exact_turns(layout)
     speed = motion.input_speed
     # Without a speed a cycle of the first mesh that the first shaft drives takes a second.
-    driving = 2.0 * pi * NOMINAL_FREQUENCY / meshes[graph.out_of(0)[0]].pair.pinion.teeth if speed is None else speed
+    first = meshes[graph.out_of(0)[0]].pair.pinion.teeth
+    of_first = NOMINAL_FREQUENCY if speed is None else speed / (2.0 * pi) * first
+    driving = 2.0 * pi * of_first / first
     if load.output_torque is not None:
         output = load.output_torque
     elif load.input_torque is not None:
@@ -239,7 +246,8 @@ def _completed(title: str, name: str, text: str, meshes: Sequence[MeshOfScene], 
     torques = even_torques(layout, output)
     found: list[MeshOfScene] = []
     for number, mesh in enumerate(meshes):
-        frequency = driving * turns[graph.between[number][0]] / (2.0 * pi) * mesh.pair.pinion.teeth
+        # Meshes of one gear have one frequency to the last digit.
+        frequency = of_first * float(exact[graph.between[number][0]] * mesh.pair.pinion.teeth / first)
         moving = Motion(frequency, cycles, cycles, False, speed is not None)
         found.append(replace(mesh, scene=replace(mesh.scene, load=Load(torques[number]), motion=moving)))
     recorded = min(motion.recorded_cycles or LAST_CYCLES, cycles)

@@ -86,3 +86,9 @@ def test_an_idler_does_not_twist():
     text = row([24, 31, 40], [0, 60], 100).text
     with pytest.raises(SceneError, match="is of an idler"):
         train_from_text(f"{text}\n{SHAFT.format('row.2')}")
+
+
+def test_meshes_of_a_row_have_one_frequency():
+    """To the last digit, whatever the numbers of teeth: a cycle of one is a cycle of all, and no step more."""
+    meshes = row([24, 31, 40, 25], [0, 60, 20], 100).meshes
+    assert {mesh.scene.motion.mesh_frequency for mesh in meshes} == {1.0}
