@@ -98,3 +98,45 @@ def gearbox_file(folder: Path) -> Path:
     stages = stage("first", 2.0, (20, 30)) + stage("second", 3.0, (20, 40))
     file.write_text(f'{stages}\n[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n\n')
     return file
+
+
+def gear_text(teeth: int, module: float) -> str:
+    return f'{{ teeth = {teeth}, profile_shift = 0, bore_diameter = "{module * teeth / 2} mm" }}'
+
+
+def mate(name: str, pinion: str, wheel: str, direction: float, module: float = 2.0, more: str = "") -> str:
+    """The section of a stage whose gears are tables, or names of those of other stages."""
+    return f"""
+        [stages.{name}]
+        module = "{module} mm"
+        pressure_angle = "20 deg"
+        face_width = "20 mm"
+        pinion = {pinion}
+        wheel = {wheel}
+        material = "steel"
+        direction = "{direction!r} deg"
+        {more}
+        """
+
+
+def split_text(
+    paths: int = 2,
+    torque: float = 400.0,
+    *,
+    teeth: tuple[int, int, int, int] = (20, 40, 20, 40),
+    of_shaft: str = "",
+    accuracy: str = "",
+    more: str = "",
+) -> str:
+    """Paths from one pinion to one wheel on its axis, evenly around it: in1, out1, in2 ...; `of_shaft`: of the last
+    path's."""
+    first, driven, driving, last = (gear_text(each, 2.0) for each in teeth)
+    text = ""
+    for path in range(paths):
+        text += mate(f"in{path + 1}", '"in1.pinion"' if path else first, driven, 360.0 * path / paths)
+    for path in range(paths):
+        direction = (360.0 * path / paths + 180.0) % 360.0
+        text += mate(f"out{path + 1}", driving, '"out1.wheel"' if path else last, direction)
+    for path in range(paths):
+        text += f'\n[shafts.path{path + 1}]\ncarries = ["in{path + 1}.wheel", "out{path + 1}.pinion"]\n'
+    return f'{text}{of_shaft}\n[load]\noutput_torque = "{torque} N m"\n[accuracy]\n{COARSE}\n{accuracy}\n{more}'

@@ -36,10 +36,17 @@ def at_phase(mesh: Mesh, phase: float) -> Mesh:
 @dataclass(frozen=True)
 class MeshOfRow:
     """A mesh of a train: its `cycle` over the coordinates (l,) of its own two gears, and how these follow (l, k) from
-    those of the train."""
+    those of the train. `offset` (l,), mm: where its own coordinates are as nothing moves, none unless given."""
 
     cycle: Cycle
     coordinates: np.ndarray
+    offset: np.ndarray | None = None
+
+    def gap_of(self, operator: ContactOperator) -> np.ndarray:
+        """Gaps (n,) as nothing moves."""
+        if self.offset is None or not self.offset.any():
+            return operator.gap
+        return operator.gap - operator.jacobian[: operator.nodes] @ self.offset
 
 
 @dataclass(frozen=True)
@@ -50,8 +57,8 @@ class JoinedPosition(Position):
 
 
 class RowCycle(Cycle):
-    """Contact equations of all meshes of a train, whose steps are of one length in time; the cycles of those that an
-    idler couples have as many steps as one another."""
+    """Contact equations of all meshes of a train, whose steps are of one length in time; the cycles of those that have
+    a gear in common have as many steps as one another."""
 
     def __init__(self, meshes: Sequence[MeshOfRow], compliance: RowCompliance):
         first = meshes[0].cycle
@@ -152,7 +159,7 @@ class RowCycle(Cycle):
             normal_lever_arms=np.concatenate([each.normal_lever_arms for each in operators], axis=1),
             compliance=compliance,
             jacobian=jacobian,
-            gap=np.concatenate([each.gap for each in operators]),
+            gap=np.concatenate([mesh.gap_of(each) for each, mesh in zip(operators, self._members)]),
             rigid_slip=rigid_slip,
             previous_compliance=compliance_before,
             previous_jacobian=jacobian_before,

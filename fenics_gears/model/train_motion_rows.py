@@ -8,6 +8,7 @@ import numpy as np
 
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import resolved_frequency
+from fenics_gears.scene.train_mesh import gear_names
 
 from .train import RowModel
 from .train_parts import parts_of
@@ -20,7 +21,7 @@ NOTABLE_SHARE = 0.2
 def motion_rows(row: RowModel) -> Rows:
     """Masses of the gears, stiffness of the shafts, and the motions that are unknown."""
     parts = parts_of(row.meshes, row.shafts)
-    gears = _gears(row)
+    gears = gear_names(row.meshes)
     rows: Rows = []
     for name, lumped in zip(gears, parts.masses):
         rows.append((f"{name}: moment of inertia", 1e3 * lumped.moment_of_inertia, "kg mm^2"))
@@ -34,8 +35,10 @@ def motion_rows(row: RowModel) -> Rows:
 
 
 def frequency_rows(row: RowModel) -> Rows:
-    """Each natural frequency with the steps that a period has, and what moves most."""
+    """Each natural frequency with the steps that a period has, and what moves most; none without inertia."""
     rows: Rows = []
+    if not row.vibrations:
+        return rows
     time_step = row.models[0].time_step
     for number, (vibration, moving) in enumerate(zip(row.vibrations, _moving_most(row)), 1):
         damping = vibration.damping_ratio
@@ -57,7 +60,7 @@ def _moving_most(row: RowModel) -> list[str]:
     drivetrain = row.drivetrain
     frequencies, shapes = modes(drivetrain, row.mesh_stiffness)
     energy = shapes * (drivetrain.mass @ shapes)
-    gears = _gears(row)
+    gears = gear_names(row.meshes)
     said = []
     for shares in energy.T[len(frequencies) - len(row.vibrations) :]:
         largest = np.argsort(-shares)
@@ -74,11 +77,3 @@ def motion_in_words(name: str, gears: list[str]) -> str:
         return f"centre of {gears[int(number) - 1]} {direction} the line of action"
     kind, _, number = name.partition("_")
     return f"twist of shaft {number}" if kind == "twist" else f"rotation of shaft {number}"
-
-
-def _gears(row: RowModel) -> list[str]:
-    """Names of all gears, an idler once."""
-    found: list[str] = []
-    for mesh in row.meshes:
-        found += [each for each in mesh.gears if each not in found]
-    return found

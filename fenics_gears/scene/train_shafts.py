@@ -5,17 +5,20 @@ Without any of it rigid shafts hand on torque and rotation alone, and each stage
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 from fenics_gears.dynamics.damping import Damping
 from fenics_gears.dynamics.inertia import LoadInertia
+from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.allowed import Allowed, Refused
 from fenics_gears.inputs.fields import declared, quantity
-from fenics_gears.inputs.problem import Path, Problem, did_you_mean
+from fenics_gears.inputs.problem import Problem, did_you_mean
 from fenics_gears.inputs.section import Section, names_in, read
 from fenics_gears.inputs.written import as_written
+
+from .train_topology import Shafts, declared_gears, graph_of, in_order, named_meshes, shafts_by_order
 
 # Sections of a train of which each makes its stages move together.
 COUPLING = ("shafts", "inertia", "bearings")
@@ -46,57 +49,71 @@ class TrainShaft(Section):
         " last between gear and load",
         otherwise="the shaft is rigid",
     )
+    clocking: float | None = quantity(
+        "-1 rad to 1 rad",
+        "0.002 rad",
+        meaning="of a shaft in a loop: angle by which the second of its two gears is turned ahead, as the shaft turns,"
+        " of where the loop closes exactly",
+        otherwise="0 rad",
+    )
 
 
 @dataclass(frozen=True)
 class TrainShafts:
-    """Torsional stiffness (N mm/rad) of each shaft of a train, None where it is rigid; the moment of inertia
-    (N mm s^2) of the load, and the damping, None where there is none. `moving`: whether stages move together."""
+    """What the shafts of a train carry, from the driven one on, by the names of gears; and of each its torsional
+    stiffness (N mm/rad) and clocking (rad), None where they are not given. The moment of inertia (N mm s^2) of the
+    load, and the damping, None where there is none. `moving`: whether stages move together."""
 
+    carried: tuple[tuple[str, ...], ...] = ()
     torsion: tuple[float | None, ...] = ()
+    clocking: tuple[float | None, ...] = ()
     load: float | None = None
     damping: Damping | None = None
     moving: bool = False
 
 
-def gears_of_shafts(stages: Mapping[str, Any]) -> list[list[str]]:
-    """Names of the gears on each shaft of a train, from the driven one on: STAGE.pinion and STAGE.wheel, in a row
-    STAGE.1, STAGE.2 and so on."""
-    shafts: list[list[str]] = []
-    for stage, content in stages.items():
-        gears = content.get("gears") if isinstance(content, Mapping) else None
-        own = [f"{stage}.pinion", f"{stage}.wheel"]
-        if isinstance(gears, list):
-            own = [f"{stage}.{number}" for number in range(1, len(gears) + 1)]
-        if shafts:
-            shafts[-1].append(own[0])
-        else:
-            shafts.append(own[:1])
-        shafts += [[each] for each in own[1:]]
-    return shafts
-
-
-def checked_shafts(tree: Mapping[str, Any], shafts: Sequence[Sequence[str]]) -> tuple[TrainShafts, list[Problem]]:
-    """What couples the stages of a parsed train, and what is wrong with it; `shafts`: names of the gears on each."""
+def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, list[Problem]]:
+    """What couples the stages of a parsed train, and what is wrong with it; `sound`: nothing is wrong with its
+    stages."""
     problems: list[Problem] = []
-    torsion: list[float | None] = [None] * len(shafts)
+    sections: dict[str, TrainShaft] = {}
     for name, content in _sections(tree, "shafts", problems):
-        place = ("shafts", name)
-        shaft, wrong = read(TrainShaft, content, place)
+        shaft, wrong = read(TrainShaft, content, ("shafts", name))
         problems += [explained(each, TrainShaft) for each in wrong]
-        if shaft is not None:
-            problems += _put(torsion, shaft, shafts, place)
+        sections |= {} if shaft is None else {name: shaft}
+    meshes, wrong = named_meshes(tree["stages"])
+    problems += wrong
+    problems += _wrong_carries(sections, tree["stages"])
+    carried: Shafts = []
+    torsion: list[float | None] = []
+    clocking: list[float | None] = []
+    graph = None
+    if sound and not problems:
+        shafts = shafts_by_order(tree["stages"], [each.carries for each in sections.values()])
+        carried, wrong_shafts = in_order(meshes, shafts)
+        place = ("shafts",) if sections else ("stages",)
+        by_order = f" {_by_order(tree['stages'])}" if sections else ""
+        problems += [Problem(place, "", f"{each}{by_order}") for each in wrong_shafts]
+        if not wrong_shafts:
+            graph = graph_of(meshes, carried)
+            torsion = [None] * len(carried)
+            clocking = [None] * len(carried)
+            for name, shaft in sections.items():
+                number = next(place for place, each in enumerate(carried) if shaft.carries[0] in each)
+                problems += _put(torsion, clocking, (name, shaft, number), graph)
     load = _load(tree, problems)
     damping = _damping(tree, problems)
     moving = any(name in tree for name in COUPLING) or any(
         name in content for content in _tables(tree["stages"]) for name in COUPLING
     )
+    moving = moving or graph is not None and not graph.is_chain
     if damping is not None and "inertia" not in tree:
         problems.append(Problem(("damping",), "", "needs the section [inertia], which is missing. Add it."))
-    if "inertia" in tree and torsion[-1] is not None and load is None:
+    if "inertia" in tree and torsion and torsion[-1] is not None and load is None:
         said = "is missing. The far end of the last shaft needs a moment of inertia: add [inertia.load]."
         problems.append(Problem(("inertia", "load"), None, said))
-    return TrainShafts(tuple(torsion), load, damping, moving), problems
+    of_shafts = tuple(map(tuple, carried)), tuple(torsion), tuple(clocking)
+    return TrainShafts(*of_shafts, load, damping, moving), problems
 
 
 def _sections(tree: Mapping[str, Any], name: str, problems: list[Problem]) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -119,26 +136,46 @@ def _tables(written: Mapping[str, Any]) -> list[Mapping[str, Any]]:
     return [each for each in written.values() if isinstance(each, Mapping)]
 
 
+def _wrong_carries(sections: Mapping[str, TrainShaft], stages: Mapping[str, Any]) -> Iterator[Problem]:
+    """What is wrong with the gears that shafts carry."""
+    declared = declared_gears(stages)
+    carried: dict[str, str] = {}
+    for name, shaft in sections.items():
+        place = ("shafts", name, "carries")
+        if not shaft.carries:
+            yield Problem(place, "[]", f"names no gear. {_by_order(stages)}")
+        for gear in shaft.carries:
+            if gear not in declared:
+                said = f"is no gear of this train.{did_you_mean(gear, declared)} {_by_order(stages)}"
+                yield Problem(place, f'"{gear}"', said)
+        for gear in shaft.carries:
+            if gear in carried:
+                yield Problem(place, f'"{gear}"', f"is on the shaft of [shafts.{carried[gear]}] already.")
+            carried[gear] = name
+
+
+def _by_order(stages: Mapping[str, Any]) -> str:
+    known = "; ".join(", ".join(f'"{gear}"' for gear in each) for each in shafts_by_order(stages))
+    return f"By the order of the stages alone, shafts carry: {known}."
+
+
 def _put(
-    torsion: list[float | None], shaft: TrainShaft, shafts: Sequence[Sequence[str]], place: Path
+    torsion: list[float | None], clocking: list[float | None], section: tuple[str, TrainShaft, int], graph: TrainGraph
 ) -> Iterator[Problem]:
-    """Enter the stiffness of a shaft."""
-    carried = [sorted(each) for each in shafts]
-    if sorted(shaft.carries) not in carried:
-        known = "; ".join(", ".join(f'"{gear}"' for gear in each) for each in shafts)
-        unknown = next((gear for gear in shaft.carries if not any(gear in each for each in shafts)), None)
-        meant = "" if unknown is None else did_you_mean(unknown, [gear for each in shafts for gear in each])
-        said = f"are not the gears of one shaft.{meant} The shafts of this train carry: {known}."
-        yield Problem((*place, "carries"), as_written(list(shaft.carries)), said)
-        return
-    number = carried.index(sorted(shaft.carries))
-    if shaft.torsional_stiffness is None:
-        return
-    if 0 < number < len(shafts) - 1 and len(shafts[number]) == 1:
-        said = "is of an idler, between whose gears nothing twists. Leave it out."
-        yield Problem((*place, "torsional_stiffness"), "", said)
-        return
-    torsion[number] = shaft.torsional_stiffness
+    """Enter what a section says of a shaft, by its name and number."""
+    name, shaft, number = section
+    gears = graph.on(number)
+    if shaft.torsional_stiffness is not None:
+        if 0 < number < graph.last and all(graph.driven(gear) for gear in gears):
+            said = "is of an idler, between whose gears nothing twists. Leave it out."
+            yield Problem(("shafts", name, "torsional_stiffness"), "", said)
+        torsion[number] = shaft.torsional_stiffness
+    if shaft.clocking is not None:
+        looped = [gear for gear in gears if any(graph.in_loop(mesh) for mesh, _ in graph.sides[gear])]
+        if len(gears) != 2 or looped != gears:
+            said = "is not of a shaft with two gears in a loop of meshes, where it moves load. Leave it out."
+            yield Problem(("shafts", name, "clocking"), f'"{shaft.clocking:g} rad"', said)
+        clocking[number] = shaft.clocking
 
 
 def _load(tree: Mapping[str, Any], problems: list[Problem]) -> float | None:
