@@ -67,7 +67,7 @@ def loaded(tmp_path_factory):
 def test_a_plane_run_loads_nothing_slow_of_the_third_dimension(loaded):
     """House rule 9: neither its effects nor contact over the face, whose compiled functions take 30 ms to load."""
     assert "contact.mesh_cycle" in loaded and "show.plots" in loaded
-    slow = r"effects\..*(lead_mod|misalign|wobble)|contact\.(face_|formed_rows|fine_sections|factored|border)"
+    slow = r"effects\..*(lead_mod|misalign|wobble)|contact\.(face_|formed_rows|fine_sections|factored)"
     assert not [name for name in loaded if re.search(slow, name)]
 
 
