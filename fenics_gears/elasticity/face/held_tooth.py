@@ -8,8 +8,8 @@ from scipy.linalg import cho_factor, cho_solve
 
 from fenics_gears.geometry.gear import Gear
 
-from ..condensation import by_radius, dofs_of
-from ..element_nodes import numbers_at
+from ..condensation import by_radius
+from ..element_nodes import dofs_of, numbers_at
 from ..mesh_data import BodyMesh
 from ..mumps import schur_complement
 from .layers import Sweep, interpolation_along
