@@ -54,20 +54,22 @@ def swept(section: Section, heights: np.ndarray, twist: float) -> GearMesh:
     return GearMesh(np.vstack(turned)[used], numbers.reshape(-1, 15), hub, np.vstack(contact))
 
 
-def meshes(pair: GearPair, phase: float) -> tuple[GearMesh, GearMesh]:
+def meshes(
+    pair: GearPair, phase: float, section: SectionSizes = SECTION, layers: tuple[float, ...] = LAYERS
+) -> tuple[GearMesh, GearMesh]:
     position = Position(pair, pair.slope, phase)
-    sizes = Sizes(SECTION, LAYERS, 0.05, 0.2)
+    sizes = Sizes(section, layers, 0.05, 0.2)
     loaded = bands(position, touching_pairs(position, sizes), sizes)
     return tuple(
-        swept(section_mesh(gear, band, SECTION), sizes.heights[::2], twist)
+        swept(section_mesh(gear, band, section), sizes.heights[::2], twist)
         for gear, band, twist in zip((pair.pinion, pair.wheel), loaded, position.twists)
     )
 
 
-def by_calculix(scene: Scene, pair: GearPair, phase: float, guess: float) -> float:
-    """Rotation of the wheel (rad)."""
+def by_calculix(scene: Scene, pair: GearPair, phase: float, guess: float, both=None) -> float:
+    """Rotation of the wheel (rad); of `meshes`, those of the defaults unless given."""
+    both = both or meshes(pair, phase)
     rotations = guess * np.array([1.0 - APART, 1.0 + APART])
     with tempfile.TemporaryDirectory() as folder:
-        both = meshes(pair, phase)
         torques = couples(pair, scene.gears.material, both, phase, rotations, Path(folder))[:, 1]
     return rotations[0] + (scene.load.wheel_torque - torques[0]) * np.diff(rotations)[0] / np.diff(torques)[0]

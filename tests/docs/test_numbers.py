@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.benchmarks.third_dimension import resolved
 from tests.benchmarks.third_dimension.table import read_rows
 from tests.docs.blocks import ROOT
 from tests.docs.kept_numbers import SCENES, rows
@@ -61,7 +62,7 @@ def test_what_the_default_settings_err_by():
 def test_how_near_resolved_models_are():
     """The numbers kept of the resolved models."""
     cases = {}
-    for row in read_rows("resolved"):
+    for row in resolved.fine_rows():
         cases.setdefault((row["helix_angle"], row["phase"], row["opening"]), []).append(row)
     most, at_edges = told("docs/third_dimension.md", "approach of the gears | N %; N % where tip edges touch")
     (line_load,) = told("docs/third_dimension.md", "at the phase that is resolved most finely | N % of the largest")
