@@ -3,7 +3,7 @@
 
 CalculiX is given gears in fifteen-node wedges: sections that have nothing of this program but the outline of the teeth,
 without teeth far from the loaded ones, swept along the helix. It finds contact itself, by surfaces and a penalty. At
-these positions no tip edge touches: there contact is on the line of action, as this program takes it by default.
+the second position the tip edge of the next pair touches at one end of the face, before its path of contact begins.
 """
 
 import tempfile
@@ -24,6 +24,8 @@ PHASES = (0.3, 0.8)
 SECTION = SectionSizes(0.2, 0.2, 1.4, 2.8, 8.0, 0.8, 1)
 # Of half the face from the end face inwards, mm.
 LAYERS = (0.75, 1.25, 1.75)
+# Of flanks that may touch, from the line of action, mm: a tip edge does so before and after its path of contact.
+REACH = 0.7
 # Two rotations so far about this program's answer; the line between them gives the one of the torque.
 APART = 0.01
 
@@ -58,7 +60,7 @@ def meshes(
     pair: GearPair, phase: float, section: SectionSizes = SECTION, layers: tuple[float, ...] = LAYERS
 ) -> tuple[GearMesh, GearMesh]:
     position = Position(pair, pair.slope, phase)
-    sizes = Sizes(section, layers, 0.05, 0.2)
+    sizes = Sizes(section, layers, 0.05, REACH)
     loaded = bands(position, touching_pairs(position, sizes), sizes)
     return tuple(
         swept(section_mesh(gear, band, section), sizes.heights[::2], twist)

@@ -15,7 +15,7 @@ from ..element_sizes import ElementSizes, SizeField
 from ..sector_boundary import SectorBoundary, sector_boundary
 from .coarse_cuts import boundaries_where_deep, is_deep
 from .discretisation import FaceDiscretisation
-from .near_field import thin_layers
+from .near_field import neighbours, thin_layers
 
 # Nodes of a section by points of its outline, and by its area in squares of its elements' size. They are within 18 %
 # for 110 sections from 0.1 to 1.4 modules, of 18 to 110 teeth, with thin rims too.
@@ -130,7 +130,7 @@ def near_unknowns(gear: Gear, face: FaceDiscretisation, both_flanks: bool = Fals
     the coast flank has in reverse."""
     scaled = face.in_modules_of(gear)
     thick = [round(each, 9) for each in scaled.sweep.thicknesses.tolist()]
-    runs = {tuple(thick[max(number - 1, 0) : number + 2]) for number in range(len(thick))}
+    runs = {tuple(thick[slice(*neighbours(number, len(thick)))]) for number in range(len(thick))}
     if both_flanks:
         runs |= {run[::-1] for run in runs}
     heights = sum(2 * sum(thin_layers(each) for each in run) + 1 for run in runs)

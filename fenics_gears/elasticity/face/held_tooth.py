@@ -13,7 +13,7 @@ from ..element_nodes import numbers_at
 from ..mesh_data import BodyMesh
 from ..mumps import schur_complement
 from .layers import Sweep, interpolation_along
-from .near_field import NearField, thin_boundaries, thin_layers
+from .near_field import NearField, neighbours, thin_boundaries, thin_layers
 from .swept_stiffness import ELEMENT, Blocks, SectionForms, swept_stiffness
 
 # Modules: how far below the root circle a tooth is held.
@@ -98,12 +98,13 @@ def _along_normals(nodes: int, flank: np.ndarray, normals: np.ndarray) -> sparse
 
 
 def _joined(tooth: _HeldTooth, thick: list[float]) -> sparse.csr_matrix:
-    """D of a whole face, of layers of some thicknesses: of each with its neighbours."""
+    """D of a whole face, of layers of some thicknesses: of each with its neighbours. Near an end of the face a run of
+    neighbours has as many layers as elsewhere: where layers are alike, all are known from one run."""
     parts = np.array([thin_layers(each) for each in thick])
     first, heights = 2 * (np.cumsum(parts) - parts), 2 * int(parts.sum()) + 1
     joined = sparse.csr_matrix((heights * tooth.nodes,) * 2)
     for layer in range(len(thick)):
-        low, high = max(layer - 1, 0), min(layer + 2, len(thick))
+        low, high = neighbours(layer, len(thick))
         missing = tooth.missing(tuple(thick[low:high]), layer - low)
         # Nodes between two layers have half of either's.
         share = np.ones(2 * parts[layer] + 1)

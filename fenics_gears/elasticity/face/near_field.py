@@ -21,6 +21,9 @@ from scipy import sparse
 
 # Modules: thickness of the thin layers.
 THIN = 0.3
+# Layers on either side of a layer whose loads it feels. An even load then leaves 0.002 of the plane displacement, which
+# differs from layer to layer; 0.018 with one layer, which made K_Hbeta 0.6 % too large.
+NEIGHBOURS = 2
 
 
 @dataclass(frozen=True)
@@ -74,3 +77,11 @@ def thin_boundaries(boundaries: np.ndarray) -> np.ndarray:
 def thin_layers(thickness: float) -> int:
     """Thin layers of a layer."""
     return ceil(thickness / THIN - 1e-9)
+
+
+def neighbours(layer: int, layers: int) -> tuple[int, int]:
+    """The first layer, and the one behind the last, on which D of a layer is found. As many near an end of the face as
+    elsewhere: where layers are alike, one held tooth tells all."""
+    most = min(2 * NEIGHBOURS + 1, layers)
+    low = min(max(layer - NEIGHBOURS, 0), layers - most)
+    return low, low + most

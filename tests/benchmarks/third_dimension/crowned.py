@@ -12,7 +12,7 @@ from tests.hertz_point_contact import PointContact
 
 from fenics_gears import gear_pair, model_of
 from fenics_gears.contact.kinematics import CENTRE_COORDINATES
-from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
 from fenics_gears.model.face_resolution import FEWEST_LOADED_SLICES, loaded_part
 from fenics_gears.model.model import Model
@@ -86,10 +86,10 @@ class CrownedFlanks:
     """The pair at the pitch point. The middle of the face stands on the boundary of two layers, where the coarse body
     errs most."""
 
-    def __init__(self, ratio: float, sizes: Sizes = FINE):
+    def __init__(self, ratio: float, sizes: Sizes = FINE, cache: Cache | None = None):
         self.model, self.exact = crowned(ratio, sizes)
         pair = self.model.pair
-        self.cycle = elastic_route(self.model, SilentProgress(), user_cache())[1]
+        self.cycle = elastic_route(self.model, SilentProgress(), cache or user_cache())[1]
         phase = (pair.pitch_point - pair.path_start) / pair.base_pitch % 1.0
         self.operator = self.cycle.between(phase, phase).operator
 

@@ -122,9 +122,7 @@ def finer_model(scene: Scene, finer: Finer) -> Model:
 
 
 def measure(
-    most_memory: float = MOST_MEMORY,
-    runs: Sequence[Finer] = (*RUNS, *ODD),
-    pairs: Sequence[int] = range(len(PAIRS)),
+    most_memory: float = MOST_MEMORY, runs: Sequence[Finer] = (*RUNS, *ODD), pairs: Sequence[int] = range(len(PAIRS))
 ) -> list[Row]:
     """Run what the file does not have yet; `pairs` by their numbers."""
     rows = read_rows(NAME) if (PICTURES / f"{NAME}.csv").exists() else []
@@ -149,11 +147,7 @@ def _key(number: float, sizes: Mapping[str, float]) -> tuple[float, ...]:
 
 
 def numbers_of(
-    text: str,
-    memory: float = MOST_MEMORY,
-    checkout: Path = ROOT,
-    cache: Path | None = None,
-    whole_cuts: bool = False,
+    text: str, memory: float = MOST_MEMORY, checkout: Path = ROOT, cache: Path | None = None, whole_cuts: bool = False
 ) -> Row:
     """Of a scene by a checkout, in a process of its own on one thread; `cache`: a folder in place of the user's. With
     `whole_cuts` bodies keep all nodes of their cuts, and none is taken from the cache, which does not know of that."""
