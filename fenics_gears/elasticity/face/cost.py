@@ -130,7 +130,7 @@ def near_unknowns(gear: Gear, face: FaceDiscretisation, both_flanks: bool = Fals
     the coast flank has in reverse. There is one after the other."""
     scaled = face.in_modules_of(gear)
     thick = [round(each, 9) for each in scaled.sweep.thicknesses.tolist()]
-    runs = {tuple(thick[slice(*neighbours(number, len(thick)))]) for number in range(len(thick))}
+    runs = {tuple(thick[near]) for near in neighbours(thick)}
     if both_flanks:
         runs |= {run[::-1] for run in runs}
     nodes = _section(gear.of_module_one, scaled.sizes).tooth

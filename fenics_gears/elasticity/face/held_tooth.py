@@ -98,18 +98,16 @@ def _along_normals(nodes: int, flank: np.ndarray, normals: np.ndarray) -> sparse
 
 
 def _joined(tooth: _HeldTooth, thick: list[float]) -> sparse.csr_matrix:
-    """D of a whole face, of layers of some thicknesses: of each with its neighbours. Near an end of the face a run of
-    neighbours has as many layers as elsewhere: where layers are alike, all are known from one run."""
+    """D of a whole face, of layers of some thicknesses: of each with its neighbours."""
     parts = np.array([thin_layers(each) for each in thick])
     first, heights = 2 * (np.cumsum(parts) - parts), 2 * int(parts.sum()) + 1
     joined = sparse.csr_matrix((heights * tooth.nodes,) * 2)
-    for layer in range(len(thick)):
-        low, high = neighbours(layer, len(thick))
-        missing = tooth.missing(tuple(thick[low:high]), layer - low)
+    for layer, near in enumerate(neighbours(thick)):
+        missing = tooth.missing(tuple(thick[near]), layer - near.start)
         # Nodes between two layers have half of either's.
         share = np.ones(2 * parts[layer] + 1)
         share[[0, -1]] = 1.0 if layer == 0 else 0.5, 1.0 if layer == len(thick) - 1 else 0.5
         block = sparse.coo_matrix(np.repeat(share, tooth.nodes)[:, None] * missing)
-        places = block.row + first[layer] * tooth.nodes, block.col + first[low] * tooth.nodes
+        places = block.row + first[layer] * tooth.nodes, block.col + first[near.start] * tooth.nodes
         joined = joined + sparse.csr_matrix((block.data, places), shape=joined.shape)
     return (0.5 * (joined + joined.T)).tocsr()
