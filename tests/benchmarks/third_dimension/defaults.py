@@ -164,8 +164,13 @@ def numbers_of(
     return json.loads(answered.stdout.splitlines()[-1])
 
 
-SIZES = {"slices": "slices", "flank": "flank elements and contact nodes", "layers": "layers", "body": "body elements"}
-SIZES["cuts"] = "nodes of cuts"
+SIZES = {
+    "slices": "slices",
+    "flank": "flank elements and contact nodes",
+    "layers": "layers",
+    "body": "body elements",
+    "cuts": "nodes of cuts",
+}
 
 
 # Of the errors by size; of the mean by slices 1.0 and 1.3, where slices were made twice and four times as fine.
@@ -216,6 +221,7 @@ def section() -> str:
             *(f"{100.0 * np.nanmax([abs(errors[size][name]) for errors in found]):.2f}" for name in NUMBERS),
         ]
         for size, words in SIZES.items()
+        if not all(isnan(errors[size][MEAN]) for errors in found)
     ]
     names = ["largest of all pairs by", "mean T_E, %", "T_EPP, % of the mean", *headings[6:9]]
     return "\n".join([*table(headings, lines), "", *table(names, by_size), "", *_odd(of_pairs[0])])
