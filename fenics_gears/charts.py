@@ -1,21 +1,45 @@
 """Charts for pictures and pages, and their colours: what a program takes that draws its own.
 
-A `Chart` is data: curves over one axis, with titles and units. `draw_charts` writes charts as PNG.
+A `Chart` is data: curves over one axis, with titles and units. `draw_charts` writes charts as PNG; `plotly_figure` is
+what plotly's browser library draws of one. `run_charts`, `gear_outline` and `pinion_in_space` show a run.
 """
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
+
+import xarray as xr
 
 from fenics_gears.commands.work.shared import plots
 from fenics_gears.show.chart import BAND, BARS, LINES, MARKED_LINES, MARKERS, WORDS, Chart, Curve, span, stems
 from fenics_gears.show.harris_map import harris_map, words_apart
 from fenics_gears.show.panels import DARK, GREY, PALETTE, shades
-from fenics_gears.show.run import design
+from fenics_gears.show.report.flank_in_space import pinion_in_space as _pinion_in_space
+from fenics_gears.show.report.interactive import figure as plotly_figure
+from fenics_gears.show.report.pair_drawing import gear_outline
+from fenics_gears.show.run import ShownRun, design
 
 __all__ = [
     "BAND", "BARS", "DARK", "GREY", "LINES", "MARKED_LINES", "MARKERS", "PALETTE", "WORDS", "Chart", "Curve",
-    "design", "draw_charts", "harris_map", "shades", "span", "stems", "words_apart",
+    "design", "draw_charts", "draw_run", "gear_outline", "harris_map", "pinion_in_space", "plotly_figure", "run_charts",
+    "shades", "span", "stems", "words_apart",
 ]  # fmt: skip
+
+
+def run_charts(dataset: xr.Dataset) -> list[tuple[str, list[Chart]]]:
+    """Subjects and charts of the pictures that a run has."""
+    return list(plots().charts_of(ShownRun(dataset)).values())
+
+
+def pinion_in_space(dataset: xr.Dataset) -> dict[str, Any] | None:
+    """Some teeth of the pinion as plotly's browser library draws them, the largest pressure while it is in mesh on the
+    flank of one; None of a run without contact fields."""
+    return _pinion_in_space(ShownRun(dataset))
+
+
+def draw_run(dataset: xr.Dataset, directory: Path) -> list[Path]:
+    """Write the pictures of a run, as ``gears plot`` does. Raises ComputationError as that does."""
+    return plots().draw_run(dataset, directory)
 
 
 def draw_charts(

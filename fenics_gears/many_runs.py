@@ -17,12 +17,13 @@ from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.files import save
 from fenics_gears.results.settled import settling_time
+from fenics_gears.results.summary import result_rows
 from fenics_gears.results.together import OVER_FACE
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.runs.common_windows import CommonWindows
 from fenics_gears.runs.condensing import BODY, gear_tasks
 from fenics_gears.runs.folder import sole_writer
-from fenics_gears.runs.gear_store import operators_key
+from fenics_gears.runs.gear_store import GearStore, operators_key
 from fenics_gears.runs.lines import FolderOfLines, kept
 from fenics_gears.runs.record import NUMBERS, OF_TRAINS, numbers_of, record_of
 from fenics_gears.runs.run import Run, run_of
@@ -38,9 +39,10 @@ from fenics_gears.studies.summary import last_words, summary_rows
 from fenics_gears.system.progress import Interruption, Progress
 
 __all__ = [
-    "BODY", "NO_MEANING", "NUMBERS", "OF_TRAINS", "OVER_FACE", "RESULT_ATTRIBUTES", "Alone", "CommonWindows", "Failure",
-    "Interruption", "FolderOfLines", "Outcome", "Progress", "Run", "RunResult", "Runs", "Spent", "Study", "Together",
-    "common_period", "effects_on", "gear_tasks", "kept", "last_words", "load_combined", "most_together", "numbers_of",
-    "operators_key", "quasi_static", "ranks", "record_of", "run_of", "run_with", "save", "seconds_of", "settling_time",
-    "sole_writer", "solved_at_once", "study_of", "summary_rows",
+    "BODY", "NO_MEANING", "NUMBERS", "OF_TRAINS", "OVER_FACE", "RESULT_ATTRIBUTES", "Alone", "CommonWindows",
+    "Failure", "FolderOfLines", "GearStore", "Interruption", "Outcome", "Progress", "Run", "RunResult", "Runs",
+    "Spent", "Study", "Together", "common_period", "effects_on", "gear_tasks", "kept", "last_words",
+    "load_combined", "most_together", "numbers_of", "operators_key", "quasi_static", "ranks", "record_of",
+    "result_rows", "run_of", "run_with", "save", "seconds_of", "settling_time", "sole_writer", "solved_at_once",
+    "study_of", "summary_rows",
 ]  # fmt: skip

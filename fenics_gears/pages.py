@@ -6,6 +6,10 @@
 True
 """
 
+from pathlib import Path
+
+import xarray as xr
+
 from fenics_gears.show.report.origin import made_by, scene_section
 from fenics_gears.show.report.overview import counted
 from fenics_gears.show.report.page import Block, Cell, Facts, Page, PageSection, Table, Tile, Tiles, Words
@@ -13,5 +17,14 @@ from fenics_gears.show.report.rendering import rendered
 
 __all__ = [
     "Block", "Cell", "Facts", "Page", "PageSection", "Table", "Tile", "Tiles", "Words", "counted", "made_by",
-    "rendered", "scene_section",
+    "rendered", "run_report", "scene_section",
 ]  # fmt: skip
+
+
+def run_report(dataset: xr.Dataset, file: Path) -> str:
+    """The page of ``gears report`` on a run that is in a file."""
+    # Pages of other kinds need none of it.
+    from fenics_gears.show.report.run_page import run_page
+    from fenics_gears.show.run import ShownRun
+
+    return rendered(run_page(ShownRun(dataset, file)))

@@ -30,6 +30,7 @@ NEEDED = (
 )
 # What single commands need, which say so themselves, stands here too.
 NEEDED_BY_TESTS = (
+    "aiohttp",
     "optuna",
     "cmaes",
     "plotly",

@@ -67,7 +67,7 @@ def loaded(tmp_path_factory):
 def test_a_plane_run_loads_nothing_slow_of_the_third_dimension(loaded):
     """House rule 9: neither its effects nor contact over the face, whose compiled functions take 30 ms to load."""
     assert "contact.mesh_cycle" in loaded and "show.plots" in loaded
-    slow = r"effects\..*(lead_mod|misalign|wobble)|contact\.(face_|formed_rows|fine_sections|factored|border)"
+    slow = r"effects\..*(lead_mod|misalign|wobble)|contact\.(face_|formed_rows|fine_sections|factored)"
     assert not [name for name in loaded if re.search(slow, name)]
 
 
@@ -87,3 +87,19 @@ def test_a_run_loads_what_its_scene_and_its_call_name(loaded):
     effects = {name.removeprefix("effects.") for name in loaded if name.startswith("effects.")}
     assert effects == {"effect", *EFFECTS}
     assert 90 < len([name for name in loaded if not name.startswith("elasticity")]) <= MOST_MODULES
+
+
+def test_a_run_over_the_face_with_kept_gears_loads_no_finite_elements():
+    """`elasticity.face.compliance`: gears from the cache need neither gmsh nor DOLFINx, which take 0.4 s to load; nor
+    does the expected cost, which every run asks for."""
+    modules = (
+        "commands.work.kept_run",
+        "simulation.solids",
+        "simulation.elastic_route",
+        "contact.face_mesh",
+        "show.over_face",
+    )
+    asked = "\n".join(f"import fenics_gears.{name}" for name in modules)
+    done = python("-P", "-c", f"{asked}\nimport sys; print(*sys.modules)")
+    loaded = {name.partition(".")[0] for name in done.stdout.split()}
+    assert "numba" in loaded and not loaded & {"dolfinx", "ufl", "petsc4py", "mpi4py", "gmsh"}

@@ -128,6 +128,25 @@ def shaft_section(name: str, gears: dict[str, float], length: float, diameter: f
         """
 
 
+def gear_text(teeth: int, module: float) -> str:
+    return f'{{ teeth = {teeth}, profile_shift = 0, bore_diameter = "{module * teeth / 2} mm" }}'
+
+
+def mate(name: str, pinion: str, wheel: str, direction: float, module: float = 2.0, more: str = "") -> str:
+    """The section of a stage whose gears are tables, or names of those of other stages."""
+    return f"""
+        [stages.{name}]
+        module = "{module} mm"
+        pressure_angle = "20 deg"
+        face_width = "20 mm"
+        pinion = {pinion}
+        wheel = {wheel}
+        material = "steel"
+        direction = "{direction!r} deg"
+        {more}
+        """
+
+
 def bearing_sections(name: str, places: tuple[float, ...], radial: float, axial: float) -> str:
     """Bearings of a shaft, N/mm; the first one holds it along its axis."""
     return "".join(
@@ -148,3 +167,54 @@ def bent_two_stages(compliance: float | None = 1.0, more: str = "", helix: tuple
         text += shaft_section("middle", {"first.wheel": 35.0, "second.pinion": 100.0}, 150.0, 35.0, steel)
         text += bearing_sections("middle", (15.0, 135.0), 1e6 / compliance, 1e5 / compliance)
     return train_from_text(text)
+
+
+def split_text(
+    paths: int = 2,
+    torque: float = 400.0,
+    *,
+    teeth: tuple[int, int, int, int] = (20, 40, 20, 40),
+    of_shaft: str = "",
+    accuracy: str = "",
+    more: str = "",
+) -> str:
+    """Paths from one pinion to one wheel on its axis, evenly around it: in1, out1, in2 ...; `of_shaft`: of the last
+    path's."""
+    first, driven, driving, last = (gear_text(each, 2.0) for each in teeth)
+    text = ""
+    for path in range(paths):
+        text += mate(f"in{path + 1}", '"in1.pinion"' if path else first, driven, 360.0 * path / paths)
+    for path in range(paths):
+        direction = (360.0 * path / paths + 180.0) % 360.0
+        text += mate(f"out{path + 1}", driving, '"out1.wheel"' if path else last, direction)
+    for path in range(paths):
+        text += f'\n[shafts.path{path + 1}]\ncarries = ["in{path + 1}.wheel", "out{path + 1}.pinion"]\n'
+    return f'{text}{of_shaft}\n[load]\noutput_torque = "{torque} N m"\n[accuracy]\n{COARSE}\n{accuracy}\n{more}'
+
+
+def helical_paths(of_last: str = "", of_paths: tuple[str, str] = ("", ""), more: str = "") -> str:
+    """Two paths as of split_text, over the face, whose gears are their own: two side by side on the first shaft and two
+    on the last; what the last shaft and those of the paths have beside."""
+    text = split_text(teeth=(20, 30, 20, 30), more=more).replace('"in1.pinion"', gear_text(20, 2.0), 1)
+    text = text.replace('"out1.wheel"', gear_text(30, 2.0), 1)
+    text = text.replace("face_width", 'helix_angle = "15 deg"\nface_width')
+    coarse = (
+        'slices = 3\nlayers = 2\nbody_element_size = "3 mm"\nsteps_per_mesh_cycle = 6\nflank_element_size = "0.2 mm"'
+    )
+    ends = '[shafts.first]\ncarries = ["in1.pinion", "in2.pinion"]\n'
+    ends += f'[shafts.last]\ncarries = ["out1.wheel", "out2.wheel"]\n{of_last}\n'
+    for path, own in enumerate(of_paths, 1):
+        carries = f'carries = ["in{path}.wheel", "out{path}.pinion"]\n'
+        text = text.replace(carries, carries + own)
+    text = text.replace(COARSE, coarse).replace('face_width = "20 mm"', 'face_width = "10 mm"')
+    return text.replace("[load]", f"{ends}[load]")
+
+
+def bent_paths(compliance: float, of_last: str = "", more: str = "") -> str:
+    """The same with both middle shafts bending, of such a part of steel's compliance and that of their bearings."""
+    steel = f'material = {{ youngs_modulus = "{206e3 / compliance!r} N/mm^2", poissons_ratio = 0.3 }}\n'
+    own = 'sections = [{ length = "80 mm", diameter = "25 mm" }]\ngears_at = ["20 mm", "55 mm"]\n' + steel
+    of_paths = (
+        own + bearing_sections(f"path{path}", (5.0, 75.0), 3e5 / compliance, 1e5 / compliance) for path in (1, 2)
+    )
+    return helical_paths(of_last, (*of_paths,), more)

@@ -1,5 +1,5 @@
 """An idler whose third gear stands at several angles, a helical one, two stages that vibrate together at several
-speeds, and two helical stages of an electric axle."""
+speeds, two paths whose shafts are clocked, and two helical stages of an electric axle."""
 
 from __future__ import annotations
 
@@ -14,6 +14,9 @@ ANGLES = 13
 IDLER = "the idler"
 # Of the first shaft, rpm.
 SPEEDS = (300, 500, 750, 1000, 1300, 1600, 1800, 2000, 2200, 2600, 3000, 3600, 4300, 5000, 5600, 6000, 6500, 7500, 9000)
+
+# Of the lower path's shaft, mrad.
+CLOCKINGS = (-20.0, -13.3, -8.0, -4.0, -0.8, 0.0, 0.8, 4.0, 8.0, 13.3, 20.0)
 
 
 def angles(teeth: int, count: int = ANGLES) -> list[float]:
@@ -69,6 +72,42 @@ def chart_of_speeds(speeds: tuple[float, ...], errors: list[float]):
     return _peaks("over the speed", "Speed of the first shaft (rpm)", list(speeds), errors)
 
 
+def clocked(text: str, clocking: float) -> str:
+    """The scene's text with its lower shaft turned ahead by so much (mrad)."""
+    return text.replace('"0.0008 rad"', f'"{clocking!r} mrad"')
+
+
+def over_clockings(text: str, clockings: tuple[float, ...]) -> list[float]:
+    """Mean share of the torque, in per cent, of the lower path at each clocking (mrad)."""
+    from fenics_gears import simulate_train, train_from_text
+
+    found = []
+    for clocking in clockings:
+        result = simulate_train(train_from_text(clocked(text, clocking)))
+        found.append(100.0 * float(result["mean_path_share"].sel(mesh="lower")))
+        print(f"{clocking:g} mrad: {found[-1]:.2f} %", flush=True)
+    return found
+
+
+def chart_of_clockings(clockings: tuple[float, ...], shares: list[float]):
+    """Shares of both paths over the clocking of one."""
+    import numpy as np
+
+    from fenics_gears.charts import MARKED_LINES, PALETTE, Chart, Curve
+
+    places = np.array(clockings)
+    lower = np.array(shares)
+    both = ("lower path, which is clocked", lower, PALETTE[1]), ("upper path", 100.0 - lower, PALETTE[0])
+    return Chart(
+        "How both paths share the torque",
+        [Curve(name, places, values, colour, mode=MARKED_LINES) for name, values, colour in both],
+        "Clocking of the lower shaft (mrad)",
+        "Share of the torque (%)",
+        y_range=(0.0, 105.0),
+        height=320,
+    )
+
+
 def _peaks(over: str, axis: str, places: list[float], errors: list[float]):
     import numpy as np
 
@@ -86,7 +125,8 @@ def _peaks(over: str, axis: str, places: list[float], errors: list[float]):
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Run all trains; write their results and pictures, `idler_angle.png` and `two_stages_speed.png`."""
+    """Run all trains; write their results and pictures, `idler_angle.png`, `two_stages_speed.png` and
+    `split_torque_clocking.png`."""
     directory = output_directory("gear_trains", __doc__.splitlines()[0], arguments)
     from fenics_gears.charts import draw_charts
     from fenics_gears.commands.cli import main as gears
@@ -100,7 +140,10 @@ def main(arguments: list[str] | None = None) -> None:
     text = (HERE / "two_stages.toml").read_text(encoding="utf-8")
     subject = "Overall transmission error", [chart_of_speeds(SPEEDS, over_speeds(text, SPEEDS))]
     draw_charts({"two_stages_speed.png": subject}, directory, "two stages with masses and shafts that twist, 1 kN m")
-    for name in ("idler", "helical_idler", "two_stages", "electric_axle"):
+    text = (HERE / "split_torque.toml").read_text(encoding="utf-8")
+    subject = "Split torque", [chart_of_clockings(CLOCKINGS, over_clockings(text, CLOCKINGS))]
+    draw_charts({"split_torque_clocking.png": subject}, directory, "367 N m on the pinion of 32 teeth, two paths")
+    for name in ("idler", "helical_idler", "two_stages", "split_torque", "electric_axle"):
         gears(["run", str(HERE / f"{name}.toml"), "-o", str(directory / name)])
 
 

@@ -49,9 +49,9 @@ class Arrays(NamedTuple):
 ROW = np.dtype([(name, np.int64) for name in ("nodes", *Arrays._fields)])
 NODES, GAP = (ROW.names.index(name) for name in ("nodes", "gap"))
 # In the table of Factors (`contact.factored_compliance`), addresses of room and of what is factored there (its number
-# of forces, then their rows), without friction; with friction so much later; of pivots; and of the forces that were
-# last solved for with friction. Then the number of the march that did so, and the address of `marching`.
-ROOM, KNOWN, OF_FRICTION, PIVOTS, LAST, MARCH, PRESENT = 0, 1, 2, 4, 5, 6, 7
+# of forces, then their rows), without friction; with friction so much later; and of pivots. Then the number of the
+# march that last solved with friction, and the address of `marching`.
+ROOM, KNOWN, OF_FRICTION, PIVOTS, MARCH, PRESENT = 0, 1, 2, 4, 5, 6
 # The number of the present march with inertia, 0 where there is none; and how many of them have begun.
 marching = np.zeros(2, dtype=np.int64)
 # Of the closed nodes: where more than this were open over a face when friction was last solved for at the position, or
@@ -184,7 +184,7 @@ def from_afar(address, status):
     present = present_march(table)
     if present != 0 and table[MARCH] != present:
         return True
-    for row in forces_at(table[LAST])[1:]:
+    for row in forces_at(table[OF_FRICTION + KNOWN])[1:]:
         if row < n:
             had += 1
             alike += status[row] != OPEN

@@ -7,9 +7,7 @@ of these forces,
 
 Factors are Cholesky's without friction, else those of elimination with pivots; with friction a position has both, for
 Newton's method begins without it. They last until the sets change: the march finds there those of the mesh cycle
-before; a run of a search, those of the run before. In a march with inertia and friction they also serve sets that
-differ in a few nodes (`contact.border`), as long as they are its own: so what they give is the same to the last digit
-whatever came before.
+before; a run of a search, those of the run before.
 """
 
 from __future__ import annotations
@@ -25,7 +23,6 @@ from fenics_gears.system.memory import pages
 
 from .addresses import (
     KNOWN,
-    LAST,
     MARCH,
     OF_FRICTION,
     PIVOTS,
@@ -38,8 +35,7 @@ from .addresses import (
     to_integer,
     to_number,
 )
-from .border import MOST_CHANGES, changes_from, no_changes, put_changes, put_columns, put_equations, put_forces
-from .mixed_form import SMALL_SYSTEM, add_slip, put_entries, put_solution, system_of
+from .mixed_form import add_slip, put_entries, put_solution, system_of
 
 # Of the largest pivot: a compliance with smaller ones is left to elimination that looks for pivots in all unknowns.
 LEAST_PIVOT = 1e-6
@@ -57,8 +53,7 @@ class Factors:
 
     def __init__(self, nodes: int, forces: int):
         rooms = [(pages(size, size), np.zeros(size + 1, dtype=np.int64)) for size in (nodes, forces)]
-        pivots, last, slip = np.zeros(forces, dtype=np.int32), np.zeros(forces + 1, dtype=np.int64), np.zeros(forces)
-        self._arrays = *rooms[0], *rooms[1], pivots, last, slip, pages(forces, forces)
+        self._arrays = *rooms[0], *rooms[1], np.zeros(forces, dtype=np.int32), np.zeros(forces), pages(forces, forces)
         addresses = [array.ctypes.data for array in self._arrays]
         self.table = np.array([*addresses[:-2], -1, marching.ctypes.data, *addresses[-2:], *_lapack()])
 
@@ -136,33 +131,27 @@ def _solve_frictionless(system, table, result):
             return 0
         _know(table[KNOWN], system.rows)
     _put_motions(factored, system)
-    return _solve_with(factored, system, no_changes(len(system.rows)), result)
+    return _solve_with(factored, system, result)
 
 
 @njit(cache=True)
 def _solve_slipping(system, table, result):
     rows, slip, known = system.rows, system.slip, forces_at(table[OF_FRICTION + KNOWN])
     m, k = system.jacobian.shape
-    if 2 * k + 1 + MOST_CHANGES > m:
+    if 2 * k + 1 > m:
         return 0
-    then, march, present = known[1:], table[MARCH], present_march(table)
+    then = known[1:]
     slip_then = carray(to_number(table[SLIP]), np.searchsorted(then, m // 2))
-    if present != 0 and march == present:
-        changes, few = changes_from(then, slip_then, rows, slip, m // 2, min(MOST_CHANGES, SMALL_SYSTEM - k))
-        if few and _solve_with(_factored(table, then, slip_then, k), system, changes, result):
-            _know(table[LAST], rows)
-            return 1
     factored = _factored(table, rows, slip, k)
     if not (np.array_equal(then, rows) and np.array_equal(slip_then, slip)):
-        known[0] = forces_at(table[LAST])[0] = 0
+        known[0] = 0
         if not _factor(factored, system):
             return 0
         _know(table[OF_FRICTION + KNOWN], rows)
         carray(to_number(table[SLIP]), len(slip))[:] = slip
-    table[MARCH] = present
-    _know(table[LAST], rows)
+    table[MARCH] = present_march(table)
     _put_motions(factored, system)
-    return _solve_with(factored, system, no_changes(len(rows)), result)
+    return _solve_with(factored, system, result)
 
 
 @njit(cache=True)
@@ -177,7 +166,7 @@ def _factored(table, rows, slip, k):
     size, frictional = len(rows), len(slip) > 0
     matrix = carray(to_number(table[OF_FRICTION + ROOM if frictional else ROOM]), (size, size))
     if frictional:
-        lines = carray(to_number(table[LINES]), (2 * k + 1 + MOST_CHANGES, size))
+        lines = carray(to_number(table[LINES]), (2 * k + 1, size))
     else:
         lines = np.empty((2 * k + 1, size))
     return _Factored(matrix, rows, slip, lines[:k], lines[k:], table)
@@ -245,33 +234,27 @@ def _put_solutions(factored, sides, slipping):
 
 
 @njit(cache=True)
-def _solve_with(factored, system, changes, result):
-    """Put forces (m,), N, and coordinates (k,), mm, into `result`; returns 1, or 0 where the drivetrain is loose or the
-    `changes` leave the compliance not safely regular."""
-    compliance, jacobian, unit, count = system.compliance, system.jacobian, system.unit, len(changes.places)
-    k, size, frictional = len(system.load), len(factored.rows), len(factored.slip) > 0
-    lines, equations = factored.lines[: k + 1 + count], np.empty((count, size))
-    lines[k] = 0.0
-    for a in range(len(changes.old)):
-        if changes.old[a] >= 0:
-            lines[k, changes.old[a]] = system.opening[a]
-    put_columns(lines[k + 1 :], changes, factored.rows, compliance, unit)
-    put_equations(equations, changes, factored.rows, factored.slip, compliance, unit)
+def _solve_with(factored, system, result):
+    """Put forces (m,), N, and coordinates (k,), mm, into `result`; returns 1, or 0 where the drivetrain is loose."""
+    rows, slip, unit, m = system.rows, system.slip, system.unit, len(system.jacobian)
+    k, frictional = len(system.load), len(slip) > 0
+    lines = factored.lines[: k + 1]
+    lines[k] = system.opening
     _put_solutions(factored, lines[k if frictional else 0 :], frictional)
-    by_forces, by_changes = np.dot(factored.of_forces, lines.T), np.dot(equations, lines.T)
-    matrix, right_side = system_of(count + k), np.empty(count + k)
-    put_changes(matrix, right_side, changes, system, (by_forces, by_changes))
+    by_forces = np.dot(factored.of_forces, lines.T)
+    matrix, coordinates = system_of(k), np.empty(k)
     for c in range(k):
-        right_side[count + c] = system.load[c] / unit + by_forces[c, k]
+        coordinates[c] = system.load[c] / unit + by_forces[c, k]
         for d in range(k):
-            matrix[count + c, count + d] = system.stiffness[c, d] / unit + by_forces[c, d]
-    if not put_solution(matrix, right_side, np.int64(0)):
+            matrix[c, d] = system.stiffness[c, d] / unit + by_forces[c, d]
+    if not put_solution(matrix, coordinates, np.int64(0)):
         return 0
-    for i in range(count):
-        if abs(matrix[i, i]) < LEAST_PIVOT:
-            return 0
-    parts = np.empty(k + 1 + count)
-    parts[:k], parts[k], parts[k + 1 :] = right_side[count:], -1.0, -right_side[:count]
-    put_forces(system, changes, np.dot(parts, lines), right_side, result)
-    result[len(jacobian) :] = right_side[count:]
+    parts = np.empty(k + 1)
+    parts[:k], parts[k] = coordinates, -1.0
+    forces = np.dot(parts, lines)
+    result[:m], result[m:] = 0.0, coordinates
+    for a in range(len(rows)):
+        result[rows[a]] = unit * forces[a]
+    for b in range(len(slip)):
+        result[m // 2 + rows[b]] += slip[b] * result[rows[b]]
     return 1

@@ -1,4 +1,4 @@
-"""Gears that are driven in one mesh of a row and drive in the next one, and the meshes of a row at a position."""
+"""Gears that stand in several meshes of a train, and its meshes at a position."""
 
 from __future__ import annotations
 
@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
 
-from fenics_gears.geometry.gear_train import SecondMesh
+from fenics_gears.geometry.gear_train import SharedGear
 
 from .mesh_cycle import Cycle
 from .operator import Position
-from .pairing import Flank
 from .tooth_pair import PairNodes, count_of
 
 if TYPE_CHECKING:
@@ -24,27 +23,19 @@ Teeth = TypeVar("Teeth", int, np.ndarray)
 
 
 @dataclass(frozen=True)
-class Idler:
-    """A gear of so many `teeth` that is driven in one `mesh`, by its number, and drives in the next one, and where the
-    `second` mesh is as the first starts."""
+class BetweenMeshes:
+    """A gear of so many `teeth` in two meshes, which feel each other through its body."""
 
-    mesh: int
     teeth: int
-    second: SecondMesh
+    gear: SharedGear
 
     @property
     def meshes(self) -> tuple[int, int]:
-        return self.mesh, self.mesh + 1
-
-    def flank(self, gear: int, flank: Flank) -> Flank:
-        """A flank of the idler as the first mesh counts teeth and flanks, from how the mesh in which it is the driven
-        (1) or the driving gear (0) counts them."""
-        tooth, side = flank
-        return flank if gear == 1 else (self.second.teeth - tooth, 1 - side)
+        return self.gear.meshes
 
     def ahead(self, drive: Teeth, coast: Teeth, first: int) -> Teeth:
-        """Pitches by which the tooth of a drive flank is ahead of that of a coast flank, of `first` and more: round the
-        gear either way."""
+        """Pitches by which the tooth of one flank is ahead of that of another, of `first` and more: round the gear
+        either way."""
         return first + (drive - coast - first) % self.teeth
 
 
@@ -77,7 +68,7 @@ class Part:
 
 
 class RowCompliance(Protocol):
-    """How the contact nodes of all meshes of a row yield."""
+    """How the contact nodes of meshes yield that stand beside each other."""
 
     def of(
         self, cycles: Sequence[Cycle], parts: Sequence[Part], counts: tuple[int, int], steps: float

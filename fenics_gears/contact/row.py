@@ -13,9 +13,11 @@ from math import floor, lcm
 
 import numpy as np
 
+from fenics_gears.system.memory import Kept
+
 from .idler import Part, RowCompliance
 from .mesh import Mesh
-from .mesh_cycle import Cycle, Kept
+from .mesh_cycle import Cycle
 from .operator import ContactOperator, Position
 from .places import counted_from
 from .step_solver import StepProblem, StepSolution, solve_step
@@ -36,16 +38,24 @@ def at_phase(mesh: Mesh, phase: float) -> Mesh:
 @dataclass(frozen=True)
 class MeshOfRow:
     """A mesh of a train: its `cycle` over the coordinates (l,) of its own two gears, and how these follow (l, k) from
-    those of the train; no contact moves the last `modes` of these."""
+    those of the train; no contact moves the last `modes` of these. `offset` (l,), mm: where its own coordinates are as
+    nothing moves, none unless given."""
 
     cycle: Cycle
     coordinates: np.ndarray
+    offset: np.ndarray | None = None
     modes: int = 0
 
     @property
     def moving(self) -> np.ndarray:
         """The same (l, c) of the coordinates that contact moves."""
         return self.coordinates[:, : self.coordinates.shape[1] - self.modes]
+
+    def gap_of(self, operator: ContactOperator) -> np.ndarray:
+        """Gaps (n,) as nothing moves."""
+        if self.offset is None or not self.offset.any():
+            return operator.gap
+        return operator.gap - operator.jacobian[: operator.nodes] @ self.offset
 
 
 @dataclass(frozen=True)
@@ -56,8 +66,8 @@ class JoinedPosition(Position):
 
 
 class RowCycle(Cycle):
-    """Contact equations of all meshes of a train, whose steps are of one length in time; the cycles of those that an
-    idler couples have as many steps as one another."""
+    """Contact equations of all meshes of a train, whose steps are of one length in time; the cycles of those that have
+    a gear in common have as many steps as one another."""
 
     def __init__(self, meshes: Sequence[MeshOfRow], compliance: RowCompliance):
         first = meshes[0].cycle
@@ -103,6 +113,10 @@ class RowCycle(Cycle):
             each.cycle.build(steps)
         missing = dict.fromkeys(step % self.steps for step in steps if step % self.steps not in self._joined)
         self._around = {step: self._joined_at(step) for step in missing}
+
+    def builds_ahead(self, first: int) -> bool:
+        # What an idler couples is built here.
+        return False
 
     def between(self, step: float, before: float) -> Position:
         if step == int(step) and before == step - 1:
@@ -158,7 +172,7 @@ class RowCycle(Cycle):
             normal_lever_arms=np.concatenate([each.normal_lever_arms for each in operators], axis=1),
             compliance=compliance,
             jacobian=jacobian,
-            gap=np.concatenate([each.gap for each in operators]),
+            gap=np.concatenate([mesh.gap_of(each) for each, mesh in zip(operators, self._members)]),
             rigid_slip=rigid_slip,
             previous_compliance=compliance_before,
             previous_jacobian=jacobian_before,

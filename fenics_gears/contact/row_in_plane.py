@@ -8,24 +8,27 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.elasticity.compliance import BothFlanksCompliance
+from fenics_gears.elasticity.compliance import BothFlanksCompliance, FlankCompliance
 
-from .idler import Idler, Part
+from .idler import BetweenMeshes, Part
 from .mesh_cycle import Cycle
 from .pairing import Blocks, Flank, FlankTable, Numbered, add_products, matched
 
 
 @dataclass(frozen=True)
-class IdlerInPlane(Idler):
-    """An idler whose `body` both meshes load over the same face width (mm)."""
+class GearInPlane(BetweenMeshes):
+    """A gear whose `body` both meshes load over the same face width (mm)."""
 
-    body: BothFlanksCompliance
+    body: FlankCompliance
     face_width: float
 
     def block(self, responding: Flank, loaded: Flank) -> np.ndarray:
-        """Compliance of one flank under forces on one of the other mesh, mm per N/mm: from one side of a tooth to the
-        other side of another."""
+        """Compliance of one flank under forces on one of the other mesh, mm per N/mm: of the same side of another
+        tooth, or of the other side."""
         (tooth, side), (other, other_side) = responding, loaded
+        if side == other_side:
+            return self.body.between(self.ahead(tooth, other, -(self.teeth // 2)), 0, (side, side))
+        assert isinstance(self.body, BothFlanksCompliance)
         sense = 1 if side == 0 else -1
         ahead = self.ahead(sense * tooth, sense * other, self.body.first_across)
         return self.body.between(sense * ahead, 0, (side, other_side))
@@ -34,8 +37,8 @@ class IdlerInPlane(Idler):
 class RowInPlane:
     """See `idler.RowCompliance`."""
 
-    def __init__(self, idlers: Sequence[IdlerInPlane]):
-        self._idlers = idlers
+    def __init__(self, gears: Sequence[GearInPlane]):
+        self._gears = gears
         self._blocks = Blocks()
 
     def of(
@@ -54,41 +57,41 @@ class RowInPlane:
                 earlier = part.position.operator.previous_compliance
                 before[np.ix_(part.rows_before(nodes_before), part.rows(1, nodes))] = earlier.T
         at = compliance.ctypes.data, before.ctypes.data, nodes, nodes_before
-        for idler in self._idlers:
-            own = [(cycles[mesh], parts[mesh]) for mesh in idler.meshes]
-            self._add_through(idler, own, at, steps)
+        for gear in self._gears:
+            own = [(cycles[mesh], parts[mesh]) for mesh in gear.meshes]
+            self._add_through(gear, own, at, steps)
         return compliance, before.T if tangential else None
 
     def _add_through(
-        self, idler: IdlerInPlane, meshes: list[tuple[Cycle, Part]], at: tuple[int, ...], steps: float
+        self, gear: GearInPlane, meshes: list[tuple[Cycle, Part]], at: tuple[int, ...], steps: float
     ) -> None:
-        """Add how both meshes of an idler feel each other through it."""
+        """Add how two meshes of a gear feel each other through it."""
         flanks = FlankTable()
         tangential = meshes[0][0].tangential
         now = []
         earlier = []
-        for gear, (_, part) in zip((1, 0), meshes):
-            own = flanks.of(part.position.operator.pairs, gear)
-            now.append([_shifted(idler.flank(gear, each[0]), each, part.first) for each in own])
-            own = flanks.of(part.before, gear) if tangential else []
-            earlier.append([_shifted(idler.flank(gear, each[0]), each, part.first_before) for each in own])
+        for mesh, (side, (_, part)) in enumerate(zip(gear.gear.sides, meshes)):
+            own = flanks.of(part.position.operator.pairs, side)
+            now.append([_shifted(gear.gear.flank(mesh, each[0]), each, part.first) for each in own])
+            own = flanks.of(part.before, side) if tangential else []
+            earlier.append([_shifted(gear.gear.flank(mesh, each[0]), each, part.first_before) for each in own])
         products = []
         back = []
         for responding, other in ((0, 1), (1, 0)):
             # Nodes of the first mesh stand before those of the second: the other half follows by symmetry.
             loads = matched(now[other] if responding == 1 else [], earlier[other])
             cycle = meshes[responding][0]
-            side = cycle.pair.sides[1 - responding]
+            turn = cycle.pair.sides[gear.gear.sides[responding]].turn
             for flank, number, place in now[responding]:
                 for loaded, *numbers in loads:
-                    block = self._block(idler, flank, loaded)
+                    block = self._block(gear, flank, loaded)
                     products.append((0, *block, number, numbers[0], numbers[2], place, numbers[1], numbers[3]))
-                    back.append(side.turn * steps / cycle.steps)
-        add_products([at], flanks, (products, back), tangential, idler.face_width)
+                    back.append(turn * steps / cycle.steps)
+        add_products([at], flanks, (products, back), tangential, gear.face_width)
 
-    def _block(self, idler: IdlerInPlane, responding: Flank, loaded: Flank) -> tuple[int, int, int]:
-        """Address, size and columns of the compliance between two flanks of an idler."""
-        return self._blocks.of((idler.mesh, responding, loaded), lambda: idler.block(responding, loaded))
+    def _block(self, gear: GearInPlane, responding: Flank, loaded: Flank) -> tuple[int, int, int]:
+        """Address, size and columns of the compliance between two flanks of a gear."""
+        return self._blocks.of((gear.meshes, responding, loaded), lambda: gear.block(responding, loaded))
 
 
 def _shifted(flank: Flank, numbered: Numbered, first: int) -> Numbered:

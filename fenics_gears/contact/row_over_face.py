@@ -23,14 +23,14 @@ from .face import Face
 from .face_pairing import FacePair, contact_axes, rises_of
 from .fine_sections import together
 from .formed_rows import FormedRows
-from .idler import Idler, Part
+from .idler import BetweenMeshes, Part
 from .joined_rows import Coupling
 from .mesh_cycle import Cycle
 from .meshes_apart import side_by_side
 
 
 @dataclass(frozen=True, eq=False)
-class IdlerOverFace(Idler):
+class IdlerOverFace(BetweenMeshes):
     """An idler with what is `across` its body, and its `motions` (S n, 3, r) in slices: of a drive flank in the first
     mesh, of a coast flank in the second."""
 
@@ -52,14 +52,14 @@ class IdlerOverFace(Idler):
 
 
 def idler_over_face(
-    place: Idler, body: IdlerCompliance, meshes: tuple[tuple[Side, Face], tuple[Side, Face]]
+    place: BetweenMeshes, body: IdlerCompliance, meshes: tuple[tuple[Side, Face], tuple[Side, Face]]
 ) -> IdlerOverFace:
     """An idler with its body; `meshes`: its side of both, and the slices of these."""
     drive, coast = (
         _in_slices(solid, flank, *mesh)
         for solid, flank, mesh in zip((body.drive, body.coast), (body.across.drive, body.across.coast), meshes)
     )
-    return IdlerOverFace(place.mesh, place.teeth, place.second, body.across, (drive, coast))
+    return IdlerOverFace(place.teeth, place.gear, body.across, (drive, coast))
 
 
 def _in_slices(body, motions: np.ndarray, side: Side, face: Face) -> np.ndarray:
@@ -126,7 +126,7 @@ def _seen(
     along = (seen @ motions.reshape(len(motions), -1)).reshape(len(weights), 3, -1)
     axes = contact_axes(cycle.face, cycle.pair.sides[gear], pairs, cycle.tangential, turned)
     moved = np.einsum("ndc,ncr->dnr", np.repeat(axes[:, :, :3], counts, axis=0), along)
-    teeth = [idler.flank(gear, (pair.place.teeth[gear], pair.place.flank))[0] for pair in pairs]
+    teeth = [idler.gear.flank(1 - gear, (pair.place.teeth[gear], pair.place.flank))[0] for pair in pairs]
     return _OnIdler(moved, np.repeat(teeth, counts).astype(np.int64))
 
 

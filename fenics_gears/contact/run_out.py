@@ -17,8 +17,7 @@ from fenics_gears.geometry.pair import GearPair
 
 from .eccentricity import Eccentricity, Offset
 from .kinematics import COLUMNS, COORDINATES, displacement_jacobian
-from .mesh_cycle import PerPosition
-from .operator import Position
+from .operator import PerPosition, Position
 
 
 class RunOut:

@@ -1,22 +1,25 @@
 """Rotations and centres of all gears of a train, the turn of its first shaft prescribed.
 
-A gear's rotation is counted as the mesh does in which it is driven, and carried as the arc of its base circle (mm). In
-the next mesh, whose frame is the mirror image, the same rotation counts the other way, whether that is the next mesh of
-an idler or that of the next gear on the same shaft. A shaft that twists adds its twist, as the arc of the gear or of
-the load at its far end. All matrices are summed over gears and shafts, each of which moves by its own rows of the
-coordinates.
+A shaft's rotation is counted as the meshes do that drive it, and carried as the arc of a base circle (mm). In a mesh
+that it drives, whose frame is the mirror image, the same rotation counts the other way, whether an idler drives there
+or another gear on the shaft. A shaft that twists adds its twist between the gears that are driven and those that drive,
+or the load, as the arc of what is at its far end. All matrices are summed over gears and shafts, each of which moves by
+its own rows of the coordinates.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from math import cos, isfinite, pi, sin
+from fractions import Fraction
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.train_graph import PINION, TrainGraph, turns_of_shafts
 
 from .damping import Damping
 from .drivetrain import Drivetrain
@@ -41,9 +44,9 @@ class MeshSprings:
 
 @dataclass(frozen=True)
 class TrainDrivetrain(Drivetrain):
-    """Equations of motion of a train. `motions` (f, k): of each mesh the motion of all behind it, which without mass it
-    alone holds. `angle` (k,): rotation (rad) of the last gear; `of_meshes`: of each mesh, how its own coordinates
-    (l, k) follow; `end` (k,): rotation (rad) of the load."""
+    """Equations of motion of a train. `motions` (f, k): those of shafts that turn together, which without mass some
+    meshes alone hold. `angle` (k,): rotation (rad) of the last shaft; `of_meshes`: of each mesh, how its own
+    coordinates (l, k) follow; `end` (k,): rotation (rad) of the load."""
 
     motions: tuple[tuple[float, ...], ...] = ()
     angle: np.ndarray = field(default_factory=lambda: np.zeros(0))
@@ -57,53 +60,43 @@ class TrainDrivetrain(Drivetrain):
 
     @property
     def free_words(self) -> str:
-        torque = 1e-3 * float(self.load @ self.motions[-1]) / float(self.angle @ self.motions[-1])
+        motion = max(self.motions, key=lambda each: abs(float(self.angle @ each)))
+        torque = 1e-3 * float(self.load @ motion) / float(self.angle @ motion)
         return f"the last gear turns freely under its torque of {torque:.4g} N m"
 
 
 @dataclass(frozen=True)
 class TrainParts:
-    """What a train is put together of: the `pairs` of its meshes, and whether the pinion of each is the wheel of the
-    mesh before, an idler (`idlers`); `torque` (N mm) on the last shaft.
+    """What a train is put together of: the `layout` of its meshes, and the `torque` (N mm) on the last shaft.
 
-    `torsion` (f + 1,): stiffness (N mm/rad) of each shaft, of the first between drive and gear, of the last between
-    gear and load, infinite where it is rigid. By gear, from the first on: `masses`, none without inertia, and
-    `supports` along and off the line of action (N/mm), None where its centre is fixed. `turned`: of each idler, how
-    displacements (2,) in its first mesh's frame stand in that of its second. `load`: moment of inertia (N mm s^2) on
-    the last shaft.
+    `torsion`: stiffness (N mm/rad) of each shaft, of the first between drive and gears, of the last between gears and
+    load, of others between the gears that are driven and those that only drive, infinite where it is rigid. By gear:
+    `masses`, none without inertia, and `supports` along and off the line of action of its first mesh (N/mm), None where
+    its centre is fixed. `load`: moment of inertia (N mm s^2) on the last shaft.
     """
 
-    pairs: Sequence[GearPair]
-    idlers: Sequence[bool]
+    layout: Layout
     torque: float
     torsion: Sequence[float]
     masses: Sequence[LumpedGear] = ()
     supports: Sequence[tuple[float, float] | None] = ()
-    turned: Sequence[np.ndarray | None] = ()
     load: float | None = None
 
     @property
-    def gears(self) -> list[tuple[int, int]]:
-        """Of each mesh the numbers of its gears; an idler has one number."""
-        found: list[tuple[int, int]] = []
-        for idler in self.idlers:
-            pinion = found[-1][1] + (0 if idler else 1) if found else 0
-            found.append((pinion, pinion + 1))
-        return found
+    def graph(self) -> TrainGraph:
+        return self.layout.graph
+
+    @property
+    def pairs(self) -> Sequence[GearPair]:
+        return self.layout.pairs
+
+    @property
+    def gears(self) -> Sequence[tuple[int, int]]:
+        """Of each mesh the numbers of its gears; one that stands in several has one number."""
+        return self.graph.gears
 
     def support(self, gear: int) -> tuple[float, float] | None:
         return self.supports[gear] if self.supports else None
-
-
-def idler_turn(first: GearPair, second: GearPair, to_first: float, to_second: float) -> np.ndarray:
-    """How displacements (2,) of an idler along and off the line of action of its first mesh stand in its second, (2,
-    2); the angles to its mates as `geometry.gear_train.second_mesh` has them."""
-    # The line of action of the first mesh, from its pinion on, and that of the second, in the frame of the first.
-    one = to_first + pi + 0.5 * pi - first.operating_pressure_angle
-    other = to_second - 0.5 * pi + second.operating_pressure_angle
-    turn = other - one
-    # Seen in the mirror image, the direction off the line is on its other side.
-    return np.array([[cos(turn), sin(turn)], [sin(turn), -cos(turn)]])
 
 
 class _Rows:
@@ -111,20 +104,21 @@ class _Rows:
 
     def __init__(self, parts: TrainParts):
         self.parts = parts
+        self.graph = parts.graph
         pairs = parts.pairs
-        names = ["rotation_1"] if isfinite(parts.torsion[0]) else []
-        radii = [pairs[0].base_radii[0]] * len(names)
-        gears = parts.gears
-        for mesh, pair in enumerate(pairs):
-            if mesh and isfinite(parts.torsion[mesh]):
-                names.append(f"twist_{mesh + 1}")
-                radii.append(pair.base_radii[0])
-            names.append(f"rotation_{mesh + 2}")
-            radii.append(pair.base_radii[1])
-        if isfinite(parts.torsion[-1]):
-            names.append(f"twist_{len(pairs) + 1}")
-            radii.append(pairs[-1].base_radii[1])
-        for gear in range(gears[-1][1] + 1):
+        last = self.graph.last
+        names = []
+        radii = []
+        for shaft in range(last + 1):
+            driven = [pairs[mesh].base_radii[1] for mesh in self.graph.into(shaft)]
+            driving = [pairs[mesh].base_radii[0] for mesh in self.graph.out_of(shaft)]
+            if shaft or isfinite(parts.torsion[0]):
+                names.append(f"rotation_{shaft + 1}")
+                radii.append((driven or driving)[0])
+            if shaft and isfinite(parts.torsion[shaft]):
+                names.append(f"twist_{shaft + 1}")
+                radii.append((driving or driven)[0])
+        for gear in range(len(self.graph.shafts)):
             if parts.support(gear) is not None:
                 names += [f"centre_x of gear {gear + 1}", f"centre_y of gear {gear + 1}"]
                 radii += [1.0, 1.0]
@@ -139,20 +133,19 @@ class _Rows:
             row[place] = 1.0 / self.radii[place]
         return row
 
-    def driven(self, mesh: int) -> np.ndarray:
-        """Rotation of a mesh's wheel."""
-        return self.of(f"rotation_{mesh + 2}")
-
-    def driving(self, mesh: int) -> np.ndarray:
-        """Rotation of a mesh's pinion, as that mesh counts it."""
-        if mesh == 0:
-            return self.of("rotation_1")
-        return self.of(f"twist_{mesh + 1}") - self.driven(mesh - 1)
+    def rotation(self, gear: int, side: int) -> np.ndarray:
+        """Rotation of a gear, as a mesh counts it in which it is the pinion (0) or the wheel (1)."""
+        shaft = self.graph.shafts[gear]
+        own = self.of(f"rotation_{shaft + 1}")
+        if shaft == 0 or side != PINION:
+            return own
+        return (0.0 if self.graph.driven(gear) else self.of(f"twist_{shaft + 1}")) - own
 
     @property
     def end(self) -> np.ndarray:
         """Rotation of the load."""
-        return self.driven(len(self.parts.pairs) - 1) + self.of(f"twist_{len(self.parts.pairs) + 1}")
+        number = self.graph.last + 1
+        return self.of(f"rotation_{number}") + self.of(f"twist_{number}")
 
     def centre(self, gear: int) -> np.ndarray:
         """Displacements (2, k) of a gear's centre, along and off the line of action of its first mesh."""
@@ -161,23 +154,22 @@ class _Rows:
     def of_mesh(self, mesh: int) -> np.ndarray:
         """A mesh's own coordinates (l, k), in mm."""
         pair = self.parts.pairs[mesh]
+        layout = self.parts.layout
         rows = []
-        gears = self.parts.gears[mesh]
-        for side, (gear, angle) in enumerate(zip(gears, (self.driving(mesh), self.driven(mesh)))):
+        for side, gear in enumerate(self.graph.gears[mesh]):
             if self.parts.support(gear) is not None:
-                centre = self.centre(gear)
-                rows += list(self.parts.turned[mesh] @ centre if side == 0 and self.parts.idlers[mesh] else centre)
-            rows.append(pair.base_radii[side] * angle)
+                first, _ = self.graph.sides[gear][0]
+                turned = layout.axes(mesh) @ layout.axes(first).T
+                rows += list(self.centre(gear) if first == mesh else turned @ self.centre(gear))
+            rows.append(pair.base_radii[side] * self.rotation(gear, side))
         return np.array(rows)
 
-    def motion_behind(self, mesh: int) -> tuple[float, ...]:
-        """The motion (k,) of all gears behind a mesh that turn together, of length 1."""
+    def motion_of(self, shafts: Sequence[int], turns: Sequence[Fraction]) -> tuple[float, ...]:
+        """The motion (k,) of shafts that turn together, of length 1; `turns` of each shaft in one of the first."""
         motion = np.zeros(len(self.names))
-        turned = 1.0
-        for number in range(mesh, len(self.parts.pairs)):
-            turned *= self.parts.pairs[number].rotation_ratio if number > mesh else 1.0
-            place = self.names.index(f"rotation_{number + 2}")
-            motion[place] = self.radii[place] * turned
+        for shaft in shafts:
+            place = self.names.index(f"rotation_{shaft + 1}")
+            motion[place] = self.radii[place] * float(turns[shaft] / turns[shafts[0]])
         return tuple(motion / np.linalg.norm(motion))
 
 
@@ -187,7 +179,9 @@ def train_drivetrain(
     """The gears of a train under a torque on the last shaft. `mesh_stiffness` (f,), N/mm: of one tooth pair of each
     mesh, roughly; damping ratios are of the modes with them."""
     rows = _Rows(parts)
+    graph = parts.graph
     meshes = range(len(parts.pairs))
+    turns = turns_of_shafts(graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in parts.pairs])
     of_meshes = tuple(rows.of_mesh(mesh) for mesh in meshes)
     names_of = [coordinates_of_mesh(parts, mesh) for mesh in meshes]
 
@@ -208,8 +202,8 @@ def train_drivetrain(
         None,
         MeshSprings(cosines * flanks(MESH_DIRECTION), flanks(ACROSS_DIRECTION)),
         bearing_stiffness=in_bearings,
-        motions=tuple(rows.motion_behind(mesh) for mesh in meshes),
-        angle=rows.driven(len(parts.pairs) - 1),
+        motions=tuple(rows.motion_of(shafts, turns) for shafts in graph.cuts),
+        angle=rows.of(f"rotation_{graph.last + 1}"),
         of_meshes=of_meshes,
         end=rows.end,
     )
@@ -234,7 +228,7 @@ def _stiffness(rows: _Rows) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness (k, k) of shafts and bearings, N/mm, and the part of it in bearings."""
     parts = rows.parts
     in_bearings = np.zeros((len(rows.names), len(rows.names)))
-    for gear in range(parts.gears[-1][1] + 1):
+    for gear in range(len(rows.graph.shafts)):
         support = parts.support(gear)
         if support is not None:
             centre = rows.centre(gear)
@@ -251,13 +245,11 @@ def _mass(rows: _Rows) -> np.ndarray:
     """Mass (k, k), N s^2/mm, of gears and load."""
     parts = rows.parts
     found = np.zeros((len(rows.names), len(rows.names)))
-    for mesh, gears in enumerate(parts.gears):
-        for side, (gear, angle) in enumerate(zip(gears, (rows.driving(mesh), rows.driven(mesh)))):
-            if side == 0 and parts.idlers[mesh]:
-                continue  # counted as the wheel of the mesh before
-            centre = rows.centre(gear)
-            own = parts.masses[gear]
-            found += own.moment_of_inertia * np.outer(angle, angle) + own.mass * centre.T @ centre
+    for gear, meshes in enumerate(rows.graph.sides):
+        angle = rows.rotation(gear, meshes[0][1])
+        centre = rows.centre(gear)
+        own = parts.masses[gear]
+        found += own.moment_of_inertia * np.outer(angle, angle) + own.mass * centre.T @ centre
     if parts.load is not None:
         found += parts.load * np.outer(rows.end, rows.end)
     return found

@@ -5,6 +5,7 @@ from time import perf_counter
 
 import numpy as np
 
+from .element_nodes import dofs_of
 from .elements import Element
 from .mesh_data import BodyMesh
 from .mumps import schur_complement
@@ -64,11 +65,6 @@ def _nodes(space, points: dict[str, np.ndarray], cells_of: dict[str, np.ndarray]
     nodes = dict(zip(places, np.split(nodes_at(space, np.vstack([*places.values()])), ends[:-1])))
     nodes |= {name: nodes_in_cells(space, points[name], cells) for name, cells in cells_of.items()}
     return np.concatenate([nodes[name] for name in points])
-
-
-def dofs_of(nodes: np.ndarray, components: int = 2) -> np.ndarray:
-    """Dofs (components k,) of nodes (k,)."""
-    return (components * np.asarray(nodes)[:, None] + np.arange(components)).ravel()
 
 
 def by_radius(points: np.ndarray) -> np.ndarray:

@@ -86,6 +86,11 @@ def numbers_at(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
     return nearest[:, 0]
 
 
+def dofs_of(nodes: np.ndarray, components: int = 2) -> np.ndarray:
+    """Dofs (components k,) of nodes (k,)."""
+    return (components * np.asarray(nodes)[:, None] + np.arange(components)).ravel()
+
+
 def node_roll_angles(gear: Gear, vertices: np.ndarray, order: int) -> np.ndarray:
     """Roll angles (n,), rad, of the flank's nodes from its element vertices (k, 2), form circle to tip; a node between
     two vertices is midway in arc length."""

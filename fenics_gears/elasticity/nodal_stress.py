@@ -13,8 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from . import dolfinx_adapter as adapter
-from .condensation import dofs_of
-from .element_nodes import ElementNodes
+from .element_nodes import ElementNodes, dofs_of
 from .face.layers import Sweep, shapes
 from .ring import rotation
 

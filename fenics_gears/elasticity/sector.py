@@ -3,8 +3,8 @@
 import numpy as np
 from scipy import sparse
 
-from .condensation import by_radius, dofs_of
-from .element_nodes import ElementNodes, element_nodes
+from .condensation import by_radius
+from .element_nodes import ElementNodes, dofs_of, element_nodes
 from .elements import Element
 from .face.layers import Sweep, swept_nodes
 from .face.swept_stiffness import SectionForms, swept_stiffness

@@ -22,10 +22,10 @@ from .cost_parts import (
 from .face_resolution import face_discretisation
 from .model import Model
 
-# Seconds of an unknown of a body, of a held tooth's (measured of eight gears, 7.4e-5 to 1.2e-4), and of a
-# multiplication of dense matrices.
+# Seconds of an unknown of a body, of a held tooth's (measured of two gears, 1.2e-4 and 1.6e-4 on a busy machine), and
+# of a multiplication of dense matrices.
 UNKNOWN = 4e-5
-NEAR_UNKNOWN = 9e-5
+NEAR_UNKNOWN = 1.2e-4
 MULTIPLICATION = 5e-11
 # Of the root stress, an unknown, factorised and solved for one load; of the cube of a cut's dofs.
 FACTORISED_UNKNOWN = 6e-5
@@ -89,7 +89,7 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
         condensing += UNKNOWN * size.unknowns + MULTIPLICATION * own.operations
         gear = (model.pair.pinion, model.pair.wheel)[number]
         division = face_discretisation(model, number)
-        condensing += NEAR_UNKNOWN * near_unknowns(gear, division, model.scene.coast_flanks is not None)
+        condensing += NEAR_UNKNOWN * sum(near_unknowns(gear, division, model.scene.coast_flanks is not None))
         # The flanks' compliance by heights, and by slices for teeth ahead and behind.
         on_slices = size.flanks * model.face.slices / len(face_discretisation(model, number).sweep.heights)
         reach = model.touching.reach.farthest

@@ -1,7 +1,8 @@
 """The model of a train: the models of the pairs of its meshes, and which of them move together.
 
-Between stages rigid shafts hand on torque and rotation alone: each stage is computed by itself. The meshes of a row
-with idlers are computed together, and so are all meshes of a train that has masses, bearings or shafts that twist.
+Between stages rigid shafts hand on torque and rotation alone: each stage is computed by itself. Meshes that have a gear
+in common are computed together, and so are all meshes of a train that has several paths, masses, bearings or shafts
+that twist.
 """
 
 from __future__ import annotations
@@ -22,17 +23,29 @@ from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
-from fenics_gears.geometry.gear_train import SecondMesh, begun_at
+from fenics_gears.geometry.gear_train import Layout
+from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.scene.data import Motion
-from fenics_gears.scene.train import MeshOfScene, TrainScene, rows_of
+from fenics_gears.scene.data import Load, Motion
+from fenics_gears.scene.train import TrainScene
+from fenics_gears.scene.train_mesh import MeshOfScene, layout_of, rows_of
 from fenics_gears.scene.train_pair_shafts import in_words_of_train
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import mesh_stiffness
 from .face_resolution import face_discretisation
 from .model import Model, model_of
-from .train_parts import bent_of, check_alike, check_supports, model_of_mesh, parts_of, whole_steps
+from .shared_gears import reach_of
+from .train_parts import (
+    bent_of,
+    check_alike,
+    check_supports,
+    model_of_mesh,
+    offsets_of,
+    parts_of,
+    whole_steps,
+    whole_torques,
+)
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
@@ -134,67 +147,51 @@ class RowModel:
         """Whether flanks are resolved over the face: of all meshes or of none."""
         return self.models[0].scene.three_dimensional
 
+    @cached_property
+    def layout(self) -> Layout:
+        return layout_of(self.meshes)
+
     @property
-    def begun(self) -> list[tuple[float, int]]:
-        """See `gear_train.begun_at`."""
-        return begun_at([mesh.idler for mesh in self.meshes])
-
-    def second_mesh(self, mesh: int) -> SecondMesh:
-        """Where the mesh behind an idler is as the one before it begins, its pairs counted as in the run."""
-        second = self.meshes[mesh + 1].idler
-        assert second is not None
-        return replace(second, teeth=second.teeth + self.begun[mesh + 1][1])
-
-    def reach_through(self, mesh: int) -> Reach:
-        """Between which teeth of the idler behind a mesh compliance is needed: on its flanks of either mesh, and from
-        one to the other."""
-        first, second = self.models[mesh : mesh + 2]
-        idler = self.meshes[mesh + 1].idler
-        assert idler is not None
-        one, other = (_indices(model) for model in (first, second))
-        # One index further at either end: pairs a step before, and those of a mesh that is ahead by part of a cycle.
-        least = -(one[1] + 1) - idler.teeth + other[0] - 1
-        most = -(one[0] - 1) - idler.teeth + other[1] + 1
-        teeth = first.pair.wheel.teeth
-        most = min(most, least + teeth - 1)
-        round_about = teeth * round(0.5 * (least + most) / teeth)
-        same = max(model.touching.reach.same for model in (first, second))
-        return Reach(same, (least - round_about, most - round_about))
+    def graph(self) -> TrainGraph:
+        return self.layout.graph
 
     @property
     def members(self) -> list[list[int]]:
-        """Numbers of its meshes, those together that idlers couple."""
-        return rows_of(self.meshes)
+        """Numbers of its meshes, those together that have a gear in common."""
+        return self.graph.members
 
     @property
-    def idlers(self) -> list[int]:
-        """Numbers of the meshes whose wheel is an idler."""
-        return [number - 1 for number, mesh in enumerate(self.meshes) if number and mesh.idler is not None]
+    def placed(self) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Of each mesh, how its own coordinates (l, k) follow from those of all, and where they are (l,) as nothing
+        moves."""
+        offsets = offsets_of(self.meshes, self.shafts, [model.drivetrain.coordinates for model in self.models])
+        return list(zip(self.drivetrain.of_meshes, offsets))
 
-    def key_of_idler(self, mesh: int) -> tuple[Gear, Material, Discretisation, Reach]:
-        """What the section of the idler behind a mesh depends on, gear and material first."""
-        own = self.models[mesh]
-        material = own.scene.gears.material_of(GEARS[1])
-        return own.pair.wheel, material, self.discretisation_of_idler(mesh), self.reach_through(mesh)
+    def gear(self, gear: int) -> Gear:
+        """A gear by its number."""
+        return self.layout.gear(gear)
 
-    def keys_of_idler(self, mesh: int) -> tuple:
-        """What the body of the idler behind a mesh depends on, gear and material first."""
-        over_face = self.models[mesh].scene.three_dimensional
-        solid = self.solid_discretisation_of_idler(mesh) if over_face else None
-        return *self.key_of_idler(mesh), solid
+    def key_of_shared(self, gear: int) -> tuple[Gear, Material, Discretisation, Reach]:
+        """What the section of a gear of several meshes depends on, gear and material first."""
+        mesh, side = self.graph.sides[gear][0]
+        material = self.models[mesh].scene.gears.material_of(GEARS[side])
+        return self.gear(gear), material, self._discretisation_of(gear), reach_of(self.models, self.layout, gear)
 
-    def discretisation_of_idler(self, mesh: int) -> Discretisation:
-        """How the idler behind a mesh is divided: finer where the tip of either mate may press."""
-        parts = self.models[mesh].resolution.discretisation(1), self.models[mesh + 1].resolution.discretisation(0)
+    def keys_of_shared(self, gear: int) -> tuple:
+        """What the body of a gear of several meshes depends on, gear and material first."""
+        return *self.key_of_shared(gear), self.solid_discretisation_of(gear) if self.over_face else None
+
+    def _discretisation_of(self, gear: int) -> Discretisation:
+        """How a gear of several meshes is divided: finer where the tip of any mate may press."""
+        parts = [self.models[mesh].resolution.discretisation(side) for mesh, side in self.graph.sides[gear]]
         tips = [part.mate_tip for part in parts if part.mate_tip is not None]
         both = (min(each[0] for each in tips), max(each[1] for each in tips)) if tips else None
         return replace(parts[0], mate_tip=both)
 
-    def solid_discretisation_of_idler(self, mesh: int) -> FaceDiscretisation:
-        """How the body of the idler behind a mesh is divided: in the layers of the mesh that has more."""
-        first = face_discretisation(self.models[mesh], 1)
-        second = face_discretisation(self.models[mesh + 1], 0)
-        return replace(first, layers=max(first.layers, second.layers))
+    def solid_discretisation_of(self, gear: int) -> FaceDiscretisation:
+        """How the body of a gear of several meshes is divided: in the layers of the mesh that has most."""
+        parts = [face_discretisation(self.models[mesh], side) for mesh, side in self.graph.sides[gear]]
+        return replace(parts[0], layers=max(part.layers for part in parts))
 
 
 @dataclass(frozen=True)
@@ -222,12 +219,6 @@ class TrainModel:
         return [*said, *(each for row in self.rows if not row.single for each in row.warnings)]
 
 
-def _indices(model: Model) -> tuple[int, int]:
-    """Least and largest index of a pair that touches in a mesh."""
-    steps = model.touching.steps
-    return model.touching.drive[0] // steps, model.touching.drive[1] // steps
-
-
 def train_model_of(scene: TrainScene) -> TrainModel:
     """The model of a train. Raises SceneError for what trains do not have yet, and as `model_of` of each mesh."""
     rows = []
@@ -250,9 +241,15 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
     parts = parts_of(meshes, shafts)
     bent = bent_of(meshes, shafts)
     sizes = _flank_sizes(meshes, models)
+    wholes = whole_torques(parts.layout, parts.torque)
     found = []
     for number, (mesh, own, size) in enumerate(zip(meshes, steps, sizes)):
         accuracy = replace(mesh.scene.accuracy, steps_per_mesh_cycle=own, flank_element_size=size)
+        if parts.graph.in_loop(number):
+            # It may have to carry what all paths do together.
+            alone = replace(mesh.scene, accuracy=accuracy, load=Load(wholes[number]), inertia=None)
+            wide = model_of_mesh(mesh, alone).resolution.contact_grid.length
+            accuracy = replace(accuracy, contact_length=wide)
         passed = ceil(cycles * max(steps) / own)
         recorded = min(ceil(recorded_cycles * max(steps) / own), passed)
         motion = Motion(mesh.scene.motion.mesh_frequency, passed, recorded, True, mesh.scene.motion.speed_given)

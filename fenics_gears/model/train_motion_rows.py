@@ -8,6 +8,7 @@ import numpy as np
 
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import resolved_frequency
+from fenics_gears.scene.train_mesh import gear_names
 
 from .train import RowModel
 from .train_parts import parts_of
@@ -22,7 +23,7 @@ OF_SHAFTS = {"axial": "axial motion", "torsion": "torsion"}
 def motion_rows(row: RowModel) -> Rows:
     """Masses of the gears, stiffness of the shafts, and the motions that are unknown."""
     parts = parts_of(row.meshes, row.shafts)
-    gears = _gears(row)
+    gears = gear_names(row.meshes)
     rows: Rows = []
     for name, lumped in zip(gears, parts.masses):
         rows.append((f"{name}: moment of inertia", 1e3 * lumped.moment_of_inertia, "kg mm^2"))
@@ -109,7 +110,7 @@ def _moving_most(row: RowModel) -> list[str]:
 
 def _moving(row: RowModel) -> list[str]:
     """What each coordinate moves, in words; of a shaft that bends as a whole."""
-    gears = _gears(row)
+    gears = gear_names(row.meshes)
     shaft_of = {}
     for name, system in zip(row.bent.names, row.bent.systems) if row.bent is not None else ():
         for coordinate in system.coordinates:
@@ -126,11 +127,3 @@ def motion_in_words(name: str, gears: list[str]) -> str:
         return f"centre of {gears[int(number) - 1]} {direction} the line of action"
     kind, _, number = name.partition("_")
     return f"twist of shaft {number}" if kind == "twist" else f"rotation of shaft {number}"
-
-
-def _gears(row: RowModel) -> list[str]:
-    """Names of all gears, an idler once."""
-    found: list[str] = []
-    for mesh in row.meshes:
-        found += [each for each in mesh.gears if each not in found]
-    return found

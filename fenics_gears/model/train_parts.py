@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
 from math import ceil, gcd, inf, lcm
 from typing import TYPE_CHECKING
 
-from fenics_gears.dynamics.train import TrainParts, idler_turn
+import numpy as np
+
+from fenics_gears.dynamics.train import TrainParts
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.gear_train import Layout
+from fenics_gears.geometry.train_graph import turns_of_shafts
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.train import MeshOfScene, rows_of
+from fenics_gears.scene.train_mesh import MeshOfScene, gear_names, layout_of
 from fenics_gears.scene.train_pair_shafts import in_words_of_train
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import lumped_gears
 from .model import Model, model_of
+from .shared_gears import check_shared
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.train_shafts import BentShafts
@@ -29,27 +33,43 @@ MOST_POSITIONS = 20000
 
 def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
     """What the equations of motion of some meshes are put together of."""
-    pairs = [mesh.pair for mesh in meshes]
-    idlers = [number > 0 and mesh.idler is not None for number, mesh in enumerate(meshes)]
-    turned = [
-        idler_turn(pairs[number - 1], pairs[number], mesh.idler.to_first, mesh.idler.to_second)
-        if idlers[number] and mesh.idler is not None
-        else None
-        for number, mesh in enumerate(meshes)
-    ]
+    layout = layout_of(meshes)
+    graph = layout.graph
     masses: list[LumpedGear] = []
     supports: list[tuple[float, float] | None] = []
-    for idler, mesh in zip(idlers, meshes):
-        inert = mesh.scene.inertia is not None
-        lumped = lumped_gears(mesh.scene, mesh.pair) if inert else {}
-        for gear in GEARS[1 if idler else 0 :]:
-            masses += [lumped[gear]] if inert else []
-            supports.append(_support(mesh.scene, gear))
-    torque = meshes[-1].scene.load.wheel_torque
-    torsion = [inf if each is None else each for each in shafts.torsion or (None,) * (len(pairs) + 1)]
+    for sides in graph.sides:
+        first, side = sides[0]
+        mesh = meshes[first]
+        if mesh.scene.inertia is not None:
+            masses.append(lumped_gears(mesh.scene, mesh.pair)[GEARS[side]])
+        supports.append(_support(mesh.scene, GEARS[side]))
+    torque = sum(meshes[mesh].scene.load.wheel_torque for mesh in graph.into(graph.last))
+    torsion = [inf if each is None else each for each in shafts.torsion or (None,) * (graph.last + 1)]
     for number, stiffness in torsions(meshes, shafts).items():
         torsion[number] = stiffness
-    return TrainParts(pairs, idlers, torque, torsion, masses, supports, turned, shafts.load)
+    return TrainParts(layout, torque, torsion, masses, supports, shafts.load)
+
+
+def offsets_of(
+    meshes: Sequence[MeshOfScene], shafts: TrainShafts, names_of: Sequence[tuple[str, ...]]
+) -> list[np.ndarray]:
+    """Of each mesh, how its own coordinates (l,), by their names, stand (mm) where nothing moves: by the clocking of
+    shafts, of which the second gear is turned ahead."""
+    ahead = {carried[1]: clocking for carried, clocking in zip(shafts.carried, shafts.clocking) if clocking is not None}
+    found = []
+    for mesh, names in zip(meshes, names_of):
+        own = np.zeros(len(names))
+        # A wheel's rotation is counted against the sense in which it turns.
+        for side, (gear, sign) in enumerate(zip(mesh.gears, (1.0, -1.0))):
+            own[names.index(f"rotation_{side + 1}")] = sign * mesh.pair.base_radii[side] * ahead.get(gear, 0.0)
+        found.append(own)
+    return found
+
+
+def whole_torques(layout: Layout, output: float) -> list[float]:
+    """Torque (N mm) on the wheel of each mesh without losses, as if it alone drove its shaft."""
+    turns = turns_of_shafts(layout.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in layout.pairs])
+    return [output * float(turns[-1] / turns[driven]) for _, driven in layout.graph.between]
 
 
 def torsions(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> Mapping[int, float]:
@@ -74,9 +94,9 @@ def _support(scene: Scene, gear: str) -> tuple[float, float] | None:
 def whole_steps(meshes: Sequence[MeshOfScene], least: Sequence[int]) -> list[int]:
     """Steps of the cycle of each mesh, all of one length in time and at least so many: whole numbers, by the teeth of
     the gears on each shaft. Raises SceneError where they are too many."""
-    lengths = [Fraction(1)]
-    for before, mesh in zip(meshes, meshes[1:]):
-        lengths.append(lengths[-1] * Fraction(before.pair.wheel.teeth, mesh.pair.pinion.teeth))
+    graph = layout_of(meshes).graph
+    turns = turns_of_shafts(graph, [(mesh.pair.pinion.teeth, mesh.pair.wheel.teeth) for mesh in meshes])
+    lengths = [1 / (turns[shaft] * mesh.pair.pinion.teeth) for mesh, (shaft, _) in zip(meshes, graph.between)]
     whole = lcm(*(each.denominator for each in lengths))
     units = [int(each * whole) for each in lengths]
     common = gcd(*units)
@@ -93,15 +113,14 @@ def whole_steps(meshes: Sequence[MeshOfScene], least: Sequence[int]) -> list[int
 
 
 def check_supports(meshes: Sequence[MeshOfScene]) -> None:
-    """Raise SceneError for an idler whose support has directions: those of either mesh would be meant."""
-    for before, mesh in zip(meshes, meshes[1:]):
-        if mesh.idler is None:
-            continue
-        of_idler = [_support(before.scene, GEARS[1]), _support(mesh.scene, GEARS[0])]
-        if of_idler[0] != of_idler[1] or of_idler[0] is not None and of_idler[0][0] != of_idler[0][1]:
+    """Raise SceneError for a gear in several meshes whose support has directions: those of any would be meant."""
+    for sides in layout_of(meshes).graph.sides:
+        found = [_support(meshes[mesh].scene, GEARS[side]) for mesh, side in sides]
+        one = found[0]
+        if len(found) > 1 and (set(found) != {one} or one is not None and one[0] != one[1]):
             raise SceneError(
-                f"{mesh.name}: bearings of an idler have one stiffness in all directions. Allowed: bearings.stiffness,"
-                f" for all gears of the row. {NOTHING_DONE}"
+                f"{meshes[sides[1][0]].name}: bearings of a gear in several meshes have one stiffness in all"
+                f" directions. Allowed: bearings.stiffness, alike for these meshes. {NOTHING_DONE}"
             )
 
 
@@ -126,13 +145,7 @@ def bent_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShafts | 
 
 def check_alike(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> None:
     """Raise SceneError for what meshes that move together do not have yet."""
-    in_rows = [models[number] for row in rows_of(meshes) if len(row) > 1 for number in row]
-    for model in in_rows:
-        if model.pair.effective_face_widths != (model.pair.face_width,) * 2:
-            raise SceneError(
-                "gears of a row that are not equally wide are not yet computed. Allowed: one face_width for the row."
-                f" {NOTHING_DONE}"
-            )
+    check_shared(layout_of(meshes), models, gear_names(meshes), [mesh.name for mesh in meshes])
     coefficients = {model.friction_coefficient for model in models}
     if len(coefficients) > 1:
         raise SceneError(

@@ -27,8 +27,9 @@ from fenics_gears.effects.elastic_shaft_rules import check_held_at_work
 from fenics_gears.effects.elastic_shaft_seats import sections_between
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import NOTHING_DONE
-from fenics_gears.scene.train import MeshOfScene
-from fenics_gears.scene.train_shafts import BentShaft, TrainShafts
+from fenics_gears.scene.train_mesh import MeshOfScene, layout_of
+from fenics_gears.scene.train_shaft import BentShaft
+from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import highest_of_interest, lumped_gears
 
@@ -77,16 +78,14 @@ def torsions_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> Mapping[i
 def mesh_frames(meshes: Sequence[MeshOfScene]) -> list[MeshFrame]:
     """Frames of all meshes in space: of a stage as of a pair whose pinion turns counter-clockwise, seen from the end
     where it does; behind an idler as the mirror image."""
-    senses: dict[str, float] = {}
-    frames: list[MeshFrame] = []
-    forwards = 1.0
-    for number, mesh in enumerate(meshes):
-        # The pinion of a stage is on one shaft with the wheel of the mesh before.
-        sense = senses.get(mesh.gears[0]) or (senses[meshes[number - 1].gears[1]] if number else 1.0)
-        forwards = forwards if mesh.idler is not None else sense
-        senses[mesh.gears[0]] = sense
-        senses[mesh.gears[1]] = -sense
-        axes = mesh_axes(mesh.direction, mesh.pair.operating_pressure_angle, sense, forwards)
+    forwards = [1.0] * len(meshes)
+    for members in layout_of(meshes).graph.members:
+        for number in members:
+            # Places along the axes count one way in all meshes of a gear.
+            forwards[number] = float(meshes[members[0]].sense)
+    frames = []
+    for mesh, own in zip(meshes, forwards):
+        axes = mesh_axes(mesh.direction, mesh.pair.operating_pressure_angle, mesh.sense, own)
         frames.append(MeshFrame(axes, mesh.pair, mesh.scene.load.wheel_torque))
     return frames
 

@@ -46,17 +46,24 @@ class PowerFlow:
 
 
 def power_flow(result: xr.Dataset, train: TrainScene) -> PowerFlow:
-    """Of a train's run, backwards from the load on the last shaft: mean torques, each higher by what its mesh loses.
-    In a row the loss is told of all its meshes together, at the last one."""
-    lost = result["friction_loss"].values if "friction_loss" in result else np.zeros(len(train.meshes))
-    lost = np.nan_to_num(lost)
-    speeds = [train.input_speed]
-    for mesh in train.meshes:
-        speeds.append(speeds[-1] * mesh.pair.rotation_ratio)
-    torques = [train.output_torque]
-    for mesh, loss in zip(reversed(train.meshes), reversed(lost)):
-        torques.append(torques[-1] * mesh.pair.rotation_ratio / (1.0 - loss))
-    shafts = map(ShaftFlow, speeds, reversed(torques))
+    """Of a train's run, backwards from the load on the last shaft: mean torques, each higher by what its mesh loses,
+    and of several paths by the mean share of each. Of meshes that are computed together the loss is told of all of
+    them, at the last one, and taken where they drive the last of their shafts."""
+    graph = train.graph
+    lost = np.nan_to_num(result["friction_loss"].values) if "friction_loss" in result else np.zeros(len(train.meshes))
+    taken = lost.copy()
+    if graph.loops:
+        # All meshes are computed together then.
+        taken[graph.into(graph.last)] = lost[-1]
+    shares = result["mean_path_share"].values if "mean_path_share" in result else np.ones(len(train.meshes))
+    torques = [0.0] * graph.last + [train.output_torque]
+    for shaft in range(graph.last, 0, -1):
+        driving = graph.into(shaft)
+        for mesh in driving:
+            own = torques[shaft] * (shares[mesh] if len(driving) > 1 else 1.0)
+            before = graph.between[mesh][0]
+            torques[before] += own * train.meshes[mesh].pair.rotation_ratio / (1.0 - taken[mesh])
+    shafts = [ShaftFlow(train.input_speed * turns, torque) for turns, torque in zip(train.turns, torques)]
     meshes = [
         MeshFlow(", ".join(train.meshes[number].name for number in row), float(1.0 - lost[row[-1]]))
         for row in train.rows

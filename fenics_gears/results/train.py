@@ -18,6 +18,7 @@ from .attributes import RESULT_ATTRIBUTES
 from .carried_scene import scene_attributes
 from .dataset import RunResult
 from .layout import OVERALL
+from .path_shares import path_shares
 
 if TYPE_CHECKING:
     from .train_shafts import ResultOfShafts
@@ -85,6 +86,7 @@ def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
         {"units": "rad", "long_name": "lag of the last shaft behind the nominal motion of the first"},
     )
     variables |= _numbers_of_meshes([each.numbers for each in meshes])
+    variables |= path_shares(model, meshes)
     most = {name: max((each for each in meshes), key=lambda each: _size(each, name)) for name in SHARED}
     coordinates = {name: widest.variables[name] for name, widest in most.items() if name in widest.variables}
     coordinates |= {
@@ -107,12 +109,17 @@ def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.n
     Where all meshes move together, at all steps: the rotation of the last gear, and of the first one through the
     ratios."""
     if model.scene.shafts.moving:
-        first, last = (np.asarray(meshes[number].variables["rotation"][1]) for number in (0, -1))
+        # The gears that their shafts' clocking does not turn.
+        carried = model.scene.shafts.carried
+        sides = [mesh.gears for mesh in model.scene.meshes]
+        ends = [[both[0] for both in sides].index(carried[0][0]), [both[1] for both in sides].index(carried[-1][0])]
+        first, last = (np.asarray(meshes[number].variables["rotation"][1]) for number in ends)
         return np.asarray(meshes[0].variables["time"][1]), last[:, 1] + first[:, 0] / model.scene.ratio
     frequencies = [own.scene.motion.mesh_frequency for own in model.models]
     steps = [frequency * each.numbers["steps_per_mesh_cycle"] for frequency, each in zip(frequencies, meshes)]
     cycles = model.models[0].scene.motion.mesh_cycles
-    times = np.arange(int(np.ceil(cycles * max(steps) / min(frequencies))) + 1) / max(steps)
+    # Of a whole number round-off makes no step more.
+    times = np.arange(int(np.ceil(cycles * max(steps) / min(frequencies) - 1e-9)) + 1) / max(steps)
     cycles_of = [(times * frequency, each.cycle) for frequency, each in zip(frequencies, meshes)]
     lags = (
         np.interp(phase * len(curve), np.arange(len(curve)), curve, period=len(curve)) for phase, curve in cycles_of
@@ -272,6 +279,9 @@ def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
             angle = float(own[f"{number}_transmission_error"])
             said = f"{angle * radius / MICROMETRE:.4g} um = {angle:.5g} rad"
             rows.append((f"{name}: transmission error, {label}", said, ""))
+        if "mean_path_share" in own:
+            mean, most, least = (100.0 * float(own[f"{each}_path_share"]) for each in ("mean", "largest", "least"))
+            rows.append((f"{name}: share of the torque on its shaft", f"{mean:.4g} ({least:.4g} to {most:.4g})", "%"))
         for number, label, unit in SAID:
             if number in own and np.isfinite(own[number]):
                 rows.append((f"{name}: {label}", f"{float(own[number]):.4g}", unit))

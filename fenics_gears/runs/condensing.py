@@ -10,6 +10,7 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.scene.data import Scene
+from fenics_gears.scene.train_mesh import gear_names
 from fenics_gears.simulation.bodies import body_key
 from fenics_gears.simulation.root_stress import rows_of
 from fenics_gears.simulation.routes import route_of
@@ -37,21 +38,21 @@ class GearTask:
 
 
 @dataclass(frozen=True)
-class IdlerTask:
-    """The idler behind a `mesh` of a row, which is to be condensed."""
+class SharedGearTask:
+    """A gear of several meshes of a row, by its number, which is to be condensed."""
 
     row: RowModel
-    mesh: int
+    gear: int
     part: ClassVar[str] = BODY
 
     @property
     def name(self) -> str:
-        return f"idler of {self.row.meshes[self.mesh].name}"
+        return gear_names(self.row.meshes)[self.gear]
 
 
-def gear_tasks(runs: Iterable[Run]) -> list[GearTask | IdlerTask]:
+def gear_tasks(runs: Iterable[Run]) -> list[GearTask | SharedGearTask]:
     """The distinct gears of the runs; first what takes longest."""
-    tasks: dict[str, dict[tuple, GearTask | IdlerTask]] = {ROOT_STRESS: {}, BODY: {}}
+    tasks: dict[str, dict[tuple, GearTask | SharedGearTask]] = {ROOT_STRESS: {}, BODY: {}}
     # Runs that share contact operators share their gears.
     for run in {run.sharing[0]: run for run in runs}.values():
         for part, key, task in _tasks(run.model):
@@ -61,20 +62,19 @@ def gear_tasks(runs: Iterable[Run]) -> list[GearTask | IdlerTask]:
     return [task for of_part in tasks.values() for task in of_part.values()]
 
 
-def _tasks(model: Model | TrainModel) -> Iterator[tuple[str, tuple, GearTask | IdlerTask]]:
+def _tasks(model: Model | TrainModel) -> Iterator[tuple[str, tuple, GearTask | SharedGearTask]]:
     """Part, key and task of each gear of a model."""
     if isinstance(model, Model):
         yield from _of_pair(model, GEARS)
         return
     for row in model.rows:
-        for numbers in row.members:
-            first, last = row.models[numbers[0]], row.models[numbers[-1]]
-            yield from _of_pair(first, GEARS if len(numbers) == 1 else GEARS[:1])
-            if len(numbers) > 1:
-                yield from _of_pair(last, GEARS[1:])
-        for mesh in row.idlers:
-            bare = replace(row, models=tuple(e.bare for e in row.models))
-            yield BODY, row.keys_of_idler(mesh), IdlerTask(bare, mesh)
+        for gear, sides in enumerate(row.graph.sides):
+            mesh, side = sides[0]
+            if len(sides) == 1:
+                yield from _of_pair(row.models[mesh], GEARS[side : side + 1])
+            else:
+                bare = replace(row, models=tuple(e.bare for e in row.models))
+                yield BODY, row.keys_of_shared(gear), SharedGearTask(bare, gear)
 
 
 def _of_pair(model: Model, names: Iterable[str]) -> Iterator[tuple[str, tuple, GearTask]]:
@@ -94,12 +94,12 @@ def _keys(model: Model, name: str) -> Iterator[tuple[str, tuple]]:
         yield ROOT_STRESS, (*key, slices, model.scene.coast_flanks is not None)
 
 
-def condense(task: GearTask | IdlerTask, tick: Callable[[], None] | None = None) -> None:
-    """Condense a gear into the cache and into this process's store; an idler into the cache."""
-    if isinstance(task, IdlerTask):
-        from fenics_gears.simulation.train import condense_idler
+def condense(task: GearTask | SharedGearTask, tick: Callable[[], None] | None = None) -> None:
+    """Condense a gear into the cache and into this process's store; one of several meshes into the cache."""
+    if isinstance(task, SharedGearTask):
+        from fenics_gears.simulation.train import condense_shared
 
-        condense_idler(task.row, task.mesh, user_cache())
+        condense_shared(task.row, task.gear, user_cache())
         return
     model = model_of(task.scene)
     if task.part == ROOT_STRESS:

@@ -11,6 +11,7 @@ from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.layout import OVERALL
 from fenics_gears.results.pairs import shown_steps
+from fenics_gears.results.path_shares import OF_SHARES
 from fenics_gears.results.settled import settled_steps
 from fenics_gears.results.stored import StoredResult
 
@@ -69,7 +70,7 @@ def _of_train(run: xr.Dataset | StoredResult) -> RunRecord:
     names = tuple(each.decode() if isinstance(each, bytes) else str(each) for each in run["mesh"].values)
     error = run[OVERALL]
     time, phase = (run[name].values[1, 0] for name in ("time_of_mesh", "mesh_phase"))
-    known = [name for name in (*NUMBERS, *STUDIED) if name in run]
+    known = [name for name in (*NUMBERS, *STUDIED, *OF_SHARES) if name in run]
     return RunRecord(
         train_numbers_of(run),
         run["time"].values * phase / time,

@@ -2,50 +2,41 @@
 
 A stage of two gears has what the scene of a pair has: its gears, and the sections of its effects. In a row of gears
 each gear meshes with the next, so that those between are idlers. The wheel of a stage, or the last gear of its row, is
-on one rigid shaft with the pinion of the next stage. Each mesh becomes the scene of a pair, under the torque that it
-has in the train without losses.
+on one rigid shaft with the pinion of the next stage, unless the scene says what shafts carry. Each mesh becomes the
+scene of a pair, under the torque that it has in the train without losses, where paths share it evenly.
 """
 
 from __future__ import annotations
 
 import os
-from cmath import rect
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
-from math import pi, prod
+from fractions import Fraction
+from functools import cached_property, partial
+from math import pi
 from pathlib import Path
 from typing import Any
 
 from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.geometry.gear_train import SecondMesh, check_apart, second_mesh
-from fenics_gears.geometry.pair import GearPair, gear_pair
+from fenics_gears.geometry.gear_train import Layout
+from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.geometry.train_graph import TrainGraph, turns_of_shafts
 from fenics_gears.inputs.problem import NOTHING_DONE, line_numbers, listed
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.units import QuantityError, of_kind
 from fenics_gears.inputs.written import as_written
 
 from .data import Load, Motion, Scene
 from .parsing import is_train, name_of, parsed, text_of
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
-from .train_pair import ROW_GEARS, MistakesOfStage, Placed, TrainMistakes, check_together, in_stage, pair_scene
-from .train_pair_shafts import OfPair, in_train, in_words_of_train, of_pair, place_of, sections_of_pair
-from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED, TrainSections, checked_train
-from .train_shafts import BentShaft, TrainShafts
-
-
-@dataclass(frozen=True)
-class MeshOfScene:
-    """A mesh of a train: the `scene` of its pair, its name, and the direction (rad) of its wheel from its pinion.
-    `idler`: of its pinion, where this is also the wheel of the mesh before; None on a shaft of two gears. `gears`:
-    names of pinion and wheel. `bent`: with shafts that bend, those that both are on."""
-
-    name: str
-    scene: Scene
-    pair: GearPair
-    direction: float
-    idler: SecondMesh | None = None
-    gears: tuple[str, str] = ("pinion", "wheel")
-    bent: OfPair = ()
+from .train_layout import check_cut_alike, check_layout
+from .train_mesh import MeshOfScene, gear_names, layout_of, rows_of
+from .train_pair import MistakesOfStage, Placed, TrainMistakes, check_together, in_stage, pair_scene
+from .train_pair_shafts import in_train, in_words_of_train, of_pair, place_of, sections_of_pair
+from .train_rules import OF_A_STAGE, SHARED, TrainSections, checked_train
+from .train_shaft import BentShaft
+from .train_shafts import TrainShafts
+from .train_topology import NamedMesh, gears_within, graph_of, named_meshes
 
 
 @dataclass(frozen=True)
@@ -77,7 +68,7 @@ class TrainScene:
     @property
     def input_speed(self) -> float:
         """Turns of the first shaft in a second."""
-        first = self.meshes[0]
+        first = self.meshes[self.graph.out_of(0)[0]]
         return first.scene.motion.mesh_frequency / first.pair.pinion.teeth
 
     @property
@@ -88,7 +79,20 @@ class TrainScene:
     @property
     def turns_of_last(self) -> float:
         """Turns of the last shaft in one turn of the first."""
-        return turns_of_last(self.meshes)
+        return self.turns[-1]
+
+    @cached_property
+    def layout(self) -> Layout:
+        return layout_of(self.meshes)
+
+    @property
+    def graph(self) -> TrainGraph:
+        return self.layout.graph
+
+    @cached_property
+    def turns(self) -> list[float]:
+        """Turns of each shaft in one turn of the first, in either sense."""
+        return turns_of(self.layout)
 
 
 def load_train(path: str | os.PathLike) -> TrainScene:
@@ -124,19 +128,13 @@ def train_from_text(
     return train_of(tree, text, name, source, directory)
 
 
-def turns_of_last(meshes: Iterable[MeshOfScene]) -> float:
-    """Turns of the last shaft in one turn of the first."""
-    return prod(mesh.pair.rotation_ratio for mesh in meshes)
+def turns_of(layout: Layout) -> list[float]:
+    """Turns of each shaft in one turn of the first, in either sense."""
+    return list(map(float, exact_turns(layout)))
 
 
-def rows_of(meshes: Sequence[MeshOfScene], moving: bool = False) -> list[list[int]]:
-    """Numbers of meshes, those together that idlers couple, or all where stages move together (`moving`)."""
-    rows: list[list[int]] = []
-    for number, mesh in enumerate(meshes):
-        if not rows or mesh.idler is None and not moving:
-            rows.append([])
-        rows[-1].append(number)
-    return rows
+def exact_turns(layout: Layout) -> list[Fraction]:
+    return turns_of_shafts(layout.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in layout.pairs])
 
 
 def train_of(tree: Mapping[str, Any], text: str, name: str, source: str, folder: Path) -> TrainScene:
@@ -145,150 +143,138 @@ def train_of(tree: Mapping[str, Any], text: str, name: str, source: str, folder:
     sections, problems = checked_train(tree)
     meshes: list[MeshOfScene] = []
     try:
-        for stage, content in tree["stages"].items() if sections is not None else ():
-            meshes += _meshes_of(stage, content, tree, (source, folder, len(meshes)), sections.shafts.bent)
+        if sections is not None:
+            meshes = _meshes_of(tree, sections, source, folder)
     except MistakesOfStage as error:
         problems = error.problems
     if problems or sections is None:
         raise TrainMistakes(listed(problems, line_numbers(text), source), problems)
-    if sections.shafts.moving:
-        for mesh in meshes:
-            check_together(mesh.scene, f"{source}, {mesh.name}")
+    names = [mesh.name for mesh in meshes]
+    check_layout(layout_of(meshes), names, gear_names(meshes), source)
     return _completed(tree.get("title") or name, name, text, meshes, sections)
 
 
-def _meshes_of(
-    stage: str, content: Mapping[str, Any], tree: Mapping[str, Any], place: tuple[str, Path, int],
+def _meshes_of(tree: Mapping[str, Any], sections: TrainSections, source: str, folder: Path) -> list[MeshOfScene]:
+    """The meshes of a train; a gear in several of them is the same in all."""
+    stages = tree["stages"]
+    named, _ = named_meshes(stages)
+    gears = dict(each for stage, content in stages.items() for each in gears_within(stage, content))
+    shafts = {gear: number for number, each in enumerate(sections.shafts.carried) for gear in each}
+    graph = graph_of(named, sections.shafts.carried)
+    bent = sections.shafts.bent
+    place = source, folder
+    scenes = [_scene_of(mesh, gears, tree, place, bent) for mesh in named]
+    together = [number for own in graph.members if len(own) > 1 for number in own]
+    for number in range(len(named)) if sections.shafts.moving else together:
+        check_together(scenes[number], f"{source}, {named[number].name}")
+    check_cut_alike(named, scenes, graph, source)
+    for gear in graph.shared:
+        # It has one tip circle: the lowest of those that its mates leave room for.
+        sides = graph.sides[gear]
+        tips = [getattr(scenes[number].gears, GEARS[side]).tip_diameter for number, side in sides]
+        if len(set(tips)) > 1:
+            first, side = sides[0]
+            name = named[first].gears[side]
+            gears[name] = {**gears[name], "tip_diameter": f"{min(tips)!r} mm"}
+            for number, _ in sides:
+                scenes[number] = _scene_of(named[number], gears, tree, place, bent)
+    found = []
+    for number, (mesh, scene) in enumerate(zip(named, scenes)):
+        both = shafts[mesh.gears[0]], shafts[mesh.gears[1]]
+        direction = _direction(mesh, stages[mesh.stage], source)
+        try:
+            pair = gear_pair(scene.gears)
+        except GeometryError as error:
+            raise GeometryError(f"{source}, stage {mesh.stage}: {error}") from error
+        own = MeshOfScene(mesh.name, scene, pair, direction, mesh.gears, both, graph.sense(number))
+        found.append(replace(own, scene=in_train(scene), bent=of_pair(mesh.gears, bent)) if bent else own)
+    return found
+
+
+def _scene_of(
+    mesh: NamedMesh, gears: Mapping[str, Any], tree: Mapping[str, Any], place: tuple[str, Path],
     bent: Sequence[BentShaft],
-) -> list[MeshOfScene]:  # fmt: skip
-    """The meshes of a stage; its `place`: the file, its folder, and how many meshes there are before; `bent`: the
+) -> Scene:  # fmt: skip
+    """The scene of a mesh, from what is written of all `gears`; its `place`: the file and its folder; `bent`: the
     shafts of the train that bend."""
-    source, folder, before = place
-    row = content.get("kind", PAIR) == ROW
-    gears = list(content["gears"]) if row else [content.get("pinion"), content.get("wheel")]
-    count = len(gears) - 1
-    directions = [
-        _angle(each, stage, source)
-        for each in (content.get("directions", [None] * count) if row else [content.get("direction")])
-    ]
+    source, folder = place
+    content = tree["stages"][mesh.stage]
     own = {name: value for name, value in content.items() if name not in ("kind", "gears", "directions", "direction")}
-    label = f"{source}, stage {stage}"
-
-    def scene(number: int) -> Scene:
-        inner = {name: value for name, value in own.items() if name in OF_A_STAGE}
-        fields = {name: value for name, value in own.items() if name not in (*OF_A_STAGE, "pinion", "wheel")}
-        both = {"pinion": gears[number], "wheel": gears[number + 1]}
-        given = {name: gear for name, gear in both.items() if gear is not None}
-        shared = {name: tree[name] for name in SHARED if name in tree}
-        sections = {"gears": fields | given, **shared, **inner, "load": {"wheel_torque": "1 N m"}}
-        if "inertia" in sections:
-            # The load is on the last shaft; speed and length of the run are put in for the train's.
-            sections["inertia"] = {each: value for each, value in sections["inertia"].items() if each != "load"}
-            sections["motion"] = {"pinion_speed": "1 rpm", "mesh_cycles": 1}
-        on_shafts = of_pair(_names(stage, number, row), bent)
-        sections |= sections_of_pair(on_shafts, tree, sections)
-        places = {name: (ROW_GEARS, str(number + place)) for place, name in enumerate(both, 1)} if row else {}
-        name = f"{stage} {number + 1}" if count > 1 else stage
-        in_train_at = partial(in_stage, stage, places, shared.keys() - inner.keys())
-        put = Placed(lambda path: place_of(on_shafts, path) or in_train_at(path), partial(in_words_of_train, on_shafts))
-        found = pair_scene(sections, name, label, folder, put)
-        found = in_train(found) if bent else found
-        if count > 1:
-            check_together(found, label)
-        return found
-
-    scenes = [scene(number) for number in range(count)]
-    for number in range(1, count):
-        # An idler has one tip circle: the lower one of those that both of its mates leave room for.
-        tips = [scenes[number - 1].gears.wheel.tip_diameter, scenes[number].gears.pinion.tip_diameter]
-        if tips[0] != tips[1]:
-            gears[number] = {**gears[number], "tip_diameter": f"{min(tips)!r} mm"}
-            scenes[number - 1 : number + 1] = [scene(number - 1), scene(number)]
-    pairs = [gear_pair(each.gears) for each in scenes]
-    meshes = _joined(stage, scenes, pairs, directions, (label, before))
-    named = [(mesh, _names(stage, number, row)) for number, mesh in enumerate(meshes)]
-    return [replace(mesh, gears=names, bent=of_pair(names, bent) if bent else ()) for mesh, names in named]
+    inner = {name: value for name, value in own.items() if name in OF_A_STAGE}
+    fields = {name: value for name, value in own.items() if name not in (*OF_A_STAGE, *GEARS)}
+    both = {name: gears[gear] for name, gear in zip(GEARS, mesh.gears)}
+    given = {name: gear for name, gear in both.items() if gear is not None}
+    shared = {name: tree[name] for name in SHARED if name in tree}
+    sections = {"gears": fields | given, **shared, **inner, "load": {"wheel_torque": "1 N m"}}
+    if "inertia" in sections:
+        # The load is on the last shaft; speed and length of the run are put in for the train's.
+        sections["inertia"] = {each: value for each, value in sections["inertia"].items() if each != "load"}
+        sections["motion"] = {"pinion_speed": "1 rpm", "mesh_cycles": 1}
+    on_shafts = of_pair(mesh.gears, bent)
+    sections |= sections_of_pair(on_shafts, tree, sections)
+    places = {name: at[2:] for name, at in zip(GEARS, mesh.places)}
+    name = f"{mesh.stage} {mesh.number + 1}" if mesh.count > 1 else mesh.stage
+    in_its_stage = partial(in_stage, mesh.stage, places, shared.keys() - inner.keys())
+    put = Placed(lambda path: place_of(on_shafts, path) or in_its_stage(path), partial(in_words_of_train, on_shafts))
+    return pair_scene(sections, name, f"{source}, stage {mesh.stage}", folder, put)
 
 
-def _names(stage: str, number: int, row: bool) -> tuple[str, str]:
-    """Names of both gears of a mesh of a stage."""
-    return (f"{stage}.{number + 1}", f"{stage}.{number + 2}") if row else (f"{stage}.pinion", f"{stage}.wheel")
-
-
-def _angle(written: Any, stage: str, source: str) -> float:
+def _direction(mesh: NamedMesh, content: Mapping[str, Any], source: str) -> float:
+    """Direction (rad) of a mesh's wheel from its pinion."""
+    written = content.get("direction")
+    if "directions" in content:
+        written = content["directions"][mesh.number]
     if written is None:
         return 0.0
     try:
         return float(of_kind(written, "an angle")[0])
     except (QuantityError, TypeError):
         raise SceneError(
-            f"{source}: stages.{stage}: the direction {as_written(written)} is no angle. Allowed: an angle with its"
-            f' unit, as "35 deg". {NOTHING_DONE}'
+            f"{source}: stages.{mesh.stage}: the direction {as_written(written)} is no angle. Allowed: an angle with"
+            f' its unit, as "35 deg". {NOTHING_DONE}'
         ) from None
-
-
-def _joined(
-    stage: str, scenes: Sequence[Scene], pairs: Sequence[GearPair], directions: Sequence[float],
-    place: tuple[str, int],
-) -> list[MeshOfScene]:  # fmt: skip
-    """The meshes of a stage, with how each idler's second mesh follows from its first; its `place`: the label, and how
-    many meshes there are before."""
-    label, meshes_before = place
-    meshes: list[MeshOfScene] = []
-    for number, (scene, pair) in enumerate(zip(scenes, pairs)):
-        idler = None
-        if number:
-            before = meshes[-1]
-            if before.pair.wheel != pair.pinion:
-                raise GeometryError(
-                    f"{label}: gear {number + 1} would be cut differently for its two meshes: give its profile_shift,"
-                    f" tip_diameter and root_diameter. {NOTHING_DONE}"
-                )
-            # In the frame of every second mesh of the train, the mirror image, angles count the other way.
-            sense = -1.0 if (meshes_before + number - 1) % 2 else 1.0
-            angles = sense * (directions[number - 1] + pi), sense * directions[number]
-            idler = second_mesh(before.pair, pair, *angles)
-        name = f"{stage}: gears {number + 1} and {number + 2}" if len(scenes) > 1 else stage
-        meshes.append(MeshOfScene(name, scene, pair, directions[number], idler))
-    _check_overlap(meshes, label)
-    return meshes
-
-
-def _check_overlap(meshes: Sequence[MeshOfScene], label: str) -> None:
-    """Raise GeometryError where gears of a row that do not mesh overlap."""
-    centres = [0j]
-    for mesh in meshes:
-        centres.append(centres[-1] + rect(mesh.pair.centre_distance, mesh.direction))
-    gears = [meshes[0].pair.pinion, *(mesh.pair.wheel for mesh in meshes)]
-    for one in range(len(gears)):
-        for other in range(one + 2, len(gears)):
-            distance = abs(centres[other] - centres[one])
-            check_apart(gears[one], gears[other], distance, f"{label}: gears {one + 1} and {other + 1}")
 
 
 def _completed(title: str, name: str, text: str, meshes: Sequence[MeshOfScene], sections: TrainSections) -> TrainScene:
     """The train with steps, speeds and torques of all meshes."""
     load = sections.load
     motion = sections.motion
-    through = turns_of_last(meshes)
+    layout = layout_of(meshes)
+    graph = layout.graph
+    turns = turns_of(layout)
+    exact = exact_turns(layout)
     speed = motion.input_speed
-    frequency = NOMINAL_FREQUENCY if speed is None else speed / (2.0 * pi) * meshes[0].pair.pinion.teeth
-    driving = 2.0 * pi * frequency / meshes[0].pair.pinion.teeth
+    # Without a speed a cycle of the first mesh that the first shaft drives takes a second.
+    first = meshes[graph.out_of(0)[0]].pair.pinion.teeth
+    of_first = NOMINAL_FREQUENCY if speed is None else speed / (2.0 * pi) * first
+    driving = 2.0 * pi * of_first / first
     if load.output_torque is not None:
         output = load.output_torque
     elif load.input_torque is not None:
-        output = load.input_torque / through
+        output = load.input_torque / turns[-1]
     else:
-        output = load.power / driving / through
+        output = load.power / driving / turns[-1]
     cycles = motion.mesh_cycles or 1
+    torques = even_torques(layout, output)
     found: list[MeshOfScene] = []
-    torque = output * through
-    for mesh in meshes:
-        torque /= mesh.pair.rotation_ratio
+    for number, mesh in enumerate(meshes):
+        # Meshes of one gear have one frequency to the last digit.
+        frequency = of_first * float(exact[graph.between[number][0]] * mesh.pair.pinion.teeth / first)
         moving = Motion(frequency, cycles, cycles, False, speed is not None)
-        behind = meshes[len(found) + 1 : len(found) + 2]
-        frequency *= behind[0].pair.pinion.teeth / mesh.pair.wheel.teeth if behind else 1.0
-        found.append(replace(mesh, scene=replace(mesh.scene, load=Load(torque), motion=moving)))
+        found.append(replace(mesh, scene=replace(mesh.scene, load=Load(torques[number]), motion=moving)))
     recorded = min(motion.recorded_cycles or LAST_CYCLES, cycles)
-    of_ends = output * through, output
+    of_ends = output * turns[-1], output
     return TrainScene(title, name, tuple(found), *of_ends, speed is not None, text, sections.shafts, recorded)
+
+
+def even_torques(layout: Layout, output: float) -> list[float]:
+    """Torque (N mm) on the wheel of each mesh without losses, where the meshes that drive a shaft share it evenly."""
+    graph = layout.graph
+    on_shafts = [0.0] * graph.last + [output]
+    found = [0.0] * len(layout.pairs)
+    for shaft in range(graph.last, 0, -1):
+        driving = graph.into(shaft)
+        for mesh in driving:
+            found[mesh] = on_shafts[shaft] / len(driving)
+            on_shafts[graph.between[mesh][0]] += found[mesh] * layout.pairs[mesh].rotation_ratio
+    return found

@@ -16,7 +16,6 @@ from .data import Scene
 from .parsing import parsed, values_of
 
 STAGES = "stages"
-ROW_GEARS = "gears"
 
 
 class MistakesOfStage(SceneError):

@@ -12,7 +12,7 @@ from fenics_gears.inputs.problem import Path
 from fenics_gears.inputs.tree import GEARS, SHAFTS
 
 from .data import Scene
-from .train_shafts import BentShaft
+from .train_shaft import BentShaft
 
 BEHIND = {"moment_of_inertia": "1 kg m^2"}
 # Both gears of a pair with the shafts that they are on, where these bend.

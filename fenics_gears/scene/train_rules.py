@@ -12,7 +12,8 @@ from fenics_gears.inputs.problem import Problem, did_you_mean
 from fenics_gears.inputs.section import Section, allowed_in, fields_of, names_in, read
 from fenics_gears.inputs.written import as_written
 
-from .train_shafts import TrainShafts, checked_shafts, explained, gears_of_shafts
+from .train_shafts import TrainShafts, checked_shafts, explained
+from .train_topology import coupled_stages
 
 PAIR = "pair"
 ROW = "row"
@@ -103,11 +104,12 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[TrainSections | None, list[P
     title = tree.get("title", "")
     if not isinstance(title, str):
         problems.append(Problem(("title",), as_written(title), "is no text. Allowed: a text between quotes."))
+    coupled = coupled_stages(stages)
     for stage, content in stages.items():
         if not fullmatch(NAMES, stage):
             allowed = "Allowed: letters, digits, _ and -; a folder of results has this name."
             problems.append(Problem(("stages", stage), "", f"is no name of a stage. {allowed}"))
-        problems += _of_stage(("stages", stage), content)
+        problems += _of_stage(("stages", stage), content, stage in coupled)
     found = []
     for name, section in (("load", TrainLoad), ("motion", TrainMotion)):
         written = tree.get(name, {})
@@ -119,7 +121,7 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[TrainSections | None, list[P
         problems += [explained(each, section) for each in wrong]
     if isinstance(tree.get("load", {}), Mapping) and not {*names_in(TrainLoad)} & {*tree.get("load", {})}:
         problems.append(Problem(("load",), None, f"is missing. Add the section [load] with {fields_of(TrainLoad)}."))
-    shafts, wrong = checked_shafts(tree, gears_of_shafts(stages))
+    shafts, wrong = checked_shafts(tree, not problems)
     problems += wrong
     if problems:
         return None, problems
@@ -153,7 +155,8 @@ def _where(name: str) -> str:
     return f"Known: {', '.join(OF_A_TRAIN)}; within a stage {', '.join(OF_A_STAGE)} and all fields of [gears]."
 
 
-def _of_stage(path: tuple[str, ...], content: Any) -> Iterator[Problem]:
+def _of_stage(path: tuple[str, ...], content: Any, coupled: bool) -> Iterator[Problem]:
+    """What is wrong with a stage; `coupled`: a gear of it stands in several meshes."""
     if not isinstance(content, Mapping):
         yield Problem(path, as_written(content), "is not a section with the gears of a stage.")
         return
@@ -166,20 +169,22 @@ def _of_stage(path: tuple[str, ...], content: Any) -> Iterator[Problem]:
     elif "gears" in content or "directions" in content:
         wrong = "gears" if "gears" in content else "directions"
         yield Problem((*path, wrong), as_written(content[wrong]), f'is of a row. Add kind = "{ROW}", or leave it out.')
-    idlers = kind == ROW and isinstance(content.get("gears"), list) and len(content["gears"]) > 2
-    for name in (*OF_A_PAIR, *(OF_A_STAGE if idlers else ())):
+    for name in (*OF_A_PAIR, *(OF_A_STAGE if coupled else ())):
         if name in content and name not in OF_A_ROW:
-            what = "in rows with idlers" if name in OF_A_STAGE else "of a stage by itself"
-            allowed = f"Allowed: {', '.join(OF_A_ROW if idlers else OF_A_STAGE)}."
+            what = "where a gear has several mates" if name in OF_A_STAGE else "of a stage by itself"
+            allowed = f"Allowed: {', '.join(OF_A_ROW if coupled else OF_A_STAGE)}."
             if name in OF_A_TRAIN:
                 allowed = f"Write it for the whole train: [{name}]."
             yield Problem((*path, name), "", f"is not yet computed {what}. {allowed}")
+    if coupled and "backlash" in content:
+        said = "would thin the teeth of a gear differently in its meshes. Allowed: profile_shift of each gear."
+        yield Problem((*path, "backlash"), as_written(content["backlash"]), said)
 
 
 def _of_row(path: tuple[str, ...], content: Mapping[str, Any]) -> Iterator[Problem]:
     gears = content.get("gears")
     place = (*path, "gears")
-    if not isinstance(gears, list) or len(gears) < 2 or not all(isinstance(each, Mapping) for each in gears):
+    if not isinstance(gears, list) or len(gears) < 2 or not all(isinstance(each, Mapping | str) for each in gears):
         allowed = "Allowed: a list of at least two tables, as [{ teeth = 24 }, { teeth = 31 }, { teeth = 40 }]."
         yield Problem(place, None if gears is None else as_written(gears), f"has not the gears of a row. {allowed}")
         return
@@ -190,8 +195,3 @@ def _of_row(path: tuple[str, ...], content: Mapping[str, Any]) -> Iterator[Probl
     for name in ("pinion", "wheel", "direction"):
         if name in content:
             yield Problem((*path, name), as_written(content[name]), "is of a pair. A row has gears and directions.")
-    if len(gears) > 2 and "backlash" in content:
-        said = (
-            "would thin the teeth of an idler differently in both of its meshes. Allowed: profile_shift of each gear."
-        )
-        yield Problem((*path, "backlash"), as_written(content["backlash"]), said)

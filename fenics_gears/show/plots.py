@@ -75,6 +75,13 @@ def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
     """The pictures of a result as figures, by file name. Raises ComputationError as ``draw_run`` does."""
     run = ShownRun(dataset)
     _check_steps(run)
+    colour = DARK if run.complete else WARNING
+    charts = charts_of(run)
+    return {name: picture(_heading(run, subject), drawn, colour) for name, (subject, drawn) in charts.items()}
+
+
+def charts_of(run: ShownRun) -> dict[str, tuple[str, list[Chart]]]:
+    """By the file name of each picture that a run has, its subject and its charts."""
     pictures = PICTURES
     if run.over_face:
         # Runs in the plane load none of these charts.
@@ -82,9 +89,7 @@ def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
 
         pictures = PICTURES | dict(zip(FACE_PICTURE_FILES, charts_over_face(run).items()))
     subjects = {name: (subject, list(charts(run))) for name, (subject, charts) in pictures.items()}
-    colour = DARK if run.complete else WARNING
-    drawn = ((name, *subject) for name, subject in subjects.items())
-    return {name: picture(_heading(run, subject), charts, colour) for name, subject, charts in drawn if charts}
+    return {name: drawn for name, drawn in subjects.items() if drawn[1]}
 
 
 def _heading(run: ShownRun, subject: str) -> str:

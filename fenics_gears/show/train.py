@@ -3,7 +3,6 @@ of the whole; line loads of its meshes over the face."""
 
 from __future__ import annotations
 
-from cmath import rect
 from dataclasses import replace
 from math import cos
 from pathlib import Path
@@ -16,6 +15,8 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
 from fenics_gears.results.overall_orders import overall_orders
 from fenics_gears.scene.train import TrainScene
+from fenics_gears.scene.train_layout import centres
+from fenics_gears.scene.train_mesh import gear_names
 
 from . import TRAIN_PICTURE_FILES
 from .chart import BARS, LEAST_SHARE, Chart, Curve, Flag
@@ -57,20 +58,17 @@ def draw_train(dataset: xr.Dataset, directory: Path) -> list[Path]:
 
 def drawing_of(scene: TrainScene) -> Chart:
     """All gears seen along their axes: tip circles, and dashed pitch circles. Gears on one shaft have one centre."""
+    at = centres(scene.layout)
+    graph = scene.graph
     curves = []
-    centre = 0j
-    number = 0
-    for mesh in scene.meshes:
-        pair = mesh.pair
-        stage, _, gears = mesh.name.partition(": gears ")
-        names = [f"gear {each}" for each in gears.split(" and ")] if gears else ["pinion", "wheel"]
-        places = [centre, centre + rect(pair.centre_distance, mesh.direction)]
-        centre = places[1]
-        both = list(zip(places, (pair.pinion, pair.wheel), names))
-        # An idler is drawn in its first mesh.
-        for middle, gear, name in both[mesh.idler is not None :]:
-            curves += _circles(middle, gear, pair, f"{stage}: {name}, {gear.teeth} teeth", _colour(number))
-            number += 1
+    for number, (sides, name) in enumerate(zip(graph.sides, gear_names(scene.meshes))):
+        # A gear of several meshes is drawn in its first one.
+        mesh, side = sides[0]
+        pair = scene.meshes[mesh].pair
+        gear = (pair.pinion, pair.wheel)[side]
+        stage, _, own = name.rpartition(".")
+        words = f"{stage}: {f'gear {own}' if own.isdigit() else own}, {gear.teeth} teeth"
+        curves += _circles(at[graph.shafts[number]], gear, pair, words, _colour(number))
     speeds = "turns of the first shaft in one of the last"
     caption = f"Tip and pitch circles (dashed), to scale; {scene.ratio:.5g} {speeds}"
     return Chart(caption, curves, "x (mm)", "y (mm)", height=520, equal=True)

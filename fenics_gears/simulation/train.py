@@ -1,5 +1,5 @@
 """A train of gears from its model to its result: row by row where rigid shafts between them hand on torque and rotation
-alone, and all meshes together where they have masses, bearings or shafts that twist."""
+alone, and all meshes together where they have several paths, masses, bearings or shafts that twist."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from fenics_gears.contact.mesh import elastic_mesh, step_by_step
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.meshes_apart import MeshesApart
 from fenics_gears.contact.row import JoinedPosition, MeshOfRow, RowCycle, at_phase
-from fenics_gears.contact.row_in_plane import IdlerInPlane, RowInPlane
+from fenics_gears.contact.row_in_plane import GearInPlane, RowInPlane
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.steps import Steps
@@ -25,13 +25,15 @@ from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.errors import ComputationError
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
+from fenics_gears.model.shared_gears import couplings
 from fenics_gears.model.train import RowModel, TrainModel, train_model_of
 from fenics_gears.model.train_cost import row_cost, row_too_large
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.row import RowResult
 from fenics_gears.results.train import MeshResult, dataset_of, mesh_result
-from fenics_gears.scene.train import MeshOfScene, TrainScene, rows_of
+from fenics_gears.scene.train import TrainScene
+from fenics_gears.scene.train_mesh import MeshOfScene
 from fenics_gears.system.memory import allowed_memory
 from fenics_gears.system.progress import Progress
 
@@ -141,74 +143,74 @@ def _memory_for_operators(row: RowModel) -> float:
 
 def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
     """The contact equations of all meshes of a train that move together, on the bodies of all gears."""
+    placed = row.placed
     members = []
-    for numbers in rows_of(row.meshes):
+    for numbers in row.members:
         own = RowModel(*(tuple(each[number] for number in numbers) for each in (row.meshes, row.models)))
-        coordinates = [row.drivetrain.of_meshes[number] for number in numbers]
-        members.append(_member(own, coordinates, row.drivetrain.modes, progress, cache))
+        of_own = [placed[number] for number in numbers]
+        members.append(_member(own, of_own, row.drivetrain.modes, progress, cache))
     if len(members) == 1 and isinstance(members[0].cycle, RowCycle):
         return members[0].cycle
     return RowCycle(members, MeshesApart())
 
 
 def _member(
-    row: RowModel, coordinates: Sequence[np.ndarray], modes: int, progress: Progress, cache: Cache
+    row: RowModel, placed: Sequence[tuple[np.ndarray, np.ndarray]], modes: int, progress: Progress, cache: Cache
 ) -> MeshOfRow:
-    """A single mesh, or meshes that idlers couple, over the coordinates of the train; `coordinates` of each mesh, and
-    how many `modes` are among them."""
+    """A single mesh, or meshes that have gears in common, over the coordinates of the train; `placed`: `coordinates`
+    and `offset` of each mesh, and how many `modes` there are, as of MeshOfRow."""
     if len(row.models) == 1:
         bodies = gear_bodies(row.models[0], progress, cache)
-        return MeshOfRow(mesh_cycle(row.models[0], bodies), coordinates[0], modes)
+        return MeshOfRow(mesh_cycle(row.models[0], bodies), *placed[0], modes)
     if row.over_face:
         # Runs in the plane load none of it.
         from .row_over_face import row_cycle_over_face
 
-        cycle = row_cycle_over_face(row, coordinates, modes, progress, cache)
+        cycle = row_cycle_over_face(row, placed, modes, progress, cache)
     else:
-        cycle = _row_in_plane(row, coordinates, progress, cache)
-    count = coordinates[0].shape[1]
-    return MeshOfRow(cycle, np.eye(count)[: count - modes], modes)
+        cycle = _row_in_plane(row, placed, progress, cache)
+    count = placed[0][0].shape[1]
+    # What its meshes have by themselves is in it.
+    return MeshOfRow(cycle, np.eye(count)[: count - modes], modes=modes)
 
 
-def _row_in_plane(row: RowModel, coordinates: Sequence[np.ndarray], progress: Progress, cache: Cache) -> RowCycle:
+def _row_in_plane(
+    row: RowModel, placed: Sequence[tuple[np.ndarray, np.ndarray]], progress: Progress, cache: Cache
+) -> RowCycle:
     bodies = list(_bodies(row, progress, cache))
-    idlers = []
-    for mesh in range(len(row.models) - 1):
-        pair = row.models[mesh].pair
-        place = mesh, pair.wheel.teeth, row.second_mesh(mesh)
-        idlers.append(IdlerInPlane(*place, bodies[mesh + 1].section, pair.face_width))
+    coupled = [
+        GearInPlane(row.gear(gear).teeth, shared, bodies[gear].section, row.models[shared.meshes[0]].pair.face_width)
+        for gear in row.graph.shared
+        for shared in couplings(row.layout, gear)
+    ]
     meshes = []
-    for number, (own, (phase, _), rows) in enumerate(zip(row.models, row.begun, coordinates)):
-        meshes.append(MeshOfRow(_cycle(own, (bodies[number], bodies[number + 1]), phase), rows))
-    return RowCycle(meshes, RowInPlane(idlers))
+    for own, gears, phase, (coordinates, offset) in zip(row.models, row.graph.gears, row.layout.phases, placed):
+        cycle = _cycle(own, (bodies[gears[0]], bodies[gears[1]]), phase)
+        meshes.append(MeshOfRow(cycle, coordinates, offset))
+    return RowCycle(meshes, RowInPlane(coupled))
 
 
 def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body]:
     """The gears of a row, one after the other."""
-    last = len(row.models)
-    for gear in range(last + 1):
+    for gear, sides in enumerate(row.graph.sides):
         progress.stage(f"condense gear {gear + 1}")
-        if gear == 0:
-            yield gear_body(row.models[0], GEARS[0], cache)
-        elif gear == last:
-            yield gear_body(row.models[-1], GEARS[1], cache)
-        else:
-            yield idler_body(row, gear - 1, cache)
+        mesh, side = sides[0]
+        yield gear_body(row.models[mesh], GEARS[side], cache) if len(sides) == 1 else shared_body(row, gear, cache)
 
 
-def condense_idler(row: RowModel, mesh: int, cache: Cache) -> None:
-    """Condense the idler behind a mesh of a row into the cache."""
-    if row.models[mesh].scene.three_dimensional:
+def condense_shared(row: RowModel, gear: int, cache: Cache) -> None:
+    """Condense a gear of several meshes into the cache."""
+    if row.over_face:
         from .row_over_face import idler_bodies
 
-        idler_bodies(row, mesh, cache)
+        idler_bodies(row, gear, cache)
     else:
-        idler_body(row, mesh, cache)
+        shared_body(row, gear, cache)
 
 
-def idler_body(row: RowModel, mesh: int, cache: Cache) -> Body:
-    """The idler behind a mesh of a row."""
-    return Body.of(flank_compliance(*row.key_of_idler(mesh), cache))
+def shared_body(row: RowModel, gear: int, cache: Cache) -> Body:
+    """A gear of several meshes."""
+    return Body.of(flank_compliance(*row.key_of_shared(gear), cache))
 
 
 def _cycle(model: Model, bodies: tuple[Body, Body], phase: float) -> Cycle:
@@ -230,7 +232,16 @@ def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:
         normal = nodes + np.repeat(steps.starts[:-1], counts)
         both = np.concatenate([normal, normal + np.repeat(np.diff(steps.starts), counts)])
         forces = step_by_step(both, np.cumsum(counts) - counts, counts)
+    states = steps.states @ mesh.coordinates.T
+    displacement = steps.displacement[forces]
+    if mesh.offset is not None and mesh.offset.any():
+        # Of its own gears the second one on a shaft stands ahead, and its flanks have the gaps of its pair.
+        states[:, 0] += mesh.offset
+        ends = np.cumsum(counts)
+        for position, end, count in zip(positions, ends, counts):
+            start = steps.kinds * (end - count)
+            displacement[start : start + count] += position.operator.jacobian[:count] @ mesh.offset
     return Steps(
-        steps.numbers, positions, steps.states @ mesh.coordinates.T, steps.forces[forces], steps.displacement[forces],
-        steps.status[nodes], steps.iterations, steps.methods,
+        steps.numbers, positions, states, steps.forces[forces], displacement, steps.status[nodes], steps.iterations,
+        steps.methods,
     )  # fmt: skip

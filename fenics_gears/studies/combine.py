@@ -12,6 +12,7 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.files import read, save
 from fenics_gears.results.key_numbers import STUDIED
+from fenics_gears.results.path_shares import OF_SHARES
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.runs.record import CURVES, NUMBERS, OF_TRAINS, RunRecord
 from fenics_gears.system.output import write_whole
@@ -89,7 +90,9 @@ def _of_meshes(study: Study, records: Mapping[int, RunRecord]) -> dict[str, tupl
         return {}
     known = {name for record in records.values() for name in record.of_meshes}
     found: dict[str, tuple] = {MESH: (MESH, np.array(meshes, dtype=object), {"long_name": "mesh"})}
-    for name, (units, words) in ({n: of for n, of in NUMBERS.items() if n in known} | _studied(known)).items():
+    shares = {name: ("1", words) for name, words in OF_SHARES.items()}
+    named = {name: of for name, of in (NUMBERS | shares).items() if name in known} | _studied(known)
+    for name, (units, words) in named.items():
         values = np.full((len(study.cases), len(meshes)), np.nan)
         for index, record in records.items():
             if name in record.of_meshes:

@@ -9,7 +9,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.inputs.allowed import Allowed, AllowedEither, AllowedList, AllowedNumber
 from fenics_gears.inputs.problem import LISTED, did_you_mean
 from fenics_gears.inputs.section import AllowedTables, Section, allowed_in, names_in, section_within
-from fenics_gears.inputs.tree import LOADS, value_at
+from fenics_gears.inputs.tree import GEARS, LOADS, value_at
 from fenics_gears.scene.schema import known_paths, paths_in, scene_text
 from fenics_gears.scene.train_pair import STAGES
 from fenics_gears.scene.train_rules import TrainLoad
@@ -105,6 +105,8 @@ def _changed(home: Any, path: Path, value: Any, whole: Path) -> Any:
         home = dict(home)
     if len(path) > 1:
         inner = home[name] if isinstance(home, list) else home.get(name)
+        if isinstance(inner, str) and whole[0] == STAGES and (isinstance(home, list) or name in GEARS):
+            raise SceneError(f"{'.'.join(whole)}: this is the gear {inner} of another stage: change it there")
         if isinstance(inner, Mapping | list) or value != ABSENT:
             home[name] = _changed(inner if isinstance(inner, Mapping | list) else {}, path[1:], value, whole)
     elif value != ABSENT:

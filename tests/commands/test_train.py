@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from tests.trains import COARSE, gearbox_file, helical_row
+from tests.trains import COARSE, gearbox_file, helical_row, split_text
 
 from fenics_gears import load, load_scene, load_train, simulate, simulate_train, train_from_text
 from fenics_gears.commands.cli import main
@@ -45,6 +45,27 @@ def test_check_tells_shafts_and_meshes(scene, capsys):
     assert "turns of the first shaft in one of the last  3" in said
     for shaft in ("counter-clockwise, 133.33 N m", "clockwise, 200 N m", "counter-clockwise, 400 N m"):
         assert shaft in said
+
+
+def test_check_and_report_tell_how_paths_close_and_share(tmp_path, capsys):
+    """Two equal paths under 400 N m: 100 N m on either shaft. A tooth of 20 and one of 40, from opposite sides, are
+    alike for both paths, but for the clocking. Shafts that twist without inertia have no frequencies."""
+    path = tmp_path / "split.toml"
+    path.write_text(split_text(of_shaft='clocking = "2 mrad"\ntorsional_stiffness = "1e8 N mm/rad"'))
+    assert main(["check", str(path)]) == 0
+    said = capsys.readouterr().out
+    assert said.count("  clockwise, 100 N m, carries in") == 2
+    assert "shaft 4  counter-clockwise, 400 N m, carries out1.wheel" in said
+    angles = re.findall(r"clocking +([0-9.]+) rad: .* stands ([0-9.]+) deg", said)
+    assert [float(clocking) for clocking, _ in angles] == [0.0, 0.002]
+    assert float(angles[0][1]) == pytest.approx(float(angles[1][1]), abs=1e-4)
+    out = tmp_path / "out"
+    assert main(["run", str(path), "-o", str(out), "-q"]) == 0
+    assert main(["report", str(out / "run.nc"), "-o", str(tmp_path / "page.html"), "-q"]) == 0
+    shares = load(out / "run.nc")["mean_path_share"].values
+    assert f"{100.0 * shares[1]:#.4g}" in (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert shares[1] > 0.55
+    capsys.readouterr()
 
 
 def test_a_row_that_memory_does_not_hold_is_refused(tmp_path, monkeypatch, capsys):

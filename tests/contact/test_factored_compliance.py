@@ -5,10 +5,8 @@ import ctypes
 import numpy as np
 import pytest
 
-from fenics_gears.contact.addresses import KNOWN, OF_FRICTION, march_with_inertia
-from fenics_gears.contact.border import MOST_CHANGES
 from fenics_gears.contact.factored_compliance import Factors, factored_solver
-from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
+from fenics_gears.contact.laws import SLIP_BACKWARD, SLIP_FORWARD, STICK
 
 NODES, COORDINATES, FRICTION = 60, 3, 0.1
 
@@ -21,16 +19,6 @@ class Contact:
         self.jacobian, self.opening = draw.normal(size=(forces, COORDINATES)), 1e-3 * draw.normal(size=forces)
         self.stiffness, self.load = 1e4 * np.eye(COORDINATES), np.full(COORDINATES, 100.0)
         self.factors, self.solver = Factors(forces, forces), ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_int64)
-
-    def of_sets(self, status):
-        closed = np.flatnonzero(status != OPEN)
-        return self.rows(closed, status[closed])
-
-    @property
-    def factored(self) -> list[int]:
-        """Rows of the forces between which there are factors with friction."""
-        known = ctypes.cast(int(self.factors.table[OF_FRICTION + KNOWN]), ctypes.POINTER(ctypes.c_int64))
-        return known[1 : 1 + known[0]]
 
     def rows(self, closed, status):
         if not self.frictional:
@@ -79,77 +67,3 @@ def test_nodes_that_depend_on_each_other_are_left_to_elimination():
     contact.compliance[7, 7] = contact.compliance[6, 6]
     assert contact.solved(*contact.rows(np.arange(5, 50), None)) is None
     assert contact.solved(*contact.rows(np.arange(10, 55), None)) is not None
-
-
-STATES = OPEN, SLIP_FORWARD, SLIP_BACKWARD, STICK
-
-
-def all_changes() -> list[np.ndarray]:
-    """Sets, first those of the factors: then one node in each other state, then several at once."""
-    draw = np.random.default_rng(3)
-    first = draw.choice(STATES, size=NODES, p=(0.2, 0.3, 0.3, 0.2)).astype(np.int8)
-    found = [first]
-    for before in STATES:
-        for after in STATES:
-            if after != before:
-                found.append(first.copy())
-                found[-1][np.flatnonzero(first == before)[2]] = after
-    for nodes in (3, 6, MOST_CHANGES // 2):
-        found.append(first.copy())
-        found[-1][draw.choice(NODES, nodes, replace=False)] = draw.choice(STATES, size=nodes)
-    return found
-
-
-def test_factors_of_a_march_serve_sets_that_differ_in_a_few_nodes():
-    """numpy's solution; sets that differ in more are factored."""
-    contact, sets = Contact(frictional=True), all_changes()
-    with march_with_inertia():
-        for status in sets:
-            rows = contact.of_sets(status)
-            found, expected = contact.solved(*rows), contact.expected(*rows)
-            np.testing.assert_allclose(found, expected, rtol=1e-10, atol=1e-12 * np.abs(expected).max())
-            assert contact.factored == contact.of_sets(sets[0])[0].tolist()
-        others = contact.of_sets(np.where(np.arange(NODES) < MOST_CHANGES + 4, OPEN, STICK))
-        np.testing.assert_allclose(contact.solved(*others), contact.expected(*others), rtol=1e-9, atol=1e-9)
-        assert contact.factored == others[0].tolist()
-
-
-def test_a_march_finds_the_same_whatever_was_factored_before_it():
-    """Identity, to the last bit: after other sets in another march and in none, and after the same."""
-    sets, found = all_changes(), []
-    for before in ([], sets[5:], sets[:1]):
-        contact = Contact(frictional=True)
-        with march_with_inertia():
-            for status in before:
-                contact.solved(*contact.of_sets(status))
-        for status in before[-1:]:
-            contact.solved(*contact.of_sets(status))
-        with march_with_inertia():
-            found.append([contact.solved(*contact.of_sets(status)) for status in sets])
-    assert np.array_equal(found[1], found[0]) and np.array_equal(found[2], found[0])
-
-
-@pytest.mark.parametrize("state", [SLIP_FORWARD, STICK])
-def test_a_change_that_makes_nodes_depend_on_each_other_is_left_to_elimination(state):
-    """Of two nodes that are one, the second closes; where motions tell them apart, numpy's solution."""
-    contact, status = Contact(frictional=True), np.full(NODES, SLIP_FORWARD, dtype=np.int8)
-    for row in (7, NODES + 7):
-        contact.compliance[row] = contact.compliance[row - 1]
-        contact.compliance[:, row] = contact.compliance[:, row - 1]
-    apart = contact.jacobian.copy()
-    contact.jacobian[[7, NODES + 7]] = contact.jacobian[[6, NODES + 6]]
-    with march_with_inertia():
-        for nodes_7, there in ((OPEN, True), (state, False), (OPEN, True)):
-            status[7] = nodes_7
-            rows = contact.of_sets(status)
-            found = contact.solved(*rows)
-            assert (found is not None) == there
-            if there:
-                expected = contact.expected(*rows)
-                np.testing.assert_allclose(found, expected, rtol=1e-10, atol=1e-12 * np.abs(expected).max())
-    contact.jacobian = apart
-    with march_with_inertia():
-        contact.solved(*rows)
-        status[7] = state
-        found, expected = contact.solved(*contact.of_sets(status)), contact.expected(*contact.of_sets(status))
-        np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())

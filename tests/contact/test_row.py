@@ -6,7 +6,6 @@ from tests.trains import row
 
 from fenics_gears.dynamics.stepping import Stepper
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.geometry.gear_train import begun_at
 from fenics_gears.model.train import train_model_of
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
@@ -43,7 +42,7 @@ def test_a_train_driven_from_its_other_end_has_the_same_transmission_error(cycle
     steps = np.array([3.0, 5.75, 10.0, 14.5, 17.25])
     model, cycle = cycle_of(row([24, 31, 40], [0, 60], 300))
     mirrored, reversed_cycle = cycle_of(row([40, 31, 24], [120, 180], 180))
-    phase, _ = begun_at([mesh.idler for mesh in mirrored.meshes])[1]
+    phase = mirrored.layout.phases[1]
     ahead = model.models[0].pair.contact_ratio - steps / cycle.steps - phase
     driven = overall_errors(model, cycle, steps) * 40 / 24
     driving = overall_errors(mirrored, reversed_cycle, (ahead % 1.0) * cycle.steps)

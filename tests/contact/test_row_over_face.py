@@ -8,13 +8,13 @@ from tests.contact.test_row import overall_errors
 from tests.trains import helical_row
 
 from fenics_gears import ComputationError, model_of, train_from_text
-from fenics_gears.contact.idler import Idler
+from fenics_gears.contact.idler import BetweenMeshes
 from fenics_gears.contact.row_over_face import IdlerOverFace
 from fenics_gears.dynamics.stepping import Stepper
 from fenics_gears.dynamics.train import drivetrain_of_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.face_compliance_data import AcrossFlanks
-from fenics_gears.geometry.gear_train import SecondMesh
+from fenics_gears.geometry.gear_train import SharedGear
 from fenics_gears.model.train import RowModel, train_model_of
 from fenics_gears.model.train_cost import WITH_FACTORS, row_cost
 from fenics_gears.simulation.routes import prepared
@@ -61,7 +61,7 @@ def test_a_train_driven_from_its_other_end_has_the_same_transmission_error(cycle
 
     model, cycle = train([24, 31, 40], [0, 60], 300, hand, "pinion")
     mirrored, reversed_cycle = train([40, 31, 24], [120, 180], 180, other, "wheel")
-    phase, _ = mirrored.begun[1]
+    phase = mirrored.layout.phases[1]
     ahead = model.models[0].pair.contact_ratio - STEPS / cycle.steps - phase
     driven = overall_errors(model, cycle, STEPS) * 40 / 24
     driving = overall_errors(mirrored, reversed_cycle, (ahead % 1.0) * cycle.steps)
@@ -146,7 +146,7 @@ def test_flanks_beyond_what_is_known_are_refused():
     """Compiled code would read beyond the body's numbers."""
     nothing = np.zeros((3, 1))
     idler = IdlerOverFace(
-        0, 31, SecondMesh(0.0, 12, 0.0, 0.0), AcrossFlanks(nothing, nothing, np.zeros((5, 1, 1)), 8), ()
+        31, SharedGear((0, 1), (1, 0), 12), AcrossFlanks(nothing, nothing, np.zeros((5, 1, 1)), 8), ()
     )
     assert idler.between(np.array([0]), np.array([-9]), 1).shape == (1, 1, 1, 1)
     with pytest.raises(ComputationError, match="further apart"):
@@ -155,8 +155,8 @@ def test_flanks_beyond_what_is_known_are_refused():
 
 def test_an_idler_counts_the_teeth_of_both_meshes():
     """The mirror counts the other way; a tooth ahead round the gear is one behind the other way round."""
-    idler = Idler(0, 31, SecondMesh(0.25, 12, 0.0, 0.0))
-    assert idler.flank(1, (2, 0)) == (2, 0)
-    assert idler.flank(0, (2, 0)) == (10, 1)
+    idler = BetweenMeshes(31, SharedGear((0, 1), (1, 0), 12))
+    assert idler.gear.flank(0, (2, 0)) == (2, 0)
+    assert idler.gear.flank(1, (2, 0)) == (10, 1)
     assert idler.ahead(2, 10, 5) == 23
     assert idler.ahead(2, 10, -20) == -8

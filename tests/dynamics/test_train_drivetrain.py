@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.linalg import eigh
-from tests.trains import bent_two_stages, row, two_stages
+from tests.trains import bent_two_stages, row, split_text, two_stages
 
 from fenics_gears import train_from_text
 from fenics_gears.dynamics.frequencies import natural_frequencies
@@ -48,10 +48,33 @@ def test_natural_frequencies_of_geared_shafts():
     assert found == pytest.approx(np.sqrt(squares) / (2.0 * np.pi), rel=1e-10)
 
 
-def moments(model) -> list[float]:
+def test_natural_frequencies_of_two_paths():
+    """The same of a loop: two shafts that twist between the first gear, which turns as prescribed, and the last."""
+    more = '[inertia]\ndensity = "7.85 g/cm^3"\n[motion]\ninput_speed = "1500 rpm"\nmesh_cycles = 2\n'
+    text = split_text(of_shaft='torsional_stiffness = "2e8 N mm/rad"', more=more)
+    text = text.replace('"out1.pinion"]', '"out1.pinion"]\ntorsional_stiffness = "1e8 N mm/rad"', 1)
+    (model,) = train_model_of(train_from_text(text)).rows
+    pairs = [mesh.pair for mesh in model.meshes]
+    of_mesh = [3e5, 4e5, 5e5, 6e5]
+    found = natural_frequencies(model.drivetrain, np.array(of_mesh))
+    names = ("in1.wheel", "out1.pinion", "in2.wheel", "out2.pinion", "out1.wheel")
+    masses = [1e-3 * each for each in moments(model, names)]
+    rows = [
+        (of_mesh[0], [pairs[0].wheel.base_radius, 0, 0, 0, 0]),
+        (of_mesh[1], [0, 0, pairs[1].wheel.base_radius, 0, 0]),
+        (1e8, [1, -1, 0, 0, 0]),
+        (2e8, [0, 0, 1, -1, 0]),
+        (of_mesh[2], [0, pairs[2].pinion.base_radius, 0, 0, pairs[2].wheel.base_radius]),
+        (of_mesh[3], [0, 0, 0, pairs[3].pinion.base_radius, pairs[3].wheel.base_radius]),
+    ]
+    stiffness = sum(spring * np.outer(along, along) for spring, along in rows)
+    squares = eigh(stiffness, np.diag(masses), eigvals_only=True)
+    assert found == pytest.approx(np.sqrt(squares) / (2.0 * np.pi), rel=1e-10)
+
+
+def moments(model, names=("first.wheel", "second.pinion", "second.wheel", "load")) -> list[float]:
     """Moments of inertia (g mm^2) as `gears check` says them, in kg mm^2 times 1000."""
     said = {name: value for name, value, _ in motion_rows(model)}
-    names = ("first.wheel", "second.pinion", "second.wheel", "load")
     return [said[f"{name}: moment of inertia"] for name in names]
 
 

@@ -9,8 +9,8 @@ from tests.coarse_sector import PINION, STEEL
 from tests.elasticity.flank_pressure import pressed
 from tests.whole_gear import whole_gear_mesh
 
-from fenics_gears.elasticity.condensation import dofs_of
 from fenics_gears.elasticity.dolfinx_adapter import node_coordinates
+from fenics_gears.elasticity.element_nodes import dofs_of
 from fenics_gears.elasticity.element_sizes import Discretisation, ElementSizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery

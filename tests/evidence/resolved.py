@@ -4,7 +4,6 @@ from itertools import groupby
 
 from tests.benchmarks.third_dimension import resolved
 from tests.benchmarks.third_dimension.__main__ import main as third_dimension
-from tests.benchmarks.third_dimension.table import read_rows
 from tests.elasticity.face import test_web_on_shaft as web_on_shaft
 from tests.evidence.claim import RESOLVED, Claim, Numbers, Part, within
 from tests.face_reference.reference import OPENINGS
@@ -23,7 +22,7 @@ def words(key: tuple[float, float, str]) -> str:
 def kept() -> Numbers:
     """Approaches (µm) of the analyses that have a row, and the line load that is furthest off, by the largest."""
     found: Numbers = {}
-    ordered = groupby(read_rows(resolved.NAME), key=lambda row: (row["helix_angle"], row["phase"], row["opening"]))
+    ordered = groupby(resolved.fine_rows(), key=lambda row: (row["helix_angle"], row["phase"], row["opening"]))
     for (helix, phase, opening), rows in ordered:
         key, slices = (helix, phase, list(OPENINGS)[int(opening)]), list(rows)
         if key in KEYS + AT_EDGES:

@@ -9,7 +9,7 @@ from tests.contact.problems import pressed
 from tests.face_reference.cases import FACE_WIDTH, STEEL, base_slope, reference_pair
 from tests.face_reference.reference import OPENINGS
 
-from fenics_gears.contact.face import Face, even_slices
+from fenics_gears.contact.face import Face, even_slices, finer_ends
 from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
 from fenics_gears.contact.kinematics import COORDINATES
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps
@@ -27,11 +27,12 @@ REACH = Reach(2)
 
 @dataclass(frozen=True)
 class Answer:
-    """Approach (mm, along the transverse line of action), and line load (N/mm) of each tooth pair at `positions`
-    (mm)."""
+    """Approach (mm, along the transverse line of action), and line load (N/mm) of each tooth pair in slices of `widths`
+    at `positions` (mm)."""
 
     approach: float
     positions: np.ndarray
+    widths: np.ndarray
     line_loads: dict[int, np.ndarray]
 
 
@@ -64,11 +65,14 @@ def answer(
     section_size=1.0,
     layers=8,
     slices=16,
+    cut_ends=False,
     flank=0.045,
     spacing=0.03,
 ) -> Answer:
+    """By sizes in mm and numbers over the face; `cut_ends`: the outermost slices are cut in two."""
     pair, slope, sections, bodies = gears(helix_angle, section_size, layers, flank, cache)
-    face = Face(*even_slices(FACE_WIDTH, slices), slope)
+    even = even_slices(FACE_WIDTH, slices)
+    face = Face(*(finer_ends(*even) if cut_ends else even), slope)
     grid = ContactGrid(74 * spacing, 75, closer_at_edges=True, inner_length=30 * spacing)
 
     def opened(heights, positions):
@@ -81,6 +85,6 @@ def answer(
     solution = pressed(operator, force * face.cosine)
     found: dict[int, np.ndarray] = {}
     for tooth_pair, nodes in zip(operator.pairs, node_slices(operator.pairs)):
-        line = found.setdefault(tooth_pair.place.index, np.zeros(slices))
+        line = found.setdefault(tooth_pair.place.index, np.zeros(face.slices))
         line[tooth_pair.place.slice] += solution.forces[nodes].sum() / face.widths[tooth_pair.place.slice]
-    return Answer(float(solution.coordinates[0]), face.positions, found)
+    return Answer(float(solution.coordinates[0]), face.positions, face.widths, found)

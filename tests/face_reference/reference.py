@@ -76,12 +76,12 @@ def reference() -> list[Row]:
     return result
 
 
-def over_slices(found: list[Row], positions: np.ndarray) -> np.ndarray:
-    """N/mm (S,) of all tooth pairs, averaged over slices of one width at `positions` (S,), mm."""
+def over_slices(found: list[Row], positions: np.ndarray, widths: np.ndarray) -> np.ndarray:
+    """N/mm (S,) of all tooth pairs, averaged over slices of `widths` at `positions` (S,), mm."""
     z = np.array(sorted({row.z for row in found}))
     load = np.array([sum(row.line_load for row in found if row.z == each) for each in z])
     parts = (np.arange(100) + 0.5) / 100.0 - 0.5
-    return np.interp(positions[:, None] + (positions[1] - positions[0]) * parts, z, load).mean(axis=1)
+    return np.interp(positions[:, None] + widths[:, None] * parts, z, load).mean(axis=1)
 
 
 def write(found: list[Row]) -> None:

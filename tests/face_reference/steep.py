@@ -139,10 +139,13 @@ def graded_gear(position: Position, number: int, lines, sizes: Sizes) -> GradedG
     return made
 
 
-def resolved(position: Position, load: float, sizes: Sizes = Sizes()) -> Resolved:
-    """Under a load (N, along n)."""
+def resolved(
+    position: Position, load: float, sizes: Sizes = Sizes(), tooth_pairs: tuple[int, ...] | None = None
+) -> Resolved:
+    """Under a load (N, along n); `tooth_pairs` alone touch, all unless given."""
     width = position.pair.face_width
     lines = lines_of_contact(position, sizes.levels(width))
+    lines = {index: rolls for index, rolls in lines.items() if tooth_pairs is None or index in tooth_pairs}
     gears = tuple(graded_gear(position, number, lines, sizes) for number in (0, 1))
     heights = sizes.contact_heights(width)
     points = [pair_points(position, index, sizes.offsets, gears, np.zeros_like, heights) for index in lines]

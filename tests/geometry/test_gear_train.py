@@ -6,7 +6,6 @@ import pytest
 from tests.trains import row
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.gear_train import second_mesh
 
 
 def past_the_pitch_point(pair, phase: float) -> float:
@@ -30,7 +29,7 @@ def test_phases_of_an_idler_follow_from_its_tooth_thickness(teeth, angle):
     # The idler turns clockwise: pushed in the first mesh, whose phase is the opposite, and pushing in the second.
     centreline = pi - (2.0 * pi / teeth) * past_the_pitch_point(first, 0.0) - half_tooth(first)
     expected = teeth / (2.0 * pi) * (-(centreline - angle) + half_tooth(second))
-    found = past_the_pitch_point(second, second_mesh(first, second, pi, angle).phase)
+    found = past_the_pitch_point(second, train.layout.phases[1])
     assert (found - expected + 0.5) % 1.0 == pytest.approx(0.5, abs=1e-12)
 
 
@@ -39,14 +38,14 @@ def test_an_idler_between_opposite_gears_has_the_parity_of_its_teeth():
     the pitch point, those of an odd number together."""
     apart = {}
     for teeth in (30, 31):
-        first, second = (mesh.pair for mesh in row([20, teeth, 40], [0, 0], 100).meshes)
-        phase = second_mesh(first, second, pi, 0.0).phase
-        apart[teeth] = past_the_pitch_point(second, phase) - past_the_pitch_point(first, 0.0)
+        train = row([20, teeth, 40], [0, 0], 100)
+        first, second = (mesh.pair for mesh in train.meshes)
+        apart[teeth] = past_the_pitch_point(second, train.layout.phases[1]) - past_the_pitch_point(first, 0.0)
     assert apart[30] % 1.0 == pytest.approx(0.5, abs=1e-12)
     assert (apart[31] + 0.5) % 1.0 == pytest.approx(0.5, abs=1e-12)
 
 
 def test_gears_that_overlap_are_refused():
     """Two tip circles cannot lie in one another."""
-    with pytest.raises(GeometryError, match="gears 1 and 3 overlap: their centres are"):
+    with pytest.raises(GeometryError, match="gears row.1 and row.3 overlap: their centres are"):
         row([24, 31, 40], [0, 170], 100)

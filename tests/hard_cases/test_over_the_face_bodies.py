@@ -20,7 +20,8 @@ from tests.helical import CROWNED, FRICTION, helical_scene
 from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears import model_of, simulate
-from fenics_gears.elasticity.condensation import by_radius, dofs_of, without
+from fenics_gears.elasticity.condensation import by_radius, without
+from fenics_gears.elasticity.element_nodes import dofs_of
 from fenics_gears.elasticity.face.condensed import ring_blocks
 from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness

@@ -26,7 +26,10 @@ SHAFT = '[shafts.one]\ncarries = ["{}"]\ntorsional_stiffness = "1e8 N mm/rad"'
         (f"{TWO}{LOAD}\n[damping]\nratio = 0.1", r"needs the section \[inertia\]"),
         (f"{TWO}{LOAD}\n[damping]\nratio = 0.1\n[damping.pinion]", "is of a pair. Allowed: one damping"),
         (f"{TWO}{LOAD}\n[shafts]\nstiff = 3", r"sections \[shafts.NAME\]"),
-        (f"{TWO}{LOAD}\n{SHAFT.format('first.weel')}", 'are not the gears of one shaft. Did you mean "first.wheel"'),
+        (
+            f"{TWO}{LOAD}\n{SHAFT.format('first.weel')}",
+            '"first.weel"\n    is no gear of this train. Did you mean "first.wheel"',
+        ),
         (f"{TWO}{LOAD}\n{SHAFT.format('first.wheel')}", 'carry: "first.pinion"; "first.wheel", "second.pinion"; "sec'),
         (
             f"{TWO}{LOAD}\n{DENSITY}{SHAFT.format('second.wheel')}\n{MOVING}",
@@ -45,7 +48,7 @@ SHAFT = '[shafts.one]\ncarries = ["{}"]\ntorsional_stiffness = "1e8 N mm/rad"'
             r"stages.one.bearings.x = 3.*not a known field of \[bearings\]",
         ),
         (stage("one", 2.0, (20, 30), "[stages.one.eccentricity]\nx = 3") + LOAD, "is not yet computed of a stage"),
-        (ROW.replace("[load]", "[stages.row.coast_flanks]\n[load]"), "in rows with idlers"),
+        (ROW.replace("[load]", "[stages.row.coast_flanks]\n[load]"), "where a gear has several mates"),
         (stage("one", 2.0, (20, 30)).replace("teeth = 30", "tooth = 30") + LOAD, "train:7: stages.one.wheel.tooth"),
         (stage("one", 2.0, (20, 30)) + LOAD + "\n[accuracy]\nelements = 3", "accuracy.elements = 3"),
     ],
@@ -58,7 +61,7 @@ def test_mistakes_are_told(text, said):
 
 def test_an_idler_that_both_mates_would_thin_differently_is_refused():
     """Backlash is shared by both gears of a mesh; an idler has one tooth thickness in two meshes."""
-    with pytest.raises(SceneError, match="would thin the teeth of an idler differently"):
+    with pytest.raises(SceneError, match="would thin the teeth of a gear differently"):
         train_from_text(row([24, 31, 40], [0, 60], 100).text.replace("[load]", 'backlash = "0.1 mm"\n[load]', 1))
 
 
@@ -83,3 +86,9 @@ def test_an_idler_does_not_twist():
     text = row([24, 31, 40], [0, 60], 100).text
     with pytest.raises(SceneError, match="is of an idler"):
         train_from_text(f"{text}\n{SHAFT.format('row.2')}")
+
+
+def test_meshes_of_a_row_have_one_frequency():
+    """To the last digit, whatever the numbers of teeth: a cycle of one is a cycle of all, and no step more."""
+    meshes = row([24, 31, 40, 25], [0, 60, 20], 100).meshes
+    assert {mesh.scene.motion.mesh_frequency for mesh in meshes} == {1.0}

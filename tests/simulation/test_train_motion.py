@@ -139,7 +139,7 @@ def test_a_row_behind_a_stage_is_its_mirror_image():
     round."""
     idlers = row_section((24, 31, 40), (10, 75))
     load = '[load]\noutput_torque = "400 N m"\n'
-    behind = train_from_text(stage("first", 2.0, (20, 30)) + idlers + load).meshes[2].idler
-    alone = row([24, 31, 40], [-10, -75], 400).meshes[1].idler
-    assert behind.phase == pytest.approx(alone.phase, abs=1e-12)
-    assert (behind.teeth - alone.teeth) % 31 == 0
+    behind = train_from_text(stage("first", 2.0, (20, 30)) + idlers + load).layout
+    alone = row([24, 31, 40], [-10, -75], 400).layout
+    assert behind.phases[2] == pytest.approx(alone.phases[1], abs=1e-12)
+    assert (behind.shared(3, 1, 2).tooth - alone.shared(1, 0, 1).tooth) % 31 == 0

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.programs import gears
 from tests.studies.conftest import stamps
-from tests.trains import COARSE, stage
+from tests.trains import COARSE, split_text, stage
 
 from fenics_gears import SceneError, load, load_train, simulate_train
 from fenics_gears.commands.cli import main
@@ -103,7 +103,7 @@ def test_a_row_is_condensed_idler_and_all(gearbox):
     turned = study_of(
         text.replace("gears.2.profile_shift = [0, 0.1]", 'directions = [["0 deg", "60 deg"], ["0 deg", "61 deg"]]')
     )
-    assert [task.name for task in gear_tasks(turned.cases[:1])] == ["pinion", "wheel", "idler of row: gears 1 and 2"]
+    assert [task.name for task in gear_tasks(turned.cases[:1])] == ["pinion", "row.2", "wheel"]
     assert turned.axes[0].coordinate()[0] == '["0 deg", "60 deg"]'
 
 
@@ -168,3 +168,20 @@ def test_two_processes_give_what_one_gives(gearbox):
     assert Path("both/peak_to_peak_overall_transmission_error.png").is_file()
     assert main(["report", "both"]) == 0
     assert "Gear train: report on a study" in Path("both/report.html").read_text()
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_studies_sweep_the_clocking_of_a_shaft(gearbox, capsys):
+    """Two equal paths: turned back and ahead by the same angle, one has what the other has; a study has the shares."""
+    Path("split.toml").write_text(split_text(of_shaft='clocking = "0 rad"'))
+    sweep = 'scene = "split.toml"\n[sweep]\nshafts.path2.clocking = ["-2e-4 rad", "0 rad", "2e-4 rad"]\n'
+    Path("study.toml").write_text(sweep)
+    assert main(["study", "study.toml", "--quiet"]) == 0
+    back, middle, ahead = load_combined(gearbox / "results/study/study.nc")["mean_path_share"].values
+    assert middle == pytest.approx([0.5] * 4, abs=1e-9)
+    assert ahead == pytest.approx(1.0 - back, rel=1e-3)
+    assert ahead[[1, 3]] == pytest.approx(ahead[1], rel=1e-9)
+    assert ahead[1] > 0.52
+    Path("study.toml").write_text(sweep.replace("shafts.path2.clocking", "stages.in2.pinion.teeth"))
+    assert main(["study", "study.toml", "--quiet"]) != 0
+    assert "this is the gear in1.pinion of another stage" in capsys.readouterr().err

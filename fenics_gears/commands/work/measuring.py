@@ -54,7 +54,7 @@ def _stages(train: TrainScene, options, command: str) -> list[tuple[Scene, Path]
             f" ({', '.join(coupled)}), which is not measured yet: run it with finer settings, or make a scene of one of"
             " its pairs."
         )
-    left = f" Left out, since idlers couple them: {', '.join(coupled)}." if coupled else ""
+    left = f" Left out, since they have gears in common: {', '.join(coupled)}." if coupled else ""
     if not options.quiet:
         said = "Each stage of two gears by itself, under its torque: shafts between them are rigid."
         print(f"{said}{left}", file=sys.stderr)

@@ -11,10 +11,12 @@ from typing import Any
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
+from fenics_gears.model.loop_rows import loop_rows
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of
 from fenics_gears.model.train_cost import row_too_large, train_cost
-from fenics_gears.scene.train import MeshOfScene, TrainScene
+from fenics_gears.scene.train import TrainScene
+from fenics_gears.scene.train_mesh import MeshOfScene
 from fenics_gears.show import TRAIN_PICTURE_FILES
 from fenics_gears.system.console import print_rows
 from fenics_gears.system.memory import allowed_memory
@@ -81,8 +83,10 @@ def check_train(scene: TrainScene) -> int:
     print(f"{scene.title}\n")
     print_rows("Train", _train_rows(model))
     print_rows("Shafts", list(_shaft_rows(model)))
+    if scene.graph.loops:
+        print_rows("Loops of meshes", loop_rows(scene))
     for row in model.rows:
-        for mesh, own, (phase, _) in zip(row.meshes, row.models, row.begun):
+        for mesh, own, phase in zip(row.meshes, row.models, row.layout.phases):
             print_rows(f"Mesh {mesh.name}", _mesh_rows(mesh, own, phase))
     if scene.shafts.moving:
         from fenics_gears.model.train_motion_rows import frequency_rows, motion_rows
@@ -123,18 +127,15 @@ def _cost_rows(model: TrainModel) -> list[Row]:
 
 def _shaft_rows(model: TrainModel) -> Iterator[Row]:
     """Speed and torque of each shaft; the first one turns counter-clockwise."""
-    sense = 1.0
-    speed = model.scene.input_speed
-    torque = model.scene.input_torque
-    for number in range(len(model.scene.meshes) + 1):
-        turning = "counter-clockwise" if sense > 0.0 else "clockwise"
-        rate = f"{60.0 * speed:.5g} rpm, " if model.scene.speed_given else ""
-        yield f"shaft {number + 1}", f"{rate}{turning}, {1e-3 * torque:.5g} N m", ""
-        if number < len(model.scene.meshes):
-            ratio = model.scene.meshes[number].pair.rotation_ratio
-            speed *= ratio
-            torque /= ratio
-            sense = -sense
+    scene = model.scene
+    graph = scene.graph
+    for shaft, (turns, sense) in enumerate(zip(scene.turns, graph.senses)):
+        turning = "counter-clockwise" if sense > 0 else "clockwise"
+        rate = f"{60.0 * scene.input_speed * turns:.5g} rpm, " if scene.speed_given else ""
+        driven = [scene.meshes[mesh].scene.load.wheel_torque for mesh in graph.into(shaft)]
+        torque = sum(driven) if shaft else scene.input_torque
+        carried = f", carries {', '.join(scene.shafts.carried[shaft])}"
+        yield f"shaft {shaft + 1}", f"{rate}{turning}, {1e-3 * torque:.5g} N m{carried}", ""
 
 
 def _mesh_rows(mesh: MeshOfScene, own: Model, phase: float) -> list[Row]:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import sparse
 
-from ..condensation import dofs_of
+from ..element_nodes import dofs_of
 from .layers import Sweep, interpolation_along
 
 # How far below the root circle a cut has fewer nodes, in pitches along that circle. Half as far the error is three

@@ -7,7 +7,8 @@ from time import perf_counter
 
 import numpy as np
 
-from ..condensation import by_radius, dofs_of, line_of
+from ..condensation import by_radius, line_of
+from ..element_nodes import dofs_of
 from ..mesh_data import BodyMesh
 from ..mirrored_ring import flank_free
 from ..mumps import schur_complement

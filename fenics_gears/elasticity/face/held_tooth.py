@@ -8,12 +8,12 @@ from scipy.linalg import cho_factor, cho_solve
 
 from fenics_gears.geometry.gear import Gear
 
-from ..condensation import by_radius, dofs_of
-from ..element_nodes import numbers_at
+from ..condensation import by_radius
+from ..element_nodes import dofs_of, numbers_at
 from ..mesh_data import BodyMesh
 from ..mumps import schur_complement
 from .layers import Sweep, interpolation_along
-from .near_field import NearField, thin_boundaries, thin_layers
+from .near_field import NearField, neighbours, thin_boundaries, thin_layers
 from .swept_stiffness import ELEMENT, Blocks, SectionForms, swept_stiffness
 
 # Modules: how far below the root circle a tooth is held.
@@ -102,13 +102,12 @@ def _joined(tooth: _HeldTooth, thick: list[float]) -> sparse.csr_matrix:
     parts = np.array([thin_layers(each) for each in thick])
     first, heights = 2 * (np.cumsum(parts) - parts), 2 * int(parts.sum()) + 1
     joined = sparse.csr_matrix((heights * tooth.nodes,) * 2)
-    for layer in range(len(thick)):
-        low, high = max(layer - 1, 0), min(layer + 2, len(thick))
-        missing = tooth.missing(tuple(thick[low:high]), layer - low)
+    for layer, near in enumerate(neighbours(thick)):
+        missing = tooth.missing(tuple(thick[near]), layer - near.start)
         # Nodes between two layers have half of either's.
         share = np.ones(2 * parts[layer] + 1)
         share[[0, -1]] = 1.0 if layer == 0 else 0.5, 1.0 if layer == len(thick) - 1 else 0.5
         block = sparse.coo_matrix(np.repeat(share, tooth.nodes)[:, None] * missing)
-        places = block.row + first[layer] * tooth.nodes, block.col + first[low] * tooth.nodes
+        places = block.row + first[layer] * tooth.nodes, block.col + first[near.start] * tooth.nodes
         joined = joined + sparse.csr_matrix((block.data, places), shape=joined.shape)
     return (0.5 * (joined + joined.T)).tocsr()

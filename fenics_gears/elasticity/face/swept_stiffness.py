@@ -16,8 +16,7 @@ from scipy import sparse
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 
-from ..condensation import dofs_of
-from ..element_nodes import ElementNodes, element_nodes, numbers_at
+from ..element_nodes import ElementNodes, dofs_of, element_nodes, numbers_at
 from ..elements import ELEMENTS
 from ..mesh_data import BodyMesh
 from ..ring import rotation

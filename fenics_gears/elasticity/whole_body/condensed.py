@@ -18,8 +18,8 @@ from fenics_gears.geometry.gear_data import Material
 from fenics_gears.numbers_version import NUMBERS_VERSION
 
 from ..cache import Cache, kept
-from ..condensation import by_radius, condense, dofs_of
-from ..element_nodes import node_roll_angles
+from ..condensation import by_radius, condense
+from ..element_nodes import dofs_of, node_roll_angles
 from ..elements import Element, element_named
 from ..mesh_data import BodyMesh
 from ..mumps import Factor

@@ -46,11 +46,10 @@ def _meshes(result: xr.Dataset) -> list[RatedMesh]:
     if OVERALL not in result:
         return [RatedMesh("", result, carried_scene(result))]
     train = carried_train(result)
-    behind = [*train.meshes[1:], None]
+    driving, driven = ({mesh.gears[side] for mesh in train.meshes} for side in (0, 1))
     found = []
-    for number, (mesh, following) in enumerate(zip(train.meshes, behind)):
-        turned = {"pinion": mesh.idler, "wheel": following and following.idler}
-        idlers = tuple(name for name, idler in turned.items() if idler is not None)
+    for number, mesh in enumerate(train.meshes):
+        idlers = tuple(name for name, gear in zip(("pinion", "wheel"), mesh.gears) if gear in driving & driven)
         found.append(RatedMesh(mesh.name, mesh_run(result, train, number), mesh.scene, idlers))
     return found
 

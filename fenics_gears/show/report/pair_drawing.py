@@ -47,13 +47,13 @@ def gear_outline(pair: GearPair, gear: int, phase: float, coast: bool = False) -
     """Outline (n, 2), mm, of a gear at a phase of the mesh cycle, tooth after tooth, closed; line of centres upright.
     coast: with the coast flanks where the drive flanks are at that phase."""
     centre, angles = standing(pair, gear, phase)
-    tooth = _tooth((pair.pinion, pair.wheel)[gear])
+    tooth = tooth_points((pair.pinion, pair.wheel)[gear])
     # A tooth's outline runs from its drive side, which lies ahead, to its coast side.
     points = np.vstack([centre + tooth @ rotation(angle).T for angle in np.sort(angles)[::-1]])
     return upright(pair, np.vstack([points, points[:1]]), coast)
 
 
-def _tooth(gear: Gear) -> np.ndarray:
+def tooth_points(gear: Gear) -> np.ndarray:
     """One tooth (n, 2) from the middle of the space at its drive flank to the middle of the space at its coast
     flank."""
     outline = tooth_outline(gear, FILLET_POINTS)

@@ -10,10 +10,12 @@ import xarray as xr
 from fenics_gears.model.train_motion_rows import Rows, frequency_rows, motion_rows
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
 from fenics_gears.results.overall_orders import overall_orders
+from fenics_gears.results.path_shares import OF_SHARES, SHARE
 from fenics_gears.results.power_flow import PowerFlow, power_flow
 from fenics_gears.results.summary import result_rows
 from fenics_gears.results.train import train_rows
-from fenics_gears.scene.train import MeshOfScene, TrainScene
+from fenics_gears.scene.train import TrainScene
+from fenics_gears.scene.train_mesh import MeshOfScene
 from fenics_gears.system.progress import Progress, SilentProgress
 
 from ..line_load import line_loads
@@ -38,7 +40,7 @@ def train_page(dataset: xr.Dataset, file: Path, progress: Progress | None = None
     train = carried_train(dataset)
     flow = power_flow(dataset, train)
     sections = [
-        _summary(dataset, train, flow), warnings(ShownRun(dataset)), _geometry(train), _power(flow),
+        _summary(dataset, train, flow), warnings(ShownRun(dataset)), _geometry(train), _power(dataset, train, flow),
         PageSection("motion", "Transmission error", errors(train, dataset)), _orders(dataset, train),
         *_shafts(dataset, train), *_frequencies(train),
     ]  # fmt: skip
@@ -126,19 +128,19 @@ def _of_mesh(mesh: MeshOfScene) -> tuple[str, ...]:
     )  # fmt: skip
 
 
-def _power(flow: PowerFlow) -> PageSection:
+def _power(dataset: xr.Dataset, train: TrainScene, flow: PowerFlow) -> PageSection:
     rows = [
         (
             f"shaft {number}",
-            "counter-clockwise" if number % 2 else "clockwise",
+            "counter-clockwise" if sense > 0 else "clockwise",
             digits(each.torque * factor("N mm", "N m")),
             *((digits(60.0 * each.speed), digits(1e-6 * each.power)) if flow.speed_given else ()),
         )
-        for number, each in enumerate(flow.shafts, 1)
+        for number, (each, sense) in enumerate(zip(flow.shafts, train.graph.senses), 1)
     ]
     of_speed = ("Speed (rpm)", "Power (kW)") if flow.speed_given else ()
     headings = ("Shaft", "Turns", "Torque (N m)", *of_speed)
-    blocks: list[Block] = [Table(headings, rows, "Shafts, the first one driven", numbers=2)]
+    blocks: list[Block] = [Table(headings, rows, "Shafts, the first one driven", numbers=2), *_shares(dataset)]
     if not flow.speed_given:
         blocks.append(Words("The scene has no speed (`motion.input_speed`), and so no power."))
     lost = [(each.name, f"{100.0 * each.efficiency:.4g}") for each in flow.meshes]
@@ -148,6 +150,17 @@ def _power(flow: PowerFlow) -> PageSection:
             Words("The last shaft has the torque of the load. Before each mesh the torque is higher by what it loses.")
         )
     return PageSection("power", "Power flow", blocks)
+
+
+def _shares(dataset: xr.Dataset) -> list[Block]:
+    """How paths share the torque, where there are several."""
+    if SHARE not in dataset:
+        return []
+    names = [str(each) for each in dataset["mesh"].values]
+    numbers = [100.0 * dataset[each].values for each in OF_SHARES]
+    rows = [(name, *map(digits, own)) for name, own in zip(names, zip(*numbers))]
+    words = "Shares of the torque that all meshes on the same shaft carry"
+    return [Table(("Mesh", "Mean (%)", "Largest (%)", "Least (%)"), rows, words)]
 
 
 def _orders(dataset: xr.Dataset, train: TrainScene) -> PageSection:

@@ -12,24 +12,45 @@ from tests.hertz_point_contact import PointContact
 
 from fenics_gears import gear_pair, model_of
 from fenics_gears.contact.kinematics import CENTRE_COORDINATES
-from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.geometry.lead_modification import LeadModification, LeadModifications
+from fenics_gears.model.face_resolution import FEWEST_LOADED_SLICES, loaded_part
+from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import plane_contact_modulus, relative_radius
 from fenics_gears.results.mesh_curves import without_oscillation
+from fenics_gears.scene.accuracy import SECTION_SIZE
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.simulation.elastic_route import elastic_route
 from fenics_gears.system.progress import SilentProgress
 
 NAME = "crowned"
-# Modules: half of the ellipse's length, the face, layers of the body; and elements of its section.
-LONG_AXIS, WIDTH, SECTION = 0.5, 1.5, 0.2
-LAYERS, SLICES, RATIOS = 8, 31, (3.0, 5.0, 10.0, 20.0, 40.0)
-# Layers and slices of a coarser body, and of slices that are too narrow for it.
-COARSER, THEIR_RATIO = ((4, 8), (2, 4), (2, 31)), 10.0
+# Modules: half of the ellipse's length.
+LONG_AXIS = 0.5
+RATIOS = (3.0, 5.0, 10.0, 20.0, 40.0)
+THEIR_RATIO = 10.0
 # Flank elements in half the short axis, window in short half-axes, distance of contact nodes in elements, the smaller
 # load.
 ELEMENTS, WINDOW, SPACING, SMALLER = 4, 5.0, 0.7, 0.25
 QUANTITIES = ("peak_pressure", "short_axis", "long_axis", "line_load")
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """Face, layers and slices; elements of the body's section, and the face, in modules. `fine`: whether flank elements
+    and contact nodes are those of the ellipse, the program's own else."""
+
+    layers: int | None = 8
+    slices: int = 31
+    width: float = 1.5
+    section: float = 0.2
+    fine: bool = True
+
+
+FINE = Sizes()
+# Coarser bodies, slices that are narrow in thick layers, and default sizes on a wide face, whose slices are those that
+# `gears check` asks for: some of them even, so that the ellipse's middle is between two.
+COARSER = (Sizes(4, 8), Sizes(2, 4), Sizes(2, 31), Sizes(2, 31, section=0.5))
+WIDE = 6.0
 
 
 @dataclass(frozen=True)
@@ -40,26 +61,36 @@ class Pressed:
     errors: dict[str, float]
 
 
-class CrownedFlanks:
-    """The pair crowned so that an ellipse of LONG_AXIS and an axis ratio comes out under Hertz's load. The middle of
-    the face stands on the boundary of two layers, where the coarse body errs most."""
-
-    def __init__(self, ratio: float, layers: int = LAYERS, slices: int = SLICES):
-        gears = standard_pair(WIDTH * MODULE)
-        self.pair, plain = gear_pair(gears), scene_of(gears, Accuracy())
-        long_axis, radius = LONG_AXIS * MODULE, relative_radius(self.pair, self.pair.pitch_point)
-        self.exact = PointContact(long_axis, long_axis / ratio, radius, plane_contact_modulus(plain))
-        size, length = self.exact.short_axis / ELEMENTS, WINDOW * self.exact.short_axis
-        accuracy = Accuracy(
-            flank_element_size=size, contact_length=length, contact_nodes=2 * ceil(0.5 * length / (SPACING * size)) + 1,
-            steps_per_mesh_cycle=1,
-            slices=slices, layers=layers, body_element_size=SECTION * MODULE,
+def crowned(ratio: float, sizes: Sizes = FINE) -> tuple[Model, PointContact]:
+    """The pair crowned so that an ellipse of LONG_AXIS and an axis ratio comes out under Hertz's load."""
+    gears = standard_pair(sizes.width * MODULE)
+    pair, plain = gear_pair(gears), scene_of(gears, Accuracy())
+    long_axis, radius = LONG_AXIS * MODULE, relative_radius(pair, pair.pitch_point)
+    exact = PointContact(long_axis, long_axis / ratio, radius, plane_contact_modulus(plain))
+    accuracy = Accuracy(
+        steps_per_mesh_cycle=1, slices=sizes.slices, layers=sizes.layers, body_element_size=sizes.section * MODULE
+    )
+    if sizes.fine:
+        size, length = exact.short_axis / ELEMENTS, WINDOW * exact.short_axis
+        accuracy = replace(
+            accuracy, flank_element_size=size, contact_length=length,
+            contact_nodes=2 * ceil(0.5 * length / (SPACING * size)) + 1,
         )  # fmt: skip
-        crowning = LeadModification(crowning=gears.face_width**2 / (8.0 * self.exact.radius_along))
-        scene = scene_of(gears, accuracy, self.exact.load / gears.face_width)
-        scene = replace(scene, misalignment=None, lead_modifications=LeadModifications(pinion=crowning))
-        self.cycle = elastic_route(model_of(scene), SilentProgress(), user_cache())[1]
-        phase = (self.pair.pitch_point - self.pair.path_start) / self.pair.base_pitch % 1.0
+    crowning = LeadModification(crowning=gears.face_width**2 / (8.0 * exact.radius_along))
+    scene = scene_of(gears, accuracy, exact.load / gears.face_width)
+    scene = replace(scene, misalignment=None, lead_modifications=LeadModifications(pinion=crowning))
+    return model_of(scene), exact
+
+
+class CrownedFlanks:
+    """The pair at the pitch point. The middle of the face stands on the boundary of two layers, where the coarse body
+    errs most."""
+
+    def __init__(self, ratio: float, sizes: Sizes = FINE, cache: Cache | None = None):
+        self.model, self.exact = crowned(ratio, sizes)
+        pair = self.model.pair
+        self.cycle = elastic_route(self.model, SilentProgress(), cache or user_cache())[1]
+        phase = (pair.pitch_point - pair.path_start) / pair.base_pitch % 1.0
         self.operator = self.cycle.between(phase, phase).operator
 
     def pressed(self, part: float) -> Pressed:
@@ -100,20 +131,28 @@ class CrownedFlanks:
         }
 
 
+def default_sizes(ratio: float) -> Sizes:
+    """On a wide face, with the slices that the program's warning asks for."""
+    sizes = Sizes(layers=None, width=WIDE, section=SECTION_SIZE, fine=False)
+    part = loaded_part(crowned(ratio, sizes)[0])
+    return replace(sizes, slices=ceil(FEWEST_LOADED_SLICES / part))
+
+
 def measure() -> list[Row]:
     rows: list[Row] = []
-    for ratio, layers, slices in [
-        *((ratio, LAYERS, SLICES) for ratio in RATIOS),
-        *((THEIR_RATIO, *coarser) for coarser in COARSER),
+    for ratio, sizes in [
+        *((ratio, FINE) for ratio in RATIOS),
+        *((THEIR_RATIO, coarser) for coarser in COARSER),
+        *((ratio, default_sizes(ratio)) for ratio in RATIOS),
     ]:
-        rows.append(
-            {
-                "ratio": ratio,
-                "layer": WIDTH / layers / LONG_AXIS,
-                "slices": slices / layers,
-                **CrownedFlanks(ratio, layers, slices).errors(),
-            }
-        )
+        flanks = CrownedFlanks(ratio, sizes)
+        slices, layers = flanks.model.slices_and_layers
+        kept = {
+            "ratio": ratio, "width": sizes.width, "section": sizes.section, "fine": sizes.fine,
+            "layer": sizes.width / layers / LONG_AXIS, "slice": sizes.width / slices / LONG_AXIS,
+        }  # fmt: skip
+        rows.append(kept | flanks.errors())
+        print(rows[-1], flush=True)
         write_rows(NAME, rows)
     return rows
 
@@ -122,21 +161,15 @@ def section() -> str:
     names = (*QUANTITIES, "approach")
     lines = [
         [
-            f"{row['ratio']:g}",
-            f"{row['layer']:.2g}",
-            f"{row['slices']:.2g}",
+            f"{row['ratio']:g}", f"{row['width']:g}", "ellipse" if row["fine"] else "default",
+            *(f"{row[name]:.2g}" for name in ("section", "layer", "slice")),
             *(f"{100 * row[name]:+.1f}" for name in names),
         ]
         for row in read_rows(NAME)
-    ]
+    ]  # fmt: skip
     headings = [
-        "axis ratio",
-        "layer in half-lengths",
-        "slices in a layer",
-        "peak pressure, %",
-        "half-width, %",
-        "half-length, %",
-        "line load at the middle, %",
-        "approach, %",
-    ]
+        "axis ratio", "face in modules", "flank elements of the", "section's elements, modules",
+        "layer in half-lengths", "slice in half-lengths",
+        "peak pressure, %", "half-width, %", "half-length, %", "line load at the middle, %", "approach, %",
+    ]  # fmt: skip
     return "\n".join(table(headings, lines))

@@ -6,7 +6,8 @@ from functools import lru_cache
 import numpy as np
 from tests.coarse_sector import PINION
 
-from fenics_gears.elasticity.condensation import CondensedBody, dofs_of
+from fenics_gears.elasticity.condensation import CondensedBody
+from fenics_gears.elasticity.element_nodes import dofs_of
 from fenics_gears.elasticity.element_sizes import ElementSizes
 from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
 from fenics_gears.elasticity.face.swept_stiffness import SectionForms, swept_stiffness

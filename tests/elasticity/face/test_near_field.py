@@ -1,5 +1,7 @@
 """What layers leave out near a load, and averages along oblique lines of contact."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.helical import helical_scene
@@ -49,6 +51,21 @@ def test_thick_layers_and_what_they_leave_out_are_thin_layers(flanks):
     scale = np.abs(thin).max()
     assert np.abs(thick - thin).max() > 0.05 * scale
     assert np.abs(whole - thin).max() < 0.01 * scale
+
+
+def test_layers_leave_nothing_out_of_an_even_load():
+    """Exact: without Poisson's ratio an even load moves a spur tooth alike all along the face, as any layers tell. Of
+    the displacement in the plane, which `D` is added to."""
+    gear = model_of(helical_scene(helix=0.0, accuracy="")).pair.pinion
+    layers, thickness = 8, 1.7 * gear.module
+    division = FaceDiscretisation(0.8 * gear.module, layers, layers * thickness)
+    body = face_compliance(gear, replace(STEEL, poissons_ratio=0.0), division, Reach(0))
+    ends = body.near.heights[::2]
+    # Simpson's rule in each thin layer.
+    even = np.convolve(np.repeat(np.diff(ends), 2) / 3.0, [0.5, 0.5])
+    even[1::2] *= 2.0
+    missing = body.near.compliance[0] @ np.repeat(even, len(body.roll_angle))
+    assert np.abs(missing).max() < 0.003 * np.abs(body.plane.blocks[0]).max()
 
 
 def test_oblique_averages_are_exact_for_what_layers_and_flanks_tell():

@@ -12,7 +12,8 @@ from tests.coarse_sector import PINION, STEEL
 from tests.elasticity.face.swept import SIZES, TWIST, TWISTED, in_frame, in_place, mesh, section, swept_points
 
 from fenics_gears.elasticity.compliance import Reach
-from fenics_gears.elasticity.condensation import by_radius, condense, dofs_of, without
+from fenics_gears.elasticity.condensation import by_radius, condense, without
+from fenics_gears.elasticity.element_nodes import dofs_of
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.layers import Sweep, SweptWeb, swept_nodes

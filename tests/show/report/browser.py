@@ -13,7 +13,8 @@ CHROMIUM = shutil.which("chromium")
 OPTIONS = (
     "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run", "--disable-dev-shm-usage",
     "--disable-extensions",
-    "--disable-background-networking", "--disable-component-update", "--host-resolver-rules=MAP * ~NOTFOUND",
+    "--disable-background-networking", "--disable-component-update",
+    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
     "--remote-debugging-pipe",
 )  # fmt: skip
 SECONDS = 120.0
@@ -22,10 +23,11 @@ COMMANDS, ANSWERS = 3, 4
 
 
 class Browser:
-    """One page, without network; use it in a `with`. console: what pages wrote there or went wrong; requests: every
-    address asked for."""
+    """One page, without network unless it is of this machine (`network`); use it in a `with`. console: what pages wrote
+    there or went wrong; requests: every address asked for."""
 
-    def __init__(self, profile):
+    def __init__(self, profile, network=False):
+        self._network = network
         self.console, self.requests, self._number, self._rest, self._session = [], [], 0, b"", None
         read, self._commands = os.pipe()
         self._answers, write = os.pipe()
@@ -48,7 +50,11 @@ class Browser:
         for domain in ("Page", "Runtime", "Log", "Network"):
             self._call(f"{domain}.enable")
         self._call(
-            "Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=0, uploadThroughput=0
+            "Network.emulateNetworkConditions",
+            offline=not self._network,
+            latency=0,
+            downloadThroughput=-self._network,
+            uploadThroughput=-self._network,
         )
         return self
 
@@ -68,6 +74,11 @@ class Browser:
             "document.readyState === 'complete' && (!document.querySelector('.curves') ||"
             " document.documentElement.dataset.ready === 'yes')"
         )
+
+    def visit(self, address, width, height):
+        """A page of a server on this machine."""
+        self._call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self._call("Page.navigate", url=address)
 
     def value(self, expression):
         found = self._call("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)

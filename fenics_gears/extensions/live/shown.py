@@ -1,0 +1,73 @@
+"""A run as the page shows it: numbers in words, charts and a tooth in space for plotly, both gears as outlines."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears import HARMONIC_NAMES, GearPair
+from fenics_gears.charts import BARS, Chart, Curve, gear_outline, pinion_in_space, plotly_figure, run_charts
+from fenics_gears.many_runs import result_rows
+
+# A hundredth of a micrometre.
+DIGITS = 5
+# What a designer looks at first; all else follows.
+FIRST = (
+    "Transmission error", "Line load along the face", "Contact pattern", "Load sharing between tooth pairs",
+    "Harmonics",
+)  # fmt: skip
+
+
+def shown(result: xr.Dataset, pair: GearPair) -> dict[str, Any]:
+    """What the page needs of a result."""
+    subjects = [*run_charts(result), *_harmonics(result)]
+    subjects.sort(key=lambda each: FIRST.index(each[0]) if each[0] in FIRST else len(FIRST))
+    charts = [_chart(subject, number, chart) for subject, own in subjects for number, chart in enumerate(own)]
+    return {
+        "charts": charts,
+        "numbers": [[label, value] for label, value, _ in result_rows(result)],
+        "warnings": str(result.attrs.get("warnings", "")).splitlines(),
+        "drawing": _drawing(pair),
+        "tooth": pinion_in_space(result),
+    }
+
+
+def _chart(subject: str, number: int, chart: Chart) -> dict[str, Any]:
+    figure = plotly_figure(chart)
+    name = f"{subject} {number + 1}" if number else subject
+    return {"name": name, "caption": chart.caption, "note": chart.note, "height": chart.height, "figure": figure}
+
+
+def _harmonics(result: xr.Dataset) -> list[tuple[str, list[Chart]]]:
+    """Amplitudes of the transmission error over mesh orders."""
+    amplitudes = [result.attrs[name] for name in HARMONIC_NAMES if name in result.attrs]
+    if not amplitudes:
+        return []
+    orders = np.arange(1.0, len(amplitudes) + 1.0)
+    bars = Curve("amplitude", orders, np.array(amplitudes), mode=BARS, width=0.6)
+    chart = Chart("Harmonics of the transmission error", [bars], "Mesh order", "Amplitude (µm)", height=280)
+    return [("Harmonics", [chart])]
+
+
+def _drawing(pair: GearPair) -> dict[str, Any]:
+    """Outlines of both gears at the start of a mesh cycle, the pinion's centre at the origin, and how each turns."""
+    wheel = [0.0, -pair.centre_distance]
+    gears = ((pair.pinion, [0.0, 0.0]), (pair.wheel, wheel))
+    parts = []
+    for number, (gear, centre) in enumerate(gears):
+        outline = gear_outline(pair, number, 0.0)
+        moved = gear_outline(pair, number, 0.01) - outline
+        arm = outline - centre
+        turn = np.sign(np.sum(arm[:, 0] * moved[:, 1] - arm[:, 1] * moved[:, 0]))
+        parts.append(
+            {
+                "outline": np.round(outline, DIGITS).tolist(),
+                "centre": centre,
+                "bore": gear.bore_radius,
+                "turn": float(turn) * 2.0 * np.pi / gear.teeth,
+            }
+        )
+    ends = [pair.path_start, pair.path_end]
+    return {"gears": parts, "tips": [pair.pinion.tip_radius, pair.wheel.tip_radius], "path": ends}

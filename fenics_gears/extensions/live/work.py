@@ -1,0 +1,53 @@
+"""What ``gears live`` does."""
+
+import argparse
+import asyncio
+import webbrowser
+from contextlib import suppress
+from pathlib import Path
+
+from fenics_gears import SceneError
+from fenics_gears.command_line import checked_model
+from fenics_gears.scene_text import Models, Tree, is_train, name_of, parsed, text_of
+
+from .settled import settled
+
+MISSING = (
+    "`gears live` needs the libraries {names}, which this Python lacks. Install them: apt install python3-aiohttp"
+    ' python3-plotly, or pip install "fenics_gears[live]".'
+)
+
+
+def live(options: argparse.Namespace) -> int:
+    """Serve the page until Ctrl-C."""
+    _check_libraries()
+    from .server import LiveServer
+
+    path: Path = options.scene
+    tree: Tree = parsed(text_of(path, "scene"), str(path))
+    if is_train(tree):
+        raise SceneError(f"{path}: is a train; `gears live` shows pairs so far. Its stages are pairs by themselves.")
+    model = checked_model(path)
+    name = name_of(path)
+    tree = settled(tree, model, Models(name, path.parent))
+    server = LiveServer(tree, name, str(path.parent), model.scene.three_dimensional)
+
+    def started(address: str) -> None:
+        if not options.quiet:
+            print(
+                f"{address}\nShows {path}; Ctrl-C ends it. Nothing is written unless the page is asked to.", flush=True
+            )
+        if not options.no_browser:
+            webbrowser.open(address)
+
+    with suppress(KeyboardInterrupt):
+        asyncio.run(server.run(options.port, started))
+    return 0
+
+
+def _check_libraries() -> None:
+    from importlib.util import find_spec
+
+    missing = [name for name in ("aiohttp", "plotly") if find_spec(name) is None]
+    if missing:
+        raise SceneError(MISSING.format(names=" and ".join(missing)))

@@ -1,0 +1,54 @@
+"""The meshes of a train, each as the scene of its pair, and where they stand."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from fenics_gears.geometry.gear_train import Layout
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.train_graph import TrainGraph
+
+from .data import Scene
+from .train_pair_shafts import OfPair
+
+
+@dataclass(frozen=True)
+class MeshOfScene:
+    """A mesh of a train: the `scene` of its pair, its name, and the direction (rad) of its wheel from its pinion.
+    `gears`: names of pinion and wheel; of a gear in several meshes it is the same in all. `shafts`: the numbers of
+    those that it joins. `sense`: how its pinion turns, 1 counter-clockwise, -1 clockwise. `bent`: with shafts that
+    bend, those that both are on."""
+
+    name: str
+    scene: Scene
+    pair: GearPair
+    direction: float
+    gears: tuple[str, str] = ("pinion", "wheel")
+    shafts: tuple[int, int] = (0, 1)
+    sense: int = 1
+    bent: OfPair = ()
+
+
+def gear_names(meshes: Sequence[MeshOfScene]) -> list[str]:
+    """Names of all gears in the order of their numbers."""
+    return list(dict.fromkeys(name for mesh in meshes for name in mesh.gears))
+
+
+def layout_of(meshes: Sequence[MeshOfScene]) -> Layout:
+    """Where some meshes of a train stand, their gears and shafts numbered from 0."""
+    names = gear_names(meshes)
+    of_gear = {name: shaft for mesh in meshes for name, shaft in zip(mesh.gears, mesh.shafts)}
+    shafts = sorted({*of_gear.values()})
+    turning = {shaft: sense for mesh in meshes for shaft, sense in zip(mesh.shafts, (mesh.sense, -mesh.sense))}
+    graph = TrainGraph(
+        tuple((names.index(mesh.gears[0]), names.index(mesh.gears[1])) for mesh in meshes),
+        tuple(shafts.index(of_gear[name]) for name in names),
+        tuple(turning[shaft] for shaft in shafts),
+    )
+    return Layout(graph, [mesh.pair for mesh in meshes], [mesh.direction for mesh in meshes])
+
+
+def rows_of(meshes: Sequence[MeshOfScene], moving: bool = False) -> list[list[int]]:
+    """Numbers of meshes, those together that have a gear in common, or all where stages move together (`moving`)."""
+    return [list(range(len(meshes)))] if moving else layout_of(meshes).graph.members

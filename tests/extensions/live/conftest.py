@@ -1,0 +1,55 @@
+"""A pair that is computed in a moment, and a connection that keeps what is said."""
+
+import pytest
+
+from fenics_gears.scene_text import parsed
+
+PAIR = """
+[gears]
+module = "3 mm"
+pressure_angle = "20 deg"
+face_width = "20 mm"
+pinion = { teeth = 20, profile_shift = 0.2, bore_diameter = "20 mm" }
+wheel = { teeth = 31, profile_shift = 0, bore_diameter = "30 mm" }
+material = "steel"
+
+[load]
+wheel_torque = "200 N m"
+
+[accuracy]
+element = "P1"
+flank_element_size = "0.15 mm"
+steps_per_mesh_cycle = 20
+"""
+
+
+@pytest.fixture
+def tree():
+    return dict(parsed(PAIR, "pair.toml"))
+
+
+class Spoken:
+    """In the place of a connection: what was sent through it, and what waits to be received."""
+
+    def __init__(self):
+        self.sent, self.waiting = [], []
+
+    def send(self, message):
+        self.sent.append(message)
+
+    def poll(self):
+        return bool(self.waiting)
+
+    def recv(self):
+        if not self.waiting:
+            raise EOFError
+        return self.waiting.pop(0)
+
+    def of(self, kind):
+        """What was sent of a kind."""
+        return [each for each in self.sent if each["kind"] == kind]
+
+
+@pytest.fixture
+def spoken():
+    return Spoken()

@@ -1,0 +1,75 @@
+"""What the computing process of the page answers."""
+
+import numpy as np
+import pytest
+
+from fenics_gears import as_toml, model_of, scene_from_text, simulate
+from fenics_gears.extensions.live.computing import RESULT, RUN, Computing, Work
+from fenics_gears.extensions.live.controls import controls_of, reach
+from fenics_gears.extensions.live.settled import settled
+from fenics_gears.scene_text import Models, fields
+
+
+@pytest.fixture
+def computing(spoken, tmp_path):
+    return Computing(spoken, "pair", str(tmp_path))
+
+
+def answered(computing, spoken, *works):
+    spoken.waiting += works
+    computing.answer_all()
+    return spoken.sent[-1]
+
+
+def error_of(answer):
+    """The transmission error that is drawn (steps,), µm."""
+    return np.array(answer["charts"][0]["figure"]["data"][0]["y"])
+
+
+def test_the_page_shows_what_gears_run_gives(computing, spoken, tree, tmp_path):
+    """The other route: the scene that the page saves, run by itself."""
+    scene = settled(tree, model_of(scene_from_text(as_toml(tree))), Models("pair", tmp_path))
+    first = Work(RUN, 1, scene, reach=tuple(reach(scene, controls_of(scene, False))))
+    changed = fields.changed(scene, ("load", "wheel_torque"), "320 N m")
+    answer = answered(computing, spoken, first, Work(RUN, 2, changed))
+    alone = simulate(scene_from_text(as_toml(changed)))
+    expected = 1e3 * alone["transmission_error"].values * alone.attrs["base_radius_wheel"]
+    assert answer["number"] == 2 and answer["kind"] == "result"
+    assert np.abs(error_of(answer) - expected).max() < 1e-6 * np.abs(expected).max()
+    assert answer["drawing"]["gears"][0]["turn"] * answer["drawing"]["gears"][1]["turn"] < 0.0
+
+
+def test_only_the_newest_scene_is_run(computing, spoken, tree):
+    """Of scenes that come while another is computed the last one is answered, and files asked for meanwhile."""
+    works = [Work(RUN, 1, tree), Work(RUN, 2, tree), Work(RESULT, 2), Work(RUN, 3, tree)]
+    answered(computing, spoken, *works)
+    assert [each["number"] for each in spoken.of("result")] == [3]
+    assert spoken.of("file")[0]["content"][1:4] == b"HDF"
+
+
+def test_a_run_is_given_up_for_a_newer_scene(computing, spoken, tree):
+    """The newer scene waits no longer than until the next report of progress."""
+    finer = fields.changed(tree, ("accuracy", "steps_per_mesh_cycle"), 40)
+    told = spoken.send
+
+    def send(message):
+        told(message)
+        if message == {"kind": "progress", "number": 1, "stage": "march", "done": 0, "total": 0}:
+            spoken.waiting.append(Work(RUN, 2, finer))
+
+    spoken.send = send
+    answered(computing, spoken, Work(RUN, 1, tree))
+    assert [each["number"] for each in spoken.of("left")] == [1]
+    assert [each["number"] for each in spoken.of("result")] == [2]
+
+
+def test_mistakes_and_failures_are_answers(computing, spoken, tree):
+    """The process goes on after each of them."""
+    negative = fields.changed(tree, ("gears", "face_width"), "-3 mm")
+    apart = fields.changed(tree, ("gears", "centre_distance"), "200 mm")
+    answered(computing, spoken, Work(RUN, 1, negative))
+    answered(computing, spoken, Work(RUN, 2, apart))
+    answered(computing, spoken, Work(RUN, 3, tree))
+    (first, second) = spoken.of("mistakes")
+    assert first["problems"][0]["path"] == "gears.face_width" and second["problems"]
+    assert spoken.sent[-1]["kind"] == "result"

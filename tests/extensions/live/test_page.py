@@ -1,0 +1,129 @@
+"""The page in a browser, and who may open it."""
+
+import random
+import re
+import signal
+import subprocess
+import urllib.error
+import urllib.request
+
+import pytest
+from tests.extensions.live.conftest import PAIR
+from tests.programs import command, environment
+from tests.show.report.browser import CHROMIUM, Browser
+
+_needs_browser = pytest.mark.skipif(CHROMIUM is None, reason="no chromium")
+DEPTH = "tip_relief.wheel.depth"
+MOVES = 1000
+MEBIBYTE = 2**20
+
+
+@pytest.fixture
+def page(tmp_path):
+    """The address of a page that runs until the test ends, which Ctrl-C ends without a word; and its process."""
+    file = tmp_path / "pair.toml"
+    file.write_text(PAIR)
+    call = command("live", file, "--no-browser")
+    with subprocess.Popen(
+        call, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment()
+    ) as process:
+        try:
+            yield process.stdout.readline().strip(), process
+        finally:
+            process.send_signal(signal.SIGINT)
+            _, said = process.communicate(timeout=60)
+    assert process.returncode == 0 and said == "", said
+    assert [each.name for each in tmp_path.iterdir() if not each.name.startswith("profile")] == ["pair.toml"]
+
+
+def refused(address, **headers):
+    with pytest.raises(urllib.error.HTTPError) as error:
+        urllib.request.urlopen(urllib.request.Request(address, headers=headers), timeout=30)
+    return error.value.code
+
+
+@pytest.mark.nightly
+def test_nobody_gets_in_without_the_token(page):
+    """Neither another user of this machine nor another page of the browser."""
+    address, _ = page
+    host = re.fullmatch(r"(http://127\.0\.0\.1:\d+)/[\w-]{32}/", address)[1]
+    for path in ("/", "/socket", "/scene.toml", "/wrong/result", "/wrong/"):
+        assert refused(host + path) == 403
+    assert refused(f"{address}socket", Origin="http://elsewhere.example") == 403
+    with urllib.request.urlopen(f"{address}scene.toml", timeout=30) as answer:
+        assert answer.status == 200 and b"[gears]" in answer.read()
+
+
+def opened(browser, address):
+    browser.visit(address, 1500, 1100)
+    browser.wait("window.live && live.result !== null && !live.result.first_look")
+
+
+def moved(browser, name, value):
+    """A slider, as by hand."""
+    slider = f"document.querySelector('input[type=range][data-name=\"{name}\"]')"
+    browser.value(f"{slider}.value = {value}, {slider}.dispatchEvent(new Event('input')), true")
+
+
+def peak(browser):
+    """Of the transmission error that is drawn, as the caption has it."""
+    caption = "document.querySelector('#charts figcaption').textContent"
+    return float(re.search(r"peak to peak ([\d.]+)", browser.value(caption))[1])
+
+
+@_needs_browser
+@pytest.mark.nightly
+def test_sliders_curves_mistakes_and_two_browsers(page, tmp_path):
+    """What a designer does: move, see, err, take back; what one browser changes the other shows."""
+    address, _ = page
+    with Browser(tmp_path / "profile", True) as one, Browser(tmp_path / "profile2", True) as other:
+        opened(one, address)
+        opened(other, address)
+        before = peak(one)
+        moved(one, DEPTH, 20)
+        one.wait("live.state.changed && live.drawn === live.number")
+        curve = "document.querySelector('#charts .js-plotly-plot').data"
+        assert peak(one) != before and one.value(f"{curve}.map(each => each.name)")[0] == "start"
+        other.wait(f"live.drawn === {one.value('live.number')}")
+        assert peak(other) == peak(one)
+        text = f"document.getElementById('field {DEPTH}')"
+        one.value(f"{text}.value = '-3 um', {text}.dispatchEvent(new Event('change')), true")
+        one.wait("live.state.problems.length > 0")
+        field = one.value(f"{text}.closest('.field').querySelector('.mistake').textContent")
+        assert "is negative" in field
+        one.value("document.getElementById('start').click()")
+        one.wait("!live.state.changed && live.drawn === live.number")
+        assert peak(one) == before
+        asked = {each.split("/")[2].split(":")[0] for each in one.requests if each.startswith("http")}
+        assert asked == {"127.0.0.1"}
+
+
+@_needs_browser
+@pytest.mark.nightly
+def test_a_thousand_moves(page, tmp_path):
+    """No stuck page, no growing memory: the browser's and the program's after the second half are those after the
+    first."""
+    address, _ = page
+    drawn = random.Random(7)
+    names = (DEPTH, "tip_relief.pinion.depth", "root_relief.wheel.depth", "load.wheel_torque", "friction.coefficient")
+    used = "(performance.memory.usedJSHeapSize)"
+    with Browser(tmp_path / "profile", True) as browser:
+        opened(browser, address)
+        heaps = []
+        for half in range(2):
+            for _ in range(MOVES // 2):
+                name = drawn.choice(names)
+                low, high = (
+                    float(browser.value(f"document.querySelector('[data-name=\"{name}\"]').{each}"))
+                    for each in ("min", "max")
+                )
+                moved(browser, name, drawn.uniform(low, high))
+            browser.wait(
+                "live.state.number === live.number && (live.drawn === live.number || live.state.problems.length > 0)"
+            )
+            heaps.append(browser.value(used))
+        moved(browser, DEPTH, 11)
+        browser.wait("live.drawn === live.number")
+        assert heaps[1] < heaps[0] + 60 * MEBIBYTE
+        assert browser.value("document.querySelectorAll('#charts figure').length") < 20
+        assert browser.value("document.getElementById('trouble').hidden")
