@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import cos, pi, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -86,13 +85,12 @@ class BentShafts:
         return tuple(name for each in self.in_mesh(mesh) for name in each.names)
 
 
-def mesh_axes(direction: float, pressure_angle: float, sense: float, forwards: float) -> np.ndarray:
-    """Axes (3, 3) of a mesh in space: `direction` (rad) of its wheel from its pinion, counter-clockwise, `sense` 1
-    where its pinion turns counter-clockwise, -1 where it turns clockwise; `forwards`: 1 where its axis is that of the
-    train, -1 where it is the opposite."""
-    along = direction + sense * (0.5 * pi - pressure_angle)
-    off = along + sense * 0.5 * pi
-    return np.array([[cos(along), sin(along), 0.0], [cos(off), sin(off), 0.0], [0.0, 0.0, forwards]])
+def mesh_axes(in_plane: np.ndarray, forwards: float) -> np.ndarray:
+    """Axes (3, 3) of a mesh in space, of those `in_plane` (2, 2), along and off its line of action; `forwards`: 1 where
+    its axis is that of the train, -1 where it is the opposite."""
+    axes = np.diag([0.0, 0.0, forwards])
+    axes[:2, :2] = in_plane
+    return axes
 
 
 def shaft_axes(mesh: np.ndarray) -> np.ndarray:

@@ -78,16 +78,16 @@ def torsions_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> Mapping[i
 def mesh_frames(meshes: Sequence[MeshOfScene]) -> list[MeshFrame]:
     """Frames of all meshes in space: of a stage as of a pair whose pinion turns counter-clockwise, seen from the end
     where it does; behind an idler as the mirror image."""
+    layout = layout_of(meshes)
     forwards = [1.0] * len(meshes)
-    for members in layout_of(meshes).graph.members:
+    for members in layout.graph.members:
         for number in members:
             # Places along the axes count one way in all meshes of a gear.
             forwards[number] = float(meshes[members[0]].sense)
-    frames = []
-    for mesh, own in zip(meshes, forwards):
-        axes = mesh_axes(mesh.direction, mesh.pair.operating_pressure_angle, mesh.sense, own)
-        frames.append(MeshFrame(axes, mesh.pair, mesh.scene.load.wheel_torque))
-    return frames
+    return [
+        MeshFrame(mesh_axes(layout.axes(number), own), mesh.pair, mesh.scene.load.wheel_torque)
+        for number, (mesh, own) in enumerate(zip(meshes, forwards))
+    ]
 
 
 def _places(meshes: Sequence[MeshOfScene], gear: str) -> list[tuple[int, int]]:

@@ -105,7 +105,8 @@ def test_a_shaft_with_two_gears_vibrates_as_a_textbooks_elements():
 def test_motions_of_a_rigid_shaft_are_one_motion_in_every_frame(sense, forwards):
     """Identity: what a tilt does to a place on the axis is the vector product of the tilt and the place, whichever way
     round a frame is."""
-    axes = mesh_axes(0.4, 0.35, sense, forwards)
+    in_plane = [[np.cos(0.4), np.sin(0.4)], [-sense * np.sin(0.4), sense * np.cos(0.4)]]
+    axes = mesh_axes(np.array(in_plane), forwards)
     place = np.array([0.0, 0.0, 7.0])
     motion = np.array([0.1, -0.2, 0.3, 0.02, -0.01])
     moved = motion[:3] + np.cross([*motion[3:], 0.0], place)

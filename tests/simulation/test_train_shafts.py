@@ -179,14 +179,18 @@ def test_stages_on_a_stiff_shaft_are_pairs_and_depart_as_it_gives_way():
         assert twice == pytest.approx(2.0 * once, abs=3e-4 * np.abs(twice).max())
 
 
-def test_the_energy_account_on_shafts_that_bend_closes():
+@pytest.mark.parametrize("paths", [1, pytest.param(2, marks=pytest.mark.nightly)])
+def test_the_energy_account_on_shafts_that_bend_closes(paths):
     """Work of drive, load, friction and damping is the change of kinetic and elastic energy, to round-off: with a shaft
-    that bends between two gears, its mass and its own modes."""
+    that bends between two gears, its mass and its own modes; and in two paths that share unevenly."""
     more = f'{INERTIA}[damping]\nratio = 0.04\n[friction]\ncoefficient = 0.08\n[bearings]\nstiffness = "2e5 N/mm"\n'
     more += '[motion]\ninput_speed = "2000 rpm"\nmesh_cycles = 2\n'
-    (model,) = train_model_of(bent_two_stages(1.0, more)).rows
+    scene = bent_two_stages(1.0, more)
+    if paths == 2:
+        scene = train_from_text(bent_paths(1.0, 'clocking = "1e-4 rad"\n', more))
+    (model,) = train_model_of(scene).rows
     drivetrain = model.drivetrain
-    assert drivetrain.modes > 2
+    assert paths == 2 or drivetrain.modes > 2
     blocks: list[Steps] = []
     march = Marcher(row_cycle(model, SilentProgress(), None), model.equations_of_motion)
     march.run(model.steps, 1, observe=lambda solved, so_far: blocks.append(solved))
