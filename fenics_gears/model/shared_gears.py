@@ -75,7 +75,8 @@ def check_shared(layout: Layout, models: Sequence[Model], gears: Sequence[str], 
         if models[0].scene.three_dimensional and [side for _, side in sides] != [WHEEL, PINION]:
             raise SceneError(
                 f"{gears[gear]}: over the face a gear is so far computed in one mesh, or as an idler, driven in one and"
-                f" then driving in another. Allowed: several mates of spur gears in the plane. {NOTHING_DONE}"
+                " then driving in another. Allowed: several mates of spur gears in the plane, on shafts without"
+                f" sections. {NOTHING_DONE}"
             )
         _check_alike(models, gears[gear], [(mesh, side, meshes[mesh]) for mesh, side in sides])
 
