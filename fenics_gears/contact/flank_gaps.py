@@ -15,8 +15,8 @@ import numpy as np
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
 from fenics_gears.geometry.flank_errors import FlankErrors
-from fenics_gears.geometry.gear import Side
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.side import Side
 from fenics_gears.inputs.tree import GEARS
 
 from .face import Face

@@ -12,8 +12,8 @@ from math import cos, sin
 
 import numpy as np
 
-from fenics_gears.geometry.gear import Side
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.side import Side
 
 from .eccentricity import Eccentricity, Offset
 from .kinematics import COLUMNS, COORDINATES, displacement_jacobian

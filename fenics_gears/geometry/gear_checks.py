@@ -42,10 +42,13 @@ class Impossible(GeometryError):
 
 def check_gear(gear: Gear, name: str) -> None:
     """Refuse a gear (``name`` is its section of the scene) that no rack can cut; raises Impossible."""
-    for check in (_numbers, _web):
+    from .ring_checks import ring_circles, ring_cutting, ring_numbers, ring_tip
+
+    for check in (ring_numbers,) if gear.internal else (_numbers, _web):
         for problem in check(gear, f"gears.{name}"):
             refuse(name, problem)
-    for tried in (_circles, _rack, _undercut, _tip):
+    rules = (ring_circles, ring_cutting, ring_tip) if gear.internal else (_circles, _rack, _undercut, _tip)
+    for tried in rules:
         for words, remedies in tried(gear, f"gears.{name}"):
             raise Impossible(f"{name}: {words}", [(how, f"{name}.{field}") for how, field in remedies])
 

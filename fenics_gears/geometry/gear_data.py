@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 
 from fenics_gears.inputs.fields import choice, number, quantity
 
+from .ring_fillet import Cutter
+
 # ISO 53:1998, Annex A, in modules: addendum, dedendum, tip radius of the rack. The same as types A to D of GOST
 # 13755-2015; A is also the rack of DIN 867.
 RACKS = {
@@ -61,6 +63,21 @@ class Web:
     offset: float = 0.0
 
 
+HELD = "held"
+FOUNDATION = "foundation"
+SUPPORTS = (HELD, FOUNDATION)
+
+
+@dataclass(frozen=True)
+class RingSupport:
+    """What holds the outer circle of an internal gear, of SUPPORTS; springs with a radial and a tangential stiffness
+    per area, N/mm^3, of a foundation."""
+
+    kind: str
+    radial_stiffness: float | None = None
+    tangential_stiffness: float | None = None
+
+
 # Teeth that are spanned and ball diameter, by which a drawing measures pinion and wheel; None where it says none.
 MeasuredOver = tuple[tuple[int | None, float | None], tuple[int | None, float | None]]
 NOT_GIVEN: tuple[int | None, float | None] = (None, None)
@@ -72,7 +89,8 @@ class GearData:
     `face_width` (mm) and `material` are None where it has the pair's.
 
     `tip_chamfer`, mm: its radial height. `protuberance`, mm, of the rack beyond the finished flank, and its angle, rad.
-    `nominal_profile_shift`: that of the drawing, None where the thickness has it.
+    `nominal_profile_shift`: that of the drawing, None where the thickness has it. An internal gear has negative teeth
+    and diameters, that of the outer circle as `bore_diameter`, a `cutter` or None, and a `support`.
     """
 
     teeth: int
@@ -88,6 +106,8 @@ class GearData:
     protuberance_angle: float = 0.0
     web: Web | None = None
     nominal_profile_shift: float | None = field(default=None, compare=False)
+    cutter: Cutter | None = None
+    support: RingSupport | None = None
 
 
 @dataclass(frozen=True)
@@ -119,6 +139,11 @@ class GearPairData:
     def material_of(self, name: str) -> Material | None:
         """Material of the "pinion" or the "wheel"."""
         return getattr(self, name).material or self.material
+
+    def modulus_of(self, name: str) -> float | None:
+        """Young's modulus (MPa) of the "pinion" or the "wheel"; None where it is rigid."""
+        material = self.material_of(name)
+        return None if material is None else material.youngs_modulus
 
     @property
     def face_widths(self) -> tuple[float, float]:

@@ -138,9 +138,10 @@ class Model:
         return _over_face().face_discretisation(self, gear)
 
     def transmission_error(self, position: np.ndarray) -> np.ndarray:
-        """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k)."""
+        """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k); positive where the wheel
+        lags behind, an internal one too."""
         first, second = (self.drivetrain.value(position, f"rotation_{gear}") for gear in (1, 2))
-        return second + self.pair.rotation_ratio * first
+        return self.pair.wheel.sign * (second + self.pair.rotation_ratio * first)
 
     @cached_property
     def _stored(self) -> tuple[Arrays, dict[str, int]]:

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
 from fenics_gears.geometry.gear import Gear, transverse_gear
-from fenics_gears.geometry.gear_data import RACKS, GearData
+from fenics_gears.geometry.gear_data import RACKS, SUPPORTS, GearData
+from fenics_gears.geometry.ring_fillet import Cutter
 from fenics_gears.inputs.fields import choice, number, quantity, whole_number
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import MODULES, PRESSURE_ANGLES
@@ -93,8 +94,49 @@ class WebText(Section):
 
 
 @dataclass(frozen=True, kw_only=True)
+class CutterText(Section):
+    """``[gears.wheel.cutter]``: the shaper cutter of an internal gear, whose tip shapes the fillets; its tip diameter
+    follows from the root diameter."""
+
+    teeth: int = whole_number(5, 1000, 23, meaning="number of teeth z_0 of the cutter")
+    profile_shift: float | None = number(
+        0.1,
+        meaning="profile shift x_0 of the cutter, as it is ground at present, in modules",
+        lowest=-2,
+        highest=2,
+        otherwise="0",
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class SupportText(Section):
+    """``[gears.wheel.support]``: what holds the outer circle of an internal gear; `support = "held"` is short for the
+    kind alone."""
+
+    kind: str = choice(
+        *SUPPORTS,
+        meaning="`held`: the outer circle is rigid; `foundation`: springs evenly over the outer circle, as of a soft"
+        " housing, whose other end is rigid",
+        otherwise="`held`",
+    )
+    radial_stiffness: float | None = quantity(
+        "1e-6 N/mm^3 to 1e12 N/mm^3",
+        "500 N/mm^3",
+        meaning="radial stiffness of the foundation per area of the outer circle",
+        otherwise="required of a foundation",
+    )
+    tangential_stiffness: float | None = quantity(
+        "1e-6 N/mm^3 to 1e12 N/mm^3",
+        "200 N/mm^3",
+        meaning="its tangential stiffness per area",
+        otherwise="required of a foundation",
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
 class GearText(Section):
-    """``[gears.pinion]`` and ``[gears.wheel]``: the pinion drives; both are external gears. The tooth thickness is
+    """``[gears.pinion]`` and ``[gears.wheel]``: the pinion drives and is an external gear; the wheel may be internal,
+    with a negative number of teeth and positive diameters. The tooth thickness is
     given by `profile_shift`, or measured (`tooth_thickness`, `base_tangent_length` or `dimension_over_balls`). With
     both, the measured thickness holds, and root circle with it, since one rack cuts both; tip circle and centre
     distance go by `profile_shift`."""
@@ -105,8 +147,9 @@ class GearText(Section):
         5,
         1000,
         16,
-        meaning="number of teeth",
-        negative="A negative number of teeth is an internal gear (ISO 21771), and internal gears are not computed yet.",
+        meaning="number of teeth; of a wheel that is an internal gear negative (ISO 21771), or positive with"
+        " `internal = true`",
+        negative_means="an internal gear",
     )
     profile_shift: float | None = number(
         0.196,
@@ -132,12 +175,18 @@ class GearText(Section):
         ),
         otherwise="0 mm",
     )
-    bore_diameter: float = _diameter(
-        "30 mm", "bore diameter; the bore is a rigid ring on the shaft, which makes thin rims too stiff"
+    bore_diameter: float | None = _diameter(
+        "30 mm",
+        "bore diameter; the bore is a rigid ring on the shaft, which makes thin rims too stiff",
+        "required of an external gear",
+    )
+    outer_diameter: float | None = _diameter(
+        "280 mm", "outer diameter of the rim of an internal gear", "required of an internal gear"
     )
     rack_tip_radius: float | None = number(
         0.38,
-        meaning="tip radius of the generating rack, in modules; the same as `tip_radius` of `[gears.pinion.rack]`",
+        meaning="tip radius of the generating rack, in modules; the same as `tip_radius` of `[gears.pinion.rack]`; of"
+        " an internal gear that of its cutter, or of its plain fillets",
         lowest=0,
         highest=2,
         otherwise="`tip_radius` of the rack; 0.38, or what has room on the rack's tip",
@@ -173,6 +222,8 @@ class GearText(Section):
     )
     rack: RackText | None = None
     web: WebText | None = None
+    cutter: CutterText | None = None
+    support: SupportText | None = None
     material: OwnMaterialText | None = None
 
     @property
@@ -276,6 +327,8 @@ class Gears(Section):
         """A gear in the section of rotation."""
         return transverse_gear(gear, self.module, self.pressure_angle, self.helix_angle or 0.0)
 
-    def rack_gear(self, teeth: int, shift: float, root_diameter: float = UNKNOWN) -> Gear:
-        """A gear of which only rack, teeth and profile shift are known, and perhaps the root."""
-        return self.in_rotation(GearData(teeth, shift, UNKNOWN, root_diameter, UNKNOWN, UNKNOWN))
+    def rack_gear(
+        self, teeth: int, shift: float, root_diameter: float = UNKNOWN, cutter: Cutter | None = None
+    ) -> Gear:
+        """A gear of which only rack or cutter, teeth and profile shift are known, and perhaps the root."""
+        return self.in_rotation(GearData(teeth, shift, UNKNOWN, root_diameter, UNKNOWN, UNKNOWN, cutter=cutter))

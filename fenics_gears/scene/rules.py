@@ -45,6 +45,7 @@ from .accuracy_rules import (
     settling_is_of_vibrations,
 )
 from .gear_schema import MEASURES, Gears, GearText
+from .internal_rules import gears_have_their_bodies, internal_gears_have_negative_teeth
 from .schema import LoadText, scene_text
 
 TEETH = "tooth_elasticity"
@@ -163,17 +164,6 @@ def _teeth_have_a_size(tree: Tree) -> Broken:
                 yield ("gears", name), message
 
 
-# Names by which an internal gear is asked for.
-INTERNAL = ("internal", "internal_gear", "internal_teeth", "ring", "ring_gear")
-
-
-def _gears_are_external(tree: Tree) -> Broken:
-    for path, section in with_gears(tree, "gears").items():
-        for name in (each for each in INTERNAL if each in section):
-            message = "is not known: internal gears are not computed yet. Allowed: two external gears. Leave it out."
-            yield (*path, name), message
-
-
 def _thickness_is_given_once(tree: Tree) -> Broken:
     gears = table(tree, "gears") or {}
     for gear in GEARS:
@@ -286,7 +276,8 @@ _RULES = (
     *ACCURACY_RULES,
     _flanks_are_resolved_over_the_face,
     _teeth_have_a_size,
-    _gears_are_external,
+    internal_gears_have_negative_teeth,
+    gears_have_their_bodies,
     _thickness_is_given_once,
     _backlash_has_its_place,
     _no_figure_is_given_twice,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -82,7 +82,7 @@ def _as_read_where_the_same(scene: Scene, sections: dict[str, Any]) -> dict[str,
 def _gears(pair: GearPairData) -> dict[str, Any]:
     section = gear_schema.Gears
     own_width = any(getattr(pair, name).face_width is not None for name in GEARS)
-    tree = tree_of(pair, section, ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ())))
+    tree = tree_of(replace(pair, centre_distance=abs(pair.centre_distance)), section, ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ())))
     if pair.helix_angle:
         tree["pinion_hand"] = pair.pinion_hand
     for name, width, offset in zip(GEARS, pair.face_widths, pair.axial_offsets):
@@ -93,7 +93,12 @@ def _gears(pair: GearPairData) -> dict[str, Any]:
 
 
 def _gear(gear: GearData, width: float, own_width: bool) -> dict[str, Any]:
-    tree = tree_of(gear, gear_schema.GearText, ("face_width", "web"))
+    internal = gear.teeth < 0
+    positive = {name: abs(getattr(gear, name)) for name in ("tip_diameter", "root_diameter", "bore_diameter")}
+    without = ("face_width", "web", *(("bore_diameter",) if internal else ()))
+    tree = tree_of(replace(gear, **positive), gear_schema.GearText, without)
+    if internal:
+        tree["outer_diameter"] = field_of(gear_schema.GearText, "outer_diameter", positive["bore_diameter"])
     if own_width:
         tree["face_width"] = field_of(gear_schema.GearText, "face_width", width)
     if gear.protuberance:
