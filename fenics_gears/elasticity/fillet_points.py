@@ -107,8 +107,9 @@ def _root_nodes(curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side:
     """Nodes (k,) along the root on one side without those on the cut, and their lengths along the curve, ascending."""
     gear = curve.outline.gear
     free = np.setdiff1d(np.unique(nodes.boundary_sides), held)
-    radius = np.linalg.norm(nodes.points[free], axis=1)
-    free = free[(radius < gear.form_radius * (1.0 + 1e-9)) & (radius > 0.5 * (gear.bore_radius + gear.root_radius))]
+    radius = gear.sign * np.linalg.norm(nodes.points[free], axis=1)
+    below_form = radius < gear.form_radius + 1e-9 * abs(gear.form_radius)
+    free = free[below_form & (radius > 0.5 * (gear.bore_radius + gear.root_radius))]
     points = nodes.points[free] if side == 0 else curve.outline.coast(nodes.points[free])
     # 50 ms that a run with gears from the cache does not take.
     from scipy.spatial import cKDTree

@@ -111,8 +111,9 @@ def cyclic_motion(same: np.ndarray, ahead: np.ndarray, loads: np.ndarray) -> np.
 
 def cut_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
     """Response (c, c) of the cut m pitches ahead to forces on a cut, abs(m) <= reach; `link`: one sector between its
-    cuts."""
-    return (chain_response if chain_is_quicker(teeth, reach) else fourier_response)(link, teeth, reach)
+    cuts; `teeth`: negative of an internal gear, whose sectors go clockwise."""
+    count = abs(teeth)
+    return (chain_response if chain_is_quicker(count, reach) else fourier_response)(link, count, reach)
 
 
 def fourier_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:

@@ -224,6 +224,13 @@ class Gear:
         """Roll angle (rad) where the involute ends at the tip."""
         return float(self.roll_angle(self.tip_form_radius))
 
+    @property
+    def roll_ends(self) -> tuple[float, float]:
+        """Lowest and highest roll angle (rad) of the involute: at form circle and tip, of an internal gear at tip and
+        form circle."""
+        ends = self.form_roll_angle, self.tip_roll_angle
+        return (ends[1], ends[0]) if self.internal else ends
+
     @cached_property
     def chamfered_arc(self) -> float:
         """Arc (mm) of the tip circle that the chamfer takes off either side, as long as what it takes off the flank."""

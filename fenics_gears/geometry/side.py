@@ -25,6 +25,11 @@ class Side:
         """Angle (rad), positive counter-clockwise, by which the gear turns in a mesh cycle."""
         return self.sense * self.gear.angular_pitch
 
+    @property
+    def turning(self) -> float:
+        """1 of a gear that turns counter-clockwise, as an internal wheel does like its pinion; else -1."""
+        return self.sense * self.gear.sign
+
     def arm(self, position):
         """Distances (mm) of positions (mm, any shape) on the line of action from the foot."""
         return self.sense * (position - self.foot)

@@ -36,4 +36,4 @@ def _flexibility(gear: Gear, material: Material, width: float) -> float:
         ends = gear.bore_radius, gear.web.hub_radius, gear.web.rim_radius, gear.root_radius
         rings = list(zip(ends, ends[1:], (1.0, gear.web.share, 1.0)))
     twist = sum(0.5 * (inner**-2 - outer**-2) / share for inner, outer, share in rings)
-    return gear.base_radius**2 * twist / (2.0 * pi * shear_modulus * width)
+    return gear.base_radius**2 * abs(twist) / (2.0 * pi * shear_modulus * width)

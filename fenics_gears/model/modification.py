@@ -111,7 +111,7 @@ NOTABLE = 10.0
 def too_stiff(gear: Gear) -> float:
     """Per cent by which tooth and rim of a gear, its bore being a rigid ring, give way less than in a solid body, apart
     from the body's turn as a whole."""
-    return STIFFEST * exp(-(gear.root_radius - gear.bore_radius) / (FALL * gear.root_radius))
+    return STIFFEST * exp(-(gear.root_radius - gear.bore_radius) / (FALL * abs(gear.root_radius)))
 
 
 def rim_warnings(model: Model) -> list[str]:

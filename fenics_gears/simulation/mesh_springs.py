@@ -49,7 +49,7 @@ def table_cycle(model: Model, bodies: Bodies) -> tuple[Bodies, Cycle]:
         [CENTRE_COORDINATES.index("rotation_2")],
         tangential=False,
     )
-    force = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius
+    force = abs(model.scene.load.wheel_torque / model.pair.wheel.base_radius)
     force = force or DEFLECTION_WITHOUT_LOAD * model.scene.gears.module * mesh_stiffness(model.scene, model.pair)
     table = stiffness_table(full, 0, force, LOADS)
     first, second = bodies
