@@ -12,7 +12,7 @@ from scipy.linalg.blas import ztrsm
 
 from fenics_gears.errors import ComputationError
 
-from .condensation import CondensedBody, by_radius, condense, line_of
+from .condensation import CondensedBody, by_radius, condense, held_nodes, line_of
 from .cut_chain import CutResponse, chain_is_quicker, chain_response
 from .elements import Element
 from .mesh_data import BodyMesh
@@ -30,7 +30,7 @@ def condensed_sector(
         "flank": by_radius(mesh.edge_nodes("flank", element.order)) if flank is None else flank,
         "lower": line_of(mesh, "lower cut", element.order),
         "upper": line_of(mesh, "upper cut", element.order),
-        "hub": mesh.edge_nodes("hub", element.order),
+        **held_nodes(mesh, element.order),
     }
     return condense(mesh, element, poissons_ratio, points)
 

@@ -26,6 +26,7 @@ from fenics_gears.scene.schema import WORDS
 from .drivetrain import drivetrain, mesh_stiffness
 from .modification import corner, removals, rim_warnings
 from .resolution import Resolution, locking_warnings, resolution_warnings, resolve
+from .rim_of_ring import check_support, ring_warnings
 from .storage import Arrays, counted_bytes, packed_bytes, sizes, stored_arrays
 
 if TYPE_CHECKING:
@@ -185,6 +186,7 @@ class Model:
         sentences += [each.unusual for each in self.scene.derived if each.unusual]
         sentences += [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
         sentences += [*locking_warnings(self.resolution, self.scene.gears.materials), *rim_warnings(self)]
+        sentences += ring_warnings(self.scene, self.pair)
         for of_effect in from_effects(self.scene, "warnings", self):
             sentences += of_effect
         if self.scene.three_dimensional:
@@ -245,6 +247,7 @@ def model_of(scene: Scene) -> Model:
     100
     """
     pair = gear_pair(scene.gears)
+    check_support(scene, pair)
     check_files(scene, pair)
     corner(scene, pair)  # refused here, before the run asks for it
     shafts = drivetrain(scene, pair)

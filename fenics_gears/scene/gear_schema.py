@@ -327,8 +327,6 @@ class Gears(Section):
         """A gear in the section of rotation."""
         return transverse_gear(gear, self.module, self.pressure_angle, self.helix_angle or 0.0)
 
-    def rack_gear(
-        self, teeth: int, shift: float, root_diameter: float = UNKNOWN, cutter: Cutter | None = None
-    ) -> Gear:
+    def rack_gear(self, teeth: int, shift: float, root_diameter: float = UNKNOWN, cutter: Cutter | None = None) -> Gear:
         """A gear of which only rack or cutter, teeth and profile shift are known, and perhaps the root."""
         return self.in_rotation(GearData(teeth, shift, UNKNOWN, root_diameter, UNKNOWN, UNKNOWN, cutter=cutter))

@@ -1,5 +1,5 @@
-"""What a drawing of an internal gear leaves out: root circle of its cutter, fillet, tip circle. Loaded where a scene has
-one.
+"""What a drawing of an internal gear leaves out: root circle of its cutter, fillet, tip circle. Loaded where a scene
+has one.
 
 Diameters are negative here (`geometry.gear`); a scene has them without sign.
 """

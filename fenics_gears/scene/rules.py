@@ -32,7 +32,6 @@ from fenics_gears.inputs.tree import (
     quantity_in,
     table,
     value_at,
-    with_gears,
 )
 from fenics_gears.inputs.written import as_written
 

@@ -82,7 +82,8 @@ def _as_read_where_the_same(scene: Scene, sections: dict[str, Any]) -> dict[str,
 def _gears(pair: GearPairData) -> dict[str, Any]:
     section = gear_schema.Gears
     own_width = any(getattr(pair, name).face_width is not None for name in GEARS)
-    tree = tree_of(replace(pair, centre_distance=abs(pair.centre_distance)), section, ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ())))
+    leaving = ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ()))
+    tree = tree_of(replace(pair, centre_distance=abs(pair.centre_distance)), section, leaving)
     if pair.helix_angle:
         tree["pinion_hand"] = pair.pinion_hand
     for name, width, offset in zip(GEARS, pair.face_widths, pair.axial_offsets):
