@@ -166,10 +166,10 @@ def goes_in_radially(pair: GearPair) -> bool:
     return True
 
 
-def lowest_tip(pinion: Gear, ring: Gear, distance: float) -> float:
-    """Radius (mm, negative as the ring's) of its tip that reaches the pinion's involute where it begins, at a signed
-    centre distance."""
+def lowest_tip(pinion: Gear, ring: Gear, distance: float, clear: float) -> float:
+    """Radius (mm, negative as the ring's) of its tip that reaches the pinion's involute where it begins, but for a part
+    `clear` (mm) of the path of contact, at a signed centre distance."""
     bases = pinion.base_radius + ring.base_radius
     length = -((distance**2 - bases**2) ** 0.5)
-    begins = max(pinion.form_roll_angle, 0.0)
-    return float(ring.radius((length - pinion.base_radius * begins) / ring.base_radius))
+    begins = pinion.base_radius * max(pinion.form_roll_angle, 0.0) + clear
+    return float(ring.radius((length - begins) / ring.base_radius))

@@ -264,7 +264,7 @@ def _carried(drivetrain: Drivetrain, loads: Sequence[VaryingLoad], numbers: np.n
     """
     turned = np.zeros(len(drivetrain.coordinates))
     wheel = drivetrain.coordinates.index("rotation_2")
-    arc = drivetrain.radii[wheel] * angle
+    arc = abs(drivetrain.radii[wheel]) * angle
     turned[wheel] = -arc
     if "rotation_1" in drivetrain.coordinates:
         turned[drivetrain.coordinates.index("rotation_1")] = arc

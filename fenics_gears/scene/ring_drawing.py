@@ -17,6 +17,10 @@ from .gear_schema import Gears, GearText
 from .schema import Derived
 
 
+# In modules, of the path of contact that is left between the ring's tip and the pinion's fillet.
+CLEAR_OF_FILLET = 0.1
+
+
 def cutter_of(drawn: GearText) -> Cutter | None:
     """The cutter of an internal gear, in modules of the normal section; None for plain fillets."""
     return None if drawn.cutter is None else Cutter(drawn.cutter.teeth, float(drawn.cutter.profile_shift or 0.0))
@@ -61,7 +65,8 @@ def clear_of_the_pinion(
     pinion, ring = (pair.in_rotation(gear) for gear in gears)
     if not abs(distance) > abs(pinion.base_radius + ring.base_radius):
         return own, None
-    tip = min(own.tip_diameter, 2.0 * lowest_tip(pinion, ring, distance), 2.0 * ring.base_radius)
+    lowest = lowest_tip(pinion, ring, distance, CLEAR_OF_FILLET * pair.module)
+    tip = min(own.tip_diameter, 2.0 * lowest, 2.0 * ring.base_radius)
     if tip == own.tip_diameter:
         return own, None
     words = "so that it clears the pinion's fillets and its own base circle; by the rack it would be"

@@ -56,8 +56,8 @@ def name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
         place, ha, va = place_of_name(gear, point)
         axes.text(*(centre + place), name, ha=ha, va=va, fontsize=11.5, color=DARK)
         radius = max(0.78 * gear.bore_radius, -0.7 * gear.tip_radius, LEAST_ARROW * point)
-        start = 200.0
-        end = 340.0
+        # Of a ring on the far side of its pinion.
+        start, end = (20.0, 160.0) if gear.internal else (200.0, 340.0)
         axes.add_patch(Arc(centre, 2 * radius, 2 * radius, theta1=start, theta2=end, color=DARK, linewidth=1.4))
         tip = np.radians(end if turns > 0 else start)
         head = centre + radius * np.array([np.cos(tip), np.sin(tip)])
