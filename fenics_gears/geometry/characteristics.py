@@ -6,7 +6,6 @@ from .gear import Gear
 from .gear_checks import ROUNDING
 from .gear_data import NOT_GIVEN, MeasuredOver
 from .pair import GearPair
-from .ring_checks import goes_in_radially
 from .sliding import specific_sliding
 from .tooth_thickness import ball_diameter, base_tangent_length, dimension_over_balls, normal_thickness, spanned_teeth
 
@@ -41,7 +40,6 @@ def _pair_rows(pair: GearPair) -> list[tuple[str, float, str]]:
         ("circumferential backlash at the pitch circles (j_wt)", backlash / cos(pair.operating_pressure_angle), "mm"),
         *([("normal backlash (j_bn)", backlash * pair.cosine, "mm")] if pair.helix is not None else []),
         ("centre distance without backlash", abs(pair.centre_distance_without_backlash), "mm"),
-        *([("pinion goes in radially", "yes" if goes_in_radially(pair) else "no", "")] if pair.wheel.internal else []),
     ]
 
 

@@ -66,7 +66,7 @@ def written_out(tree: dict[str, Any]) -> dict[str, Any]:
         if home is not None and isinstance(home.get("material"), str):
             home["material"] = {"name": home["material"]}
     for gear in GEARS:
-        own = table(gears, gear) or {}
+        own: Any = table(gears, gear) or {}
         if isinstance(own.get("support"), str):
             own["support"] = {"kind": own["support"]}
         if isinstance(own.get("internal"), bool) and type(own.get("teeth")) is int:

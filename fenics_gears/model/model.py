@@ -24,9 +24,8 @@ from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 from fenics_gears.scene.schema import WORDS
 
 from .drivetrain import drivetrain, mesh_stiffness
-from .modification import corner, removals, rim_warnings
+from .modification import check_bodies, corner, removals, rim_warnings
 from .resolution import Resolution, locking_warnings, resolution_warnings, resolve
-from .rim_of_ring import check_support, ring_warnings
 from .storage import Arrays, counted_bytes, packed_bytes, sizes, stored_arrays
 
 if TYPE_CHECKING:
@@ -186,7 +185,6 @@ class Model:
         sentences += [each.unusual for each in self.scene.derived if each.unusual]
         sentences += [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
         sentences += [*locking_warnings(self.resolution, self.scene.gears.materials), *rim_warnings(self)]
-        sentences += ring_warnings(self.scene, self.pair)
         for of_effect in from_effects(self.scene, "warnings", self):
             sentences += of_effect
         if self.scene.three_dimensional:
@@ -247,9 +245,8 @@ def model_of(scene: Scene) -> Model:
     100
     """
     pair = gear_pair(scene.gears)
-    check_support(scene, pair)
     check_files(scene, pair)
-    corner(scene, pair)  # refused here, before the run asks for it
+    check_bodies(scene, pair)  # refused here, before the run asks for them
     shafts = drivetrain(scene, pair)
     removal = removals(scene, pair)
     model = Model(scene, pair, shafts, resolve(scene, pair, shafts, removal), removal)

@@ -192,8 +192,8 @@ def mate_tips(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]
         around = np.array([arc - BELOW_MATE_TIP * gear.module, arc + ABOVE_MATE_TIP * gear.module])
         around = gear.sign * np.maximum(gear.sign * around, 0.0)
         first, last = roll_angle_at_arc_length(gear.base_radius, around)
-        ends = sorted((gear.form_roll_angle, gear.tip_roll_angle))
-        ranges.append((float(np.clip(first, *ends)), float(np.clip(last, *ends))))
+        first, last = np.clip((first, last), *gear.roll_ends)
+        ranges.append((float(first), float(last)))
     return ranges[0], ranges[1]
 
 

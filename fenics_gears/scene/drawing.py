@@ -17,13 +17,14 @@ from typing import Any
 from fenics_gears.effects.tooth_elasticity import material_of
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse, tip_radius_with_room
-from fenics_gears.geometry.gear_data import MATERIALS, RACKS, GearData, GearPairData, Web
+from fenics_gears.geometry.gear_data import RACKS, GearData, GearPairData
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.inputs.tree import GEARS, LOADS, MODULES, PRESSURE_ANGLES, in_normal_section, wheel_torque
+from fenics_gears.inputs.tree import GEARS, MODULES, PRESSURE_ANGLES, in_normal_section
 
 from . import unusual
+from .bodies_drawing import named_materials, web_of
 from .gear_schema import Gears, GearText
-from .schema import Derived, Load, LoadText, Motion
+from .schema import Derived
 
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
@@ -48,7 +49,7 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
             bore_diameter=float(own.bore_diameter) if own.teeth > 0 else -float(own.outer_diameter),
             face_width=None if alike else width,
             material=material_of(own.material, gears.material),
-            web=_web(own, width),
+            web=web_of(own, width),
         )
         for gear, own, width in zip(drawn, both, widths)
     )
@@ -64,7 +65,7 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
         pinion_hand=gears.pinion_hand or "right",
         axial_offsets=offsets,
     )
-    return data, of_section + derived + _named_materials(gears)
+    return data, of_section + derived + named_materials(gears)
 
 
 def _in_normal_section(gears: Gears) -> tuple[Gears, list[Derived]]:
@@ -80,47 +81,6 @@ def _in_normal_section(gears: Gears) -> tuple[Gears, list[Derived]]:
             words = f"from {name}, in the normal section" if gears.helix_angle else f"from {name}"
             derived.append(Derived(own.replace("_", " "), number / size, unit, words))
     return replace(gears, **normal), derived
-
-
-def _web(own: GearText, face_width: float) -> Web | None:
-    if own.web is None:
-        return None
-    return Web(
-        0.5 * (own.web.hub_diameter or own.bore_diameter),
-        0.5 * own.web.rim_inner_diameter,
-        own.web.width / face_width,
-        offset=(own.web.axial_offset or 0.0) / face_width,
-    )
-
-
-def _named_materials(gears: Gears) -> list[Derived]:
-    texts = {"": (gears.material,), **{f"{name} ": (getattr(gears, name).material, gears.material) for name in GEARS}}
-    named = {
-        words: (each[0].name, material_of(*each))
-        for words, each in texts.items()
-        if each[0] is not None and each[0].name is not None
-    }
-    return [
-        Derived(
-            f"{words}Young's modulus",
-            1e-3 * material.youngs_modulus,
-            "GPa",
-            f"Poisson's ratio {material.poissons_ratio:g}, {name} ({MATERIALS[name][1]})",
-        )
-        for words, (name, material) in named.items()
-    ]
-
-
-def load_data(load: LoadText, gears: Gears, motion: Motion) -> tuple[Load, list[Derived]]:
-    """The torque on the wheel, N mm, and how it was derived."""
-    name = next(each for each in LOADS if getattr(load, each) is not None)
-    torque = wheel_torque(
-        name, float(getattr(load, name)), (gears.pinion.teeth, gears.wheel.teeth), motion.mesh_frequency
-    )
-    assert torque is not None, "a load by power has a speed"
-    why = {"pinion_torque": "T_2 = T_1 z2/z1", "power": "T_2 = P/(2 pi n_2)"}
-    derived = [Derived("torque on the wheel", 1e-3 * torque, "N m", why[name])] if name in why else []
-    return Load(torque, name), derived
 
 
 def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Derived]]:

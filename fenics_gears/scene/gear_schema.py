@@ -4,133 +4,18 @@ from dataclasses import dataclass
 
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
 from fenics_gears.geometry.gear import Gear, transverse_gear
-from fenics_gears.geometry.gear_data import RACKS, SUPPORTS, GearData
+from fenics_gears.geometry.gear_data import GearData
 from fenics_gears.geometry.ring_fillet import Cutter
 from fenics_gears.inputs.fields import choice, number, quantity, whole_number
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import MODULES, PRESSURE_ANGLES
 
+from .gear_parts import CutterText, RackText, SupportText, WebText, diameter, length
+
 # Measures of the tooth thickness, each with what has to be known with it.
 MEASURES = {"tooth_thickness": None, "base_tangent_length": "spanned_teeth", "dimension_over_balls": "ball_diameter"}
 # In place of what a drawing leaves out, where it does not count.
 UNKNOWN = 0.0
-
-
-def _length(example: str, meaning: str, otherwise: str):
-    return quantity("0.01 mm to 100 m", example, meaning=meaning, otherwise=otherwise)
-
-
-def _diameter(example: str, meaning: str, otherwise: str = ""):
-    return quantity("0.1 mm to 100 m", example, meaning=meaning, otherwise=otherwise)
-
-
-@dataclass(frozen=True)
-class RackText(Section):
-    """``[gears.rack]``: the generating rack of both gears, or within a gear's section its own. A figure that is given
-    replaces that of the profile, and one of a gear's own that of both."""
-
-    profile: str | None = choice(
-        *RACKS,
-        meaning=(
-            "addendum, dedendum and tip radius by ISO 53:1998, Annex A: A 1/1.25/0.38, B 1/1.25/0.3, C 1/1.25/0.25, D"
-            " 1/1.4/0.39; GOST 13755-2015 has the same, and DIN 867 A"
-        ),
-        otherwise="`ISO 53 A`",
-    )
-    addendum: float | None = number(
-        1.0, meaning="addendum h_aP of the basic rack, in modules", above=0, highest=3, otherwise="that of the profile"
-    )
-    dedendum: float | None = number(
-        1.25, meaning="dedendum h_fP of the basic rack, in modules", above=0, highest=3, otherwise="that of the profile"
-    )
-    tip_radius: float | None = number(
-        0.38,
-        meaning="tip radius of the rack's tooth, in modules; it shapes the fillet",
-        lowest=0,
-        highest=2,
-        otherwise="that of the profile, or what has room on the rack's tip",
-    )
-    protuberance: float | None = quantity(
-        "0 mm to 1 m",
-        "0.15 mm",
-        meaning=(
-            "amount pr_P0 by which the rounding of the rack's tip stands out beyond its flank, normal to it, so that"
-            " the root is cut free"
-        ),
-        otherwise="0 mm",
-    )
-    protuberance_angle: float | None = quantity(
-        "1 deg to 34 deg",
-        "10 deg",
-        meaning="pressure angle alpha_prP0 of the short flank between protuberance and flank",
-        otherwise="half the pressure angle; has no meaning without `protuberance`",
-    )
-    finishing_stock: float | None = quantity(
-        "0 mm to 1 m",
-        "0.1 mm",
-        meaning="stock q, normal to the flanks, that finishing takes off these alone; no more than `protuberance`",
-        otherwise="0 mm",
-    )
-
-
-@dataclass(frozen=True)
-class WebText(Section):
-    """``[gears.pinion.web]`` and ``[gears.wheel.web]``: a web between hub and rim that is less wide than the face. In
-    the plane it counts by its share of the face width; over the face it is a body of its own, and the rim bends on
-    it."""
-
-    rim_inner_diameter: float = _diameter("100 mm", "inner diameter of the rim, where the web ends")
-    width: float = _length("8 mm", "width of the web, at most the gear's face width", "")
-    hub_diameter: float | None = _diameter(
-        "50 mm", "outer diameter of the hub, where the web begins", "the bore diameter"
-    )
-    axial_offset: float | None = quantity(
-        "-100 m to 100 m",
-        "2 mm",
-        meaning="middle of the web from the gear's mid-width, positive as the gear's own `axial_offset`",
-        otherwise="0 mm",
-        over_face=True,
-    )
-
-
-@dataclass(frozen=True, kw_only=True)
-class CutterText(Section):
-    """``[gears.wheel.cutter]``: the shaper cutter of an internal gear, whose tip shapes the fillets; its tip diameter
-    follows from the root diameter."""
-
-    teeth: int = whole_number(5, 1000, 23, meaning="number of teeth z_0 of the cutter")
-    profile_shift: float | None = number(
-        0.1,
-        meaning="profile shift x_0 of the cutter, as it is ground at present, in modules",
-        lowest=-2,
-        highest=2,
-        otherwise="0",
-    )
-
-
-@dataclass(frozen=True, kw_only=True)
-class SupportText(Section):
-    """``[gears.wheel.support]``: what holds the outer circle of an internal gear; `support = "held"` is short for the
-    kind alone."""
-
-    kind: str = choice(
-        *SUPPORTS,
-        meaning="`held`: the outer circle is rigid; `foundation`: springs evenly over the outer circle, as of a soft"
-        " housing, whose other end is rigid",
-        otherwise="`held`",
-    )
-    radial_stiffness: float | None = quantity(
-        "1e-6 N/mm^3 to 1e12 N/mm^3",
-        "500 N/mm^3",
-        meaning="radial stiffness of the foundation per area of the outer circle",
-        otherwise="required of a foundation",
-    )
-    tangential_stiffness: float | None = quantity(
-        "1e-6 N/mm^3 to 1e12 N/mm^3",
-        "200 N/mm^3",
-        meaning="its tangential stiffness per area",
-        otherwise="required of a foundation",
-    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -158,10 +43,10 @@ class GearText(Section):
         highest=5,
         otherwise="that of the measured tooth thickness; one of both is required",
     )
-    tip_diameter: float | None = _diameter(
+    tip_diameter: float | None = diameter(
         "82.64 mm", "tip diameter", "d_a = d + 2 m_n (x + h_aP + k), with k of `tip_shortening`"
     )
-    root_diameter: float | None = _diameter(
+    root_diameter: float | None = diameter(
         "62.50 mm",
         "root diameter, from which the dedendum of the generating rack follows",
         "d_f = d + 2 m_n (x - h_fP), with x of the tooth thickness",
@@ -175,12 +60,12 @@ class GearText(Section):
         ),
         otherwise="0 mm",
     )
-    bore_diameter: float | None = _diameter(
+    bore_diameter: float | None = diameter(
         "30 mm",
         "bore diameter; the bore is a rigid ring on the shaft, which makes thin rims too stiff",
         "required of an external gear",
     )
-    outer_diameter: float | None = _diameter(
+    outer_diameter: float | None = diameter(
         "280 mm", "outer diameter of the rim of an internal gear", "required of an internal gear"
     )
     rack_tip_radius: float | None = number(
@@ -191,10 +76,10 @@ class GearText(Section):
         highest=2,
         otherwise="`tip_radius` of the rack; 0.38, or what has room on the rack's tip",
     )
-    tooth_thickness: float | None = _length(
+    tooth_thickness: float | None = length(
         "7.7 mm", "normal tooth thickness s_n at the reference cylinder", "from `profile_shift`"
     )
-    base_tangent_length: float | None = _length(
+    base_tangent_length: float | None = length(
         "34.5 mm", "base tangent length W_k over `spanned_teeth`", "from `profile_shift`"
     )
     spanned_teeth: int | None = whole_number(
@@ -204,13 +89,13 @@ class GearText(Section):
         meaning="number of teeth k that the base tangent length spans",
         otherwise="as `gears check` chooses; required with `base_tangent_length`",
     )
-    dimension_over_balls: float | None = _length(
+    dimension_over_balls: float | None = length(
         "85.2 mm", "dimension M_d over two balls, of spur gears also over two pins", "from `profile_shift`"
     )
-    ball_diameter: float | None = _length(
+    ball_diameter: float | None = length(
         "8 mm", "diameter D_M of the balls or pins", "as `gears check` chooses; required with `dimension_over_balls`"
     )
-    face_width: float | None = _length("15 mm", "face width of this gear", "that of `[gears]`")
+    face_width: float | None = length("15 mm", "face width of this gear", "that of `[gears]`")
     axial_offset: float | None = quantity(
         "-100 m to 100 m",
         "2 mm",
@@ -288,7 +173,7 @@ class Gears(Section):
         meaning="hand of the pinion's helix; the wheel has the other",
         otherwise="`right`; has no meaning without `helix_angle`",
     )
-    centre_distance: float | None = _diameter(
+    centre_distance: float | None = diameter(
         "91.5 mm",
         "distance of the axes",
         "that of the profile shifts without backlash: inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1"
@@ -312,7 +197,7 @@ class Gears(Section):
         too_low="It is -k: write the amount by which the tips are shorter, without sign.",
         otherwise="what keeps the tip clearance of the rack: k m_n = a - a_d - (x1 + x2) m_n, not above 0",
     )
-    face_width: float | None = _length(
+    face_width: float | None = length(
         "15 mm",
         "face width of both gears; unequal ones mesh over the smaller, centred unless they have an `axial_offset`. In"
         " plane runs one to three modules of the wider gear's overhang count as carrying (`gears check` says how much)",

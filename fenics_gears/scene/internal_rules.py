@@ -10,7 +10,8 @@ from fenics_gears.inputs.problem import Broken, Path
 from fenics_gears.inputs.section import allowed_in
 from fenics_gears.inputs.tree import GEARS, Tree, dotted, is_internal, over_the_face, table, value_at, with_gears
 
-from .gear_schema import GearText, SupportText
+from .gear_parts import SupportText
+from .gear_schema import GearText
 
 # Other names by which an internal gear is asked for.
 INTERNAL = ("internal", "internal_gear", "internal_teeth", "ring", "ring_gear")
@@ -54,11 +55,11 @@ def _of_an_internal_gear(tree: Tree, gear: str) -> Broken:
     for name, message in OF_EXTERNAL.items():
         if name in own:
             yield ("gears", gear, name), message
-    for path in (("gears", "rack"), ("gears", gear, "rack")):
-        for name in OF_A_RACK:
-            if value_at(tree, *path, name) is not None:
+    for name in OF_A_RACK:
+        for place in (("gears", "rack", name), ("gears", gear, "rack", name)):
+            if value_at(tree, *place) is not None:
                 message = "is of a rack, and an internal gear has a cutter. Give it in [gears.pinion.rack]."
-                yield (*path, name), message
+                yield place, message
     support = table(own, "support") or {}
     for name in ("radial_stiffness", "tangential_stiffness"):
         place = ("gears", gear, "support", name)

@@ -16,7 +16,8 @@ from fenics_gears.inputs.written import WrittenFloat, as_written
 from fenics_gears.system import user_file
 from fenics_gears.system.console import control_character, printable
 
-from .drawing import gear_pair_data, load_data
+from .bodies_drawing import load_data
+from .drawing import gear_pair_data
 from .rules import broken_rules
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY, Motion, checked_sections, without_echoes
 

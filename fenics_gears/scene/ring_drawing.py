@@ -16,7 +16,6 @@ from fenics_gears.geometry.ring_fillet import CutFillet, Cutter
 from .gear_schema import Gears, GearText
 from .schema import Derived
 
-
 # In modules, of the path of contact that is left between the ring's tip and the pinion's fillet.
 CLEAR_OF_FILLET = 0.1
 

@@ -16,7 +16,7 @@ from fenics_gears.inputs.section import allowed_in, field_of, section_within, tr
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_toml, toml_value
 
-from . import gear_schema, schema
+from . import gear_parts, gear_schema, schema
 from .parsing import NO_FILE, parsed, values_of_text
 from .schema import HUNTING_TOOTH_PERIOD, LAST_CYCLES, WORDS, scene_text
 
@@ -103,7 +103,7 @@ def _gear(gear: GearData, width: float, own_width: bool) -> dict[str, Any]:
     if own_width:
         tree["face_width"] = field_of(gear_schema.GearText, "face_width", width)
     if gear.protuberance:
-        tree["rack"] = tree_of(gear, gear_schema.RackText)
+        tree["rack"] = tree_of(gear, gear_parts.RackText)
     if gear.web is not None:
         tree["web"] = _web(gear.web, width)
     return tree
@@ -114,7 +114,7 @@ def _web(web: Web, face_width: float) -> dict[str, Any]:
     sizes = {"rim_inner_diameter": 2.0 * web.rim_radius, "hub_diameter": 2.0 * web.hub_radius, "width": width}
     if offset:
         sizes["axial_offset"] = offset
-    return {name: field_of(gear_schema.WebText, name, size) for name, size in sizes.items()}
+    return {name: field_of(gear_parts.WebText, name, size) for name, size in sizes.items()}
 
 
 def _length_of(share: float, whole: float) -> float:

@@ -73,11 +73,9 @@ def test_path_and_contact_ratio_are_those_of_the_textbook():
 
 
 def test_a_profile_shifted_pair_has_the_published_centre_distance():
-    """KHK, Gear Technical Reference, profile shifted internal gear: m 3, 20 deg, 16 and 24 teeth, x1 = 0, x2 = 0.5 (there
-    with the other sign): alpha_w 31.0937 deg, a = 13.1683 mm, pitch diameters 52.673 and 79.010 mm."""
-    pinion, wheel = (
-        Gear(teeth, 3.0, ANGLE, shift, 1.0, 1.0, 1.0, 0.0) for teeth, shift in ((16, 0.0), (-24, -0.5))
-    )
+    """KHK, Gear Technical Reference, profile shifted internal gear: m 3, 20 deg, 16 and 24 teeth, x1 = 0, x2 = 0.5
+    (there with the other sign): alpha_w 31.0937 deg, a = 13.1683 mm, pitch diameters 52.673 and 79.010 mm."""
+    pinion, wheel = (Gear(teeth, 3.0, ANGLE, shift, 1.0, 1.0, 1.0, 0.0) for teeth, shift in ((16, 0.0), (-24, -0.5)))
     pair = GearPair(pinion, wheel, -1.0, 1.0)
     pair = replace(pair, centre_distance=pair.centre_distance_without_backlash)
     assert pair.centre_distance == pytest.approx(-13.1683, abs=5e-5)
@@ -107,9 +105,7 @@ def test_the_fillet_is_the_envelope_of_the_cutters_rounding():
         assert nearest.fun == pytest.approx(fillet.rounding, abs=1e-9)
     end = fillet_point(gear, gear.fillet_end)
     roll = gear.form_roll_angle
-    expected = gear.base_radius * np.array(
-        [roll * np.cos(roll) - np.sin(roll), -(np.cos(roll) + roll * np.sin(roll))]
-    )
+    expected = gear.base_radius * np.array([roll * np.cos(roll) - np.sin(roll), -(np.cos(roll) + roll * np.sin(roll))])
     assert end == pytest.approx(expected, abs=1e-9)
     tangent = fillet_tangent(gear, gear.fillet_end)
     assert tangent @ np.array([np.cos(roll), -np.sin(roll)]) == pytest.approx(0.0, abs=1e-9 * np.linalg.norm(tangent))
@@ -162,8 +158,8 @@ def sharp(number: int, ring_teeth: int, shift: float = 0.0) -> GearPair:
 
 @pytest.mark.parametrize("apart", [2, 4, 6, 9, 14])
 def test_tips_that_collide_outside_of_the_path_of_contact_are_found(apart):
-    """Brute force: outlines of pinion and ring turned together through a pitch; a corner of the pinion's tip lies inside
-    a tooth of the ring exactly where the check says so (as textbooks: full teeth need 8 to 10 teeth of difference)."""
+    """Brute force: outlines of pinion and ring turned together through a pitch; a corner of the pinion's tip lies
+    inside a tooth of the ring exactly where the check says so (textbooks: full teeth need a difference of 8 to 10)."""
     pair = sharp(60, 60 + apart)
     clearance = fillet_clearance(pair.wheel, pair.pinion, pair.centre_distance)
     pinion, wheel = pair.pinion, pair.wheel
@@ -171,12 +167,13 @@ def test_tips_that_collide_outside_of_the_path_of_contact_are_found(apart):
     at_pitch = pair.pitch_point
     for xi in at_pitch + np.linspace(-20.0, 60.0, 16001):
         roll = np.array([xi / pinion.base_radius, (xi - pair.line_of_action_length) / abs(wheel.base_radius)])
-        # The corner, turned with the pinion from where its drive flank touches; then into the frame of the ring's tooth.
+        # The corner, turned with the pinion from where its drive flank touches; then in the frame of the ring's tooth.
         tip = pinion.tip_roll_angle
         corner = pinion.base_radius * np.array([tip * np.cos(tip) - np.sin(tip), -(np.cos(tip) + tip * np.sin(tip))])
-        x, y = np.cos(roll[0]) * corner[0] - np.sin(roll[0]) * corner[1], np.sin(roll[0]) * corner[0] + np.cos(
-            roll[0]
-        ) * corner[1]
+        x, y = (
+            np.cos(roll[0]) * corner[0] - np.sin(roll[0]) * corner[1],
+            np.sin(roll[0]) * corner[0] + np.cos(roll[0]) * corner[1],
+        )
         x -= pair.line_of_action_length
         y += pinion.base_radius + wheel.base_radius
         distance = np.hypot(x, y)

@@ -55,7 +55,7 @@ def test_what_a_drawing_leaves_out_gives_a_pair_that_runs():
     [
         ("pinion = { teeth = 22", "pinion = { teeth = -22", "Call the internal gear the wheel"),
         ('outer_diameter = "280 mm", ', "", "outer_diameter"),
-        ('outer_diameter = "280 mm"', 'outer_diameter = "280 mm", bore_diameter = "70 mm"', "no meaning for an internal"),
+        ("teeth = -61,", 'teeth = -61, bore_diameter = "70 mm",', "no meaning for an internal"),
         ("pinion = { teeth = 22", "pinion = { teeth = 22, cutter = { teeth = 20 }", "no meaning for an external gear"),
         ("[load]", "[lead_modifications.pinion]\ncrowning = \"4 um\"\n[load]", "not computed with an internal gear"),
         ('face_width = "50 mm"', 'face_width = "50 mm"\nhelix_angle = "8 deg"', "not computed with an internal gear"),

@@ -79,9 +79,10 @@ def turned(torque: str, phases: np.ndarray) -> np.ndarray:
 def rack_like(teeth: int) -> float:
     """Mean transmission error, um along the line of action, of a pinion against a wheel of so many teeth, negative for
     a ring, whose rims are alike."""
-    wheel = f"{0.5 * abs(teeth) * 4 + (15 if teeth < 0 else -15)}"
-    body = f'outer_diameter = "{2 * float(wheel)} mm", support = "held"' if teeth < 0 else (
-        f'bore_diameter = "{2 * float(wheel)} mm"')  # fmt: skip
+    sign = -1 if teeth < 0 else 1
+    rim, tip = (4 * abs(teeth) + size for size in (-30 * sign, 6 * sign))
+    body = f'bore_diameter = "{rim} mm"' if teeth > 0 else f'outer_diameter = "{rim} mm", support = "held"'
+    wheel = f'teeth = {teeth}, profile_shift = 0, {body}, rack_tip_radius = 0.2, tip_diameter = "{tip} mm"'
     scene = f"""
 [gears]
 module = "4 mm"
@@ -89,10 +90,10 @@ pressure_angle = "20 deg"
 face_width = "10 mm"
 material = "steel"
 pinion = {{ teeth = 22, profile_shift = 0.3, bore_diameter = "40 mm" }}
-wheel = {{ teeth = {teeth}, profile_shift = {0.0}, {body}, rack_tip_radius = 0.2, tip_diameter = "{abs(teeth) * 4 + (-6 if teeth < 0 else 6)} mm" }}
+wheel = {{ {wheel} }}
 [load]
 pinion_torque = "100 N m"
-""" + COARSE
+{COARSE}"""
     result = simulate(scene_from_text(scene))
     return float(result.attrs["mean_transmission_error"] * result.attrs["base_radius_wheel"]) * 1e3
 
@@ -146,7 +147,7 @@ def test_rigid_flanks_with_a_pitch_deviation_and_reliefs():
 def test_root_stress_is_in_proportion_to_the_torque_and_on_both_gears():
     """Linearity at a fixed position of one pair: twice the torque, nearly twice the stress; fillets in tension on the
     loaded side."""
-    more = COARSE + '[output]\nroot_stress = true\n'
+    more = COARSE + "[output]\nroot_stress = true\n"
     once, twice = (run(more=more, load=f'pinion_torque = "{torque} N m"') for torque in (100, 200))
     for gear in ("pinion", "wheel"):
         first, second = (float(each.root_stress.sel(gear=gear).max()) for each in (once, twice))
