@@ -119,7 +119,7 @@ class Drivetrain:
         if not len(motion):
             return ""
         turning = int(np.argmax(np.abs(motion)))
-        torque = 1e-3 * self.load[turning] * self.radii[turning]
+        torque = 1e-3 * self.load[turning] * abs(self.radii[turning])
         name = FREE.get(self.coordinates[turning], "the drivetrain")
         return f"{name} turns freely under its torque of {torque:.4g} N m"
 

@@ -10,6 +10,7 @@ from fenics_gears.inputs.problem import Broken, Path
 from fenics_gears.inputs.section import allowed_in
 from fenics_gears.inputs.tree import GEARS, Tree, dotted, is_internal, over_the_face, table, value_at, with_gears
 
+from .accuracy_rules import EVERY_STEP
 from .gear_parts import SupportText
 from .gear_schema import GearText
 
@@ -68,13 +69,15 @@ def _of_an_internal_gear(tree: Tree, gear: str) -> Broken:
         elif support.get("kind") != FOUNDATION and name in support:
             yield place, f'has no meaning without kind = "{FOUNDATION}". Leave it out, or give the kind.'
     for path in _not_computed(tree):
-        message = "is not computed with an internal gear yet; a pair in the plane is. Leave it out."
+        message = "is not computed with an internal gear yet. Leave it out."
         yield path, message
 
 
 def _not_computed(tree: Tree) -> Iterator[Path]:
     yield from over_the_face(tree)
     yield from (path for path in NOT_COMPUTED if value_at(tree, *path) is not None)
+    if value_at(tree, "accuracy", "condensation") == EVERY_STEP:
+        yield ("accuracy", "condensation")
 
 
 def internal_gears_have_negative_teeth(tree: Tree) -> Broken:

@@ -186,6 +186,11 @@ def _meshes_of(
         found = pair_scene(
             sections, name, label, folder, partial(in_stage, stage, places, shared.keys() - inner.keys())
         )
+        if found.gears.wheel.teeth < 0:
+            raise SceneError(
+                f"{label}: an internal gear is not computed in a train yet. Allowed: external gears in a train, an"
+                f" internal wheel in a scene of one pair. {NOTHING_DONE}"
+            )
         if count > 1:
             check_together(found, label)
         return found

@@ -60,6 +60,7 @@ def test_what_a_drawing_leaves_out_gives_a_pair_that_runs():
         ("[load]", "[lead_modifications.pinion]\ncrowning = \"4 um\"\n[load]", "not computed with an internal gear"),
         ('face_width = "50 mm"', 'face_width = "50 mm"\nhelix_angle = "8 deg"', "not computed with an internal gear"),
         ("[load]", '[corner_contact]\nedge_radius = "20 um"\n[load]', "not computed with an internal gear"),
+        ("[accuracy]", '[accuracy]\ncondensation = "every step"', "not computed with an internal gear"),
         ('support = "held"', 'support = "foundation"', "radial_stiffness"),
         ('support = "held"', 'support = "points"', '"held", "foundation"'),
         ("teeth = -61,", 'teeth = -61, base_tangent_length = "30 mm",', "not computed for an internal gear"),

@@ -98,6 +98,7 @@ pinion_torque = "100 N m"
     return float(result.attrs["mean_transmission_error"] * result.attrs["base_radius_wheel"]) * 1e3
 
 
+@pytest.mark.nightly
 def test_ring_and_wheel_meet_at_the_rack():
     """Limit: with growing numbers of teeth ring and external wheel both become a rack; their transmission errors
     approach each other as 1/z2."""
@@ -115,6 +116,14 @@ def test_contact_is_hertzian_with_the_difference_of_the_curvatures():
     pressed = contact.pressed(contact.compliances(size), 0.5 * size, contact.line_load)
     assert pressed.half_width == pytest.approx(half_width, rel=0.02)
     assert pressed.peak == pytest.approx(2.0 * contact.line_load / (np.pi * half_width), rel=0.02)
+
+
+@pytest.mark.parametrize("model, within", [("stiffness table", 0.02), ("ISO 6336-1", 0.4)])
+def test_springs_are_as_stiff_as_the_full_contact(model, within):
+    """Two routes: a table of the same contact; and ISO 6336-1, for which an internal gear is a rack."""
+    full = run()
+    springs = run(more=f'[accuracy]\nmodel = "{model}"\nsteps_per_mesh_cycle = 20\n')
+    assert springs.attrs["mean_transmission_error"] == pytest.approx(full.attrs["mean_transmission_error"], rel=within)
 
 
 def rigid(more: str):
