@@ -27,7 +27,12 @@ OF_EXTERNAL = {
 }
 OF_A_RACK = ("protuberance", "protuberance_angle", "finishing_stock")
 # What a plane pair may have and a pair with an internal gear may not have yet.
-NOT_COMPUTED = (("body_meshes", "wheel"), ("corner_contact",), ("flank_errors", "wheel", "file"))
+NOT_COMPUTED = (
+    ("body_meshes", "wheel"),
+    ("corner_contact",),
+    ("flank_errors", "wheel", "measured_profile"),
+    ("flank_errors", "wheel", "waviness"),
+)
 
 
 def gears_have_their_bodies(tree: Tree) -> Broken:
