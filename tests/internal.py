@@ -3,8 +3,8 @@
 from math import radians
 
 from fenics_gears import Gear
+from fenics_gears.geometry.gear_data import Cutter
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.ring_fillet import Cutter
 
 MODULE = 4.0
 ANGLE = radians(20.0)

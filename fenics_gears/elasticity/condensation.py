@@ -7,7 +7,6 @@ from time import perf_counter
 import numpy as np
 
 from .elements import Element
-from .foundation import add_foundation
 from .mesh_data import BodyMesh
 from .mumps import schur_complement
 from .stiffness import compile_ahead, displacement_space, nodes_at, nodes_in_cells, stiffness_matrix
@@ -54,7 +53,10 @@ def condense(
     timings = {"time_compile": perf_counter() - clock}
     space = displacement_space(mesh, element)
     matrix = stiffness_matrix(space, element, poissons_ratio, mesh.web)
-    add_foundation(matrix, mesh, element.order, partial(nodes_at, space))
+    if mesh.foundation is not None:
+        from .foundation import add_foundation
+
+        add_foundation(matrix, mesh, element.order, partial(nodes_at, space))
     stiffness = schur_complement(matrix, dofs_of(_nodes(space, points, cells_of or {})))
     matrix.destroy()
     return CondensedBody(points, stiffness, timings)

@@ -14,10 +14,8 @@ QUADRATIC = np.stack(
 
 
 def add_foundation(matrix, mesh: BodyMesh, order: int, nodes_at) -> None:
-    """Add the foundation's stiffness, Young's modulus 1 MPa, to an assembled PETSc matrix; nothing for a mesh without
-    one. `nodes_at`: numbers of the nodes at coordinates (k, 2)."""
-    if mesh.foundation is None:
-        return
+    """Add the foundation's stiffness, Young's modulus 1 MPa, to an assembled PETSc matrix. `nodes_at`: numbers of the
+    nodes at coordinates (k, 2)."""
     shapes = LINEAR if order == 1 else QUADRATIC
     ends = mesh.points[mesh.edges["hub"]]
     places = ends if order == 1 else np.concatenate([ends, ends.mean(axis=1, keepdims=True)], axis=1)

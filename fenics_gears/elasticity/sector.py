@@ -10,7 +10,6 @@ from .element_nodes import ElementNodes, element_nodes
 from .elements import Element
 from .face.layers import Sweep, swept_nodes
 from .face.swept_stiffness import SectionForms, swept_stiffness
-from .foundation import add_foundation
 from .mesh_data import BodyMesh
 from .mumps import Factor
 from .stiffness import assembled, compile_ahead, displacement_space, nodes_at, stiffness_matrix
@@ -102,7 +101,10 @@ def plane_sector(mesh: BodyMesh, element: Element, poissons_ratio: float) -> Sec
     space = displacement_space(mesh, element)
     nodes = element_nodes(mesh, element)
     matrix = stiffness_matrix(space, element, poissons_ratio, mesh.web)
-    add_foundation(matrix, mesh, element.order, partial(nodes_at, space))
+    if mesh.foundation is not None:
+        from .foundation import add_foundation
+
+        add_foundation(matrix, mesh, element.order, partial(nodes_at, space))
     stiffness = assembled(matrix)
     order = dofs_of(nodes_at(space, nodes.points))
     return Sector(mesh, nodes, stiffness[order][:, order])

@@ -1,8 +1,7 @@
 """A gear in its transverse section: circles, tooth thickness, the rack that cuts it.
 
-An internal gear has negative numbers, as ISO 21771 has it: teeth, radii, pitch. Its tip is nearer to the axis than its
-root, as -118 mm is above -132 mm, and its `bore_radius` is that of the outer circle of its rim. A polar angle with a
-negative radius is a point on the other side of the centre, so that one formula serves both kinds.
+An internal gear has negative numbers, as ISO 21771 has it: teeth, radii, pitch; its `bore_radius` is that of its rim's
+outer circle. An angle with a negative radius points to the other side, so that one formula serves both kinds.
 """
 
 from __future__ import annotations
@@ -10,15 +9,18 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import atan, cos, hypot, pi, sin, tan
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.errors import GeometryError
 
-from .gear_data import FOUNDATION, GearData, Web
+from .gear_data import FOUNDATION, Cutter, GearData, Web
 from .involute import inverse_involute, involute_function
 from .outline import crossing, fillet_point, touching_end
-from .ring_fillet import CutFillet, Cutter, PlainFillet, ring_fillet
+
+if TYPE_CHECKING:
+    from .ring_fillet import CutFillet, PlainFillet
 
 # Of lengths in modules: what is left of a unit or a scale factor is in the last two digits of a double.
 DECIMALS_IN_MODULES = 12
@@ -32,8 +34,7 @@ class Gear:
     without sign. `rack_tip_radius`, `protuberance` (by which the rack's rounding protrudes beyond the flank, normal to
     it) and `protuberance_angle` (at which it goes back) are of the normal section. `tip_chamfer`: radial height.
     An internal gear has, in place of the rack, a `cutter` whose tip has that radius; or none, and plain fillets of it.
-    `foundation`: None where bore or outer circle are held; else the stiffness per area, radial and tangential, of the
-    springs that hold them, over Young's modulus, 1/mm.
+    `foundation`: radial and tangential stiffness per area of springs around it, over Young's modulus, 1/mm, or None.
     """
 
     teeth: int
@@ -70,6 +71,8 @@ class Gear:
     @cached_property
     def ring_fillet(self) -> PlainFillet | CutFillet:
         """What shapes the fillet of an internal gear."""
+        from .ring_fillet import ring_fillet
+
         return ring_fillet(self)
 
     @property
@@ -226,8 +229,7 @@ class Gear:
 
     @property
     def roll_ends(self) -> tuple[float, float]:
-        """Lowest and highest roll angle (rad) of the involute: at form circle and tip, of an internal gear at tip and
-        form circle."""
+        """Lowest and highest roll angle (rad) of the involute, of an internal gear at its tip and form circle."""
         ends = self.form_roll_angle, self.tip_roll_angle
         return (ends[1], ends[0]) if self.internal else ends
 
@@ -277,10 +279,8 @@ def transverse_gear(
     stretch = 1.0 / cos(helix_angle)
     foundation = None
     if youngs_modulus and gear.support is not None and gear.support.kind == FOUNDATION:
-        foundation = (
-            gear.support.radial_stiffness / youngs_modulus,
-            gear.support.tangential_stiffness / youngs_modulus,
-        )
+        springs = gear.support.radial_stiffness, gear.support.tangential_stiffness
+        foundation = springs[0] / youngs_modulus, springs[1] / youngs_modulus
     return Gear(
         teeth=gear.teeth,
         module=module * stretch,

@@ -1,6 +1,6 @@
 """Checks of a single gear: one that no rack can cut is refused, with the value, the limit and the field to change."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from math import floor, isfinite, pi, tan
 from typing import NoReturn
 
@@ -42,12 +42,16 @@ class Impossible(GeometryError):
 
 def check_gear(gear: Gear, name: str) -> None:
     """Refuse a gear (``name`` is its section of the scene) that no rack can cut; raises Impossible."""
-    from .ring_checks import ring_circles, ring_cutting, ring_numbers, ring_tip
+    numbers: tuple[Callable, ...] = (_numbers, _web)
+    rules: tuple[Callable, ...] = (_circles, _rack, _undercut, _tip)
+    if gear.internal:
+        from .ring_checks import NUMBERS_OF_RING, RULES_OF_RING
 
-    for check in (ring_numbers,) if gear.internal else (_numbers, _web):
+        numbers = NUMBERS_OF_RING
+        rules = RULES_OF_RING
+    for check in numbers:
         for problem in check(gear, f"gears.{name}"):
             refuse(name, problem)
-    rules = (ring_circles, ring_cutting, ring_tip) if gear.internal else (_circles, _rack, _undercut, _tip)
     for tried in rules:
         for words, remedies in tried(gear, f"gears.{name}"):
             raise Impossible(f"{name}: {words}", [(how, f"{name}.{field}") for how, field in remedies])

@@ -5,8 +5,6 @@ from dataclasses import dataclass, field
 
 from fenics_gears.inputs.fields import choice, number, quantity
 
-from .ring_fillet import Cutter
-
 # ISO 53:1998, Annex A, in modules: addendum, dedendum, tip radius of the rack. The same as types A to D of GOST
 # 13755-2015; A is also the rack of DIN 867.
 RACKS = {
@@ -61,6 +59,14 @@ class Web:
     share: float
     stiff_share: float | None = None
     offset: float = 0.0
+
+
+@dataclass(frozen=True)
+class Cutter:
+    """A shaper cutter: its teeth and the profile shift of its teeth's thickness, of the transverse section."""
+
+    teeth: int
+    profile_shift: float = 0.0
 
 
 HELD = "held"

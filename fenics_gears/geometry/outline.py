@@ -22,7 +22,6 @@ import numpy as np
 from fenics_gears.errors import GeometryError
 
 from .involute import canonical_point, involute_function
-from .ring_fillet import body_points
 
 if TYPE_CHECKING:
     from .gear import Gear
@@ -105,7 +104,7 @@ def fillet_point(gear: Gear, parameter) -> np.ndarray:
     ch. 6).
     """
     if gear.internal:
-        return body_points(gear, parameter)[0]
+        return _of_ring(gear, parameter)[0]
     angle, along = _on_rack(gear, parameter)
     distance = _distance_from_pitch_point(gear, angle) - along * np.tan(angle)
     in_space = np.stack([-distance * np.sin(angle), distance * np.cos(angle) - gear.reference_radius], axis=-1)
@@ -115,7 +114,7 @@ def fillet_point(gear: Gear, parameter) -> np.ndarray:
 def fillet_tangent(gear: Gear, parameter) -> np.ndarray:
     """Derivative (..., 2), mm/rad, of ``fillet_point`` by its parameter."""
     if gear.internal:
-        return body_points(gear, parameter)[1]
+        return _of_ring(gear, parameter)[1]
     angle, along = _on_rack(gear, parameter)
     direction = np.stack([-np.cos(angle), -np.sin(angle)], axis=-1)
     return fillet_speed(gear, parameter)[..., None] * _turned(direction, _body_angle(gear, angle, along))
@@ -139,6 +138,13 @@ def fillet_speed(gear: Gear, parameter) -> np.ndarray:
     distance = _distance_from_pitch_point(gear, angle) - along * np.tan(angle)
     on_flank = gear.module * (1.0 - distance / (gear.reference_radius * np.cos(angle)))
     return np.where(along > 0.0, on_flank, speed)
+
+
+def _of_ring(gear: Gear, parameter) -> tuple[np.ndarray, np.ndarray]:
+    """Points and slopes of an internal gear's fillet."""
+    from .ring_fillet import body_points
+
+    return body_points(gear, parameter)
 
 
 def _on_rack(gear: Gear, parameter) -> tuple[np.ndarray, np.ndarray | float]:

@@ -12,7 +12,6 @@ from .gear import Gear
 from .gear_checks import ROUNDING, Impossible, Mistakes, Remedy, in_degrees
 from .involute import involute_function
 from .outline import fillet_point
-from .ring_checks import goes_in_radially, ring_centres
 
 if TYPE_CHECKING:
     from .pair import GearPair
@@ -30,8 +29,7 @@ SAMPLES = 1001
 
 def check_pair(pair: GearPair) -> None:
     """Refuse a pair that cannot run; raises Impossible."""
-    centres = ring_centres if pair.wheel.internal else _centres
-    for check in (centres, _backlash, _tip_clearance, _contact_ratio, _interference, _fillet_clearance):
+    for check in (_centres, _backlash, _tip_clearance, _contact_ratio, _interference, _fillet_clearance):
         for words, remedies in check(pair):
             raise Impossible(words, remedies)
 
@@ -46,11 +44,10 @@ def design_warnings(pair: GearPair) -> list[str]:
                 f"{name}: thin tip: {gear.tip_thickness:.4g} mm at the tip circle, less than {THIN_TIP} modules "
                 f"= {THIN_TIP * gear.normal_module:.4g} mm; lower gears.{name}.tip_diameter, or profile_shift with it"
             )
-    if pair.wheel.internal and not goes_in_radially(pair):
-        sentences.append(
-            "pair: the pinion cannot be put into the internal gear radially, only along the axis: its tip corners would"
-            " hit the ring's"
-        )
+    if pair.wheel.internal:
+        from .ring_checks import assembly_warnings
+
+        sentences += assembly_warnings(pair)
     whole = (pair.tip_positions[1] - pair.tip_positions[0]) / pair.base_pitch
     for name, other, lowest in _shortened(pair):
         sentences.append(
@@ -62,6 +59,11 @@ def design_warnings(pair: GearPair) -> list[str]:
 
 
 def _centres(pair: GearPair) -> Mistakes:
+    if pair.wheel.internal:
+        from .ring_checks import ring_centres
+
+        yield from ring_centres(pair)
+        return
     bases = pair.pinion.base_radius + pair.wheel.base_radius
     if not (isfinite(pair.centre_distance) and pair.centre_distance > bases):
         yield (

@@ -113,6 +113,10 @@ def ring_tip(gear: Gear, section: str) -> Mistakes:
         )
 
 
+NUMBERS_OF_RING = (ring_numbers,)
+RULES_OF_RING = (ring_circles, ring_cutting, ring_tip)
+
+
 def ring_tip_radius_with_room(gear: Gear) -> float:
     """Largest radius of the fillet's rounding, in modules, that leaves room for both, rounded down."""
 
@@ -164,6 +168,16 @@ def goes_in_radially(pair: GearPair) -> bool:
             if pinion.tip_radius * sin(corner) > abs(ring.tip_radius) * sin(beyond) + ROUNDING:
                 return False
     return True
+
+
+def assembly_warnings(pair: GearPair) -> list[str]:
+    """A sentence on a pinion that goes in along the axis alone."""
+    if goes_in_radially(pair):
+        return []
+    return [
+        "pair: the pinion cannot be put into the internal gear radially, only along the axis: its tip corners would hit"
+        " the ring's"
+    ]
 
 
 def lowest_tip(pinion: Gear, ring: Gear, distance: float, clear: float) -> float:

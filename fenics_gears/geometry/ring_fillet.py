@@ -21,14 +21,6 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Cutter:
-    """A shaper cutter: its teeth and the profile shift of its teeth's thickness, of the transverse section."""
-
-    teeth: int
-    profile_shift: float = 0.0
-
-
-@dataclass(frozen=True)
 class PlainFillet:
     """An arc of `rounding` (mm) that touches the root circle and the flank of a ring with these base and root radii
     (mm)."""

@@ -112,6 +112,11 @@ def teeth_in(tree: Tree, gear: str) -> int | None:
     return abs(teeth) if type(teeth) is int and 0 < abs(teeth) <= MOST_TEETH else None
 
 
+# Fields of internal gears alone, and other names by which one is asked for.
+OF_INTERNAL = ("outer_diameter", "cutter", "support")
+INTERNAL = ("internal", "internal_gear", "internal_teeth", "ring", "ring_gear")
+
+
 def is_internal(tree: Tree, gear: str) -> bool:
     """Whether the "pinion" or the "wheel" of a parsed scene is an internal gear, with a negative number of teeth."""
     teeth = value_at(tree, "gears", gear, "teeth")

@@ -14,8 +14,6 @@ from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import ELASTIC, Scene
 
-from .rim_of_ring import check_support, ring_warnings
-
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear import Gear
 
@@ -39,7 +37,10 @@ def check_geometry(scene: Scene) -> GearPair:
 def check_bodies(scene: Scene, pair: GearPair) -> None:
     """Refuse a thin rim of an internal gear without a support, and tip edges that do not fit. Raises SceneError,
     GeometryError."""
-    check_support(scene, pair)
+    if pair.wheel.internal:
+        from .rim_of_ring import check_support
+
+        check_support(scene, pair)
     corner(scene, pair)
 
 
@@ -129,7 +130,10 @@ def rim_warnings(model: Model) -> list[str]:
     sentences = []
     if scene.tooth_elasticity is None or scene.accuracy.model not in (None, ELASTIC):
         return []
-    sentences += ring_warnings(scene, model.pair)
+    if model.pair.wheel.internal:
+        from .rim_of_ring import ring_warnings
+
+        sentences += ring_warnings(scene, model.pair)
     for name in GEARS:
         gear = getattr(model.pair, name)
         off = 0.0 if gear.internal else too_stiff(gear)

@@ -26,7 +26,7 @@ def rim_over_teeth(pair: GearPair, material: Material) -> float:
 
 def _bends(scene: Scene, pair: GearPair) -> str:
     """How much the rim bends, in words; empty for one that hardly does, and for rigid teeth."""
-    if not pair.wheel.internal or not scene.resolves_contact:
+    if not scene.resolves_contact:
         return ""
     ratio = rim_over_teeth(pair, scene.gears.materials[1])
     if ratio < 1.0:

@@ -21,8 +21,6 @@ from fenics_gears.geometry.gear_data import RACKS, GearData, GearPairData
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, MODULES, PRESSURE_ANGLES, in_normal_section
 
-from . import unusual
-from .bodies_drawing import named_materials, web_of
 from .gear_schema import Gears, GearText
 from .schema import Derived
 
@@ -49,7 +47,7 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
             bore_diameter=float(own.bore_diameter) if own.teeth > 0 else -float(own.outer_diameter),
             face_width=None if alike else width,
             material=material_of(own.material, gears.material),
-            web=web_of(own, width),
+            web=own.web and own.web.data(own.bore_diameter, width),
         )
         for gear, own, width in zip(drawn, both, widths)
     )
@@ -65,7 +63,7 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
         pinion_hand=gears.pinion_hand or "right",
         axial_offsets=offsets,
     )
-    return data, of_section + derived + named_materials(gears)
+    return data, of_section + derived
 
 
 def _in_normal_section(gears: Gears) -> tuple[Gears, list[Derived]]:
@@ -106,6 +104,13 @@ def _thickness() -> ModuleType:
     from . import thickness
 
     return thickness
+
+
+def _unusual() -> ModuleType:
+    """Remarks on figures that are derived."""
+    from . import unusual
+
+    return unusual
 
 
 def _shift(pair: Gears, drawn: GearText, name: str) -> tuple[float, list[Derived]]:
@@ -181,7 +186,7 @@ def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequen
             f"half of the backlash by each gear, and half of the {overlap:.4g} mm by which teeth with the given profile"
             " shifts would overlap"
         )
-    odd = (unusual.of_thinning(pair, overlap, distance, nominal, thinner), "")
+    odd = (_unusual().of_thinning(pair, overlap, distance, nominal, thinner), "")
     return lowered, [
         Derived(f"{name} profile shift of its tooth thickness", shift, "modules", words, remark)
         for name, shift, remark in zip(GEARS, lowered, odd)
@@ -206,7 +211,8 @@ def _tip_shortening(
             f" {'raise' if distance > 0.0 else 'lower'} gears.centre_distance, or lower gears.module or the teeth",
         )
     formula = "k m_n = a - a_d - (x1 + x2) m_n, not above 0"
-    return shortening, [Derived("tip shortening -k", shortening, "modules", formula, unusual.of_shortening(shortening))]
+    odd = _unusual().of_shortening(shortening)
+    return shortening, [Derived("tip shortening -k", shortening, "modules", formula, odd)]
 
 
 def _gear_data(

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from fenics_gears.geometry.gear_data import RACKS, SUPPORTS
+from fenics_gears.geometry.gear_data import RACKS, SUPPORTS, Web
 from fenics_gears.inputs.fields import choice, number, quantity, whole_number
 from fenics_gears.inputs.section import Section
 
@@ -82,6 +82,15 @@ class WebText(Section):
         otherwise="0 mm",
         over_face=True,
     )
+
+    def data(self, bore_diameter: float, face_width: float) -> Web:
+        """The web of a gear, in parts of its face width."""
+        return Web(
+            0.5 * (self.hub_diameter or bore_diameter),
+            0.5 * self.rim_inner_diameter,
+            self.width / face_width,
+            offset=(self.axial_offset or 0.0) / face_width,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)

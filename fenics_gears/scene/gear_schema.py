@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
 from fenics_gears.geometry.gear import Gear, transverse_gear
-from fenics_gears.geometry.gear_data import GearData
-from fenics_gears.geometry.ring_fillet import Cutter
+from fenics_gears.geometry.gear_data import Cutter, GearData
 from fenics_gears.inputs.fields import choice, number, quantity, whole_number
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import MODULES, PRESSURE_ANGLES

@@ -8,15 +8,23 @@ from collections.abc import Iterator
 from fenics_gears.geometry.gear_data import FOUNDATION
 from fenics_gears.inputs.problem import Broken, Path
 from fenics_gears.inputs.section import allowed_in
-from fenics_gears.inputs.tree import GEARS, Tree, dotted, is_internal, over_the_face, table, value_at, with_gears
+from fenics_gears.inputs.tree import (
+    GEARS,
+    INTERNAL,
+    OF_INTERNAL,
+    Tree,
+    dotted,
+    is_internal,
+    over_the_face,
+    table,
+    value_at,
+    with_gears,
+)
 
 from .accuracy_rules import EVERY_STEP
 from .gear_parts import SupportText
 from .gear_schema import GearText
 
-# Other names by which an internal gear is asked for.
-INTERNAL = ("internal", "internal_gear", "internal_teeth", "ring", "ring_gear")
-OF_INTERNAL = ("outer_diameter", "cutter", "support")
 OF_EXTERNAL = {
     "bore_diameter": "has no meaning for an internal gear, whose body ends at outer_diameter. Leave it out.",
     "web": "has no meaning for an internal gear. Leave it out.",

@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.gear_data import GearData, RingSupport
+from fenics_gears.geometry.gear_data import Cutter, GearData, RingSupport
 from fenics_gears.geometry.ring_checks import lowest_tip, ring_tip_radius_with_room
-from fenics_gears.geometry.ring_fillet import CutFillet, Cutter
+from fenics_gears.geometry.ring_fillet import CutFillet
 
 from .gear_schema import Gears, GearText
 from .schema import Derived

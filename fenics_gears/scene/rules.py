@@ -15,14 +15,17 @@ from fenics_gears.inputs.problem import Broken, Problem, meant, nearest
 from fenics_gears.inputs.section import allowed_in, given, names_in
 from fenics_gears.inputs.tree import (
     GEARS,
+    INTERNAL,
     LARGEST_ERROR,
     LOADS,
     MODULES,
     NOT_IN_THE_PLANE,
+    OF_INTERNAL,
     PRESSURE_ANGLES,
     Tree,
     given_for,
     in_normal_section,
+    is_internal,
     load_in,
     material_sections,
     module_in,
@@ -32,6 +35,7 @@ from fenics_gears.inputs.tree import (
     quantity_in,
     table,
     value_at,
+    with_gears,
 )
 from fenics_gears.inputs.written import as_written
 
@@ -44,7 +48,6 @@ from .accuracy_rules import (
     settling_is_of_vibrations,
 )
 from .gear_schema import MEASURES, Gears, GearText
-from .internal_rules import gears_have_their_bodies, internal_gears_have_negative_teeth
 from .schema import LoadText, scene_text
 
 TEETH = "tooth_elasticity"
@@ -163,6 +166,18 @@ def _teeth_have_a_size(tree: Tree) -> Broken:
                 yield ("gears", name), message
 
 
+def _gears_have_their_bodies(tree: Tree) -> Broken:
+    """A bore of an external gear; what an internal one has in its place is told by rules of its own."""
+    both, *gears = with_gears(tree, "gears").values()
+    external = all("bore_diameter" in own and not is_internal(tree, gear) for own, gear in zip(gears, GEARS))
+    if external and not {*both, *gears[0], *gears[1]} & {*OF_INTERNAL, *INTERNAL}:
+        return
+    from .internal_rules import gears_have_their_bodies, internal_gears_have_negative_teeth
+
+    yield from internal_gears_have_negative_teeth(tree)
+    yield from gears_have_their_bodies(tree)
+
+
 def _thickness_is_given_once(tree: Tree) -> Broken:
     gears = table(tree, "gears") or {}
     for gear in GEARS:
@@ -275,8 +290,7 @@ _RULES = (
     *ACCURACY_RULES,
     _flanks_are_resolved_over_the_face,
     _teeth_have_a_size,
-    internal_gears_have_negative_teeth,
-    gears_have_their_bodies,
+    _gears_have_their_bodies,
     _thickness_is_given_once,
     _backlash_has_its_place,
     _no_figure_is_given_twice,
