@@ -3,8 +3,7 @@
 from math import atan, cos, degrees
 
 from .gear import Gear
-from .gear_checks import ROUNDING
-from .gear_data import NOT_GIVEN, MeasuredOver
+from .gear_data import NOT_GIVEN, ROUNDING, MeasuredOver
 from .pair import GearPair
 from .sliding import specific_sliding
 from .tooth_thickness import ball_diameter, base_tangent_length, dimension_over_balls, normal_thickness, spanned_teeth

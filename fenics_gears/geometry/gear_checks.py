@@ -9,6 +9,7 @@ import numpy as np
 from fenics_gears.errors import GeometryError
 
 from .gear import Gear
+from .gear_data import LEAST_RIM, ROUNDING
 from .outline import fillet_point
 
 # "raise" or "lower", and the field: of the pair ("centre_distance") or of a gear ("pinion.tip_diameter", without its
@@ -17,14 +18,10 @@ Remedy = tuple[str, str]
 # What is wrong, and what may mend it; nothing where the words say what to do.
 Mistakes = Iterator[tuple[str, tuple[Remedy, ...]]]
 
-# Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
-ROUNDING = 1e-6
 # In normal modules: of a shorter chamfer round-off leaves no direction.
 LEAST_CHAMFER = 1e-6
 # Of a share of the face width.
 SHARE_ROUNDING = 1e-12
-# Thinnest rim between bore and root circle, in modules, that leaves room for a mesh.
-LEAST_RIM = 0.2
 # Thinnest neck of an undercut tooth, in modules.
 LEAST_NECK = 0.1
 NECK_SAMPLES = 401

@@ -15,6 +15,12 @@ RACKS = {
 }
 
 
+# Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
+ROUNDING = 1e-6
+# Thinnest rim between bore or outer circle and root circle, in modules, that leaves room for a mesh.
+LEAST_RIM = 0.2
+
+
 @dataclass(frozen=True)
 class Material:
     """Isotropic linear elasticity: Young's modulus and yield strength in MPa; the latter None where it is not known."""

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .gear import Gear
-from .gear_checks import ROUNDING, Impossible, Mistakes, Remedy, in_degrees
+from .gear_checks import Impossible, Mistakes, Remedy, in_degrees
+from .gear_data import ROUNDING
 from .involute import involute_function
 from .outline import fillet_point
 

@@ -8,11 +8,12 @@ from dataclasses import replace
 from math import isfinite, isnan, pi, sin
 from typing import TYPE_CHECKING
 
-from .gear_checks import LEAST_RIM, ROUNDING, Mistakes
+from .gear_data import LEAST_RIM, ROUNDING
 from .ring_fillet import CutFillet, room_beside
 
 if TYPE_CHECKING:
     from .gear import Gear
+    from .gear_checks import Mistakes
     from .pair import GearPair
 
 # Steps of halving for the largest rounding that has room.

@@ -16,8 +16,8 @@ from typing import Any
 
 from fenics_gears.effects.tooth_elasticity import material_of
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES
-from fenics_gears.geometry.gear_checks import ROUNDING, refuse, tip_radius_with_room
-from fenics_gears.geometry.gear_data import RACKS, GearData, GearPairData
+from fenics_gears.geometry.gear_checks import refuse, tip_radius_with_room
+from fenics_gears.geometry.gear_data import RACKS, ROUNDING, GearData, GearPairData
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, MODULES, PRESSURE_ANGLES, in_normal_section
 
