@@ -204,7 +204,14 @@ def _scene_of(mesh: NamedMesh, gears: Mapping[str, Any], tree: Mapping[str, Any]
     places = {name: at[2:] for name, at in zip(GEARS, mesh.places)}
     name = f"{mesh.stage} {mesh.number + 1}" if mesh.count > 1 else mesh.stage
     at = partial(in_stage, mesh.stage, places, shared.keys() - inner.keys())
-    return pair_scene(sections, name, f"{source}, stage {mesh.stage}", folder, at)
+    label = f"{source}, stage {mesh.stage}"
+    scene = pair_scene(sections, name, label, folder, at)
+    if scene.gears.wheel.teeth < 0:
+        raise SceneError(
+            f"{label}: an internal gear is not computed in a train yet. Allowed: external gears in a train, an internal"
+            f" wheel in a scene of one pair. {NOTHING_DONE}"
+        )
+    return scene
 
 
 def _direction(mesh: NamedMesh, content: Mapping[str, Any], source: str) -> float:
