@@ -111,6 +111,13 @@ def numbers_of(component: Component, name: str) -> list[float]:
         raise ValueProblem(f"{place(component, name)} is no array of numbers: {error}.") from None
 
 
+def lengths_of(component: Component, name: str) -> list[float]:
+    """The lengths (mm) of an array. Raises ValueProblem."""
+    unit = SPELLINGS.get(component.attributes[name].unit, component.attributes[name].unit)
+    said = place(component, name)
+    return [_quantity(f"{said} = {each}", repr(each), unit, "mm") for each in numbers_of(component, name)]
+
+
 def in_words(component: Component, name: str) -> str:
     """An attribute's value, or how many an array has and from where to where they go, with its unit."""
     entries = _entries(component, name)
