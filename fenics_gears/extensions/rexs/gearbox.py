@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import prod
 from pathlib import Path
 
 from fenics_gears import SceneError
 
+from . import bent_shafts
 from .attributes import Reading, needed
+from .bent_shafts import shaft_sections
 from .flanks import loaded_flanks, note_what_is_left_out, relief_sections
 from .gears import Sections, gear_sections
 from .imported import by_call, check_complete
@@ -17,15 +18,12 @@ from .loads import loaded_model, pinion_speed, wheel_torque
 from .model import RexsModel
 from .placing import direction, turning_axis
 from .read import read_model
-from .rows import in_rows, row_sections
+from .rows import in_rows, names_of_gears, row_sections
 from .scene_text import train_text
+from .shaft_parts import SECTION
 from .stage import Stage, stages_in_a_row
 from .train import is_force
-from .values import Value, ValueProblem
-
-
-# Components that are named one by one.
-MOST_NAMED = 10
+from .values import Value, ValueProblem, numbered
 
 
 @dataclass(frozen=True)
@@ -39,10 +37,7 @@ class ImportedTrain:
 
 
 def imported_train(
-    path: Path,
-    load_case: str | None = None,
-    wheel_torque: str | None = None,
-    pinion_speed: str | None = None,
+    path: Path, load_case: str | None = None, wheel_torque: str | None = None, pinion_speed: str | None = None
 ) -> ImportedTrain:
     """The stages of a REXS file, one after the other, as the text of a train's scene. Raises SceneError with all that
     is wrong. `wheel_torque` of the last gear and `pinion_speed` of the first one replace the file's."""
@@ -79,7 +74,8 @@ def _sections(reading: Reading, model: RexsModel, stages: list[Stage]) -> tuple[
     turning = turning_axis(stages[0])
     sections: Sections = {}
     placed = True
-    for row in in_rows(stages):
+    rows = in_rows(stages)
+    for row in rows:
         meshes = []
         for stage in row:
             own = _stage_sections(reading, stage)
@@ -89,29 +85,24 @@ def _sections(reading: Reading, model: RexsModel, stages: list[Stage]) -> tuple[
             meshes.append(own)
         found = meshes[0] if len(row) == 1 else row_sections(reading, row, meshes)
         sections |= {_of_train(name, row[0]): fields for name, fields in found.items()}
-    left_out = [*reading.left_out, *_beside_the_gears(model)]
-    return sections, left_out if placed else [*left_out, "directions of wheels from pinions, which the file does not say"]
-
-
-def _beside_the_gears(model: RexsModel) -> list[str]:
-    """What of the shafts a scene leaves out, in a sentence each."""
-    components = model.components.values()
-    kinds = {
-        "shaft sections": [each.id for each in components if each.type == "shaft_section"],
-        "bearings": [each.id for each in components if each.type.endswith(("_bearing", "bearing_with_catalog_geometry"))],
-        "forces on shafts": [each.id for each in components if is_force(each)],
-    }
-    found = [
-        f"{what}: component{'s' if len(numbers) > 1 else ''} {_listed(numbers)}"
-        for what, numbers in kinds.items()
-        if numbers
+    shafts = shaft_sections(reading, model, stages, names_of_gears(rows, name_of)) if bent_shafts.TAKEN else {}
+    left_out = [*reading.left_out, *_beside_the_gears(model, shafts)]
+    sections |= shafts
+    return sections, left_out if placed else [
+        *left_out,
+        "directions of wheels from pinions, which the file does not say",
     ]
+
+
+def _beside_the_gears(model: RexsModel, shafts: Sections) -> list[str]:
+    """What of the shafts a scene leaves out; where some bend, the rest is told with each that does not."""
+    components = model.components.values()
+    kinds = {"forces on shafts": [each.id for each in components if is_force(each)]}
+    if not shafts:
+        kinds["shaft sections"] = [each.id for each in components if each.type == SECTION]
+        kinds["bearings"] = [each.id for each in components if "_bearing" in each.type and "row" not in each.type]
+    found = [f"{what}: {numbered(numbers)}" for what, numbers in kinds.items() if numbers]
     return [*found, "deviations of the flanks"]
-
-
-def _listed(numbers: list[int]) -> str:
-    few = len(numbers) <= MOST_NAMED
-    return ", ".join(map(str, numbers)) if few else f"{numbers[0]} to {numbers[-1]}, {len(numbers)} in all"
 
 
 def _loads(

@@ -209,7 +209,9 @@ def _tip_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shi
     addendum = first(part, "addendum")
     modules, source = _or_standard(addendum, "addendum", ADDENDUM)
     # Programs write numbers such as 1 mm where they have none.
-    lacking = "no tip_diameter" if stated is None else f"{stated.origin} is {stated.words}, below the roots of its teeth"
+    lacking = (
+        "no tip_diameter" if stated is None else f"{stated.origin} is {stated.words}, below the roots of its teeth"
+    )
     why = f"{lacking}; from teeth, profile shift and {source}"
     number = module.number * (shifted + 2.0 * modules)
     return computed(number, 1.0, "mm", why, assumed=addendum is None or stated is not None)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import isclose
 
@@ -25,6 +25,19 @@ def in_rows(stages: Sequence[Stage]) -> list[list[Stage]]:
         else:
             rows.append([stage])
     return rows
+
+
+def names_of_gears(rows: Sequence[Sequence[Stage]], name_of: Callable[[Stage], str]) -> dict[int, str]:
+    """What a train calls the gears, by the numbers of their components."""
+    found = {}
+    for row in rows:
+        home = name_of(row[0])
+        for number, stage in enumerate(row, start=1):
+            names = (
+                (f"{home}.{number}", f"{home}.{number + 1}") if len(row) > 1 else (f"{home}.pinion", f"{home}.wheel")
+            )
+            found |= dict(zip((stage.pinion.gear.id, stage.wheel.gear.id), names))
+    return found
 
 
 def row_sections(reading: Reading, row: Sequence[Stage], meshes: Sequence[Sections]) -> Sections:
@@ -69,7 +82,9 @@ def _gear(reading: Reading, said: str, meshes: Sequence[Sections], number: int) 
     offsets = [mesh["gears.wheel"].get("axial_offset") for mesh in meshes[:number]]
     along = sum((-1.0) ** place * each.number for place, each in enumerate(offsets) if each is not None)
     if along:
-        fields["axial_offset"] = computed(along, 1.0, "mm", together(each.origin for each in offsets if each is not None))
+        fields["axial_offset"] = computed(
+            along, 1.0, "mm", together(each.origin for each in offsets if each is not None)
+        )
     return {"": fields, "rack": mesh.get(f"{name}.rack", {}), "material": material}
 
 
@@ -118,7 +133,7 @@ def _modifications(said: str, meshes: Sequence[Sections]) -> Sections:
     )
     if not alike or "lead_modifications" in names:
         raise ValueProblem(
-            f"{said} with {', '.join(names)}. A row of a scene has modifications that are the same in all of its meshes,"
+            f"{said} with {', '.join(names)}. A row of a scene has the same modifications in all of its meshes,"
             f" and none of leads. {ONE_BY_ONE}"
         )
     return of_meshes[0]

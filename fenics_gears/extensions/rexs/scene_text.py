@@ -75,7 +75,7 @@ def _listed(heading: str, items: Iterable[str]) -> list[str]:
 
 def _line(name: str, value: Value) -> str:
     assumed = "assumed: " if value.assumed else ""
-    return f"{f'{name} = {value.written}':<{COLUMN}}# {assumed}{_one_line(value.origin)}\n"
+    return f"{f'{name} = {value.written}':<{COLUMN - 1}} # {assumed}{_one_line(value.origin)}\n"
 
 
 def _one_line(text: str) -> str:

@@ -16,7 +16,7 @@ POSITION = "support_vector"
 
 @dataclass(frozen=True)
 class SectionOfShaft:
-    """A section from `start`: its length, the diameters of its ends and of its bore there, all as values of the file."""
+    """A section from `start`: its length, the diameters of its ends and those of its bore there."""
 
     component: Component
     start: Value
@@ -47,6 +47,8 @@ def _section(component: Component) -> SectionOfShaft | None:
     if not all(name in component.attributes for name in names):
         return None
     start, length, diameter = (value_of(component, name, "mm") for name in names)
+    if not (length.number > 0.0 and diameter.number > 0.0):
+        return None
 
     def either(name: str, otherwise: Value) -> Value:
         return value_of(component, name, "mm") if name in component.attributes else otherwise

@@ -21,8 +21,8 @@ Fields = dict[str, Value]
 @dataclass(frozen=True)
 class GearParts:
     """The components of one gear of a stage: itself, its flanks by side, their modifications, its tools and their
-    settings, bodies, materials, shafts, what else is on these, and its data in this stage. ``by_torque``: the side that the torque loads,
-    where that follows from the train."""
+    settings, bodies, materials, shafts, what is on its shaft, and its data in this stage. ``by_torque``: the side that
+    the torque loads, where that follows from the train."""
 
     gear: Component
     flanks: dict[str, Component]
@@ -274,7 +274,7 @@ def _side_by_torque(train: Train, stage: Component, gear: Component) -> str | No
 
 
 def _torque(train: Train, stage: Component, gear: Component) -> float | None:
-    """Torque about a gear's axis; None where it does not follow. What is wrong with it is told where it is looked up."""
+    """Torque about a gear's axis; None where it does not follow, or is wrong, which its look-up tells."""
     try:
         return train.torque(gear, stage)
     except ValueProblem:
