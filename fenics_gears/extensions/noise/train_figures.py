@@ -26,9 +26,7 @@ def train_figures(result: xr.Dataset) -> xr.Dataset:
     return xr.Dataset(
         {
             f"{OVERALL}_amplitude": over(amplitudes, units="urad", long_name=words),
-            f"{OVERALL}_level": over(
-                spectrum.level(amplitudes), units="dB re 1 urad", long_name=f"level of the {words}"
-            ),
+            f"{OVERALL}_level": over(spectrum.level(amplitudes), units="dB re 1 urad", long_name=of_levels),
         },
         {
             "order": over([each.order for each in found], units="1", long_name="events in a turn of the first shaft"),
