@@ -15,13 +15,6 @@ def scene(tmp_path):
     return gearbox_file(tmp_path)
 
 
-def test_a_map_says_that_it_is_a_train(scene, capsys):
-    """A scene without [gears] would have been called incomplete; it names the scenes that it takes."""
-    assert main(["map", str(scene)]) == 2
-    said = capsys.readouterr().err
-    assert "is a train of gears" in said and "scene.toml" in said
-
-
 def test_a_train_is_rated_mesh_by_mesh(scene, tmp_path, capsys):
     """One table; a stage has the rows that its own run has."""
     scene.write_text(scene.read_text() + '[motion]\ninput_speed = "3000 rpm"\n')

@@ -148,7 +148,7 @@ def train_map(file: Path, scene: Any, loads: Sequence[str], speeds: Sequence[str
     turning = values_of_option(SPEEDS, speeds, units.AN_ANGULAR_SPEED, why="Speeds are of the first shaft. ")
     if backwards := [each for each in written if units.quantity(each)[0] < 0.0]:
         raise SceneError(
-            f"{LOADS} {backwards[0]}: a train is driven by its first shaft, by loads above 0. {NOTHING_DONE}"
+            f"{LOADS} {backwards[0]}: a train is driven by its first shaft. Allowed: above 0. {NOTHING_DONE}"
         )
     if turning and "inertia" not in tree:
         raise SceneError(

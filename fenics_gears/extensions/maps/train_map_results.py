@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 import fenics_gears
 from fenics_gears import OVERALL, carried_train, load, overall_orders
-from fenics_gears.charts import DARK, GREY, MARKED_LINES, PALETTE, WORDS, Chart, Curve, shades, span
+from fenics_gears.charts import DARK, GREY, MARKED_LINES, PALETTE, Chart, Curve, shades, span, words_apart
 from fenics_gears.many_runs import Outcome, load_combined
 
 from .train_map import LOADS_OF_TRAIN, TrainMap
@@ -21,6 +22,7 @@ OF_MESHES = (
     "peak_to_peak_transmission_error", "mean_transmission_error", "mean_mesh_stiffness", "peak_contact_pressure",
     "largest_pair_force", "max_normal_force", "face_load_factor",
 )  # fmt: skip
+OF_LAST = "Peak to peak (µrad)"
 # Harmonics of each mesh that lines are drawn of.
 DRAWN = 3
 Columns = dict[str, tuple[tuple[str, ...], np.ndarray, dict[str, str]]]
@@ -33,15 +35,16 @@ def train_map_dataset(wanted: TrainMap, at_rest: Outcome, over_speed: Outcome | 
     unit, words = LOADS_OF_TRAIN[wanted.given]
     dataset = xr.Dataset(coords={"load": ("load", np.array(wanted.numbers), {"units": unit, "long_name": words})})
     dataset = dataset.assign(_taken(at_rest, ("load",), ""))
-    dataset = dataset.assign(_amplitudes(at_rest, ("load",), dataset.sizes["load"], ""))
+    outcomes: dict[tuple[str, tuple[str, ...]], Outcome] = {("", ("load",)): at_rest}
     if over_speed is not None:
         of_speed = {"units": "rpm", "long_name": "speed of the first shaft"}
         dataset = dataset.assign_coords(input_speed=("input_speed", np.array(wanted.rpm), of_speed))
         dataset = dataset.assign(_taken(over_speed, ("load", "input_speed"), DYNAMIC))
-        dataset = dataset.assign(_amplitudes(over_speed, ("load", "input_speed"), dataset.sizes["load"], DYNAMIC))
+        outcomes[DYNAMIC, ("load", "input_speed")] = over_speed
         modes = over_speed.study.cases[0].model.rows[0].vibrations
         note = {"units": "Hz", "long_name": "natural frequency with one tooth pair in each mesh, about"}
         dataset["natural_frequency"] = (("mode",), np.array([each.frequency for each in modes]), note)
+    dataset = dataset.assign(_amplitudes(outcomes, dataset.sizes["load"]))
     return dataset.assign_attrs(
         title=wanted.scene.title, scene=wanted.scene.text, fenics_gears_version=fenics_gears.__version__
     )
@@ -63,32 +66,42 @@ def _taken(outcome: Outcome, dimensions: tuple[str, ...], prefix: str) -> Column
     return found
 
 
-def _amplitudes(outcome: Outcome, dimensions: tuple[str, ...], loads: int, prefix: str) -> Columns:
-    """Amplitudes of the overall transmission error by its orders, which all runs of a train have alike."""
-    cases = outcome.study.cases
-    orders = None
-    values = np.zeros((0, 0))
-    for index in outcome.records:
-        run = load(outcome.file.parent / "cases" / f"{cases[index].name}.nc")
-        found = overall_orders(run, carried_train(run))
-        if orders is None:
-            orders = found
-            values = np.full((len(cases), len(found)), np.nan)
-        if [each.harmonic for each in found] == [each.harmonic for each in orders]:
-            values[index] = [MICRORADIANS * each.amplitude for each in found]
-    if orders is None:
-        return {}
-    shape = (loads, len(cases) // loads)[: len(dimensions)]
-    words = "amplitude of the lag of the last shaft"
-    numbers = np.array([each.order for each in orders])
-    return {
-        "order": (("order",), numbers, {"units": "1", "long_name": "events in a turn of the first shaft"}),
-        "meshes_of_order": (("order",), np.array([each.meshes for each in orders], dtype=object), {}),
-        "harmonic": (("order",), np.array([each.harmonic for each in orders]), {"units": "1"}),
-        f"{prefix}{OVERALL}_amplitude": (
-            (*dimensions, "order"), values.reshape(*shape, len(orders)), {"units": "urad", "long_name": words},
-        ),
-    }  # fmt: skip
+def _amplitudes(outcomes: dict[tuple[str, tuple[str, ...]], Outcome], loads: int) -> Columns:
+    """Amplitudes of the overall transmission error by its orders, of all studies over the same ones; by prefix and
+    dimensions of each."""
+    known: dict[tuple[int, int], Any] = {}
+    every = []
+    for outcome in outcomes.values():
+        values: dict[tuple[int, int], np.ndarray] = {}
+        for index in outcome.records:
+            run = load(outcome.file.parent / "cases" / f"{outcome.study.cases[index].name}.nc")
+            for each in overall_orders(run, carried_train(run)):
+                key = each.place, each.harmonic
+                known.setdefault(key, each)
+                values.setdefault(key, np.full(len(outcome.study.cases), np.nan))[index] = each.amplitude
+        every.append(values)
+    keys = sorted(known, key=lambda key: (known[key].order, key))
+    labels = {"units": "urad", "long_name": "amplitude of the lag of the last shaft"}
+    found: Columns = {}
+    for ((prefix, dimensions), outcome), values in zip(outcomes.items(), every):
+        cases = len(outcome.study.cases)
+        shape = (loads, cases // loads)[: len(dimensions)]
+        nothing = np.full(cases, np.nan)
+        amplitudes = MICRORADIANS * np.array([values.get(key, nothing) for key in keys])
+        found[f"{prefix}{OVERALL}_amplitude"] = (
+            (*dimensions, "order"),
+            amplitudes.T.reshape(*shape, len(keys)),
+            labels,
+        )
+    names = np.array([known[key].meshes for key in keys], dtype=object)
+    turns = np.array([known[key].order for key in keys])
+    over = ("order",)
+    return found | {
+        "order": (over, turns, {"units": "1", "long_name": "events in a turn of the first shaft"}),
+        "meshes_of_order": (over, names, {"long_name": "meshes that have an order"}),
+        "place": (over, np.array([key[0] for key in keys]), {"long_name": "place of the first of them in the train"}),
+        "harmonic": (over, np.array([key[1] for key in keys]), {"long_name": "multiple of the mesh frequency"}),
+    }
 
 
 def train_map_pictures(found: xr.Dataset) -> dict[str, tuple[str, list[Chart]]]:
@@ -113,21 +126,27 @@ def _over(found: xr.Dataset, over: str, axis: str, prefix: str) -> Iterator[Char
     """The overall transmission error, its orders, and those of all meshes over an axis."""
     places = found[over].values
     whole = f"{prefix}peak_to_peak_{OVERALL}"
-    yield _chart({"": found[whole].values}, places, axis, "Overall transmission error, peak to peak", "urad")
+    yield _chart({"": found[whole].values}, places, axis, "Overall transmission error, peak to peak", OF_LAST)
     at = f" at {float(found['load']):g} {found['load'].attrs['units']}" if over != "load" else ""
     amplitudes = found[f"{prefix}{OVERALL}_amplitude"]
     curves = {
         f"{int(found['harmonic'][number])} × {found['meshes_of_order'].values[number]}": amplitudes[..., number].values
         for number in np.flatnonzero(found["harmonic"].values <= DRAWN)
     }
-    yield _chart(curves, places, axis, f"Its orders{at}", "urad")
+    yield _chart(curves, places, axis, f"Its orders{at}", "Amplitude (µrad)")
     errors = found[f"{prefix}peak_to_peak_transmission_error"]
     of_meshes = {str(name): errors.sel(mesh=name).values for name in found["mesh"].values}
-    yield _chart(of_meshes, places, axis, f"Transmission error of each mesh, peak to peak{at}", "urad of its wheel")
+    yield _chart(
+        of_meshes,
+        places,
+        axis,
+        f"Transmission error of each mesh, peak to peak{at}",
+        "Peak to peak (µrad of its wheel)",
+    )
     if f"{prefix}largest_pair_force" in found:
         forces = found[f"{prefix}largest_pair_force"]
         of_meshes = {str(name): forces.sel(mesh=name).values for name in found["mesh"].values}
-        yield _chart(of_meshes, places, axis, f"Largest force of a tooth pair{at}", "N")
+        yield _chart(of_meshes, places, axis, f"Largest force of a tooth pair{at}", "Force (N)")
 
 
 def _of_loads(found: xr.Dataset, axis: str) -> Chart:
@@ -135,44 +154,44 @@ def _of_loads(found: xr.Dataset, axis: str) -> Chart:
     errors = found[f"{DYNAMIC}peak_to_peak_{OVERALL}"]
     curves = {f"{each:g} {unit}": errors.sel(load=each).values for each in found["load"].values}
     speeds = found["input_speed"].values
-    return _chart(curves, speeds, axis, "Overall transmission error, peak to peak", "urad", shades(len(curves)))
+    return _chart(curves, speeds, axis, "Overall transmission error, peak to peak", OF_LAST, shades(len(curves)))
 
 
 def _chart(
-    curves: dict[str, np.ndarray], x: np.ndarray, axis: str, caption: str, unit: str,
+    curves: dict[str, np.ndarray], x: np.ndarray, axis: str, caption: str, title: str,
     colours: Sequence[str] = (*PALETTE, *PALETTE),
 ) -> Chart:  # fmt: skip
     drawn = [
         Curve(name, x, values, colour, mode=MARKED_LINES) for (name, values), colour in zip(curves.items(), colours)
     ]
-    title = unit.replace("urad", "µrad")
     return Chart(caption, drawn, axis, title, height=270, least=span([(each.name, each.y, "") for each in drawn]))
 
 
 def _campbell(found: xr.Dataset, axis: str) -> Chart:
     """Frequencies of all mesh orders over the speed, and the natural frequencies."""
     fastest = float(found["input_speed"].max())
-    meshes = list(dict.fromkeys(found["meshes_of_order"].values))
     drawn = np.flatnonzero(found["harmonic"].values <= DRAWN)
+    # Meshes in the order of the train.
+    drawn = drawn[np.argsort(found["place"].values[drawn], kind="stable")]
+    meshes = list(dict.fromkeys(found["meshes_of_order"].values[drawn]))
     ends = np.array([0.0, fastest])
     curves = []
-    places = []
+    said: dict[float, list[str]] = {}
     for number in drawn:
         name = found["meshes_of_order"].values[number]
-        slope = float(found["order"][number]) / 60.0
+        order = float(found["order"][number])
         harmonic = int(found["harmonic"][number])
         colour = (*PALETTE, DARK)[meshes.index(name) % (len(PALETTE) + 1)]
-        curves.append(Curve(name, ends, slope * ends, colour, listed=harmonic == 1))
-        places.append((fastest, slope * fastest, f"{harmonic} × {name}"))
-    top = max(height for _, height, _ in places)
+        curves.append(Curve(name, ends, order / 60.0 * ends, colour, listed=harmonic == 1))
+        said.setdefault(round(order, 6), []).append(f"{harmonic} × {name}")
+    top = max(said) / 60.0 * fastest
     shown = found["natural_frequency"].values
-    for place, frequency in enumerate(shown[shown < top]):
+    shown = shown[shown < top]
+    for place, frequency in enumerate(shown):
         level = np.full(2, frequency)
         curves.append(Curve("natural frequencies", ends, level, GREY, dash="dash", listed=place == 0))
-        places.append((0.0, frequency, f"{frequency:.0f} Hz"))
-    x, y, words = (list(each) for each in zip(*places))
-    curves.append(
-        Curve("words", np.array(x), np.array(y), DARK, mode=WORDS, listed=False, words=words, beside="top right")
-    )
-    ranges = {"x_range": (0.0, 1.25 * fastest), "y_range": (0.0, 1.06 * top)}
+    places = [(fastest, order / 60.0 * fastest, ", ".join(words)) for order, words in said.items()]
+    places += [(0.0, frequency, f"{frequency:.0f} Hz") for frequency in shown]
+    curves.append(words_apart(places, 0.035 * top, "top right"))
+    ranges = {"x_range": (0.0, 1.3 * fastest), "y_range": (0.0, 1.06 * top)}
     return Chart("", curves, axis, "Frequency (Hz)", height=560, **ranges)
