@@ -20,8 +20,6 @@ from .stage import Stage
 from .train import TORQUE, axis_of
 from .values import Value, ValueProblem, computed, numbered, value_of, word_of
 
-# Whether the scene of a train takes shafts that bend.
-TAKEN = False
 # N/mm: what holds without giving way. Files write 1e22 N/m, or that a bearing absorbs axial forces, and no stiffness.
 RIGID = 1e9
 # Sections that follow each other without a gap, mm.

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from fenics_gears import SceneError
 
-from . import bent_shafts
 from .attributes import Reading, needed
 from .bent_shafts import shaft_sections
 from .flanks import loaded_flanks, note_what_is_left_out, relief_sections
@@ -37,10 +36,15 @@ class ImportedTrain:
 
 
 def imported_train(
-    path: Path, load_case: str | None = None, wheel_torque: str | None = None, pinion_speed: str | None = None
+    path: Path,
+    load_case: str | None = None,
+    wheel_torque: str | None = None,
+    pinion_speed: str | None = None,
+    bent: bool = False,
 ) -> ImportedTrain:
     """The stages of a REXS file, one after the other, as the text of a train's scene. Raises SceneError with all that
-    is wrong. `wheel_torque` of the last gear and `pinion_speed` of the first one replace the file's."""
+    is wrong. `wheel_torque` of the last gear and `pinion_speed` of the first one replace the file's; `bent`: with its
+    shafts, those that it describes completely."""
     given = by_call(wheel_torque, pinion_speed)
     reading = Reading()
     model = read_model(path)
@@ -51,7 +55,7 @@ def imported_train(
         stages = stages_in_a_row(loaded or model)
     except ValueProblem as problem:
         raise SceneError(f"{path}: {problem}\nNothing was written.") from None
-    sections, left_out = _sections(reading, loaded or model, stages)
+    sections, left_out = _sections(reading, loaded or model, stages, bent)
     sections |= _loads(reading, loaded, stages, given)
     check_complete(reading, path)
     assumed = [
@@ -69,7 +73,7 @@ def imported_train(
     )
 
 
-def _sections(reading: Reading, model: RexsModel, stages: list[Stage]) -> tuple[Sections, list[str]]:
+def _sections(reading: Reading, model: RexsModel, stages: list[Stage], bent: bool) -> tuple[Sections, list[str]]:
     """Sections of all stages, and what is left out."""
     turning = turning_axis(stages[0])
     sections: Sections = {}
@@ -85,7 +89,7 @@ def _sections(reading: Reading, model: RexsModel, stages: list[Stage]) -> tuple[
             meshes.append(own)
         found = meshes[0] if len(row) == 1 else row_sections(reading, row, meshes)
         sections |= {_of_train(name, row[0]): fields for name, fields in found.items()}
-    shafts = shaft_sections(reading, model, stages, names_of_gears(rows, name_of)) if bent_shafts.TAKEN else {}
+    shafts = shaft_sections(reading, model, stages, names_of_gears(rows, name_of)) if bent else {}
     left_out = [*reading.left_out, *_beside_the_gears(model, shafts)]
     sections |= shafts
     return sections, left_out if placed else [

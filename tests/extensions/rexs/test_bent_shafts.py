@@ -5,17 +5,11 @@ import tomllib
 import pytest
 from tests.extensions.rexs.test_gearbox import BOX, at, related, train_of, with_component, written
 
-from fenics_gears.extensions.rexs import bent_shafts
 from fenics_gears.extensions.rexs.gearbox import imported_train
 
 # Shaft 3 begins at u = 10 mm and carries gears 6 and 51, 30 and 100 mm from there.
 PLACES = {2: (0, 0, 0), 5: (40, 0, 0), 3: (10, 120, 0), 6: (40, 120, 0), 51: (110, 120, 0), 52: (110, 120, 120)}
 SECTIONS = ((0, 50, 30, 30), (50, 70, 40, 35), (120, 20, 35, 35))
-
-
-@pytest.fixture(autouse=True)
-def taken(monkeypatch):
-    monkeypatch.setattr(bent_shafts, "TAKEN", True)
 
 
 def box(stiffness=2e8, outer=80, torque="100.0"):
@@ -38,7 +32,7 @@ def box(stiffness=2e8, outer=80, torque="100.0"):
 
 
 def shafts_of(tmp_path, text):
-    found = imported_train(written(tmp_path, text))
+    found = imported_train(written(tmp_path, text), bent=True)
     return tomllib.loads(found.text).get("shafts", {}), found
 
 
@@ -100,9 +94,8 @@ def test_a_bearing_that_does_not_give_way(tmp_path):
     assert own["bearings"][1]["radial_stiffness"] == "1000000000 N/mm"
 
 
-def test_shafts_stay_rigid_where_a_train_takes_none_that_bend(tmp_path, monkeypatch):
-    """What the program would refuse is not written."""
-    monkeypatch.setattr(bent_shafts, "TAKEN", False)
+def test_shafts_stay_rigid_unless_they_are_asked_for(tmp_path):
+    """With shafts that bend all stages move together, which takes longer; what is not taken over is told."""
     found = train_of(tmp_path, box())[1]
     assert "[shafts" not in found.text.split("title", 1)[1]
     assert "shaft sections: components 90, 91, 92" in found.left_out
