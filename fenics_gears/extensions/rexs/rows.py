@@ -29,7 +29,7 @@ def in_rows(stages: Sequence[Stage]) -> list[list[Stage]]:
 
 def names_of_gears(rows: Sequence[Sequence[Stage]], name_of: Callable[[Stage], str]) -> dict[int, str]:
     """What a train calls the gears, by the numbers of their components."""
-    found = {}
+    found: dict[int, str] = {}
     for row in rows:
         home = name_of(row[0])
         for number, stage in enumerate(row, start=1):
