@@ -131,7 +131,7 @@ def _over(found: xr.Dataset, over: str, axis: str, prefix: str) -> Iterator[Char
     amplitudes = found[f"{prefix}{OVERALL}_amplitude"]
     curves = {
         f"{int(found['harmonic'][number])} × {found['meshes_of_order'].values[number]}": amplitudes[..., number].values
-        for number in np.flatnonzero(found["harmonic"].values <= DRAWN)
+        for number in _drawn_orders(found)
     }
     yield _chart(curves, places, axis, f"Its orders{at}", "Amplitude (µrad)")
     errors = found[f"{prefix}peak_to_peak_transmission_error"]
@@ -147,6 +147,12 @@ def _over(found: xr.Dataset, over: str, axis: str, prefix: str) -> Iterator[Char
         forces = found[f"{prefix}largest_pair_force"]
         of_meshes = {str(name): forces.sel(mesh=name).values for name in found["mesh"].values}
         yield _chart(of_meshes, places, axis, f"Largest force of a tooth pair{at}", "Force (N)")
+
+
+def _drawn_orders(found: xr.Dataset) -> np.ndarray:
+    """Places of the lowest harmonics, meshes in the order of the train."""
+    drawn = np.flatnonzero(found["harmonic"].values <= DRAWN)
+    return drawn[np.argsort(found["place"].values[drawn], kind="stable")]
 
 
 def _of_loads(found: xr.Dataset, axis: str) -> Chart:
@@ -170,9 +176,7 @@ def _chart(
 def _campbell(found: xr.Dataset, axis: str) -> Chart:
     """Frequencies of all mesh orders over the speed, and the natural frequencies."""
     fastest = float(found["input_speed"].max())
-    drawn = np.flatnonzero(found["harmonic"].values <= DRAWN)
-    # Meshes in the order of the train.
-    drawn = drawn[np.argsort(found["place"].values[drawn], kind="stable")]
+    drawn = _drawn_orders(found)
     meshes = list(dict.fromkeys(found["meshes_of_order"].values[drawn]))
     ends = np.array([0.0, fastest])
     curves = []
