@@ -26,8 +26,8 @@ from fenics_gears.scene.train import TrainScene
 
 SCENE = Path(__file__).parents[2] / "demos" / "gear_trains" / "idler.toml"
 SIZES = MeshSizes(flank=0.12, tip=0.12, fillet=0.3, coarse=0.8, body=3.0)
-# Of the first mesh: no tip edge touches in either mesh, but at the last one, where that of the last gear comes in early.
-PHASES = (0.1, 0.3, 0.75)
+# Of the first mesh. No tip edge touches in either mesh but at the last one, where the last gear's comes in early.
+PHASES = (0.1, 0.3, 0.71, 0.75)
 MIRROR = np.array([[1.0, 0.0], [0.0, -1.0]])
 # Rotations are changed by so much of themselves to find how the couples change, and are that close in the end.
 CHANGED, CLOSE_ENOUGH = 0.01, 1e-5

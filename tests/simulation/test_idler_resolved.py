@@ -5,8 +5,9 @@ from tests.benchmarks import idler_resolved as resolved
 
 from fenics_gears import load_train
 
-# Of the first mesh: no tip edge touches in either mesh; where one does, contact leaves the line of action (1 % at 0.75).
-PHASES = (0.1, 0.3)
+# Of the first mesh: two tooth pairs and one in both meshes. No tip edge touches; where one does, contact leaves the line
+# of action (1 % at 0.75).
+PHASES = (0.1, 0.71)
 
 
 @pytest.fixture(scope="module")
@@ -25,8 +26,7 @@ def test_the_second_mesh_of_an_idler_stands_where_its_outline_says(train):
 @pytest.mark.nightly
 @pytest.mark.parametrize("phase", PHASES)
 def test_lags_are_those_of_a_resolved_model(train, phase):
-    """Whole gears in six-node triangles, contact found on the moving surfaces: within 0.5 % (measured: 0.1 and
-    0.03 %)."""
+    """Whole gears in six-node triangles, contact found on the moving surfaces: within 0.5 % (measured: 0.16 %)."""
     at = resolved.position(train, phase)
     (own,) = resolved.by_this_program(train, [at])
     found = resolved.by_finite_elements(train, at, own, resolved.SIZES)
