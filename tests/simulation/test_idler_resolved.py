@@ -5,8 +5,8 @@ from tests.benchmarks import idler_resolved as resolved
 
 from fenics_gears import load_train
 
-# Of the first mesh: two tooth pairs and one in both meshes. No tip edge touches; where one does, contact leaves the line
-# of action (1 % at 0.75).
+# Of the first mesh: two tooth pairs and one in both meshes. No tip edge touches; where one does, contact leaves the
+# line of action (1 % at 0.75).
 PHASES = (0.1, 0.71)
 
 
