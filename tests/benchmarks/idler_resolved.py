@@ -23,6 +23,7 @@ from tests.corner_contact_reference.gear_mesh import GearMesh, MeshSizes, gear_m
 from fenics_gears import GearPair, load_train, simulate_train
 from fenics_gears.geometry.outline import centreline_angle
 from fenics_gears.scene.train import TrainScene
+from fenics_gears.scene.train_mesh import layout_of
 
 SCENE = Path(__file__).parents[2] / "demos" / "gear_trains" / "idler.toml"
 SIZES = MeshSizes(flank=0.12, tip=0.12, fillet=0.3, coarse=0.8, body=3.0)
@@ -66,9 +67,9 @@ class Position:
 
 def position(train: TrainScene, phase: float) -> Position:
     """The gears of a row of three; raises ValueError for another train."""
-    first, second = train.meshes
-    if second.idler is None:
+    if layout_of(train.meshes).graph.shared != [1] or len(train.meshes) != 2:
         raise ValueError("a row of three gears is needed")
+    first, second = train.meshes
     towards = np.angle(complex(*wheel_centre(first.pair))) + second.direction - first.direction
     own = np.angle(complex(*(MIRROR @ wheel_centre(second.pair))))
     return Position((first.pair, second.pair), phase, float(towards - own))
@@ -127,7 +128,7 @@ def by_this_program(train: TrainScene, positions: list[Position]) -> np.ndarray:
     """Of the idler and the last gear (n, 2). Raises ValueError where its phases are not those of the outlines."""
     run = simulate_train(train)
     phases = run.mesh_phase.values[:, 0]
-    begun = train.meshes[1].idler.phase
+    begun = layout_of(train.meshes).phases[1]
     found = []
     for at in positions:
         step = int(np.argmin(np.abs(phases - at.phase)))

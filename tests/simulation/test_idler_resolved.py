@@ -4,10 +4,12 @@ import pytest
 from tests.benchmarks import idler_resolved as resolved
 
 from fenics_gears import load_train
+from fenics_gears.scene.train_mesh import layout_of
 
 # Of the first mesh: two tooth pairs and one in both meshes. No tip edge touches; where one does, contact leaves the
 # line of action (1 % at 0.75).
 PHASES = (0.1, 0.71)
+IDLER = 1
 
 
 @pytest.fixture(scope="module")
@@ -18,9 +20,9 @@ def train():
 def test_the_second_mesh_of_an_idler_stands_where_its_outline_says(train):
     """Exact geometry: how far the idler's teeth are turned follows from its contact in the first mesh, and its phase in
     the second from there and the direction of the last gear."""
-    idler = train.meshes[1].idler
+    layout = layout_of(train.meshes)
     at = resolved.position(train, 0.0)
-    assert at.second == (idler.teeth, pytest.approx(idler.phase, abs=1e-12))
+    assert at.second == (layout.shared(IDLER, 0, 1).tooth, pytest.approx(layout.phases[1], abs=1e-12))
 
 
 @pytest.mark.nightly

@@ -14,6 +14,7 @@ from fenics_gears.dynamics.steps import Steps
 from fenics_gears.dynamics.train import drivetrain_of_mesh
 from fenics_gears.model.train import RowModel, train_model_of
 from fenics_gears.results.contact_variables import energy_of_teeth
+from fenics_gears.scene.train_mesh import layout_of
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 
@@ -140,7 +141,7 @@ def test_pairs_of_both_meshes_of_an_idler_touch_along_their_paths():
     about as much."""
     scene = row((24, 31, 40), (0, 60), 300.0)
     found = simulate_train(scene)
-    assert scene.meshes[1].idler.phase == pytest.approx(0.193, abs=1e-3)
+    assert layout_of(scene.meshes).phases[1] == pytest.approx(0.193, abs=1e-3)
     for number, mesh in enumerate(scene.meshes):
         own = found.isel(mesh=number).transpose("step", "slot", ...)
         way = (
