@@ -36,8 +36,8 @@ SUPPORT = dict.fromkeys(("stiffness", "stiffness_x", "stiffness_y"), "0.155e6 N/
 UNITS = {
     "a length": "mm", "an angle": "deg", "a stress": "GPa", "a torque": "N m", "a frequency (1/time)": "Hz",
     "an angular speed": "rpm", "a diametral pitch (1/length)": "1/mm",
-    "a torsional stiffness": "N mm/rad", "a stiffness": "N/mm", "a stiffness per area": "N/mm^3", "a mass": "kg", "a moment of inertia": "kg m^2",
-    "a density": "g/cm^3", "a time": "s",
+    "a torsional stiffness": "N mm/rad", "a stiffness": "N/mm", "a mass": "kg", "a moment of inertia": "kg m^2",
+    "a density": "g/cm^3", "a time": "s", "a stiffness per area": "N/mm^3",
     "a percentage": "%", "a power": "kW", "a dynamic viscosity": "mPa s",
 }  # fmt: skip
 
