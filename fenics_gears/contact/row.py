@@ -38,11 +38,18 @@ def at_phase(mesh: Mesh, phase: float) -> Mesh:
 @dataclass(frozen=True)
 class MeshOfRow:
     """A mesh of a train: its `cycle` over the coordinates (l,) of its own two gears, and how these follow (l, k) from
-    those of the train. `offset` (l,), mm: where its own coordinates are as nothing moves, none unless given."""
+    those of the train; no contact moves the last `modes` of these. `offset` (l,), mm: where its own coordinates are as
+    nothing moves, none unless given."""
 
     cycle: Cycle
     coordinates: np.ndarray
     offset: np.ndarray | None = None
+    modes: int = 0
+
+    @property
+    def moving(self) -> np.ndarray:
+        """The same (l, c) of the coordinates that contact moves."""
+        return self.coordinates[:, : self.coordinates.shape[1] - self.modes]
 
     def gap_of(self, operator: ContactOperator) -> np.ndarray:
         """Gaps (n,) as nothing moves."""
@@ -151,13 +158,13 @@ class RowCycle(Cycle):
         cycles = [each.cycle for each in self._members]
         compliance, compliance_before = self._compliance.of(cycles, parts, (first, first_before), step - before)
         operators = [part.position.operator for part in parts]
-        moved = [each.jacobian @ mesh.coordinates for each, mesh in zip(operators, self._members)]
+        moved = [each.stored_jacobians[0] @ mesh.moving for each, mesh in zip(operators, self._members)]
         jacobian = _stacked(moved, operators)
         rigid_slip = None
         jacobian_before = None
         if self.tangential:
             rigid_slip = np.concatenate([each.rigid_slip for each in operators])
-            stood = [each.previous_jacobian @ mesh.coordinates for each, mesh in zip(operators, self._members)]
+            stood = [each.stored_jacobians[1] @ mesh.moving for each, mesh in zip(operators, self._members)]
             jacobian_before = np.concatenate(stood)
         operator = ContactOperator(
             pairs=tuple(pair for each in operators for pair in each.pairs),
@@ -171,7 +178,7 @@ class RowCycle(Cycle):
             previous_jacobian=jacobian_before,
             dependent_rows=sum(each.dependent_rows for each in operators),
             face=operators[0].face,
-            coordinates=jacobian.shape[1],
+            coordinates=self._members[0].coordinates.shape[1],
         )
         before_now = np.concatenate([_moved(part.position.node_before, part.first_before) for part in parts])
         of_meshes = tuple(each for part in parts for each in _of_meshes(part))

@@ -187,7 +187,7 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
             )  # fmt: skip
         free = turned(motion.free_motion, outer)
         if motion.modes:
-            free = free[:moved]
+            free = moved_by_contact(free, len(outer), moved)
         equations = Equations(
             modes.stiffness, _left_load(load, modes), contact.compliance, contact.jacobian, contact.gap,
             slip_before, motion.friction, free, contact.rows,
@@ -263,6 +263,12 @@ def slip_at_start(rigid_slip, previous_jacobian, columns, rows_before, position,
     for node in range(len(displaced)):
         displaced[node] = rigid_slip[node] - displaced[node]
     return displaced
+
+
+@njit(cache=True)
+def moved_by_contact(free_motions, k, c):
+    """Free motions (f k,) over the first c of their k coordinates, (f c,): the others are modes."""
+    return free_motions.reshape(len(free_motions) // k, k)[:, :c].copy().ravel()
 
 
 @njit(cache=True)

@@ -112,13 +112,16 @@ class Line:
 
 @dataclass(frozen=True)
 class ElasticShaft:
-    """The shaft of the "pinion" or the "wheel": its `sections` of one `material` (Young's modulus, N/mm^2, Poisson's
-    ratio), the middle of the gear's seat, mm from the left end, the `seat`'s width, mm, where the torque is coupled,
-    and the bearings.
+    """The shaft of the "pinion", the "wheel" or another gear by its name: its `sections` of one `material` (Young's
+    modulus, N/mm^2, Poisson's ratio), the middle of the gear's seat, mm from the left end, the `seat`'s width, mm,
+    where the torque is coupled, and the bearings.
 
     `integral`: whether the gear is cut into the shaft. Its `sections` then have the root diameter within the face, and
     it yields there (`elastic_shaft_seat`). `hub`: the gear's hub and the bore's part of the shaft, which yield under a
     gear that is pressed on; None where neither does. `in_housing`: whether the bearings are in a housing that yields.
+
+    Of a shaft that carries several gears each has its part: one `goes_on` where its right end is one with the left end
+    of the next shaft of its system.
 
     Of a shaft that vibrates: the sections that are `heavy`, where not all that bend are, its `density`, N s^2/mm^4, and
     the frequency, Hz, `up_to` which it has modes of its own.
@@ -137,6 +140,7 @@ class ElasticShaft:
     density: float = 0.0
     up_to: float = inf
     hub: Hub | None = None
+    goes_on: bool = False
 
     @property
     def yields_within(self) -> bool:
@@ -162,7 +166,8 @@ class ElasticShaft:
     @property
     def of_gear(self) -> tuple[str, ...]:
         """Names of the coordinates of the gear's middle."""
-        return tuple(f"{name}{NUMBERS[self.gear]}" for name in MOTIONS)
+        number = NUMBERS.get(self.gear, f" of {self.gear}")
+        return tuple(f"{name}{number}" for name in MOTIONS)
 
     @property
     def of_face(self) -> tuple[str, ...]:

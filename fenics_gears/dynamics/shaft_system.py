@@ -137,13 +137,19 @@ class ShaftSystem(ShaftsAtRest):
                 mass += own.T @ each.mass @ own
         return mass
 
+    def motions_over(self, names: Sequence[str]) -> np.ndarray:
+        """Given motions and modes (g + m, k) per coordinate of a drivetrain of such names, in mm and rad, as far as the
+        gears' turns do not move them."""
+        moved = np.zeros((len(self.mass), len(names)))
+        places = [names.index(name) for name in self.coordinates]
+        moved[:, places] = block_diag(self.selected(self.bending_names), np.eye(len(self.own_modes)))
+        return moved
+
     def mass_over(self, names: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:
         """The mass (k, k) over a drivetrain's coordinates of such names, in N, mm, s and rad; and the momentum (k,)
         over these per speed (rad/s) of the prescribed rotation of a whole input shaft, as far as it is not that of the
         gear."""
-        moved = np.zeros((len(self.mass), len(names)))
-        places = [names.index(name) for name in self.coordinates]
-        moved[:, places] = block_diag(self.selected(self.bending_names), np.eye(len(self.own_modes)))
+        moved = self.motions_over(names)
         turning = np.zeros(len(self.mass))
         given = len(self.given)
         for shaft in self.shafts:

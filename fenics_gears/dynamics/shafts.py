@@ -1,6 +1,6 @@
 """Shafts: their torsional stiffness, or their sections, of which they bend, twist and stretch."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from fenics_gears.geometry.gear_data import MATERIALS, Material, material_name, poissons_ratio, youngs_modulus
 from fenics_gears.inputs.allowed import Matrix
@@ -146,6 +146,8 @@ class Shafts(Section):
         " `[[bearings.wheel]]`, in the form of that of one shaft",
         "each shaft has its own, if any",
     )
+    # Of a pair in a train, whose gears share shafts with those of other pairs; not of scenes.
+    in_train: bool = field(default=False, compare=False)
 
     def of(self, shaft: str) -> float | None:
         """Torsional stiffness (N mm/rad) of the "input" or the "output" shaft; None where it has sections or is
@@ -157,3 +159,8 @@ class Shafts(Section):
         """The shafts that have sections, by the gears on them; None where there are none."""
         both = zip(("pinion", "wheel"), (self.input, self.output))
         return {gear: each for gear, each in both if each is not None and each.sections is not None} or None
+
+    @property
+    def of_pair(self) -> dict[str, Shaft] | None:
+        """The same where they are the pair's alone."""
+        return None if self.in_train else self.sections

@@ -206,6 +206,10 @@ class ShaftsAtRest:
             elements += chain.outside
             for number in range(len(shaft.bearings)):
                 elements += self.of_bearing(shaft, chain, number, loaded)
+        for shaft, chain, behind in zip(self.shafts, chains, self.shafts[1:]):
+            if shaft.goes_on:
+                ends = motions_of(shaft.gear, len(chain.places) - 1), motions_of(behind.gear, 0)
+                elements.append(Link((*ends[0], *ends[1])))
         if self.housing is not None:
             rigid = RIGID * np.diag(TILTING)
             matrices = (rigid if each.rolling is not None else np.array(each.matrix) for each in self.bearings)

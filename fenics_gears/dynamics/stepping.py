@@ -26,6 +26,7 @@ from .compiled_march import (
     begin,
     eliminated,
     left_load,
+    moved_by_contact,
     slip_at_start,
     turned,
     with_modes,
@@ -259,11 +260,14 @@ class Stepper:
         """The step of `scheme` from `state`, solved from the sets `status` (n,); `last`: the solution before, if there
         is one."""
         load, rolling = scheme.load(state, self.load(step)), self.drivetrain.rolling
+        sets = status.copy()
 
         def linear(stiffness: np.ndarray, load: np.ndarray) -> StepSolution:
             modes = eliminated(stiffness, self.drivetrain.modes)
             problem = self._problem(scheme, position.operator, modes, load, slip_before)
-            solution = self.cycle.solve(position, problem, status.copy(), last)
+            # On rolling bearings again and again: from the sets that were found last.
+            solution = self.cycle.solve(position, problem, sets.copy(), last)
+            sets[:] = solution.status
             return replace(solution, coordinates=with_modes(solution.coordinates, load, modes))
 
         try:
@@ -279,7 +283,7 @@ class Stepper:
         (compliance, rows), (jacobian, _) = operator.stored, operator.stored_jacobians
         free = self._moved_freely(scheme, load)
         if self.drivetrain.modes:
-            free = free[: len(modes.stiffness)]
+            free = moved_by_contact(free, len(load), len(modes.stiffness))
         return StepProblem(
             modes.stiffness, left_load(load, modes), compliance, jacobian, operator.gap, slip_before,
             self.friction, free, self.tolerance, self._free_words, rows,

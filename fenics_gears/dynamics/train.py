@@ -46,11 +46,12 @@ class MeshSprings:
 class TrainDrivetrain(Drivetrain):
     """Equations of motion of a train. `motions` (f, k): those of shafts that turn together, which without mass some
     meshes alone hold. `angle` (k,): rotation (rad) of the last shaft; `of_meshes`: of each mesh, how its own
-    coordinates (l, k) follow."""
+    coordinates (l, k) follow; `end` (k,): rotation (rad) of the load."""
 
     motions: tuple[tuple[float, ...], ...] = ()
     angle: np.ndarray = field(default_factory=lambda: np.zeros(0))
     of_meshes: tuple[np.ndarray, ...] = ()
+    end: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
     @property
     def free_motion(self) -> np.ndarray:  # type: ignore[override]
@@ -188,6 +189,9 @@ def train_drivetrain(
         own = (np.array([direction.get(name, 0.0) for name in names]) for names in names_of)
         return np.array([along @ of_mesh for along, of_mesh in zip(own, of_meshes)])
 
+    # Of helical teeth the normal leans along the axis.
+    cosines = np.array([[pair.cosine] for pair in parts.pairs])
+
     stiffness, in_bearings = _stiffness(rows)
     undamped = TrainDrivetrain(
         rows.names,
@@ -196,19 +200,28 @@ def train_drivetrain(
         parts.torque * rows.end,
         _mass(rows) if parts.masses else None,
         None,
-        MeshSprings(flanks(MESH_DIRECTION), flanks(ACROSS_DIRECTION)),
+        MeshSprings(cosines * flanks(MESH_DIRECTION), flanks(ACROSS_DIRECTION)),
         bearing_stiffness=in_bearings,
         motions=tuple(rows.motion_of(shafts, turns) for shafts in graph.cuts),
         angle=rows.of(f"rotation_{graph.last + 1}"),
         of_meshes=of_meshes,
+        end=rows.end,
     )
-    if damping is None or not parts.masses:
+    return undamped if damping is None else damped(undamped, damping, mesh_stiffness)
+
+
+def damped(undamped: TrainDrivetrain, damping: Damping, mesh_stiffness: Sequence[float]) -> TrainDrivetrain:
+    """A drivetrain with damping beside what it has; `mesh_stiffness`, N/mm: of each of its mesh springs, roughly."""
+    if undamped.mass is None:
         return undamped
+    before = 0.0 if undamped.damping is None else undamped.damping
     if damping.modal:
-        return replace(undamped, damping=modal_damping(undamped, np.array(mesh_stiffness), damping.modal))
-    alpha = damping.stiffness_proportional or 0.0
-    beta = damping.mass_proportional or 0.0
-    return replace(undamped, damping=alpha * undamped.stiffness + beta * undamped.mass)
+        own = modal_damping(undamped, np.array(mesh_stiffness), damping.modal)
+    else:
+        alpha = damping.stiffness_proportional or 0.0
+        beta = damping.mass_proportional or 0.0
+        own = alpha * undamped.stiffness_at_work + beta * undamped.mass
+    return replace(undamped, damping=before + own)
 
 
 def _stiffness(rows: _Rows) -> tuple[np.ndarray, np.ndarray]:
@@ -258,7 +271,8 @@ def drivetrain_of_mesh(
 ) -> Drivetrain:
     """Both gears of one mesh of a train, whose coordinates follow from those of all gears; `supports` as of the
     train."""
-    radii = np.array([pair.base_radii[int(name[-1]) - 1] if name.startswith("rotation") else 1.0 for name in names])
+    turning = ("rotation", "tilt")
+    radii = np.array([pair.base_radii[int(name[-1]) - 1] if name.startswith(turning) else 1.0 for name in names])
     load = np.array([wheel_torque if name == "rotation_2" else 0.0 for name in names]) / radii
     nothing = np.zeros((len(names), len(names)))
     in_bearings = nothing.copy()

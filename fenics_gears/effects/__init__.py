@@ -91,6 +91,13 @@ OVER_CONTACT_NODES = tuple(
     "largest_kink_pressure",
 )
 
+# What is of whole shafts, which in a train are not a pair's alone.
+OF_SHAFTS = tuple(f"bearing_{load}" for load in ("force_x", "force_y", "force_z", "moment_x", "moment_y")) + (
+    "shaft_deflection_x",
+    "shaft_deflection_y",
+    "shaft_end_rotation",
+)
+
 
 @functools.cache
 def effect_named(section: str) -> Effect:
@@ -140,6 +147,7 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
         declared += FACE_VARIABLES
     left_out = () if scene.resolves_contact else OVER_CONTACT_NODES
     left_out += () if scene.motion.speed_given else ("sliding_speed",)
+    left_out += OF_SHAFTS if scene.shafts is not None and scene.shafts.in_train else ()
     # Two effects may have a variable in common.
     return tuple(dict.fromkeys(each for each in declared if each.name not in left_out))
 

@@ -123,10 +123,15 @@ def systems_at_work(scene: Any, pair: Any) -> tuple[ShaftSystem, ...]:
 
 def _check_held_at_work(system: ShaftSystem) -> None:
     """Raise SceneError where rolling elements that carry the load leave a shaft free, as one alone does across it."""
-    for gear, free in free_motions(system.shafts, system.springs).items():
+    check_held_at_work(system.shafts, system.springs, "bearings.{}")
+
+
+def check_held_at_work(shafts: Sequence[ElasticShaft], springs: np.ndarray, field: str) -> None:
+    """The same of whole shafts on bearings of a stiffness (5 b, 5 b); `field`: where bearings are in the scene."""
+    for gear, free in free_motions(shafts, springs).items():
         if free:
             raise SceneError(
-                f"bearings.{gear}: under the load of the teeth so few rolling elements carry that the shaft freely"
+                f"{field.format(gear)}: under the load of the teeth so few rolling elements carry that the shaft freely"
                 f" {' and '.join(free)}. Allowed: more rolling elements, less clearance or a preload. {NOTHING_DONE}"
             )
 
@@ -169,8 +174,12 @@ def shaft_warnings(scene: Any, pair: Any) -> list[str]:
             sentences.append(
                 f"shafts.{name}.sections: the shaft is {off[0]:g} mm thick under the {gear}'s face, whose bore is"
                 f" {bore:g} mm wide: the seat is rigid all the same, and the material between them is in neither"
-                f" body. Let the sections there and gears.{gear}.bore_diameter agree, or take seat ="
-                f' "{INTEGRAL}" where the teeth are cut into the shaft'
+                f" body. Let the sections there and gears.{gear}.bore_diameter agree"
+                + (
+                    ""
+                    if scene.shafts.in_train
+                    else f', or take seat = "{INTEGRAL}" where the teeth are cut into the shaft'
+                )
             )
     return sentences
 

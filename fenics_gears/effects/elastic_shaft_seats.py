@@ -76,10 +76,14 @@ def _cut_at(sections: Sequence[ShaftSection], face: tuple[float, float]) -> Iter
         begin = end
 
 
+def sections_between(sections: Sequence[ShaftSection], begin: float, end: float) -> tuple[ShaftSection, ...]:
+    """The sections of a shaft from one place to another, mm from its left end."""
+    return tuple(part for part, between in _cut_at(sections, (begin, end)) if between)
+
+
 def under_the_face(sections: Sequence[ShaftSection], face: tuple[float, float]) -> list[float]:
     """Diameters (mm) of a shaft at both ends of each section, as far as a gear's face reaches over it."""
-    parts = (part for part, under in _cut_at(sections, face) if under)
-    return [diameter for part in parts for diameter in (part.diameter, part.right_diameter)]
+    return [diameter for part in sections_between(sections, *face) for diameter in (part.diameter, part.right_diameter)]
 
 
 def wrong_with_seat(scene: Any, pair: Any, elastic: ElasticShaft, shaft: str) -> Iterator[str]:

@@ -51,7 +51,7 @@ def even_loads(scene: Scene, pair: GearPair, systems: Sequence[ShaftSystem]) -> 
 
 
 def _shaft_systems(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]) -> tuple[ShaftSystem, ...]:
-    if scene.shafts is None or scene.shafts.sections is None:
+    if scene.shafts is None or scene.shafts.of_pair is None:
         return ()
     from fenics_gears.effects.elastic_shaft_rules import systems_at_work
 

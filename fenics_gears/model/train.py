@@ -21,26 +21,35 @@ from fenics_gears.dynamics.train import TrainDrivetrain, coordinates_of_mesh, dr
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.train_graph import TrainGraph
-from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Load, Motion
 from fenics_gears.scene.train import TrainScene
-from fenics_gears.scene.train_mesh import MeshOfScene, gear_names, layout_of, rows_of
+from fenics_gears.scene.train_mesh import MeshOfScene, layout_of, rows_of
+from fenics_gears.scene.train_pair_shafts import in_words_of_train
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import mesh_stiffness
 from .face_resolution import face_discretisation
 from .model import Model, model_of
-from .shared_gears import check_shared, reach_of
-from .train_parts import check_supports, parts_of, whole_steps, whole_torques
+from .shared_gears import reach_of
+from .train_parts import (
+    bent_of,
+    check_alike,
+    check_supports,
+    model_of_mesh,
+    offsets_of,
+    parts_of,
+    whole_steps,
+    whole_torques,
+)
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
+    from fenics_gears.dynamics.train_shafts import BentShafts
 
 
 @dataclass(frozen=True)
@@ -60,12 +69,24 @@ class RowModel:
 
     @cached_property
     def drivetrain(self) -> TrainDrivetrain:
-        return train_drivetrain(parts_of(self.meshes, self.shafts), self.shafts.damping, self.mesh_stiffness)
+        parts = parts_of(self.meshes, self.shafts)
+        if self.bent is None:
+            return train_drivetrain(parts, self.shafts.damping, self.mesh_stiffness)
+        from fenics_gears.dynamics.train_shafts import with_bent_shafts
+
+        names = [model.drivetrain.coordinates for model in self.models]
+        return with_bent_shafts(train_drivetrain(parts), self.bent, names, self.shafts.damping, self.mesh_stiffness)
+
+    @cached_property
+    def bent(self) -> BentShafts | None:
+        """The shafts that bend; None where none does."""
+        return bent_of(self.meshes, self.shafts)
 
     @property
     def mesh_stiffness(self) -> np.ndarray:
-        """Of one tooth pair of each mesh (f,), N/mm, about."""
-        return np.array([mesh_stiffness(mesh.scene, mesh.pair) for mesh in self.meshes])
+        """Of one tooth pair of each mesh (f,), N/mm, about; on shafts that bend of either half of its face (2 f,)."""
+        found = np.array([mesh_stiffness(mesh.scene, mesh.pair) for mesh in self.meshes])
+        return found if self.bent is None else np.repeat(0.5 * found, 2)
 
     @property
     def equations_of_motion(self) -> EquationsOfMotion:
@@ -114,6 +135,14 @@ class RowModel:
         return time_step_warnings(self.vibrations, frequency, steps, self.time_scales, fastest.time_step)
 
     @property
+    def warnings_of_meshes(self) -> list[str]:
+        """Sentences on each mesh, with its name."""
+        of_meshes = zip(self.meshes, self.models)
+        return [
+            f"{mesh.name}: {in_words_of_train(mesh.bent, said)}" for mesh, own in of_meshes for said in own.warnings
+        ]
+
+    @property
     def over_face(self) -> bool:
         """Whether flanks are resolved over the face: of all meshes or of none."""
         return self.models[0].scene.three_dimensional
@@ -130,6 +159,13 @@ class RowModel:
     def members(self) -> list[list[int]]:
         """Numbers of its meshes, those together that have a gear in common."""
         return self.graph.members
+
+    @property
+    def placed(self) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Of each mesh, how its own coordinates (l, k) follow from those of all, and where they are (l,) as nothing
+        moves."""
+        offsets = offsets_of(self.meshes, self.shafts, [model.drivetrain.coordinates for model in self.models])
+        return list(zip(self.drivetrain.of_meshes, offsets))
 
     def gear(self, gear: int) -> Gear:
         """A gear by its number."""
@@ -179,9 +215,7 @@ class TrainModel:
     @property
     def warnings(self) -> list[str]:
         """Sentences for the user before the run, each of one mesh with its name."""
-        said = [
-            f"{mesh.name}: {said}" for mesh, model in zip(self.scene.meshes, self.models) for said in model.warnings
-        ]
+        said = [each for row in self.rows for each in row.warnings_of_meshes]
         return [*said, *(each for row in self.rows if not row.single for each in row.warnings)]
 
 
@@ -201,10 +235,11 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
     """Meshes that move together, their cycles divided into steps of one length in time; `recorded_cycles` as of
     TrainScene."""
     check_supports(meshes)
-    models = [model_of(mesh.scene) for mesh in meshes]
+    models = [model_of_mesh(mesh, mesh.scene) for mesh in meshes]
     steps = whole_steps(meshes, [model.resolution.steps_per_mesh_cycle for model in models])
     cycles = meshes[0].scene.motion.mesh_cycles
     parts = parts_of(meshes, shafts)
+    bent = bent_of(meshes, shafts)
     sizes = _flank_sizes(meshes, models)
     wholes = whole_torques(parts.layout, parts.torque)
     found = []
@@ -212,18 +247,19 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
         accuracy = replace(mesh.scene.accuracy, steps_per_mesh_cycle=own, flank_element_size=size)
         if parts.graph.in_loop(number):
             # It may have to carry what all paths do together.
-            loaded = model_of(replace(mesh.scene, accuracy=accuracy, load=Load(wholes[number]), inertia=None))
-            accuracy = replace(accuracy, contact_length=loaded.resolution.contact_grid.length)
+            alone = replace(mesh.scene, accuracy=accuracy, load=Load(wholes[number]), inertia=None)
+            wide = model_of_mesh(mesh, alone).resolution.contact_grid.length
+            accuracy = replace(accuracy, contact_length=wide)
         passed = ceil(cycles * max(steps) / own)
         recorded = min(ceil(recorded_cycles * max(steps) / own), passed)
         motion = Motion(mesh.scene.motion.mesh_frequency, passed, recorded, True, mesh.scene.motion.speed_given)
         # Masses are of the whole train.
-        model = model_of(replace(mesh.scene, accuracy=accuracy, motion=motion, inertia=None))
-        names = coordinates_of_mesh(parts, number)
+        model = model_of_mesh(mesh, replace(mesh.scene, accuracy=accuracy, motion=motion, inertia=None))
+        names = coordinates_of_mesh(parts, number) + (() if bent is None else bent.names_in(number))
         supports = [parts.support(gear) for gear in parts.gears[number]]
         drivetrain = drivetrain_of_mesh(mesh.pair, mesh.scene.load.wheel_torque, names, supports)
         found.append(replace(model, drivetrain=drivetrain))
-    _check(meshes, found)
+    check_alike(meshes, found)
     recorded = recorded_cycles * max(steps) if shafts.moving else 0
     return RowModel(tuple(meshes), tuple(found), shafts, recorded)
 
@@ -235,15 +271,3 @@ def _flank_sizes(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> list
     for row in rows_of(meshes):
         found += [min(sizes[number] for number in row)] * len(row)
     return found
-
-
-def _check(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> None:
-    """Raise SceneError for what meshes that move together do not have yet."""
-    check_shared(layout_of(meshes), models, gear_names(meshes), [mesh.name for mesh in meshes])
-    coefficients = {model.friction_coefficient for model in models}
-    if len(coefficients) > 1:
-        raise SceneError(
-            "friction: its formula gives each mesh another coefficient"
-            f" ({', '.join(f'{each:.4g}' for each in sorted(coefficients))}), which is not yet computed where meshes"
-            f" move together. Allowed: one friction.coefficient. {NOTHING_DONE}"
-        )

@@ -16,6 +16,8 @@ from .train_parts import parts_of
 Rows = list[tuple[str, float | str, str]]
 # Of the kinetic energy of a mode, at least, for a motion to be named.
 NOTABLE_SHARE = 0.2
+# What a shaft that bends does by a coordinate, by the first word of its name; otherwise it bends.
+OF_SHAFTS = {"axial": "axial motion", "torsion": "torsion"}
 
 
 def motion_rows(row: RowModel) -> Rows:
@@ -30,15 +32,50 @@ def motion_rows(row: RowModel) -> Rows:
     for number, torsion in enumerate(parts.torsion, 1):
         if isfinite(torsion):
             rows.append((f"shaft {number}: torsional stiffness", torsion, "N mm/rad"))
-    words = ", ".join(motion_in_words(name, gears) for name in row.drivetrain.coordinates)
-    return [*rows, ("motions that are unknown", len(row.drivetrain.coordinates), words)]
+    rows += _bent_rows(row)
+    on_bent = [] if row.bent is None else list(dict.fromkeys(gear.shaft.gear for gear in row.bent.gears))
+    said = [motion_in_words(name, gears) for name in row.drivetrain.coordinates if _on_rigid(name)]
+    said += [f"displacements and tilts of {', '.join(on_bent)}"] if on_bent else []
+    unknown = [name for name in row.drivetrain.coordinates if "_mode_" not in name and not name.startswith("bearing_")]
+    return [*rows, ("motions that are unknown", len(unknown), ", ".join(said))]
+
+
+def _bent_rows(row: RowModel) -> Rows:
+    """The shafts that bend, with what is on them, and how stiff they are at their gears."""
+    rows: Rows = []
+    for name, system in zip(row.bent.names, row.bent.systems) if row.bent is not None else ():
+        begins = np.cumsum([0.0, *(part.length for part in system.shafts)])
+        parts = list(zip(begins, system.shafts))
+        gears = ", ".join(f"{part.gear} at {begin + part.gear_at:g}" for begin, part in parts)
+        places = sorted(
+            (begin + each.at, "" if each.rolling is None else f" ({each.rolling.elements})")
+            for begin, part in parts
+            for each in part.bearings
+        )
+        bearings = ", ".join(f"{at:g}{kind}" for at, kind in places)
+        words = f"mm, bends; {gears}; bearings at {bearings} mm from its left end"
+        rows.append((f"shaft {name}", float(begins[-1]), words))
+        for part in system.shafts:
+            x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(system.stiffness_at(part)))
+            said = f"{x:.4g} along x, {y:.4g} along y, {axial:.4g} axially"
+            rows.append((f"its stiffness at {part.gear}", said, "N/um, with its bearings"))
+        if system.vibrates:
+            mass = 1e3 * sum(part.mass_of_all for part in system.shafts)
+            words = f"kg, in addition, with {len(system.own_modes)} modes up to {system.shafts[0].up_to:.4g} Hz"
+            rows.append((f"mass of shaft {name}", mass, words))
+    return rows
+
+
+def _on_rigid(name: str) -> bool:
+    """Whether a coordinate is none of a shaft that bends."""
+    return name.startswith(("rotation_", "twist_")) or " of gear " in name
 
 
 def frequency_rows(row: RowModel) -> Rows:
     """Each natural frequency with the steps that a period has, and what moves most; none without inertia."""
-    rows: Rows = []
     if not row.vibrations:
-        return rows
+        return []
+    rows: Rows = []
     time_step = row.models[0].time_step
     for number, (vibration, moving) in enumerate(zip(row.vibrations, _moving_most(row)), 1):
         damping = vibration.damping_ratio
@@ -47,10 +84,8 @@ def frequency_rows(row: RowModel) -> Rows:
         steps = vibration.steps_per_period(time_step)
         words = f"Hz: {steps:.3g} steps per period, {damped}, mostly {moving}{unmoved}"
         rows.append((f"mode {number}", vibration.frequency, words))
-    if rows:
-        words = f"Hz: by the time step, periods exact within {PERIOD_ERROR:.0%}"
-        rows.append(("highest frequency that is resolved", resolved_frequency(time_step), words))
-    return rows
+    words = f"Hz: by the time step, periods exact within {PERIOD_ERROR:.0%}"
+    return [*rows, ("highest frequency that is resolved", resolved_frequency(time_step), words)]
 
 
 def _moving_most(row: RowModel) -> list[str]:
@@ -60,13 +95,28 @@ def _moving_most(row: RowModel) -> list[str]:
     drivetrain = row.drivetrain
     frequencies, shapes = modes(drivetrain, row.mesh_stiffness)
     energy = shapes * (drivetrain.mass @ shapes)
-    gears = gear_names(row.meshes)
+    words = _moving(row)
+    kinds = list(dict.fromkeys(words))
+    summed = np.array(
+        [energy[[place for place, each in enumerate(words) if each == kind]].sum(axis=0) for kind in kinds]
+    )
     said = []
-    for shares in energy.T[len(frequencies) - len(row.vibrations) :]:
+    for shares in summed.T[len(frequencies) - len(row.vibrations) :]:
         largest = np.argsort(-shares)
         named = [place for place in largest if shares[place] >= NOTABLE_SHARE] or [largest[0]]
-        said.append(" and ".join(motion_in_words(drivetrain.coordinates[place], gears) for place in named[:2]))
+        said.append(" and ".join(kinds[place] for place in named[:2]))
     return said
+
+
+def _moving(row: RowModel) -> list[str]:
+    """What each coordinate moves, in words; of a shaft that bends as a whole."""
+    gears = gear_names(row.meshes)
+    shaft_of = {}
+    for name, system in zip(row.bent.names, row.bent.systems) if row.bent is not None else ():
+        for coordinate in system.coordinates:
+            kind = coordinate.partition("_")[0]
+            shaft_of[coordinate] = f"{OF_SHAFTS.get(kind, 'bending')} of shaft {name}"
+    return [shaft_of.get(name) or motion_in_words(name, gears) for name in row.drivetrain.coordinates]
 
 
 def motion_in_words(name: str, gears: list[str]) -> str:

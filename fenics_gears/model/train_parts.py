@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import ceil, gcd, inf, lcm
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.dynamics.train import TrainParts, coordinates_of_mesh
+from fenics_gears.dynamics.train import TrainParts
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.train_graph import turns_of_shafts
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.train_mesh import MeshOfScene, layout_of
+from fenics_gears.scene.train_mesh import MeshOfScene, gear_names, layout_of
+from fenics_gears.scene.train_pair_shafts import in_words_of_train
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import lumped_gears
+from .model import Model, model_of
+from .shared_gears import check_shared
 
 if TYPE_CHECKING:
+    from fenics_gears.dynamics.train_shafts import BentShafts
     from fenics_gears.geometry.gear_data import LumpedGear
 
 # Steps of the mesh cycles of all meshes together: each has its contact operators.
@@ -41,17 +45,19 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
         supports.append(_support(mesh.scene, GEARS[side]))
     torque = sum(meshes[mesh].scene.load.wheel_torque for mesh in graph.into(graph.last))
     torsion = [inf if each is None else each for each in shafts.torsion or (None,) * (graph.last + 1)]
+    for number, stiffness in torsions(meshes, shafts).items():
+        torsion[number] = stiffness
     return TrainParts(layout, torque, torsion, masses, supports, shafts.load)
 
 
-def offsets_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> list[np.ndarray]:
-    """Of each mesh, how its own coordinates (l,) stand (mm) where nothing moves: by the clocking of shafts, of which
-    the second gear is turned ahead."""
-    parts = parts_of(meshes, shafts)
+def offsets_of(
+    meshes: Sequence[MeshOfScene], shafts: TrainShafts, names_of: Sequence[tuple[str, ...]]
+) -> list[np.ndarray]:
+    """Of each mesh, how its own coordinates (l,), by their names, stand (mm) where nothing moves: by the clocking of
+    shafts, of which the second gear is turned ahead."""
     ahead = {carried[1]: clocking for carried, clocking in zip(shafts.carried, shafts.clocking) if clocking is not None}
     found = []
-    for number, mesh in enumerate(meshes):
-        names = coordinates_of_mesh(parts, number)
+    for mesh, names in zip(meshes, names_of):
         own = np.zeros(len(names))
         # A wheel's rotation is counted against the sense in which it turns.
         for side, (gear, sign) in enumerate(zip(mesh.gears, (1.0, -1.0))):
@@ -64,6 +70,16 @@ def whole_torques(layout: Layout, output: float) -> list[float]:
     """Torque (N mm) on the wheel of each mesh without losses, as if it alone drove its shaft."""
     turns = turns_of_shafts(layout.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in layout.pairs])
     return [output * float(turns[-1] / turns[driven]) for _, driven in layout.graph.between]
+
+
+def torsions(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> Mapping[int, float]:
+    """Torsional stiffness (N mm/rad) of the shafts that bend, by their numbers."""
+    if not shafts.bent:
+        return {}
+    # Trains on rigid shafts load neither beams nor bearings.
+    from .train_shafts import torsions_of
+
+    return torsions_of(meshes, shafts)
 
 
 def _support(scene: Scene, gear: str) -> tuple[float, float] | None:
@@ -106,3 +122,34 @@ def check_supports(meshes: Sequence[MeshOfScene]) -> None:
                 f"{meshes[sides[1][0]].name}: bearings of a gear in several meshes have one stiffness in all"
                 f" directions. Allowed: bearings.stiffness, alike for these meshes. {NOTHING_DONE}"
             )
+
+
+def model_of_mesh(mesh: MeshOfScene, scene: Scene) -> Model:
+    """As `model_of`, of a mesh with such a scene; what is wrong with shafts is said with their names in the train."""
+    try:
+        return model_of(scene)
+    except SceneError as error:
+        if not mesh.bent:
+            raise
+        raise SceneError(in_words_of_train(mesh.bent, str(error))) from error
+
+
+def bent_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShafts | None:
+    if not shafts.bent:
+        return None
+    # Trains on rigid shafts load neither beams nor bearings.
+    from .train_shafts import bent_shafts
+
+    return bent_shafts(meshes, shafts)
+
+
+def check_alike(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> None:
+    """Raise SceneError for what meshes that move together do not have yet."""
+    check_shared(layout_of(meshes), models, gear_names(meshes), [mesh.name for mesh in meshes])
+    coefficients = {model.friction_coefficient for model in models}
+    if len(coefficients) > 1:
+        raise SceneError(
+            "friction: its formula gives each mesh another coefficient"
+            f" ({', '.join(f'{each:.4g}' for each in sorted(coefficients))}), which is not yet computed where meshes"
+            f" move together. Allowed: one friction.coefficient. {NOTHING_DONE}"
+        )

@@ -25,22 +25,64 @@ MICROMETRES = 1e3
 GAUSS = 0.5 / np.sqrt(3.0)
 # What MOTIONS are called in the result.
 OF_GEARS = ("centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y")
+DEPARTURES = tuple(
+    f"axis_{kind}_{plane}" for kind in ("inclination", "offset") for plane in ("in_plane", "out_of_plane")
+)
 LOADS = ("bearing_force_x", "bearing_force_y", "bearing_force_z", "bearing_moment_x", "bearing_moment_y")
 
 
 def along_face(model: Model, cycle: Cycle) -> AlongTheFace:
     """The further results of a mesh cycle over a face."""
-    return BentShafts(cycle, model) if model.drivetrain.elastic else AlongTheFace(cycle)
+    if model.drivetrain.elastic:
+        return BentShafts(cycle, model)
+    shafts = model.scene.shafts
+    in_train = shafts is not None and shafts.in_train and shafts.sections is not None
+    return MovedAxes(cycle, model) if in_train else AlongTheFace(cycle)
 
 
-class BentShafts(AlongTheFace):
-    """What the result of a face has on shafts that bend: also what is recovered from the motions of the gears' middles,
-    of which it is a linear function."""
+class MovedAxes(AlongTheFace):
+    """What the result of a face has where shafts let the gears move: departures of the axes by the load."""
 
     def __init__(self, cycle: Cycle, model: Model):
         super().__init__(cycle)
         self.model = model
         self.drivetrain = model.drivetrain
+
+    def curves(self, curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
+        """Departures of the axes in the middle of the common face, um."""
+        motions = self._motions(nodes.steps.states[:, 0])
+        return super().curves(curves, nodes) | self._departures(motions)
+
+    def numbers(self, counted: xr.Dataset, known: Mapping[str, Any]) -> dict[str, float | str]:
+        """Of the settled steps of a result, means of the axes' departures too."""
+        means = {f"mean_{name}": float(counted[name].mean()) for name in DEPARTURES}
+        return super().numbers(counted, known) | means
+
+    def _departures(self, motions: np.ndarray) -> dict[str, np.ndarray]:
+        """By motions (steps, gears, 5) of the middles of pinion and wheel."""
+        x, y, _, tilt_x, tilt_y = np.moveaxis(motions, -1, 0)
+        heights = np.array(self.pair.gear_middles)
+        leaning = tilt_y, -tilt_x
+        offset = x - heights * tilt_y, y + heights * tilt_x
+        width = MICROMETRES * self.pair.face_width
+        of = [
+            *(width * np.diff(each)[:, 0] for each in leaning),
+            *(MICROMETRES * np.diff(each)[:, 0] for each in offset),
+        ]
+        return dict(zip(DEPARTURES, of))
+
+    def _motions(self, states: np.ndarray) -> np.ndarray:
+        """Motions (steps, gears, 5) of the middles of pinion and wheel."""
+        both = [[self.drivetrain.value(states, f"{name}{number}") for name in MOTIONS] for number in NUMBERS.values()]
+        return np.moveaxis(np.array(both), 2, 0)
+
+
+class BentShafts(MovedAxes):
+    """What the result of a face has on shafts that bend: also what is recovered from the motions of the gears' middles,
+    of which it is a linear function."""
+
+    def __init__(self, cycle: Cycle, model: Model):
+        super().__init__(cycle, model)
         self._lines = {}
         self._seats = {}
         self._bent = {}
@@ -76,14 +118,8 @@ class BentShafts(AlongTheFace):
         on_bearings = np.concatenate(loads, axis=1).reshape(len(states), -1, len(MOTIONS))
         if self.drivetrain.rolling is not None:
             on_bearings = self.drivetrain.rolling.loads(states, on_bearings)
-        x, y, _, tilt_x, tilt_y = np.moveaxis(motions, -1, 0)
-        heights = np.array(self.pair.gear_middles)
-        leaning = {"in_plane": tilt_y, "out_of_plane": -tilt_x}
-        offset = {"in_plane": x - heights * tilt_y, "out_of_plane": y + heights * tilt_x}
-        width = MICROMETRES * self.pair.face_width
-        departures = {f"axis_inclination_{name}": width * np.diff(of)[:, 0] for name, of in leaning.items()}
-        departures |= {f"axis_offset_{name}": MICROMETRES * np.diff(of)[:, 0] for name, of in offset.items()}
-        return super().curves(curves, nodes) | departures | dict(zip(LOADS, np.moveaxis(on_bearings, -1, 0)))
+        loads_of_bearings = dict(zip(LOADS, np.moveaxis(on_bearings, -1, 0)))
+        return super().curves(curves, nodes) | self._departures(motions) | loads_of_bearings
 
     def fields(self, nodes: SideBySide) -> dict[str, np.ndarray]:
         """Deflection of both shafts (steps, gears, points), mm; not a number where a shaft has no sections."""
@@ -117,10 +153,8 @@ class BentShafts(AlongTheFace):
     def numbers(self, counted: xr.Dataset, known: Mapping[str, Any]) -> dict[str, float | str]:
         """Of the settled steps of a result: means of the axes' departures, the largest force of a bearing, and natural
         frequencies."""
-        named = [f"axis_{kind}_{plane}" for kind in ("inclination", "offset") for plane in ("in_plane", "out_of_plane")]
-        numbers: dict[str, float | str] = {f"mean_{name}": float(counted[name].mean()) for name in named}
         forces = np.sqrt(sum(counted[name] ** 2 for name in LOADS[:3]))
-        numbers |= {"largest_bearing_force": float(forces.max())}
+        numbers = {"largest_bearing_force": float(forces.max())}
         return super().numbers(counted, known) | numbers | self._rolling_elements(counted) | self._vibrations(counted)
 
     def _seat(self, system: ShaftSystem, shaft: ElasticShaft) -> BentBySeat:
@@ -201,8 +235,3 @@ class BentShafts(AlongTheFace):
     def _values(self, system: ShaftSystem, states: np.ndarray) -> np.ndarray:
         """Coordinates (steps, k) of a system of shafts, mm and rad."""
         return np.stack([self.drivetrain.value(states, name) for name in system.coordinates], axis=-1)
-
-    def _motions(self, states: np.ndarray) -> np.ndarray:
-        """Motions (steps, gears, 5) of the middles of pinion and wheel."""
-        both = [[self.drivetrain.value(states, f"{name}{number}") for name in MOTIONS] for number in NUMBERS.values()]
-        return np.moveaxis(np.array(both), 2, 0)

@@ -19,6 +19,8 @@ REQUIRED = ("time", "mesh_phase", "transmission_error")
 # Of trains: the lag of the last shaft; and what dimensions of meshes are in results of pairs.
 OVERALL = "overall_transmission_error"
 OF_PAIRS = {"step": "time", "contact_step": "contact_time"}
+# How the shafts of a train bend, on the average.
+OF_SHAFTS = {f"shaft_deflection_{axis}": ("shaft", "shaft_point") for axis in "xy"}
 WRITTEN = (*COORDINATES, "slot", "gear", "normal_force", "pair_normal_force")
 TEXTS = ("title", "scene", "scene_name", "warnings")
 
@@ -79,7 +81,7 @@ def _known_dims() -> dict[str, list[tuple[str, ...]]]:
     known = {
         each.name: [each.dims, *([(*OF_SLICES, "contact_node")] if each.dims == OF_NODES else [])] for each in variables
     }
-    for own in (COORDINATES, CONTACT_COORDINATES, {"slot": ("slot",)}, ROOT_STRESS, ROOT_STRESS_OVER_FACE):
+    for own in (COORDINATES, CONTACT_COORDINATES, {"slot": ("slot",)}, ROOT_STRESS, ROOT_STRESS_OVER_FACE, OF_SHAFTS):
         for name, dims in own.items():
             known.setdefault(name, []).append(dims)
     return known

@@ -51,7 +51,7 @@ def mesh_run(result: xr.Dataset, train: TrainScene, number: int) -> xr.Dataset:
     own = {
         str(name): (tuple(each for each in variable.dims if each != MESH), _of_mesh(variable, number), variable.attrs)
         for name, variable in result.variables.items()
-        if "time" not in variable.dims and name != MESH
+        if not {"time", "shaft", "bearing"} & {*variable.dims} and name != MESH
     }
     sizes = _sizes(own)
     numbers = {each.name: each for each in RESULT_ATTRIBUTES}

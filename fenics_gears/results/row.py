@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -20,6 +21,9 @@ from .key_numbers import key_numbers
 from .recorder import Recorder
 from .train import OF_ENERGY, MeshResult
 
+if TYPE_CHECKING:
+    from .train_shafts import ShaftsOfTrain
+
 
 class RowResult:
     """What a march of several meshes gives: `recorders` of each, and the work of all of them."""
@@ -31,11 +35,14 @@ class RowResult:
         self._lost: list[np.ndarray] = []
         self._driven: list[np.ndarray] = []
         self._last: Steps | None = None
+        self._shafts = _shafts_of(row)
 
     def take(self, solved: Steps, of_meshes: Sequence[Steps]) -> None:
         """The next steps, of all meshes together and of each."""
         for recorder, own in zip(self._recorders, of_meshes):
             recorder.take(own)
+        if self._shafts is not None:
+            self._shafts.take(solved.states[:, 0])
         if self._row.models[0].scene.friction is None:
             return
         together = solved if self._last is None else self._last.followed_by(solved)
@@ -64,6 +71,8 @@ class RowResult:
             found.append(MeshResult(mesh.name, own, numbers, said, seconds))
         if self._row.models[0].scene.friction is not None:
             found[-1].numbers["friction_loss"] = self._friction_loss()
+        if self._shafts is not None:
+            found[0] = replace(found[0], shafts=self._shafts.result(self._row.recorded))
         return found
 
     def _friction_loss(self) -> float:
@@ -105,18 +114,28 @@ class RowResult:
         return torque * first.pair.pinion.angular_pitch * steps / first.resolution.steps_per_mesh_cycle
 
 
+def _shafts_of(row: RowModel) -> ShaftsOfTrain | None:
+    """What is recorded of shafts that bend; None where there are none."""
+    if row.bent is None:
+        return None
+    from .train_shafts import ShaftsOfTrain
+
+    return ShaftsOfTrain(row.drivetrain, row.bent)
+
+
 def _finite(numbers: Mapping[str, Any]) -> dict[str, Any]:
     """Numbers, also those in words."""
     return {name: value for name, value in numbers.items() if isinstance(value, str) or isfinite(value)}
 
 
 def _along_the_row(places: dict[str, tuple]) -> dict[str, tuple]:
-    """Coordinates of a mesh; those along the axes run one way in all meshes, whichever way their gears turn."""
+    """Coordinates of a mesh; those along the axes run one way in all meshes of a row, whichever way their gears
+    turn."""
     if "face_position" not in places:
         return places
     dims, values, labels = places["face_position"]
     words = (
-        "distance along the axes from the middle of the face, towards the end from which the first gear of the row is"
-        " seen to turn counter-clockwise"
+        "distance along the axes from the middle of the face, towards the end from which the first gear of the stage"
+        " is seen to turn counter-clockwise"
     )
     return places | {"face_position": (dims, values, labels | {"long_name": words})}

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -19,6 +19,9 @@ from .carried_scene import scene_attributes
 from .dataset import RunResult
 from .layout import OVERALL
 from .path_shares import path_shares
+
+if TYPE_CHECKING:
+    from .train_shafts import ResultOfShafts
 
 MESH = "mesh"
 # Each mesh has its own steps, in place of the times of a pair.
@@ -37,7 +40,7 @@ OF_THE_WHOLE = (
 @dataclass(frozen=True)
 class MeshResult:
     """A mesh of a train: its variables, as dimensions, values and labels, its numbers, also those in words, and its
-    warnings."""
+    warnings. `shafts`: of the first mesh of a train, that of its shafts that bend."""
 
     name: str
     variables: dict[str, tuple]
@@ -45,6 +48,7 @@ class MeshResult:
     warnings: Sequence[str] = ()
     # s, of its march and of its numbers.
     seconds: tuple[float, float] = (0.0, 0.0)
+    shafts: ResultOfShafts | None = None
 
     @property
     def cycle(self) -> np.ndarray:
@@ -89,8 +93,12 @@ def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
         "time": ("time", times, {"units": "s", "long_name": "time"}),
         MESH: (MESH, [each.name for each in meshes], {"long_name": "mesh"}),
     }
+    shafts = meshes[0].shafts
+    if shafts is not None:
+        variables |= shafts.variables
+        coordinates |= shafts.coordinates
     found = xr.Dataset(variables, coords=coordinates)
-    found.attrs = _attributes(model, meshes, overall)
+    found.attrs = _attributes(model, meshes, overall) | ({} if shafts is None else shafts.numbers)
     return found
 
 
@@ -248,9 +256,7 @@ def _iterations(model: TrainModel, meshes: Sequence[MeshResult]) -> int:
 def _of_rows(model: TrainModel) -> list[str]:
     """Warnings before the run of those meshes that were not run as pairs, which tell their own."""
     coupled: list[RowModel] = [row for row in model.rows if not row.single]
-    of_meshes = [
-        f"{mesh.name}: {said}" for row in coupled for mesh, own in zip(row.meshes, row.models) for said in own.warnings
-    ]
+    of_meshes = [said for row in coupled for said in row.warnings_of_meshes]
     return [*of_meshes, *(said for row in coupled for said in row.warnings)]
 
 
@@ -261,6 +267,9 @@ def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
         (f"overall transmission error, {label}", f"{attrs[f'{name}_overall_transmission_error']:.5g}", "rad")
         for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
     ]
+    for name, label in OF_SHAFTS:
+        if name in attrs:
+            rows.append((label, f"{attrs[name]:.5g}", "N"))
     if "friction_loss" in attrs:
         rows.append(("friction loss, all meshes", f"{100.0 * attrs['friction_loss']:.4g}", "%"))
     for name in found[MESH].values:
@@ -279,6 +288,10 @@ def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
     return rows
 
 
+OF_SHAFTS = (
+    ("largest_bearing_force", "largest force of a bearing"),
+    ("largest_rolling_element_force", "largest force of a rolling element, under mean loads"),
+)
 SAID = (
     ("mean_mesh_stiffness", "mesh stiffness, mean", "N/(mm um)"),
     ("face_load_factor", "face load factor K_Hbeta", ""),

@@ -15,7 +15,6 @@ from fenics_gears.elasticity.compliance import Bodies, Body
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.model.shared_gears import couplings
-from fenics_gears.model.train_parts import offsets_of
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.bodies import body_key, gear_bodies, gear_body
 from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_of_gaps, yielding_seats
@@ -88,8 +87,7 @@ class GearStore:
         """The contact equations of meshes that move together: those of the last ones where they are the same, else
         made."""
         shared = [(tuple(couplings(row.layout, gear)), row.keys_of_shared(gear)) for gear in row.graph.shared]
-        offsets = offsets_of(row.meshes, row.shafts)
-        of_meshes = [each.tobytes() for each in (*row.drivetrain.of_meshes, *offsets)]
+        of_meshes = [each.tobytes() for both in row.placed for each in both]
         key = tuple(map(cycle_key, row.models)), tuple(row.layout.phases), tuple(shared), tuple(of_meshes)
         if self._row is None or self._row[0] != key:
             # Frees memory before the next is made.

@@ -127,7 +127,7 @@ class Scene:
             or self.lead_modifications is not None
             or self.misalignment is not None
             or leaning
-            or (self.shafts is not None and self.shafts.sections is not None)
+            or (self.shafts is not None and (self.shafts.sections is not None or self.shafts.in_train))
         )
 
     @property

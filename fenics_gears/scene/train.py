@@ -31,8 +31,10 @@ from .parsing import is_train, name_of, parsed, text_of
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
 from .train_layout import check_cut_alike, check_layout
 from .train_mesh import MeshOfScene, gear_names, layout_of, rows_of
-from .train_pair import MistakesOfStage, TrainMistakes, check_together, in_stage, pair_scene
+from .train_pair import MistakesOfStage, Placed, TrainMistakes, check_together, in_stage, pair_scene
+from .train_pair_shafts import in_train, in_words_of_train, of_pair, place_of, sections_of_pair
 from .train_rules import OF_A_STAGE, SHARED, TrainSections, checked_train
+from .train_shaft import BentShaft
 from .train_shafts import TrainShafts
 from .train_topology import NamedMesh, gears_within, graph_of, named_meshes
 
@@ -159,7 +161,9 @@ def _meshes_of(tree: Mapping[str, Any], sections: TrainSections, source: str, fo
     gears = dict(each for stage, content in stages.items() for each in gears_within(stage, content))
     shafts = {gear: number for number, each in enumerate(sections.shafts.carried) for gear in each}
     graph = graph_of(named, sections.shafts.carried)
-    scenes = [_scene_of(mesh, gears, tree, (source, folder)) for mesh in named]
+    bent = sections.shafts.bent
+    place = source, folder
+    scenes = [_scene_of(mesh, gears, tree, place, bent) for mesh in named]
     together = [number for own in graph.members if len(own) > 1 for number in own]
     for number in range(len(named)) if sections.shafts.moving else together:
         check_together(scenes[number], f"{source}, {named[number].name}")
@@ -173,7 +177,7 @@ def _meshes_of(tree: Mapping[str, Any], sections: TrainSections, source: str, fo
             name = named[first].gears[side]
             gears[name] = {**gears[name], "tip_diameter": f"{min(tips)!r} mm"}
             for number, _ in sides:
-                scenes[number] = _scene_of(named[number], gears, tree, (source, folder))
+                scenes[number] = _scene_of(named[number], gears, tree, place, bent)
     found = []
     for number, (mesh, scene) in enumerate(zip(named, scenes)):
         both = shafts[mesh.gears[0]], shafts[mesh.gears[1]]
@@ -182,12 +186,17 @@ def _meshes_of(tree: Mapping[str, Any], sections: TrainSections, source: str, fo
             pair = gear_pair(scene.gears)
         except GeometryError as error:
             raise GeometryError(f"{source}, stage {mesh.stage}: {error}") from error
-        found.append(MeshOfScene(mesh.name, scene, pair, direction, mesh.gears, both, graph.sense(number)))
+        own = MeshOfScene(mesh.name, scene, pair, direction, mesh.gears, both, graph.sense(number))
+        found.append(replace(own, scene=in_train(scene), bent=of_pair(mesh.gears, bent)) if bent else own)
     return found
 
 
-def _scene_of(mesh: NamedMesh, gears: Mapping[str, Any], tree: Mapping[str, Any], place: tuple[str, Path]) -> Scene:
-    """The scene of a mesh, from what is written of all `gears`; its `place`: the file and its folder."""
+def _scene_of(
+    mesh: NamedMesh, gears: Mapping[str, Any], tree: Mapping[str, Any], place: tuple[str, Path],
+    bent: Sequence[BentShaft],
+) -> Scene:  # fmt: skip
+    """The scene of a mesh, from what is written of all `gears`; its `place`: the file and its folder; `bent`: the
+    shafts of the train that bend."""
     source, folder = place
     content = tree["stages"][mesh.stage]
     own = {name: value for name, value in content.items() if name not in ("kind", "gears", "directions", "direction")}
@@ -201,11 +210,14 @@ def _scene_of(mesh: NamedMesh, gears: Mapping[str, Any], tree: Mapping[str, Any]
         # The load is on the last shaft; speed and length of the run are put in for the train's.
         sections["inertia"] = {each: value for each, value in sections["inertia"].items() if each != "load"}
         sections["motion"] = {"pinion_speed": "1 rpm", "mesh_cycles": 1}
+    on_shafts = of_pair(mesh.gears, bent)
+    sections |= sections_of_pair(on_shafts, tree, sections)
     places = {name: at[2:] for name, at in zip(GEARS, mesh.places)}
     name = f"{mesh.stage} {mesh.number + 1}" if mesh.count > 1 else mesh.stage
-    at = partial(in_stage, mesh.stage, places, shared.keys() - inner.keys())
+    in_its_stage = partial(in_stage, mesh.stage, places, shared.keys() - inner.keys())
+    put = Placed(lambda path: place_of(on_shafts, path) or in_its_stage(path), partial(in_words_of_train, on_shafts))
     label = f"{source}, stage {mesh.stage}"
-    scene = pair_scene(sections, name, label, folder, at)
+    scene = pair_scene(sections, name, label, folder, put)
     if scene.gears.wheel.teeth < 0:
         raise SceneError(
             f"{label}: an internal gear is not computed in a train yet. Allowed: external gears in a train, an internal"

@@ -10,13 +10,15 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.train_graph import TrainGraph
 
 from .data import Scene
+from .train_pair_shafts import OfPair
 
 
 @dataclass(frozen=True)
 class MeshOfScene:
     """A mesh of a train: the `scene` of its pair, its name, and the direction (rad) of its wheel from its pinion.
     `gears`: names of pinion and wheel; of a gear in several meshes it is the same in all. `shafts`: the numbers of
-    those that it joins. `sense`: how its pinion turns, 1 counter-clockwise, -1 clockwise."""
+    those that it joins. `sense`: how its pinion turns, 1 counter-clockwise, -1 clockwise. `bent`: with shafts that
+    bend, those that both are on."""
 
     name: str
     scene: Scene
@@ -25,6 +27,7 @@ class MeshOfScene:
     gears: tuple[str, str] = ("pinion", "wheel")
     shafts: tuple[int, int] = (0, 1)
     sense: int = 1
+    bent: OfPair = ()
 
 
 def gear_names(meshes: Sequence[MeshOfScene]) -> list[str]:

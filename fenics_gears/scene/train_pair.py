@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem
@@ -43,15 +43,20 @@ def in_stage(stage: str, places: Mapping[str, Field], shared: Collection[str], p
     return (STAGES, stage, *gear, *path[2:])
 
 
-def _placed(problem: Problem, place: Callable[[Field], Field]) -> Problem:
-    """A mistake in a pair's scene at its place in the train."""
-    home = f"[{'.'.join(place(('gears',)))}"
-    return replace(problem, path=place(problem.path), message=problem.message.replace("[gears", home))
+class Placed(NamedTuple):
+    """Where a train has what a pair's scene has, and how it says what is said of the pair."""
+
+    field: Callable[[Field], Field]
+    words: Callable[[str], str]
+
+    def of(self, problem: Problem) -> Problem:
+        """A mistake in a pair's scene at its place in the train."""
+        home = f"[{'.'.join(self.field(('gears',)))}"
+        message = self.words(problem.message).replace("[gears", home)
+        return replace(problem, path=self.field(problem.path), message=message)
 
 
-def pair_scene(
-    sections: Mapping[str, Any], name: str, source: str, folder: Path, place: Callable[[Field], Field]
-) -> Scene:
+def pair_scene(sections: Mapping[str, Any], name: str, source: str, folder: Path, place: Placed) -> Scene:
     """The scene of one mesh; `place`: where the train has what it has. Raises MistakesOfStage."""
     text = as_toml(sections)
     try:
@@ -59,7 +64,7 @@ def pair_scene(
     except GeometryError as error:
         raise GeometryError(f"{source}: {error}") from error
     if values is None:
-        raise MistakesOfStage([_placed(each, place) for each in problems])
+        raise MistakesOfStage([place.of(each) for each in problems])
     found = Scene(**values)
     found.__dict__["text"] = text
     return found
@@ -79,7 +84,8 @@ def check_together(scene: Scene, source: str) -> None:
             f" Allowed: elastic teeth, by a material. {NOTHING_DONE}"
         )
     bearings = scene.bearings
-    if bearings is not None and (bearings.places is not None or bearings.each is not None):
+    own = scene.shafts is None and bearings is not None and bearings.each is not None
+    if bearings is not None and (bearings.places is not None or own):
         raise SceneError(
             f"{source}: bearings with places are not yet computed in trains. Allowed: bearings.stiffness, which holds"
             f" the centre of each gear. {NOTHING_DONE}"

@@ -12,57 +12,23 @@ from typing import Any
 from fenics_gears.dynamics.damping import Damping
 from fenics_gears.dynamics.inertia import LoadInertia
 from fenics_gears.geometry.train_graph import TrainGraph
-from fenics_gears.inputs.allowed import Allowed, Refused
-from fenics_gears.inputs.fields import declared, quantity
 from fenics_gears.inputs.problem import Problem, did_you_mean
 from fenics_gears.inputs.section import Section, names_in, read
 from fenics_gears.inputs.written import as_written
 
+from .train_shaft import NOT_YET, BentShaft, TrainShaft, wrong_sections
 from .train_topology import Shafts, declared_gears, graph_of, in_order, named_meshes, shafts_by_order
 
 # Sections of a train of which each makes its stages move together.
 COUPLING = ("shafts", "inertia", "bearings")
 
 
-@dataclass(frozen=True, kw_only=True)
-class AllowedGears(Allowed):
-    """A list of names of gears."""
-
-    def convert(self, value: Any) -> tuple[str, ...]:
-        if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
-            raise Refused("is no list of names of gears.")
-        return tuple(value)
-
-
-@dataclass(frozen=True)
-class TrainShaft(Section):
-    """``[shafts.NAME]`` of a train: the gears on one shaft, and how it twists between them, or between its gear and the
-    drive or the load."""
-
-    carries: tuple[str, ...] = declared(
-        AllowedGears(description='a list of gears, such as ["first.wheel", "second.pinion"]'), default=()
-    )
-    torsional_stiffness: float | None = quantity(
-        "1e-6 N mm/rad to 1e24 N mm/rad",
-        "0.2e9 N mm/rad",
-        meaning="torsional stiffness between the gears of the shaft; of the first shaft between drive and gear, of the"
-        " last between gear and load",
-        otherwise="the shaft is rigid",
-    )
-    clocking: float | None = quantity(
-        "-1 rad to 1 rad",
-        "0.002 rad",
-        meaning="of a shaft in a loop: angle by which the second of its two gears is turned ahead, as the shaft turns,"
-        " of where the loop closes exactly",
-        otherwise="0 rad",
-    )
-
-
 @dataclass(frozen=True)
 class TrainShafts:
     """What the shafts of a train carry, from the driven one on, by the names of gears; and of each its torsional
     stiffness (N mm/rad) and clocking (rad), None where they are not given. The moment of inertia (N mm s^2) of the
-    load, and the damping, None where there is none. `moving`: whether stages move together."""
+    load, and the damping, None where there is none. `moving`: whether stages move together. `bent`: the shafts that
+    also bend."""
 
     carried: tuple[tuple[str, ...], ...] = ()
     torsion: tuple[float | None, ...] = ()
@@ -70,6 +36,7 @@ class TrainShafts:
     load: float | None = None
     damping: Damping | None = None
     moving: bool = False
+    bent: tuple[BentShaft, ...] = ()
 
 
 def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, list[Problem]]:
@@ -87,6 +54,7 @@ def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, l
     carried: Shafts = []
     torsion: list[float | None] = []
     clocking: list[float | None] = []
+    bent: list[BentShaft] = []
     graph = None
     if sound and not problems:
         shafts = shafts_by_order(tree["stages"], [each.carries for each in sections.values()])
@@ -101,6 +69,11 @@ def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, l
             for name, shaft in sections.items():
                 number = next(place for place, each in enumerate(carried) if shaft.carries[0] in each)
                 problems += _put(torsion, clocking, (name, shaft, number), graph)
+                problems += wrong_sections(shaft, ("shafts", name), graph, number)
+                bent += [] if shaft.sections is None else [BentShaft(name, number, shaft)]
+            if "bearings" in tree and {each.number for each in bent} == {*range(len(carried))}:
+                said = "has no effect: all gears are on shafts with bearings of their own. Leave it out."
+                problems.append(Problem(("bearings",), "", said))
     load = _load(tree, problems)
     damping = _damping(tree, problems)
     moving = any(name in tree for name in COUPLING) or any(
@@ -109,11 +82,12 @@ def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, l
     moving = moving or graph is not None and not graph.is_chain
     if damping is not None and "inertia" not in tree:
         problems.append(Problem(("damping",), "", "needs the section [inertia], which is missing. Add it."))
-    if "inertia" in tree and torsion and torsion[-1] is not None and load is None:
+    at_load = graph is not None and (torsion[-1] is not None or any(each.number == graph.last for each in bent))
+    if "inertia" in tree and load is None and at_load:
         said = "is missing. The far end of the last shaft needs a moment of inertia: add [inertia.load]."
         problems.append(Problem(("inertia", "load"), None, said))
     of_shafts = tuple(map(tuple, carried)), tuple(torsion), tuple(clocking)
-    return TrainShafts(*of_shafts, load, damping, moving), problems
+    return TrainShafts(*of_shafts, load, damping, moving, tuple(bent)), problems
 
 
 def _sections(tree: Mapping[str, Any], name: str, problems: list[Problem]) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -211,6 +185,8 @@ def explained(problem: Problem, section: type[Section]) -> Problem:
     """A problem with an unknown name told with those of its section."""
     if not problem.unknown:
         return problem
+    if section is TrainShaft and problem.path[-1] in NOT_YET:
+        return replace(problem, message=NOT_YET[problem.path[-1]])
     names = names_in(section)
     said = f"is not known here.{did_you_mean(problem.path[-1], names)} Known: {', '.join(names)}."
     return replace(problem, message=said)

@@ -46,6 +46,7 @@ def draw_train(dataset: xr.Dataset, directory: Path) -> list[Path]:
         ("Transmission error", errors(scene, dataset)),
         ("Orders of the overall transmission error", [orders(scene, dataset)]),
         ("Line load along the face", loads_along_face(scene, dataset)),
+        ("Shafts under load", bent_shafts_of(scene, dataset)),
     )
     figures = {
         name: picture(heading(subject, scene.title), charts)
@@ -154,6 +155,15 @@ def loads_along_face(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
         drawn = line_loads(run)[-1:] if run.over_face else []
         charts += [replace(each, caption=f"{mesh.name}: {each.caption.lower()}") for each in drawn]
     return charts
+
+
+def bent_shafts_of(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
+    """How the shafts of the train bend; nothing where none does."""
+    if "shaft" not in dataset.dims:
+        return []
+    from .train_shafts import deflections
+
+    return deflections(scene, dataset)
 
 
 def _colour(number: int) -> str:

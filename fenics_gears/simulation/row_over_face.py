@@ -28,14 +28,14 @@ from .elastic_route import cycle_of, flanks_of
 
 
 def row_cycle_over_face(
-    row: RowModel, placed: Sequence[tuple[np.ndarray, np.ndarray]], progress: Progress, cache: Cache
+    row: RowModel, placed: Sequence[tuple[np.ndarray, np.ndarray]], modes: int, progress: Progress, cache: Cache
 ) -> RowCycle:
     """The contact equations of all meshes of a row over the face, on the bodies of all gears; `placed`: `coordinates`
-    and `offset` of each mesh as of `contact.row.MeshOfRow`."""
+    and `offset` of each mesh, and `modes`, as of `contact.row.MeshOfRow`."""
     bodies, idlers = _bodies(row, progress, cache)
     meshes = []
     for own, both, phase, (coordinates, offset) in zip(row.models, bodies, row.layout.phases, placed):
-        meshes.append(MeshOfRow(_cycle(own, both, phase), coordinates, offset))
+        meshes.append(MeshOfRow(_cycle(own, both, phase), coordinates, offset, modes))
     coupled = []
     for gear, body in idlers.items():
         (shared,) = couplings(row.layout, gear)

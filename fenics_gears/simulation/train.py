@@ -28,7 +28,6 @@ from fenics_gears.model.model import Model
 from fenics_gears.model.shared_gears import couplings
 from fenics_gears.model.train import RowModel, TrainModel, train_model_of
 from fenics_gears.model.train_cost import row_cost, row_too_large
-from fenics_gears.model.train_parts import offsets_of
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.row import RowResult
@@ -144,34 +143,35 @@ def _memory_for_operators(row: RowModel) -> float:
 
 def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
     """The contact equations of all meshes of a train that move together, on the bodies of all gears."""
-    offsets = offsets_of(row.meshes, row.shafts)
+    placed = row.placed
     members = []
     for numbers in row.members:
         own = RowModel(*(tuple(each[number] for number in numbers) for each in (row.meshes, row.models)))
-        placed = [(row.drivetrain.of_meshes[number], offsets[number]) for number in numbers]
-        members.append(_member(own, placed, progress, cache))
+        of_own = [placed[number] for number in numbers]
+        members.append(_member(own, of_own, row.drivetrain.modes, progress, cache))
     if len(members) == 1 and isinstance(members[0].cycle, RowCycle):
         return members[0].cycle
     return RowCycle(members, MeshesApart())
 
 
 def _member(
-    row: RowModel, placed: Sequence[tuple[np.ndarray, np.ndarray]], progress: Progress, cache: Cache
+    row: RowModel, placed: Sequence[tuple[np.ndarray, np.ndarray]], modes: int, progress: Progress, cache: Cache
 ) -> MeshOfRow:
     """A single mesh, or meshes that have gears in common, over the coordinates of the train; `placed`: `coordinates`
-    and `offset` of each mesh as of MeshOfRow."""
+    and `offset` of each mesh, and how many `modes` there are, as of MeshOfRow."""
     if len(row.models) == 1:
         bodies = gear_bodies(row.models[0], progress, cache)
-        return MeshOfRow(mesh_cycle(row.models[0], bodies), *placed[0])
+        return MeshOfRow(mesh_cycle(row.models[0], bodies), *placed[0], modes)
     if row.over_face:
         # Runs in the plane load none of it.
         from .row_over_face import row_cycle_over_face
 
-        cycle = row_cycle_over_face(row, placed, progress, cache)
+        cycle = row_cycle_over_face(row, placed, modes, progress, cache)
     else:
         cycle = _row_in_plane(row, placed, progress, cache)
+    count = placed[0][0].shape[1]
     # What its meshes have by themselves is in it.
-    return MeshOfRow(cycle, np.eye(placed[0][0].shape[1]))
+    return MeshOfRow(cycle, np.eye(count)[: count - modes], modes=modes)
 
 
 def _row_in_plane(

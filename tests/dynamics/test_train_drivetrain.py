@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 from scipy.linalg import eigh
-from tests.trains import row, split_text, two_stages
+from tests.trains import bent_two_stages, row, split_text, two_stages
 
 from fenics_gears import train_from_text
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.model.train import train_model_of
+from fenics_gears.model.train_motion_rows import frequency_rows, motion_rows
 from fenics_gears.model.train_parts import whole_steps
 
 MORE = """
@@ -73,8 +74,6 @@ def test_natural_frequencies_of_two_paths():
 
 def moments(model, names=("first.wheel", "second.pinion", "second.wheel", "load")) -> list[float]:
     """Moments of inertia (g mm^2) as `gears check` says them, in kg mm^2 times 1000."""
-    from fenics_gears.model.train_motion_rows import motion_rows
-
     said = {name: value for name, value, _ in motion_rows(model)}
     return [said[f"{name}: moment of inertia"] for name in names]
 
@@ -89,3 +88,48 @@ def test_all_meshes_have_steps_of_one_length():
     assert steps[0] >= 100
     assert steps[1] >= 200
     assert len(set(whole_steps(row([24, 31, 40], [0, 60], 300).meshes, [100, 120]))) == 1
+
+
+def test_natural_frequencies_on_stiff_shafts_are_those_on_rigid_ones():
+    """Limit: shafts of a millionth of steel's compliance and hardly any mass, whose modes are far above. Helical
+    gears."""
+    more = """
+        [inertia]
+        mass = "2 kg"
+        moment_of_inertia = "2e-3 kg m^2"
+        [motion]
+        input_speed = "1500 rpm"
+        mesh_cycles = 2
+        """
+    light = 'poissons_ratio = 0.3, density = "1e-6 g/cm^3" }'
+    text = bent_two_stages(1e-6).text.replace("poissons_ratio = 0.3 }", light) + more
+    (rigid,) = train_model_of(bent_two_stages(None, more)).rows
+    (stiff,) = train_model_of(train_from_text(text)).rows
+    # Of either half of the face on shafts that bend.
+    springs = np.array([2e5, 3e5])
+    wanted = natural_frequencies(rigid.drivetrain, springs)
+    found = natural_frequencies(stiff.drivetrain, np.repeat(0.5 * springs, 2))
+    assert found[: len(wanted)] == pytest.approx(wanted, rel=1e-5)
+    assert found[len(wanted)] > 100.0 * wanted[-1]
+
+
+def test_what_bends_is_told():
+    """A user's expectation of `gears check`: the shaft, its gears and bearings with their places, how stiff it is, its
+    mass, and which modes are its bending."""
+    more = """
+        [inertia]
+        density = "7.85 g/cm^3"
+        [motion]
+        input_speed = "1500 rpm"
+        mesh_cycles = 2
+        """
+    (row,) = train_model_of(bent_two_stages(1.0, more)).rows
+    said = {name: (value, words) for name, value, words in motion_rows(row)}
+    assert said["shaft middle"][0] == 150.0
+    assert "first.wheel at 35, second.pinion at 100; bearings at 15, 135 mm" in said["shaft middle"][1]
+    assert {"its stiffness at first.wheel", "its stiffness at second.pinion"} < set(said)
+    steel = 7.85e-6 * np.pi / 4.0 * 35.0**2 * 150.0
+    assert said["mass of shaft middle"][0] == pytest.approx(steel, rel=1e-6)
+    assert any("bending of shaft middle" in words for _, _, words in frequency_rows(row))
+    (at_rest,) = train_model_of(bent_two_stages()).rows
+    assert not frequency_rows(at_rest)

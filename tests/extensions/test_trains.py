@@ -4,7 +4,7 @@ from math import log10
 
 import pytest
 import xarray as xr
-from tests.trains import gearbox_file
+from tests.trains import bent_two_stages, gearbox_file
 
 from fenics_gears import carried_train, load, overall_orders
 from fenics_gears.commands.cli import main
@@ -68,3 +68,19 @@ def test_stages_that_move_together_are_rated(scene, tmp_path, capsys):
     said = capsys.readouterr().out
     assert "first" in said
     assert "second" in said
+
+
+def test_a_train_whose_shafts_bend_is_rated(tmp_path, capsys):
+    """Misalignment over the face is that of the run, by both gears of a shaft; a face factor iterated over shafts that
+    are the pair's alone would leave the other gear out, and is not there."""
+    scene = tmp_path / "bent.toml"
+    scene.write_text(bent_two_stages(1.0, '[motion]\ninput_speed = "900 rpm"\n').text)
+    out = tmp_path / "out"
+    assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
+    assert main(["rate", str(out)]) == 0
+    said = capsys.readouterr().out
+    assert "the axes' inclination in this run" in said
+    assert "iterated" not in said
+    rows = [row.split(",") for row in (out / "rating.csv").read_text().splitlines() if "F_betax" in row]
+    means = load(out / "run.nc")["mean_axis_inclination_in_plane"].values
+    assert [float(row[-1]) for row in rows] == pytest.approx(abs(means), rel=1e-3)

@@ -37,7 +37,7 @@ def numbers(section):
         ),
         ("load", [0.437e6, "wheel_torque"]),
         ("motion", [200.0, 30, 2, False, True]),
-        ("shafts", [0.203e9, None, None, None]),
+        ("shafts", [0.203e9, None, None, None, False]),
         ("bearings", [0.155e6, None, None, None, None, None, None]),
         ("inertia", [4.9e-3, 24.5, None, None, None, None, None]),
         ("damping", [0.4e-3, 0.5e-3, None, None, None, None]),

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.scene.test_paths import loop_of_gears
 from tests.simulation.test_train_motion import BEARINGS, FRICTION, INERTIA, motion
-from tests.trains import COARSE, gear_text, mate, split_text
+from tests.trains import COARSE, gear_text, helical_paths, mate, split_text
 
 from fenics_gears import simulate_train, train_from_text
 from fenics_gears.dynamics.energy_account import account, quadratic
@@ -59,23 +59,9 @@ def test_equal_paths_have_the_transmission_error_of_one_under_its_part():
 def test_helical_paths_whose_gears_are_their_own_share_evenly():
     """Over the face, two gears side by side on the first shaft and two on the last: equal paths carry half each. The
     second gear of the last shaft is driven: turned ahead it gives way, and its path carries less."""
-    text = split_text(teeth=(20, 30, 20, 30)).replace('"in1.pinion"', gear_text(20, 2.0), 1)
-    text = text.replace('"out1.wheel"', gear_text(30, 2.0), 1).replace(
-        "face_width", 'helix_angle = "15 deg"\nface_width'
-    )
-    coarse = (
-        'slices = 3\nlayers = 2\nbody_element_size = "3 mm"\nsteps_per_mesh_cycle = 6\nflank_element_size = "0.2 mm"'
-    )
-    ends = '[shafts.first]\ncarries = ["in1.pinion", "in2.pinion"]\n'
-    ends += '[shafts.last]\ncarries = ["out1.wheel", "out2.wheel"]\n'
-    text = (
-        text.replace(COARSE, coarse)
-        .replace('face_width = "20 mm"', 'face_width = "10 mm"')
-        .replace("[load]", f"{ends}{{}}\n[load]")
-    )
-    even = run(text.replace("{}", ""))
+    even = run(helical_paths())
     assert even["path_share"].values == pytest.approx(np.full((len(even["step"]), 4), 0.5), abs=1e-9)
-    turned = run(text.replace("{}", 'clocking = "1e-4 rad"'))
+    turned = run(helical_paths('clocking = "1e-4 rad"'))
     assert (turned["path_share"].isel(mesh=[1, 3]) < 0.49).all()
 
 

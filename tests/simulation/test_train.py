@@ -100,7 +100,7 @@ def test_thrusts_on_a_helical_idler_cancel():
     assert (found["face_load_factor"].values > 1.1).all()
     load = found["line_load"].sum("slot").mean("contact_step").transpose("mesh", "face_position").values
     assert ((load[:, 0] > load[:, -1]) == (load[0, 0] > load[0, -1])).all()
-    assert "the first gear of the row" in found["face_position_of_mesh"].attrs["long_name"]
+    assert "the first gear of the stage" in found["face_position_of_mesh"].attrs["long_name"]
 
 
 def test_an_idler_that_both_meshes_load_is_softer():

@@ -92,7 +92,8 @@ def check_train(scene: TrainScene) -> int:
         from fenics_gears.model.train_motion_rows import frequency_rows, motion_rows
 
         print_rows("Motion of all stages together", motion_rows(model.rows[0]))
-        print_rows("Natural frequencies, about, with one tooth pair in each mesh", frequency_rows(model.rows[0]))
+        if frequencies := frequency_rows(model.rows[0]):
+            print_rows("Natural frequencies, about, with one tooth pair in each mesh", frequencies)
     print_rows("Expected cost", _cost_rows(model))
     if model.warnings:
         print_rows("Warnings", [("", said, "") for said in model.warnings])

@@ -115,7 +115,8 @@ def _shafts_bend(scene: Scene) -> bool:
 
 
 def _on_bent_shafts(scene: Scene, pair: GearPair) -> dict[str, np.ndarray]:
-    if not _shafts_bend(scene):
+    # In a train other gears bend its shafts too.
+    if not _shafts_bend(scene) or scene.shafts.in_train:
         return {}
     z = middles_of_slices(pair)
     return {
@@ -141,10 +142,11 @@ def _misalignment(scene: Scene, pair: GearPair) -> float | None:
 def of_misalignment(scene: Scene, finish: Finish) -> str:
     """A sentence on the misalignment that the standard's K_Hbeta counts, and whether the run has the same."""
     if _shafts_bend(scene):
+        iterated = "; iterated: method B, without running-in, with the twist within the teeth cut into a shaft"
         return (
             "K_Hbeta of ISO 6336 is of the axes' inclination in this run with the scene's misalignment and helix slopes"
-            " (method C, less running-in; iterated: method B, without running-in, with the twist within the teeth cut"
-            " into a shaft), not of helix slopes of the tolerance class."
+            f" (method C, less running-in{'' if scene.shafts.in_train else iterated}), not of helix slopes of the"
+            " tolerance class."
         )
     if _misalignment(scene, gear_pair(scene.gears)) is not None:
         which = "the scene's misalignment and helix slopes (method C, less running-in)"

@@ -23,7 +23,7 @@ from ..motion import pair_forces
 from ..panels import digits, factor
 from ..pressure import has_pressure, largest_pressures
 from ..run import ShownRun
-from ..train import drawing_of, errors, orders
+from ..train import bent_shafts_of, drawing_of, errors, orders
 from .face import FACTORS
 from .origin import made_by, scene_section, version_section
 from .overview import warnings
@@ -42,7 +42,7 @@ def train_page(dataset: xr.Dataset, file: Path, progress: Progress | None = None
     sections = [
         _summary(dataset, train, flow), warnings(ShownRun(dataset)), _geometry(train), _power(dataset, train, flow),
         PageSection("motion", "Transmission error", errors(train, dataset)), _orders(dataset, train),
-        *_frequencies(train),
+        *_shafts(dataset, train), *_frequencies(train),
     ]  # fmt: skip
     sections += [_mesh(dataset, train, number) for number in range(len(train.meshes))]
     sections += [
@@ -62,6 +62,18 @@ def _conditions(train: TrainScene) -> str:
 def _motion(train: TrainScene) -> str:
     inert = train.meshes[0].scene.inertia is not None
     return f"with inertia, numbers of the last {train.recorded_cycles} cycles" if inert else "quasi-static"
+
+
+def _shafts(dataset: xr.Dataset, train: TrainScene) -> list[PageSection]:
+    """Shafts that bend, and the loads of their bearings."""
+    charts = bent_shafts_of(train, dataset)
+    if not charts:
+        return []
+    from ..train_shafts import bearing_rows
+
+    headings = ("Bearing", "Place (mm)", "To the right (N)", "Upwards (N)", "Axial (N)", "Largest (N)")
+    table = Table(headings, bearing_rows(dataset), "Mean forces of the shafts on their bearings", numbers=1)
+    return [PageSection("shafts", "Shafts that bend", [*charts, table])]
 
 
 def _frequencies(train: TrainScene) -> list[PageSection]:

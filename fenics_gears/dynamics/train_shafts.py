@@ -1,0 +1,252 @@
+"""Shafts of a train that bend: gears at places along them move together, in all of their meshes.
+
+A shaft that carries several gears is cut between these: each has its part, an `ElasticShaft` which goes on with the
+next one. Along all shafts of a train z is the axis, towards the end from which the first gear of the train is seen to
+turn counter-clockwise. Across it x is along the line of action of the first mesh of the shaft's first gear. A mesh has
+a frame of its own, in which its pinion turns counter-clockwise; displacements stand in it as vectors, tilts as axial
+vectors, which a mirror image turns round.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import cos, pi, sin
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fenics_gears.geometry.pair import GearPair
+
+from .damping import Damping
+from .elastic_shaft import FIVE, MOTIONS, ElasticShaft
+from .rolling_springs import springs_of
+from .shaft_at_work import even_load
+from .shaft_elements import motions_of
+from .shaft_system import ShaftSystem
+from .tilting import mesh_over_face
+from .train import MeshSprings, TrainDrivetrain, damped
+
+if TYPE_CHECKING:
+    from fenics_gears.geometry.gear_data import LumpedGear
+
+SIDES = ("pinion", "wheel")
+
+
+@dataclass(frozen=True, eq=False)
+class MeshFrame:
+    """Axes (3, 3) of a mesh in space, one a row: along and off its line of action, and the axis. `pair`; `torque`
+    (N mm) on its wheel."""
+
+    axes: np.ndarray
+    pair: GearPair
+    torque: float
+
+    @property
+    def sense(self) -> float:
+        """1 where it counts turns as the train does, -1 where its own are those of a mirror image."""
+        return float(np.linalg.det(self.axes) * self.axes[2, 2])
+
+
+@dataclass(frozen=True, eq=False)
+class GearOnShaft:
+    """A gear on its part of a `shaft` that bends, as the pinion (0) or the wheel (1) of a `mesh`, by its number;
+    `turned` (5, 5): its motions in the frame of the mesh, mm and rad, per those in the frame of the shaft."""
+
+    shaft: ElasticShaft
+    mesh: int
+    side: int
+    turned: np.ndarray
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names (5,) of its motions among the coordinates of the mesh."""
+        return tuple(f"{name}{self.side + 1}" for name in MOTIONS)
+
+
+@dataclass(frozen=True, eq=False)
+class BentShafts:
+    """All shafts of a train that bend, by their `names`: a system of each, the `gears` on them, once in each of their
+    meshes, the `frames` of all meshes; `axes` (3, 3) of each shaft in space, one a row. `masses`: of the gears by their
+    names, none without inertia."""
+
+    names: tuple[str, ...]
+    systems: tuple[ShaftSystem, ...]
+    axes: tuple[np.ndarray, ...]
+    gears: tuple[GearOnShaft, ...]
+    frames: tuple[MeshFrame, ...]
+    masses: Mapping[str, LumpedGear]
+
+    def in_mesh(self, mesh: int) -> list[GearOnShaft]:
+        """The gears of a mesh that are on such shafts."""
+        return [each for each in self.gears if each.mesh == mesh]
+
+    def names_in(self, mesh: int) -> tuple[str, ...]:
+        """Names of their motions among the coordinates of the mesh."""
+        return tuple(name for each in self.in_mesh(mesh) for name in each.names)
+
+
+def mesh_axes(direction: float, pressure_angle: float, sense: float, forwards: float) -> np.ndarray:
+    """Axes (3, 3) of a mesh in space: `direction` (rad) of its wheel from its pinion, counter-clockwise, `sense` 1
+    where its pinion turns counter-clockwise, -1 where it turns clockwise; `forwards`: 1 where its axis is that of the
+    train, -1 where it is the opposite."""
+    along = direction + sense * (0.5 * pi - pressure_angle)
+    off = along + sense * 0.5 * pi
+    return np.array([[cos(along), sin(along), 0.0], [cos(off), sin(off), 0.0], [0.0, 0.0, forwards]])
+
+
+def shaft_axes(mesh: np.ndarray) -> np.ndarray:
+    """Axes (3, 3) of a shaft in space, of those of the first mesh of its first gear."""
+    x, y, _ = mesh[0]
+    return np.array([[x, y, 0.0], [-y, x, 0.0], [0.0, 0.0, 1.0]])
+
+
+def turned_motions(of: np.ndarray, to: np.ndarray) -> np.ndarray:
+    """Motions (5, 5) along the axes `to` (3, 3), without the turn, per those along other axes."""
+    turn = to @ of.T
+    found = np.zeros((FIVE, FIVE))
+    found[:3, :3] = turn
+    found[3:, 3:] = np.linalg.det(turn) * turn[:2, :2]
+    return found
+
+
+def even_loads(shafts: Sequence[ElasticShaft], gears: Sequence[GearOnShaft], frames: Sequence[MeshFrame]) -> np.ndarray:
+    """Loads (5 g,) of the gears on the parts of a shaft, in its frame, by an even line load in each mesh."""
+    loads = np.zeros((len(shafts), FIVE))
+    for own, shaft in zip(loads, shafts):
+        for gear in gears:
+            if gear.shaft.gear == shaft.gear:
+                frame = frames[gear.mesh]
+                of_mesh = even_load(replace(shaft, gear=SIDES[gear.side]), frame.pair, frame.torque)
+                own += gear.turned.T @ of_mesh
+    return loads.ravel()
+
+
+def torsional_stiffness(system: ShaftSystem) -> float:
+    """Of a shaft between its gears, or between its gear and its coupling, N mm/rad; infinite where it has neither."""
+    if len(system.shafts) == 1:
+        return system.torsional_stiffness(system.shafts[0])
+    turns = [*(motions_of(shaft.gear, "gear")[-1] for shaft in system.shafts)]
+    turned = system.of_given @ system.selected(turns)
+    stiffness = turned.T @ system.held.stiffness @ turned
+    return float(-stiffness[0, 1])
+
+
+class _Coordinates:
+    """Those of a drivetrain with rigid shafts, and behind them those of shafts that bend; the last ones are modes."""
+
+    def __init__(self, base: TrainDrivetrain, bent: BentShafts):
+        self.base = base
+        self.bent = bent
+        moved = [name for system in bent.systems for name in system.moved]
+        modes = [name for system in bent.systems for name in system.modes]
+        self.names = (*base.coordinates, *moved, *modes)
+        self.radii = np.concatenate([base.radii, np.ones(len(moved) + len(modes))])
+        for gear in bent.gears:
+            for name in gear.shaft.of_gear:
+                if name.startswith("tilt"):
+                    radius = bent.frames[gear.mesh].pair.base_radii[gear.side]
+                    self.radii[self.names.index(name)] = radius
+
+    def padded(self, array: np.ndarray) -> np.ndarray:
+        """An array over the coordinates of the rigid shafts as one over all."""
+        more = len(self.names) - len(self.base.coordinates)
+        return np.pad(array, [(0, more if size == len(self.base.coordinates) else 0) for size in array.shape])
+
+    def of(self, names: Sequence[str]) -> np.ndarray:
+        """Motions (n, k) of such names, in mm and rad."""
+        rows = np.zeros((len(names), len(self.names)))
+        for row, name in zip(rows, names):
+            place = self.names.index(name)
+            row[place] = 1.0 / self.radii[place]
+        return rows
+
+    def spread(self, system: ShaftSystem, matrix: np.ndarray) -> np.ndarray:
+        """A matrix over the coordinates of a system, in N, mm and rad, as one over all (k, k)."""
+        rows = self.of(system.coordinates)
+        return rows.T @ matrix @ rows
+
+    def of_mesh(self, mesh: int) -> np.ndarray:
+        """A mesh's own coordinates (l, k), in mm: those that it has on rigid shafts, then those of its gears on shafts
+        that bend."""
+        base = self.base.of_meshes[mesh]
+        rows = [np.pad(base, ((0, 0), (0, len(self.names) - base.shape[1])))]
+        for gear in self.bent.in_mesh(mesh):
+            radius = self.bent.frames[mesh].pair.base_radii[gear.side]
+            arcs = np.array([radius if name.startswith("tilt") else 1.0 for name in MOTIONS])
+            rows.append(arcs[:, None] * gear.turned @ self.of(gear.shaft.of_gear))
+        return np.concatenate(rows)
+
+    def turn(self, gear: GearOnShaft, names: Sequence[str]) -> np.ndarray:
+        """Turn (k,) of a gear about the axis of the train, in rad; `names` of the coordinates of its mesh."""
+        frame = self.bent.frames[gear.mesh]
+        row = self.of_mesh(gear.mesh)[names.index(f"rotation_{gear.side + 1}")]
+        return frame.sense * row / frame.pair.base_radii[gear.side]
+
+
+def with_bent_shafts(
+    base: TrainDrivetrain,
+    bent: BentShafts,
+    names_of: Sequence[tuple[str, ...]],
+    damping: Damping | None = None,
+    mesh_stiffness: Sequence[float] = (),
+) -> TrainDrivetrain:
+    """A drivetrain whose gears turn and twist their shafts, with some shafts that also bend; `names_of`: names of the
+    coordinates of each mesh. `mesh_stiffness`, N/mm: of either half of the face of one tooth pair in each mesh,
+    roughly."""
+    coordinates = _Coordinates(base, bent)
+    stiffness, in_bearings = (coordinates.padded(each) for each in (base.stiffness, base.bearing_stiffness))
+    for system in bent.systems:
+        stiffness = stiffness + coordinates.spread(system, system.stiffness)
+        in_bearings = in_bearings + coordinates.spread(system, system.bearing_stiffness)
+    of_meshes = tuple(coordinates.of_mesh(mesh) for mesh in range(len(names_of)))
+    springs = [mesh_over_face(frame.pair, names) for frame, names in zip(bent.frames, names_of)]
+    whole = replace(
+        base,
+        coordinates=coordinates.names,
+        radii=coordinates.radii,
+        stiffness=stiffness,
+        load=coordinates.padded(base.load),
+        mass=None if base.mass is None else _mass(coordinates, names_of),
+        mesh=MeshSprings(
+            np.concatenate([each.normals @ rows for each, rows in zip(springs, of_meshes)]),
+            np.concatenate([each.across @ rows for each, rows in zip(springs, of_meshes)]),
+        ),
+        systems=bent.systems,
+        bearing_stiffness=in_bearings,
+        motions=tuple(tuple(coordinates.padded(np.array(each)).tolist()) for each in base.motions),
+        angle=coordinates.padded(base.angle),
+        of_meshes=of_meshes,
+        end=coordinates.padded(base.end),
+    )
+    if any(system.in_rolling for system in bent.systems):
+        loads = [even_loads(system.shafts, bent.gears, bent.frames).reshape(-1, FIVE) for system in bent.systems]
+        whole = replace(whole, rolling=springs_of(whole, [each for of_system in loads for each in of_system]))
+    if whole.mass is None:
+        return whole
+    dampers = sum(coordinates.spread(system, system.damping) for system in bent.systems)
+    whole = replace(whole, damping=dampers if np.any(dampers) else None)
+    return whole if damping is None else damped(whole, damping, mesh_stiffness)
+
+
+def _mass(coordinates: _Coordinates, names_of: Sequence[tuple[str, ...]]) -> np.ndarray:
+    """Mass (k, k), N s^2/mm, of gears that also move and tilt, of the load, and of shafts."""
+    bent = coordinates.bent
+    mass = coordinates.padded(coordinates.base.mass)
+    once = {gear.shaft.gear: gear for gear in reversed(bent.gears)}
+    for name, gear in once.items():
+        own = bent.masses[name]
+        rows = coordinates.of(gear.shaft.of_gear)
+        mass += rows.T @ np.diag([own.mass] * 3 + [own.tilting_inertia] * 2) @ rows
+    for system in bent.systems:
+        moved = system.motions_over(coordinates.names) / coordinates.radii
+        for shaft in system.shafts:
+            gear = once[shaft.gear]
+            turns = {motions_of(shaft.gear, "gear")[-1]: coordinates.turn(gear, names_of[gear.mesh])}
+            # The turn of the drive is prescribed.
+            end = coordinates.padded(coordinates.base.end) if gear.side else np.zeros(len(mass))
+            turns |= dict.fromkeys(shaft.coupling(shaft.chain), bent.frames[gear.mesh].sense * end)
+            for name, row in turns.items():
+                moved[: len(system.given)] += np.outer(system.selected((name,))[:, 0], row)
+        mass += moved.T @ system.mass @ moved
+    return mass

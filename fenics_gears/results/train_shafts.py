@@ -1,0 +1,136 @@
+"""Shafts of a train that bend, in its result: loads of all bearings, and the lines in which the shafts bend."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.elastic_shaft import FIVE, ElasticShaft
+from fenics_gears.dynamics.shaft_system import ShaftSystem
+from fenics_gears.dynamics.train_shafts import BentShafts, turned_motions
+from fenics_gears.model.storage import SHAFT_POINTS
+
+from .bent_shafts import LOADS
+
+# Of the train: to the right, up, and along the axes.
+SPACE = np.eye(3)
+IN_SPACE = (
+    "force of the shaft on its bearing to the right, as directions of stages are counted",
+    "force of the shaft on its bearing upwards",
+    "axial force of the shaft on its bearing, towards the end from which the first gear turns counter-clockwise",
+    "moment of the shaft on its bearing about the direction to the right",
+    "moment of the shaft on its bearing about the direction upwards",
+)
+Variables = dict[str, tuple]
+
+
+@dataclass(frozen=True)
+class ResultOfShafts:
+    """Variables and coordinates, as dimensions, values and labels, and numbers of the whole train."""
+
+    variables: Variables
+    coordinates: Variables
+    numbers: dict[str, float]
+
+
+class ShaftsOfTrain:
+    """What the states of a train say of its shafts that bend."""
+
+    def __init__(self, drivetrain: Drivetrain, bent: BentShafts):
+        self._drivetrain = drivetrain
+        self._bent = bent
+        self._states: list[np.ndarray] = []
+
+    def take(self, states: np.ndarray) -> None:
+        """The next states (steps, k)."""
+        self._states.append(states)
+
+    def result(self, recorded: int) -> ResultOfShafts:
+        """Loads of all bearings at all steps, and means over the last so many steps of how all shafts bend; 0 for
+        all."""
+        states = np.concatenate(self._states)
+        loads = self._bearing_loads(states)
+        units = ("N", "N", "N", "N mm", "N mm")
+        variables: Variables = {
+            name: (("time", "bearing"), of, {"units": unit, "long_name": words})
+            for name, of, unit, words in zip(LOADS, np.moveaxis(loads, -1, 0), units, IN_SPACE)
+        }
+        mean = states[-recorded:].mean(axis=0)
+        for axis, of, where in zip("xy", self._deflections(mean), ("to the right", "upwards")):
+            words = {"units": "mm", "long_name": f"displacement of the shaft's axis {where}, mean"}
+            variables[f"shaft_deflection_{axis}"] = (("shaft", "shaft_point"), of, words)
+        forces = np.linalg.norm(loads[-recorded:, :, :3], axis=-1)
+        numbers = {"largest_bearing_force": float(forces.max())}
+        if self._drivetrain.rolling is not None:
+            numbers["largest_rolling_element_force"] = self._drivetrain.rolling.largest_force(mean)
+        return ResultOfShafts(variables, self.coordinates(), numbers)
+
+    def coordinates(self) -> Variables:
+        """Where bearings and points of the shafts are."""
+        from_end = {"units": "mm", "long_name": "distance from the left end of the shaft"}
+        bearings = list(self._bearings())
+        names = [f"{shaft} {number}" for shaft, number, _ in bearings]
+        return {
+            "bearing": ("bearing", names, {"long_name": "bearing of a shaft, by its place in the scene"}),
+            "bearing_place": ("bearing", [at for _, _, at in bearings], from_end),
+            "shaft": ("shaft", list(self._bent.names), {"long_name": "shaft that bends"}),
+            "shaft_place": (("shaft", "shaft_point"), np.array(self._points), from_end),
+        }
+
+    def _bearings(self) -> Iterator[tuple[str, int, float]]:
+        """Shaft, number there from left to right, and place (mm) of each bearing."""
+        for name, system in zip(self._bent.names, self._bent.systems):
+            places = [begin + each.at for begin, part in _begun(system) for each in part.bearings]
+            order = np.argsort(places, kind="stable")
+            yield from ((name, number, places[place]) for number, place in enumerate(order, 1))
+
+    @cached_property
+    def _points(self) -> list[np.ndarray]:
+        """Places (p,), mm, on each shaft at which its deflection is given."""
+        lengths = [sum(part.length for part in system.shafts) for system in self._bent.systems]
+        return [np.linspace(0.0, length, SHAFT_POINTS) for length in lengths]
+
+    def _values(self, system: ShaftSystem, states: np.ndarray) -> np.ndarray:
+        return np.stack([self._drivetrain.value(states, name) for name in system.coordinates], axis=-1)
+
+    def _bearing_loads(self, states: np.ndarray) -> np.ndarray:
+        """Loads (steps, bearings, 5), in space."""
+        of_systems = [self._values(system, states) @ system.bearing_loads.T for system in self._bent.systems]
+        loads = np.concatenate(of_systems, axis=1).reshape(len(states), -1, FIVE)
+        if self._drivetrain.rolling is not None:
+            loads = self._drivetrain.rolling.loads(states, loads)
+        first = 0
+        found = []
+        for system, axes in zip(self._bent.systems, self._bent.axes):
+            own = loads[:, first : first + len(system.bearings)] @ turned_motions(axes, SPACE).T
+            first += len(system.bearings)
+            places = [begin + each.at for begin, part in _begun(system) for each in part.bearings]
+            found.append(own[:, np.argsort(places, kind="stable")])
+        return np.concatenate(found, axis=1)
+
+    def _deflections(self, state: np.ndarray) -> np.ndarray:
+        """Displacements (2, shafts, points) of the shafts' axes, mm, in a state (k,)."""
+        lines = []
+        for system, axes, points in zip(self._bent.systems, self._bent.axes, self._points):
+            values = self._values(system, state)
+            turn = turned_motions(axes, SPACE)[:2]
+            own = []
+            for begin, part in _begun(system):
+                end = begin + part.length
+                last = part is system.shafts[-1]
+                there = points[(points >= begin) & ((points < end) | last)]
+                own.append(system.deflection(part, np.clip(there - begin, 0.0, part.length)) @ values @ turn.T)
+            lines.append(np.concatenate(own).T)
+        return np.stack(lines, axis=1)
+
+
+def _begun(system: ShaftSystem) -> Iterator[tuple[float, ElasticShaft]]:
+    """Where each part of a shaft begins (mm), and the part."""
+    begin = 0.0
+    for part in system.shafts:
+        yield begin, part
+        begin += part.length

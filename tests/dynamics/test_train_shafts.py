@@ -1,0 +1,114 @@
+"""Shafts that bend and carry several gears: parts of one shaft that go on with each other."""
+
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+from tests.beam_elements import FIVE, assembled
+from tests.dynamics.test_elastic_shaft import LOAD, STIFF, E, G, area, second, shaft, shear
+
+from fenics_gears.dynamics.bearings import Bearing
+from fenics_gears.dynamics.shaft_system import ShaftSystem
+from fenics_gears.dynamics.shafts import ShaftSection
+from fenics_gears.dynamics.train_shafts import mesh_axes, torsional_stiffness, turned_motions
+from fenics_gears.effects.elastic_shaft_seats import sections_between
+
+SECTIONS = (ShaftSection(50.0, 30.0, bore=10.0), ShaftSection(60.0, 42.0), ShaftSection(40.0, 25.0))
+BEARINGS = (Bearing(12.0, 3e5, 1e5), Bearing(85.0, 2e5, 0.0, 1e7), Bearing(140.0, 4e5))
+GEARS = (30.0, 110.0)
+CUT = 70.0
+
+
+def two_gears(sections=SECTIONS, bearings=BEARINGS, gears=GEARS, cut=CUT, density=0.0):
+    """A shaft with two gears without width, cut between these; and the same as one with the first gear alone."""
+    whole = shaft(sections, gears[0], bearings, torque_at=gears[0])
+    length = sum(each.length for each in sections)
+    parts = [
+        replace(
+            whole,
+            gear=name,
+            sections=sections_between(sections, begin, end),
+            gear_at=at - begin,
+            torque_at=at - begin,
+            bearings=tuple(replace(each, at=each.at - begin) for each in bearings if (each.at < cut) == (begin < cut)),
+            goes_on=name == "one",
+            density=density,
+            up_to=1e6 if density else whole.up_to,
+        )  # fmt: skip
+        for name, at, begin, end in zip(("one", "other"), gears, (0.0, cut), (cut, length))
+    ]
+    return ShaftSystem(tuple(parts)), whole
+
+
+def test_two_gears_on_a_shaft_have_the_stiffness_of_a_textbooks_elements():
+    """Brute force: the whole shaft of Przemieniecki's elements, at the middles of both gears."""
+    found, whole = two_gears()
+    places, stiffness = assembled(whole, shear, GEARS)
+    kept = np.concatenate([np.arange(FIVE) + FIVE * places.index(each) for each in GEARS])
+    others = np.setdiff1d(np.arange(len(stiffness)), kept)
+    follows = np.linalg.solve(stiffness[np.ix_(others, others)], stiffness[np.ix_(others, kept)])
+    wanted = stiffness[np.ix_(kept, kept)] - stiffness[np.ix_(kept, others)] @ follows
+    assert found.stiffness == pytest.approx(wanted, rel=1e-8, abs=1e-9 * np.abs(wanted).max())
+
+
+@pytest.mark.parametrize("cut", [31.0, 60.0, 79.0])
+def test_one_gears_force_tilts_the_other_as_in_closed_form(cut):
+    """Exact: a beam between two supports with F at c from the left has at x < c the slope F (L - c) (L^2 - (L - c)^2 -
+    3 x^2) / 6 E I L, shear or not, and F (2 c - L) / k L^2 by the supports; wherever it is cut."""
+    length, diameter, x, c = 120.0, 24.0, 30.0, 80.0
+    sections = (ShaftSection(length, diameter),)
+    bearings = (Bearing(0.0, STIFF, 1e5), Bearing(length, STIFF))
+    found, _ = two_gears(sections, bearings, (x, c), cut)
+    moved = np.linalg.solve(found.stiffness, LOAD * np.eye(2 * FIVE)[FIVE])
+    b = length - c
+    slope = b * (length**2 - b**2 - 3.0 * x**2) / (6.0 * E * second(diameter) * length)
+    slope += (2.0 * c - length) / (STIFF * length**2)
+    assert moved[4] == pytest.approx(LOAD * slope, rel=1e-9)
+
+
+def test_two_gears_on_a_shaft_twist_against_each_other_as_its_sections():
+    """Exact: G J over length, section by section between the gears."""
+    found, _ = two_gears()
+    lengths = (20.0, 30.0), (60.0, 42.0)
+    polar = [2.0 * second(30.0, 10.0), 2.0 * second(42.0)]
+    yielding = sum(length / (G * each) for (length, _), each in zip(lengths, polar))
+    assert torsional_stiffness(found) == pytest.approx(1.0 / yielding, rel=1e-9)
+
+
+def test_a_shaft_with_two_gears_vibrates_as_a_textbooks_elements():
+    """Brute force: two hundred elements with lumped masses, a mass at either gear."""
+    density = 7.85e-9
+    of_gears = np.array([[1e-3, 1e-3, 1e-3, 0.3, 0.3, 0.5], [2e-3, 2e-3, 2e-3, 0.8, 0.8, 1.5]])
+    found, whole = two_gears(density=density)
+    places, stiffness = assembled(whole, shear, [*np.linspace(0.0, whole.length, 201), *GEARS])
+    ends = np.cumsum([each.length for each in SECTIONS])
+    masses = np.zeros((len(places), FIVE))
+    for number, (left, right) in enumerate(zip(places, places[1:])):
+        part = SECTIONS[int(np.searchsorted(ends, 0.5 * (left + right)))]
+        size = np.array([area(part.diameter, part.bore)] * 3 + [second(part.diameter, part.bore)] * 2)
+        masses[number : number + 2] += 0.5 * density * (right - left) * size
+    for at, own in zip(GEARS, of_gears):
+        masses[places.index(at)] += own[:FIVE]
+    lumped = np.sqrt(eigh(stiffness, np.diag(masses.ravel()), eigvals_only=True, subset_by_index=(0, 9))) / (2.0 * pi)
+    # Its turns, which these elements have not, are held.
+    held = [place for place, name in enumerate(found.given) if not name.endswith("turn")]
+    kept = [*held, *range(len(found.given), len(found.mass))]
+    mass = found.mass[np.ix_(kept, kept)] + np.diag([*of_gears[:, :FIVE].ravel(), *np.zeros(len(found.own_modes))])
+    own = np.sqrt(eigh(found.stiffness, mass, eigvals_only=True)) / (2.0 * pi)
+    assert [np.abs(own / each - 1.0).min() for each in lumped] == pytest.approx(np.zeros(10), abs=4e-4)
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+@pytest.mark.parametrize("forwards", [1.0, -1.0])
+def test_motions_of_a_rigid_shaft_are_one_motion_in_every_frame(sense, forwards):
+    """Identity: what a tilt does to a place on the axis is the vector product of the tilt and the place, whichever way
+    round a frame is."""
+    axes = mesh_axes(0.4, 0.35, sense, forwards)
+    place = np.array([0.0, 0.0, 7.0])
+    motion = np.array([0.1, -0.2, 0.3, 0.02, -0.01])
+    moved = motion[:3] + np.cross([*motion[3:], 0.0], place)
+    in_mesh = turned_motions(np.eye(3), axes) @ motion
+    there = in_mesh[:3] + np.cross([*in_mesh[3:], 0.0], axes @ place)
+    assert there == pytest.approx(axes @ moved, abs=1e-15)

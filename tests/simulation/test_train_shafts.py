@@ -1,0 +1,253 @@
+"""Trains whose shafts bend, with several gears and bearings at places, in whole runs."""
+
+from functools import reduce
+
+import numpy as np
+import pytest
+from tests.trains import (
+    bearing_sections,
+    bent_paths,
+    bent_two_stages,
+    helical_paths,
+    helical_row,
+    helical_stage,
+    shaft_section,
+)
+
+from fenics_gears import scene_from_text, simulate, simulate_train, train_from_text
+from fenics_gears.dynamics.energy_account import account, quadratic
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.steps import Steps
+from fenics_gears.model.train import train_model_of
+from fenics_gears.results.contact_variables import energy_of_teeth
+from fenics_gears.simulation.train import row_cycle
+from fenics_gears.system.progress import SilentProgress
+
+ACCURACY = """
+    [accuracy]
+    slices = 5
+    layers = 2
+    body_element_size = "5 mm"
+    steps_per_mesh_cycle = 10
+    flank_element_size = "0.25 mm"
+    """
+LINEAR = (
+    'at = "12 mm"\nradial_stiffness = "0.3e6 N/mm"\naxial_stiffness = "0.1e6 N/mm"\n',
+    'at = "85 mm"\nradial_stiffness = "0.4e6 N/mm"\ntilting_stiffness = "1e7 N mm/rad"\n',
+)
+ROLLING = (
+    'at = "12 mm"\nrolling = { number = 9, diameter = "12.7 mm", pitch_diameter = "65 mm", clearance = "15 um" }\n',
+    'at = "85 mm"\nrolling = { elements = "rollers", number = 14, diameter = "9 mm", length = "10 mm",'
+    ' pitch_diameter = "65 mm", clearance = "20 um" }\n',
+)
+ROWS = "[[3e5, 1e4, 0, 0, 2e5], [1e4, 3e5, 0, 1e5, 0], [0, 0, 2e5, 0, 0], [0, 1e5, 0, 1e7, 0], [2e5, 0, 0, 0, 1e7]]"
+OF_WHEEL = (f'at = "20 mm"\nstiffness_matrix = {ROWS}\n', 'at = "110 mm"\nradial_stiffness = "0.4e6 N/mm"\n')
+INPUT = (
+    'sections = [{ length = "40 mm", diameter = "28 mm", bore = "8 mm" }, { length = "90 mm", diameter = "35 mm" }]\n'
+    'torque_at = "0 mm"\n'
+)
+OUTPUT = 'sections = [{ length = "150 mm", diameter = "40 mm" }]\ntorque_at = "150 mm"\n'
+IRON = 'material = { name = "ductile cast iron" }\n'
+INERTIA = '[inertia]\ndensity = "7.85 g/cm^3"\n[inertia.load]\nmoment_of_inertia = "0.01 kg m^2"\n'
+
+
+def tables(name: str, each: tuple[str, ...]) -> str:
+    return "".join(f"[[{name}]]\n{one}" for one in each)
+
+
+def pair_and_train(helix: float, bearings: tuple[str, ...], vibrating: bool) -> tuple[str, str]:
+    """A pair on shafts that bend, and the same as a train of one mesh, seen from another direction."""
+    more = '[friction]\ncoefficient = 0.05\n[load]\n{} = "200 N m"\n'
+    motion = ""
+    if vibrating:
+        more = f"[damping]\nratio = 0.05\n{INERTIA}{more}"
+        motion = '[motion]\n{} = "3000 rpm"\nmesh_cycles = 2\n'
+    gears = helical_stage("one", 3.0, (18, 35), helix)
+    pair = gears.replace("stages.one", "gears") + ACCURACY + more.format("wheel_torque") + motion.format("pinion_speed")
+    pair += f'[shafts.input]\n{INPUT}gear_at = "114 mm"\n[shafts.output]\n{OUTPUT}gear_at = "60 mm"\n{IRON}'
+    pair += tables("bearings.pinion", bearings) + tables("bearings.wheel", OF_WHEEL)
+    train = helical_stage("one", 3.0, (18, 35), helix, 'direction = "25 deg"') + ACCURACY
+    train += more.format("output_torque") + motion.format("input_speed")
+    train += f'[shafts.a]\ncarries = ["one.pinion"]\n{INPUT}gears_at = ["114 mm"]\n'
+    train += tables("shafts.a.bearings", bearings)
+    train += f'[shafts.b]\ncarries = ["one.wheel"]\n{OUTPUT}gears_at = ["60 mm"]\n{IRON}'
+    return pair, train + tables("shafts.b.bearings", OF_WHEEL)
+
+
+@pytest.mark.parametrize(
+    ("helix", "bearings", "vibrating"),
+    [
+        (15.0, LINEAR, False),
+        (15.0, ROLLING, True),
+        pytest.param(0.0, LINEAR, False, marks=pytest.mark.nightly),
+        pytest.param(15.0, ROLLING, False, marks=pytest.mark.nightly),
+        pytest.param(15.0, LINEAR, True, marks=pytest.mark.nightly),
+        pytest.param(0.0, ROLLING, True, marks=pytest.mark.nightly),
+    ],
+)
+def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair(helix, bearings, vibrating):
+    """Two ways to the same equations, with friction: motions, forces over the face and in all bearings, misalignment
+    by the load, at every step. The pair has its bearings' forces along and off the line of action."""
+    pair, train = pair_and_train(helix, bearings, vibrating)
+    expected = simulate(scene_from_text(pair))
+    scene = train_from_text(train)
+    whole = simulate_train(scene)
+    found = whole.isel(mesh=0)
+    names = ("transmission_error", "normal_force", "line_load", "tilt_x", "tilt_y", "axial_position", "centre_y")
+    for name in (*names, "axis_inclination_in_plane", "axis_offset_out_of_plane", "rotation"):
+        size = np.nanmax(np.abs(expected[name].values))
+        assert found[name].values == pytest.approx(expected[name].values, rel=1e-8, abs=1e-8 * size), name
+    along = np.deg2rad(25.0 + 90.0) - scene.meshes[0].pair.operating_pressure_angle
+    x, y = (expected[f"bearing_force_{axis}"].values for axis in "xy")
+    size = expected.attrs["largest_bearing_force"]
+    in_space = x * np.cos(along) - y * np.sin(along), x * np.sin(along) + y * np.cos(along)
+    for name, wanted in zip("xyz", (*in_space, expected["bearing_force_z"].values)):
+        assert whole[f"bearing_force_{name}"].values == pytest.approx(wanted, abs=1e-8 * size)
+    if not vibrating:
+        assert whole.attrs["largest_bearing_force"] == pytest.approx(size, rel=1e-8)
+        mean = expected.attrs["mean_axis_inclination_in_plane"]
+        assert float(found["mean_axis_inclination_in_plane"]) == pytest.approx(mean, rel=1e-8)
+
+
+def textbook_force(mesh, sense: float) -> np.ndarray:
+    """Force (3,) of a right-hand pinion on its wheel at the pitch circles, in space: tangential force T / r_w, F_t
+    tan(alpha_wt), F_t tan(beta_w); the pinion turns counter-clockwise where the sense is 1. By the right hand's rule
+    the thrust on the driver is along its axis of rotation."""
+    pair = mesh.pair
+    radius = pair.centre_distance * pair.wheel.teeth / (pair.pinion.teeth + pair.wheel.teeth)
+    tangential = mesh.scene.load.wheel_torque / radius
+    helix = abs(pair.slope) * radius / pair.wheel.base_radius
+    outwards = np.array([np.cos(mesh.direction), np.sin(mesh.direction), 0.0])
+    onwards = sense * np.array([-outwards[1], outwards[0], 0.0])
+    pressed = np.tan(pair.operating_pressure_angle) * outwards
+    return tangential * (onwards + pressed - np.array([0.0, 0.0, sense * helix]))
+
+
+def test_bearings_of_a_shaft_carry_both_of_its_gears():
+    """Statics: without friction the bearings have the sum of the textbook's forces of both meshes in space; and about
+    the left bearing the moments of these forces, each in the middle of its gear, with those that the gears have there
+    by the distribution of the load over the face."""
+    scene = bent_two_stages()
+    found = simulate_train(scene)
+    on_wheel = textbook_force(scene.meshes[0], 1.0)
+    on_pinion = -textbook_force(scene.meshes[1], -1.0)
+    forces = np.stack([found[f"bearing_force_{axis}"].values for axis in "xyz"], axis=-1)
+    size = np.abs(on_pinion).max()
+    assert forces.sum(axis=1) == pytest.approx(np.tile(on_wheel + on_pinion, (len(forces), 1)), abs=1e-9 * size)
+    # The second mesh is seen from the other end, where its pinion turns counter-clockwise.
+    moments = np.zeros((len(forces), 2))
+    for mesh, gear, sense in ((0, "wheel", 1.0), (1, "pinion", -1.0)):
+        own = found.isel(mesh=mesh).sel(gear=gear)
+        pair = scene.meshes[mesh].pair
+        along = scene.meshes[mesh].direction + sense * (0.5 * np.pi - pair.operating_pressure_angle)
+        x, y = (own[f"reaction_moment_{axis}"].values[: len(forces)] for axis in "xy")
+        off = sense * np.array([-np.sin(along), np.cos(along)])
+        moments += np.outer(x, [np.cos(along), np.sin(along)]) + np.outer(y, off)
+    arm = np.array([0.0, 0.0, 1.0])
+    for force, place in ((on_wheel, 35.0), (on_pinion, 100.0)):
+        moments += np.cross((place - 15.0) * arm, force)[:2]
+    carried = np.cross((135.0 - 15.0) * arm, forces[:, 1])[:, :2]
+    assert carried == pytest.approx(moments, abs=1e-9 * size * 100.0)
+
+
+def test_a_shaft_lies_in_its_bearings_as_their_forces_press_it():
+    """Hooke's law in space: the mean deflection of the shaft at its bearings, points of its line, is their mean force
+    over their stiffness, of the mesh cycle in which each step counts once."""
+    found = simulate_train(bent_two_stages())
+    for axis in "xy":
+        line = found[f"shaft_deflection_{axis}"].values[0]
+        points = np.rint(found["bearing_place"].values / found["shaft_place"].values[0, 1]).astype(int)
+        mean = found[f"bearing_force_{axis}"].values[1:].mean(axis=0)
+        assert line[points] == pytest.approx(mean / 1e6, rel=1e-9)
+
+
+def test_stages_on_a_stiff_shaft_are_pairs_and_depart_as_it_gives_way():
+    """A shaft on two bearings is determinate: each mesh has the force of its pair, however much the shaft yields. Of a
+    millionth of the compliance transmission errors and line loads are those of the pairs; the difference grows in
+    proportion to the compliance, for so little of it."""
+    pairs = simulate_train(bent_two_stages(None))
+    parts = {part: simulate_train(bent_two_stages(part)) for part in (1e-6, 1e-4, 2e-4)}
+    for found in parts.values():
+        assert found["normal_force"].values == pytest.approx(pairs["normal_force"].values, rel=1e-12)
+    near = {"transmission_error": 1e-6, "line_load": 1e-6}
+    for name, limit in near.items():
+        wanted = pairs[name].values
+        size = np.nanmax(np.abs(wanted))
+        assert parts[1e-6][name].values == pytest.approx(wanted, abs=limit * size, nan_ok=True)
+        once, twice = (np.nan_to_num(parts[each][name].values - wanted) for each in (1e-4, 2e-4))
+        assert np.abs(once).max() > 5e-6 * size
+        assert twice == pytest.approx(2.0 * once, abs=3e-4 * np.abs(twice).max())
+
+
+def test_the_energy_account_on_shafts_that_bend_closes():
+    """Work of drive, load, friction and damping is the change of kinetic and elastic energy, to round-off: with a shaft
+    that bends between two gears, its mass and its own modes."""
+    more = f'{INERTIA}[damping]\nratio = 0.04\n[friction]\ncoefficient = 0.08\n[bearings]\nstiffness = "2e5 N/mm"\n'
+    more += '[motion]\ninput_speed = "2000 rpm"\nmesh_cycles = 2\n'
+    (model,) = train_model_of(bent_two_stages(1.0, more)).rows
+    drivetrain = model.drivetrain
+    assert drivetrain.modes > 2
+    blocks: list[Steps] = []
+    march = Marcher(row_cycle(model, SilentProgress(), None), model.equations_of_motion)
+    march.run(model.steps, 1, observe=lambda solved, so_far: blocks.append(solved))
+    steps = reduce(Steps.followed_by, blocks)
+    elastic = energy_of_teeth(steps) + 0.5 * quadratic(steps.states[:, 0], drivetrain.stiffness)
+    energy = elastic + 0.5 * quadratic(steps.states[:, 1], drivetrain.mass)
+    work = account(drivetrain, model.equations_of_motion.clock, steps, energy)
+    assert min(work.friction[-1], work.damping[-1]) > 1e-3 * np.ptp(energy)
+    assert np.abs(work.defect).max() < 1e-9 * energy.max()
+
+
+def test_slow_shafts_with_masses_bend_as_at_rest():
+    """Limit: at a hundredth of a turn a minute masses change nothing, on rolling bearings."""
+
+    def train(more: str):
+        text = bent_two_stages(1.0, more).text
+        return text[: text.index("[[shafts.middle")] + tables(
+            "shafts.middle.bearings", (ROLLING[0], ROLLING[0].replace("12 mm", "135 mm", 1))
+        )
+
+    still = simulate_train(train_from_text(train("")))
+    slow = f'{INERTIA}[damping]\nratio = 0.1\n[motion]\ninput_speed = "0.01 rpm"\nmesh_cycles = 1\n'
+    moving = simulate_train(train_from_text(train(slow)))
+    for name in ("bearing_force_x", "bearing_force_z", "shaft_deflection_y", "overall_transmission_error"):
+        size = np.abs(still[name].values).max()
+        assert moving[name].values == pytest.approx(still[name].values, abs=1e-6 * size), name
+
+
+def test_the_bearings_of_an_idlers_shaft_carry_its_two_forces():
+    """Statics in space, of a helical idler: the textbook's forces of both meshes, whose thrusts cancel."""
+    row = helical_row([24, 31, 40], [20, 80], 300).text
+    text = (
+        row + shaft_section("idler", {"row.2": 40.0}, 100.0, 30.0) + bearing_sections("idler", (10.0, 90.0), 3e5, 1e5)
+    )
+    scene = train_from_text(text)
+    found = simulate_train(scene)
+    total = np.array([found[f"bearing_force_{axis}"].sum("bearing").values for axis in "xyz"])
+    wanted = textbook_force(scene.meshes[0], 1.0) - textbook_force(scene.meshes[1], -1.0) * [1.0, 1.0, -1.0]
+    assert abs(wanted[2]) < 1e-9 * np.abs(wanted).max()
+    assert total.T == pytest.approx(np.tile(wanted, (total.shape[1], 1)), abs=1e-9 * np.abs(wanted).max())
+
+
+def test_bearings_of_two_paths_carry_the_forces_of_their_gears():
+    """Turned by half a turn the train is itself: its paths carry half of the torque each on shafts that bend. Statics:
+    the bearings of each shaft have the textbook's forces of its meshes under half of the torque, in space."""
+    scene = train_from_text(bent_paths(1.0))
+    found = simulate_train(scene)
+    assert found["path_share"].values == pytest.approx(np.full(found["path_share"].shape, 0.5), abs=1e-9)
+    forces = np.stack([found[f"bearing_force_{axis}"].values for axis in "xyz"], axis=-1)
+    for path, first in ((0, 0), (1, 2)):
+        wanted = textbook_force(scene.meshes[path], 1.0) - textbook_force(scene.meshes[2 + path], -1.0)
+        own = forces[:, first : first + 2].sum(axis=1)
+        assert own == pytest.approx(np.tile(wanted, (len(own), 1)), abs=1e-8 * np.abs(wanted).max())
+
+
+def test_clocked_paths_on_stiff_shafts_are_those_on_rigid_shafts():
+    """Limit: of a millionth of the compliance paths share as on rigid shafts, here unevenly."""
+    clocking = 'clocking = "1e-4 rad"\n'
+    rigid = simulate_train(train_from_text(helical_paths(clocking)))
+    stiff = simulate_train(train_from_text(bent_paths(1e-6, clocking)))
+    assert (rigid["path_share"].isel(mesh=[1, 3]) < 0.49).all()
+    for name in ("path_share", "overall_transmission_error", "line_load", "transmission_error"):
+        size = np.nanmax(np.abs(rigid[name].values))
+        assert stiff[name].values == pytest.approx(rigid[name].values, abs=1e-5 * size, nan_ok=True), name
