@@ -18,6 +18,8 @@ def import_rexs(options: argparse.Namespace) -> int:
         raise SceneError(f"{output} exists already. Name another file with --output SCENE, or remove it.")
     if options.train:
         return _import_train(options, output)
+    if options.shafts:
+        raise SceneError("--shafts is of a train. Give --train beside it.")
     imported = imported_scene(
         options.file, options.stage, options.load_case, options.wheel_torque, options.pinion_speed
     )
@@ -33,7 +35,8 @@ def _import_train(options: argparse.Namespace, output: Path) -> int:
     """The same of all stages."""
     if options.stage is not None:
         raise SceneError("--stage is of one pair; leave it out beside --train.")
-    imported = imported_train(options.file, options.load_case, options.wheel_torque, options.pinion_speed)
+    given = options.load_case, options.wheel_torque, options.pinion_speed
+    imported = imported_train(options.file, *given, bent=options.shafts)
     source = f"{options.file} as a train"
     try:
         train_from_text(imported.text, output.stem, source=source)

@@ -5,6 +5,8 @@ import tomllib
 import pytest
 from tests.extensions.rexs.test_gearbox import BOX, at, related, train_of, with_component, written
 
+from fenics_gears import load_train
+from fenics_gears.commands.cli import main
 from fenics_gears.extensions.rexs.gearbox import imported_train
 
 # Shaft 3 begins at u = 10 mm and carries gears 6 and 51, 30 and 100 mm from there.
@@ -99,3 +101,12 @@ def test_shafts_stay_rigid_unless_they_are_asked_for(tmp_path):
     found = train_of(tmp_path, box())[1]
     assert "[shafts" not in found.text.split("title", 1)[1]
     assert "shaft sections: components 90, 91, 92" in found.left_out
+
+
+def test_the_command_writes_a_train_on_shafts_that_bend(tmp_path):
+    """``--shafts`` beside ``--train``: the text is a train that the program reads, its intermediate shaft bends."""
+    file = written(tmp_path, box())
+    assert main(["import", str(file), "--train", "--shafts", "-o", str(tmp_path / "train.toml"), "-q"]) == 0
+    (bent,) = load_train(tmp_path / "train.toml").shafts.bent
+    assert bent.own.carries == ("stage_4.wheel", "stage_50.pinion")
+    assert main(["import", str(file), "--stage", "4", "--shafts", "-o", str(tmp_path / "pair.toml"), "-q"]) == 2
