@@ -46,6 +46,7 @@ from fenics_gears.results.layout import OVERALL as OVERALL
 from fenics_gears.results.mesh_of_train import carried_train as carried_train
 from fenics_gears.results.mesh_of_train import mesh_run as mesh_run
 from fenics_gears.results.overall_orders import cycles_of_meshes as cycles_of_meshes
+from fenics_gears.results.overall_orders import overall_orders as overall_orders
 from fenics_gears.results.settled import of_settled as of_settled
 from fenics_gears.runs.simulate import simulate as simulate
 from fenics_gears.runs.train import simulate_train as simulate_train

@@ -57,7 +57,7 @@ class HertzContact:
         model = model_of(self.scene)
         self.pair, self.line_load = (
             model.pair,
-            abs(scene.load.wheel_torque) / model.pair.wheel.base_radius / model.pair.face_width,
+            abs(scene.load.wheel_torque / model.pair.wheel.base_radius) / model.pair.face_width,
         )
         self.modulus, self.radius = plane_contact_modulus(scene), relative_radius(model.pair, model.pair.pitch_point)
 

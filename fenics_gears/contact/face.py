@@ -9,7 +9,7 @@ from math import sqrt
 
 import numpy as np
 
-from fenics_gears.geometry.gear import Side
+from fenics_gears.geometry.side import Side
 
 
 @dataclass(frozen=True, eq=False)

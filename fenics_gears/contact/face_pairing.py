@@ -20,7 +20,7 @@ from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.slice_averages import oblique_averages, oblique_sections, slice_averages
 from fenics_gears.elasticity.slice_compliance import Addition, SliceCompliance, along_normals
 from fenics_gears.errors import ComputationError
-from fenics_gears.geometry.gear import Side
+from fenics_gears.geometry.side import Side
 
 from .addresses import form_rows
 from .compliance_product import directions

@@ -9,7 +9,8 @@ from typing import cast
 import numpy as np
 from scipy import sparse
 
-from fenics_gears.geometry.gear import Gear, Side
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.side import Side
 
 from .compliance_product import directions
 from .face import Face

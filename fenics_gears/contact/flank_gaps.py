@@ -15,8 +15,8 @@ import numpy as np
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
 from fenics_gears.geometry.flank_errors import FlankErrors
-from fenics_gears.geometry.gear import Side
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.side import Side
 from fenics_gears.inputs.tree import GEARS
 
 from .face import Face
@@ -63,7 +63,7 @@ class FlankGaps:
         gap = np.zeros(position.operator.nodes)
         for each in self._sides(position):
             # Tooth 0 is the one that reaches the start of contact at the beginning of cycle 0.
-            tooth = int(cycle - each.side.sense * each.tooth) % each.side.gear.teeth
+            tooth = int(cycle - each.side.sense * each.tooth) % each.side.gear.tooth_count
             gap[each.nodes] += each.shapes @ self._amounts[each.side.number][tooth, : each.shapes.shape[1]]
             for excess in each.measured:
                 gap[each.nodes] -= excess(tooth)
@@ -178,7 +178,7 @@ def check_waves(errors: FlankErrors, pair: GearPair, steps: int) -> None:
     """Raise SceneError for waves that so many steps a mesh cycle do not sample."""
     for name in GEARS:
         waviness = getattr(errors, name).waviness
-        teeth = getattr(pair, name).teeth
+        teeth = getattr(pair, name).tooth_count
         waves = 0 if waviness is None else waviness.waves
         if waves * FEWEST_STEPS_A_WAVE > steps * teeth:
             raise SceneError(

@@ -133,8 +133,8 @@ def _averaging_weights(offsets, ends, rolls, contact_rolls, flank_rolls, flanks,
     node, the first flank node of each, and the width (P,) of weights.
     """
     pairs = len(contact_rolls)
-    vertex_arcs = 0.5 * gear[0] * flank_rolls**2
-    arcs = 0.5 * gear[0] * rolls**2
+    vertex_arcs = 0.5 * abs(gear[0]) * flank_rolls**2
+    arcs = 0.5 * abs(gear[0]) * rolls**2
     lowest = np.empty(len(offsets), np.int64)
     widths = np.empty(pairs, np.int64)
     size = 0
@@ -180,7 +180,7 @@ def _add_weights(near, first, arrays, numbers, order):
             size = vertex_arc[element + 1] - vertex_arc[element]
             for point, share in zip(GAUSS_POINTS, GAUSS_WEIGHTS):
                 arc = start + point * (end - start)
-                roll = math.sqrt(2.0 * arc / base_radius)
+                roll = math.sqrt(2.0 * arc / abs(base_radius))
                 sine = math.sin(0.5 * (contact_roll - roll))
                 cosine = math.cos(0.5 * (contact_roll - roll))
                 # Depth below the line of action: rb - rb cos(v_c - v) + rb v sin(v_c - v), without cancelling.
@@ -283,7 +283,7 @@ class Points:
         of_pairs = []
         for flank_rolls, start, end in zip(nodes.flank_rolls, nodes.ends[:-1], nodes.ends[1:]):
             rolls = nodes.rolls[start:end], flank_rolls[::order]
-            arc, places = (0.5 * nodes.base_radius * each**2 for each in rolls)
+            arc, places = (0.5 * abs(nodes.base_radius) * each**2 for each in rolls)
             element = np.clip(np.searchsorted(places, arc, side="right") - 1, 0, len(places) - 2)
             local = np.clip((arc - places[element]) / np.diff(places)[element], 0.0, 1.0)
             if order == 1:

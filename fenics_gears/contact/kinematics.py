@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numba import njit
 
-from fenics_gears.geometry.gear import Side
+from fenics_gears.geometry.side import Side
 
 from .face import Face, one_slice
 from .tooth_pair import PairNodes, node_ends, over_nodes, per_node

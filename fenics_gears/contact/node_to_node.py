@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.elasticity.remeshed_gear import LoadedTooth
-from fenics_gears.geometry.gear import Side
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.side import Side
 
 from .interpolation import hat_integrals
 from .kinematics import COLUMNS, Lines, approach, displacement_jacobian, lines_of, points_before

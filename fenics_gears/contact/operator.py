@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from fenics_gears.geometry.gear import Side
+from fenics_gears.geometry.side import Side
 
 from .addresses import GAP, row_of
 from .face import Face

@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
-from fenics_gears.geometry.gear import Side
+from fenics_gears.geometry.side import Side
 
 from .kinematics import COLUMNS
 

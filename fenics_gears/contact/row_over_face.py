@@ -17,7 +17,7 @@ from scipy import sparse
 from fenics_gears.elasticity.face_compliance_data import AcrossFlanks, IdlerCompliance
 from fenics_gears.elasticity.slice_averages import oblique_averages
 from fenics_gears.errors import ComputationError
-from fenics_gears.geometry.gear import Side
+from fenics_gears.geometry.side import Side
 
 from .face import Face
 from .face_pairing import FacePair, contact_axes, rises_of

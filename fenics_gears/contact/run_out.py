@@ -12,8 +12,8 @@ from math import cos, sin
 
 import numpy as np
 
-from fenics_gears.geometry.gear import Side
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.side import Side
 
 from .eccentricity import Eccentricity, Offset
 from .kinematics import COLUMNS, COORDINATES, displacement_jacobian
@@ -42,8 +42,8 @@ def run_out(side: Side, offset: Offset, width: float, cycles: float) -> list[flo
     """Displacement, mm, and tilt, mm as arc lengths, of a gear's teeth on its axis after some mesh cycles, in the order
     of `kinematics.MOTIONS`; `width` (mm): of its face."""
     turned = side.turn * cycles
-    angle = turned + side.sense * offset.phase
-    leaning = turned + side.sense * offset.wobble_phase
+    angle = turned + side.turning * offset.phase
+    leaning = turned + side.turning * offset.wobble_phase
     # The axis leans by (cos, sin) towards the right end: it is tilted about (-sin, cos).
     tilt = offset.wobble / width * side.gear.base_radius
     centre = [offset.distance * cos(angle), offset.distance * sin(angle), 0.0]

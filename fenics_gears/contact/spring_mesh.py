@@ -66,7 +66,7 @@ def _nodes(pair: GearPair, springs: PairSprings, phase: float) -> SpringNodes:
     ones = np.ones(len(springs.gap))
     gears = [side.gear for side in pair.sides]
     arms = [gear.base_radius * roll for gear, roll in zip(gears, place.contact_rolls)]
-    rolls = [np.clip(roll, gear.form_roll_angle, gear.tip_roll_angle) for gear, roll in zip(gears, place.contact_rolls)]
+    rolls = [np.clip(roll, *gear.roll_ends) for gear, roll in zip(gears, place.contact_rolls)]
     return SpringNodes(
         place=place,
         offsets=APART * springs.level,

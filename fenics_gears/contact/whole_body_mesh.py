@@ -14,7 +14,7 @@ import numpy as np
 
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
-from fenics_gears.geometry.gear import Side
+from fenics_gears.geometry.side import Side
 
 from .mesh import Mesh, elastic_mesh
 from .pairing import Blocks, CompliancePairing

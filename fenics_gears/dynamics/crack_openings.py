@@ -9,7 +9,7 @@ import numpy as np
 
 from fenics_gears.contact.flank_forces import flank_rows
 from fenics_gears.contact.tooth_pair import node_slices
-from fenics_gears.geometry.gear import Side
+from fenics_gears.geometry.side import Side
 
 from .steps import Record
 

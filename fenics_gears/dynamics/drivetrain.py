@@ -119,7 +119,7 @@ class Drivetrain:
         if not len(motion):
             return ""
         turning = int(np.argmax(np.abs(motion)))
-        torque = 1e-3 * self.load[turning] * self.radii[turning]
+        torque = 1e-3 * self.load[turning] * abs(self.radii[turning])
         name = FREE.get(self.coordinates[turning], "the drivetrain")
         return f"{name} turns freely under its torque of {torque:.4g} N m"
 
@@ -136,7 +136,7 @@ class Drivetrain:
 
 def forces_of_torque(names: tuple[str, ...], radii: np.ndarray, torque: float) -> np.ndarray:
     """Forces (k,), N, of a torque (N mm) on the output shaft's end, which moves with the wheel and with the twist."""
-    return np.array([torque if name in ("rotation_2", "shaft_twist") else 0.0 for name in names]) / radii
+    return np.array([torque if name in ("rotation_2", "shaft_twist") else 0.0 for name in names]) / np.abs(radii)
 
 
 def kind_of(name: str) -> str:

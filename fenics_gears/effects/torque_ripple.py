@@ -53,7 +53,7 @@ def period(ripple: TorqueRipple, scene) -> int:
 
 def shaft_step(scene, steps_per_mesh_cycle: int) -> float:
     """Angle (rad) that the wheel's shaft turns in a step."""
-    return 2.0 * pi / (scene.gears.wheel.teeth * steps_per_mesh_cycle)
+    return 2.0 * pi / (abs(scene.gears.wheel.teeth) * steps_per_mesh_cycle)
 
 
 EFFECT = Effect(

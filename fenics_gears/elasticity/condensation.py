@@ -1,6 +1,7 @@
 """Condense a meshed body onto chosen parts of its boundary."""
 
 from dataclasses import dataclass
+from functools import partial
 from time import perf_counter
 
 import numpy as np
@@ -53,6 +54,10 @@ def condense(
     timings = {"time_compile": perf_counter() - clock}
     space = displacement_space(mesh, element)
     matrix = stiffness_matrix(space, element, poissons_ratio, mesh.web)
+    if mesh.foundation is not None:
+        from .foundation import add_foundation
+
+        add_foundation(matrix, mesh, element.order, partial(nodes_at, space))
     stiffness = schur_complement(matrix, dofs_of(_nodes(space, points, cells_of or {})))
     matrix.destroy()
     return CondensedBody(points, stiffness, timings)
@@ -67,13 +72,21 @@ def _nodes(space, points: dict[str, np.ndarray], cells_of: dict[str, np.ndarray]
     return np.concatenate([nodes[name] for name in points])
 
 
+def held_nodes(mesh: BodyMesh, order: int) -> dict[str, np.ndarray]:
+    """The group "hub" of nodes that are held; none on a foundation."""
+    return {"hub": mesh.edge_nodes("hub", order)} if mesh.foundation is None else {}
+
+
 def by_radius(points: np.ndarray) -> np.ndarray:
     """Points (k, 2) sorted by their distance from the gear's centre."""
     return points[np.argsort(np.linalg.norm(points, axis=1))]
 
 
 def line_of(mesh: BodyMesh, name: str, order: int) -> np.ndarray:
-    """Nodes (k, 2) of an element of that order on a part of a mesh's boundary without the hub, by radius."""
+    """Nodes (k, 2) of an element of that order on a part of a mesh's boundary, without those of a hub that is held, by
+    radius."""
+    if mesh.foundation is not None:
+        return by_radius(mesh.edge_nodes(name, order))
     return by_radius(without(mesh.edge_nodes(name, order), mesh.edge_nodes("hub", order)))
 
 

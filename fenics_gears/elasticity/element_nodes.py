@@ -96,7 +96,7 @@ def node_roll_angles(gear: Gear, vertices: np.ndarray, order: int) -> np.ndarray
     two vertices is midway in arc length."""
     radius = np.linalg.norm(vertices, axis=1)
     # Round-off may put the first vertex a hair below the base circle, where the form circle can lie.
-    vertex_angles = gear.roll_angle(np.maximum(radius, gear.base_radius))
+    vertex_angles = gear.roll_angle(np.maximum(radius, abs(gear.base_radius)))
     if order == 1:
         return vertex_angles
     length = arc_length(gear.base_radius, vertex_angles)

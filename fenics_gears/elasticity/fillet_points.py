@@ -18,12 +18,13 @@ from .sector_boundary import root_curve
 if TYPE_CHECKING:
     from .recovery import GearRecovery
 
-# Points of one fillet, without the one where the tangent is at 30 degrees to the tooth's centreline, in the section
-# normal to the tooth.
+# Points of one fillet, without the one where the tangent is at 30 degrees to the tooth's centreline, 60 of an internal
+# gear, in the section normal to the tooth.
 POINTS = 24
 # The same where flanks are resolved over the face, on sections with fewer elements.
 POINTS_OVER_FACE = 12
 SECTION_ANGLE = np.radians(30.0)
+SECTION_ANGLE_OF_RING = np.radians(60.0)
 CURVE_SAMPLES = 2001
 # The one slice of a plane sector.
 WHOLE = np.ones((1, 1))
@@ -63,8 +64,10 @@ def fillet_curve(gear: Gear, points: int = POINTS) -> FilletCurve:
 
 
 def section_angle(gear: Gear) -> float:
-    """Angle (rad) in the transverse section of the tangent at SECTION_ANGLE in the normal one."""
-    return float(np.arctan(np.tan(SECTION_ANGLE) * gear.rack_stretch)) if gear.helix_angle else SECTION_ANGLE
+    """Angle (rad) in the transverse section of the tangent at SECTION_ANGLE in the normal one, of an internal gear at
+    SECTION_ANGLE_OF_RING (ISO 6336-3)."""
+    angle = SECTION_ANGLE_OF_RING if gear.internal else SECTION_ANGLE
+    return float(np.arctan(np.tan(angle) * gear.rack_stretch)) if gear.helix_angle else angle
 
 
 def fillet_rows(recovery: GearRecovery, curve: FilletCurve, averages: np.ndarray = WHOLE) -> sparse.csr_matrix:
@@ -107,8 +110,9 @@ def _root_nodes(curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side:
     """Nodes (k,) along the root on one side without those on the cut, and their lengths along the curve, ascending."""
     gear = curve.outline.gear
     free = np.setdiff1d(np.unique(nodes.boundary_sides), held)
-    radius = np.linalg.norm(nodes.points[free], axis=1)
-    free = free[(radius < gear.form_radius * (1.0 + 1e-9)) & (radius > 0.5 * (gear.bore_radius + gear.root_radius))]
+    radius = gear.sign * np.linalg.norm(nodes.points[free], axis=1)
+    below_form = radius < gear.form_radius + 1e-9 * abs(gear.form_radius)
+    free = free[below_form & (radius > 0.5 * (gear.bore_radius + gear.root_radius))]
     points = nodes.points[free] if side == 0 else curve.outline.coast(nodes.points[free])
     # 50 ms that a run with gears from the cache does not take.
     from scipy.spatial import cKDTree

@@ -84,8 +84,9 @@ def _with_uncoupled_teeth(body: FlankCompliance, offsets: int) -> FlankComplianc
 
 def check_inputs(gear: Gear, material: Material, reach: Reach) -> None:
     """Raise SceneError for a reach or a material that a gear cannot have."""
-    if not 0 <= reach.farthest < gear.teeth:
-        raise SceneError(f"reach is {reach.farthest}, must lie between 0 and {gear.teeth - 1}, the gear's other teeth")
+    if not 0 <= reach.farthest < gear.tooth_count:
+        others = gear.tooth_count - 1
+        raise SceneError(f"reach is {reach.farthest}, must lie between 0 and {others}, the gear's other teeth")
     if not -1.0 < material.poissons_ratio < 0.5:
         raise SceneError(f"poissons_ratio is {material.poissons_ratio}, must lie between -1 and 0.5, both excluded")
     if not (np.isfinite(material.youngs_modulus) and material.youngs_modulus > 0.0):

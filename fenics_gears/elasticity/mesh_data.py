@@ -16,14 +16,16 @@ class BodyMesh:
     points: (n, 2), mm (modules where a sector was meshed in them), in the canonical frame of its tooth (of tooth 0 for
     a whole gear). cells: (m, 3) triangles or (m, 4) quadrilaterals, corners counter-clockwise. edges: named parts of
     the boundary, each (k, 2) point indices. A sector has "flank", "hub", "lower cut" and "upper cut" (clockwise and
-    counter-clockwise side); a whole gear has "hub" and "flank 0", "flank 1", ... counted counter-clockwise. web: part
-    of the body that is less wide than the rest.
+    counter-clockwise side; of an internal gear the other way round); a whole gear has "hub" and "flank 0", "flank 1",
+    ... counted counter-clockwise. web: part of the body that is less wide than the rest. foundation: springs on the
+    hub, as of a `Gear`; None where it is held.
     """
 
     points: np.ndarray
     cells: np.ndarray
     edges: dict[str, np.ndarray]
     web: Web | None = None
+    foundation: tuple[float, float] | None = None
 
     def edge_points(self, name: str) -> np.ndarray:
         """Sorted point indices of a named part of the boundary."""

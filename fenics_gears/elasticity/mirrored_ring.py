@@ -12,7 +12,7 @@ import numpy as np
 from scipy.linalg.blas import dsyrk, dtrsm
 
 from .compliance import Reach
-from .condensation import CondensedBody, by_radius, condense, line_of
+from .condensation import CondensedBody, by_radius, condense, held_nodes, line_of
 from .elements import Element
 from .mesh_data import BodyMesh
 from .mumps import symmetric
@@ -29,7 +29,7 @@ def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float) -> C
         "flank": by_radius(mesh.edge_nodes("flank", element.order)),
         "cut": line_of(mesh, "upper cut", element.order),
         "centreline": line_of(mesh, "centreline", element.order),
-        "hub": mesh.edge_nodes("hub", element.order),
+        **held_nodes(mesh, element.order),
     }
     return condense(mesh, element, poissons_ratio, points)
 

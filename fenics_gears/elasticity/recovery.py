@@ -97,7 +97,7 @@ class GearRecovery:
         """Some sectors, or all, under forces on the flanks of some teeth as in `loads`, in each tooth's own frame: N/mm
         in the plane, N over the face."""
         sector = self.sector
-        teeth = self.gear.teeth
+        teeth = self.gear.tooth_count
         wanted = tuple(range(teeth) if sectors is None else sectors)
         loads: dict[int, np.ndarray] = {}
         for tooth, force in forces.items():
@@ -142,15 +142,15 @@ class GearRecovery:
             link = over_motions(link, motions)
             responding = loads_over_motions(responding, motions)
             loaded = loads_over_motions(loaded, motions)
-        return ring_work(link, self.gear.teeth, reach, responding, loaded)
+        return ring_work(link, self.gear.tooth_count, reach, responding, loaded)
 
     def _cut_motion(self, free: dict[int, np.ndarray]) -> np.ndarray:
         """Motion (teeth, d, 1) of the sectors' lower cuts; `free`: that of the loaded sectors with free cuts."""
-        on_cuts = np.zeros((self.gear.teeth, self._half, 1))
+        on_cuts = np.zeros((self.gear.tooth_count, self._half, 1))
         for tooth, moved in free.items():
             reaching = self.sector.link @ self.sector.at_cuts(moved)
             on_cuts[tooth] += reaching[: self._half]
-            on_cuts[(tooth + 1) % self.gear.teeth] += self._pitch.T @ reaching[self._half :]
+            on_cuts[(tooth + 1) % self.gear.tooth_count] += self._pitch.T @ reaching[self._half :]
         return cyclic_motion(self._same, self._ahead, on_cuts)
 
     def _average_at_cuts(self, sectors: Sequence[int], stress: np.ndarray) -> None:
@@ -161,9 +161,9 @@ class GearRecovery:
         flat = stress.reshape(len(stress), -1, 3, 3)
         below, above = (area[cut % len(area)] for cut in (upper, lower))
         share = (below / (below + above))[:, None, None]
-        place = {sector % self.gear.teeth: number for number, sector in enumerate(sectors)}
+        place = {sector % self.gear.tooth_count: number for number, sector in enumerate(sectors)}
         for sector, number in place.items():
-            ahead = place.get((sector + 1) % self.gear.teeth)
+            ahead = place.get((sector + 1) % self.gear.tooth_count)
             if ahead is not None:
                 mean = share * flat[number, upper] + (1.0 - share) * (turn @ flat[ahead, lower] @ turn.T)
                 flat[number, upper] = mean

@@ -12,7 +12,7 @@ from scipy.linalg.blas import ztrsm
 
 from fenics_gears.errors import ComputationError
 
-from .condensation import CondensedBody, by_radius, condense, line_of
+from .condensation import CondensedBody, by_radius, condense, held_nodes, line_of
 from .cut_chain import CutResponse, chain_is_quicker, chain_response
 from .elements import Element
 from .mesh_data import BodyMesh
@@ -30,7 +30,7 @@ def condensed_sector(
         "flank": by_radius(mesh.edge_nodes("flank", element.order)) if flank is None else flank,
         "lower": line_of(mesh, "lower cut", element.order),
         "upper": line_of(mesh, "upper cut", element.order),
-        "hub": mesh.edge_nodes("hub", element.order),
+        **held_nodes(mesh, element.order),
     }
     return condense(mesh, element, poissons_ratio, points)
 
@@ -111,8 +111,9 @@ def cyclic_motion(same: np.ndarray, ahead: np.ndarray, loads: np.ndarray) -> np.
 
 def cut_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
     """Response (c, c) of the cut m pitches ahead to forces on a cut, abs(m) <= reach; `link`: one sector between its
-    cuts."""
-    return (chain_response if chain_is_quicker(teeth, reach) else fourier_response)(link, teeth, reach)
+    cuts; `teeth`: negative of an internal gear, whose sectors go clockwise."""
+    count = abs(teeth)
+    return (chain_response if chain_is_quicker(count, reach) else fourier_response)(link, count, reach)
 
 
 def fourier_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:

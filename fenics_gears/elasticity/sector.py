@@ -1,5 +1,7 @@
 """A tooth sector factored once, its hub held: its stiffness between the cuts, and its displacement under any load."""
 
+from functools import partial
+
 import numpy as np
 from scipy import sparse
 
@@ -38,7 +40,7 @@ class Sector:
         self.hub = self._swept("hub")
         self.cuts = tuple(self._swept(f"{name} cut") for name in ("lower", "upper"))
         moves = np.ones(self.nodes, dtype=bool) if there is None else there.copy()
-        moves[self.hub] = False
+        moves[self.hub] = mesh.foundation is not None
         free = np.repeat(moves, self.components)
         self._free = np.flatnonzero(free)
         number = np.cumsum(free) - 1
@@ -98,7 +100,12 @@ def plane_sector(mesh: BodyMesh, element: Element, poissons_ratio: float) -> Sec
     compile_ahead(element)
     space = displacement_space(mesh, element)
     nodes = element_nodes(mesh, element)
-    stiffness = assembled(stiffness_matrix(space, element, poissons_ratio, mesh.web))
+    matrix = stiffness_matrix(space, element, poissons_ratio, mesh.web)
+    if mesh.foundation is not None:
+        from .foundation import add_foundation
+
+        add_foundation(matrix, mesh, element.order, partial(nodes_at, space))
+    stiffness = assembled(matrix)
     order = dofs_of(nodes_at(space, nodes.points))
     return Sector(mesh, nodes, stiffness[order][:, order])
 

@@ -128,7 +128,7 @@ def sector_boundary(
 
 def _size_field(gear, sizes, outline, flank, root, coast, hub) -> SizeField:
     growth = sizes.growth
-    hub_size = gear.bore_radius * min(gear.angular_pitch, sizes.hub_angle)
+    hub_size = abs(gear.bore_radius) * min(abs(gear.angular_pitch), sizes.hub_angle)
     largest = 0.5 * (gear.root_radius - gear.bore_radius)
     body, fillet, coast_size = (min(size, largest) for size in (sizes.body, sizes.fillet, sizes.coast))
     roots = np.vstack([root, outline.coast(root)])
@@ -150,7 +150,7 @@ def _size_field(gear, sizes, outline, flank, root, coast, hub) -> SizeField:
             *(() if sizes.both_flanks else (SizeSource((coast,), coast_size, coast_size, growth),)),
             SizeSource((flank, roots, coast), body, BODY_REACH * gear.module, growth),
             # In a slender wedge elements may not outgrow the sector's own width.
-            SizeSource((hub,), min(largest, hub_size), 0.0, min(growth, gear.angular_pitch)),
+            SizeSource((hub,), min(largest, hub_size), 0.0, min(growth, abs(gear.angular_pitch))),
         ),
         largest=largest,
     )
@@ -159,7 +159,7 @@ def _size_field(gear, sizes, outline, flank, root, coast, hub) -> SizeField:
 def _near_edges(gear: Gear, side: np.ndarray, mate_tip: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
     """The points of a flank (n, 2) on which the mate's tip may press, its ends among them, and the flank's tip (1,
     2)."""
-    radii = np.linalg.norm(side, axis=1)
+    radii = gear.sign * np.linalg.norm(side, axis=1)
     lowest, highest = gear.base_radius * np.hypot(1.0, mate_tip)
     inside = np.flatnonzero((radii > lowest) & (radii < highest))
     return side[max(inside[0] - 1, 0) : inside[-1] + 2], side[[np.argmax(radii)]]
@@ -177,7 +177,7 @@ def root_curve(outline: ToothOutline) -> np.ndarray:
     """Root circle from the tooth space's centre, then the drive side's fillet, finely sampled."""
     gear = outline.gear
     corner = gear.root_radius * _directions(np.array([outline.space_angle]))[0]
-    if np.linalg.norm(outline.fillet[0] - corner) < 1e-9 * gear.root_radius:
+    if np.linalg.norm(outline.fillet[0] - corner) < 1e-9 * abs(gear.root_radius):
         return outline.fillet
     return np.vstack([_arc(gear.root_radius, corner, outline.fillet[0])[:-1], outline.fillet])
 
@@ -185,7 +185,7 @@ def root_curve(outline: ToothOutline) -> np.ndarray:
 def _arc(radius: float, start, end) -> np.ndarray:
     """Finely sampled arc about the gear's centre between two points."""
     turn = np.angle(complex(*end) / complex(*start))
-    angles = np.angle(complex(*start)) + np.linspace(0.0, turn, CURVE_SAMPLES)
+    angles = np.angle(np.sign(radius) * complex(*start)) + np.linspace(0.0, turn, CURVE_SAMPLES)
     arc = radius * _directions(angles)
     arc[0] = start
     arc[-1] = end
@@ -194,6 +194,7 @@ def _arc(radius: float, start, end) -> np.ndarray:
 
 def _on_circle(radius: float, points, curve) -> np.ndarray:
     """Points interpolated between samples of an arc moved back onto it; others and the ends stay."""
+    radius = abs(radius)
     distance = np.linalg.norm(points, axis=1)
     sagitta = (np.linalg.norm(np.diff(curve, axis=0), axis=1).max() ** 2) / radius
     on_arc = np.abs(distance - radius) < sagitta

@@ -2,6 +2,7 @@
 mirror image."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -57,7 +58,7 @@ def _filling(quadrilaterals: bool):
 
 
 def _scaled(mesh: BodyMesh, gear: Gear) -> BodyMesh:
-    return BodyMesh(gear.module * mesh.points, mesh.cells, mesh.edges, gear.web)
+    return BodyMesh(gear.module * mesh.points, mesh.cells, mesh.edges, gear.web, gear.foundation)
 
 
 def _filled_with_triangles(boundary: SectorBoundary, field: SizeField, parts: tuple[str, ...]) -> BodyMesh:
@@ -193,7 +194,8 @@ def with_image(half: BodyMesh) -> BodyMesh:
     edges = {
         name: np.vstack([part[name] for part in (edges, mirrored) if name in part]) for name in {**edges, **mirrored}
     }
-    return BodyMesh(points, oriented(points, np.vstack([half.cells, index[half.cells]])), edges, half.web)
+    cells = oriented(points, np.vstack([half.cells, index[half.cells]]))
+    return replace(half, points=points, cells=cells, edges=edges)
 
 
 def _half(boundary: SectorBoundary, field: SizeField) -> SectorBoundary:

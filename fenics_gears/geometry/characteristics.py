@@ -2,8 +2,8 @@
 
 from math import atan, cos, degrees
 
-from .gear_checks import ROUNDING
-from .gear_data import NOT_GIVEN, MeasuredOver
+from .gear import Gear
+from .gear_data import NOT_GIVEN, ROUNDING, MeasuredOver
 from .pair import GearPair
 from .sliding import specific_sliding
 from .tooth_thickness import ball_diameter, base_tangent_length, dimension_over_balls, normal_thickness, spanned_teeth
@@ -30,15 +30,15 @@ def _pair_rows(pair: GearPair) -> list[tuple[str, float, str]]:
         ("base pitch", pair.base_pitch, "mm"),
         ("contact ratio", pair.contact_ratio, ""),
         *(_helix_rows(pair) if pair.helix is not None else []),
-        ("length of the line of action T1 to T2", pair.line_of_action_length, "mm"),
+        ("length of the line of action T1 to T2", abs(pair.line_of_action_length), "mm"),
         ("start of contact, from T1", pair.path_start, "mm"),
         ("pitch point, from T1", pair.pitch_point, "mm"),
         ("end of contact, from T1", pair.path_end, "mm"),
-        ("pitch point, from T2 (e)", pair.pitch_point_to_wheel_tangent, "mm"),
+        ("pitch point, from T2 (e)", abs(pair.pitch_point_to_wheel_tangent), "mm"),
         ("backlash along the line of action", backlash, "mm"),
         ("circumferential backlash at the pitch circles (j_wt)", backlash / cos(pair.operating_pressure_angle), "mm"),
         *([("normal backlash (j_bn)", backlash * pair.cosine, "mm")] if pair.helix is not None else []),
-        ("centre distance without backlash", pair.centre_distance_without_backlash, "mm"),
+        ("centre distance without backlash", abs(pair.centre_distance_without_backlash), "mm"),
     ]
 
 
@@ -50,6 +50,19 @@ def _helix_rows(pair: GearPair) -> list[tuple[str, float, str]]:
         ("base helix angle", degrees(atan(abs(pair.slope))), "deg"),
         ("transverse module", pair.pinion.module, "mm"),
         ("transverse pressure angle", degrees(pair.pinion.pressure_angle), "deg"),
+    ]
+
+
+def _measures(gear: Gear, measured_over: tuple[int | None, float | None]) -> list[tuple[str, float, str]]:
+    """Over teeth and balls; of an internal gear, whose spaces no caliper spans, between balls."""
+    teeth, ball = measured_over
+    ball = ball or ball_diameter(gear)
+    if gear.internal:
+        return [(f"dimension between balls of {ball:.6g} mm (M_d)", -dimension_over_balls(gear, ball), "mm")]
+    teeth = teeth or spanned_teeth(gear)
+    return [
+        (f"base tangent length over {teeth} teeth (W_k)", base_tangent_length(gear, teeth), "mm"),
+        (f"dimension over balls of {ball:.6g} mm (M_d)", dimension_over_balls(gear, ball), "mm"),
     ]
 
 
@@ -68,24 +81,22 @@ def _gear_rows(
     number = ("pinion", "wheel").index(name)
     # Where its active profile starts and where its tip meets the mate.
     lowest, tip = (pair.path_start, pair.path_end) if name == "pinion" else (pair.path_end, pair.path_start)
-    teeth, ball = (given or of_gear(gear) for given, of_gear in zip(measured_over, (spanned_teeth, ball_diameter)))
     contact, letters = contact_by_fewest(pair)
     lowest_words, highest_words = (
         "" if letters == "STC" else f", {which} point of {contact}" for which in ("lowest", "highest")
     )
     rows = [
-        ("reference diameter", 2.0 * gear.reference_radius, "mm"),
-        ("base diameter", 2.0 * gear.base_radius, "mm"),
-        ("form diameter", 2.0 * gear.form_radius, "mm"),
-        ("diameter, start of active profile (SAP)", 2.0 * float(gear.radius(pair.sap_roll_angles[number])), "mm"),
-        ("diameter, end of active profile (EAP)", 2.0 * float(gear.radius(pair.eap_roll_angles[number])), "mm"),
-        ("tip form diameter", 2.0 * gear.tip_form_radius, "mm"),
+        ("reference diameter", 2.0 * abs(gear.reference_radius), "mm"),
+        ("base diameter", 2.0 * abs(gear.base_radius), "mm"),
+        ("form diameter", 2.0 * abs(gear.form_radius), "mm"),
+        ("diameter, start of active profile (SAP)", 2.0 * abs(float(gear.radius(pair.sap_roll_angles[number]))), "mm"),
+        ("diameter, end of active profile (EAP)", 2.0 * abs(float(gear.radius(pair.eap_roll_angles[number]))), "mm"),
+        ("tip form diameter", 2.0 * abs(gear.tip_form_radius), "mm"),
         *([("width of the web over the face width", gear.web.share, "")] if gear.web is not None else []),
         *([("offset of the web over the face width", gear.web.offset, "")] if gear.web and gear.web.offset else []),
         ("dedendum", gear.dedendum / gear.normal_module, "modules"),
         ("normal tooth thickness at the reference circle", normal_thickness(gear), "mm"),
-        (f"base tangent length over {teeth} teeth (W_k)", base_tangent_length(gear, teeth), "mm"),
-        (f"dimension over balls of {ball:.6g} mm (M_d)", dimension_over_balls(gear, ball), "mm"),
+        *_measures(gear, measured_over),
         ("tooth thickness at the tip", gear.tip_thickness, "mm"),
         ("tip clearance", pair.tip_clearances[number], "mm"),
         ("roll angle, form circle", degrees(gear.form_roll_angle), "deg"),

@@ -86,8 +86,8 @@ def _of_gear(
             f"flank_errors.{('pinion', 'wheel')[number]}.{name} = {as_written(getattr(own, name))}: {problem}"
         )
     measured = own.measured_profile is not None
-    level = np.zeros(gear.teeth)
-    diameter = 2.0 * gear.reference_radius
+    level = np.zeros(gear.tooth_count)
+    diameter = 2.0 * abs(gear.reference_radius)
     active_profile = (start, gear.tip_roll_angle)
     tolerance_class = errors.tolerance_class
 
@@ -97,7 +97,7 @@ def _of_gear(
         return level if tolerance_class is None else drawn()
 
     def draws(kind: int) -> np.ndarray:
-        return np.random.default_rng((errors.seed, number, kind)).uniform(-1.0, 1.0, gear.teeth)
+        return np.random.default_rng((errors.seed, number, kind)).uniform(-1.0, 1.0, gear.tooth_count)
 
     def limits() -> FlankTolerance:
         return flank_tolerance(diameter, gear.normal_module, tolerance_class)
@@ -144,7 +144,7 @@ def _curves(measured: MeasuredCurves, gear: Gear, ends: tuple[float, float], zer
         each.tooth: np.interp(at, _places(each, measured.along, gear), each.deviations) for each in measured.curves
     }
     mean = np.mean(list(by_tooth.values()), axis=0)
-    curves = np.array([by_tooth.get(tooth, mean) for tooth in range(1, gear.teeth + 1)])
+    curves = np.array([by_tooth.get(tooth, mean) for tooth in range(1, gear.tooth_count + 1)])
     if zero is not None:
         return curves - np.array([np.interp(zero, at, curve) for curve in curves])[:, None]
     sums = curves.mean(axis=1) * CURVE_POINTS - 0.5 * (curves[:, 0] + curves[:, -1])

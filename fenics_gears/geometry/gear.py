@@ -1,18 +1,26 @@
-"""A gear in its transverse section: circles, tooth thickness, the rack that cuts it; and its side of a mesh."""
+"""A gear in its transverse section: circles, tooth thickness, the rack that cuts it.
+
+An internal gear has negative numbers, as ISO 21771 has it: teeth, radii, pitch; its `bore_radius` is that of its rim's
+outer circle. An angle with a negative radius points to the other side, so that one formula serves both kinds.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import atan, cos, hypot, pi, sin, tan
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.errors import GeometryError
 
-from .gear_data import GearData, Web
+from .gear_data import FOUNDATION, Cutter, GearData, Web
 from .involute import inverse_involute, involute_function
 from .outline import crossing, fillet_point, touching_end
+
+if TYPE_CHECKING:
+    from .ring_fillet import CutFillet, PlainFillet
 
 # Of lengths in modules: what is left of a unit or a scale factor is in the last two digits of a double.
 DECIMALS_IN_MODULES = 12
@@ -20,11 +28,13 @@ DECIMALS_IN_MODULES = 12
 
 @dataclass(frozen=True)
 class Gear:
-    """A gear cut by a straight-sided rack with a rounded tip; lengths in mm, angles in rad.
+    """A gear cut by a straight-sided rack with a rounded tip, or an internal one; lengths in mm, angles in rad.
 
     Module, pressure angle and profile shift are of the transverse section; `helix_angle` at the reference cylinder,
     without sign. `rack_tip_radius`, `protuberance` (by which the rack's rounding protrudes beyond the flank, normal to
     it) and `protuberance_angle` (at which it goes back) are of the normal section. `tip_chamfer`: radial height.
+    An internal gear has, in place of the rack, a `cutter` whose tip has that radius; or none, and plain fillets of it.
+    `foundation`: radial and tangential stiffness per area of springs around it, over Young's modulus, 1/mm, or None.
     """
 
     teeth: int
@@ -40,6 +50,30 @@ class Gear:
     protuberance: float = 0.0
     protuberance_angle: float = 0.0
     web: Web | None = None
+    cutter: Cutter | None = None
+    foundation: tuple[float, float] | None = None
+
+    @property
+    def internal(self) -> bool:
+        """Whether the teeth point inwards."""
+        return self.teeth < 0
+
+    @property
+    def tooth_count(self) -> int:
+        """Number of teeth without sign."""
+        return abs(self.teeth)
+
+    @property
+    def sign(self) -> float:
+        """-1 of an internal gear, whose radii are negative, else 1."""
+        return -1.0 if self.internal else 1.0
+
+    @cached_property
+    def ring_fillet(self) -> PlainFillet | CutFillet:
+        """What shapes the fillet of an internal gear."""
+        from .ring_fillet import ring_fillet
+
+        return ring_fillet(self)
 
     @property
     def normal_module(self) -> float:
@@ -84,7 +118,8 @@ class Gear:
         if web is not None:
             hub, rim = self.in_modules(web.hub_radius, web.rim_radius)
             web = replace(web, hub_radius=hub, rim_radius=rim)
-        return replace(self, module=1.0, web=web, **lengths)
+        springs = self.foundation and (self.foundation[0] * self.module, self.foundation[1] * self.module)
+        return replace(self, module=1.0, web=web, foundation=springs, **lengths)
 
     @property
     def angular_pitch(self) -> float:
@@ -158,16 +193,20 @@ class Gear:
     @property
     def undercut(self) -> bool:
         """Whether the fillet crosses the involute instead of touching it, so that an edge is where they meet."""
-        return self.rack_form_roll_angle < 0.0 or self.protuberance > 0.0
+        return not self.internal and (self.rack_form_roll_angle < 0.0 or self.protuberance > 0.0)
 
     @cached_property
     def fillet_end(self) -> float:
         """Fillet parameter (rad, see outline.py) at the form circle; 0 is the root circle."""
+        if self.internal:
+            return self.ring_fillet.end
         return crossing(self) if self.undercut else touching_end(self)
 
     @cached_property
     def form_roll_angle(self) -> float:
         """Roll angle (rad) at the form circle, where the fillet ends and the involute begins."""
+        if self.internal:
+            return self.ring_fillet.form_roll_angle
         if not self.undercut:
             return self.rack_form_roll_angle
         x, y = fillet_point(self, self.fillet_end)
@@ -187,6 +226,12 @@ class Gear:
     def tip_roll_angle(self) -> float:
         """Roll angle (rad) where the involute ends at the tip."""
         return float(self.roll_angle(self.tip_form_radius))
+
+    @property
+    def roll_ends(self) -> tuple[float, float]:
+        """Lowest and highest roll angle (rad) of the involute, of an internal gear at its tip and form circle."""
+        ends = self.form_roll_angle, self.tip_roll_angle
+        return (ends[1], ends[0]) if self.internal else ends
 
     @cached_property
     def chamfered_arc(self) -> float:
@@ -210,7 +255,8 @@ class Gear:
         excess = np.square(np.asarray(radius, dtype=float) / self.base_radius) - 1.0
         if np.any(excess < -1e-12):
             raise GeometryError(
-                f"radius {np.min(radius):.6g} mm lies below the base circle of radius {self.base_radius:.6g} mm, "
+                f"radius {np.min(np.abs(radius)):.6g} mm lies below the base circle of radius"
+                f" {abs(self.base_radius):.6g} mm, "
                 "where there is no involute"
             )
         return np.sqrt(np.maximum(excess, 0.0))
@@ -225,38 +271,16 @@ class Gear:
         return 2.0 * np.asarray(radius, dtype=float) * half_angle
 
 
-@dataclass(frozen=True)
-class Side:
-    """One of the two gears of a mesh; arrays over both have a row for each, in the order of `number`, 0 and 1.
-
-    `sense`: 1 of the gear that pushes and turns counter-clockwise, -1 of the one that is pushed and turns clockwise.
-    Flanks approach by `sense` times what the gear moves along the contact normal. Offsets from the line of action are
-    positive towards the centre of the first gear. `foot` (mm): position on the line of action of the foot of the gear's
-    centre, T1 or T2.
-    """
-
-    number: int
-    sense: int
-    gear: Gear
-    foot: float
-
-    @property
-    def turn(self) -> float:
-        """Angle (rad), positive counter-clockwise, by which the gear turns in a mesh cycle."""
-        return self.sense * self.gear.angular_pitch
-
-    def arm(self, position):
-        """Distances (mm) of positions (mm, any shape) on the line of action from the foot."""
-        return self.sense * (position - self.foot)
-
-    def position(self, roll: float) -> float:
-        """Position (mm) on the line of action of the flank point at a roll angle (rad)."""
-        return self.foot + self.sense * self.gear.base_radius * roll
-
-
-def transverse_gear(gear: GearData, module: float, pressure_angle: float, helix_angle: float) -> Gear:
-    """The gear's transverse section, in which tan(pressure angle) stretches as the module does (ISO 21771)."""
+def transverse_gear(
+    gear: GearData, module: float, pressure_angle: float, helix_angle: float, youngs_modulus: float | None = None
+) -> Gear:
+    """The gear's transverse section, in which tan(pressure angle) stretches as the module does (ISO 21771); its
+    foundation is stiff by its own Young's modulus (MPa), a rigid gear's not at all."""
     stretch = 1.0 / cos(helix_angle)
+    foundation = None
+    if youngs_modulus and gear.support is not None and gear.support.kind == FOUNDATION:
+        springs = gear.support.radial_stiffness, gear.support.tangential_stiffness
+        foundation = springs[0] / youngs_modulus, springs[1] / youngs_modulus
     return Gear(
         teeth=gear.teeth,
         module=module * stretch,
@@ -271,4 +295,6 @@ def transverse_gear(gear: GearData, module: float, pressure_angle: float, helix_
         protuberance=gear.protuberance,
         protuberance_angle=gear.protuberance_angle,
         web=gear.web,
+        cutter=gear.cutter and Cutter(gear.cutter.teeth, gear.cutter.profile_shift / stretch),
+        foundation=foundation,
     )

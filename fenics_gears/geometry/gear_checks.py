@@ -1,6 +1,6 @@
 """Checks of a single gear: one that no rack can cut is refused, with the value, the limit and the field to change."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from math import floor, isfinite, pi, tan
 from typing import NoReturn
 
@@ -9,6 +9,7 @@ import numpy as np
 from fenics_gears.errors import GeometryError
 
 from .gear import Gear
+from .gear_data import LEAST_RIM, ROUNDING
 from .outline import fillet_point
 
 # "raise" or "lower", and the field: of the pair ("centre_distance") or of a gear ("pinion.tip_diameter", without its
@@ -17,14 +18,10 @@ Remedy = tuple[str, str]
 # What is wrong, and what may mend it; nothing where the words say what to do.
 Mistakes = Iterator[tuple[str, tuple[Remedy, ...]]]
 
-# Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
-ROUNDING = 1e-6
 # In normal modules: of a shorter chamfer round-off leaves no direction.
 LEAST_CHAMFER = 1e-6
 # Of a share of the face width.
 SHARE_ROUNDING = 1e-12
-# Thinnest rim between bore and root circle, in modules, that leaves room for a mesh.
-LEAST_RIM = 0.2
 # Thinnest neck of an undercut tooth, in modules.
 LEAST_NECK = 0.1
 NECK_SAMPLES = 401
@@ -42,10 +39,17 @@ class Impossible(GeometryError):
 
 def check_gear(gear: Gear, name: str) -> None:
     """Refuse a gear (``name`` is its section of the scene) that no rack can cut; raises Impossible."""
-    for check in (_numbers, _web):
+    numbers: tuple[Callable, ...] = (_numbers, _web)
+    rules: tuple[Callable, ...] = (_circles, _rack, _undercut, _tip)
+    if gear.internal:
+        from .ring_checks import NUMBERS_OF_RING, RULES_OF_RING
+
+        numbers = NUMBERS_OF_RING
+        rules = RULES_OF_RING
+    for check in numbers:
         for problem in check(gear, f"gears.{name}"):
             refuse(name, problem)
-    for tried in (_circles, _rack, _undercut, _tip):
+    for tried in rules:
         for words, remedies in tried(gear, f"gears.{name}"):
             raise Impossible(f"{name}: {words}", [(how, f"{name}.{field}") for how, field in remedies])
 

@@ -15,6 +15,12 @@ RACKS = {
 }
 
 
+# Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
+ROUNDING = 1e-6
+# Thinnest rim between bore or outer circle and root circle, in modules, that leaves room for a mesh.
+LEAST_RIM = 0.2
+
+
 @dataclass(frozen=True)
 class Material:
     """Isotropic linear elasticity: Young's modulus and yield strength in MPa; the latter None where it is not known."""
@@ -61,6 +67,29 @@ class Web:
     offset: float = 0.0
 
 
+@dataclass(frozen=True)
+class Cutter:
+    """A shaper cutter: its teeth and the profile shift of its teeth's thickness, of the transverse section."""
+
+    teeth: int
+    profile_shift: float = 0.0
+
+
+HELD = "held"
+FOUNDATION = "foundation"
+SUPPORTS = (HELD, FOUNDATION)
+
+
+@dataclass(frozen=True)
+class RingSupport:
+    """What holds the outer circle of an internal gear, of SUPPORTS; springs with a radial and a tangential stiffness
+    per area, N/mm^3, of a foundation."""
+
+    kind: str
+    radial_stiffness: float | None = None
+    tangential_stiffness: float | None = None
+
+
 # Teeth that are spanned and ball diameter, by which a drawing measures pinion and wheel; None where it says none.
 MeasuredOver = tuple[tuple[int | None, float | None], tuple[int | None, float | None]]
 NOT_GIVEN: tuple[int | None, float | None] = (None, None)
@@ -72,7 +101,8 @@ class GearData:
     `face_width` (mm) and `material` are None where it has the pair's.
 
     `tip_chamfer`, mm: its radial height. `protuberance`, mm, of the rack beyond the finished flank, and its angle, rad.
-    `nominal_profile_shift`: that of the drawing, None where the thickness has it.
+    `nominal_profile_shift`: that of the drawing, None where the thickness has it. An internal gear has negative teeth
+    and diameters, that of the outer circle as `bore_diameter`, a `cutter` or None, and a `support`.
     """
 
     teeth: int
@@ -88,6 +118,8 @@ class GearData:
     protuberance_angle: float = 0.0
     web: Web | None = None
     nominal_profile_shift: float | None = field(default=None, compare=False)
+    cutter: Cutter | None = None
+    support: RingSupport | None = None
 
 
 @dataclass(frozen=True)
@@ -119,6 +151,11 @@ class GearPairData:
     def material_of(self, name: str) -> Material | None:
         """Material of the "pinion" or the "wheel"."""
         return getattr(self, name).material or self.material
+
+    def modulus_of(self, name: str) -> float | None:
+        """Young's modulus (MPa) of the "pinion" or the "wheel"; None where it is rigid."""
+        material = self.material_of(name)
+        return None if material is None else material.youngs_modulus
 
     @property
     def face_widths(self) -> tuple[float, float]:

@@ -4,7 +4,7 @@ The flexibility q' of an ideal pair (``c'th = 1/q'``), ``c' = 0.8 c'th C_R C_B c
 for the mesh ``c_gamma_alpha = c' (0.75 eps_alpha + 0.25)``.
 """
 
-from math import cos, degrees, sin
+from math import cos, degrees, inf, sin
 
 import numpy as np
 
@@ -28,7 +28,8 @@ def single_stiffness(gears: GearPairData) -> tuple[float, float]:
     # Of the spur gears that the teeth of helical ones are like: z / (cos(beta_b)^2 cos(beta)).
     of_virtual = (1.0 - (sin(beta) * cos(gears.pressure_angle)) ** 2) * cos(beta)
     z1 = gears.pinion.teeth / of_virtual
-    z2 = gears.wheel.teeth / of_virtual
+    # An internal gear counts as a rack.
+    z2 = gears.wheel.teeth / of_virtual if gears.wheel.teeth > 0 else inf
     x1 = gears.pinion.profile_shift
     x2 = gears.wheel.profile_shift
     flexibility = (

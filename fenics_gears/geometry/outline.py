@@ -70,10 +70,10 @@ def tooth_outline(gear: Gear, fillet_points: int = 41) -> ToothOutline:
     """Outline of one tooth; GeometryError for a gear without involute above its fillet, or with overlapping fillets."""
     if gear.tip_form_radius <= gear.form_radius:
         raise GeometryError(
-            f"no involute: the fillet of the gear with {gear.teeth} teeth reaches up to radius"
-            f" {gear.form_radius:.6g} mm, its tip circle has {gear.tip_radius:.6g} mm"
+            f"no involute: the fillet of the gear with {gear.tooth_count} teeth reaches up to radius"
+            f" {abs(gear.form_radius):.6g} mm, its tip circle has {abs(gear.tip_radius):.6g} mm"
         )
-    if gear.rack_tip_centre[0] < 0.0:
+    if not gear.internal and gear.rack_tip_centre[0] < 0.0:
         raise GeometryError(
             f"the fillets of neighbouring teeth overlap: the tip of the rack that cuts the gear with {gear.teeth} teeth"
             f" has room for a radius of {gear.largest_rack_tip_radius:.4g} mm, not of {gear.rack_tip_radius:.4g} mm"
@@ -103,6 +103,8 @@ def fillet_point(gear: Gear, parameter) -> np.ndarray:
     rack_tip_radius/D + depth/cos(parameter)`` away (law of gearing; Litvin & Fuentes, Gear Geometry and Applied Theory,
     ch. 6).
     """
+    if gear.internal:
+        return _of_ring(gear, parameter)[0]
     angle, along = _on_rack(gear, parameter)
     distance = _distance_from_pitch_point(gear, angle) - along * np.tan(angle)
     in_space = np.stack([-distance * np.sin(angle), distance * np.cos(angle) - gear.reference_radius], axis=-1)
@@ -111,6 +113,8 @@ def fillet_point(gear: Gear, parameter) -> np.ndarray:
 
 def fillet_tangent(gear: Gear, parameter) -> np.ndarray:
     """Derivative (..., 2), mm/rad, of ``fillet_point`` by its parameter."""
+    if gear.internal:
+        return _of_ring(gear, parameter)[1]
     angle, along = _on_rack(gear, parameter)
     direction = np.stack([-np.cos(angle), -np.sin(angle)], axis=-1)
     return fillet_speed(gear, parameter)[..., None] * _turned(direction, _body_angle(gear, angle, along))
@@ -118,6 +122,8 @@ def fillet_tangent(gear: Gear, parameter) -> np.ndarray:
 
 def fillet_speed(gear: Gear, parameter) -> np.ndarray:
     """Length (mm) of fillet per rad of its parameter: rolling on the rack's rounding plus sliding."""
+    if gear.internal:
+        return np.linalg.norm(fillet_tangent(gear, parameter), axis=-1)
     angle, along = _on_rack(gear, parameter)
     depth = gear.rack_tip_centre[1]
     excess = _excess(gear)
@@ -132,6 +138,13 @@ def fillet_speed(gear: Gear, parameter) -> np.ndarray:
     distance = _distance_from_pitch_point(gear, angle) - along * np.tan(angle)
     on_flank = gear.module * (1.0 - distance / (gear.reference_radius * np.cos(angle)))
     return np.where(along > 0.0, on_flank, speed)
+
+
+def _of_ring(gear: Gear, parameter) -> tuple[np.ndarray, np.ndarray]:
+    """Points and slopes of an internal gear's fillet."""
+    from .ring_fillet import body_points
+
+    return body_points(gear, parameter)
 
 
 def _on_rack(gear: Gear, parameter) -> tuple[np.ndarray, np.ndarray | float]:

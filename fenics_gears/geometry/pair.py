@@ -2,20 +2,21 @@
 
 Positions on the line of action are distances ``xi`` (mm) from T1, where it leaves the pinion's base circle. The pinion
 drives: contact runs from the wheel's tip (path_start) to the pinion's tip (path_end), unless the mate is cut away
-there.
+there. An internal wheel has negative numbers, and so have centre distance and T1 to T2 (ISO 21771).
 """
 
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from math import acos, cos, exp, floor, pi, sin, sqrt, tan
+from math import acos, copysign, cos, exp, floor, pi, sin, sqrt, tan
 
 from fenics_gears.errors import GeometryError
 
-from .gear import Gear, Side, transverse_gear
+from .gear import Gear, transverse_gear
 from .gear_checks import Impossible, check_gear
 from .gear_data import GearPairData
 from .involute import inverse_involute, involute_function
 from .pair_checks import check_pair
+from .side import Side
 
 WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
 # Reach, in normal modules, into a face that extends beyond the mate: of teeth on a thin rim, the addition for a solid
@@ -146,7 +147,7 @@ class GearPair:
     @cached_property
     def line_of_action_length(self) -> float:
         """Distance (mm) from T1 to T2, where the line of action touches the base circles."""
-        return sqrt(self.centre_distance**2 - sum(self.base_radii) ** 2)
+        return copysign(sqrt(self.centre_distance**2 - sum(self.base_radii) ** 2), self.centre_distance)
 
     @property
     def pitch_point(self) -> float:
@@ -175,10 +176,8 @@ class GearPair:
     def path_end(self) -> float:
         """Position (mm) where contact ends: at the pinion's tip, or earlier, at an undercut wheel's form circle."""
         tip = self.tip_positions[1]
-        wheel = self.wheel
-        return (
-            min(tip, self.line_of_action_length - wheel.base_radius * wheel.form_roll_angle) if wheel.undercut else tip
-        )
+        wheel = self.sides[1]
+        return min(tip, wheel.position(self.wheel.form_roll_angle)) if self.wheel.undercut else tip
 
     @cached_property
     def contact_ratio(self) -> float:
@@ -279,7 +278,8 @@ def gear_pair(data: GearPairData) -> GearPair:
 def _built(data: GearPairData) -> GearPair:
     """The pair, checked; raises Impossible, without advice."""
     pinion, wheel = (
-        transverse_gear(gear, data.module, data.pressure_angle, data.helix_angle) for gear in (data.pinion, data.wheel)
+        transverse_gear(getattr(data, name), data.module, data.pressure_angle, data.helix_angle, data.modulus_of(name))
+        for name in ("pinion", "wheel")
     )
     check_gear(pinion, "pinion")
     check_gear(wheel, "wheel")

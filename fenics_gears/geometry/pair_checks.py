@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .gear import Gear
-from .gear_checks import ROUNDING, Impossible, Mistakes, Remedy, in_degrees
+from .gear_checks import Impossible, Mistakes, Remedy, in_degrees
+from .gear_data import ROUNDING
 from .involute import involute_function
 from .outline import fillet_point
 
@@ -44,6 +45,10 @@ def design_warnings(pair: GearPair) -> list[str]:
                 f"{name}: thin tip: {gear.tip_thickness:.4g} mm at the tip circle, less than {THIN_TIP} modules "
                 f"= {THIN_TIP * gear.normal_module:.4g} mm; lower gears.{name}.tip_diameter, or profile_shift with it"
             )
+    if pair.wheel.internal:
+        from .ring_checks import assembly_warnings
+
+        sentences += assembly_warnings(pair)
     whole = (pair.tip_positions[1] - pair.tip_positions[0]) / pair.base_pitch
     for name, other, lowest in _shortened(pair):
         sentences.append(
@@ -55,6 +60,11 @@ def design_warnings(pair: GearPair) -> list[str]:
 
 
 def _centres(pair: GearPair) -> Mistakes:
+    if pair.wheel.internal:
+        from .ring_checks import ring_centres
+
+        yield from ring_centres(pair)
+        return
     bases = pair.pinion.base_radius + pair.wheel.base_radius
     if not (isfinite(pair.centre_distance) and pair.centre_distance > bases):
         yield (
@@ -78,7 +88,8 @@ def _backlash(pair: GearPair) -> Mistakes:
     if pair.backlash < -PRINTED_DIGITS * pair.pinion.module:
         yield (
             f"pair: no backlash: the teeth overlap by {-pair.backlash:.4g} mm along the line of action at centre"
-            f" distance {pair.centre_distance:.6g} mm; they fit from {pair.centre_distance_without_backlash:.6g} mm up"
+            f" distance {abs(pair.centre_distance):.6g} mm; they fit from"
+            f" {abs(pair.centre_distance_without_backlash):.6g} mm {'down' if pair.wheel.internal else 'up'}"
             " (gears.centre_distance), or with smaller profile shifts of both gears",
             (),
         )
@@ -128,9 +139,9 @@ def _fillet_clearance(pair: GearPair) -> Mistakes:
         clearance = fillet_clearance(getattr(pair, name), getattr(pair, other), pair.centre_distance)
         if clearance < -ROUNDING:
             yield (
-                f"{name}: interference: the {other}'s tip corner cuts {-clearance:.4g} mm into its fillet, off the line"
-                " of action",
-                _off_the_fillet(name, other),
+                f"{name}: interference: the {other}'s tip corner cuts {-clearance:.4g} mm into its"
+                f" {'teeth' if pair.wheel.internal else 'fillet'}, off the line of action",
+                _off_the_fillet(name, other) if not pair.wheel.internal else _off_the_tips(name, other),
             )
 
 
@@ -138,6 +149,11 @@ def _off_the_fillet(name: str, other: str) -> tuple[Remedy, ...]:
     return tuple(
         ("lower", field) for field in (f"{other}.tip_diameter", f"{name}.root_diameter", f"{name}.rack_tip_radius")
     )
+
+
+def _off_the_tips(name: str, other: str) -> tuple[Remedy, ...]:
+    """Tips of pinion and ring that meet outside of the path of contact."""
+    return *(("lower", f"{each}.tip_diameter") for each in (other, name)), ("raise", "wheel.teeth")
 
 
 def _shortened(pair: GearPair) -> Iterator[tuple[str, str, float]]:
@@ -159,7 +175,8 @@ def fillet_clearance(gear: Gear, mate: Gear, centre_distance: float) -> float:
     """Least radial distance (mm) from the path of the mate's tip corner down to the gear's fillet, drive flanks in
     contact. Infinite where the corner never comes over the fillet, negative where it would cut in. Of an undercut gear
     the least arc."""
-    clearance = _clearance_along_circles if gear.undercut else _clearance_of_corner
+    along_circles = gear.undercut or gear.internal or mate.internal
+    clearance = _clearance_along_circles if along_circles else _clearance_of_corner
     return min(clearance(gear, mate, centre_distance, corner) for corner in _corners(mate))
 
 
@@ -198,7 +215,8 @@ def _clearance_along_circles(gear: Gear, mate: Gear, centre_distance: float, cor
     )
     fillet = fillet_point(gear, np.linspace(0.0, gear.fillet_end, SAMPLES))
     involute = -involute_function(gear.roll_angle(np.maximum(radius, gear.form_radius)))
-    cut = np.interp(radius, np.hypot(fillet[:, 0], fillet[:, 1]), np.arctan2(fillet[:, 0], -fillet[:, 1]))
+    x, y = gear.sign * fillet.T
+    cut = np.interp(radius, gear.sign * np.hypot(x, y), np.arctan2(x, -y))
     arcs = radius * (angle - np.where(radius < gear.form_radius, cut, involute))
     return float(np.min(arcs, where=radius > gear.root_radius, initial=np.inf))
 
@@ -223,6 +241,10 @@ def _tip_corner_path(
         return radius * np.sin(turned), centre_distance - radius * np.cos(turned)
 
     across, along = seen(corner[0], mate_angle - corner[1])
-    gear_angle = np.arctan2(*seen(mate.tip_form_radius, at_contact)) - np.arctan2(across, along)
+    if gear.internal:
+        across = -across
+        along = -along
+    start = seen(mate.tip_form_radius, at_contact)
+    gear_angle = np.arctan2(gear.sign * start[0], gear.sign * start[1]) - np.arctan2(across, along)
     gear_rotation = mate.teeth / gear.teeth * (at_contact - mate_angle)
-    return np.hypot(across, along), -involute_function(contact_roll) + gear_angle - gear_rotation
+    return gear.sign * np.hypot(across, along), -involute_function(contact_roll) + gear_angle - gear_rotation

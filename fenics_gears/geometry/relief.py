@@ -232,15 +232,15 @@ def _curve(relief: Relief, side: _Side) -> ReliefCurve:
     _check_depth(relief, side)
     start, written, field = _start(relief, side)
     gear = side.gear
-    lowest = gear.form_roll_angle
-    highest = gear.tip_roll_angle
+    lowest, highest = gear.roll_ends
+    base = abs(gear.base_radius)
     if not lowest <= start <= highest or start == side.end:
         raise side.refused(
             f"{side.section.replace('_', ' ')} starts at {written}, but its involute runs from"
-            f" {degrees(lowest):.4g} deg (form circle) to {degrees(highest):.4g} deg (tip), diameters"
-            f" {2.0 * gear.form_radius:.6g} to {2.0 * gear.tip_radius:.6g} mm,"
-            f" {gear.base_radius * (highest - lowest):.4g} mm on the path of contact,"
-            f" {arc_length(gear.base_radius, highest) - arc_length(gear.base_radius, lowest):.4g} mm along the flank",
+            f" {degrees(gear.form_roll_angle):.4g} deg (form circle) to {degrees(gear.tip_roll_angle):.4g} deg (tip),"
+            f" diameters {2.0 * abs(gear.form_radius):.6g} to {2.0 * abs(gear.tip_radius):.6g} mm,"
+            f" {base * (highest - lowest):.4g} mm on the path of contact,"
+            f" {arc_length(base, highest) - arc_length(base, lowest):.4g} mm along the flank",
             field,
         )
     return ReliefCurve(relief.depth, start, side.end, relief.power)
@@ -273,7 +273,7 @@ def _start(relief: Relief, side: _Side) -> tuple[float, str, str]:
         return sqrt(square) if square >= 0.0 else -1.0, written, "length_on_flank"
     if relief.start_diameter is not None:
         radius = 0.5 * relief.start_diameter
-        start = float(gear.roll_angle(radius)) if radius >= gear.base_radius else -1.0
+        start = float(gear.roll_angle(radius)) if radius >= abs(gear.base_radius) else -1.0
         return start, f"diameter {relief.start_diameter:.6g} mm", "start"
     start = side.usual_start if relief.start_roll_angle is None else relief.start_roll_angle
     return start, f"roll angle {degrees(start):.4g} deg", "start"

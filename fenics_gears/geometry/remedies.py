@@ -111,6 +111,7 @@ def _with_shift(data: GearPairData, gear: str, name: str, step: float) -> GearPa
 
 def _with_teeth(data: GearPairData, gear: str, more: int) -> GearPairData:
     own = getattr(data, gear)
+    more = more if own.teeth > 0 else -more
     wider = more * data.module / cos(data.helix_angle)
     sizes = {each: getattr(own, each) + wider for each in ("tip_diameter", "root_diameter")}
     changed = _changed(data, gear, teeth=own.teeth + more, **sizes)
@@ -123,13 +124,18 @@ def _changed(data: GearPairData, gear: str, **values: float) -> GearPairData:
 
 def _in_words(data: GearPairData, changed: GearPairData, how: str, gear: str, name: str) -> str:
     unit = "" if name in ("profile_shift", "rack_tip_radius", "teeth") else " mm"
-    words = f"{how} gears.{gear + '.' if gear else ''}{name} to {_value(changed, gear, name):.6g}{unit}"
+    value = _value(changed, gear, name)
+    # Diameters of an internal gear are negative here, and written without sign.
+    written = value if name in ("profile_shift", "teeth") else abs(value)
+    if written != value or name == "teeth" and value < 0:
+        how = "change" if name == "teeth" else {"raise": "lower", "lower": "raise"}[how]
+    words = f"{how} gears.{gear + '.' if gear else ''}{name} to {written:.6g}{unit}"
     if name not in ("profile_shift", "teeth"):
         return words
     own = getattr(data, gear)
     other = getattr(changed, gear)
     return (
-        f"{words} with gears.{gear}.tip_diameter = {other.tip_diameter:.6g} mm, root_diameter ="
-        f" {own.root_diameter + other.tip_diameter - own.tip_diameter:.6g} mm and gears.centre_distance ="
-        f" {changed.centre_distance:.6g} mm"
+        f"{words} with gears.{gear}.tip_diameter = {abs(other.tip_diameter):.6g} mm, root_diameter ="
+        f" {abs(own.root_diameter + other.tip_diameter - own.tip_diameter):.6g} mm and gears.centre_distance ="
+        f" {abs(changed.centre_distance):.6g} mm"
     )

@@ -5,7 +5,7 @@ an involute of roll angle v these are rb^2 v^2 dv and rb^4 v^2 (1 + v^2) dv; the
 """
 
 from dataclasses import dataclass
-from math import atan2, pi
+from math import atan2, pi, remainder
 
 import numpy as np
 
@@ -41,7 +41,7 @@ def gear_section(gear: Gear) -> CrossSection:
         - _involute(gear.base_radius, form)
         + _fillet(gear)
     )
-    area, moment = 2 * gear.teeth * half_tooth - _arc(gear.bore_radius, 2.0 * pi)
+    area, moment = gear.sign * (2 * gear.teeth * half_tooth - _arc(gear.bore_radius, 2.0 * pi))
     if (web := gear.web) is not None:
         area, moment = np.array([area, moment]) - (1.0 - web.share) * (
             _arc(web.rim_radius, 2.0 * pi) - _arc(web.hub_radius, 2.0 * pi)
@@ -89,5 +89,5 @@ def _fillet(gear: Gear) -> np.ndarray:
     turning = half * weights * (points[:, 1] * tangents[:, 0] - points[:, 0] * tangents[:, 1])
     along = np.array([0.5 * turning.sum(), 0.25 * turning @ np.einsum("nd,nd->n", points, points)])
     x, y = fillet_point(gear, 0.0)
-    at_root = (atan2(y, x) - centreline_angle(gear)) % (2.0 * pi)
+    at_root = remainder(atan2(gear.sign * y, gear.sign * x) - centreline_angle(gear), 2.0 * pi)
     return along + _arc(gear.root_radius, 0.5 * gear.angular_pitch - at_root)

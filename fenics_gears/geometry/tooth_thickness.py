@@ -58,7 +58,7 @@ def spanned_teeth(gear: Gear) -> int:
     """Teeth over which a caliper touches the flanks nearest to the shifted reference circle: k of ISO 21771."""
     shift = gear.profile_shift * gear.rack_stretch
     involute = tan(gear.pressure_angle) - gear.pressure_angle
-    roll = gear.roll_angle(max(_middle_radius(gear), gear.base_radius)) / cos(base_helix_angle(gear)) ** 2
+    roll = gear.roll_angle(_middle_radius(gear)) / cos(base_helix_angle(gear)) ** 2
     spanned = roll - involute - 2.0 * shift * tan(gear.normal_pressure_angle) / gear.teeth
     return max(2, round(float(gear.teeth / pi * spanned + 0.5)))
 
@@ -96,7 +96,7 @@ def shift_of_dimension_over_balls(gear: Gear, dimension: float, ball_diameter: f
 
 def ball_diameter(gear: Gear) -> float:
     """Diameter of a ball that touches the flanks near the shifted reference circle, rounded to 0.05 mm."""
-    roll = float(gear.roll_angle(max(_middle_radius(gear), gear.base_radius)))
+    roll = float(gear.roll_angle(_middle_radius(gear)))
     centre = tan(roll + pi / gear.teeth - gear.tooth_half_angle_at_base)
     return max(1, round(40.0 * gear.base_radius * (centre - roll) * cos(base_helix_angle(gear)))) / 20.0
 
@@ -106,8 +106,9 @@ def _ball_angle(gear: Gear, ball_diameter: float) -> float:
 
 
 def _middle_radius(gear: Gear) -> float:
-    """Radius of the shifted reference circle, in the middle of the tooth."""
-    return gear.reference_radius + gear.profile_shift * gear.module
+    """Radius, without sign, of the shifted reference circle, in the middle of the tooth, or of the base circle if that
+    is larger."""
+    return max(gear.sign * (gear.reference_radius + gear.profile_shift * gear.module), abs(gear.base_radius))
 
 
 def _opposite(gear: Gear) -> float:

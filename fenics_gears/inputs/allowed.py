@@ -54,13 +54,13 @@ class Allowed:
 class AllowedNumber(Allowed):
     """A quantity or a bare number.
 
-    ``words``: texts that stand for values; ``below``, ``negative``: a sentence added where a value is too small, or
-    negative; ``above_lowest``, ``below_highest``: the bound itself is not allowed.
+    ``words``: texts that stand for values; ``below``: a sentence added where a value is too small; ``either_sign``:
+    the bounds are of its size; ``above_lowest``, ``below_highest``: the bound itself is not allowed.
     """
 
     words: Mapping[str, Any] = field(default_factory=dict)
     below: str = ""
-    negative: str = ""
+    either_sign: bool = False
     whole: bool = False
     above_lowest: bool = False
     below_highest: bool = False
@@ -69,10 +69,10 @@ class AllowedNumber(Allowed):
         if isinstance(value, str) and value in self.words:
             return self.words[value]
         number = _quantity(value, self.unit, self.words, self.kind)[0] if self.kind else _bare(value, self.whole)
-        reason = out_of_range(number, self.lowest, self.highest, self.above_lowest, self.below_highest)
+        size = abs(number) if self.either_sign else number
+        reason = out_of_range(size, self.lowest, self.highest, self.above_lowest, self.below_highest)
         if reason:
-            told = self.negative if self.negative and number < 0 else self.below
-            raise Refused(reason if reason in (TOO_LARGE, NOT_FINITE) else f"{reason} {told}".rstrip())
+            raise Refused(reason if reason in (TOO_LARGE, NOT_FINITE) else f"{reason} {self.below}".rstrip())
         return number
 
     def spelled(self, value: Any) -> Any:

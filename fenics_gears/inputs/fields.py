@@ -123,19 +123,21 @@ def whole_number(
     otherwise: str = "",
     default: int | None = None,
     words: Mapping[str, Any] | None = None,
-    negative: str = "",
+    negative_means: str = "",
     **marks: bool,
 ) -> Any:
-    """A bare whole number, bounds included; ``negative``: a sentence added where it is negative."""
+    """A bare whole number, bounds included; ``negative_means``: what one with a minus sign is, whose size has the same
+    bounds."""
     words = words or {}
+    signed = f", negative for {negative_means}" if negative_means else ""
     allowed = AllowedNumber(
-        description=f"a whole number from {lowest} to {highest}, without unit, such as {example}{_or(words)}",
+        description=f"a whole number from {lowest} to {highest}, without unit, such as {example}{signed}{_or(words)}",
         meaning=meaning,
         otherwise=otherwise or ("" if default is None else str(default)),
         lowest=lowest,
         highest=highest,
         words=words,
-        negative=negative,
+        either_sign=bool(negative_means),
         whole=True,
         **marks,
     )

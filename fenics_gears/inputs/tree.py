@@ -52,8 +52,9 @@ def shafts_with_sections(tree: Tree) -> list[str]:
 
 
 def written_out(tree: dict[str, Any]) -> dict[str, Any]:
-    """A parsed file with its short forms written out: ``material = "steel"`` is a section with that name, and listed
-    bearings, ``[[bearings.pinion]]``, are in the gear's section."""
+    """A parsed file with its short forms written out: ``material = "steel"`` is a section with that name, ``support =
+    "held"`` one of that kind, ``internal = true`` makes the number of teeth negative, and listed bearings,
+    ``[[bearings.pinion]]``, are in the gear's section."""
     gears, shafts = (table(tree, name) or {} for name in ("gears", "shafts"))
     bearings: Any = table(tree, "bearings") or {}
     homes: tuple[Any, ...] = (
@@ -65,6 +66,11 @@ def written_out(tree: dict[str, Any]) -> dict[str, Any]:
         if home is not None and isinstance(home.get("material"), str):
             home["material"] = {"name": home["material"]}
     for gear in GEARS:
+        own: Any = table(gears, gear) or {}
+        if isinstance(own.get("support"), str):
+            own["support"] = {"kind": own["support"]}
+        if isinstance(own.get("internal"), bool) and type(own.get("teeth")) is int:
+            own["teeth"] = -abs(own["teeth"]) if own.pop("internal") else own["teeth"]
         if isinstance(bearings.get(gear), list):
             bearings[gear] = {LISTED: bearings[gear]}
     return tree
@@ -100,9 +106,21 @@ def quantity_in(value: Any) -> float | None:
 
 
 def teeth_in(tree: Tree, gear: str) -> int | None:
-    """Teeth of the "pinion" or the "wheel"; None where the number is missing or none that a gear has."""
+    """Number of teeth of the "pinion" or the "wheel", without sign; None where it is missing or none that a gear
+    has."""
     teeth = value_at(tree, "gears", gear, "teeth")
-    return teeth if type(teeth) is int and 0 < teeth <= MOST_TEETH else None
+    return abs(teeth) if type(teeth) is int and 0 < abs(teeth) <= MOST_TEETH else None
+
+
+# Fields of internal gears alone, and other names by which one is asked for.
+OF_INTERNAL = ("outer_diameter", "cutter", "support")
+INTERNAL = ("internal", "internal_gear", "internal_teeth", "ring", "ring_gear")
+
+
+def is_internal(tree: Tree, gear: str) -> bool:
+    """Whether the "pinion" or the "wheel" of a parsed scene is an internal gear, with a negative number of teeth."""
+    teeth = value_at(tree, "gears", gear, "teeth")
+    return type(teeth) is int and teeth < 0
 
 
 # What the size of the teeth may be given by, and their pressure angle; the first is that of the normal section, which
@@ -144,8 +162,8 @@ LOADS = ("wheel_torque", "pinion_torque", "power")
 def wheel_torque(name: str, number: float, teeth: Sequence[int], mesh_frequency: float | None) -> float | None:
     """Torque on the wheel, N mm, of one of `LOADS` (N mm, N mm/s); None for a power without a mesh frequency (Hz)."""
     if name == "power":
-        return number * teeth[1] / (2.0 * pi * mesh_frequency) if mesh_frequency else None
-    return number if name == "wheel_torque" else number * teeth[1] / teeth[0]
+        return number * abs(teeth[1]) / (2.0 * pi * mesh_frequency) if mesh_frequency else None
+    return number if name == "wheel_torque" else number * abs(teeth[1]) / teeth[0]
 
 
 def load_in(tree: Tree) -> tuple[Path, float] | None:

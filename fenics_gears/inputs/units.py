@@ -84,6 +84,7 @@ _KINDS = {
     "N mm/s": "a power",
     "N/mm^2": "a stress",
     "N/mm": "a stiffness",
+    "N/mm^3": "a stiffness per area",
     "N mm/rad": "a torsional stiffness",
     "N s^2/mm": "a mass",
     "N s^2/mm^4": "a density",

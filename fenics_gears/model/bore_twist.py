@@ -36,4 +36,11 @@ def _flexibility(gear: Gear, material: Material, width: float) -> float:
         ends = gear.bore_radius, gear.web.hub_radius, gear.web.rim_radius, gear.root_radius
         rings = list(zip(ends, ends[1:], (1.0, gear.web.share, 1.0)))
     twist = sum(0.5 * (inner**-2 - outer**-2) / share for inner, outer, share in rings)
-    return gear.base_radius**2 * twist / (2.0 * pi * shear_modulus * width)
+    body = gear.base_radius**2 * abs(twist) / (2.0 * pi * shear_modulus * width)
+    if gear.foundation is None:
+        return body
+    # A rigid ring on its springs: it turns by the tangential ones, and moves by both.
+    half_circle = pi * abs(gear.bore_radius) * width
+    radial, tangential = (each * material.youngs_modulus * half_circle for each in gear.foundation)
+    turning = 2.0 * tangential * gear.bore_radius**2
+    return body + gear.base_radius**2 / turning + 1.0 / (radial + tangential)

@@ -74,7 +74,7 @@ def describe(scene: Scene) -> list[tuple[str, Rows]]:
 
 def _model_rows(model: Model) -> Rows:
     grid = model.resolution.contact_grid
-    force = model.scene.load.wheel_torque / model.pair.wheel.base_radius
+    force = model.scene.load.wheel_torque / abs(model.pair.wheel.base_radius)
     cut = ", the outermost cut in two" if model.face.slices > model.face.evenly else ""
     each = "normal and tangential force" if model.scene.friction is not None else "normal force"
     touching = "the first to touch carries all"

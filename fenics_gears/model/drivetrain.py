@@ -12,7 +12,6 @@ from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.geometry.gear_data import LumpedGear, rough_pair_stiffness
 from fenics_gears.geometry.iso_6336 import pair_stiffness, theoretical_stiffness
 from fenics_gears.geometry.pair import GearPair, gear_pair
-from fenics_gears.geometry.section import cells_section, gear_section
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import ISO_6336, Scene
 
@@ -100,7 +99,7 @@ def mesh_stiffness(scene: Scene, pair: GearPair | None = None) -> float:
 
 def line_load(scene: Scene, pair: GearPair) -> float:
     """N/mm, of the wheel's torque over the face."""
-    return abs(scene.load.wheel_torque) / pair.wheel.base_radius / pair.face_width
+    return abs(scene.load.wheel_torque / pair.wheel.base_radius) / pair.face_width
 
 
 def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:
@@ -127,6 +126,9 @@ def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:
 
 def _section(scene: Scene, pair: GearPair, name: str) -> CrossSection:
     """The gear's cross-section: that of its outline, or of its own mesh with all its holes."""
+    # Loaded where a density gives the mass.
+    from fenics_gears.geometry.section import cells_section, gear_section
+
     if scene.body_meshes is None or getattr(scene.body_meshes, name) is None:
         return gear_section(getattr(pair, name))
     mesh = scene.body_meshes.body_of(name, pair, scene.accuracy.element or "P2").mesh

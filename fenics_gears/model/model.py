@@ -24,7 +24,7 @@ from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 from fenics_gears.scene.schema import WORDS
 
 from .drivetrain import drivetrain, mesh_stiffness
-from .modification import corner, removals, rim_warnings
+from .modification import check_bodies, corner, removals, rim_warnings
 from .resolution import Resolution, locking_warnings, resolution_warnings, resolve
 from .storage import Arrays, counted_bytes, packed_bytes, sizes, stored_arrays
 
@@ -138,9 +138,10 @@ class Model:
         return _over_face().face_discretisation(self, gear)
 
     def transmission_error(self, position: np.ndarray) -> np.ndarray:
-        """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k)."""
+        """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k); positive where the wheel
+        lags behind, an internal one too."""
         first, second = (self.drivetrain.value(position, f"rotation_{gear}") for gear in (1, 2))
-        return second + self.pair.rotation_ratio * first
+        return self.pair.wheel.sign * (second + self.pair.rotation_ratio * first)
 
     @cached_property
     def _stored(self) -> tuple[Arrays, dict[str, int]]:
@@ -245,7 +246,7 @@ def model_of(scene: Scene) -> Model:
     """
     pair = gear_pair(scene.gears)
     check_files(scene, pair)
-    corner(scene, pair)  # refused here, before the run asks for it
+    check_bodies(scene, pair)  # refused here, before the run asks for them
     shafts = drivetrain(scene, pair)
     removal = removals(scene, pair)
     model = Model(scene, pair, shafts, resolve(scene, pair, shafts, removal), removal)

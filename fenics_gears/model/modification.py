@@ -34,6 +34,16 @@ def check_geometry(scene: Scene) -> GearPair:
     return pair
 
 
+def check_bodies(scene: Scene, pair: GearPair) -> None:
+    """Refuse a thin rim of an internal gear without a support, and tip edges that do not fit. Raises SceneError,
+    GeometryError."""
+    if pair.wheel.internal:
+        from .rim_of_ring import check_support
+
+        check_support(scene, pair)
+    corner(scene, pair)
+
+
 def corner(scene: Scene, pair: GearPair):
     """How the scene's tips touch off the line of action, as contact sees it; None without `[corner_contact]`. Raises
     GeometryError for an edge that does not fit a tip."""
@@ -111,7 +121,7 @@ NOTABLE = 10.0
 def too_stiff(gear: Gear) -> float:
     """Per cent by which tooth and rim of a gear, its bore being a rigid ring, give way less than in a solid body, apart
     from the body's turn as a whole."""
-    return STIFFEST * exp(-(gear.root_radius - gear.bore_radius) / (FALL * gear.root_radius))
+    return STIFFEST * exp(-(gear.root_radius - gear.bore_radius) / (FALL * abs(gear.root_radius)))
 
 
 def rim_warnings(model: Model) -> list[str]:
@@ -120,9 +130,13 @@ def rim_warnings(model: Model) -> list[str]:
     sentences = []
     if scene.tooth_elasticity is None or scene.accuracy.model not in (None, ELASTIC):
         return []
+    if model.pair.wheel.internal:
+        from .rim_of_ring import ring_warnings
+
+        sentences += ring_warnings(scene, model.pair)
     for name in GEARS:
         gear = getattr(model.pair, name)
-        off = too_stiff(getattr(model.pair, name))
+        off = 0.0 if gear.internal else too_stiff(gear)
         if off < NOTABLE or getattr(scene.body_meshes, name, None) is not None:
             continue
         rim = gear.root_radius - gear.bore_radius

@@ -34,7 +34,7 @@ def speed_rows(model: Model) -> Rows:
     sliding = np.abs(sliding_speed(pair, ends, highest)) * MILLIMETRE
     pitch = 2.0 * np.pi * turns * pair.centre_distance * pair.rotation_ratio / (1.0 + pair.rotation_ratio) * MILLIMETRE
     when = "" if model.scene.speed_ramp is None else "at the ramp's highest speed"
-    speeds = f"{60.0 * turns:.5g} rpm pinion, {60.0 * turns * pair.rotation_ratio:.5g} rpm wheel"
+    speeds = f"{60.0 * turns:.5g} rpm pinion, {60.0 * turns * abs(pair.rotation_ratio):.5g} rpm wheel"
     slides = f"{sliding[0]:.4g} m/s at the start of contact, {sliding[1]:.4g} m/s at its end"
     unit = f"m/s, {when}" if when else "m/s"
     return [

@@ -189,9 +189,11 @@ def mate_tips(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]
     ranges = []
     for gear, end in zip(gears, ends):
         arc = arc_length(gear.base_radius, end / gear.base_radius)
-        around = np.maximum([arc - BELOW_MATE_TIP * gear.module, arc + ABOVE_MATE_TIP * gear.module], 0.0)
+        around = np.array([arc - BELOW_MATE_TIP * gear.module, arc + ABOVE_MATE_TIP * gear.module])
+        around = gear.sign * np.maximum(gear.sign * around, 0.0)
         first, last = roll_angle_at_arc_length(gear.base_radius, around)
-        ranges.append((float(max(first, gear.form_roll_angle)), float(min(last, gear.tip_roll_angle))))
+        first, last = np.clip((first, last), *gear.roll_ends)
+        ranges.append((float(first), float(last)))
     return ranges[0], ranges[1]
 
 

@@ -223,7 +223,7 @@ def work_variables(
     energy - energy[0] = work_input - work_output - work_damping - work_friction + work_contact_changes + energy_defect.
     """
     work = account(drivetrain, clock, steps, energy, loads)
-    carried = _carried(drivetrain, loads, steps.numbers, 2.0 * pi / (scene.gears.wheel.teeth * cycle.steps))
+    carried = _carried(drivetrain, loads, steps.numbers, 2.0 * pi / (abs(scene.gears.wheel.teeth) * cycle.steps))
     values = {
         "work_input": carried + work.rotation,
         "work_output": carried - work.load,
@@ -264,7 +264,7 @@ def _carried(drivetrain: Drivetrain, loads: Sequence[VaryingLoad], numbers: np.n
     """
     turned = np.zeros(len(drivetrain.coordinates))
     wheel = drivetrain.coordinates.index("rotation_2")
-    arc = drivetrain.radii[wheel] * angle
+    arc = abs(drivetrain.radii[wheel]) * angle
     turned[wheel] = -arc
     if "rotation_1" in drivetrain.coordinates:
         turned[drivetrain.coordinates.index("rotation_1")] = arc

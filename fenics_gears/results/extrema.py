@@ -80,7 +80,7 @@ class Extrema:
     ):
         self._model = model
         self._cycle = cycle
-        self._steps = np.rint(mesh_phase * cycle.steps).astype(int)
+        self._steps = np.rint((mesh_phase - cycle.mesh.ahead) * cycle.steps).astype(int)
         self._period = common_period(model.scene) * cycle.steps
         whole = isfinite(self._period) and len(self._steps) > self._period
         # Solved in the first period, so that the same cycles give the same bits however many are run.
@@ -122,7 +122,7 @@ class Extrema:
             if value <= top + least:
                 step = float(first)
                 value = top
-            extrema.append(Extremum(value, step / self._cycle.steps, way))
+            extrema.append(Extremum(value, step / self._cycle.steps + self._cycle.mesh.ahead, way))
         return extrema
 
     def _solved(

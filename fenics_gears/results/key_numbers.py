@@ -53,7 +53,7 @@ def _harmonics(settled: Curves, pair: GearPair) -> dict[str, float]:
     cycles = len(phase) // a_cycle
     if not cycles:
         return {}
-    curve = settled["transmission_error"][-cycles * a_cycle :] * pair.wheel.base_radius / MICROMETRE
+    curve = settled["transmission_error"][-cycles * a_cycle :] * abs(pair.wheel.base_radius) / MICROMETRE
     amplitudes = zip(HARMONIC_NAMES, harmonics(curve, cycles))
     return {name: float(amplitude) for name, amplitude in amplitudes if np.isfinite(amplitude)} | {
         "rms_transmission_error": float(curve.std()),

@@ -93,8 +93,17 @@ def _fitted(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]:
 
 
 def overall_orders(result: xr.Dataset, train: TrainScene) -> list[OverallOrder]:
-    """The first harmonics of each mesh frequency, by their order; of meshes that have the same one, which an idler
-    couples, the sum."""
+    """The first harmonics of each mesh frequency in the overall transmission error of a train's result, by their order;
+    of meshes that have the same one, which an idler couples, the sum. Each has the `meshes`, the `harmonic`, the
+    `order` of the first shaft, the `frequency` (Hz) and the `amplitude` of the last shaft (rad).
+
+    >>> from pathlib import Path
+    >>> from fenics_gears import simulate_train, train_from_text
+    >>> coarse = "[accuracy]\\nsteps_per_mesh_cycle = 20\\nflank_element_size = '0.2 mm'"
+    >>> train = train_from_text(Path("demos/gear_trains/idler.toml").read_text() + coarse)
+    >>> [round(each.order) for each in overall_orders(simulate_train(train), train)][:3]
+    [24, 48, 72]
+    """
     alike: list[list[CycleOfMesh]] = []
     cycles = cycles_of_meshes(result, train)
     for each in cycles:

@@ -143,7 +143,8 @@ class Recorder:
         nodes = SideBySide(cycle.shared(KnownLayouts), cycle, block, self.slots, self.first_number)
         numbers = block.numbers
         times = self.model.clock.times(block.numbers)
-        values = {"time": times, "mesh_phase": numbers / cycle.steps, "pair_number": nodes.pair_number}
+        phases = numbers / cycle.steps + cycle.mesh.ahead
+        values = {"time": times, "mesh_phase": phases, "pair_number": nodes.pair_number}
         values |= self._centres(block) | mesh_variables(scene, nodes) | pair_variables(scene, nodes)
         if scene.tooth_elasticity is not None:
             values |= stiffness_curves(block, self.model.drivetrain.bending_faces)

@@ -13,8 +13,8 @@ from fenics_gears.contact.operator import Position
 from fenics_gears.contact.tooth_pair import ToothPair, count_of, node_slices
 from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.errors import ComputationError
-from fenics_gears.geometry.gear import Side
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.side import Side
 
 from .side_by_side import SideBySide
 

@@ -100,7 +100,7 @@ def numbers_together(
             "mean_transmission_error": float(error[:-1].mean()),
             "newton_iterations_total": marches[run].newton_iterations,
             "steps_per_mesh_cycle": model.resolution.steps_per_mesh_cycle,
-            "base_radius_wheel": model.pair.wheel.base_radius,
+            "base_radius_wheel": abs(model.pair.wheel.base_radius),
             "settled_from": float(curves[place]["time"][first]),
             "time_march": marched / count,
             "wall_time": seconds,
@@ -138,7 +138,7 @@ def _is_as_expected(model: Model, march: March) -> bool:
     """Whether the result of a march would have no warning."""
     if march.separations or march.steps_by_method[HALVED]:
         return False
-    return bool(np.abs(_error(model, march)).max() <= model.pair.wheel.angular_pitch)
+    return bool(np.abs(_error(model, march)).max() <= abs(model.pair.wheel.angular_pitch))
 
 
 def _curves(

@@ -103,7 +103,7 @@ def _rank(watched: Watched) -> list[str]:
 
 
 def _passed_through(cycle: Cycle, result: RunResult) -> list[str]:
-    pitch = cycle.pair.wheel.angular_pitch
+    pitch = abs(cycle.pair.wheel.angular_pitch)
     largest = np.abs(result["transmission_error"]).max(initial=0.0)
     if largest <= pitch:
         return []

@@ -16,18 +16,18 @@ from typing import Any
 
 from fenics_gears.effects.tooth_elasticity import material_of
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES
-from fenics_gears.geometry.gear_checks import ROUNDING, refuse, tip_radius_with_room
-from fenics_gears.geometry.gear_data import MATERIALS, RACKS, GearData, GearPairData, Web
+from fenics_gears.geometry.gear_checks import refuse, tip_radius_with_room
+from fenics_gears.geometry.gear_data import RACKS, ROUNDING, GearData, GearPairData
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.inputs.tree import GEARS, LOADS, MODULES, PRESSURE_ANGLES, in_normal_section, wheel_torque
+from fenics_gears.inputs.tree import GEARS, MODULES, PRESSURE_ANGLES, in_normal_section
 
-from . import unusual
 from .gear_schema import Gears, GearText
-from .schema import Derived, Load, LoadText, Motion
+from .schema import Derived
 
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
 TOOTH_HEIGHT = sum(RACKS["ISO 53 A"][:2])  # Modules.
+SIGNED = ", an internal gear's diameters and teeth being negative"
 
 
 def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
@@ -44,10 +44,10 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
     pinion, wheel = (
         replace(
             gear,
-            bore_diameter=float(own.bore_diameter),
+            bore_diameter=float(own.bore_diameter) if own.teeth > 0 else -float(own.outer_diameter),
             face_width=None if alike else width,
             material=material_of(own.material, gears.material),
-            web=_web(own, width),
+            web=own.web and own.web.data(own.bore_diameter, width),
         )
         for gear, own, width in zip(drawn, both, widths)
     )
@@ -63,7 +63,7 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
         pinion_hand=gears.pinion_hand or "right",
         axial_offsets=offsets,
     )
-    return data, of_section + derived + _named_materials(gears)
+    return data, of_section + derived
 
 
 def _in_normal_section(gears: Gears) -> tuple[Gears, list[Derived]]:
@@ -81,47 +81,6 @@ def _in_normal_section(gears: Gears) -> tuple[Gears, list[Derived]]:
     return replace(gears, **normal), derived
 
 
-def _web(own: GearText, face_width: float) -> Web | None:
-    if own.web is None:
-        return None
-    return Web(
-        0.5 * (own.web.hub_diameter or own.bore_diameter),
-        0.5 * own.web.rim_inner_diameter,
-        own.web.width / face_width,
-        offset=(own.web.axial_offset or 0.0) / face_width,
-    )
-
-
-def _named_materials(gears: Gears) -> list[Derived]:
-    texts = {"": (gears.material,), **{f"{name} ": (getattr(gears, name).material, gears.material) for name in GEARS}}
-    named = {
-        words: (each[0].name, material_of(*each))
-        for words, each in texts.items()
-        if each[0] is not None and each[0].name is not None
-    }
-    return [
-        Derived(
-            f"{words}Young's modulus",
-            1e-3 * material.youngs_modulus,
-            "GPa",
-            f"Poisson's ratio {material.poissons_ratio:g}, {name} ({MATERIALS[name][1]})",
-        )
-        for words, (name, material) in named.items()
-    ]
-
-
-def load_data(load: LoadText, gears: Gears, motion: Motion) -> tuple[Load, list[Derived]]:
-    """The torque on the wheel, N mm, and how it was derived."""
-    name = next(each for each in LOADS if getattr(load, each) is not None)
-    torque = wheel_torque(
-        name, float(getattr(load, name)), (gears.pinion.teeth, gears.wheel.teeth), motion.mesh_frequency
-    )
-    assert torque is not None, "a load by power has a speed"
-    why = {"pinion_torque": "T_2 = T_1 z2/z1", "power": "T_2 = P/(2 pi n_2)"}
-    derived = [Derived("torque on the wheel", 1e-3 * torque, "N m", why[name])] if name in why else []
-    return Load(torque, name), derived
-
-
 def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Derived]]:
     """Centre distance, mm, both gears (without bore, face width and material), and what was derived. Raises
     GeometryError for an impossible figure."""
@@ -132,6 +91,10 @@ def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Deriv
     thinned, of_backlash = _thinned(pair, cut, distance)
     shortening, of_tips = _tip_shortening(pair, drawn, shifts, distance)
     gears, of_gears = zip(*(_gear_data(pair, *each, shortening) for each in zip(drawn, GEARS, shifts, thinned)))
+    if pair.wheel.teeth < 0 and pair.wheel.tip_diameter is None:
+        ring, clearing = ring_drawing().clear_of_the_pinion(pair, gears, distance)
+        gears = gears[0], ring
+        of_gears = (*of_gears, [] if clearing is None else [clearing])
     asked = (_asked_measures(pair, *each) for each in zip(drawn, GEARS, thinned))
     return distance, gears, [*chain(*of_thickness, of_distance, of_backlash, of_tips, *of_gears, *asked)]
 
@@ -141,6 +104,13 @@ def _thickness() -> ModuleType:
     from . import thickness
 
     return thickness
+
+
+def _unusual() -> ModuleType:
+    """Remarks on figures that are derived."""
+    from . import unusual
+
+    return unusual
 
 
 def _shift(pair: Gears, drawn: GearText, name: str) -> tuple[float, list[Derived]]:
@@ -165,7 +135,7 @@ def _centre_distance(pair: Gears, shifts: Sequence[float], cut: Sequence[float])
     """As given, or that of the profile shifts without backlash, or of both measured thicknesses with the given
     backlash."""
     if pair.centre_distance is not None:
-        return float(pair.centre_distance), []
+        return float(pair.centre_distance) * (1.0 if pair.wheel.teeth > 0 else -1.0), []
     opened = pair.backlash is not None and pair.pinion.measure is not None
     rack_pair = _rack_pair(pair, cut if opened else shifts, 1.0)
     distance = rack_pair.centre_distance_without_backlash
@@ -180,7 +150,7 @@ def _centre_distance(pair: Gears, shifts: Sequence[float], cut: Sequence[float])
         words = "both tooth thicknesses and the backlash"
         if missing(distance) > 0.0:
             distance = brentq(missing, distance, distance + 10.0 * pair.backlash + pair.module)
-    return distance, [Derived("centre distance", distance, "mm", words)]
+    return distance, [Derived("centre distance", abs(distance), "mm", words)]
 
 
 def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequence[float], list[Derived]]:
@@ -189,15 +159,15 @@ def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequen
         return cut, []
     rack_pair = _rack_pair(pair, cut, distance)
     pinion = rack_pair.pinion
-    if distance <= pinion.base_radius + rack_pair.wheel.base_radius:
+    if abs(distance) <= abs(pinion.base_radius + rack_pair.wheel.base_radius):
         return cut, []
     missing = pair.backlash - rack_pair.circumferential_backlash
     if missing < -ROUNDING:
         refuse(
             "pair",
             f"gears.backlash = {pair.backlash:.4g} mm, but teeth with these profile shifts already have"
-            f" {rack_pair.circumferential_backlash:.4g} mm at centre distance {distance:.6g} mm: lower"
-            " gears.centre_distance or raise the profile shifts",
+            f" {rack_pair.circumferential_backlash:.4g} mm at centre distance {abs(distance):.6g} mm:"
+            f" {'lower' if distance > 0.0 else 'raise'} gears.centre_distance or raise the profile shifts",
         )
     # Thickness along the line of action, 2 r_b psi_b, per unit of x: 2 m_t cos(alpha_t) tan(alpha_n).
     each = (
@@ -216,7 +186,7 @@ def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequen
             f"half of the backlash by each gear, and half of the {overlap:.4g} mm by which teeth with the given profile"
             " shifts would overlap"
         )
-    odd = (unusual.of_thinning(pair, overlap, distance, nominal, thinner), "")
+    odd = (_unusual().of_thinning(pair, overlap, distance, nominal, thinner), "")
     return lowered, [
         Derived(f"{name} profile shift of its tooth thickness", shift, "modules", words, remark)
         for name, shift, remark in zip(GEARS, lowered, odd)
@@ -236,12 +206,13 @@ def _tip_shortening(
     if shortening >= TOOTH_HEIGHT:
         refuse(
             "pair",
-            f"centre distance {distance:.6g} mm, where the gears without profile shift have {reference:.6g} mm: no"
-            f" teeth are left when tips are {shortening:.3g} modules shorter: raise gears.centre_distance, or lower"
-            " gears.module or the teeth",
+            f"centre distance {abs(distance):.6g} mm, where the gears without profile shift have"
+            f" {abs(reference):.6g} mm: no teeth are left when tips are {shortening:.3g} modules shorter:"
+            f" {'raise' if distance > 0.0 else 'lower'} gears.centre_distance, or lower gears.module or the teeth",
         )
     formula = "k m_n = a - a_d - (x1 + x2) m_n, not above 0"
-    return shortening, [Derived("tip shortening -k", shortening, "modules", formula, unusual.of_shortening(shortening))]
+    odd = _unusual().of_shortening(shortening)
+    return shortening, [Derived("tip shortening -k", shortening, "modules", formula, odd)]
 
 
 def _gear_data(
@@ -251,17 +222,25 @@ def _gear_data(
     reference = pair.module * drawn.teeth / cos(pair.helix_angle or 0.0)
     standard = RACKS[_of_rack(pair, drawn, "profile") or "ISO 53 A"]
     addendum, dedendum, radius = (_of_rack(pair, drawn, figure) for figure in ("addendum", "dedendum", "tip_radius"))
-    tip = drawn.tip_diameter
-    root = drawn.root_diameter
+    internal = drawn.teeth < 0
+    sign = -1.0 if internal else 1.0
+    signed = SIGNED if internal else ""
+    tip = drawn.tip_diameter and sign * drawn.tip_diameter
+    root = drawn.root_diameter and sign * drawn.root_diameter
     radius = radius if drawn.rack_tip_radius is None else drawn.rack_tip_radius
     if tip is None:
         tip = reference + 2.0 * pair.module * (shift + (standard[0] if addendum is None else addendum) - shortening)
-        derived.append(Derived(f"{name} tip diameter", tip, "mm", "d_a = d + 2 m_n (x + h_aP + k)"))
+        derived.append(Derived(f"{name} tip diameter", sign * tip, "mm", f"d_a = d + 2 m_n (x + h_aP + k){signed}"))
     if root is None:
-        root = reference + 2.0 * pair.module * (cut - (standard[1] if dedendum is None else dedendum))
-        derived.append(Derived(f"{name} root diameter", root, "mm", "d_f = d + 2 m_n (x_E - h_fP)"))
+        root, words = _root(pair, drawn, cut, standard[1] if dedendum is None else dedendum)
+        derived.append(Derived(f"{name} root diameter", sign * root, "mm", words))
     beyond, angle = _protuberance(pair, drawn)
-    if radius is None:
+    cutter = ring_drawing().cutter_of(drawn) if internal else None
+    if radius is None and internal:
+        gear = replace(pair.rack_gear(drawn.teeth, cut, root, cutter), tip_radius=0.5 * tip)
+        radius, why = ring_drawing().tip_radius_of_fillet(gear, standard[2])
+        derived.append(Derived(f"{name} tip radius of the {'cutter' if cutter else 'fillet'}", radius, "modules", why))
+    elif radius is None:
         room = tip_radius_with_room(replace(pair.rack_gear(drawn.teeth, cut, root), protuberance=beyond))
         less = f"what has room on the rack's tip, less than the usual {standard[2]:g}"
         why = less if room < standard[2] else "that of the rack"
@@ -271,11 +250,30 @@ def _gear_data(
     data = GearData(
         drawn.teeth, float(cut), float(tip), float(root), 0.0, float(radius),
         tip_chamfer=float(drawn.tip_chamfer or 0.0), protuberance=beyond, protuberance_angle=angle,
-        nominal_profile_shift=None if shift == cut else float(shift),
+        nominal_profile_shift=None if shift == cut else float(shift), cutter=cutter,
+        support=ring_drawing().support_of(drawn) if internal else None,
     )  # fmt: skip
     if drawn.measure is not None:
         _thickness().check_measure(drawn, name, pair.in_rotation(data))
     return data, derived
+
+
+def _root(pair: Gears, drawn: GearText, cut: float, dedendum: float) -> tuple[float, str]:
+    """Root diameter, mm, of rack or cutter, and how it follows."""
+    reference = pair.module * drawn.teeth / cos(pair.helix_angle or 0.0)
+    by_rack = reference + 2.0 * pair.module * (cut - dedendum)
+    if drawn.teeth > 0 or drawn.cutter is None:
+        return by_rack, "d_f = d + 2 m_n (x_E - h_fP)" + ("" if drawn.teeth > 0 else SIGNED)
+    gear = pair.rack_gear(drawn.teeth, cut, by_rack, ring_drawing().cutter_of(drawn))
+    root = ring_drawing().root_of_cutter(pair, gear, dedendum)
+    return (by_rack, "by the rack") if root is None else (root, "d_f = 2 a_0 + d_a0 of the cutter")
+
+
+def ring_drawing() -> ModuleType:
+    """What only internal gears need."""
+    from . import ring_drawing
+
+    return ring_drawing
 
 
 def _of_rack(pair: Gears, drawn: GearText, figure: str) -> Any:

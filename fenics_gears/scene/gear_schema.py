@@ -4,10 +4,12 @@ from dataclasses import dataclass
 
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
 from fenics_gears.geometry.gear import Gear, transverse_gear
-from fenics_gears.geometry.gear_data import RACKS, GearData
+from fenics_gears.geometry.gear_data import Cutter, GearData
 from fenics_gears.inputs.fields import choice, number, quantity, whole_number
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import MODULES, PRESSURE_ANGLES
+
+from .gear_parts import CutterText, RackText, SupportText, WebText, diameter, length
 
 # Measures of the tooth thickness, each with what has to be known with it.
 MEASURES = {"tooth_thickness": None, "base_tangent_length": "spanned_teeth", "dimension_over_balls": "ball_diameter"}
@@ -15,86 +17,10 @@ MEASURES = {"tooth_thickness": None, "base_tangent_length": "spanned_teeth", "di
 UNKNOWN = 0.0
 
 
-def _length(example: str, meaning: str, otherwise: str):
-    return quantity("0.01 mm to 100 m", example, meaning=meaning, otherwise=otherwise)
-
-
-def _diameter(example: str, meaning: str, otherwise: str = ""):
-    return quantity("0.1 mm to 100 m", example, meaning=meaning, otherwise=otherwise)
-
-
-@dataclass(frozen=True)
-class RackText(Section):
-    """``[gears.rack]``: the generating rack of both gears, or within a gear's section its own. A figure that is given
-    replaces that of the profile, and one of a gear's own that of both."""
-
-    profile: str | None = choice(
-        *RACKS,
-        meaning=(
-            "addendum, dedendum and tip radius by ISO 53:1998, Annex A: A 1/1.25/0.38, B 1/1.25/0.3, C 1/1.25/0.25, D"
-            " 1/1.4/0.39; GOST 13755-2015 has the same, and DIN 867 A"
-        ),
-        otherwise="`ISO 53 A`",
-    )
-    addendum: float | None = number(
-        1.0, meaning="addendum h_aP of the basic rack, in modules", above=0, highest=3, otherwise="that of the profile"
-    )
-    dedendum: float | None = number(
-        1.25, meaning="dedendum h_fP of the basic rack, in modules", above=0, highest=3, otherwise="that of the profile"
-    )
-    tip_radius: float | None = number(
-        0.38,
-        meaning="tip radius of the rack's tooth, in modules; it shapes the fillet",
-        lowest=0,
-        highest=2,
-        otherwise="that of the profile, or what has room on the rack's tip",
-    )
-    protuberance: float | None = quantity(
-        "0 mm to 1 m",
-        "0.15 mm",
-        meaning=(
-            "amount pr_P0 by which the rounding of the rack's tip stands out beyond its flank, normal to it, so that"
-            " the root is cut free"
-        ),
-        otherwise="0 mm",
-    )
-    protuberance_angle: float | None = quantity(
-        "1 deg to 34 deg",
-        "10 deg",
-        meaning="pressure angle alpha_prP0 of the short flank between protuberance and flank",
-        otherwise="half the pressure angle; has no meaning without `protuberance`",
-    )
-    finishing_stock: float | None = quantity(
-        "0 mm to 1 m",
-        "0.1 mm",
-        meaning="stock q, normal to the flanks, that finishing takes off these alone; no more than `protuberance`",
-        otherwise="0 mm",
-    )
-
-
-@dataclass(frozen=True)
-class WebText(Section):
-    """``[gears.pinion.web]`` and ``[gears.wheel.web]``: a web between hub and rim that is less wide than the face. In
-    the plane it counts by its share of the face width; over the face it is a body of its own, and the rim bends on
-    it."""
-
-    rim_inner_diameter: float = _diameter("100 mm", "inner diameter of the rim, where the web ends")
-    width: float = _length("8 mm", "width of the web, at most the gear's face width", "")
-    hub_diameter: float | None = _diameter(
-        "50 mm", "outer diameter of the hub, where the web begins", "the bore diameter"
-    )
-    axial_offset: float | None = quantity(
-        "-100 m to 100 m",
-        "2 mm",
-        meaning="middle of the web from the gear's mid-width, positive as the gear's own `axial_offset`",
-        otherwise="0 mm",
-        over_face=True,
-    )
-
-
 @dataclass(frozen=True, kw_only=True)
 class GearText(Section):
-    """``[gears.pinion]`` and ``[gears.wheel]``: the pinion drives; both are external gears. The tooth thickness is
+    """``[gears.pinion]`` and ``[gears.wheel]``: the pinion drives and is an external gear; the wheel may be internal,
+    with a negative number of teeth and positive diameters. The tooth thickness is
     given by `profile_shift`, or measured (`tooth_thickness`, `base_tangent_length` or `dimension_over_balls`). With
     both, the measured thickness holds, and root circle with it, since one rack cuts both; tip circle and centre
     distance go by `profile_shift`."""
@@ -105,8 +31,9 @@ class GearText(Section):
         5,
         1000,
         16,
-        meaning="number of teeth",
-        negative="A negative number of teeth is an internal gear (ISO 21771), and internal gears are not computed yet.",
+        meaning="number of teeth; of a wheel that is an internal gear negative (ISO 21771), or positive with"
+        " `internal = true`",
+        negative_means="an internal gear",
     )
     profile_shift: float | None = number(
         0.196,
@@ -115,10 +42,10 @@ class GearText(Section):
         highest=5,
         otherwise="that of the measured tooth thickness; one of both is required",
     )
-    tip_diameter: float | None = _diameter(
+    tip_diameter: float | None = diameter(
         "82.64 mm", "tip diameter", "d_a = d + 2 m_n (x + h_aP + k), with k of `tip_shortening`"
     )
-    root_diameter: float | None = _diameter(
+    root_diameter: float | None = diameter(
         "62.50 mm",
         "root diameter, from which the dedendum of the generating rack follows",
         "d_f = d + 2 m_n (x - h_fP), with x of the tooth thickness",
@@ -132,20 +59,26 @@ class GearText(Section):
         ),
         otherwise="0 mm",
     )
-    bore_diameter: float = _diameter(
-        "30 mm", "bore diameter; the bore is a rigid ring on the shaft, which makes thin rims too stiff"
+    bore_diameter: float | None = diameter(
+        "30 mm",
+        "bore diameter; the bore is a rigid ring on the shaft, which makes thin rims too stiff",
+        "required of an external gear",
+    )
+    outer_diameter: float | None = diameter(
+        "280 mm", "outer diameter of the rim of an internal gear", "required of an internal gear"
     )
     rack_tip_radius: float | None = number(
         0.38,
-        meaning="tip radius of the generating rack, in modules; the same as `tip_radius` of `[gears.pinion.rack]`",
+        meaning="tip radius of the generating rack, in modules; the same as `tip_radius` of `[gears.pinion.rack]`; of"
+        " an internal gear that of its cutter, or of its plain fillets",
         lowest=0,
         highest=2,
         otherwise="`tip_radius` of the rack; 0.38, or what has room on the rack's tip",
     )
-    tooth_thickness: float | None = _length(
+    tooth_thickness: float | None = length(
         "7.7 mm", "normal tooth thickness s_n at the reference cylinder", "from `profile_shift`"
     )
-    base_tangent_length: float | None = _length(
+    base_tangent_length: float | None = length(
         "34.5 mm", "base tangent length W_k over `spanned_teeth`", "from `profile_shift`"
     )
     spanned_teeth: int | None = whole_number(
@@ -155,13 +88,13 @@ class GearText(Section):
         meaning="number of teeth k that the base tangent length spans",
         otherwise="as `gears check` chooses; required with `base_tangent_length`",
     )
-    dimension_over_balls: float | None = _length(
+    dimension_over_balls: float | None = length(
         "85.2 mm", "dimension M_d over two balls, of spur gears also over two pins", "from `profile_shift`"
     )
-    ball_diameter: float | None = _length(
+    ball_diameter: float | None = length(
         "8 mm", "diameter D_M of the balls or pins", "as `gears check` chooses; required with `dimension_over_balls`"
     )
-    face_width: float | None = _length("15 mm", "face width of this gear", "that of `[gears]`")
+    face_width: float | None = length("15 mm", "face width of this gear", "that of `[gears]`")
     axial_offset: float | None = quantity(
         "-100 m to 100 m",
         "2 mm",
@@ -173,6 +106,8 @@ class GearText(Section):
     )
     rack: RackText | None = None
     web: WebText | None = None
+    cutter: CutterText | None = None
+    support: SupportText | None = None
     material: OwnMaterialText | None = None
 
     @property
@@ -237,7 +172,7 @@ class Gears(Section):
         meaning="hand of the pinion's helix; the wheel has the other",
         otherwise="`right`; has no meaning without `helix_angle`",
     )
-    centre_distance: float | None = _diameter(
+    centre_distance: float | None = diameter(
         "91.5 mm",
         "distance of the axes",
         "that of the profile shifts without backlash: inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1"
@@ -261,7 +196,7 @@ class Gears(Section):
         too_low="It is -k: write the amount by which the tips are shorter, without sign.",
         otherwise="what keeps the tip clearance of the rack: k m_n = a - a_d - (x1 + x2) m_n, not above 0",
     )
-    face_width: float | None = _length(
+    face_width: float | None = length(
         "15 mm",
         "face width of both gears; unequal ones mesh over the smaller, centred unless they have an `axial_offset`. In"
         " plane runs one to three modules of the wider gear's overhang count as carrying (`gears check` says how much)",
@@ -276,6 +211,6 @@ class Gears(Section):
         """A gear in the section of rotation."""
         return transverse_gear(gear, self.module, self.pressure_angle, self.helix_angle or 0.0)
 
-    def rack_gear(self, teeth: int, shift: float, root_diameter: float = UNKNOWN) -> Gear:
-        """A gear of which only rack, teeth and profile shift are known, and perhaps the root."""
-        return self.in_rotation(GearData(teeth, shift, UNKNOWN, root_diameter, UNKNOWN, UNKNOWN))
+    def rack_gear(self, teeth: int, shift: float, root_diameter: float = UNKNOWN, cutter: Cutter | None = None) -> Gear:
+        """A gear of which only rack or cutter, teeth and profile shift are known, and perhaps the root."""
+        return self.in_rotation(GearData(teeth, shift, UNKNOWN, root_diameter, UNKNOWN, UNKNOWN, cutter=cutter))

@@ -9,16 +9,19 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.effects import effects_on
+from fenics_gears.effects.tooth_elasticity import material_of
 from fenics_gears.errors import GeometryError, SceneError
+from fenics_gears.geometry.gear_data import MATERIALS
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean, line_numbers, listed, placed
-from fenics_gears.inputs.tree import MOST_NESTED, nested_too_deeply, written_out
+from fenics_gears.inputs.tree import GEARS, LOADS, MOST_NESTED, nested_too_deeply, wheel_torque, written_out
 from fenics_gears.inputs.written import WrittenFloat, as_written
 from fenics_gears.system import user_file
 from fenics_gears.system.console import control_character, printable
 
-from .drawing import gear_pair_data, load_data
+from .drawing import gear_pair_data
+from .gear_schema import Gears
 from .rules import broken_rules
-from .schema import LAST_CYCLES, NOMINAL_FREQUENCY, Motion, checked_sections, without_echoes
+from .schema import LAST_CYCLES, NOMINAL_FREQUENCY, Derived, Load, LoadText, Motion, checked_sections, without_echoes
 
 ALLOWED_DEPTH = f"Allowed: {MOST_NESTED} tables and lists within one another."
 # The text of a scene that no file gives (`scene.write`).
@@ -133,7 +136,7 @@ def values_of(
         accuracy=checked.accuracy,
         output=replace(checked.output, contact_fields=checked.output.contact_fields is not False),
         name=name,
-        derived=(*derived, *of_load),
+        derived=(*derived, *named_materials(checked.gears), *of_load),
         measured_over=(_measured_over(checked.gears.pinion), _measured_over(checked.gears.wheel)),
         written=text,
         folder=str(directory.absolute()),
@@ -182,3 +185,33 @@ def _motion(checked) -> Motion:
         fewer = checked.speed_ramp is not None or whole
         recorded = cycles if fewer else min(LAST_CYCLES, cycles)
     return Motion(frequency, cycles, recorded, fewer, speed_given)
+
+
+def named_materials(gears: Gears) -> list[Derived]:
+    texts = {"": (gears.material,), **{f"{name} ": (getattr(gears, name).material, gears.material) for name in GEARS}}
+    named = {
+        words: (each[0].name, material_of(*each))
+        for words, each in texts.items()
+        if each[0] is not None and each[0].name is not None
+    }
+    return [
+        Derived(
+            f"{words}Young's modulus",
+            1e-3 * material.youngs_modulus,
+            "GPa",
+            f"Poisson's ratio {material.poissons_ratio:g}, {name} ({MATERIALS[name][1]})",
+        )
+        for words, (name, material) in named.items()
+    ]
+
+
+def load_data(load: LoadText, gears: Gears, motion: Motion) -> tuple[Load, list[Derived]]:
+    """The torque on the wheel, N mm, and how it was derived."""
+    name = next(each for each in LOADS if getattr(load, each) is not None)
+    torque = wheel_torque(
+        name, float(getattr(load, name)), (gears.pinion.teeth, gears.wheel.teeth), motion.mesh_frequency
+    )
+    assert torque is not None, "a load by power has a speed"
+    why = {"pinion_torque": "T_2 = T_1 z2/z1", "power": "T_2 = P/(2 pi n_2)"}
+    derived = [Derived("torque on the wheel", 1e-3 * torque, "N m", why[name])] if name in why else []
+    return Load(torque, name), derived

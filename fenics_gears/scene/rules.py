@@ -15,14 +15,17 @@ from fenics_gears.inputs.problem import Broken, Problem, meant, nearest
 from fenics_gears.inputs.section import allowed_in, given, names_in
 from fenics_gears.inputs.tree import (
     GEARS,
+    INTERNAL,
     LARGEST_ERROR,
     LOADS,
     MODULES,
     NOT_IN_THE_PLANE,
+    OF_INTERNAL,
     PRESSURE_ANGLES,
     Tree,
     given_for,
     in_normal_section,
+    is_internal,
     load_in,
     material_sections,
     module_in,
@@ -163,15 +166,16 @@ def _teeth_have_a_size(tree: Tree) -> Broken:
                 yield ("gears", name), message
 
 
-# Names by which an internal gear is asked for.
-INTERNAL = ("internal", "internal_gear", "internal_teeth", "ring", "ring_gear")
+def _gears_have_their_bodies(tree: Tree) -> Broken:
+    """A bore of an external gear; what an internal one has in its place is told by rules of its own."""
+    both, *gears = with_gears(tree, "gears").values()
+    external = all("bore_diameter" in own and not is_internal(tree, gear) for own, gear in zip(gears, GEARS))
+    if external and not {*both, *gears[0], *gears[1]} & {*OF_INTERNAL, *INTERNAL}:
+        return
+    from .internal_rules import gears_have_their_bodies, internal_gears_have_negative_teeth
 
-
-def _gears_are_external(tree: Tree) -> Broken:
-    for path, section in with_gears(tree, "gears").items():
-        for name in (each for each in INTERNAL if each in section):
-            message = "is not known: internal gears are not computed yet. Allowed: two external gears. Leave it out."
-            yield (*path, name), message
+    yield from internal_gears_have_negative_teeth(tree)
+    yield from gears_have_their_bodies(tree)
 
 
 def _thickness_is_given_once(tree: Tree) -> Broken:
@@ -286,7 +290,7 @@ _RULES = (
     *ACCURACY_RULES,
     _flanks_are_resolved_over_the_face,
     _teeth_have_a_size,
-    _gears_are_external,
+    _gears_have_their_bodies,
     _thickness_is_given_once,
     _backlash_has_its_place,
     _no_figure_is_given_twice,

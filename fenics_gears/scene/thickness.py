@@ -5,7 +5,8 @@ from collections.abc import Iterator
 
 from fenics_gears.geometry import tooth_thickness
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.gear_checks import ROUNDING, refuse
+from fenics_gears.geometry.gear_checks import refuse
+from fenics_gears.geometry.gear_data import ROUNDING
 
 from . import unusual
 from .gear_schema import MEASURES, Gears, GearText

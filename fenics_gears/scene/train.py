@@ -216,7 +216,14 @@ def _scene_of(
     name = f"{mesh.stage} {mesh.number + 1}" if mesh.count > 1 else mesh.stage
     in_its_stage = partial(in_stage, mesh.stage, places, shared.keys() - inner.keys())
     put = Placed(lambda path: place_of(on_shafts, path) or in_its_stage(path), partial(in_words_of_train, on_shafts))
-    return pair_scene(sections, name, f"{source}, stage {mesh.stage}", folder, put)
+    label = f"{source}, stage {mesh.stage}"
+    scene = pair_scene(sections, name, label, folder, put)
+    if scene.gears.wheel.teeth < 0:
+        raise SceneError(
+            f"{label}: an internal gear is not computed in a train yet. Allowed: external gears in a train, an internal"
+            f" wheel in a scene of one pair. {NOTHING_DONE}"
+        )
+    return scene
 
 
 def _direction(mesh: NamedMesh, content: Mapping[str, Any], source: str) -> float:

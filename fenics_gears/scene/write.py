@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,7 +16,7 @@ from fenics_gears.inputs.section import allowed_in, field_of, section_within, tr
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_toml, toml_value
 
-from . import gear_schema, schema
+from . import gear_parts, gear_schema, schema
 from .parsing import NO_FILE, parsed, values_of_text
 from .schema import HUNTING_TOOTH_PERIOD, LAST_CYCLES, WORDS, scene_text
 
@@ -82,7 +82,8 @@ def _as_read_where_the_same(scene: Scene, sections: dict[str, Any]) -> dict[str,
 def _gears(pair: GearPairData) -> dict[str, Any]:
     section = gear_schema.Gears
     own_width = any(getattr(pair, name).face_width is not None for name in GEARS)
-    tree = tree_of(pair, section, ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ())))
+    leaving = ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ()))
+    tree = tree_of(replace(pair, centre_distance=abs(pair.centre_distance)), section, leaving)
     if pair.helix_angle:
         tree["pinion_hand"] = pair.pinion_hand
     for name, width, offset in zip(GEARS, pair.face_widths, pair.axial_offsets):
@@ -93,11 +94,16 @@ def _gears(pair: GearPairData) -> dict[str, Any]:
 
 
 def _gear(gear: GearData, width: float, own_width: bool) -> dict[str, Any]:
-    tree = tree_of(gear, gear_schema.GearText, ("face_width", "web"))
+    internal = gear.teeth < 0
+    positive = {name: abs(getattr(gear, name)) for name in ("tip_diameter", "root_diameter", "bore_diameter")}
+    without = ("face_width", "web", *(("bore_diameter",) if internal else ()))
+    tree = tree_of(replace(gear, **positive), gear_schema.GearText, without)
+    if internal:
+        tree["outer_diameter"] = field_of(gear_schema.GearText, "outer_diameter", positive["bore_diameter"])
     if own_width:
         tree["face_width"] = field_of(gear_schema.GearText, "face_width", width)
     if gear.protuberance:
-        tree["rack"] = tree_of(gear, gear_schema.RackText)
+        tree["rack"] = tree_of(gear, gear_parts.RackText)
     if gear.web is not None:
         tree["web"] = _web(gear.web, width)
     return tree
@@ -108,7 +114,7 @@ def _web(web: Web, face_width: float) -> dict[str, Any]:
     sizes = {"rim_inner_diameter": 2.0 * web.rim_radius, "hub_diameter": 2.0 * web.hub_radius, "width": width}
     if offset:
         sizes["axial_offset"] = offset
-    return {name: field_of(gear_schema.WebText, name, size) for name, size in sizes.items()}
+    return {name: field_of(gear_parts.WebText, name, size) for name, size in sizes.items()}
 
 
 def _length_of(share: float, whole: float) -> float:

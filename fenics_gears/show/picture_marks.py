@@ -48,14 +48,16 @@ def name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
     bottom, top = axes.get_ylim()
     height = axes.get_position().height * axes.figure.get_figheight() * 72.0
     point = (top - bottom) / height
-    for number, (gear, name, turns) in enumerate(((mesh.pair.pinion, "pinion", 1), (mesh.pair.wheel, "wheel", -1))):
-        name += "\ndrives" if number == driving else ""
-        centre = np.zeros(2) if turns > 0 else np.array([0.0, -mesh.pair.centre_distance])
+    for side, name in zip(mesh.pair.sides, ("pinion", "wheel")):
+        gear = side.gear
+        turns = side.turning
+        name += "\ndrives" if side.number == driving else ""
+        centre = np.array([0.0, -side.number * mesh.pair.centre_distance])
         place, ha, va = place_of_name(gear, point)
         axes.text(*(centre + place), name, ha=ha, va=va, fontsize=11.5, color=DARK)
-        radius = max(0.78 * gear.bore_radius, LEAST_ARROW * point)
-        start = 200.0
-        end = 340.0
+        radius = max(0.78 * gear.bore_radius, -0.7 * gear.tip_radius, LEAST_ARROW * point)
+        # Of a ring on the far side of its pinion.
+        start, end = (20.0, 160.0) if gear.internal else (200.0, 340.0)
         axes.add_patch(Arc(centre, 2 * radius, 2 * radius, theta1=start, theta2=end, color=DARK, linewidth=1.4))
         tip = np.radians(end if turns > 0 else start)
         head = centre + radius * np.array([np.cos(tip), np.sin(tip)])
@@ -66,6 +68,8 @@ def name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
 
 def place_of_name(gear, point: float) -> tuple[np.ndarray, str, str]:
     """Place of a gear's name from its centre (mm), with its alignment."""
+    if gear.internal:
+        return np.array([0.0, -0.5 * gear.tip_radius]), "center", "center"
     if gear.bore_radius >= LEAST_BORE * point:
         return np.zeros(2), "center", "center"
     if gear.root_radius - gear.bore_radius > 2.0 * LEAST_BORE * point:

@@ -79,11 +79,17 @@ class View:
 
 def whole_view(mesh: GearsInMesh) -> View:
     """Both gears with some room around them."""
-    tips = mesh.pair.pinion.tip_radius, mesh.pair.wheel.tip_radius
-    low = -mesh.pair.centre_distance - tips[1]
-    high = tips[0]
-    half = np.array([max(tips), 0.5 * (high - low)]) * 1.04
-    return View(np.array([0.0, 0.5 * (low + high)]), half)
+    low, high = np.array(extent_of(mesh.pair)).T
+    return View(0.5 * (low + high), 0.52 * (high - low))
+
+
+def extent_of(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Ends (mm) of both gears across and along the line of centres, the pinion's centre being 0."""
+    if pair.wheel.internal:
+        outer = -pair.wheel.bore_radius
+        return (-outer, outer), (-pair.centre_distance - outer, -pair.centre_distance + outer)
+    tips = pair.pinion.tip_radius, pair.wheel.tip_radius
+    return (-max(tips), max(tips)), (-pair.centre_distance - tips[1], tips[0])
 
 
 def teeth_view(mesh: GearsInMesh, coast: bool) -> View:
@@ -91,8 +97,13 @@ def teeth_view(mesh: GearsInMesh, coast: bool) -> View:
     pair = mesh.pair
     middle = 0.5 * (pair.path_start + pair.path_end)
     centre = upright(pair, np.array([middle, -pair.pinion.base_radius]), coast)
-    depth = pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance + 4.0 * pair.pinion.module
+    depth = common_depth(pair) + 4.0 * pair.pinion.module
     return View(centre, np.array([0.75 * (pair.path_end - pair.path_start), 0.5 * depth]))
+
+
+def common_depth(pair: GearPair) -> float:
+    """How far (mm) the tip circles reach into one another."""
+    return pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance
 
 
 def fitted(view: View, width: float, height: float) -> View:
@@ -184,7 +195,7 @@ def in_tooth_order(mesh: GearsInMesh, gear: int) -> GearInSpace:
 
     The sectors of a `GearInSpace` begin anew in each mesh cycle, with the tooth that last reached the start of contact.
     """
-    teeth = (mesh.pair.pinion, mesh.pair.wheel)[gear].teeth
+    teeth = (mesh.pair.pinion, mesh.pair.wheel)[gear].tooth_count
     cycles = int(np.floor(mesh.mesh_phase + ROUNDING))
     # Sectors are counted counterclockwise; so turns the pinion.
     sectors = (cycles - np.arange(teeth)) * (1 if gear == 0 else -1) % teeth

@@ -14,6 +14,7 @@ from fenics_gears.contact.stiffness_table import LOADS, stiffness_table
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, coast_place, drive_place, facing_points_at
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies
+from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.iso_6336 import mesh_factor
 from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.model.model import Model
@@ -49,7 +50,7 @@ def table_cycle(model: Model, bodies: Bodies) -> tuple[Bodies, Cycle]:
         [CENTRE_COORDINATES.index("rotation_2")],
         tangential=False,
     )
-    force = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius
+    force = abs(model.scene.load.wheel_torque / model.pair.wheel.base_radius)
     force = force or DEFLECTION_WITHOUT_LOAD * model.scene.gears.module * mesh_stiffness(model.scene, model.pair)
     table = stiffness_table(full, 0, force, LOADS)
     first, second = bodies
@@ -82,6 +83,12 @@ def _cycle(model: Model, springs: Springs, levels: int) -> Cycle:
     return cycle_of(model, spring_mesh(model.pair, springs, levels, model.scene.coast_flanks is not None))
 
 
+def _on_flank(gear: Gear, roll: float) -> bool:
+    """Whether a roll angle (rad) is at the tip or below it: of an internal gear tips have the least."""
+    tip = gear.tip_roll_angle
+    return 0.0 < roll and gear.sign * (roll - tip) <= 1e-12 * tip
+
+
 def _gaps_on_path(model: Model, flank: int, phase: float) -> dict[int, float]:
     """Gap (mm) of every pair whose flanks meet on the line of action at a phase, by its index."""
     pair = model.pair
@@ -91,7 +98,6 @@ def _gaps_on_path(model: Model, flank: int, phase: float) -> dict[int, float]:
     for index in range(-reach, reach + 1):
         xi = pair.path_start + (phase + index) * pair.base_pitch
         place = (drive_place if flank == DRIVE else coast_place)(pair, index, xi)
-        ends = [side.gear.tip_roll_angle * (1.0 + 1e-12) for side in pair.sides]
-        if all(0.0 < roll <= end for roll, end in zip(place.contact_rolls, ends)):
+        if all(_on_flank(side.gear, roll) for side, roll in zip(pair.sides, place.contact_rolls)):
             gaps[index] = float(facing_points_at(pair, removal, place, np.zeros(1))[2][0])
     return gaps

@@ -148,7 +148,7 @@ class RunStresses:
 
     def _check_place(self, index: int) -> None:
         error = abs(float(self.result["transmission_error"].values[index]))
-        pitch = self.model.pair.wheel.angular_pitch
+        pitch = abs(self.model.pair.wheel.angular_pitch)
         if error > pitch:
             raise SceneError(
                 f"the transmission error at mesh phase {float(self.result['mesh_phase'].values[index]):.3f} is"
@@ -162,11 +162,11 @@ class RunStresses:
         forces = stored.on_flanks(self.model, gear, recovery.heights)
         body = recovery.recovered(forces, self._sectors(data, forces))
         centre, turns, places = self._standing(gear, stored.phase)
-        own = np.array(body.sectors) % data.teeth
+        own = np.array(body.sectors) % data.tooth_count
         # In the plane nothing moves along z.
         moved = np.pad(body.displacement, [(0, 0)] * 3 + [(0, 3 - body.displacement.shape[-1])])
         section = recovery.sector.section
-        radius = np.linalg.norm(recovery.points, axis=1)
+        radius = data.sign * np.linalg.norm(recovery.points, axis=1)
         outline = outer_sides(section, recovery.sector.mesh)
         in_web, rim_and_hub = layers_of(recovery.sector)
         inner = data.bore_radius if data.web is None else data.web.rim_radius
@@ -188,7 +188,7 @@ class RunStresses:
 
     def _sectors(self, gear: Gear, forces: dict[int, np.ndarray]) -> range:
         if self.model.face.slices == 1:
-            return range(gear.teeth)
+            return range(gear.tooth_count)
         loaded = [*forces] or [0]
         return range(min(loaded) - ON_EITHER_SIDE, max(loaded) + ON_EITHER_SIDE + 1)[: gear.teeth]
 
@@ -239,7 +239,7 @@ def standing(pair: GearPair, gear: int, phase: float) -> tuple[np.ndarray, np.nd
         return np.zeros(2), contact / pair.pinion.base_radius + pair.pinion.angular_pitch * np.arange(pair.pinion.teeth)
     centre = np.array([pair.line_of_action_length, -(pair.pinion.base_radius + pair.wheel.base_radius)])
     first = np.pi + (pair.line_of_action_length - contact) / pair.wheel.base_radius
-    return centre, first + pair.wheel.angular_pitch * np.arange(pair.wheel.teeth)
+    return centre, first + pair.wheel.angular_pitch * np.arange(pair.wheel.tooth_count)
 
 
 def hub_motion(result: xr.Dataset, index: int) -> np.ndarray:

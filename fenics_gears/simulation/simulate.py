@@ -190,7 +190,7 @@ def result_of(recorder: Recorder, march: March, gears, compiled: float, stopped:
         **({} if isinf(twist) else {"bore_twist_stiffness": twist * MICROMETRE / model.pair.face_width}),
         complete=int(not stopped),
         warnings="\n".join(worst_first([*model.warnings, *result.attrs["warnings"].splitlines()])),
-        base_radius_wheel=model.pair.wheel.base_radius,
+        base_radius_wheel=abs(model.pair.wheel.base_radius),
         element=resolution.element,
         flank_element_size=resolution.flank_element_size,
         contact_length=resolution.contact_grid.length,

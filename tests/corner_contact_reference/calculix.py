@@ -1,9 +1,11 @@
-"""A pair of gears at one position as an input file of CalculiX, and the couples from what it prints. Pinion's centre
-at the origin, line of action y = -rb1. The pinion's bore is held, the wheel's is turned. Six-node triangles in plane
+"""Gears at one position as an input file of CalculiX, and the couples from what it prints. Their bores are held or
+turned. Of a pair the pinion's centre is at the origin, the line of action is y = -rb1. Six-node triangles in plane
 strain, 1 mm thick, or fifteen-node wedges over the face."""
 
 import re
 import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +24,15 @@ FORCES = r" forces \(fx,fy,fz\) for set (\S+) and time\s+(\S+)\n\n((?:\s+\d+.*\n
 
 class CalculixFailed(RuntimeError):
     pass
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A gear with its points (n, 2 or 3), mm, where they are, and its centre (2,)."""
+
+    mesh: GearMesh
+    points: np.ndarray
+    centre: np.ndarray
 
 
 def placed(pair: GearPair, meshes: tuple[GearMesh, GearMesh], phase: float) -> tuple[np.ndarray, np.ndarray]:
@@ -52,38 +63,56 @@ def couples(
 ) -> np.ndarray:
     """Couples (k, 2), N mm (of triangles per mm), on both bores with the wheel turned by rotations (k,), rad. slave:
     the gear over whose surface contact is integrated. Raises CalculixFailed."""
-    points = placed(pair, meshes, phase)
-    deck = input_file(pair, material, meshes, points, rotations, slave, penalty)
-    (folder / "pair.inp").write_text(deck)
-    done = subprocess.run(["ccx", "-i", "pair"], cwd=folder, capture_output=True, text=True)
-    (folder / "pair.log").write_text(done.stdout + done.stderr)
-    printed = re.findall(FORCES, (folder / "pair.dat").read_text())
+    centres = np.zeros(2), wheel_centre(pair)
+    bodies = [
+        Placed(mesh, points, centre) for mesh, points, centre in zip(meshes, placed(pair, meshes, phase), centres)
+    ]
+    turned = np.column_stack([np.zeros(len(rotations)), rotations])
+    return couples_of(bodies, [(slave, 1 - slave)], material, turned, folder, penalty)
+
+
+def couples_of(
+    bodies: Sequence[Placed],
+    contacts: Sequence[tuple[int, int]],
+    material: Material,
+    rotations: np.ndarray,
+    folder: Path,
+    penalty: float = PENALTY,
+) -> np.ndarray:
+    """Couples (k, n), N mm (of triangles per mm), on the bores of n gears turned by rotations (k, n), rad; contacts:
+    slave and master of each. Raises CalculixFailed."""
+    (folder / "gears.inp").write_text(input_file(bodies, contacts, material, rotations, penalty))
+    done = subprocess.run(["ccx", "-i", "gears"], cwd=folder, capture_output=True, text=True)
+    (folder / "gears.log").write_text(done.stdout + done.stderr)
+    printed = re.findall(FORCES, (folder / "gears.dat").read_text())
     # A step that CalculiX had to divide prints at times between, too.
     found = [(name, block) for name, time, block in printed if abs(float(time) - round(float(time))) < 1e-6]
-    if len(found) != 2 * len(rotations):
+    if len(found) != rotations.size:
         raise CalculixFailed(
-            f"CalculiX gave {len(found)} sets of forces instead of {2 * len(rotations)}; see {folder}/pair.log"
+            f"CalculiX gave {len(found)} sets of forces instead of {rotations.size}; see {folder}/gears.log"
         )
-    first = {"PINIONHUB": 0, "WHEELHUB": len(points[0])}
-    gear = {"PINIONHUB": 0, "WHEELHUB": 1}
-    centres, result = (np.zeros(2), wheel_centre(pair)), []
-    for name, block in found:
+    result = np.zeros(rotations.size)
+    for place, (name, block) in enumerate(found):
+        body = int(re.fullmatch(r"GEAR(\d+)HUB", name)[1])
         rows = np.array([line.split()[:3] for line in block.strip().splitlines()], dtype=float)
-        arm = points[gear[name]][rows[:, 0].astype(int) - 1 - first[name], :2] - centres[gear[name]]
-        result.append((gear[name], np.sum(arm[:, 0] * rows[:, 2] - arm[:, 1] * rows[:, 1])))
-    return np.array([[value for which, value in result if which == side] for side in (0, 1)]).T
+        first = sum(len(each.points) for each in bodies[:body])
+        arm = bodies[body].points[rows[:, 0].astype(int) - 1 - first, :2] - bodies[body].centre
+        # All gears of a step are printed before the next step.
+        result[place // len(bodies) * len(bodies) + body] = np.sum(arm[:, 0] * rows[:, 2] - arm[:, 1] * rows[:, 1])
+    return result.reshape(rotations.shape)
 
 
-def input_file(pair, material, meshes, points, rotations, slave, penalty) -> str:
-    """One static step for each rotation (rad) of the wheel."""
-    dimensions, (cell_type, first_side) = points[0].shape[1], CELLS[meshes[0].cells.shape[1]]
+def input_file(bodies, contacts, material, rotations, penalty) -> str:
+    """One static step for each row of rotations."""
+    dimensions, (cell_type, first_side) = bodies[0].points.shape[1], CELLS[bodies[0].mesh.cells.shape[1]]
     lines = ["*NODE, NSET=ALL"] + [
         ", ".join([str(i + 1), *(f"{each:.15g}" for each in point)] + ["0."] * (dimensions == 2))
-        for i, point in enumerate(np.vstack(points))
+        for i, point in enumerate(np.vstack([body.points for body in bodies]))
     ]
-    first_cell = 0
-    surfaces = []
-    for name, mesh, first_node in zip(("PINION", "WHEEL"), meshes, (0, len(points[0]))):
+    first_cell, first_node = 0, 0
+    surfaces, first_nodes = [], []
+    for number, body in enumerate(bodies):
+        name, mesh = f"GEAR{number}", body.mesh
         lines.append(f"*ELEMENT, TYPE={cell_type}, ELSET={name}")
         lines += [
             ", ".join(str(v) for v in (i + 1 + first_cell, *(cell + 1 + first_node)))
@@ -92,23 +121,36 @@ def input_file(pair, material, meshes, points, rotations, slave, penalty) -> str
         surfaces += [f"*SURFACE, NAME={name}SURFACE, TYPE=ELEMENT"]
         surfaces += [f"{cell + 1 + first_cell}, S{side + first_side}" for cell, side in mesh.contact]
         surfaces += [f"*NSET, NSET={name}HUB"] + [f"{node + 1 + first_node}," for node in mesh.hub]
+        first_nodes.append(first_node)
         first_cell += len(mesh.cells)
+        first_node += len(body.points)
     lines += surfaces
     lines += ["*MATERIAL, NAME=STEEL", "*ELASTIC", f"{material.youngs_modulus}, {material.poissons_ratio}"]
-    for name in ("PINION", "WHEEL"):
-        lines += [f"*SOLID SECTION, ELSET={name}, MATERIAL=STEEL"] + ["1."] * (dimensions == 2)
-    names = ("PINIONSURFACE", "WHEELSURFACE")
+    for number in range(len(bodies)):
+        lines += [f"*SOLID SECTION, ELSET=GEAR{number}, MATERIAL=STEEL"] + ["1."] * (dimensions == 2)
     lines += [
         "*SURFACE INTERACTION, NAME=FRICTIONLESS", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{penalty:g}",
-        "*CONTACT PAIR, INTERACTION=FRICTIONLESS, TYPE=SURFACE TO SURFACE", f"{names[slave]}, {names[1 - slave]}",
-        "*BOUNDARY", f"PINIONHUB, 1, {dimensions}, 0.", *["WHEELHUB, 3, 3, 0."] * (dimensions == 3),
     ]  # fmt: skip
-    centre, first_node = wheel_centre(pair), len(points[0])
-    for angle in rotations:
+    for slave, master in contacts:
+        lines += ["*CONTACT PAIR, INTERACTION=FRICTIONLESS, TYPE=SURFACE TO SURFACE"]
+        lines += [f"GEAR{slave}SURFACE, GEAR{master}SURFACE"]
+    held = ~np.any(rotations, axis=0)
+    lines.append("*BOUNDARY")
+    for number, still in enumerate(held):
+        lines += (
+            [f"GEAR{number}HUB, 1, {dimensions}, 0."] if still else [f"GEAR{number}HUB, 3, 3, 0."] * (dimensions == 3)
+        )
+    for turned in rotations:
         lines += ["*STEP, INC=1000", "*STATIC, DIRECT", "1., 1.", "*BOUNDARY"]
-        for node in meshes[1].hub:
-            arm = points[1][node, :2] - centre
-            move = rotation(angle) @ arm - arm
-            lines += [f"{node + 1 + first_node}, {axis + 1}, {axis + 1}, {move[axis]:.12g}" for axis in (0, 1)]
-        lines += ["*NODE PRINT, NSET=PINIONHUB", "RF", "*NODE PRINT, NSET=WHEELHUB", "RF", "*END STEP"]
+        for number in np.flatnonzero(~held):
+            body = bodies[number]
+            for node in body.mesh.hub:
+                arm = body.points[node, :2] - body.centre
+                move = rotation(turned[number]) @ arm - arm
+                lines += [
+                    f"{node + 1 + first_nodes[number]}, {axis + 1}, {axis + 1}, {move[axis]:.12g}" for axis in (0, 1)
+                ]
+        for number in range(len(bodies)):
+            lines += [f"*NODE PRINT, NSET=GEAR{number}HUB", "RF"]
+        lines.append("*END STEP")
     return "\n".join(lines) + "\n"

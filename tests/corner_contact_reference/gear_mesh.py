@@ -47,9 +47,12 @@ def rotation(angle: float) -> np.ndarray:
     return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
 
 
-def gear_mesh(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: tuple[int, ...]) -> GearMesh:
-    """Teeth `loaded` (pitches counter-clockwise of tooth 0) are meshed finely."""
-    doubled, touching = _outline(gear, sizes, edge_radius, loaded)
+def gear_mesh(
+    gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: tuple[int, ...], on_coast: tuple[int, ...] = ()
+) -> GearMesh:
+    """Teeth `loaded` (pitches counter-clockwise of tooth 0) are meshed finely; those of `on_coast` on their coast
+    flanks, which then touch."""
+    doubled, touching = _outline(gear, sizes, edge_radius, loaded, on_coast)
     count = max(2 * int(np.ceil(np.pi * gear.bore_radius / (0.05 * gear.bore_radius))), 40)
     angles = -2.0 * np.pi * np.arange(2 * count) / (2 * count)
     bore = gear.bore_radius * unit(angles)
@@ -63,13 +66,14 @@ def gear_mesh(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: tuple[in
     return GearMesh(points, cells, hub, np.array(contact))
 
 
-def _outline(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded) -> tuple[np.ndarray, np.ndarray]:
+def _outline(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded, on_coast) -> tuple[np.ndarray, np.ndarray]:
     """Closed outline, clockwise, with middles (2 k, 2), and whether an edge (k,) may touch."""
     fine, coarse = (_tooth(gear, sizes, edge_radius, is_loaded) for is_loaded in (True, False))
+    turned = _turned_over(gear, *fine)
     points, touching = [], []
-    chosen = {tooth % gear.teeth for tooth in loaded}
+    chosen, others = ({tooth % gear.teeth for tooth in teeth} for teeth in (loaded, on_coast))
     for tooth in range(gear.teeth - 1, -1, -1):
-        pieces, flags = fine if tooth in chosen else coarse
+        pieces, flags = fine if tooth in chosen else turned if tooth in others else coarse
         points.append(pieces @ rotation(tooth * gear.angular_pitch).T)
         touching.append(flags)
     return np.vstack(points), np.concatenate(touching)
@@ -107,6 +111,12 @@ def _tooth(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: bool) -> tu
         [np.full((len(piece) - 1) // 2, loaded and touch) for piece, touch in zip(pieces, may_touch)]
     )
     return points, flags
+
+
+def _turned_over(gear: Gear, points: np.ndarray, flags: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The mirror image of a tooth about its middle, again clockwise from space to space."""
+    end = rotation(-gear.angular_pitch) @ points[0]
+    return tooth_outline(gear, 401).coast(np.vstack([points, end]))[::-1][:-1], flags[::-1]
 
 
 def _land(gear: Gear, corner: np.ndarray, opposite: np.ndarray, tip_size: float, sizes: MeshSizes) -> np.ndarray:

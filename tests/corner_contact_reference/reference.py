@@ -89,7 +89,7 @@ def computed(scene: Scene, pair: GearPair, case: Case, folder: Path, guess: floa
         slope = (found[1, 1] - found[0, 1]) / (rotations[1] - rotations[0])
         if not slope > 0.0:
             raise CalculixFailed(
-                f"{case}: the couple does not rise with the wheel's rotation, {found[:, 1]} N; see {folder}/pair.log"
+                f"{case}: the couple does not rise with the wheel's rotation, {found[:, 1]} N; see {folder}/gears.log"
             )
         answer = rotations[0] + (wanted - found[0, 1]) / slope
         if abs(answer / guess - 1.0) < 2.0 * CLOSE_ENOUGH:

@@ -1,22 +1,18 @@
 """What commands of extensions do with a train."""
 
+from math import log10
+
 import pytest
+import xarray as xr
 from tests.trains import bent_two_stages, gearbox_file
 
+from fenics_gears import carried_train, load, overall_orders
 from fenics_gears.commands.cli import main
-from fenics_gears.results import load
 
 
 @pytest.fixture
 def scene(tmp_path):
     return gearbox_file(tmp_path)
-
-
-def test_a_map_says_that_it_is_a_train(scene, capsys):
-    """A scene without [gears] would have been called incomplete; it names the scenes that it takes."""
-    assert main(["map", str(scene)]) == 2
-    said = capsys.readouterr().err
-    assert "is a train of gears" in said and "scene.toml" in said
 
 
 def test_a_train_is_rated_mesh_by_mesh(scene, tmp_path, capsys):
@@ -34,12 +30,22 @@ def test_a_train_is_rated_mesh_by_mesh(scene, tmp_path, capsys):
     capsys.readouterr()
 
 
-def test_commands_of_pairs_name_the_stages(scene, tmp_path, capsys):
-    """What has no meaning for a train yet says which runs it takes."""
-    assert main(["run", str(scene), "-o", str(tmp_path / "out"), "-q", "--no-pictures"]) == 0
-    assert main(["plot", str(tmp_path / "out"), "--spectrum"]) == 2
-    said = capsys.readouterr().err
-    assert "is the run of a train" in said and str(tmp_path / "out" / "second") in said
+def test_the_spectrum_of_a_train(scene, tmp_path, capsys):
+    """Levels of its orders: 20 log10 of what the run's own orders have in urad; 20 teeth mesh 20 times a turn, those of
+    the second stage 20 times in 30/20 turns."""
+    out = tmp_path / "out"
+    assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
+    assert main(["plot", str(out), "--spectrum", "-q"]) == 0
+    figures = xr.load_dataset(out / "noise.nc")
+    found = load(out / "run.nc")
+    expected = overall_orders(found, carried_train(found))
+    levels = [20.0 * log10(1e6 * each.amplitude) for each in expected]
+    assert figures["overall_transmission_error_level"].values == pytest.approx(levels, abs=1e-9)
+    first = [float(figures["order"][(figures["meshes"] == name).values][0]) for name in ("first", "second")]
+    assert first == pytest.approx([20.0, 20.0 * 20 / 30])
+    assert (out / "noise.png").stat().st_size > 10000
+    assert main(["plot", str(out), "--spectrum", "hann"]) == 2
+    assert "orders of a train are of whole cycles" in capsys.readouterr().err
 
 
 def test_the_sound_of_a_train(scene, tmp_path, capsys):

@@ -37,7 +37,7 @@ UNITS = {
     "a length": "mm", "an angle": "deg", "a stress": "GPa", "a torque": "N m", "a frequency (1/time)": "Hz",
     "an angular speed": "rpm", "a diametral pitch (1/length)": "1/mm",
     "a torsional stiffness": "N mm/rad", "a stiffness": "N/mm", "a mass": "kg", "a moment of inertia": "kg m^2",
-    "a density": "g/cm^3", "a time": "s",
+    "a density": "g/cm^3", "a time": "s", "a stiffness per area": "N/mm^3",
     "a percentage": "%", "a power": "kW", "a dynamic viscosity": "mPa s",
 }  # fmt: skip
 
@@ -182,6 +182,8 @@ def scene_with(path: tuple[str, ...], literal: str | None, name: str | None = No
     """The text of a scene (`tree`, or the whole one) with `literal` (TOML) at a path, nothing where that is None,
     under another `name` if given."""
     tree = tree or (whole_scene() if "web" not in path else plane_scene_with_webs())
+    if "cutter" in path:
+        tree = changed(tree, ("gears", "wheel", "cutter"), {"teeth": 23})
     for other in INSTEAD.get(path, ()):
         tree = changed(tree, (*path[:-1], other), ABSENT)
     tree = changed(tree, path, ABSENT)

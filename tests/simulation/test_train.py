@@ -14,6 +14,7 @@ from fenics_gears.dynamics.steps import Steps
 from fenics_gears.dynamics.train import drivetrain_of_mesh
 from fenics_gears.model.train import RowModel, train_model_of
 from fenics_gears.results.contact_variables import energy_of_teeth
+from fenics_gears.scene.train_mesh import layout_of
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 
@@ -132,3 +133,24 @@ def test_results_of_different_stages_stand_side_by_side():
     assert np.isnan(found["largest_kink_pressure"].isel(mesh=1)).all()
     for name, variable in found.variables.items():
         assert "long_name" in variable.attrs, name
+
+
+def test_pairs_of_both_meshes_of_an_idler_touch_along_their_paths():
+    """Phase less number is the way of a pair since the start of its path, also where the second mesh begins 0.19 cycles
+    after a start: deflection brings pairs into contact a little before their path and keeps them a little behind it, by
+    about as much."""
+    scene = row((24, 31, 40), (0, 60), 300.0)
+    found = simulate_train(scene)
+    assert layout_of(scene.meshes).phases[1] == pytest.approx(0.193, abs=1e-3)
+    for number, mesh in enumerate(scene.meshes):
+        own = found.isel(mesh=number).transpose("step", "slot", ...)
+        way = (
+            own["mesh_phase"].values[:, None]
+            - own["pair_number"].values
+            + own["pair_number"].attrs["number_at_phase_0"]
+        )
+        loaded = way[own["pair_normal_force"].values > 0.0]
+        early = -loaded.min()
+        late = loaded.max() - mesh.pair.contact_ratio
+        assert 0.0 < early < 0.15
+        assert late == pytest.approx(early, abs=0.05)

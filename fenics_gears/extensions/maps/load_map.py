@@ -69,7 +69,7 @@ class LoadMap:
     @property
     def expected_seconds(self) -> float:
         """About how long all runs take on one core, by the cost of those at the ends of loads and speeds."""
-        ends = replace(self, loads=_ends(self.loads), speeds=_ends(self.speeds))
+        ends = replace(self, loads=ends_of(self.loads), speeds=ends_of(self.speeds))
         seconds = 0.0
         gears = 0.0
         for name, study in ends.studies.items():
@@ -80,9 +80,13 @@ class LoadMap:
         return seconds + gears
 
     def _study(self, name: str, changes: dict[str, Any]) -> Study:
-        tree = {"title": f"{self.scene.title}: {name.replace('_', ' ')}", "scene": self.file.name, **changes}
-        file = self.file.with_name(f"{self.file.stem}_{name}.toml")
-        return study_of(tree, file, as_toml(tree), f"gears map {self.file}", {})
+        return study_of_map(self.file, self.scene.title, name, changes)
+
+
+def study_of_map(file: Path, title: str, name: str, changes: dict[str, Any]) -> Study:
+    """A study of a map, whose changes of the scene these are. Raises SceneError with the mistakes of any case."""
+    tree = {"title": f"{title}: {name.replace('_', ' ')}", "scene": file.name, **changes}
+    return study_of(tree, file.with_name(f"{file.stem}_{name}.toml"), as_toml(tree), f"gears map {file}", {})
 
 
 def load_map(file: Path, scene: Scene, loads: Sequence[str], speeds: Sequence[str], most: int) -> LoadMap:
@@ -95,9 +99,9 @@ def load_map(file: Path, scene: Scene, loads: Sequence[str], speeds: Sequence[st
         )
     unit, words = LOAD_WORDS[scene.load.given]
     kind = "power" if unit == "kW" else "torque"
-    torques = _values(LOADS, loads, f"a {kind}", why=f"The scene gives its load as {words}. ")
+    torques = values_of_option(LOADS, loads, f"a {kind}", why=f"The scene gives its load as {words}. ")
     torques = torques or (f"{scene.given_load / units.quantity(f'1 {unit}')[0]:.12g} {unit}",)
-    written = _values(SPEEDS, speeds, *SPEED_KINDS)
+    written = values_of_option(SPEEDS, speeds, *SPEED_KINDS)
     backwards = [each for each in torques if units.quantity(each)[0] < 0.0]
     if backwards and scene.coast_flanks is None:
         raise SceneError(
@@ -114,17 +118,22 @@ def load_map(file: Path, scene: Scene, loads: Sequence[str], speeds: Sequence[st
             f"{SPEEDS}: has both speeds of the pinion and mesh frequencies. Allowed: one of the two. {NOTHING_DONE}"
         )
     planned = LoadMap(file, scene, torques, written)
-    if planned.count > most:
-        raise SceneError(
-            f"gears map: {len(torques)} loads{f' with {len(written)} speeds each, and at rest,' if written else ''} are"
-            f" {planned.count} runs, about {seconds_in_words(planned.expected_seconds)} on one core of an idle machine."
-            f" Allowed: up to {most}. Take fewer loads or speeds, or allow more by --most-runs {planned.count}."
-            f" {NOTHING_DONE}"
-        )
+    check_count(planned, most)
     return planned
 
 
-def _values(option: str, written: Sequence[str], *kinds: str, why: str = "") -> tuple[str, ...]:
+def check_count(planned: Any, most: int) -> None:
+    """Raise SceneError for a map of more runs than `most`."""
+    if planned.count > most:
+        speeds = f" with {len(planned.speeds)} speeds each, and at rest," if planned.speeds else ""
+        raise SceneError(
+            f"gears map: {len(planned.loads)} loads{speeds} are {planned.count} runs, about"
+            f" {seconds_in_words(planned.expected_seconds)} on one core of an idle machine. Allowed: up to {most}. Take"
+            f" fewer loads or speeds, or allow more by --most-runs {planned.count}. {NOTHING_DONE}"
+        )
+
+
+def values_of_option(option: str, written: Sequence[str], *kinds: str, why: str = "") -> tuple[str, ...]:
     """All values of an option, each once. Raises SceneError for one that is none of these kinds of quantities."""
     words: list[str] = []
     for word in written:
@@ -155,7 +164,7 @@ def _frequencies(wanted: LoadMap) -> list[float | None]:
     return [None, *(units.of_kind(each, *SPEED_KINDS)[0] * (per_turn if _by_pinion(each) else 1.0) for each in speeds)]
 
 
-def _ends(values: tuple[str, ...]) -> tuple[str, ...]:
+def ends_of(values: tuple[str, ...]) -> tuple[str, ...]:
     in_order = sorted(values, key=lambda each: units.quantity(each)[0])
     return tuple(dict.fromkeys((in_order[0], in_order[-1]))) if values else ()
 

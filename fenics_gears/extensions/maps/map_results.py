@@ -52,7 +52,7 @@ def map_dataset(wanted: LoadMap, at_rest: Outcome, over_speed: Outcome | None) -
     """
     scene = wanted.scene
     pair = model_of(wanted.scene).pair
-    length = pair.wheel.base_radius / MICROMETRE
+    length = abs(pair.wheel.base_radius) / MICROMETRE
     study = load_combined(at_rest.file)
     dataset = xr.Dataset(coords={"load": ("load", np.array(wanted.numbers), _labels(*LOAD_WORDS[scene.load.given]))})
     dataset = dataset.assign(_taken(study, AT_REST, ("load",), length))
@@ -75,7 +75,7 @@ def map_dataset(wanted: LoadMap, at_rest: Outcome, over_speed: Outcome | None) -
         title=scene.title,
         scene=scene.text,
         fenics_gears_version=fenics_gears.__version__,
-        base_radius_wheel=pair.wheel.base_radius,
+        base_radius_wheel=abs(pair.wheel.base_radius),
     )
 
 
@@ -132,7 +132,7 @@ def _spectra(outcome: Outcome, pair: GearPair, loads: int) -> Columns:
     amplitudes = np.full((len(cases), 2, len(ORDERS)), np.nan)
     for index in outcome.records:
         run = of_settled(load(outcome.file.parent / "cases" / f"{cases[index].name}.nc"))
-        error = run["transmission_error"].values * pair.wheel.base_radius / MICROMETRE
+        error = run["transmission_error"].values * abs(pair.wheel.base_radius) / MICROMETRE
         amplitudes[index] = [_orders(run, error), _orders(run, mesh_force(run))]
     dimensions = ("load", "mesh_frequency", "order")
     speeds = 60.0 * frequencies / pair.pinion.teeth

@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from fenics_gears import ComputationError, save_tables
+from fenics_gears import ComputationError, Scene, save_tables
 from fenics_gears.charts import design, draw_charts
 from fenics_gears.command_line import (
     INTERRUPTED,
@@ -17,11 +17,14 @@ from fenics_gears.command_line import (
     seconds_in_words,
     shown_progress,
 )
-from fenics_gears.many_runs import last_words, ranks, run_with, summary_rows
+from fenics_gears.many_runs import Outcome, last_words, ranks, run_with, summary_rows
+from fenics_gears.scene_text import load_scene_or_train
 
 from .charts import map_pictures
-from .load_map import OVER_SPEED, QUASI_STATIC, load_map
+from .load_map import OVER_SPEED, QUASI_STATIC, LoadMap, load_map
 from .map_results import map_dataset
+from .train_map import TrainMap, train_map
+from .train_map_results import train_map_dataset, train_map_pictures
 
 
 def draw_map(options: argparse.Namespace) -> int:
@@ -31,8 +34,14 @@ def draw_map(options: argparse.Namespace) -> int:
 
 
 def _run(options: argparse.Namespace, team) -> int:
-    scene = checked_model(options.scene).scene
-    wanted = load_map(options.scene, scene, options.loads, options.speeds, options.most_runs)
+    scene = load_scene_or_train(options.scene)
+    asked = options.loads, options.speeds, options.most_runs
+    wanted: LoadMap | TrainMap
+    if isinstance(scene, Scene):
+        scene = checked_model(options.scene).scene
+        wanted = load_map(options.scene, scene, *asked)
+    else:
+        wanted = train_map(options.scene, scene, *asked)
     directory = options.output or Path("results") / f"{scene.name}_map"
     outcomes = {}
     check_writable(directory, "map.nc", "harris_map.png", "over_load.png", "over_speed.png", "campbell.png")
@@ -48,7 +57,7 @@ def _run(options: argparse.Namespace, team) -> int:
             print(words, file=sys.stderr)
         if outcome.interrupted:
             return INTERRUPTED
-    dataset = map_dataset(wanted, outcomes[QUASI_STATIC], outcomes.get(OVER_SPEED))
+    dataset = _dataset(wanted, outcomes[QUASI_STATIC], outcomes.get(OVER_SPEED))
     tables = save_tables(dataset, directory, "map")
     pictures = after_result(tables[0], "pictures", lambda: _drawn(dataset, directory, scene))
     print_files([*tables, *(pictures or [])], options.quiet)
@@ -57,7 +66,16 @@ def _run(options: argparse.Namespace, team) -> int:
     return WITHOUT_SOMETHING if pictures is None else 0
 
 
+def _dataset(wanted: LoadMap | TrainMap, at_rest: Outcome, over_speed: Outcome | None):
+    if isinstance(wanted, TrainMap):
+        return train_map_dataset(wanted, at_rest, over_speed)
+    return map_dataset(wanted, at_rest, over_speed)
+
+
 def _drawn(dataset, directory: Path, scene) -> list[Path]:
+    if not isinstance(scene, Scene):
+        stages = (f"{mesh.name} {mesh.pair.pinion.teeth}/{mesh.pair.wheel.teeth} teeth" for mesh in scene.meshes)
+        return draw_charts(train_map_pictures(dataset), directory, scene.title, ", ".join(stages))
     supports = [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
     more = f"{design(scene)}{', elastic ' + ' and '.join(supports) if supports else ''}"
     return draw_charts(map_pictures(dataset), directory, scene.title, more)

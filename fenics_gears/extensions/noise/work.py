@@ -19,6 +19,7 @@ from .charts import noise_charts
 from .command import AUTOMATIC
 from .figures import noise_figures
 from .sound import LOWEST_HEARD, OVERALL, fastest_mesh, save_sound, sound, train_sound
+from .train_figures import train_charts, train_figures
 
 LONGEST = 600.0
 FORCE = "normal_force"
@@ -70,13 +71,21 @@ def plot_spectrum(options: argparse.Namespace) -> int:
     file = run_file(options.run)
     directory = options.output or file.parent
     check_writable(directory, *NOISE_FILES)
-    print_files(_noise(loaded_run(file), directory, options.spectrum), options.quiet)
+    result = loaded_run(file, trains=True)
+    if OVERALL in result and options.spectrum not in (AUTOMATIC, "none"):
+        raise SceneError(
+            f"--spectrum {options.spectrum}: orders of a train are of whole cycles of each mesh, without a window."
+            " Allowed: --spectrum alone."
+        )
+    print_files(_noise(result, directory, options.spectrum), options.quiet)
     return 0
 
 
 def _noise(dataset, directory: Path, window: str) -> list[Path]:
-    figures = noise_figures(dataset, None if window == AUTOMATIC else window)
-    picture = {"noise.png": ("Noise figures", noise_charts(figures))}
+    of_train = OVERALL in dataset
+    figures = train_figures(dataset) if of_train else noise_figures(dataset, None if window == AUTOMATIC else window)
+    charts = train_charts(figures) if of_train else noise_charts(figures)
+    picture = {"noise.png": ("Noise figures", charts)}
     title = str(dataset.attrs.get("title", ""))
     more = f"Window: {figures.attrs['window']}"
     return [*save_tables(figures, directory, "noise"), *draw_charts(picture, directory, title, more)]

@@ -129,7 +129,7 @@ def harris_charts(outcome: SearchOutcome) -> list[Chart]:
     if "transmission_error" not in maps:
         return []
     before = model_of_tree("", outcome.design.before, outcome.design.directory)
-    maps.attrs["base_radius_wheel"] = before.models[-1].pair.wheel.base_radius
+    maps.attrs["base_radius_wheel"] = abs(before.models[-1].pair.wheel.base_radius)
     draw = _lags if is_train(outcome.design.before) else harris_map
     charts = [
         draw(maps.sel(choice=choice).drop_vars("choice"), f"Harris map, {words}")

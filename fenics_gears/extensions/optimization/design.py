@@ -10,6 +10,8 @@ import numpy as np
 
 from fenics_gears.scene_text import AllowedNumber, Section, choice, declared, fields, whole_number
 
+from .goals import WEIGHTED, weighted_orders
+
 MEAN = "mean"
 WORST = "worst"
 QUANTILE = "quantile"
@@ -137,7 +139,7 @@ class Design:
     """A validated optimisation.
 
     `tree`: the parsed scene that designs are changes of. `before`: the one they are compared with. `directory`: from
-    which files are found that the scene names. `text`: of the design file.
+    which files are found that the scene names. `text`: of the design file. `orders`: weights of harmonics, by mesh.
     """
 
     name: str
@@ -152,11 +154,16 @@ class Design:
     tolerances: Tolerances
     bounds: tuple[Bound, ...]
     search: Search
+    orders: Mapping[str, tuple[float, ...]]
 
     @cached_property
     def asked(self) -> tuple[str, ...]:
         """The numbers of a run that goals and constraints name."""
         return tuple(dict.fromkeys(goal.name for goal in (*self.goals, *(bound.goal for bound in self.bounds))))
+
+    def number(self, name: str, numbers: Mapping[str, float]) -> float | None:
+        """A number of a run that a goal or a constraint names; None where the run has none."""
+        return weighted_orders(self.orders, numbers) if name == WEIGHTED else numbers.get(name)
 
     def scene_tree(self, values: Mapping[str, float | str]) -> dict[str, Any]:
         """The parsed scene with these values of the variables, by their names."""

@@ -39,7 +39,7 @@ def load_design(path: str | Path) -> Design:
     sections = Sections(path, text, tree)
     sections.check_keys()
     base, directory = sections.scene()
-    parts = ("variables", "loads", "goals", "bounds", "search", "tolerances")
+    parts = ("variables", "loads", "goals", "orders", "bounds", "search", "tolerances")
     parts_read: dict[str, Any] = {part: getattr(sections, part)() for part in parts}
     without = left_out(tree, sections.mistakes)
     fixed = dict(entries(tree, "set", sections.mistakes))

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from fenics_gears import OVERALL, Scene
+from fenics_gears import OVERALL, Scene, carried_train, overall_orders
 from fenics_gears.many_runs import (
     NO_MEANING,
     Alone,
@@ -30,7 +30,7 @@ from fenics_gears.scene_text import Models, NoScene, is_train
 
 from .conditions import trees_of
 from .design import Design, Goal
-from .goals import ERROR, MICRORADIANS, OVER_FACE, OVERALL_ERROR
+from .goals import ERROR, MICRORADIANS, OVER_FACE, OVERALL_ERROR, order_name
 
 UNUSABLE = 1e6
 """What the search is told instead of a goal where a design failed; one that breaks bounds is told a thousandth of it
@@ -148,12 +148,12 @@ class Evaluator:
         failures = [str(line) for line in lines if isinstance(line, Failure)]
         if failures:
             return Evaluation(values, failure=failures[0])
-        for name in self.design.asked:
-            if any(name not in line["numbers"] for line in lines):
+        found = {name: [self.design.number(name, line["numbers"]) for line in lines] for name in self.design.asked}
+        for name, numbers in found.items():
+            if None in numbers:
                 return Evaluation(values, failure=f"the run has no {name}")
         shape = len(self.design.loads.points), samples
-        every = ((name, [line["numbers"][name] for line in lines]) for name in self.design.asked)
-        by_name = {name: np.array(numbers).reshape(shape) for name, numbers in every}
+        by_name = {name: np.array(numbers).reshape(shape) for name, numbers in found.items()}
         of_samples = {name: self.design.loads.combined(numbers) for name, numbers in by_name.items()}
         judge = self.design.tolerances.statistic
         goals = {goal.name: judge(of_samples[goal.name]) for goal in self.design.goals}
@@ -170,6 +170,10 @@ def _of_train(result: Any) -> dict[str, Any]:
     of_meshes[ERROR] = of_meshes[ERROR] * 1e3 * result.dataset["base_radius_wheel"].values
     numbers = {name: float(np.nanmax(values)) for name, values in of_meshes.items()} | record.numbers
     numbers[OVERALL_ERROR] *= MICRORADIANS
+    train = carried_train(result.dataset)
+    for each in overall_orders(result.dataset, train):
+        stage = train.meshes[each.place].gears[0].partition(".")[0]
+        numbers[order_name(stage, each.harmonic)] = MICRORADIANS * each.amplitude
     curve = [record.mesh_phase.tolist(), record.curves[OVERALL].tolist()]
     return {"numbers": numbers, "curve": curve, "seconds": seconds_of(result)}
 

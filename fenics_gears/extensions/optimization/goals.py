@@ -1,5 +1,6 @@
 """The numbers of a result that goals and constraints may name, and what a scene needs to have them."""
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from fenics_gears import HARMONIC_NAMES, OVERALL, Scene
@@ -9,17 +10,42 @@ ERROR = "peak_to_peak_transmission_error"
 # Of trains, in urad of the last shaft.
 OVERALL_ERROR = f"peak_to_peak_{OVERALL}"
 MICRORADIANS = 1e6
+# The sum of orders by the weights of [orders]; of a pair under this name.
+WEIGHTED = "weighted_orders"
+MESH = "mesh"
 ROOT = ("largest_root_stress_pinion", "largest_root_stress_wheel")
 ON_SHAFTS = ("largest_bearing_force",)
 NAMES = (
-    ERROR, OVERALL_ERROR, *HARMONIC_NAMES, "max_normal_force", "largest_pair_force", "dynamic_factor_by_force",
-    "dynamic_factor_by_stress", "peak_contact_pressure",
+    ERROR, OVERALL_ERROR, WEIGHTED, *HARMONIC_NAMES, "max_normal_force", "largest_pair_force",
+    "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure",
     *ROOT, "friction_loss", *OVER_FACE, *ON_SHAFTS,
 )  # fmt: skip
 
 
-def unit_and_words(name: str) -> tuple[str, str]:
+def order_name(mesh: str, harmonic: int) -> str:
+    """What the amplitude of a harmonic is called among the numbers of a run: of a stage's meshes in the lag of the last
+    shaft, or of a pair."""
+    return HARMONIC_NAMES[harmonic - 1] if mesh == MESH else f"order {harmonic} of {mesh}"
+
+
+def weighted_orders(weights: Mapping[str, Sequence[float]], numbers: Mapping[str, float]) -> float | None:
+    """The sum of the orders of a run by their weights; None where it lacks one of them."""
+    every = [
+        (weight, numbers.get(order_name(mesh, harmonic)))
+        for mesh, own in weights.items()
+        for harmonic, weight in enumerate(own, start=1)
+        if weight > 0.0
+    ]
+    if any(amplitude is None for _, amplitude in every):
+        return None
+    return float(sum(weight * amplitude for weight, amplitude in every if amplitude is not None))
+
+
+def unit_and_words(name: str, of_train: bool = False) -> tuple[str, str]:
     """Unit and meaning of a number; transmission errors are lengths along the line of action."""
+    if name == WEIGHTED:
+        whole = "lag of the last shaft" if of_train else "transmission error"
+        return "urad" if of_train else "um", f"sum of orders of the {whole}, by their weights"
     if name == ERROR:
         return "um", NUMBERS[ERROR][1]
     if name == OVERALL_ERROR:
@@ -33,6 +59,8 @@ def unit_and_words(name: str) -> tuple[str, str]:
 def lacking(name: str, scene: Any) -> str:
     """What the scene, or one mesh of a train at least, lacks to have this number, completing "needs ..."; empty where
     it has it."""
+    if name == WEIGHTED:
+        return ""
     if isinstance(scene, Scene):
         return "a train of gears, [stages.NAME]" if name == OVERALL_ERROR else _lacking(name, scene)
     if name == OVERALL_ERROR:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from fenics_gears import units
+from fenics_gears import HARMONIC_NAMES, units
 from fenics_gears.scene_text import (
     AxisError,
     Mistakes,
@@ -16,19 +16,25 @@ from fenics_gears.scene_text import (
     entries,
     factor_of,
     fields,
+    is_train,
     line_numbers,
     load_scene_or_train,
     names_in,
     number_in,
     parsed,
     read,
+    value_at,
     values_of,
 )
 
 from .design import WORST, Bound, Goal, Loads, Scatter, Search, Tolerances, Variable
-from .goals import NAMES, unit_and_words
+from .goals import MESH, NAMES, WEIGHTED, unit_and_words
 
-KEYS = ("title", "scene", "without", "set", "variables", "loads", "goals", "tolerances", "constraints", "search")
+KEYS = (
+    "title", "scene", "without", "set", "variables", "loads", "goals", "orders", "tolerances", "constraints", "search",
+)  # fmt: skip
+# Harmonics of each mesh of a train that a run has.
+MOST_ORDERS = 10
 EXAMPLES = {"variables": 'tip_relief.depth = ["5 um", "60 um"]', "goals": "peak_to_peak_transmission_error = 1"}
 
 
@@ -166,8 +172,34 @@ class Sections:
                 message = "is not a weight. Allowed: a number above 0; it counts where several goals are weighed up."
                 self.wrong("goals", name, weight, message)
             elif self._is_result("goals", name, weight):
-                goals.append(Goal(name, *unit_and_words(name), float(weight)))
+                goals.append(Goal(name, *self._unit_and_words(name), float(weight)))
         return tuple(goals)
+
+    def _unit_and_words(self, name: str) -> tuple[str, str]:
+        return unit_and_words(name, name == WEIGHTED and is_train(self.scene()[0]))
+
+    def orders(self) -> dict[str, tuple[float, ...]]:
+        """Weights of the first harmonics, by the stage whose meshes make them, or of a pair's mesh."""
+        table = self.table("orders")
+        asked = {name for each in ("goals", "constraints") for name in self.table(each)}
+        if (WEIGHTED in asked) != bool(table):
+            example = f"{MESH} = [1, 0.5]"
+            said = f"belong to the goal {WEIGHTED}, which is not there." if table else f"is missing, which {WEIGHTED}"
+            said += "" if table else f" needs: weights of harmonics, of a stage by its name, of a pair as {example}."
+            self.mistakes.add(("orders",), "" if table else None, said)
+        stages = value_at(self.scene()[0], "stages") or {} if table else {}
+        known = [*stages] or [MESH]
+        for name, weights in table.items():
+            most = MOST_ORDERS if stages else len(HARMONIC_NAMES)
+            numbers = isinstance(weights, list) and all(is_number(each) and each >= 0 for each in weights)
+            if name not in known:
+                self.wrong(
+                    "orders", name, weights, f"is no mesh.{did_you_mean(name, known)} Known: {', '.join(known)}."
+                )
+            elif not numbers or not 0 < len(weights) <= most or not sum(weights) > 0:
+                message = f"is no list of weights. Allowed: 1 to {most} numbers of 0 and above, of the first harmonics."
+                self.wrong("orders", name, weights, message)
+        return {name: tuple(weights) for name, weights in table.items() if isinstance(weights, list)}
 
     def _is_result(self, table: str, name: str, value: Any) -> bool:
         if name not in NAMES:
@@ -181,7 +213,7 @@ class Sections:
         for name, written in self.table("constraints").items():
             if not self._is_result("constraints", name, written):
                 continue
-            unit, words = unit_and_words(name)
+            unit, words = self._unit_and_words(name)
             given = written if isinstance(written, Mapping) else {}
             ends = {key: _in_unit(value, unit) for key, value in given.items() if key in ("at_least", "at_most")}
             if not ends or None in ends.values() or len(ends) != len(given):

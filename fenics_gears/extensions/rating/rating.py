@@ -33,7 +33,8 @@ KILOGRAM = 1e3
 INCLINED = "mean_axis_inclination_in_plane"
 # Points along the path of contact at which the standard's flash temperature is taken.
 POINTS = 201
-# Of the endurance limit of the root, for teeth that are bent both ways (ISO 6336-5, idlers and planets).
+# Of the endurance limit of the root, for teeth that are fully bent both ways in each turn, as those of idlers (ISO
+# 6336-5:2016, 5.3.3, reversed bending; fewer reversals by ISO 6336-3, annex B).
 REVERSED = 0.7
 # How near to a place, in base pitches, is there.
 BESIDE = 0.03
@@ -90,6 +91,8 @@ def _operation(scene: Scene, finish: Finish, result: xr.Dataset) -> Operation:
         raise SceneError("a rating needs a torque that the pinion drives: load.wheel_torque is not above zero.")
     if not scene.motion.speed_given:
         raise SceneError("a rating needs a speed: give the scene motion.pinion_speed or motion.mesh_frequency.")
+    if scene.gears.wheel.teeth < 0:
+        raise SceneError("ratings of internal gears are not computed yet. Allowed: two external gears.")
     pair = gear_pair(scene.gears)
     misalignment = _misalignment(scene, pair)
     inclined = result.attrs.get(INCLINED)

@@ -1,11 +1,14 @@
 """The gears of a stage: teeth, circles and material, given by the file, computed from it, or the standard's."""
 
+from dataclasses import replace
 from functools import partial
 from math import acos, atan, cos, hypot, isclose, tan
 
 from fenics_gears import RACKS, inverse_involute, involute_function
 
 from .attributes import Reading, every, first, given, missing, needed, places
+from .placing import distance_of_positions, offset_of_wheel
+from .shaft_parts import diameter_at
 from .stage import GearParts, Stage
 from .values import NUMBER, SAME, Value, ValueProblem, agreed, bare, computed, place, together
 
@@ -17,6 +20,8 @@ ADDENDUM, DEDENDUM, _ = RACKS[STANDARD]
 # A gear without a known bore: the rim is thick enough not to matter.
 BORE = 0.4
 MATERIAL = ("youngs_modulus", "poissons_ratio")
+# A shaft that is thicker, over the root diameter, is one piece with the gear.
+THICK_SHAFT = 0.7
 # Rounding that is allowed where the file repeats module, teeth or shifts, in modules.
 ROUNDED = 1e-3
 # Helix angle, rad, of gears that are spur.
@@ -29,12 +34,12 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
     beta = helix["helix_angle"].number if helix else 0.0
     module = reading.attempt(_module, stage)
     angle = reading.attempt(_pressure_angle, stage)
-    distance = reading.attempt(first, stage, "centre_distance")
+    distance = reading.attempt(_distance, stage)
     parts = stage.named.values()
     teeth = [reading.attempt(needed, part, "teeth") for part in parts]
     shifts = _profile_shifts(reading, stage, module, angle, distance, teeth, beta)
-    if not given(stage, "centre_distance"):
-        distance = reading.attempt(_distance_of_shifts, beta, module, angle, *teeth, *shifts)
+    if distance is None and not given(stage, "centre_distance"):
+        distance = reading.attempt(distance_of_shifts, beta, module, angle, *teeth, *shifts)
     gears = [_gear_section(reading, part, beta, module, *own) for part, *own in zip(parts, teeth, shifts)]
     for part, count in zip(parts, teeth):
         reading.attempt(_check_reference_diameter, part, beta, module, count)
@@ -45,6 +50,8 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
         pair["face_width"] = widths[0]
     else:
         gears = [{**gear, "face_width": width} for gear, width in zip(gears, widths)]
+    if widths[-1] is not None and (offset := reading.attempt(_offset, stage, widths)) is not None:
+        gears[1]["axial_offset"] = offset
     why = "no tip radius of the tool; that of ISO 53, or what has room on the rack's tip"
     rack = {"profile": Value(0.0, f'"{STANDARD}"', why, assumed=True)}
     named = {f"gears.{name}": gear for name, gear in zip(stage.named, gears)}
@@ -104,6 +111,15 @@ def _face_widths(stage: Stage) -> list[Value]:
     return [agreed(widths, "")] if isclose(widths[0].number, widths[1].number, rel_tol=SAME) else widths
 
 
+def _offset(stage: Stage, widths: list[Value]) -> Value | None:
+    """The offset of the wheel; None where only the width that both have in common is taken."""
+    own = [first(part, "face_width") for part in stage.named.values()]
+    taken = widths * (3 - len(widths))
+    if any(each is None or not isclose(each.number, width.number, rel_tol=SAME) for each, width in zip(own, taken)):
+        return None
+    return offset_of_wheel(stage, min(width.number for width in widths))
+
+
 def _profile_shifts(
     reading: Reading, stage: Stage, module, angle, distance, teeth: list[Value | None], beta: float
 ) -> list[Value | None]:
@@ -115,7 +131,7 @@ def _profile_shifts(
         pinion = place(stage.pinion.gear, "addendum_modification_coefficient")
         name = stage.wheel.gear.id
         reading.problems.append(f"{pinion} is missing, for its flanks too, and so is that of component {name}.")
-    elif unsaid and not given(stage, "centre_distance"):
+    elif unsaid and distance is None and not given(stage, "centre_distance"):
         shift = (list(parts)[unsaid[0]].gear, "addendum_modification_coefficient", NUMBER)
         reading.problems.append(str(missing(*places(stage, "centre_distance"), shift)))
     elif unsaid:
@@ -124,7 +140,12 @@ def _profile_shifts(
     return shifts
 
 
-def _distance_of_shifts(beta: float, module: Value, angle: Value, *teeth_and_shifts: Value) -> Value:
+def _distance(stage: Stage) -> Value | None:
+    """The centre distance that is stated, or that of the places of both gears."""
+    return first(stage, "centre_distance") or distance_of_positions(stage)
+
+
+def distance_of_shifts(beta: float, module: Value, angle: Value, *teeth_and_shifts: Value) -> Value:
     """The centre distance at which both profile shifts leave no backlash (ISO 21771)."""
     teeth, shifts = (sum(each.number for each in both) for both in (teeth_and_shifts[:2], teeth_and_shifts[2:]))
     transverse = transverse_angle(angle.number, beta)
@@ -165,7 +186,9 @@ def _gear_section(
             return reading.attempt(needed, part, asked)
         return reading.attempt(computed_by, part, beta, module, teeth, shift, *arguments)
 
-    tip = stated_or("tip_diameter", _tip_diameter)
+    # A mistake in it is told whatever else is missing.
+    reading.attempt(first, part, "tip_diameter")
+    tip = reading.attempt(_tip_diameter, part, beta, module, teeth, shift)
     root = stated_or("root_diameter", _root_diameter, tip)
     radius = reading.attempt(_of_tool, part, module, "rack_tip_radius")
     return {
@@ -179,11 +202,19 @@ def _gear_section(
 
 
 def _tip_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value) -> Value:
+    stated = first(part, "tip_diameter")
+    shifted = teeth.number / cos(beta) + 2.0 * shift.number
+    if stated is not None and stated.number > module.number * (shifted - 2.0 * DEDENDUM):
+        return stated
     addendum = first(part, "addendum")
     modules, source = _or_standard(addendum, "addendum", ADDENDUM)
-    number = module.number * (teeth.number / cos(beta) + 2.0 * (shift.number + modules))
-    why = f"no tip_diameter; from teeth, profile shift and {source}"
-    return computed(number, 1.0, "mm", why, assumed=addendum is None)
+    # Programs write numbers such as 1 mm where they have none.
+    lacking = (
+        "no tip_diameter" if stated is None else f"{stated.origin} is {stated.words}, below the roots of its teeth"
+    )
+    why = f"{lacking}; from teeth, profile shift and {source}"
+    number = module.number * (shifted + 2.0 * modules)
+    return computed(number, 1.0, "mm", why, assumed=addendum is None or stated is not None)
 
 
 def _or_standard(stated: Value | None, name: str, standard: float) -> tuple[float, str]:
@@ -218,6 +249,9 @@ def _bore_diameter(part: GearParts, root: Value) -> Value:
     if bore is not None and bore.number > 0.0:
         return bore
     why = "no inner_diameter" if bore is None else f"{bore.origin} is 0, a solid gear"
+    shaft = diameter_at(part.gear, part.shafts[0], part.on_shafts) if part.shafts else None
+    if shaft is not None and shaft.number <= THICK_SHAFT * root.number:
+        return replace(shaft, origin=f"{why}; {shaft.origin}, the shaft there", assumed=True)
     return computed(BORE * root.number, 1.0, "mm", f"{why}; {BORE} of the root diameter, held rigidly", assumed=True)
 
 

@@ -41,11 +41,11 @@ def imported_scene(
     `stage`, `load_case`: which stage and load case are meant, None for the only one; `wheel_torque` and `pinion_speed`,
     of the driven and the driving gear, replace the file's.
     """
-    by_call = _by_call("--wheel-torque", wheel_torque, "437 N m"), _by_call("--pinion-speed", pinion_speed, "750 rpm")
+    given = by_call(wheel_torque, pinion_speed)
     model = read_model(path)
     reading = Reading()
     # A call that says all that a load case is asked for needs none.
-    if load_case is None and None not in by_call:
+    if load_case is None and None not in given:
         loaded: RexsModel | None = model
     else:
         loaded = reading.attempt(lambda: loaded_model(model, load_case))
@@ -56,7 +56,7 @@ def imported_scene(
     sections = gear_sections(reading, chosen)
     sections |= relief_sections(reading, chosen, sections)
     sections |= lead_sections(reading, chosen, sections)
-    sections |= _load_sections(reading, loaded, chosen, sections, by_call)
+    sections |= _load_sections(reading, loaded, chosen, sections, given)
     sections |= _error_sections(reading, chosen, sections)
     densities = {name: reading.attempt(first, part, "density") for name, part in chosen.named.items()}
     note_what_is_left_out(reading, chosen)
@@ -89,13 +89,13 @@ def check_complete(reading: Reading, path: Path) -> None:
 
 
 def _load_sections(
-    reading: Reading, model: RexsModel | None, stage: Stage, gears: Sections, by_call: tuple[Value | None, Value | None]
+    reading: Reading, model: RexsModel | None, stage: Stage, gears: Sections, given: tuple[Value | None, Value | None]
 ) -> Sections:
     """Torque and speed; ``model``: in its load case, None where that is not known."""
     teeth = gears["gears.pinion"]["teeth"], gears["gears.wheel"]["teeth"]
     ratio = None if None in teeth else teeth[1].number / teeth[0].number
-    torque = by_call[0] or reading.attempt(wheel_torque, model, stage, ratio)
-    speed = by_call[1] or reading.attempt(pinion_speed, model, stage, ratio)
+    torque = given[0] or reading.attempt(wheel_torque, model, stage, ratio)
+    speed = given[1] or reading.attempt(pinion_speed, model, stage, ratio)
     return {"load": {"wheel_torque": torque}, "motion": {"pinion_speed": speed}}
 
 
@@ -111,7 +111,12 @@ def _error_sections(reading: Reading, stage: Stage, sections: Sections) -> Secti
     return {"motion": motion, **({"flank_errors": {"tolerance_class": tolerance}} if tolerance is not None else {})}
 
 
-def _by_call(name: str, text: str | None, example: str) -> Value | None:
+def by_call(wheel_torque: str | None, pinion_speed: str | None) -> tuple[Value | None, Value | None]:
+    """Torque and speed that the call has in place of the file's. Raises SceneError."""
+    return _option("--wheel-torque", wheel_torque, "437 N m"), _option("--pinion-speed", pinion_speed, "750 rpm")
+
+
+def _option(name: str, text: str | None, example: str) -> Value | None:
     """What an option says in the place of the file. Raises SceneError where it is no such quantity."""
     if text is None:
         return None

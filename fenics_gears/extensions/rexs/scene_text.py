@@ -38,15 +38,22 @@ def train_text(
 ) -> str:
     """The TOML text of a train's scene, of all stages."""
     who = [f"{stage.stage}: {stage.pinion.gear} drives {stage.wheel.gear}." for stage in stages]
-    more = ["", "Sections that may be added: [friction], direction of each stage, ... (docs/trains.md)."]
+    more = ["", "Sections that may be added: [friction], [shafts], [bearings], [inertia], ... (docs/trains.md)."]
     return _head(file, model, who, notes, more) + _body(f"gears of {file}", sections)
 
 
 def _body(title: str, sections: Mapping[str, Mapping[str, Value]]) -> str:
     text = f"\ntitle = {toml_value(_one_line(title)[:500])}\n"
     for section, fields in sections.items():
-        text += f"\n[{section}]\n" + "".join(_line(name, value) for name, value in fields.items())
+        text += f"\n{_header(section)}\n" + "".join(_line(name, value) for name, value in fields.items())
     return text
+
+
+def _header(section: str) -> str:
+    """A section's line; numbers in its name count the tables of a list."""
+    parts = section.split(".")
+    name = ".".join(each for each in parts if not each.isdigit())
+    return f"[[{name}]]" if parts[-1].isdigit() else f"[{name}]"
 
 
 def _head(file: str, model: RexsModel, who: list[str], notes: Mapping[str, Iterable[str]], more: list[str]) -> str:
@@ -68,7 +75,7 @@ def _listed(heading: str, items: Iterable[str]) -> list[str]:
 
 def _line(name: str, value: Value) -> str:
     assumed = "assumed: " if value.assumed else ""
-    return f"{f'{name} = {value.written}':<{COLUMN}}# {assumed}{_one_line(value.origin)}\n"
+    return f"{f'{name} = {value.written}':<{COLUMN - 1}} # {assumed}{_one_line(value.origin)}\n"
 
 
 def _one_line(text: str) -> str:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import copysign
 
 from .model import Component, Relation, RexsModel
 from .train import Train
@@ -10,6 +11,8 @@ from .values import COUNT, Value, ValueProblem, value_of, word_of
 CYLINDRICAL = "cylindrical_stage"
 EXTERNAL = "cylindrical_gear"
 INTERNAL = "ring_gear"
+# Parts by which a gearbox has a planetary set.
+PLANETARY = ("planetary_stage", "planet_carrier")
 RACK_TOOL = "rack_shaped_tool"
 # Of a section of a scene.
 Fields = dict[str, Value]
@@ -18,8 +21,8 @@ Fields = dict[str, Value]
 @dataclass(frozen=True)
 class GearParts:
     """The components of one gear of a stage: itself, its flanks by side, their modifications, its tools and their
-    settings, bodies, materials, shafts, and its data in this stage. ``by_torque``: the side that the torque loads,
-    where that follows from the train."""
+    settings, bodies, materials, shafts, what is on its shaft, and its data in this stage. ``by_torque``: the side that
+    the torque loads, where that follows from the train."""
 
     gear: Component
     flanks: dict[str, Component]
@@ -29,6 +32,7 @@ class GearParts:
     bodies: list[Component]
     materials: list[Component]
     shafts: list[Component]
+    on_shafts: list[Component]
     stage_data: list[Component]
     by_torque: str | None = None
 
@@ -82,12 +86,16 @@ class GearParts:
 
 @dataclass(frozen=True)
 class Stage:
-    """A pair of gears; ``in_planetary``: it is a part of a planetary stage."""
+    """A pair of gears; ``in_planetary``: it is a part of a planetary stage; ``first``: the number of its ``gear_1``;
+    ``sense``: 1 where the pinion turns about its axis, -1 where it turns against it, None where that does not follow
+    from its torque."""
 
     stage: Component
     pinion: GearParts
     wheel: GearParts
     in_planetary: bool
+    first: int
+    sense: float | None = None
 
     @property
     def named(self) -> dict[str, GearParts]:
@@ -99,8 +107,7 @@ def chosen_stage(model: RexsModel, wanted: int | None) -> Stage:
     """The stage with the wanted number, or the only one. Raises ValueProblem, which lists the stages, where it is not
     clear which."""
     relations = _relations(model)
-    described = {number: _described(model, relation) for number, relation in relations.items()}
-    listed = "\n".join(f"    --stage {number}    {words}" for number, words in described.items())
+    listed = _listed(model, relations)
     if wanted is None and len(relations) > 1:
         raise ValueProblem(
             f"has {len(relations)} pairs of cylindrical gears; a scene has one. Choose it, or all by --train:\n{listed}"
@@ -115,9 +122,14 @@ def stages_in_a_row(model: RexsModel) -> list[Stage]:
     """All stages of a gearbox, from the one that is driven on: each drives the next by the shaft of its wheel. Raises
     ValueProblem where they do not follow each other so."""
     train = Train(model)
-    stages = [_stage(model, relation) for relation in _relations(model).values()]
-    if planetary := [each.stage for each in stages if each.in_planetary]:
-        raise ValueProblem(f"{planetary[0]} is of a planetary stage, which is not computed in trains.")
+    relations = _relations(model)
+    if planetary := [each for each in model.components.values() if each.type in PLANETARY]:
+        named = ", ".join(map(str, planetary[:5]))
+        raise ValueProblem(
+            f"has a planetary set, which is not yet computed: {named}. Import pairs of external gears of it one by one:"
+            f"\n{_listed(model, {number: each for number, each in relations.items() if _both_external(model, each)})}"
+        )
+    stages = [_stage(model, relation) for relation in relations.values()]
     behind = {
         one.stage.id: [other for other in stages if train.turn_as_one(one.wheel.gear, other.pinion.gear)]
         for one in stages
@@ -130,8 +142,6 @@ def stages_in_a_row(model: RexsModel) -> list[Stage]:
     while following := behind[found[-1].stage.id]:
         if len(following) > 1:
             raise ValueProblem(f"{found[-1].stage} drives {len(following)} stages; in a train each drives one.")
-        if following[0].pinion.gear.id == found[-1].wheel.gear.id:
-            raise ValueProblem(f"{following[0].pinion.gear} is an idler; import its two stages one by one.")
         found = [*found, following[0]]
     if len(found) < len(stages):
         raise ValueProblem(f"only {len(found)} of its {len(stages)} stages follow each other by their shafts.")
@@ -159,6 +169,15 @@ def _no_stage(model: RexsModel) -> str:
     return f"has no pair of cylindrical gears: {needed}.{besides}"
 
 
+def _listed(model: RexsModel, relations: dict[int, Relation]) -> str:
+    """A line for each stage, as it is chosen."""
+    return "\n".join(f"    --stage {number}    {_described(model, each)}" for number, each in relations.items())
+
+
+def _both_external(model: RexsModel, relation: Relation) -> bool:
+    return all(model.components[relation.roles[role]].type == EXTERNAL for role in ("gear_1", "gear_2"))
+
+
 def _described(model: RexsModel, relation: Relation) -> str:
     gears = [model.components[relation.roles[role]] for role in ("gear_1", "gear_2")]
     named = model.components[relation.roles["stage"]].name
@@ -182,7 +201,10 @@ def _stage(model: RexsModel, relation: Relation) -> Stage:
     if not in_planetary:
         parts = [replace(part, by_torque=_side_by_torque(train, stage, part.gear)) for part in parts]
     pinion, wheel = parts if _first_drives(train, stage, *parts) else parts[::-1]
-    return Stage(stage, pinion, wheel, in_planetary)
+    torque = None if in_planetary else _torque(train, stage, pinion.gear)
+    return Stage(
+        stage, pinion, wheel, in_planetary, relation.roles["gear_1"], copysign(1.0, torque) if torque else None
+    )
 
 
 def _parts(model: RexsModel, stage: Component, gear: Component) -> GearParts:
@@ -190,6 +212,7 @@ def _parts(model: RexsModel, stage: Component, gear: Component) -> GearParts:
     flanks = {side: model.components[roles[side]] for side in ("left", "right") if side in roles}
     steps = [step for flank in flanks.values() for step in model.related("manufacturing_step", workpiece=flank)]
     tools = {step.roles["tool"]: step for step in steps if "tool" in step.roles}
+    shafts = [each for each in model.partners("assembly", "assembly", part=gear) if each.type == "shaft"]
     # Up to version 1.2 a gear refers to its tools; from 1.3 on its flanks do, each with how the tool was set.
     referred = model.partners("ordered_reference", "referenced", origin=gear) + [
         model.components[number] for number in tools
@@ -203,7 +226,8 @@ def _parts(model: RexsModel, stage: Component, gear: Component) -> GearParts:
         [model.components[number] for number in settings],
         [each for each in model.partners("assembly", "part", assembly=gear) if each.type == "gear_body"],
         [each for each in model.partners("reference", "referenced", origin=gear) if each.type == "material"],
-        [each for each in model.partners("assembly", "assembly", part=gear) if each.type == "shaft"],
+        shafts,
+        [each for shaft in shafts[:1] for each in model.partners("assembly", "part", assembly=shaft)],
         model.partners("stage_gear_data", "stage_gear_data", stage=stage, gear=gear),
     )
 
@@ -241,17 +265,20 @@ def _first_drives(train: Train, stage: Component, first: GearParts, second: Gear
 def _side_by_torque(train: Train, stage: Component, gear: Component) -> str | None:
     """The side of a gear's teeth that its torque loads, looking from its datum face with the tooth upwards; None where
     that does not follow."""
-    if "datum_face_orientation" not in gear.attributes:
-        return None
-    try:
-        torque = train.torque(gear, stage)
-    except ValueProblem:
-        return None
+    torque = _torque(train, stage, gear) if "datum_face_orientation" in gear.attributes else None
     if not torque:
         return None
     # The mate's force turns the gear against its loads. From the end in -u, a positive turn is clockwise.
     from_below = word_of(gear, "datum_face_orientation") == "negative"
     return "left" if (torque < 0.0) == from_below else "right"
+
+
+def _torque(train: Train, stage: Component, gear: Component) -> float | None:
+    """Torque about a gear's axis; None where it does not follow, or is wrong, which its look-up tells."""
+    try:
+        return train.torque(gear, stage)
+    except ValueProblem:
+        return None
 
 
 def _drives(part: GearParts) -> bool | None:

@@ -233,13 +233,14 @@ class Train:
     def _axis_of(self, turning: tuple[Component, ...]) -> np.ndarray | None:
         """The axis of what turns as one: that of its first shaft that has one."""
         ordered = sorted(turning, key=lambda each: (each.type != "shaft", each.id))
-        return next((axis for each in ordered if (axis := _axis(each)) is not None), None)
+        return next((axis for each in ordered if (axis := axis_of(each)) is not None), None)
 
     def _sign(self, part: Component, axis: np.ndarray | None) -> float | None:
-        return _alike(_axis(part), axis)
+        return _alike(axis_of(part), axis)
 
 
-def _axis(part: Component) -> np.ndarray | None:
+def axis_of(part: Component) -> np.ndarray | None:
+    """The unit vector of a part's axis; None where it has none."""
     if "u_axis_vector" not in part.attributes:
         return None
     vector = np.array(numbers_of(part, "u_axis_vector"))
@@ -281,3 +282,9 @@ def _is_torque(load: Component) -> bool:
     """Whether a load is more than a force across the shaft: it says so, or has a torque."""
     said = _word(load, "transmits_torque")
     return said == "true" or TORQUE in load.attributes and said != "false"
+
+
+def is_force(load: Component) -> bool:
+    """Whether a load has forces, or torques across the shaft, that are more than nothing."""
+    beside = [name for name in load.attributes if name.startswith(("force_", "torque_around_")) and name != TORQUE]
+    return load.type == "external_load" and any(any(numbers_of(load, name)) for name in beside)

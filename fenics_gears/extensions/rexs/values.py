@@ -3,7 +3,7 @@
 import base64
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from math import isclose
 
@@ -27,6 +27,8 @@ SPEED = "rpm"
 CODES = {"float32": "<f4", "float64": "<f8", "int32": "<i4"}
 # Values that a program rounded before it wrote them in two places differ by less, relatively.
 SAME = 1e-6
+# Components that are named one by one.
+MOST_NAMED = 10
 _WHOLE = re.compile(r"[+-]?\d{1,15}(\.0*)?")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _OF_COMPONENTS = re.compile(r"(\w+) of components? (\d+(?:, \d+)*)")
@@ -111,6 +113,13 @@ def numbers_of(component: Component, name: str) -> list[float]:
         raise ValueProblem(f"{place(component, name)} is no array of numbers: {error}.") from None
 
 
+def lengths_of(component: Component, name: str) -> list[float]:
+    """The lengths (mm) of an array. Raises ValueProblem."""
+    unit = SPELLINGS.get(component.attributes[name].unit, component.attributes[name].unit)
+    said = place(component, name)
+    return [_quantity(f"{said} = {each}", repr(each), unit, "mm") for each in numbers_of(component, name)]
+
+
 def in_words(component: Component, name: str) -> str:
     """An attribute's value, or how many an array has and from where to where they go, with its unit."""
     entries = _entries(component, name)
@@ -171,6 +180,13 @@ def agreed(values: Iterable[Value | None], what: str) -> Value | None:
     origin = together(value.origin for value in there)
     assumed = any(value.assumed for value in there)
     return replace(there[0], origin=origin, assumed=assumed)
+
+
+def numbered(numbers: Sequence[int]) -> str:
+    """Components in words, many of them by the first and the last."""
+    if len(numbers) > MOST_NAMED:
+        return f"{len(numbers)} components, {numbers[0]} to {numbers[-1]}"
+    return f"component{'s' if len(numbers) > 1 else ''} {', '.join(map(str, numbers))}"
 
 
 def together(origins: Iterable[str]) -> str:

@@ -18,6 +18,8 @@ def import_rexs(options: argparse.Namespace) -> int:
         raise SceneError(f"{output} exists already. Name another file with --output SCENE, or remove it.")
     if options.train:
         return _import_train(options, output)
+    if options.shafts:
+        raise SceneError("--shafts is of a train. Give --train beside it.")
     imported = imported_scene(
         options.file, options.stage, options.load_case, options.wheel_torque, options.pinion_speed
     )
@@ -31,11 +33,16 @@ def import_rexs(options: argparse.Namespace) -> int:
 
 def _import_train(options: argparse.Namespace, output: Path) -> int:
     """The same of all stages."""
-    for name in ("stage", "wheel_torque", "pinion_speed"):
-        if getattr(options, name) is not None:
-            raise SceneError(f"--{name.replace('_', '-')} is of one pair; leave it out beside --train.")
-    imported = imported_train(options.file, options.load_case)
-    train_from_text(imported.text, output.stem, source=f"{options.file} as a train")
+    if options.stage is not None:
+        raise SceneError("--stage is of one pair; leave it out beside --train.")
+    given = options.load_case, options.wheel_torque, options.pinion_speed
+    imported = imported_train(options.file, *given, bent=options.shafts)
+    source = f"{options.file} as a train"
+    try:
+        train_from_text(imported.text, output.stem, source=source)
+    except GeometryError as error:
+        assumed = "".join(f"\n    assumed: {each}" for each in imported.assumed if each.startswith("stages."))
+        raise SceneError(f"{source}: {error}\nNothing was written.{assumed}") from error
     write_whole(output, lambda path: path.write_text(imported.text, encoding="utf-8"))
     if not options.quiet:
         drives = [f"{each.pinion.gear} drives {each.wheel.gear}." for each in imported.stages]

@@ -13,7 +13,7 @@ from fenics_gears.simulation.run_stresses import standing
 
 from ..chart import MARKERS, Chart, Curve
 from ..panels import DARK, GREY, PALETTE
-from ..stress_grid import upright
+from ..stress_grid import common_depth, extent_of, upright
 
 FILLET_POINTS = 9
 INVOLUTE_POINTS = 14
@@ -49,7 +49,8 @@ def gear_outline(pair: GearPair, gear: int, phase: float, coast: bool = False) -
     centre, angles = standing(pair, gear, phase)
     tooth = tooth_points((pair.pinion, pair.wheel)[gear])
     # A tooth's outline runs from its drive side, which lies ahead, to its coast side.
-    points = np.vstack([centre + tooth @ rotation(angle).T for angle in np.sort(angles)[::-1]])
+    sign = (pair.pinion, pair.wheel)[gear].sign
+    points = np.vstack([centre + tooth @ rotation(angle).T for angle in sign * np.sort(sign * angles)[::-1]])
     return upright(pair, np.vstack([points, points[:1]]), coast)
 
 
@@ -58,7 +59,8 @@ def tooth_points(gear: Gear) -> np.ndarray:
     flank."""
     outline = tooth_outline(gear, FILLET_POINTS)
     involute = outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, INVOLUTE_POINTS))[1:]
-    foot = np.arctan2(outline.fillet[0, 1], outline.fillet[0, 0])
+    # With a negative radius an angle points to the other side.
+    foot = np.arctan2(gear.sign * outline.fillet[0, 1], gear.sign * outline.fillet[0, 0])
     middle = outline.centreline_angle
     space = middle + np.remainder(outline.space_angle - middle + np.pi, 2 * np.pi) - np.pi
     land = _arc(gear.root_radius, space, space + np.remainder(foot - space + np.pi, 2 * np.pi) - np.pi)
@@ -79,9 +81,13 @@ def _curves(pair: GearPair, teeth: list[np.ndarray], coast: bool, labels: bool) 
     def line(name: str, points: np.ndarray, colour: str, width: float, **style) -> None:
         curves.append(Curve(name, points[:, 0], points[:, 1], colour, width=width, **style))
 
-    for (name, gear), points, fill, centre in zip(gears, teeth, FILLS, _centres(pair)):
-        line(name, points, DARK, 1.2, fill=fill)
-        line("bore", centre + _circle(gear.bore_radius), DARK, 1.2, fill="white", listed=False)
+    bodies = list(zip(gears, teeth, FILLS, _centres(pair)))
+    # An internal gear lies around its pinion: first its rim, then the hole that its teeth leave.
+    for (name, gear), points, fill, centre in sorted(bodies, key=lambda each: each[0][1].sign):
+        around = centre + _circle(gear.bore_radius)
+        first, second = (around, points) if gear.internal else (points, around)
+        line(name, first, DARK, 1.2, fill=fill)
+        line("teeth" if gear.internal else "bore", second, DARK, 1.2, fill="white", listed=False)
     circles = {"base circles": ("base_radius", "dash", GREY), "reference circles": ("reference_radius", "dot", GREY)}
     for name, (radius, dash, colour) in circles.items():
         parts = [centre + _circle(getattr(gear, radius)) for (_, gear), centre in zip(gears, _centres(pair))]
@@ -131,13 +137,12 @@ def _points_in_words(pair: GearPair, coast: bool) -> str:
 
 
 def _whole(pair: GearPair) -> tuple[np.ndarray, float]:
-    low = -pair.centre_distance - pair.wheel.tip_radius
-    high = pair.pinion.tip_radius
+    low, high = extent_of(pair)[1]
     return np.array([0.0, 0.5 * (low + high)]), 0.53 * (high - low)
 
 
 def _teeth(pair: GearPair, coast: bool) -> tuple[np.ndarray, float]:
     """Middle and half height of a view of the path of contact, with the teeth's roots."""
     middle = _on_line(pair, [0.5 * (pair.path_start + pair.path_end)], coast)[0]
-    depth = pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance + 3.0 * pair.pinion.module
+    depth = common_depth(pair) + 3.0 * pair.pinion.module
     return middle, 0.5 * depth

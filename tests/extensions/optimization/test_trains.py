@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from tests.trains import COARSE, stage
 
-from fenics_gears import load_scene, simulate_train, train_from_text
+from fenics_gears import load_scene, overall_orders, simulate_train, train_from_text
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import SceneError
 from fenics_gears.extensions.optimization.conditions import samples
 from fenics_gears.extensions.optimization.design_file import load_design
 from fenics_gears.extensions.optimization.evaluations import Evaluator
 from fenics_gears.extensions.optimization.expected import expected_work
+from fenics_gears.extensions.optimization.goals import weighted_orders
 from fenics_gears.results.files import read
 from fenics_gears.runs.team import Alone
 from fenics_gears.scene.train import load_train
@@ -65,9 +66,37 @@ def test_a_design_is_judged_by_the_run_of_its_train(gearbox, tmp_path):
     assert expected_work(design, 0).seconds > 0.0
 
 
+def test_orders_are_summed_by_their_weights(gearbox, tmp_path):
+    """2 of the first and 0.5 of the third harmonic of the second stage, and the first of the first, in the lag of the
+    last shaft, urad."""
+    goal = "weighted_orders = 1\n[orders]\nfirst = [1]\nsecond = [2, 0, 0.5]\n"
+    Path("design.toml").write_text(DESIGN.replace(f"{OVERALL_ERROR} = 1\n", goal))
+    design = load_design(Path("design.toml"))
+    with Interruption(SilentProgress()) as progress:
+        (tmp_path / "runs").mkdir()
+        evaluator = Evaluator(design, tmp_path / "runs", Alone(), progress)
+        (found,) = evaluator.of_designs([VALUES | {"stages.second.pinion.profile_shift": 0.1}], samples(design))
+    train = train_from_text(gearbox.replace('"10 um"', '"5 um"'))
+    orders = {(each.meshes, each.harmonic): each.amplitude for each in overall_orders(simulate_train(train), train)}
+    expected = orders["first", 1] + 2.0 * orders["second", 1] + 0.5 * orders["second", 3]
+    assert found.goals["weighted_orders"] == pytest.approx(1e6 * expected, rel=1e-9)
+    assert design.goals[0].unit == "urad"
+
+
+def test_orders_of_a_pair_are_summed_by_their_weights():
+    """Of the harmonics that a pair's run has, um along the line of action; what a run lacks gives nothing."""
+    numbers = {"transmission_error_harmonic_1": 3.0, "transmission_error_harmonic_2": 0.5}
+    assert weighted_orders({"mesh": (1.0, 4.0)}, numbers) == 5.0
+    assert weighted_orders({"mesh": (1.0, 4.0, 1.0)}, numbers) is None
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
+        (DESIGN.replace(OVERALL_ERROR, "weighted_orders"), "is missing, which weighted_orders needs"),
+        (DESIGN + "[orders]\nfirst = [1]\n", "belong to the goal weighted_orders"),
+        (DESIGN.replace(OVERALL_ERROR, "weighted_orders") + "[orders]\nfrist = [1]\n", "is no mesh"),
+        (DESIGN.replace(OVERALL_ERROR, "weighted_orders") + "[orders]\nfirst = [-1]\n", "is no list of weights"),
         (DESIGN.replace("gearbox.toml", "pair.toml").replace("stages.first.", ""), "needs a train of gears"),
         (DESIGN.replace("peak_contact_pressure", "friction_loss").replace("1e5 MPa", "1"), "[friction]"),
         (DESIGN + "[tolerances]\ntolerance_class = 6\n", "Allowed in a train: fields of its stages"),
