@@ -23,7 +23,8 @@ from .face import Face
 from .flank_at_height import roll_angle_at_height
 from .interpolation import node_average, quadrature_offsets
 from .kinematics import IN_THE_PLANE
-from .operator import PerPosition, Position
+from .mesh_cycle import PerPosition
+from .operator import Position
 from .tooth_pair import DRIVE, PairNodes, ToothPair, node_slices
 
 FEWEST_STEPS_A_WAVE = 2

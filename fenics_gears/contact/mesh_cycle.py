@@ -10,29 +10,72 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import Executor, Future
 from copy import copy
 from dataclasses import dataclass
 from itertools import groupby
-from math import ceil
-from threading import RLock
-from typing import Any
+from math import ceil, inf
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from fenics_gears.system.memory import Kept, give_back
+from fenics_gears.system.memory import give_back
 
 from .addresses import GAP, NODES
 from .face import one_slice
 from .kinematics import nodes_before
 from .mesh import Mesh, contact_operators
-from .operator import Passage, Position, StepRows, Value, in_common
+from .operator import Passage, Position, StepRows
 from .places import counted_from
 from .step_solver import StepProblem, StepSolution
 from .tooth_pair import Nodes, PairNodes, over_nodes
 
-# Share of the memory for contact operators of a block of steps of a march, twice.
+# Shares of the memory for contact operators: of those kept, and of a block of steps of a march, twice.
+SHARE_KEPT = 0.7
 SHARE_OF_A_BLOCK = 0.12
+# Places between steps that runs have in common divide a step by so many.
+COMMON_PLACES = 64
+
+
+@dataclass
+class Kept:
+    """Memory (bytes) that operators may take at `most`, that the kept ones have `taken`, and of `others`, those of
+    other cycles. Operators beyond are made again each time the cycle comes round."""
+
+    most: float = inf
+    taken: float = 0.0
+    others: float = 0.0
+
+    def takes(self, size: float) -> bool:
+        """Whether there is room for this many bytes more, which are then counted."""
+        if self.others + self.taken + size > SHARE_KEPT * self.most:
+            return False
+        self.taken += size
+        return True
+
+
+Value = TypeVar("Value")
+
+
+def in_common(place: float) -> bool:
+    """Whether a place, in steps, is one that several runs ask for: a step, or one of few between steps."""
+    return place * COMMON_PLACES % 1.0 == 0.0
+
+
+class PerPosition(Generic[Value]):
+    """A function of the position in the mesh cycle alone, called once for each place in common; `known`: its values so
+    far, which functions alike may share."""
+
+    def __init__(self, function: Callable[[Position], Value], known: dict[float, Value] | None = None):
+        self._function = function
+        self._known = {} if known is None else known
+
+    def __call__(self, position: Position) -> Value:
+        value = self._known.get(position.index)
+        if value is None:
+            value = self._function(position)
+            if in_common(position.index):
+                self._known[position.index] = value
+        return value
 
 
 # Gaps added at contact nodes (n,), mm along the line of action, negative where material is in excess: at a position, in
@@ -80,9 +123,6 @@ class Cycle:
         self._held: dict[tuple[Mesh, float], Position] = {}
         self._positions = self._built  # with openings, if there are any
         self._shared: dict[type, Any] = {}
-        # What a thread builds; threads build in turns.
-        self._ahead: Future[dict[tuple[Mesh, float], Position]] | None = None
-        self._building = RLock()
 
     def with_gaps(self, gaps: Gaps) -> Cycle:
         """The same contact nodes and operators, which both have in common, with other gaps."""
@@ -125,36 +165,13 @@ class Cycle:
     def build(self, steps: Sequence[int]) -> None:
         """Build the positions at consecutive steps together, in half the time that each takes by itself; those that are
         not kept are there until others are built so."""
-        ahead = self._ahead
-        self._ahead = None
-        if ahead is not None:
-            self._keep(ahead.result())
-        missing = self._missing(steps)
-        if missing:
-            self._held = self._built_by_key(missing)
-            self._keep(self._held)
-
-    def _missing(self, steps: Sequence[int]) -> dict[tuple[Mesh, float], int]:
-        """Those of consecutive steps whose positions are not built, by their keys."""
         if self.alike:
             steps = steps[: self.steps]
         keys = {(self._mesh_at(step), step % self.steps): step for step in steps}
-        return {key: step for key, step in keys.items() if key not in self._built}
-
-    def builds_ahead(self, first: int) -> bool:
-        """Whether positions of the mesh cycle from a step on are still to be built, take long and can all be kept."""
-        missing = len(self._missing(range(first, first + self.steps))) if self.traits.repeats else 0
-        return missing > 0 and self.kept.has_room(missing * self.position(0).bytes)
-
-    def build_ahead(self, steps: Sequence[int], thread: Executor) -> None:
-        """Have a thread begin to build the positions at consecutive steps, where that is worth it: half of what a step
-        takes is spent in compiled code, which lets other threads go on. They are there after the next `build`."""
-        missing = self._missing(steps) if len(steps) and self.builds_ahead(steps[0]) else {}
+        missing = {key: keys[key] for key in keys if key not in self._built}
         if missing:
-            self._ahead = thread.submit(self._built_by_key, missing)
-
-    def _built_by_key(self, missing: dict[tuple[Mesh, float], int]) -> dict[tuple[Mesh, float], Position]:
-        return dict(zip(missing, self._build([(step, step - 1) for step in missing.values()])))
+            self._held = dict(zip(missing, self._build([(step, step - 1) for step in missing.values()])))
+            self._keep(self._held)
 
     def between(self, step: float, before: float) -> Position:
         """The contact equations at `step`, with the step before at `before`; both may lie between whole steps. Kept
@@ -173,7 +190,6 @@ class Cycle:
             return False
         self.kept.most = 0.5 * self.kept.taken
         self.kept.taken = 0.0
-        self._ahead = None
         # Shared objects take memory too, and have addresses of what is given up.
         for known in (self._built, self._positions, self._held, self._pairs, self._shared):
             known.clear()
@@ -219,9 +235,8 @@ class Cycle:
     def _build(self, steps: Sequence[tuple[float, float]]) -> list[Position]:
         """The positions at some steps, each after the one before it."""
         found: list[Position] = []
-        with self._building:
-            for mesh, own in groupby(steps, lambda step: self._mesh_at(step[0])):
-                found += self._built_of(mesh, list(own))
+        for mesh, own in groupby(steps, lambda step: self._mesh_at(step[0])):
+            found += self._built_of(mesh, list(own))
         return found
 
     def _built_of(self, mesh: Mesh, steps: list[tuple[float, float]]) -> list[Position]:

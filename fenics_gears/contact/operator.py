@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from .formed_rows import FormedRows
 
 NO_NODES_BEFORE = np.empty(0, dtype=np.int64)
-# Places between steps that runs have in common divide a step by so many.
-COMMON_PLACES = 64
 
 
 class _ReadOtherwise:
@@ -258,28 +256,3 @@ class _Opened(Position):
         row = row.copy()
         row[GAP] = self.gap.ctypes.data
         return row, [*held, self.gap]
-
-
-Value = TypeVar("Value")
-
-
-def in_common(place: float) -> bool:
-    """Whether a place, in steps, is one that several runs ask for: a step, or one of few between steps."""
-    return place * COMMON_PLACES % 1.0 == 0.0
-
-
-class PerPosition(Generic[Value]):
-    """A function of the position in the mesh cycle alone, called once for each place in common; `known`: its values so
-    far, which functions alike may share."""
-
-    def __init__(self, function: Callable[[Position], Value], known: dict[float, Value] | None = None):
-        self._function = function
-        self._known = {} if known is None else known
-
-    def __call__(self, position: Position) -> Value:
-        value = self._known.get(position.index)
-        if value is None:
-            value = self._function(position)
-            if in_common(position.index):
-                self._known[position.index] = value
-        return value

@@ -12,8 +12,8 @@ import numpy as np
 from fenics_gears.geometry.relief import side_by_side
 
 from .interpolation import INTERPOLATIONS, Averages, Points
-from .mesh_cycle import Cycle, Gaps, Opening
-from .operator import PerPosition, Position
+from .mesh_cycle import Cycle, Gaps, Opening, PerPosition
+from .operator import Position
 from .tooth_pair import DRIVE, Removal, apart, facing_points, nodal_gap, node_ends, over_nodes
 
 

@@ -13,11 +13,9 @@ from math import floor, lcm
 
 import numpy as np
 
-from fenics_gears.system.memory import Kept
-
 from .idler import Part, RowCompliance
 from .mesh import Mesh
-from .mesh_cycle import Cycle
+from .mesh_cycle import Cycle, Kept
 from .operator import ContactOperator, Position
 from .places import counted_from
 from .step_solver import StepProblem, StepSolution, solve_step
@@ -113,10 +111,6 @@ class RowCycle(Cycle):
             each.cycle.build(steps)
         missing = dict.fromkeys(step % self.steps for step in steps if step % self.steps not in self._joined)
         self._around = {step: self._joined_at(step) for step in missing}
-
-    def builds_ahead(self, first: int) -> bool:
-        # What an idler couples is built here.
-        return False
 
     def between(self, step: float, before: float) -> Position:
         if step == int(step) and before == step - 1:

@@ -17,7 +17,8 @@ from fenics_gears.geometry.side import Side
 
 from .eccentricity import Eccentricity, Offset
 from .kinematics import COLUMNS, COORDINATES, displacement_jacobian
-from .operator import PerPosition, Position
+from .mesh_cycle import PerPosition
+from .operator import Position
 
 
 class RunOut:

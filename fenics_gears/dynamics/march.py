@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import nullcontext
 from functools import cache
 from math import ceil
@@ -26,8 +25,6 @@ from .steps import Record, Steps
 SECONDS_BETWEEN_REPORTS = 0.1
 # Steps are handed on in blocks of at most so many; those of a cycle's own solver can take a tenth of a second each.
 LONGEST_BLOCK, LONGEST_BLOCK_OF_OWN_SOLVER = 512, 32
-# Into so many blocks the first mesh cycle is divided: a thread builds the next one while one is solved.
-BLOCKS_BUILT_AHEAD = 4
 
 Solved = TypeVar("Solved")
 Report = Callable[[int], None]
@@ -115,8 +112,7 @@ class Marcher:
         try:
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
             with march_with_inertia() if inert else nullcontext(), thread_pools().limit(limits=1):
-                with ThreadPoolExecutor(1) as thread:
-                    self._go_through(steps, marches, take, report, thread)
+                self._go_through(steps, marches, take, report)
         except KeyboardInterrupt:
             for march in marches:
                 march.interrupted = True
@@ -129,7 +125,7 @@ class Marcher:
         if ended:
             raise MemoryEnded(f"at step {marches[0].steps + 1} of {steps}", marches[0])
 
-    def _go_through(self, steps: int, marches: list[March], take: Take, report: Report, thread: Executor) -> None:
+    def _go_through(self, steps: int, marches: list[March], take: Take, report: Report) -> None:
         """Solve all steps, block by block."""
         lasts = self._with_room(self.start, marches)
         first = 1
@@ -139,8 +135,7 @@ class Marcher:
 
         def block() -> tuple[dict[int, Record], int]:
             end = self._end_of_block(first, steps)
-            following = range(end, min(2 * end - first, steps + 1))
-            return self._block(lasts, (range(first, end), following), take, report, thread), end
+            return self._block(lasts, range(first, end), take, report), end
 
         while lasts and first <= steps:
             lasts, first = self._with_room(block, marches)
@@ -190,22 +185,17 @@ class Marcher:
         # Positions of a block are held together, also those that are not kept.
         most = LONGEST_BLOCK_OF_OWN_SOLVER if self.cycle.traits.own_solver else LONGEST_BLOCK
         if self.cycle.traits.repeats:
-            # The sets of the mesh cycle before are known when a block begins. Blocks are the same where all positions
-            # are built, for sums go on from block to block.
-            most = min(most, cycle if first > cycle else ceil(cycle / BLOCKS_BUILT_AHEAD))
+            # The sets of the mesh cycle before are known when a block begins.
+            most = min(most, cycle)
         longest = int(min(most, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self.cycle.position(0).bytes, 1.0)))
         length = cycle * (longest // cycle) or ceil(cycle / ceil(cycle / longest))
         left_of_cycle = cycle - (first - 1) % cycle
         return min(first + (length if length >= cycle else min(length, left_of_cycle)), steps + 1)
 
-    def _block(
-        self, lasts: dict[int, Record], steps: tuple[range, range], take: Take, report: Report, thread: Executor
-    ) -> dict[int, Record]:
-        """Solve the first ones of `steps` of each run from its last one, while a thread builds positions of those that
-        follow; those before a failure or Ctrl-C are taken too. With the first of all the start is taken."""
-        numbers, following = steps
+    def _block(self, lasts: dict[int, Record], numbers: range, take: Take, report: Report) -> dict[int, Record]:
+        """Solve the steps `numbers` of each run from its last one; those before a failure or Ctrl-C are taken too. With
+        the first of all the start is taken."""
         block = self.batch.after(lasts, numbers)
-        self.cycle.build_ahead(following, thread)
         taken = 0 if numbers[0] == 1 else 1
         try:
             self._solve(block, list(lasts), report)

@@ -11,8 +11,8 @@ import numpy as np
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import Position, in_common
+from fenics_gears.contact.mesh_cycle import Cycle, in_common
+from fenics_gears.contact.operator import Position
 from fenics_gears.contact.step_solver import HALVED, StepProblem, StepSolution, cold_start
 
 from .clock import FOLLOWING, Clock, SteadyClock, TimeScales

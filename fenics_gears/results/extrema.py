@@ -12,8 +12,7 @@ from math import ceil, isfinite, log2
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import COMMON_PLACES
+from fenics_gears.contact.mesh_cycle import COMMON_PLACES, Cycle
 from fenics_gears.dynamics.batch import Batch
 from fenics_gears.dynamics.march import thread_pools
 from fenics_gears.dynamics.marched import BetweenSteps, March, Place

@@ -2,14 +2,14 @@
 
 from collections.abc import Collection, Sequence
 
-from fenics_gears.contact.mesh_cycle import SHARE_OF_A_BLOCK, Cycle, Gaps
+from fenics_gears.contact.mesh_cycle import SHARE_KEPT, SHARE_OF_A_BLOCK, Cycle, Gaps
 from fenics_gears.contact.relief_gaps import Profiles
 from fenics_gears.effects import ALONG_THE_FACE, common_period, effects_on
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import RELIEFS, Model, differ_only
 from fenics_gears.results.extrema import repeating_steps
 from fenics_gears.results.together import OFFERED, NumbersOfRun, numbers_together
-from fenics_gears.system.memory import SHARE_KEPT, give_back
+from fenics_gears.system.memory import give_back
 from fenics_gears.system.progress import SilentProgress
 
 from .elastic_route import openings_of, reliefs_apart

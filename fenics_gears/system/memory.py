@@ -10,8 +10,6 @@ import mmap
 import os
 import re
 from contextlib import suppress
-from dataclasses import dataclass
-from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,8 +28,6 @@ SHARE = 0.6
 UNKNOWN = 8e9
 # Free bytes of the heap that stay in the process after a run, for the next one.
 MOST_KEPT = 200e6
-# Of the memory for contact operators, the share of those kept.
-SHARE_KEPT = 0.7
 
 
 def size_in_bytes(size: str, name: str, example: str) -> float:
@@ -122,24 +118,3 @@ def _of_container() -> float:
         if limit.isdecimal():
             return max(float(limit) - float(in_use), 0.0)
     return float("inf")
-
-
-@dataclass
-class Kept:
-    """Memory (bytes) that operators may take at `most`, that the kept ones have `taken`, and of `others`, those of
-    other cycles. Operators beyond are made again each time the cycle comes round."""
-
-    most: float = inf
-    taken: float = 0.0
-    others: float = 0.0
-
-    def takes(self, size: float) -> bool:
-        """Whether there is room for this many bytes more, which are then counted."""
-        if not self.has_room(size):
-            return False
-        self.taken += size
-        return True
-
-    def has_room(self, size: float) -> bool:
-        """Whether there is room for this many bytes more."""
-        return self.others + self.taken + size <= SHARE_KEPT * self.most

@@ -1,7 +1,6 @@
 """Mesh cycles over a face, and reliefs on the operators of another one."""
 
 from dataclasses import replace
-from threading import current_thread, main_thread
 
 import numpy as np
 import pytest
@@ -16,7 +15,6 @@ from fenics_gears.contact.relief_gaps import profile_of
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.pair import Helix
 from fenics_gears.model.model import model_of
 
@@ -68,52 +66,6 @@ def test_a_shorter_window_where_no_edge_is_near_changes_nothing(model):
     )
     assert inner[3].position.operator.nodes < 0.7 * whole[3].position.operator.nodes
     np.testing.assert_allclose(errors(inner), errors(whole), rtol=1e-11)
-
-
-def builders_of(monkeypatch, fails=None):
-    """Who builds how many positions: this thread, or another one, which `fails` with an error."""
-    built, build = {True: 0, False: 0}, Cycle._built_of
-
-    def noted(cycle, mesh, steps):
-        here = current_thread() is main_thread()
-        built[here] += len(steps)
-        if fails is not None and not here:
-            raise fails
-        return build(cycle, mesh, steps)
-
-    monkeypatch.setattr(Cycle, "_built_of", noted)
-    return built
-
-
-def are_the_same(records, others):
-    assert len(records) == len(others) == 2 * STEPS + 1
-    for one, other in zip(records, others):
-        for name in ("forces", "coordinates", "displacement", "status", "iterations"):
-            assert np.array_equal(getattr(one.solution, name), getattr(other.solution, name)), name
-
-
-def test_positions_that_a_thread_builds_are_those_that_are_built_here(model, monkeypatch):
-    """Identity: who builds a position, and in how many blocks, changes no number; a second mesh cycle builds none."""
-    face, built = face_of(3, 0.3), builders_of(monkeypatch)
-    ahead = marched(model, face_cycle(model, face), 2 * STEPS)
-    # Beside the first block, here are built the positions at and, with friction, before the start.
-    assert built[False] >= 0.6 * STEPS and built[True] <= 0.25 * STEPS + 2
-    monkeypatch.setattr(Cycle, "builds_ahead", lambda cycle, first: False)
-    built[False] = 0
-    are_the_same(ahead, marched(model, face_cycle(model, face), 2 * STEPS))
-    assert built[False] == 0
-
-
-def test_what_a_thread_cannot_build(model, monkeypatch):
-    """Identity: its errors are those of this thread; memory that ends there has the march go on with fewer operators,
-    as it does here."""
-    face = face_of(3, 0.3)
-    expected = marched(model, face_cycle(model, face), 2 * STEPS)
-    builders_of(monkeypatch, MemoryError())
-    are_the_same(marched(model, face_cycle(model, face), 2 * STEPS), expected)
-    builders_of(monkeypatch, ComputationError("flanks touch that are further apart"))
-    with pytest.raises(ComputationError, match="flanks touch"):
-        marched(model, face_cycle(model, face), 2 * STEPS)
 
 
 def by_slice(record, slices):

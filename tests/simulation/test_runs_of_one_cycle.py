@@ -9,8 +9,7 @@ from tests.hard_cases.invariants import cycle_of
 from tests.helical import CROWNED, FRICTION, helical_scene, on_stand_in_bodies
 
 from fenics_gears import simulate
-from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import in_common
+from fenics_gears.contact.mesh_cycle import Cycle, in_common
 from fenics_gears.model.model import model_of
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.runs.common_windows import CommonWindows
