@@ -4,20 +4,24 @@ A `Chart` is data: curves over one axis, with titles and units. `draw_charts` wr
 what plotly's browser library draws of one. `run_charts`, `gear_outline` and `pinion_in_space` show a run.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
-
-import xarray as xr
+from typing import TYPE_CHECKING, Any
 
 from fenics_gears.commands.work.shared import plots
 from fenics_gears.show.chart import BAND, BARS, LINES, MARKED_LINES, MARKERS, WORDS, Chart, Curve, span, stems
 from fenics_gears.show.harris_map import harris_map, words_apart
 from fenics_gears.show.panels import DARK, GREY, PALETTE, shades
-from fenics_gears.show.report.flank_in_space import pinion_in_space as _pinion_in_space
 from fenics_gears.show.report.interactive import figure as plotly_figure
-from fenics_gears.show.report.pair_drawing import gear_outline
 from fenics_gears.show.run import ShownRun, design
+
+if TYPE_CHECKING:
+    import numpy as np
+    import xarray as xr
+
+    from fenics_gears.geometry.pair import GearPair
 
 __all__ = [
     "BAND", "BARS", "DARK", "GREY", "LINES", "MARKED_LINES", "MARKERS", "PALETTE", "WORDS", "Chart", "Curve",
@@ -34,7 +38,17 @@ def run_charts(dataset: xr.Dataset) -> list[tuple[str, list[Chart]]]:
 def pinion_in_space(dataset: xr.Dataset) -> dict[str, Any] | None:
     """Some teeth of the pinion as plotly's browser library draws them, the largest pressure while it is in mesh on the
     flank of one; None of a run without contact fields."""
-    return _pinion_in_space(ShownRun(dataset))
+    from fenics_gears.show.report.flank_in_space import pinion_in_space
+
+    return pinion_in_space(ShownRun(dataset))
+
+
+def gear_outline(pair: GearPair, gear: int, phase: float) -> np.ndarray:
+    """Outline (n, 2), mm, of the pinion (0) or the wheel (1) at a phase of the mesh cycle; line of centres upright."""
+    # Stands on bodies of finite elements, which other charts do not load.
+    from fenics_gears.show.report.pair_drawing import gear_outline
+
+    return gear_outline(pair, gear, phase)
 
 
 def draw_run(dataset: xr.Dataset, directory: Path) -> list[Path]:

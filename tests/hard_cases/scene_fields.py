@@ -15,6 +15,7 @@ from fenics_gears.scene.schema import known_paths, scene_text
 from fenics_gears.studies.fields import ABSENT, changed
 
 DEMO = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
+RING = DEMO.parent / "internal_gears" / "planet_in_ring.toml"
 RELIEF = {"depth": "31 um", "start": "HPSTC"}
 LUMPED = {"mass": "4.9 kg", "moment_of_inertia": "24.5e-3 kg m^2"}
 RAYLEIGH = {"stiffness_proportional": "0.4e-3 s", "mass_proportional": "0.5e-3 1/s"}
@@ -69,6 +70,8 @@ class Field:
         """Whether a number, in the field's unit, lies within its bounds."""
         if self.allowed.kind:
             number = units.quantity(f"{number!r} {self.unit}")[0]
+        if getattr(self.allowed, "either_sign", False):
+            number = abs(number)
         (lowest, highest), (above, below) = self.bounds, self.excluded
         return (lowest < number if above else lowest <= number) and (number < highest if below else number <= highest)
 
@@ -95,7 +98,8 @@ def fields() -> list[Field]:
 
 def _fields() -> Iterator[Field]:
     for path, is_section in known_paths().items():
-        if is_section:
+        # A pinion is external: of its shaper cutter nothing but the section is refused.
+        if is_section or path[:3] == ("gears", "pinion", "cutter"):
             continue
         section: Any = scene_text()
         for name in path[:-1]:
@@ -181,9 +185,9 @@ def plane_scene_with_webs() -> dict[str, Any]:
 def scene_with(path: tuple[str, ...], literal: str | None, name: str | None = None, tree: dict | None = None) -> str:
     """The text of a scene (`tree`, or the whole one) with `literal` (TOML) at a path, nothing where that is None,
     under another `name` if given."""
-    tree = tree or (whole_scene() if "web" not in path else plane_scene_with_webs())
     if "cutter" in path:
-        tree = changed(tree, ("gears", "wheel", "cutter"), {"teeth": 23})
+        tree = tomllib.loads(RING.read_text(encoding="utf-8"))
+    tree = tree or (whole_scene() if "web" not in path else plane_scene_with_webs())
     for other in INSTEAD.get(path, ()):
         tree = changed(tree, (*path[:-1], other), ABSENT)
     tree = changed(tree, path, ABSENT)

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.polynomial.legendre import legvander
-from scipy.linalg import cho_solve
+from scipy.linalg import cho_solve, svd
 
 from ..ring import definite_factor
 from .layers import SweptWeb
@@ -46,11 +46,21 @@ def cut_motions(stiffness: np.ndarray, loads: np.ndarray, places: np.ndarray, we
     if smooth.shape[1] > WORTHWHILE * cut:
         return np.eye(cut)
     local = np.hstack([_motions(stiffness, loads, cut, sign) for sign in (1.0, -1.0)])
-    directions, sizes, _ = np.linalg.svd(local, full_matrices=False)
+    directions, sizes = _directions(local)
     local = directions[:, sizes > LEAST_MOTION * sizes[0]]
-    motions, sizes, _ = np.linalg.svd(np.hstack([local, smooth]), full_matrices=False)
+    motions, sizes = _directions(np.hstack([local, smooth]))
     motions = motions[:, sizes > TOLD_APART]
     return motions if motions.shape[1] <= WORTHWHILE * cut else np.eye(cut)
+
+
+def _directions(motions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Orthonormal directions of motions and their sizes, the largest first."""
+    try:
+        directions, sizes, _ = np.linalg.svd(motions, full_matrices=False)
+    except np.linalg.LinAlgError:
+        # Divide and conquer has not converged, as it does now and then; the slower method does.
+        directions, sizes, _ = svd(motions, full_matrices=False, lapack_driver="gesvd")
+    return directions, sizes
 
 
 def over_motions(stiffness: np.ndarray, motions: np.ndarray) -> np.ndarray:
