@@ -23,12 +23,10 @@ from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
-from fenics_gears.geometry.gear_train import Layout
-from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Load, Motion
 from fenics_gears.scene.train import TrainScene
-from fenics_gears.scene.train_mesh import MeshOfScene, layout_of, rows_of
+from fenics_gears.scene.train_mesh import MeshOfScene, OfMeshes, rows_of
 from fenics_gears.scene.train_pair_shafts import in_words_of_train
 from fenics_gears.scene.train_shafts import TrainShafts
 
@@ -53,7 +51,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class RowModel:
+class RowModel(OfMeshes):
     """Meshes of a train that move together, or a single one: its `meshes` and the models of their pairs, and the
     `shafts` that they are on. `recorded`: steps, the last ones, that numbers are taken from; 0 for all."""
 
@@ -146,14 +144,6 @@ class RowModel:
     def over_face(self) -> bool:
         """Whether flanks are resolved over the face: of all meshes or of none."""
         return self.models[0].scene.three_dimensional
-
-    @cached_property
-    def layout(self) -> Layout:
-        return layout_of(self.meshes)
-
-    @property
-    def graph(self) -> TrainGraph:
-        return self.layout.graph
 
     @property
     def members(self) -> list[list[int]]:

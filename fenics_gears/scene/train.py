@@ -20,7 +20,7 @@ from typing import Any
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.geometry.train_graph import TrainGraph, turns_of_shafts
+from fenics_gears.geometry.train_graph import turns_of_shafts
 from fenics_gears.inputs.problem import NOTHING_DONE, line_numbers, listed
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.units import QuantityError, of_kind
@@ -30,7 +30,7 @@ from .data import Load, Motion, Scene
 from .parsing import is_train, name_of, parsed, text_of
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
 from .train_layout import check_cut_alike, check_layout
-from .train_mesh import MeshOfScene, gear_names, layout_of, rows_of
+from .train_mesh import MeshOfScene, OfMeshes, gear_names, layout_of, rows_of
 from .train_pair import MistakesOfStage, Placed, TrainMistakes, check_together, in_stage, pair_scene
 from .train_pair_shafts import in_train, in_words_of_train, of_pair, place_of, sections_of_pair
 from .train_rules import OF_A_STAGE, SHARED, TrainSections, checked_train
@@ -40,7 +40,7 @@ from .train_topology import NamedMesh, gears_within, graph_of, named_meshes
 
 
 @dataclass(frozen=True)
-class TrainScene:
+class TrainScene(OfMeshes):
     """A train of gears: its meshes from the driven shaft on, torques (N mm) on the first and the last shaft, what its
     shafts are, and the text that it was read from. `recorded_cycles`: of the slowest mesh, whose steps numbers are
     taken from where stages move together."""
@@ -80,14 +80,6 @@ class TrainScene:
     def turns_of_last(self) -> float:
         """Turns of the last shaft in one turn of the first."""
         return self.turns[-1]
-
-    @cached_property
-    def layout(self) -> Layout:
-        return layout_of(self.meshes)
-
-    @property
-    def graph(self) -> TrainGraph:
-        return self.layout.graph
 
     @cached_property
     def turns(self) -> list[float]:

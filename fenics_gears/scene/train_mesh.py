@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.pair import GearPair
@@ -47,6 +48,20 @@ def layout_of(meshes: Sequence[MeshOfScene]) -> Layout:
         tuple(turning[shaft] for shaft in shafts),
     )
     return Layout(graph, [mesh.pair for mesh in meshes], [mesh.direction for mesh in meshes])
+
+
+class OfMeshes:
+    """What has `meshes` of a train: where they stand, and their graph."""
+
+    meshes: tuple[MeshOfScene, ...]
+
+    @cached_property
+    def layout(self) -> Layout:
+        return layout_of(self.meshes)
+
+    @property
+    def graph(self) -> TrainGraph:
+        return self.layout.graph
 
 
 def rows_of(meshes: Sequence[MeshOfScene], moving: bool = False) -> list[list[int]]:

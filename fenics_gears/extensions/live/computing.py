@@ -171,17 +171,19 @@ def _pictures(result: Any, name: str) -> bytes:
 def _report(result: Any, name: str) -> bytes:
     from fenics_gears.pages import run_report
 
-    with TemporaryDirectory() as folder:
-        file = Path(folder) / f"{name}.nc"
-        save(result, file)
-        return run_report(result, file).encode()
+    return _of_saved(result, name, lambda file: run_report(result, file).encode())
 
 
 def _result(result: Any, name: str) -> bytes:
+    return _of_saved(result, name, Path.read_bytes)
+
+
+def _of_saved(result: Any, name: str, content: Callable[[Path], bytes]) -> bytes:
+    """What is made of a result in a file."""
     with TemporaryDirectory() as folder:
         file = Path(folder) / f"{name}.nc"
         save(result, file)
-        return file.read_bytes()
+        return content(file)
 
 
 FILES = {PICTURES: _pictures, REPORT: _report, RESULT: _result}

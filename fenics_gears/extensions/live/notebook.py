@@ -9,10 +9,9 @@ from threading import Event, Thread
 from typing import Any
 
 from fenics_gears import Scene
-from fenics_gears.scene_text import Models, model_of_tree, name_of, parsed, text_of
+from fenics_gears.scene_text import model_of_tree, name_of, parsed, text_of
 
 from .server import LiveServer
-from .settled import settled
 
 HEIGHT = 900
 
@@ -22,10 +21,8 @@ class LiveView:
     by `close`."""
 
     def __init__(self, tree: Mapping[str, Any], name: str, folder: Path):
-        model = model_of_tree(name, tree, folder)
-        tree = settled(tree, model, Models(name, folder))
         self.address = ""
-        self._server = LiveServer(tree, name, str(folder), model.scene.three_dimensional)
+        self._server = LiveServer(tree, model_of_tree(name, tree, folder), name, folder)
         self._loop = asyncio.new_event_loop()
         self._task: asyncio.Task[None] | None = None
         begun = Event()

@@ -8,7 +8,7 @@ from multiprocessing.connection import Connection
 from threading import Lock, Thread
 from typing import Any
 
-from .computing import Work, serve
+from .computing import END, Work, serve
 
 ENDED = "The process that computes has ended, perhaps for want of memory. It was started anew: change something."
 
@@ -38,6 +38,7 @@ class ComputingProcess:
 
     def end(self) -> None:
         self._over = True
+        self.send(Work(END))
         if self._process is not None:
             self._process.join(1.0)
             self._process.kill()

@@ -8,15 +8,18 @@ import secrets
 from collections.abc import Callable
 from functools import cache
 from importlib import resources
+from pathlib import Path
 from typing import Any
 
 from aiohttp import WSCloseCode, WSMsgType, web
 
 from fenics_gears import SceneError, as_toml
+from fenics_gears.scene_text import Models, Tree
 
-from .computing import END, FILES, PICTURES, REPORT, RESULT, Work
+from .computing import FILES, PICTURES, REPORT, RESULT, Work
 from .process import ComputingProcess
 from .session import Session
+from .settled import settled
 
 HOST = "127.0.0.1"
 TYPES = {".js": "text/javascript", ".css": "text/css", ".html": "text/html"}
@@ -26,12 +29,13 @@ ENDINGS = {PICTURES: "zip", REPORT: "html", RESULT: "nc"}
 class LiveServer:
     """Serves one session to any number of browsers. `started`: is called with the address."""
 
-    def __init__(self, tree: Any, name: str, directory: str, over_face: bool):
+    def __init__(self, tree: Tree, model: Any, name: str, folder: Path):
         self._token = secrets.token_urlsafe(24)
         self._sockets: set[web.WebSocketResponse] = set()
         self._files: list[asyncio.Future[bytes]] = []
-        self._process = ComputingProcess(name, directory)
-        self.session = Session(tree, name, over_face, self._process.send, self._tell)
+        self._process = ComputingProcess(name, str(folder))
+        tree = settled(tree, model, Models(name, folder))
+        self.session = Session(tree, name, model.scene.three_dimensional, self._process.send, self._tell)
 
     async def run(self, port: int, started: Callable[[str], None]) -> None:
         """Serve until the task is cancelled. Raises SceneError where the port is taken."""
@@ -48,7 +52,6 @@ class LiveServer:
             self.session.run()
             await asyncio.Event().wait()
         finally:
-            self._process.send(Work(END))
             self._process.end()
             await asyncio.gather(*(each.close(code=WSCloseCode.GOING_AWAY) for each in set(self._sockets)))
             await runner.cleanup()

@@ -34,16 +34,12 @@ class Session:
         self._tell = tell
         self._undone: list[Tree] = []
         self._redone: list[Tree] = []
-        self._number = 0
+        # Of the present scene; results of others are old.
+        self.number = 0
         # Of the present scene, and of the one at the start.
         self.result: dict[str, Any] | None = None
         self.first: dict[str, Any] | None = None
         self._problems: list[dict[str, str]] = []
-
-    @property
-    def number(self) -> int:
-        """Of the present scene; results of others are old."""
-        return self._number
 
     def do(self, message: Mapping[str, Any]) -> None:
         """Carry out what a browser asks for; a mistake is told beside the field."""
@@ -66,15 +62,15 @@ class Session:
 
     def run(self) -> None:
         """Ask for the run of the present scene: over the face first with few steps."""
-        self._number += 1
+        self.number += 1
         self._problems = []
         steps = FIRST_LOOK if self._over_face else None
-        others = () if self._number > 1 else tuple(reach(self.tree, self.controls))
-        self._ask(Work(RUN, self._number, self.tree, steps, others))
+        others = () if self.number > 1 else tuple(reach(self.tree, self.controls))
+        self._ask(Work(RUN, self.number, self.tree, steps, others))
 
     def answered(self, answer: dict[str, Any]) -> None:
         """Take what the computing process says of a scene."""
-        if answer["number"] != self._number:
+        if answer["number"] != self.number:
             return
         if answer["kind"] == "mistakes":
             self._problems = [self._of_a_control(each) for each in answer["problems"]]
@@ -86,7 +82,7 @@ class Session:
                 self.first = answer
                 self._tell({"kind": "start", "result": answer})
             if answer["first_look"]:
-                self._ask(Work(RUN, self._number, self.tree))
+                self._ask(Work(RUN, self.number, self.tree))
         self._tell(answer)
 
     def describe(self) -> None:
@@ -98,14 +94,13 @@ class Session:
         """All that the page shows of the scene."""
         return {
             "kind": "state",
-            "number": self._number,
+            "number": self.number,
             "title": str(self.tree.get("title") or self.name),
             "controls": [self._described(each) for each in self.controls],
             "problems": self._problems,
             "undo": len(self._undone),
             "redo": len(self._redone),
             "changed": self.tree != self.start,
-            "scene": as_toml(self.tree),
             "python": self.python,
         }
 

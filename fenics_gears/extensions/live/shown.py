@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -51,6 +52,7 @@ def _harmonics(result: xr.Dataset) -> list[tuple[str, list[Chart]]]:
     return [("Harmonics", [chart])]
 
 
+@lru_cache(maxsize=2)
 def _drawing(pair: GearPair) -> dict[str, Any]:
     """Outlines of both gears at the start of a mesh cycle, the pinion's centre at the origin, and how each turns."""
     wheel = [0.0, -pair.centre_distance]
@@ -69,5 +71,4 @@ def _drawing(pair: GearPair) -> dict[str, Any]:
                 "turn": float(turn) * 2.0 * np.pi / gear.teeth,
             }
         )
-    ends = [pair.path_start, pair.path_end]
-    return {"gears": parts, "tips": [pair.pinion.tip_radius, pair.wheel.tip_radius], "path": ends}
+    return {"gears": parts, "tips": [pair.pinion.tip_radius, pair.wheel.tip_radius]}

@@ -8,9 +8,7 @@ from pathlib import Path
 
 from fenics_gears import SceneError
 from fenics_gears.command_line import checked_model
-from fenics_gears.scene_text import Models, Tree, is_train, name_of, parsed, text_of
-
-from .settled import settled
+from fenics_gears.scene_text import Tree, is_train, name_of, parsed, text_of
 
 MISSING = (
     "`gears live` needs the libraries {names}, which this Python lacks. Install them: apt install python3-aiohttp"
@@ -27,10 +25,7 @@ def live(options: argparse.Namespace) -> int:
     tree: Tree = parsed(text_of(path, "scene"), str(path))
     if is_train(tree):
         raise SceneError(f"{path}: is a train; `gears live` shows pairs so far. Its stages are pairs by themselves.")
-    model = checked_model(path)
-    name = name_of(path)
-    tree = settled(tree, model, Models(name, path.parent))
-    server = LiveServer(tree, name, str(path.parent), model.scene.three_dimensional)
+    server = LiveServer(tree, checked_model(path), name_of(path), path.parent)
 
     def started(address: str) -> None:
         if not options.quiet:
