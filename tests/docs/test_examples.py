@@ -18,6 +18,7 @@ from tests.paper_text import PAPER as DEMO
 from fenics_gears import as_toml, results, scene_from_text, simulate, train_from_text
 from fenics_gears.extensions.optimization.design_file import load_design
 from fenics_gears.results.summary import summary_rows
+from fenics_gears.show.report.layout import load_layout
 from fenics_gears.studies.study_file import load_study
 
 matplotlib.use("Agg")
@@ -91,6 +92,10 @@ def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
             (tmp_path / tree["scene"]).write_text(DEMO, encoding="utf-8")
             (tmp_path / "design.toml").write_text(block.code, encoding="utf-8")
             assert load_design(tmp_path / "design.toml").variables
+        elif "limits" in tree:
+            (tmp_path / tree["logo"]).write_text("<svg/>", encoding="utf-8")
+            (tmp_path / "layout.toml").write_text(block.code, encoding="utf-8")
+            assert load_layout(tmp_path / "layout.toml").limits
         else:
             whole = {"gears", "load"} <= set(tree)
             scene_from_text(
