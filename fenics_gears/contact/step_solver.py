@@ -138,12 +138,7 @@ def _form_all(problem: StepProblem) -> None:
 
 
 def run_newton(
-    problem: StepProblem,
-    status: np.ndarray,
-    max_iterations: int,
-    *,
-    r_scale: float = 1.0,
-    rule: int = ALL_AT_ONCE,
+    problem: StepProblem, status: np.ndarray, max_iterations: int, *, r_scale: float = 1.0, rule: int = ALL_AT_ONCE
 ):
     """Newton from `status`; returns ((outcome, iterations, forces, coordinates, u, sets), (history, all sets))."""
     history = np.zeros((max_iterations, 5))

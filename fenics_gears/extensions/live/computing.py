@@ -18,7 +18,9 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from fenics_gears import GearsError, simulate
+from fenics_gears.charts import draw_run
 from fenics_gears.many_runs import CommonWindows, GearStore, Progress, save
+from fenics_gears.pages import run_report
 from fenics_gears.scene_text import Models, NoScene
 
 from .shown import shown
@@ -146,8 +148,6 @@ class Computing:
 
 
 def _pictures(result: Any, name: str) -> bytes:
-    from fenics_gears.charts import draw_run
-
     packed = io.BytesIO()
     with TemporaryDirectory() as folder, zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
         for file in draw_run(result, Path(folder)):
@@ -156,8 +156,6 @@ def _pictures(result: Any, name: str) -> bytes:
 
 
 def _report(result: Any, name: str) -> bytes:
-    from fenics_gears.pages import run_report
-
     return _of_saved(result, name, lambda file: run_report(result, file).encode())
 
 
