@@ -13,11 +13,11 @@ import xarray as xr
 from fenics_gears.show.report.origin import made_by, scene_section
 from fenics_gears.show.report.overview import counted
 from fenics_gears.show.report.page import Block, Cell, Facts, Page, PageSection, Table, Tile, Tiles, Words
-from fenics_gears.show.report.rendering import rendered
+from fenics_gears.show.report.rendering import colours, rendered
 from fenics_gears.show.run import ShownRun
 
 __all__ = [
-    "Block", "Cell", "Facts", "Page", "PageSection", "Table", "Tile", "Tiles", "Words", "counted", "made_by",
+    "Block", "Cell", "Facts", "Page", "PageSection", "Table", "Tile", "Tiles", "Words", "colours", "counted", "made_by",
     "rendered", "run_report", "scene_section",
 ]  # fmt: skip
 
