@@ -133,8 +133,9 @@ class GearStore:
     def _give_up_oldest(self) -> None:
         if self._most is None:
             return
-        held = {id(body) for bodies, _ in self._operators.values() for body in bodies}
-        for key in [key for key, body in self._gears.items() if id(body) not in held][: -self._most]:
+        held = [body for bodies, _ in self._operators.values() for body in bodies]
+        free = [key for key, body in self._gears.items() if not any(body is each for each in held)]
+        for key in free[: -self._most]:
             del self._gears[key]
 
     def _made(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Bodies, Cycle]:
