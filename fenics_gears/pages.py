@@ -13,10 +13,11 @@ import xarray as xr
 from fenics_gears.show.report.origin import made_by, scene_section
 from fenics_gears.show.report.overview import counted
 from fenics_gears.show.report.page import Block, Cell, Facts, Page, PageSection, Table, Tile, Tiles, Words
-from fenics_gears.show.report.rendering import rendered
+from fenics_gears.show.report.rendering import colours, rendered
+from fenics_gears.show.run import ShownRun
 
 __all__ = [
-    "Block", "Cell", "Facts", "Page", "PageSection", "Table", "Tile", "Tiles", "Words", "counted", "made_by",
+    "Block", "Cell", "Facts", "Page", "PageSection", "Table", "Tile", "Tiles", "Words", "colours", "counted", "made_by",
     "rendered", "run_report", "scene_section",
 ]  # fmt: skip
 
@@ -25,6 +26,5 @@ def run_report(dataset: xr.Dataset, file: Path) -> str:
     """The page of ``gears report`` on a run that is in a file."""
     # Pages of other kinds need none of it.
     from fenics_gears.show.report.run_page import run_page
-    from fenics_gears.show.run import ShownRun
 
     return rendered(run_page(ShownRun(dataset, file)))

@@ -23,15 +23,11 @@ from .newton import (
 )
 
 NEWTON = "newton"
-NEWTON_AND_FALLBACKS = (
-    NEWTON, "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time",
-    "Tresca fixed point",
-)  # fmt: skip
+NEWTON_AND_FALLBACKS = (NEWTON, "slip through stick", "one change at a time", "Tresca fixed point")
 PUBLISHED = "Newton with line search"
 # The march itself divides the step in two where all of these end without a solution.
 HALVED = "step halved"
 METHODS = (*NEWTON_AND_FALLBACKS, PUBLISHED, HALVED)
-HOMOTOPY_STEPS = 8
 
 
 @dataclass(frozen=True)
@@ -120,13 +116,10 @@ def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> I
 
     Murty's rule stands before Tresca's fixed point: it costs about a hundredth, and its solutions are exact.
     """
-    newton, through, larger, smaller, from_zero, one_by_one, fixed_point = NEWTON_AND_FALLBACKS
+    newton, through, one_by_one, fixed_point = NEWTON_AND_FALLBACKS
     yield newton, lambda: run_newton(problem, status, max_iterations)
     if len(problem.slip_before):
         yield through, lambda: run_newton(problem, status, max_iterations, rule=THROUGH_STICK)
-        yield larger, lambda: run_newton(problem, status, max_iterations, r_scale=10.0)
-        yield smaller, lambda: run_newton(problem, status, max_iterations, r_scale=0.1)
-        yield from_zero, lambda: _friction_from_zero(problem, status, max_iterations)
     yield one_by_one, lambda: run_newton(problem, status, 10 * max_iterations, rule=ONE_AT_A_TIME)
     if len(problem.gap):
         # Imported where it is needed, which is rare.
@@ -145,20 +138,13 @@ def _form_all(problem: StepProblem) -> None:
 
 
 def run_newton(
-    problem: StepProblem,
-    status: np.ndarray,
-    max_iterations: int,
-    *,
-    friction: float | None = None,
-    r_scale: float = 1.0,
-    rule: int = ALL_AT_ONCE,
+    problem: StepProblem, status: np.ndarray, max_iterations: int, *, r_scale: float = 1.0, rule: int = ALL_AT_ONCE
 ):
     """Newton from `status`; returns ((outcome, iterations, forces, coordinates, u, sets), (history, all sets))."""
     history = np.zeros((max_iterations, 5))
     sets = np.full((max_iterations, len(problem.gap)), -1, dtype=np.int8)
     tolerance, m = problem.tolerance, len(problem.compliance)
     iterate = Iterate(status.copy(), np.zeros(m), np.zeros(len(problem.load)), np.zeros(m))
-    friction = problem.friction if friction is None else friction
     arrays = (
         problem.stiffness, problem.load, problem.compliance, problem.jacobian, problem.gap, problem.slip_before,
         problem.free_motion, *iterate, history, sets,
@@ -166,7 +152,7 @@ def run_newton(
     (n, *addresses), held = row_of(len(problem.gap), arrays)
     sizes = n, m, len(problem.load), len(problem.free_motion), len(problem.slip_before), max_iterations
     numbers = np.array([*sizes, problem.rows, rule, *addresses])
-    settings = np.array([friction, r_scale, tolerance.length, tolerance.force])
+    settings = np.array([problem.friction, r_scale, tolerance.length, tolerance.force])
     outcome, done = newton_at(newton_solver().address, numbers, settings)
     # They are held as long as their addresses are used.
     del held
@@ -175,15 +161,3 @@ def run_newton(
     result = outcome, done, iterate.forces, iterate.coordinates, iterate.displacement, iterate.status
     used = max(done, 1)
     return result, (history[:used], sets[:used])
-
-
-def _friction_from_zero(problem: StepProblem, status: np.ndarray, max_iterations: int):
-    """Homotopy: solve with friction raised from zero in equal steps, each warm-started by the last."""
-    current, spent = status, 0
-    for friction in problem.friction * np.linspace(0.0, 1.0, HOMOTOPY_STEPS + 1):
-        result, record = run_newton(problem, current, max_iterations, friction=friction, rule=THROUGH_STICK)
-        spent += result[1]
-        if result[0] != CONVERGED:
-            break
-        current = result[5]
-    return (result[0], spent, *result[2:]), record

@@ -15,6 +15,8 @@ from fenics_gears.contact.face import Face, one_slice
 from fenics_gears.contact.places import Touching, touching
 from fenics_gears.dynamics.clock import FOLLOWING, Clock, SteadyClock, TimeScales, time_scales
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.frequencies import Vibration, vibrations
+from fenics_gears.dynamics.guidance import judged_frequency, time_step_warnings
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.effects import check_files, common_period, from_effects
 from fenics_gears.errors import SceneError
@@ -29,7 +31,6 @@ from .resolution import Resolution, locking_warnings, resolution_warnings, resol
 from .storage import Arrays, counted_bytes, packed_bytes, sizes, stored_arrays
 
 if TYPE_CHECKING:
-    from fenics_gears.dynamics.frequencies import Vibration
     from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 
 
@@ -164,8 +165,6 @@ class Model:
         """The drivetrain's elastic modes with one tooth pair in mesh, about; empty without inertia."""
         if self.drivetrain.mass is None:
             return []
-        from fenics_gears.dynamics.frequencies import vibrations
-
         return vibrations(self.drivetrain, mesh_stiffness(self.scene, self.pair), self.scene.friction is not None)
 
     @cached_property
@@ -192,8 +191,6 @@ class Model:
         if self.corner is not None:
             sentences += self.corner.warnings(self.pair)
         if self.vibrations:
-            from fenics_gears.dynamics.guidance import judged_frequency, time_step_warnings
-
             steps = self.resolution.steps_per_mesh_cycle
             judged = judged_frequency(self.vibrations, self.scene.mesh_frequencies)
             sentences += time_step_warnings(self.vibrations, judged, steps, self.time_scales, self.time_step)

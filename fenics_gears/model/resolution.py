@@ -16,6 +16,7 @@ import numpy as np
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.geometry.gear_data import PAIR_STIFFNESS, mean_youngs_modulus
 from fenics_gears.geometry.involute import arc_length, roll_angle_at_arc_length
@@ -227,8 +228,6 @@ def _widest(pair: GearPair) -> float:
 
 def _steps_per_mesh_cycle(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> int:
     """Steps that resolve the mesh cycle and, with inertia, the drivetrain's highest frequency."""
-    from fenics_gears.dynamics.frequencies import natural_frequencies
-
     fewest = scene.fineness.steps_per_mesh_cycle
     if drivetrain.mass is None:
         return fewest

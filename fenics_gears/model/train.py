@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.dynamics.clock import FOLLOWING, SteadyClock, TimeScales
+from fenics_gears.dynamics.frequencies import Vibration, vibrations
+from fenics_gears.dynamics.guidance import time_step_warnings
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.train import TrainDrivetrain, coordinates_of_mesh, drivetrain_of_mesh, train_drivetrain
 from fenics_gears.elasticity.compliance import Reach
@@ -46,7 +48,6 @@ from .train_parts import (
 )
 
 if TYPE_CHECKING:
-    from fenics_gears.dynamics.frequencies import Vibration
     from fenics_gears.dynamics.train_shafts import BentShafts
 
 
@@ -103,8 +104,6 @@ class RowModel(OfMeshes):
         """The elastic modes with one tooth pair in each mesh, about; empty without inertia."""
         if self.drivetrain.mass is None:
             return []
-        from fenics_gears.dynamics.frequencies import vibrations
-
         return vibrations(self.drivetrain, self.mesh_stiffness, self.models[0].scene.friction is not None)
 
     @property
@@ -125,8 +124,6 @@ class RowModel(OfMeshes):
         """Sentences on the motion of all meshes together."""
         if not self.vibrations:
             return []
-        from fenics_gears.dynamics.guidance import time_step_warnings
-
         fastest = max(self.models, key=lambda model: model.scene.motion.mesh_frequency)
         steps = fastest.resolution.steps_per_mesh_cycle
         frequency = fastest.scene.motion.mesh_frequency

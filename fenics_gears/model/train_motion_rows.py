@@ -6,7 +6,7 @@ from math import isfinite
 
 import numpy as np
 
-from fenics_gears.dynamics.frequencies import PERIOD_ERROR
+from fenics_gears.dynamics.frequencies import PERIOD_ERROR, modes
 from fenics_gears.dynamics.guidance import resolved_frequency
 from fenics_gears.scene.train_mesh import gear_names
 
@@ -90,8 +90,6 @@ def frequency_rows(row: RowModel) -> Rows:
 
 def _moving_most(row: RowModel) -> list[str]:
     """Of each elastic mode the motions that have most of the kinetic energy."""
-    from fenics_gears.dynamics.frequencies import modes
-
     drivetrain = row.drivetrain
     frequencies, shapes = modes(drivetrain, row.mesh_stiffness)
     energy = shapes * (drivetrain.mass @ shapes)

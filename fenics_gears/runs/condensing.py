@@ -4,24 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model, model_of
+from fenics_gears.model.train import RowModel, TrainModel
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.train_mesh import gear_names
 from fenics_gears.simulation.bodies import body_key
 from fenics_gears.simulation.root_stress import rows_of
 from fenics_gears.simulation.routes import route_of
-from fenics_gears.system.progress import SilentProgress
-from fenics_gears.system.second_process import threads
+from fenics_gears.simulation.train import condense_shared
 
 from .gear_store import own_gear_store
 from .run import Run
-
-if TYPE_CHECKING:
-    from fenics_gears.model.train import RowModel, TrainModel
 
 # What is condensed of a gear.
 BODY = "body"
@@ -97,15 +94,10 @@ def _keys(model: Model, name: str) -> Iterator[tuple[str, tuple]]:
 def condense(task: GearTask | SharedGearTask, tick: Callable[[], None] | None = None) -> None:
     """Condense a gear into the cache and into this process's store; one of several meshes into the cache."""
     if isinstance(task, SharedGearTask):
-        from fenics_gears.simulation.train import condense_shared
-
         condense_shared(task.row, task.gear, user_cache())
         return
     model = model_of(task.scene)
     if task.part == ROOT_STRESS:
         rows_of(model, task.name, user_cache())
-    elif threads() > 1:
-        # Both at once; the store then has the other one when it is asked for.
-        own_gear_store().bodies(model, SilentProgress(), user_cache())
     else:
         own_gear_store().body(model, task.name, user_cache())

@@ -79,7 +79,7 @@ def scene_key(scene: Scene | TrainScene) -> str:
     program's numbers."""
     if not isinstance(scene, Scene):
         return _train_key(scene)
-    said = ",".join(f'"{name}":{_in_words(getattr(scene, name))}' for name in _SAID)
+    said = ",".join(f'"{name}":{as_json(getattr(scene, name))}' for name in _SAID)
     return hashlib.sha256(f'{{"numbers":{NUMBERS_VERSION},"scene":{{{said}}}}}'.encode()).hexdigest()
 
 
@@ -97,16 +97,3 @@ def _train_key(train: TrainScene) -> str:
 OF_A_TRAIN = ("meshes", "text")
 READ = ("scene", "pair")
 _SAID = sorted({each.name for each in fields(Scene)} - {*WORDS})
-# Sections that scenes have in common are the same objects: those that were put into words last, by identity.
-_MOST_WORDS = 256
-_WORDS: dict[int, tuple[Any, str]] = {}
-
-
-def _in_words(section: Any) -> str:
-    known = _WORDS.get(id(section))
-    if known is None:
-        if len(_WORDS) >= _MOST_WORDS:
-            _WORDS.clear()
-        # It is held as long as its identity is used.
-        known = _WORDS[id(section)] = section, as_json(section)
-    return known[1]

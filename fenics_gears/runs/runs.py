@@ -8,10 +8,11 @@ import functools
 import logging
 import time
 from collections.abc import Callable, Collection, Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 from fenics_gears.errors import GearsError
 from fenics_gears.model.model import Model
+from fenics_gears.model.train import TrainModel
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.simulation.together import alike, can_be_solved_together, solved_together
 from fenics_gears.simulation.warm_up import compile_kernels
@@ -24,11 +25,7 @@ from .run import Run
 from .simulate import settled
 from .spent import Spent
 from .team import Alone, Together
-
-if TYPE_CHECKING:
-    from fenics_gears.model.train import TrainModel
-
-    from .train import RunOfTrain
+from .train import RunOfTrain, train_completed
 
 LOGGER = logging.getLogger(__name__)
 # Runs that are computed together at most, and tasks that each process gets at least.
@@ -176,8 +173,6 @@ def _kept(store: Store, run: Run, result: Any, progress: Progress) -> Any:
 def _computed(model: Model | TrainModel, progress: Progress) -> RunResult | RunOfTrain:
     """The result of a run, whose `wall_time` has the choice of its settings too."""
     if not isinstance(model, Model):
-        from .train import train_completed
-
         return train_completed(model, own_gear_store(), progress)
     chosen = settled(model, progress)
     result = completed(chosen.scene, own_gear_store().prepared, progress, chosen.describe)

@@ -25,6 +25,7 @@ from .line_load import line_loads
 from .panels import PALETTE
 from .plots import heading, save_figures
 from .run import ShownRun
+from .train_shafts import deflections
 
 POINTS_OF_A_CIRCLE = 181
 MICRO = 1e6
@@ -161,8 +162,6 @@ def bent_shafts_of(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     """How the shafts of the train bend; nothing where none does."""
     if "shaft" not in dataset.dims:
         return []
-    from .train_shafts import deflections
-
     return deflections(scene, dataset)
 
 

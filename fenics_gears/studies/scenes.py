@@ -7,7 +7,7 @@ import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fenics_gears.effects import effect_named
 from fenics_gears.errors import SceneError
@@ -15,15 +15,15 @@ from fenics_gears.inputs.problem import NOTHING_DONE, Problem
 from fenics_gears.inputs.section import read
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.model import RELIEFS, Model, model_of, with_reliefs
+from fenics_gears.model.train import TrainModel, train_model_of
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.parsing import is_train, values_of
 from fenics_gears.scene.rules import broken_by_numbers
+from fenics_gears.scene.train import train_of
+from fenics_gears.scene.train_pair import TrainMistakes
 
 from . import fields
 from .axis import Axis, label
-
-if TYPE_CHECKING:
-    from fenics_gears.model.train import TrainModel
 
 # Cases whose scenes and models are held, of 8 kB each.
 MOST_HELD = 1000
@@ -148,10 +148,6 @@ def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Any:
 
 
 def _train_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> TrainModel:
-    from fenics_gears.model.train import train_model_of
-    from fenics_gears.scene.train import train_of
-    from fenics_gears.scene.train_pair import TrainMistakes
-
     try:
         return train_model_of(train_of(tree, as_toml(tree), name, "the train", directory))
     except TrainMistakes as error:

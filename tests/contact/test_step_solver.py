@@ -1,5 +1,5 @@
-"""Newton and its fallbacks, each on a step on which all methods before it fail. Seeds are of 100 000 random problems
-(1 to 8 nodes, friction 0.1 to 2); the methods solved, in their order: 78 697, 13 816, 170, 74, 5733, 123, 1369."""
+"""Newton and its fallbacks, each on a step on which all methods before it fail. Of 30 000 random problems (1 to 8
+nodes, friction 0.1 to 2) the methods solved, in their order, 23 638, 4134, 441 and 1777; ten have no solution."""
 
 from dataclasses import replace
 from itertools import takewhile
@@ -30,12 +30,6 @@ from fenics_gears.model.drivetrain import drivetrain
 NEEDED = [
     ("slip through stick", (6561, 1, 0.1, False)),
     ("slip through stick", (2305, 1, 0.1, True)),
-    ("r x 10", (66111, 2, 0.6, False)),
-    ("r x 10", (92521, 1, 0.6, True)),
-    ("r x 0.1", (22492, 2, 2.0, False)),
-    ("r x 0.1", (1628, 2, 0.6, True)),
-    ("friction from zero", (4570, 1, 0.6, False)),
-    ("friction from zero", (62202, 1, 0.3, True)),
     ("one change at a time", (21300, 2, 2.0, False)),
     ("one change at a time", (85755, 2, 0.6, True)),
     ("Tresca fixed point", (64113, 1, 0.6, False)),

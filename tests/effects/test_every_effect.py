@@ -22,7 +22,6 @@ RUN_HOOKS = ("removal", "gaps", "load", "clock", "results")
 
 # What computes those effects that the march itself knows of; the others' hooks import what computes them.
 METHODS = {
-    "inertia": {"fenics_gears.dynamics.frequencies", "fenics_gears.dynamics.guidance"},
     "friction": {"fenics_gears.contact.uniqueness"},
     "corner_contact": {"fenics_gears.contact.corner", "fenics_gears.geometry.tip_edge"},
     "body_meshes": {"fenics_gears.elasticity.whole_body.condensed", "fenics_gears.contact.whole_body_mesh"},

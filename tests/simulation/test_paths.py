@@ -1,22 +1,17 @@
 """Trains of several paths, whose meshes share the torque."""
 
-from functools import reduce
 from math import asin, degrees, radians, sin
 
 import numpy as np
 import pytest
 from tests.scene.test_paths import loop_of_gears
-from tests.simulation.test_train_motion import BEARINGS, FRICTION, INERTIA, motion
+from tests.simulation.test_train_motion import FRICTION
 from tests.trains import COARSE, gear_text, helical_paths, mate, split_text
 
 from fenics_gears import simulate_train, train_from_text
-from fenics_gears.dynamics.energy_account import account, quadratic
-from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import Stepper
-from fenics_gears.dynamics.steps import Steps
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.train import RowModel, train_model_of
-from fenics_gears.results.contact_variables import energy_of_teeth
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 
@@ -96,30 +91,6 @@ def test_a_path_that_is_turned_back_too_far_carries_nothing():
     assert found["overall_transmission_error"].values == pytest.approx(lag, rel=1e-9)
 
 
-@pytest.mark.parametrize("more", ["", INERTIA + BEARINGS + "[damping]\nratio = 0.04\n" + motion(2000, 1)])
-def test_the_energy_account_of_two_paths_closes(more):
-    """Work of drive, load, friction and damping is the change of kinetic and elastic energy, to round-off, in a loop of
-    meshes of which one shaft is clocked and twists. The compliance of all is symmetric and positive."""
-    shaft = 'clocking = "1e-4 rad"\ntorsional_stiffness = "1e8 N mm/rad"'
-    (model,) = train_model_of(train_from_text(split_text(of_shaft=shaft, more=FRICTION + more))).rows
-    cycle = row_cycle(model, SilentProgress(), None)
-    blocks: list[Steps] = []
-    marcher = Marcher(cycle, model.equations_of_motion)
-    marcher.run(model.steps, 1, observe=lambda solved, so_far: blocks.append(solved))
-    steps = reduce(Steps.followed_by, blocks)
-    drivetrain = model.drivetrain
-    energy = energy_of_teeth(steps) + 0.5 * quadratic(steps.states[:, 0], drivetrain.stiffness)
-    if drivetrain.mass is not None:
-        energy = energy + 0.5 * quadratic(steps.states[:, 1], drivetrain.mass)
-    work = account(drivetrain, model.equations_of_motion.clock, steps, energy)
-    assert work.friction[-1] > 1e-3 * np.ptp(energy)
-    assert np.abs(work.defect).max() < 1e-9 * energy.max()
-    compliance = cycle.position(3).operator.compliance
-    if isinstance(compliance, np.ndarray):
-        assert np.array_equal(compliance, compliance.T)
-        assert np.linalg.eigvalsh(compliance).min() > 0.0
-
-
 def test_torques_balance_on_every_shaft():
     """Without friction the forces of each shaft's meshes, times base radii, add up to nothing, at every step, whatever
     the shares of paths of different teeth are."""
@@ -188,3 +159,11 @@ def errors(model: RowModel, steps: np.ndarray, cache: Cache) -> np.ndarray:
         record = stepper.in_balance(step, cycle.between(step, step - 1))
         found.append(float(drivetrain.angle @ record.state.position))
     return np.array(found)
+
+
+def test_the_compliance_of_a_loop_is_symmetric_and_positive():
+    """Betti's theorem, and the energy of any load, of a loop of meshes."""
+    (model,) = train_model_of(train_from_text(split_text(more=FRICTION))).rows
+    compliance = row_cycle(model, SilentProgress(), None).position(3).operator.compliance
+    assert np.array_equal(compliance, compliance.T)
+    assert np.linalg.eigvalsh(compliance).min() > 0.0

@@ -8,12 +8,10 @@ import pytest
 from tests.trains import COARSE, helical_row, row, stage, two_stages
 
 from fenics_gears import model_of, simulate, simulate_train, train_from_text
-from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.dynamics.train import drivetrain_of_mesh
-from fenics_gears.model.train import RowModel, train_model_of
-from fenics_gears.results.contact_variables import energy_of_teeth
+from fenics_gears.model.train import RowModel
 from fenics_gears.scene.train_mesh import layout_of
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
@@ -108,21 +106,6 @@ def test_an_idler_that_both_meshes_load_is_softer():
     coupled = simulate_train(row([24, 31, 40], [0, 60], 300)).attrs["mean_overall_transmission_error"]
     alone = simulate_train(row([24, 31, 40], [0, 60], 300, accuracy="elastic_teeth = 1"))
     assert coupled > 1.05 * alone.attrs["mean_overall_transmission_error"]
-
-
-@pytest.mark.parametrize("over_face", [False, True])
-def test_the_energy_account_of_a_train_closes(over_face):
-    """Work of drive, load and friction is the change of the teeth's energy, to round-off: also what one mesh displaces
-    in the other a step before has to be counted."""
-    scene = row([24, 31, 40], [0, 60], 300, more=FRICTION.format(0.1))
-    if over_face:
-        scene = helical_row([24, 31, 40], [0, 60], 300, more="[stages.row.friction]\ncoefficient = 0.1")
-    (model,) = train_model_of(scene).rows
-    steps = marched(model)
-    energy = energy_of_teeth(steps)
-    work = account(model.drivetrain, model.models[0].clock, steps, energy)
-    assert work.friction[-1] > 0.01 * energy.max()
-    assert np.abs(work.defect).max() < 1e-9 * energy.max()
 
 
 def test_results_of_different_stages_stand_side_by_side():

@@ -1,7 +1,5 @@
 """Trains whose shafts bend, with several gears and bearings at places, in whole runs."""
 
-from functools import reduce
-
 import numpy as np
 import pytest
 from tests.trains import (
@@ -15,13 +13,6 @@ from tests.trains import (
 )
 
 from fenics_gears import scene_from_text, simulate, simulate_train, train_from_text
-from fenics_gears.dynamics.energy_account import account, quadratic
-from fenics_gears.dynamics.march import Marcher
-from fenics_gears.dynamics.steps import Steps
-from fenics_gears.model.train import train_model_of
-from fenics_gears.results.contact_variables import energy_of_teeth
-from fenics_gears.simulation.train import row_cycle
-from fenics_gears.system.progress import SilentProgress
 
 ACCURACY = """
     [accuracy]
@@ -177,29 +168,6 @@ def test_stages_on_a_stiff_shaft_are_pairs_and_depart_as_it_gives_way():
         once, twice = (np.nan_to_num(parts[each][name].values - wanted) for each in (1e-4, 2e-4))
         assert np.abs(once).max() > 5e-6 * size
         assert twice == pytest.approx(2.0 * once, abs=3e-4 * np.abs(twice).max())
-
-
-@pytest.mark.parametrize("paths", [1, pytest.param(2, marks=pytest.mark.nightly)])
-def test_the_energy_account_on_shafts_that_bend_closes(paths):
-    """Work of drive, load, friction and damping is the change of kinetic and elastic energy, to round-off: with a shaft
-    that bends between two gears, its mass and its own modes; and in two paths that share unevenly."""
-    more = f'{INERTIA}[damping]\nratio = 0.04\n[friction]\ncoefficient = 0.08\n[bearings]\nstiffness = "2e5 N/mm"\n'
-    more += '[motion]\ninput_speed = "2000 rpm"\nmesh_cycles = 2\n'
-    scene = bent_two_stages(1.0, more)
-    if paths == 2:
-        scene = train_from_text(bent_paths(1.0, 'clocking = "1e-4 rad"\n', more))
-    (model,) = train_model_of(scene).rows
-    drivetrain = model.drivetrain
-    assert paths == 2 or drivetrain.modes > 2
-    blocks: list[Steps] = []
-    march = Marcher(row_cycle(model, SilentProgress(), None), model.equations_of_motion)
-    march.run(model.steps, 1, observe=lambda solved, so_far: blocks.append(solved))
-    steps = reduce(Steps.followed_by, blocks)
-    elastic = energy_of_teeth(steps) + 0.5 * quadratic(steps.states[:, 0], drivetrain.stiffness)
-    energy = elastic + 0.5 * quadratic(steps.states[:, 1], drivetrain.mass)
-    work = account(drivetrain, model.equations_of_motion.clock, steps, energy)
-    assert min(work.friction[-1], work.damping[-1]) > 1e-3 * np.ptp(energy)
-    assert np.abs(work.defect).max() < 1e-9 * energy.max()
 
 
 def test_slow_shafts_with_masses_bend_as_at_rest():

@@ -5,6 +5,7 @@ from contextlib import closing
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
+from fenics_gears.results.mesh_of_train import carried_train, mesh_run
 from fenics_gears.show.run import scene_of
 from fenics_gears.show.stress_animation import animate, check_suffix, save_series
 from fenics_gears.show.stress_grid import save_vtu
@@ -59,8 +60,6 @@ def _written(options, dataset, scene, index: int, output: Path | None, progress)
 def _of_stages(options: argparse.Namespace, file: Path, dataset) -> int:
     """Draw each stage of two gears of a train, in a folder by its name. Bodies of idlers have the forces of two meshes,
     which are not drawn."""
-    from fenics_gears.results.mesh_of_train import carried_train, mesh_run
-
     train = carried_train(dataset)
     if options.output is not None or options.vtu is not None or options.pvd is not None:
         raise SceneError(f"--output, --vtu and --pvd are for the run of a pair. {stages_beside(file)}")

@@ -16,6 +16,7 @@ from fenics_gears.show.report.page import Page
 from fenics_gears.show.report.rendering import rendered
 from fenics_gears.show.report.run_page import run_page
 from fenics_gears.show.report.study_page import study_page
+from fenics_gears.show.report.train_page import train_page
 from fenics_gears.show.run import ShownRun
 from fenics_gears.simulation.stored_forces import stored_index
 from fenics_gears.studies.combine import load_combined
@@ -111,9 +112,6 @@ def _run(options: argparse.Namespace, file: Path, writing: _Writing, progress) -
     if of_train(dataset):
         if options.effects or options.at is not None:
             raise SceneError(f"--effects and --at are for the run of a pair. {stages_beside(file)}")
-        # Pages on pairs need none of it.
-        from fenics_gears.show.report.train_page import train_page
-
         return [writing.write(train_page(dataset, file, progress), dataset.attrs)]
     run = ShownRun(dataset, file, at=options.at, stress=not options.no_stress)
     written = []

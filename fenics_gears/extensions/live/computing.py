@@ -18,7 +18,9 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from fenics_gears import GearsError, simulate
-from fenics_gears.many_runs import GearStore, Progress, save
+from fenics_gears.charts import draw_run
+from fenics_gears.many_runs import CommonWindows, GearStore, Progress, save
+from fenics_gears.pages import run_report
 from fenics_gears.scene_text import Models, NoScene
 
 from .shown import shown
@@ -70,7 +72,7 @@ class Computing:
     def __init__(self, connection: Connection, name: str, directory: str):
         self._connection = connection
         self._models = Models(name, Path(directory))
-        self._grids: dict[tuple, Any] = {}
+        self._windows = CommonWindows()
         self._store = GearStore()
         self._name = name
         self._result: Any = None
@@ -123,12 +125,12 @@ class Computing:
         self._connection.send(own | answer)
 
     def _run(self, work: Work) -> dict[str, Any]:
-        model = self._models.of(work.tree)
+        models = [self._models.of(work.tree)]
         for tree in work.reach:
             # A slider may go where there is no scene.
             with suppress(NoScene):
-                self._on_common_grid(self._models.of(tree))
-        model = self._on_common_grid(model)
+                models.append(self._models.of(tree))
+        model = self._windows.of(models)[0]
         if work.steps is not None:
             model = replace(model, resolution=replace(model.resolution, steps_per_mesh_cycle=work.steps))
         told = Told(self._connection.send, work.number, self._newer)
@@ -138,19 +140,6 @@ class Computing:
         self._result = result
         return {"kind": "result", "first_look": work.steps is not None} | shown(result, model.pair)
 
-    def _on_common_grid(self, model: Any) -> Any:
-        """The model with the longest contact window that these gears have needed so far: then all share contact
-        operators. What lies beyond its own window stays open."""
-        resolution = model.resolution
-        grid = resolution.contact_grid
-        key = model.scene.gears, resolution.flank_element_size, grid.interpolation, grid.inner_length is None
-        longest = self._grids.get(key, grid)
-        if grid.length > longest.length:
-            longest = replace(grid, inner_length=longest.inner_length)
-        inner = None if grid.inner_length is None else max(grid.inner_length, longest.inner_length)
-        self._grids[key] = longest = replace(longest, inner_length=inner)
-        return replace(model, resolution=replace(resolution, contact_grid=longest))
-
     def _file(self, work: Work) -> dict[str, Any]:
         """A file that the page has asked for."""
         if self._result is None:
@@ -159,8 +148,6 @@ class Computing:
 
 
 def _pictures(result: Any, name: str) -> bytes:
-    from fenics_gears.charts import draw_run
-
     packed = io.BytesIO()
     with TemporaryDirectory() as folder, zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
         for file in draw_run(result, Path(folder)):
@@ -169,8 +156,6 @@ def _pictures(result: Any, name: str) -> bytes:
 
 
 def _report(result: Any, name: str) -> bytes:
-    from fenics_gears.pages import run_report
-
     return _of_saved(result, name, lambda file: run_report(result, file).encode())
 
 

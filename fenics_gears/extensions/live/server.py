@@ -14,6 +14,7 @@ from typing import Any
 from aiohttp import WSCloseCode, WSMsgType, web
 
 from fenics_gears import SceneError, as_toml
+from fenics_gears.pages import colours
 from fenics_gears.scene_text import Models, Tree
 
 from .computing import FILES, PICTURES, REPORT, RESULT, Work
@@ -88,7 +89,8 @@ class LiveServer:
 
     async def _own(self, request: web.Request) -> web.Response:
         name = request.match_info["name"]
-        return web.Response(text=_own_file(name), content_type=TYPES[name[name.rindex(".") :]])
+        shared = colours() if name.endswith(".css") else ""
+        return web.Response(text=shared + _own_file(name), content_type=TYPES[name[name.rindex(".") :]])
 
     async def _plotly(self, request: web.Request) -> web.Response:
         return web.Response(text=_plotly_library(), content_type="text/javascript")

@@ -14,16 +14,16 @@ TARGET = ("accuracy", "target")
 
 
 def settled(tree: Tree, model: Any, models: Models) -> Tree:
-    """The scene with the size of its flank elements, and in the plane with a contact window that does for all sliders,
-    where it has none of its own and no target."""
+    """The scene with the size of its flank elements and a contact window that does for all sliders, where it has none
+    of its own and no target."""
     scene = model.scene
     if not scene.resolves_contact or value_at(tree, *TARGET) is not None:
         return tree
     if value_at(tree, *SIZE) is None:
         tree = fields.changed(tree, SIZE, f"{model.resolution.flank_element_size:.3g} mm")
-    if value_at(tree, *LENGTH) is None and not scene.three_dimensional:
+    if value_at(tree, *LENGTH) is None:
         # A slider may go where there is no scene.
-        lengths = [_length(models, other) for other in (tree, *reach(tree, controls_of(tree, False)))]
+        lengths = [_length(models, other) for other in (tree, *reach(tree, controls_of(tree, scene.three_dimensional)))]
         tree = fields.changed(tree, LENGTH, f"{max(lengths):.3g} mm")
     return tree
 

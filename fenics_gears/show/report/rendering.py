@@ -14,6 +14,7 @@ from .interactive import figure, height
 from .page import Beside, Block, Fold, Page
 
 TEMPLATE = "page.html"
+COLOURS = "colours.css"
 STYLE = "page.css"
 SCRIPT = "page.js"
 
@@ -36,7 +37,7 @@ def rendered(page: Page) -> str:
     environment.filters["kind"] = lambda block: type(block).__name__
     drawn = any(_has_chart(block) for section in page.sections for block in section.blocks)
     return environment.from_string(_own_file(TEMPLATE)).render(
-        page=page, style=Markup(_own_file(STYLE)), script=Markup(_own_file(SCRIPT)),
+        page=page, style=Markup(colours() + _own_file(STYLE)), script=Markup(_own_file(SCRIPT)),
         library=Markup(plotly_library()) if drawn else "", drawn=drawn,
     )  # fmt: skip
 
@@ -54,6 +55,11 @@ def plotly_library() -> str:
 
 def _has_chart(block: Block) -> bool:
     return any(map(_has_chart, block.blocks)) if isinstance(block, Fold | Beside) else isinstance(block, Chart)
+
+
+def colours() -> str:
+    """The colours and the font of pages, CSS of `:root`."""
+    return _own_file(COLOURS)
 
 
 def _own_file(name: str) -> str:

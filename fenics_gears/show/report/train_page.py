@@ -7,6 +7,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from fenics_gears.model.train import train_model_of
 from fenics_gears.model.train_motion_rows import Rows, frequency_rows, motion_rows
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
 from fenics_gears.results.overall_orders import overall_orders
@@ -24,6 +25,7 @@ from ..panels import digits, factor
 from ..pressure import has_pressure, largest_pressures
 from ..run import ShownRun
 from ..train import bent_shafts_of, drawing_of, errors, orders
+from ..train_shafts import bearing_rows
 from .face import FACTORS
 from .origin import made_by, scene_section, version_section
 from .overview import warnings
@@ -69,8 +71,6 @@ def _shafts(dataset: xr.Dataset, train: TrainScene) -> list[PageSection]:
     charts = bent_shafts_of(train, dataset)
     if not charts:
         return []
-    from ..train_shafts import bearing_rows
-
     headings = ("Bearing", "Place (mm)", "To the right (N)", "Upwards (N)", "Axial (N)", "Largest (N)")
     table = Table(headings, bearing_rows(dataset), "Mean forces of the shafts on their bearings", numbers=1)
     return [PageSection("shafts", "Shafts that bend", [*charts, table])]
@@ -80,8 +80,6 @@ def _frequencies(train: TrainScene) -> list[PageSection]:
     """Natural frequencies of a train with inertia."""
     if train.meshes[0].scene.inertia is None:
         return []
-    from fenics_gears.model.train import train_model_of
-
     (row,) = train_model_of(train).rows
     facts = [
         Facts(_said(motion_rows(row)), "Masses and shafts"),

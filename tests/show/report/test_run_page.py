@@ -251,5 +251,5 @@ def test_an_installed_copy_has_the_template():
         for file in (CHECKOUT / "fenics_gears" / "show" / "report").iterdir()
         if file.is_file() and file.suffix != ".py"
     ]
-    assert {"page.html", "page.css", "page.js"} <= {file.name for file in files}
+    assert {"page.html", "colours.css", "page.css", "page.js"} <= {file.name for file in files}
     assert all(any(fnmatch(file.name, pattern) for pattern in wanted) for file in files)

@@ -1,0 +1,80 @@
+"""Energy accounts of trains: work of drive, load, friction and damping is the change of kinetic and elastic energy."""
+
+from collections.abc import Callable
+from functools import reduce
+
+import numpy as np
+import pytest
+from tests.simulation.test_train_motion import BEARINGS, FRICTION, INERTIA, motion, shaft
+from tests.simulation.test_train_shafts import bent_paths, bent_two_stages
+from tests.trains import COARSE, helical_row, row, row_section, split_text, stage
+
+from fenics_gears import train_from_text
+from fenics_gears.dynamics.energy_account import account, quadratic
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.steps import Steps
+from fenics_gears.model.train import train_model_of
+from fenics_gears.results.contact_variables import energy_of_teeth
+from fenics_gears.scene.train import TrainScene
+from fenics_gears.simulation.train import row_cycle
+from fenics_gears.system.progress import SilentProgress
+
+MOVING = f"{INERTIA}{BEARINGS}[damping]\nratio = 0.04\n{motion(2000, 2)}"
+
+
+def helical_idler() -> TrainScene:
+    return helical_row([24, 31, 40], [0, 60], 300, more="[stages.row.friction]\ncoefficient = 0.1")
+
+
+def stages_behind_an_idler() -> TrainScene:
+    """A shaft that twists between two stages, and bearings."""
+    idlers = row_section((20, 25, 30), (0, 50), module=2, bore=20)
+    more = MOVING + FRICTION + shaft("middle", '"row.3", "second.pinion"', 1e8) + shaft("end", '"second.wheel"', 2e8)
+    load = f'[load]\noutput_torque = "400 N m"\n[accuracy]\n{COARSE}\n'
+    return train_from_text(idlers + stage("second", 3.0, (20, 40)) + load + more)
+
+
+def clocked_paths(more: str = "") -> TrainScene:
+    shaft = 'clocking = "1e-4 rad"\ntorsional_stiffness = "1e8 N mm/rad"'
+    return train_from_text(split_text(of_shaft=shaft, more=FRICTION + more))
+
+
+def bent_clocked_paths() -> TrainScene:
+    return train_from_text(bent_paths(1.0, 'clocking = "1e-4 rad"\n', MOVING + FRICTION))
+
+
+CASES = {
+    "idler": (lambda: row([24, 31, 40], [0, 60], 300, more=FRICTION), 1e9),
+    "helical idler": (helical_idler, 1e9),
+    "stages behind an idler": (stages_behind_an_idler, 1e9),
+    "no positions kept": (stages_behind_an_idler, 0.0),
+    "clocked paths": (clocked_paths, 1e9),
+    "clocked paths that move": (lambda: clocked_paths(MOVING), 1e9),
+    "shafts that bend": (lambda: bent_two_stages(1.0, MOVING + FRICTION), 1e9),
+    "paths on shafts that bend": (bent_clocked_paths, 1e9),
+}
+LONG = {"paths on shafts that bend"}
+
+
+@pytest.mark.parametrize(
+    ("train", "memory"),
+    [pytest.param(*case, id=name, marks=[pytest.mark.nightly] * (name in LONG)) for name, case in CASES.items()],
+)
+def test_the_account_closes(train: Callable[[], TrainScene], memory: float):
+    """Identity, to round-off: also of what one mesh displaces in another a step before, of a shaft that twists or bends
+    by its own modes between two gears, and where there is no memory to keep positions."""
+    (model,) = train_model_of(train()).rows
+    drivetrain = model.drivetrain
+    cycle = row_cycle(model, SilentProgress(), None)
+    cycle.share(memory)
+    blocks: list[Steps] = []
+    march = Marcher(cycle, model.equations_of_motion)
+    march.run(model.steps, 1, observe=lambda solved, so_far: blocks.append(solved))
+    steps = reduce(Steps.followed_by, blocks)
+    energy = energy_of_teeth(steps) + 0.5 * quadratic(steps.states[:, 0], drivetrain.stiffness)
+    if drivetrain.mass is not None:
+        energy = energy + 0.5 * quadratic(steps.states[:, 1], drivetrain.mass)
+    work = account(drivetrain, model.equations_of_motion.clock, steps, energy)
+    least = work.friction[-1] if drivetrain.mass is None else min(work.friction[-1], work.damping[-1])
+    assert least > 1e-3 * np.ptp(energy)
+    assert np.abs(work.defect).max() < 1e-9 * energy.max()
