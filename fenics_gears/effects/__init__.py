@@ -12,6 +12,8 @@ from importlib import import_module
 from math import inf, lcm
 from typing import Any
 
+from fenics_gears.inputs.tree import GEARS
+
 from .effect import OF_GEARS, OF_NODES, OF_PAIRS, OF_POINTS, OF_SLICES, OF_TIME, Effect, ResultVariable, variables
 
 # Effects by their sections, which are their modules' names: those at the top of a scene, and all.
@@ -163,8 +165,8 @@ def without(scene, *sections: str):
     changed = replace(scene, **{name: None for name in sections if name in AT_THE_TOP})
     if "tooth_elasticity" not in sections:
         return changed
-    pinion, wheel = (replace(gear, material=None) for gear in (scene.gears.pinion, scene.gears.wheel))
-    return replace(changed, gears=replace(scene.gears, material=None, pinion=pinion, wheel=wheel))
+    own = {name: replace(getattr(scene.gears, name), material=None) for name in GEARS}
+    return replace(changed, gears=replace(scene.gears, material=None, **own))
 
 
 def missing_needs(sections: Collection[str]) -> list[tuple[Effect, str]]:

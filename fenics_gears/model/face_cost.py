@@ -47,12 +47,12 @@ WITH_FRICTION = 3.0
 def _size(model: Model, number: int):
     """Of a gear's body."""
     both = model.scene.coast_flanks is not None
-    return expected_size((model.pair.pinion, model.pair.wheel)[number], face_discretisation(model, number), both)
+    return expected_size(model.pair.gears[number], face_discretisation(model, number), both)
 
 
 def _condensing(model: Model, number: int):
     """What it takes to condense a gear's body."""
-    gear = (model.pair.pinion, model.pair.wheel)[number]
+    gear = model.pair.gears[number]
     division = face_discretisation(model, number)
     both = model.scene.coast_flanks is not None
     return expected_condensing(gear, division, model.touching.reach.farthest, both)
@@ -61,7 +61,7 @@ def _condensing(model: Model, number: int):
 def both_at_once(model: Model) -> bool:
     """Whether the bodies of both gears differ, and can be condensed at the same time in the memory that the run may
     take."""
-    gears = zip((model.pair.pinion, model.pair.wheel), model.scene.gears.materials)
+    gears = zip(model.pair.gears, model.scene.gears.materials)
     if len({(gear, material, face_discretisation(model, number)) for number, (gear, material) in enumerate(gears)}) < 2:
         return False
     return 2 * CONDENSING_PROGRAM + sum(_condensing(model, number).memory for number in range(2)) <= allowed_memory()
@@ -87,7 +87,7 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
         bodies.append((f"the {name}'s body", size.unknowns))
         ways.append((f"the {name}'s body", f"{own.memory / 1e9:.3g} GB"))
         condensing += UNKNOWN * size.unknowns + MULTIPLICATION * own.operations
-        gear = (model.pair.pinion, model.pair.wheel)[number]
+        gear = model.pair.gears[number]
         division = face_discretisation(model, number)
         condensing += NEAR_UNKNOWN * sum(near_unknowns(gear, division, model.scene.coast_flanks is not None))
         # The flanks' compliance by heights, and by slices for teeth ahead and behind.

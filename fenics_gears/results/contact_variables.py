@@ -20,6 +20,7 @@ from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.energy_account import account, mean_load, quadratic
 from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps, forces_at, in_block, operator_at, smallest_openings
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
 
 from .side_by_side import SideBySide
@@ -164,7 +165,7 @@ def watched_contact(nodes: SideBySide) -> Values:
     }
     if nodes.cycle.traits.has_pressure:
         pressed = nodes.normal > NO_FORCE
-        edges = [f"on the {gear}'s {edge}" for edge in ("tip", "form circle") for gear in ("pinion", "wheel")]
+        edges = [f"on the {gear}'s {edge}" for edge in ("tip", "form circle") for gear in GEARS]
         watched |= {name: nodes.any(on & pressed) for name, on in zip(edges, nodes.of("on_edge"))}
     return watched
 

@@ -27,8 +27,8 @@ def gear_bodies(model: Model, progress: Progress, cache: Cache | None) -> Bodies
         for name in GEARS:
             progress.stage(f"condense {name}")
             sections.append(_section(model, name, cache))
-        pinion, wheel = map(Body.of, sections, solids())
-        return pinion, wheel
+        first, second = map(Body.of, sections, solids())
+        return first, second
 
 
 def gear_body(model: Model, name: str, cache: Cache | None) -> Body:

@@ -158,7 +158,7 @@ class RunStresses:
 
     def _gear(self, gear: int, stored: StoredForces, motion: np.ndarray) -> GearInSpace:
         recovery = self.recoveries[gear]
-        data = (self.model.pair.pinion, self.model.pair.wheel)[gear]
+        data = self.model.pair.gears[gear]
         forces = stored.on_flanks(self.model, gear, recovery.heights)
         body = recovery.recovered(forces, self._sectors(data, forces))
         centre, turns, places = self._standing(gear, stored.phase)
@@ -226,7 +226,7 @@ class RunStresses:
 
 
 def recovery_of(model: Model, gear: int) -> GearRecovery:
-    data = (model.pair.pinion, model.pair.wheel)[gear]
+    data = model.pair.gears[gear]
     material = model.scene.gears.materials[gear]
     return gear_recovery(data, material, discretisation_of(model, gear), model.scene.coast_flanks is not None)
 
