@@ -12,8 +12,6 @@ from importlib import import_module
 from math import inf, lcm
 from typing import Any
 
-from fenics_gears.inputs.tree import GEARS
-
 from .effect import OF_GEARS, OF_NODES, OF_PAIRS, OF_POINTS, OF_SLICES, OF_TIME, Effect, ResultVariable, variables
 
 # Effects by their sections, which are their modules' names: those at the top of a scene, and all.
@@ -165,8 +163,7 @@ def without(scene, *sections: str):
     changed = replace(scene, **{name: None for name in sections if name in AT_THE_TOP})
     if "tooth_elasticity" not in sections:
         return changed
-    own = {name: replace(getattr(scene.gears, name), material=None) for name in GEARS}
-    return replace(changed, gears=replace(scene.gears, material=None, **own))
+    return replace(changed, gears=scene.gears.changed(lambda gear: replace(gear, material=None), material=None))
 
 
 def missing_needs(sections: Collection[str]) -> list[tuple[Effect, str]]:

@@ -64,7 +64,7 @@ class BodyMeshes(Section, PerGear):
 
 
 def located(meshes: BodyMeshes, directory: Path) -> BodyMeshes:
-    return BodyMeshes(*(each and _located(each, directory) for each in meshes.of_gears))
+    return meshes.changed(lambda file: file and _located(file, directory))
 
 
 def _located(file: MeshFile, directory: Path) -> MeshFile:

@@ -20,7 +20,7 @@ LEAST_MEASURED = 0.8
 
 def located(errors: FlankErrors, directory: Path) -> FlankErrors:
     """The errors with the values of their tables, whose paths start at a directory."""
-    return replace(errors, **{gear: _with_table(getattr(errors, gear), directory) for gear in GEARS})
+    return errors.changed(lambda own: _with_table(own, directory))
 
 
 def _with_table(errors: GearErrors, directory: Path) -> GearErrors:

@@ -15,6 +15,7 @@ from fenics_gears.inputs.tree import GEARS
 from .gear import Gear, transverse_gear
 from .gear_checks import Impossible, check_gear
 from .gear_data import GearPairData
+from .helix import Helix
 from .involute import inverse_involute, involute_function
 from .pair_checks import check_pair
 from .side import Side
@@ -25,19 +26,6 @@ WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
 REACH_OF_TEETH = 1.1
 REACH_OF_BODY = 1.6
 DEPTH_OF_BODY = 7.0
-
-
-@dataclass(frozen=True)
-class Helix:
-    """`angle`, rad, at the reference cylinders, positive; `pinion_hand`: "right" or "left", the wheel has the other."""
-
-    angle: float
-    pinion_hand: str = "right"
-
-    @property
-    def sign(self) -> float:
-        """1 for a right-hand pinion, -1 for a left-hand one."""
-        return 1.0 if self.pinion_hand == "right" else -1.0
 
 
 @dataclass(frozen=True)
@@ -139,6 +127,10 @@ class GearPair:
     def rotation_ratio(self) -> float:
         """Teeth of the pinion over teeth of the wheel."""
         return self.pinion.teeth / self.wheel.teeth
+
+    def force_of(self, torque: float) -> float:
+        """Force (N) along the line of action that carries a torque (N mm) on the wheel, whichever way it acts."""
+        return abs(torque / self.wheel.base_radius)
 
     @cached_property
     def base_pitch(self) -> float:
