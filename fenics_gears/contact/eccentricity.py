@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from fenics_gears.inputs.fields import quantity
+from fenics_gears.inputs.per_gear import PerGear
 from fenics_gears.inputs.section import Section
 
 
@@ -44,7 +45,7 @@ class Offset(Section):
 
 
 @dataclass(frozen=True)
-class Eccentricity(Section):
+class Eccentricity(Section, PerGear):
     """``[eccentricity]``."""
 
     empty = (

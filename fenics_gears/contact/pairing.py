@@ -3,10 +3,12 @@ layer for contact nodes that elasticity cannot tell apart."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Hashable, Sequence
 
 import numpy as np
 from scipy.linalg.lapack import dpstrf
+
+from fenics_gears.elasticity.compliance import BetweenFlanks
 
 from .compliance_product import NO_FLANK, OWN, compliance_products, directions
 from .operator import Passage, Response
@@ -42,16 +44,39 @@ def of_full_rank(compliance: np.ndarray) -> tuple[np.ndarray, int]:
 Flank = tuple[int, int]
 
 
+# A flank, its number in a FlankTable, and the place of its first contact node among all at a position.
+Numbered = tuple[Flank, int, int]
+
+
 class Blocks:
-    """Compliance blocks as compiled code finds them, each by a key."""
+    """Compliance of a body between its flanks as compiled code finds it."""
 
     def __init__(self) -> None:
         self._known: dict[Hashable, tuple[tuple[int, int, int], np.ndarray]] = {}
 
-    def of(self, key: Hashable, block: Callable[[], np.ndarray]) -> tuple[int, int, int]:
-        """Address, size and columns of the `block` of a key."""
+    def products(
+        self, body: BetweenFlanks, responding: list[Numbered], now: list[Numbered], before: list[Numbered]
+    ) -> list[tuple[int, ...]]:
+        """What is to be multiplied at a position, as `compliance_products` takes it: flanks of a body that are
+        responding by those that are loaded `now` or were a step `before`."""
+        loads = matched(now, before)
+        products = []
+        for flank, own, place in responding:
+            for other, loaded, at, loaded_before, at_before in loads:
+                if at > place:
+                    # By symmetry.
+                    loaded = NO_FLANK
+                if loaded != NO_FLANK or loaded_before != NO_FLANK:
+                    block = self._between(body, flank, other)
+                    products.append((*block, own, loaded, loaded_before, place, at, at_before))
+        return products
+
+    def _between(self, body: BetweenFlanks, responding: Flank, loaded: Flank) -> tuple[int, int, int]:
+        """Address, size and columns of the compliance of one flank under forces on another."""
+        teeth, sides = zip(responding, loaded)
+        key = body.key(*teeth), sides
         if key not in self._known:
-            found = np.ascontiguousarray(block())
+            found = np.ascontiguousarray(body.between(*teeth, sides))
             # With the block itself, which holds the memory.
             self._known[key] = (found.ctypes.data, found.size, found.shape[1]), found
         return self._known[key][0]
@@ -72,12 +97,6 @@ class CompliancePairing:
             compliance, dependent = of_full_rank(compliance)
             of_passages.append(Response(compliance, before, dependent))
         return of_passages
-
-    def _block(self, gear: int, responding: Flank, loaded: Flank) -> tuple[int, int, int]:
-        """Address, size and columns of the compliance of one flank under forces on another."""
-        body = self.flanks.compliance[gear]
-        teeth, sides = zip(responding, loaded)
-        return self._blocks[gear].of((body.key(*teeth), sides), lambda: body.between(*teeth, sides))
 
     def compliances(self, passages: Sequence[Passage]) -> list[tuple[np.ndarray, np.ndarray | None]]:
         """Sum over both gears of `N A N^T`, mm/N, at the end of each passage: C (m, m) between the nodes of its pairs,
@@ -100,27 +119,13 @@ class CompliancePairing:
             before = np.zeros((2 * nodes_before, nodes))
             positions.append((compliance.ctypes.data, before.ctypes.data, nodes, nodes_before))
             matrices.append((compliance, before.T if tangential else None))
-            for side in self.flanks.pair.sides:
-                new = self._products(side.number, *(flanks.of(each or (), side.number) for each in passage[:2]))
+            for side, body, blocks in zip(self.flanks.pair.sides, self.flanks.compliance, self._blocks):
+                now, earlier = (flanks.of(each or (), side.number) for each in passage[:2])
+                new = blocks.products(body, now, now, earlier)
                 products += [(number, *each) for each in new]
                 back += [side.turn * passage.advance] * len(new)
         add_products(positions, flanks, (products, back), tangential, self.flanks.pair.face_width)
         return matrices
-
-    def _products(self, gear: int, now: list[Numbered], before: list[Numbered]) -> list[tuple[int, ...]]:
-        """What is to be multiplied of a gear at a position, as `compliance_products` takes it: responding flanks by the
-        flanks that are loaded now or were a step before."""
-        loads = matched(now, before)
-        products = []
-        for flank, own, place in now:
-            for other, loaded, at, loaded_before, at_before in loads:
-                if at > place:
-                    # By symmetry.
-                    loaded = NO_FLANK
-                if loaded != NO_FLANK or loaded_before != NO_FLANK:
-                    block = self._block(gear, flank, other)
-                    products.append((*block, own, loaded, loaded_before, place, at, at_before))
-        return products
 
 
 def add_products(
@@ -141,10 +146,6 @@ def add_products(
         (np.array(positions), flanks.table, table), np.concatenate(flanks.near), np.concatenate(flanks.first),
         flanks.axes(tangential), responding / face_width,
     )  # fmt: skip
-
-
-# A flank, its number in a FlankTable, and the place of its first contact node among all at a position.
-Numbered = tuple[Flank, int, int]
 
 
 def matched(now: list[Numbered], before: list[Numbered]) -> list[tuple[Flank, int, int, int, int]]:

@@ -27,7 +27,7 @@ class RunOut:
 
     def __init__(self, pair: GearPair, eccentricity: Eccentricity, steps: int):
         self._steps = steps
-        each = zip(pair.sides, (eccentricity.pinion, eccentricity.wheel), pair.face_widths)
+        each = zip(pair.sides, eccentricity.of_gears, pair.face_widths)
         self._gears = [(side, offset, width) for side, offset, width in each if offset is not None]
         self._rows = PerPosition(_rows)
 

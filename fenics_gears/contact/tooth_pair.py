@@ -9,7 +9,7 @@ from itertools import accumulate
 import numpy as np
 from numba import njit
 
-from fenics_gears.elasticity.compliance import FlankCompliance
+from fenics_gears.elasticity.compliance import FlankBody
 from fenics_gears.geometry.pair import GearPair
 
 from .flank_at_height import points_of_pairs
@@ -27,7 +27,7 @@ class Flanks:
     """
 
     pair: GearPair
-    compliance: tuple[FlankCompliance, FlankCompliance]
+    compliance: tuple[FlankBody, FlankBody]
     removal: tuple[Removal | None, Removal | None] = (None, None)
 
 

@@ -6,14 +6,13 @@ few cycles in which it can be in mesh.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.elasticity.compliance import FlankCompliance
-from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
+from fenics_gears.elasticity.compliance import FlankBody
 from fenics_gears.geometry.side import Side
 
 from .mesh import Mesh, elastic_mesh
@@ -29,36 +28,6 @@ if TYPE_CHECKING:
 # The effect of a crack on the next teeth falls by about half from tooth to tooth.
 ALIKE = 1e-4
 SAME_ROLL = 1e-9
-
-
-@dataclass(frozen=True)
-class TeethInMesh:
-    """A body in a mesh cycle: teeth are counted counter-clockwise from `first`, the body's tooth in drive pair 0."""
-
-    body: WholeBodyCompliance
-    first: int
-
-    @property
-    def flanks(self) -> int:
-        """Working flanks of a tooth."""
-        return self.body.flanks
-
-    @property
-    def element_order(self) -> int:
-        """Order of the displacement along a flank element."""
-        return self.body.element_order
-
-    def rolls_of(self, tooth: int) -> np.ndarray:
-        """Roll angles (n,), rad, of the flank nodes of a tooth."""
-        return self.body.rolls_of(self.first + tooth)
-
-    def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
-        """Compliance of one tooth's flank under forces on another's; sides: as of `FlankCompliance`."""
-        return self.body.between(self.first + responding, self.first + loaded, sides)
-
-    def key(self, responding: int, loaded: int) -> tuple[int, int]:
-        """Key of the compliance between two teeth."""
-        return (self.first + responding) % self.body.teeth, (self.first + loaded) % self.body.teeth
 
 
 def whole_body_mesh(flanks: Flanks, grid: ContactGrid, steps: int, corner: CornerContact | None = None) -> Mesh:
@@ -133,7 +102,7 @@ class MeshesAlike:
     def _made(self, first: tuple[int, int]) -> tuple[tuple, Mesh]:
         """Both gears as that mesh cycle meets them, and its mesh."""
         bodies = tuple(
-            body if body.alike else TeethInMesh(body, tooth) for body, tooth in zip(self._flanks.compliance, first)
+            body if body.alike else body.counted_from(tooth) for body, tooth in zip(self._flanks.compliance, first)
         )
         flanks = Flanks(self._flanks.pair, bodies, self._flanks.removal)
         made = elastic_mesh(flanks, self._grid, self._corner, CompliancePairing(flanks, self._blocks))
@@ -142,7 +111,7 @@ class MeshesAlike:
                 return bodies, replace(made, nodes=mesh.nodes)
         return bodies, made
 
-    def _same_nodes(self, one: tuple[FlankCompliance, ...], other: tuple[FlankCompliance, ...]) -> bool:
+    def _same_nodes(self, one: tuple[FlankBody, ...], other: tuple[FlankBody, ...]) -> bool:
         """Whether flank nodes of all teeth in mesh are at the same roll angles, so that interpolations are alike."""
         bodies = zip(one, other, self._teeth)
         return all(same_rolls(a.rolls_of(tooth), b.rolls_of(tooth)) for a, b, teeth in bodies for tooth in teeth)

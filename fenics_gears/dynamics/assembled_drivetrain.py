@@ -15,9 +15,10 @@ import numpy as np
 from fenics_gears.contact.kinematics import COORDINATES, FACE_COORDINATES
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.inputs.tree import GEARS
 
 from .damping import Damping
-from .drivetrain import SIDE, Drivetrain, forces_of_torque, gear_of, kind_of
+from .drivetrain import ROTATIONS, SIDE, Drivetrain, forces_of_torque, gear_of, kind_of
 from .inertia import Inertia
 
 if TYPE_CHECKING:
@@ -30,9 +31,7 @@ if TYPE_CHECKING:
 # The load's moment of inertia over the wheel's, at most: their sum keeps six digits of the wheel's.
 MOST_OF_WHEEL = 1e10
 # Each centre's translations: of which gear, in which direction.
-TRANSLATIONS = {
-    f"centre_{axis}{number}": (gear, axis) for gear, number in (("pinion", 1), ("wheel", 2)) for axis in "xy"
-}
+TRANSLATIONS = {f"centre_{axis}{number}": (gear, axis) for number, gear in enumerate(GEARS, 1) for axis in "xy"}
 # What of a gear is moved, by the first word of the coordinate's name.
 MOVED = {
     "centre": "mass",
@@ -132,7 +131,7 @@ def _spread(names: tuple[str, ...], system: ShaftSystem, matrix: np.ndarray) -> 
 
 
 def _moving_coordinates(supports: Supports) -> tuple[str, ...]:
-    moving = {"rotation_2", *_torsion(supports)}
+    moving = {ROTATIONS[1], *_torsion(supports)}
     if supports.bearings is not None:
         moving.update(name for name, side in TRANSLATIONS.items() if supports.bearings.of(*side) is not None)
         moving.update(_leaning(supports.bearings))
@@ -152,7 +151,7 @@ def _torsion(supports: Supports) -> dict[str, float]:
     """Torsional stiffness (N mm/rad) of the shafts that twist, by coordinate: the input shaft's between the prescribed
     rotation and phi1; the output shaft's, whose twist is phi3 - phi2 [4]-[6]."""
     stiffnesses = {}
-    for name, shaft in (("rotation_1", "input"), ("shaft_twist", "output")) if supports.shafts is not None else ():
+    for name, shaft in ((ROTATIONS[0], "input"), ("shaft_twist", "output")) if supports.shafts is not None else ():
         bent = [
             system.torsional_stiffness(each)
             for system in supports.systems
@@ -171,9 +170,9 @@ def _mass(names: tuple[str, ...], inertia: Inertia, gears: Mapping[str, LumpedGe
     of_gears = {name: getattr(gears[SIDE[name]], MOVED[kind_of(name)]) for name in names if name in SIDE}
     lumped = dict.fromkeys(names, 0.0) | of_gears
     mass = np.diag([lumped[name] for name in names])
-    second = names.index("rotation_2")
+    second = names.index(ROTATIONS[1])
     if "shaft_twist" in names:
-        _check_load(end, lumped["rotation_2"])
+        _check_load(end, lumped[ROTATIONS[1]])
         twist = names.index("shaft_twist")
         mass[twist, twist] = end
         mass[second, second] += end

@@ -220,7 +220,7 @@ class Bearings(Stiffnesses):
     @property
     def each(self) -> tuple[Bearing, ...] | None:
         """The bearings of both shafts with sections; None where there are none."""
-        return self.each_of("pinion") + self.each_of("wheel") or None
+        return tuple(bearing for gear in GEARS for bearing in self.each_of(gear)) or None
 
     def each_of(self, gear: str) -> tuple[Bearing, ...]:
         """The bearings of the shaft with sections that the "pinion" or the "wheel" is on."""

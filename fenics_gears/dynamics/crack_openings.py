@@ -10,10 +10,10 @@ import numpy as np
 from fenics_gears.contact.flank_forces import flank_rows
 from fenics_gears.contact.tooth_pair import node_slices
 from fenics_gears.geometry.side import Side
+from fenics_gears.inputs.tree import GEARS
 
 from .steps import Record
 
-NAMES = ("pinion", "wheel")
 # Overlaps (mm) below this are round-off.
 LEAST_OVERLAP = 1e-6
 
@@ -43,7 +43,7 @@ def crack_openings(cycle, records: Sequence[Record]) -> dict[str, np.ndarray]:
     """Smallest and largest opening at each record, (records,), mm, by the gear's name; only of gears that have
     cracks."""
     by_gear = {}
-    for side, body, name in zip(cycle.pair.sides, cycle.bodies, NAMES):
+    for side, body, name in zip(cycle.pair.sides, cycle.bodies, GEARS):
         if not body.alike and body.openings:
             openings = [openings_of(cycle, side, record) for record in records]
             ends = np.array([(each.min(), each.max()) for each in openings])
@@ -54,7 +54,7 @@ def crack_openings(cycle, records: Sequence[Record]) -> dict[str, np.ndarray]:
 def closed_cracks(watched: Mapping[str, np.ndarray]) -> list[str]:
     """Sentences on cracks that would be closed at times; their faces are not kept from passing through each other."""
     sentences = []
-    for name in NAMES:
+    for name in GEARS:
         least, largest = (watched.get(f"{kind} opening, {name}", np.empty(0)) for kind in ("least", "largest"))
         overlaps = int((least < -LEAST_OVERLAP).sum())
         if overlaps:

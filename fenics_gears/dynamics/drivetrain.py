@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.contact.kinematics import COORDINATES
+from fenics_gears.inputs.tree import GEARS
 
 if TYPE_CHECKING:
     from .elastic_shaft import ElasticShaft
@@ -20,9 +21,11 @@ if TYPE_CHECKING:
     from .shaft_system import ShaftSystem
     from .tilting import MeshOverFace
 
-FREE = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
+# Of the driving and of the driven gear.
+ROTATIONS = ("rotation_1", "rotation_2")
+FREE = {name: f"the {gear}" for name, gear in zip(ROTATIONS, GEARS)}
 # Each coordinate's gear, with the shaft and the bearings that are on its side of the mesh.
-SIDE = {name: "pinion" if name.endswith("1") else "wheel" for name in COORDINATES}
+SIDE = {name: GEARS[0 if name.endswith("1") else 1] for name in COORDINATES}
 
 
 @dataclass(frozen=True)
@@ -97,9 +100,20 @@ class Drivetrain:
         return min((0.5 * shaft.up_to for shaft in self.elastic), default=inf)
 
     @property
+    def driven(self) -> int:
+        """Which of the coordinates is the rotation of the driven gear."""
+        return self.coordinates.index(ROTATIONS[1])
+
+    @property
+    def nominal_motion(self) -> np.ndarray:
+        """How the coordinates (k,) move, mm, as both gears turn by arcs of 1 mm, the driven one backwards."""
+        arcs = dict(zip(ROTATIONS, (1.0, -1.0)))
+        return np.array([arcs.get(name, 0.0) for name in self.coordinates])
+
+    @property
     def driven_backwards(self) -> bool:
         """Whether the load drives the pair from the wheel."""
-        return bool(self.load[self.coordinates.index("rotation_2")] < 0.0)
+        return bool(self.load[self.driven] < 0.0)
 
     @cached_property
     def free_motion(self) -> np.ndarray:
@@ -109,7 +123,7 @@ class Drivetrain:
         if values[0] > 1e-14 * max(values[-1], 0.0) and values[-1] > 0.0:
             return np.empty(0)
         motion = vectors[:, 0]
-        along = motion @ self.load or -motion[self.coordinates.index("rotation_2")]
+        along = motion @ self.load or -motion[self.driven]
         return motion * np.sign(along)
 
     @property
@@ -127,7 +141,7 @@ class Drivetrain:
         """Coordinate `name`, or "shaft_end" (phi3), of states (..., k), in mm or rad; zero where the scene holds it
         fixed."""
         if name == "shaft_end":
-            return self.value(states, "rotation_2") + self.value(states, "shaft_twist")
+            return self.value(states, ROTATIONS[1]) + self.value(states, "shaft_twist")
         if name not in self.coordinates:
             return np.zeros(states.shape[:-1])
         position = self.coordinates.index(name)
@@ -136,7 +150,7 @@ class Drivetrain:
 
 def forces_of_torque(names: tuple[str, ...], radii: np.ndarray, torque: float) -> np.ndarray:
     """Forces (k,), N, of a torque (N mm) on the output shaft's end, which moves with the wheel and with the twist."""
-    return np.array([torque if name in ("rotation_2", "shaft_twist") else 0.0 for name in names]) / np.abs(radii)
+    return np.array([torque if name in (ROTATIONS[1], "shaft_twist") else 0.0 for name in names]) / np.abs(radii)
 
 
 def kind_of(name: str) -> str:

@@ -9,6 +9,8 @@ from math import atan, inf, pi, sqrt
 import numpy as np
 from scipy.linalg import eigh, null_space
 
+from fenics_gears.inputs.tree import GEARS
+
 from .drivetrain import Drivetrain, gear_of
 
 # Relative normal displacement of the flanks per coordinate; see contact.operator.displacement_jacobian. Friction also
@@ -132,7 +134,7 @@ def _motions(drivetrain: Drivetrain, frequencies: np.ndarray, shapes: np.ndarray
     # Of modes of modal mass 1 these are shares.
     energy, said = shapes * (drivetrain.mass @ shapes), [""] * shapes.shape[1]
     bent = [shaft.gear for shaft in drivetrain.elastic]
-    for gear in ("pinion", "wheel"):
+    for gear in GEARS:
         for kinds, words in (*(OF_SHAFTS if gear in bent else ()), *OF_GEARS):
             rows = [
                 place

@@ -253,7 +253,7 @@ class Marcher:
         """The steps at which friction at a closed node cancels more of the load than its normal force holds."""
         from fenics_gears.contact.existence import locks
 
-        wheel = self.stepper.drivetrain.coordinates.index("rotation_2")
+        wheel = self.stepper.drivetrain.driven
 
         def is_locked(record: Record) -> bool:
             load = self.stepper.load(record.step)[wheel]

@@ -6,6 +6,7 @@ from fenics_gears.geometry.gear_data import MATERIALS, Material, material_name, 
 from fenics_gears.inputs.allowed import Matrix
 from fenics_gears.inputs.fields import choice, declared, file_name, quantity
 from fenics_gears.inputs.section import AllowedTables, Section, own_or_shared
+from fenics_gears.inputs.tree import GEARS
 
 MOST_SECTIONS = 100
 RIGID_SEAT = "rigid over its width"
@@ -157,7 +158,7 @@ class Shafts(Section):
     @property
     def sections(self) -> dict[str, Shaft] | None:
         """The shafts that have sections, by the gears on them; None where there are none."""
-        both = zip(("pinion", "wheel"), (self.input, self.output))
+        both = zip(GEARS, (self.input, self.output))
         return {gear: each for gear, each in both if each is not None and each.sections is not None} or None
 
     @property

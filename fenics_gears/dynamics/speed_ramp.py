@@ -78,11 +78,8 @@ class RampClock:
 
 def inertia_forces(clock: RampClock, drivetrain: Drivetrain, wheel_teeth: int) -> Callable[[float], np.ndarray]:
     """Forces (k,), N, of the accelerating nominal motion at a step."""
-    base_pitch = 2.0 * pi * drivetrain.radii[drivetrain.coordinates.index("rotation_2")] / wheel_teeth
-    nominal = np.array(
-        [{"rotation_1": base_pitch, "rotation_2": -base_pitch}.get(name, 0.0) for name in drivetrain.coordinates]
-    )
-    unit = -drivetrain.mass @ nominal - base_pitch * drivetrain.of_the_coupling
+    base_pitch = 2.0 * pi * drivetrain.radii[drivetrain.driven] / wheel_teeth
+    unit = -drivetrain.mass @ (base_pitch * drivetrain.nominal_motion) - base_pitch * drivetrain.of_the_coupling
 
     def load(step: float) -> np.ndarray:
         return unit * clock.acceleration_at(step)

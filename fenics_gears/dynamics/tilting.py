@@ -17,6 +17,7 @@ import numpy as np
 
 from fenics_gears.contact.kinematics import COORDINATES, approach
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.inputs.tree import GEARS
 
 if TYPE_CHECKING:
     from .bearings import Bearings
@@ -24,8 +25,7 @@ if TYPE_CHECKING:
 
 # Shifts of natural frequencies that give a warning.
 GYROSCOPIC = 0.05
-# Each gear's number in the names of its coordinates; the tilt that moves the shaft in a direction, and how.
-NUMBERS = {"pinion": "1", "wheel": "2"}
+# The tilt that moves the shaft in a direction, and how.
 TILTS = {"x": ("tilt_y", 1.0), "y": ("tilt_x", -1.0)}
 
 
@@ -65,7 +65,7 @@ def add_bearings(stiffness: np.ndarray, names: tuple[str, ...], bearings: Bearin
 
     The translations' own stiffness is there already: both bearings together have it.
     """
-    for gear, number in NUMBERS.items():
+    for number, gear in enumerate(GEARS, 1):
         places = bearings.places_of(gear)
         if places is None:
             continue

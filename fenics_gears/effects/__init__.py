@@ -163,8 +163,7 @@ def without(scene, *sections: str):
     changed = replace(scene, **{name: None for name in sections if name in AT_THE_TOP})
     if "tooth_elasticity" not in sections:
         return changed
-    pinion, wheel = (replace(gear, material=None) for gear in (scene.gears.pinion, scene.gears.wheel))
-    return replace(changed, gears=replace(scene.gears, material=None, pinion=pinion, wheel=wheel))
+    return replace(changed, gears=scene.gears.changed(lambda gear: replace(gear, material=None), material=None))
 
 
 def missing_needs(sections: Collection[str]) -> list[tuple[Effect, str]]:

@@ -10,6 +10,7 @@ from fenics_gears.dynamics.crack_openings import closed_cracks, crack_openings
 from fenics_gears.elasticity.element_nodes import element_nodes
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.inputs.fields import file_name
+from fenics_gears.inputs.per_gear import PerGear
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, Tree, table, value_at
@@ -31,7 +32,7 @@ class MeshFile:
 
 
 @dataclass(frozen=True)
-class BodyMeshes(Section):
+class BodyMeshes(Section, PerGear):
     """``[body_meshes]``: gmsh files, relative to the folder of the scene file; lengths in mm."""
 
     empty = 'names no file. Add pinion = "gear.msh" or wheel = "gear.msh", or leave the section out.'
@@ -63,7 +64,7 @@ class BodyMeshes(Section):
 
 
 def located(meshes: BodyMeshes, directory: Path) -> BodyMeshes:
-    return BodyMeshes(*(each and _located(each, directory) for each in (meshes.pinion, meshes.wheel)))
+    return meshes.changed(lambda file: file and _located(file, directory))
 
 
 def _located(file: MeshFile, directory: Path) -> MeshFile:
@@ -78,7 +79,7 @@ def _located(file: MeshFile, directory: Path) -> MeshFile:
 
 
 def files(meshes: BodyMeshes) -> dict[str, str]:
-    return {each.path: each.digest for each in (meshes.pinion, meshes.wheel) if each is not None}
+    return {each.path: each.digest for each in meshes.of_gears if each is not None}
 
 
 def meshes_are_given_and_used(tree: Tree) -> Broken:

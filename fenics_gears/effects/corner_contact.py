@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from fenics_gears.inputs.fields import quantity
+from fenics_gears.inputs.per_gear import PerGear
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import Tree, value_at
@@ -24,7 +25,7 @@ class Edge(Section):
 
 
 @dataclass(frozen=True)
-class EdgeRadii(Edge):
+class EdgeRadii(Edge, PerGear):
     """``[corner_contact]``: the edge radius of both gears."""
 
     pinion: Edge | None = None
@@ -33,8 +34,8 @@ class EdgeRadii(Edge):
     @property
     def edge_radii(self) -> tuple[float, float]:
         """Radius of the edge of pinion and wheel, mm; 0 for a sharp edge."""
-        pinion, wheel = (own_or_shared(own, self, "edge_radius") or 0.0 for own in (self.pinion, self.wheel))
-        return pinion, wheel
+        first, second = (own_or_shared(own, self, "edge_radius") or 0.0 for own in self.of_gears)
+        return first, second
 
 
 def route_has_corners(tree: Tree) -> Broken:

@@ -20,7 +20,7 @@ LEAST_MEASURED = 0.8
 
 def located(errors: FlankErrors, directory: Path) -> FlankErrors:
     """The errors with the values of their tables, whose paths start at a directory."""
-    return replace(errors, pinion=_with_table(errors.pinion, directory), wheel=_with_table(errors.wheel, directory))
+    return errors.changed(lambda own: _with_table(own, directory))
 
 
 def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
@@ -51,7 +51,7 @@ def _in_folder(directory: Path, name: str) -> Path:
 
 def files(errors: FlankErrors) -> dict[str, str]:
     hashes: dict[str, str] = {}
-    for own in (errors.pinion, errors.wheel):
+    for own in errors.of_gears:
         said = {"file": {name: getattr(own, name) for name in own.columns}}
         said |= {name: repr(getattr(own, measured)) for name, (measured, _) in CURVES.items()}
         hashes |= {

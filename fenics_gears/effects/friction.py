@@ -57,7 +57,7 @@ class Friction(Section):
             return self.coefficient
         from fenics_gears.geometry.friction_formulas import FORMULAS, OutOfRange
 
-        force = abs(scene.load.wheel_torque / pair.wheel.base_radius)
+        force = pair.force_of(scene.load.wheel_torque)
         speed = 60.0 * scene.motion.mesh_frequency / pair.pinion.teeth
         try:
             return FORMULAS[self.formula](pair, force, speed, self.viscosity * 1e9, self.roughness * 1e3)

@@ -27,7 +27,7 @@ def starts_without_single_contact(section: str, word: str, reliefs: Reliefs, mod
         return []
     contact, letters = contact_by_fewest(pair)
     rolls = pair.hpstc_roll_angles if word == "HPSTC" else pair.lpstc_roll_angles
-    own = [(roll, relief) for roll, relief in zip(rolls, (reliefs.pinion, reliefs.wheel)) if relief is not None]
+    own = [(roll, relief) for roll, relief in zip(rolls, reliefs.of_gears) if relief is not None]
     angles = [roll for roll, relief in own if relief.start is None and relief.length is None]
     if not angles:
         return []

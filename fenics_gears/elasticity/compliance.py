@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Protocol
 
 import numpy as np
 
@@ -11,7 +12,6 @@ from fenics_gears.errors import ComputationError
 
 if TYPE_CHECKING:
     from .face_compliance_data import FaceCompliance
-    from .whole_body.compliance import WholeBodyCompliance
 
 STAGES = ("time_mesh", "time_compile", "time_condense")
 
@@ -32,6 +32,41 @@ class Reach:
     def farthest(self) -> int:
         """The largest, of any flanks."""
         return max(self.same, *map(abs, self.across or (0,)))
+
+
+class BetweenFlanks(Protocol):
+    """What line forces on one flank of a gear displace on another, in plane strain; teeth are counted counter-clockwise
+    by any whole numbers."""
+
+    def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
+        """Displacement (2n', 2n), mm per N/mm, of a flank of one tooth by forces on one of another. `sides`: which
+        flank of either, 0 the drive flank, 1 the coast flank. Raises ComputationError where that is not known."""
+
+    def key(self, responding: int, loaded: int) -> Hashable:
+        """Teeth with the same key have the same compliance."""
+
+
+class FlankBody(BetweenFlanks, Protocol):
+    """A gear's body in plane strain, as contact knows it.
+
+    `alike`: whether it does not matter from which tooth teeth are counted; `flanks`: how many of a tooth are known;
+    `element_order`: 1 or 2, of the displacement along a flank element; `timings`: seconds that it took, by stage.
+    """
+
+    @property
+    def alike(self) -> bool: ...
+
+    @property
+    def flanks(self) -> int: ...
+
+    @property
+    def element_order(self) -> int: ...
+
+    @property
+    def timings(self) -> dict: ...
+
+    def rolls_of(self, tooth: int) -> np.ndarray:
+        """Roll angles (n,), rad, of the flank nodes of a tooth, increasing."""
 
 
 @dataclass(frozen=True)
@@ -85,18 +120,17 @@ class FlankCompliance:
             )
 
     def rolls_of(self, tooth: int) -> np.ndarray:
-        """Roll angles (n,), rad, of the flank nodes of a tooth: all teeth are alike."""
+        """As of `FlankBody`: all teeth are alike."""
         return self.roll_angle
 
     def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
-        """Compliance (2n, 2n) of one tooth's flank under forces on another's, counted counter-clockwise from any one.
-        sides: which flank of either tooth, 0 the drive flank, 1 the coast flank where it is known."""
+        """As of `BetweenFlanks`, (2n, 2n)."""
         dofs = 2 * self.nodes
         rows, columns = (slice(side * dofs, (side + 1) * dofs) for side in sides)
         return self.block(responding - loaded)[rows, columns]
 
     def key(self, responding: int, loaded: int) -> int:
-        """Key under which the compliance between two teeth can be kept: their distance."""
+        """As of `BetweenFlanks`: their distance."""
         return responding - loaded
 
 
@@ -137,12 +171,12 @@ class Body:
     """A gear: the flank compliance of its `section` in plane strain and, where flanks are resolved over the face, of
     its `solid` in three dimensions. timings: seconds that both took, by stage."""
 
-    section: FlankCompliance | WholeBodyCompliance
+    section: FlankBody
     solid: FaceCompliance | None = None
     timings: dict[str, float] = field(default_factory=dict, compare=False)
 
     @classmethod
-    def of(cls, section: FlankCompliance | WholeBodyCompliance, solid: FaceCompliance | None = None) -> Body:
+    def of(cls, section: FlankBody, solid: FaceCompliance | None = None) -> Body:
         """The gear of these, with the times of both."""
         parts = [section.timings] if solid is None else [section.timings, solid.timings]
         return cls(section, solid, {name: sum(part[name] for part in parts) for name in STAGES})

@@ -2,6 +2,8 @@
 
 from math import atan, cos, degrees
 
+from fenics_gears.inputs.tree import GEARS
+
 from .gear import Gear
 from .gear_data import NOT_GIVEN, ROUNDING, MeasuredOver
 from .pair import GearPair
@@ -14,7 +16,7 @@ def characteristics(
 ) -> list[tuple[str, float, str]]:
     """Rows (label, value, unit) on the pair, then on each gear; lengths in mm, angles in deg. `measured_over`: teeth
     that are spanned and diameter of the ball of either gear, None for what suits the gear."""
-    of_gears = [row for name, own in zip(("pinion", "wheel"), measured_over) for row in _gear_rows(pair, name, own)]
+    of_gears = [row for name, own in zip(GEARS, measured_over) for row in _gear_rows(pair, name, own)]
     return [*_pair_rows(pair), *of_gears]
 
 
@@ -78,7 +80,7 @@ def _gear_rows(
     pair: GearPair, name: str, measured_over: tuple[int | None, float | None]
 ) -> list[tuple[str, float, str]]:
     gear = getattr(pair, name)
-    number = ("pinion", "wheel").index(name)
+    number = GEARS.index(name)
     # Where its active profile starts and where its tip meets the mate.
     lowest, tip = (pair.path_start, pair.path_end) if name == "pinion" else (pair.path_end, pair.path_start)
     contact, letters = contact_by_fewest(pair)

@@ -32,7 +32,7 @@ def face_opening(
     z = np.asarray(z, dtype=float)
     opening = np.zeros_like(z)
     if lead_modifications is not None:
-        gears = zip((lead_modifications.pinion, lead_modifications.wheel), pair.gear_middles, pair.face_widths)
+        gears = zip(lead_modifications.of_gears, pair.gear_middles, pair.face_widths)
         opening += sum(lead_removal(own, z - middle, width) for own, middle, width in gears if own is not None)
     if misalignment is not None:
         opening += misalignment_opening(pair, misalignment, z, pair.pitch_point if position is None else position)

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.errors import SceneError
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_written
 
 from .flank_errors import FlankErrors, GearErrors, MeasuredCurve, MeasuredCurves, Waviness
@@ -69,12 +70,12 @@ def flank_deviations(
     errors: FlankErrors, pair: GearPair, middles: tuple[float, float] | None = None
 ) -> tuple[FlankDeviations, FlankDeviations]:
     """Deviations of pinion and wheel; `middles` (mm): heights of their mid-widths, None in the plane."""
-    gears = zip((pair.pinion, pair.wheel), (errors.pinion, errors.wheel), pair.sap_roll_angles)
+    gears = zip(pair.gears, errors.of_gears, pair.sap_roll_angles)
     faces = (None, None) if middles is None else tuple(zip(pair.face_widths, middles))
-    pinion, wheel = (
+    first, second = (
         _of_gear(gear, own, errors, number, start, faces[number]) for number, (gear, own, start) in enumerate(gears)
     )
-    return pinion, wheel
+    return first, second
 
 
 def _of_gear(
@@ -82,9 +83,7 @@ def _of_gear(
 ) -> FlankDeviations:
     if own.problem:
         name, problem = own.problem
-        raise SceneError(
-            f"flank_errors.{('pinion', 'wheel')[number]}.{name} = {as_written(getattr(own, name))}: {problem}"
-        )
+        raise SceneError(f"flank_errors.{GEARS[number]}.{name} = {as_written(getattr(own, name))}: {problem}")
     measured = own.measured_profile is not None
     level = np.zeros(gear.tooth_count)
     diameter = 2.0 * abs(gear.reference_radius)
@@ -163,8 +162,8 @@ def _places(curve: MeasuredCurve, along: str, gear: Gear) -> np.ndarray:
 
 def measured_share(curve: MeasuredCurve, along: str, pair: GearPair, name: str) -> float:
     """Share of the active profile, or of the face, of the gear `name` that a curve covers, from 0 to 1."""
-    number = ("pinion", "wheel").index(name)
-    gear = (pair.pinion, pair.wheel)[number]
+    number = GEARS.index(name)
+    gear = pair.gears[number]
     width = pair.face_widths[number]
     start = pair.sap_roll_angles[number]
     end = gear.tip_roll_angle

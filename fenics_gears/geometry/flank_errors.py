@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from fenics_gears.inputs.fields import choice, file_name, quantities, quantity, whole_number
+from fenics_gears.inputs.per_gear import PerGear
 from fenics_gears.inputs.section import Section
 
 # Where a measured curve is zero.
@@ -144,7 +145,7 @@ class GearErrors(Section):
 
 
 @dataclass(frozen=True, kw_only=True)
-class FlankErrors(Section):
+class FlankErrors(Section, PerGear):
     """``[flank_errors]``: deviations that are not given are random values within a tolerance class."""
 
     tolerance_class: int | None = whole_number(

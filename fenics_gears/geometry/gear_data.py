@@ -4,6 +4,8 @@ rad."""
 from dataclasses import dataclass, field
 
 from fenics_gears.inputs.fields import choice, number, quantity
+from fenics_gears.inputs.per_gear import PerGear
+from fenics_gears.inputs.tree import GEARS
 
 # ISO 53:1998, Annex A, in modules: addendum, dedendum, tip radius of the rack. The same as types A to D of GOST
 # 13755-2015; A is also the rack of DIN 867.
@@ -125,7 +127,7 @@ class GearData:
 
 
 @dataclass(frozen=True)
-class GearPairData:
+class GearPairData(PerGear):
     """The pair: module and centre distance in mm, pressure angle in rad; rigid without a material.
 
     `face_width`, mm: over which both gears meet. `helix_angle`, rad, at the reference cylinder, 0 for spur gears;
@@ -147,8 +149,8 @@ class GearPairData:
     @property
     def materials(self) -> tuple[Material, Material] | None:
         """Materials of pinion and wheel; None where they are rigid."""
-        both = (self.material_of("pinion"), self.material_of("wheel"))
-        return None if None in both else both
+        first, second = map(self.material_of, GEARS)
+        return None if first is None or second is None else (first, second)
 
     def material_of(self, name: str) -> Material | None:
         """Material of the "pinion" or the "wheel"."""
@@ -162,7 +164,8 @@ class GearPairData:
     @property
     def face_widths(self) -> tuple[float, float]:
         """Width (mm) of the pinion and of the wheel."""
-        return self.pinion.face_width or self.face_width, self.wheel.face_width or self.face_width
+        first, second = (gear.face_width or self.face_width for gear in self.of_gears)
+        return first, second
 
 
 _ISO_6336 = "ISO 6336-2, table of the elasticity factor"

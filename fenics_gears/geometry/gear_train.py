@@ -146,7 +146,7 @@ class Layout:
         the mirror image at the tooth's centreline, so that phases depend on the thickness of the teeth.
         """
         pair = self.pairs[mesh]
-        gear = (pair.pinion, pair.wheel)[side]
+        gear = pair.gears[side]
         begun = pair.path_start if side == PINION else pair.line_of_action_length - pair.path_start
         roll = begun / gear.base_radius
         to_mate = sense * (self.directions[mesh] + (0.0 if side == PINION else pi))

@@ -38,7 +38,7 @@ def single_stiffness(gears: GearPairData) -> tuple[float, float]:
     )  # fmt: skip
     dedenda = [
         gear.profile_shift + 0.5 * (gear.teeth / cos(beta) - gear.root_diameter / gears.module)
-        for gear in (gears.pinion, gears.wheel)
+        for gear in gears.of_gears
     ]
     basic_rack = 1.0 + 0.5 * (1.2 - np.mean(dedenda))
     angle = 1.0 - 0.02 * (20.0 - degrees(gears.pressure_angle))

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from fenics_gears.inputs.fields import choice, quantity
+from fenics_gears.inputs.per_gear import PerGear
 from fenics_gears.inputs.section import Section
 
 from .relief import LINEAR, PARABOLIC, POWERS
@@ -72,7 +73,7 @@ class LeadModification(Section):
 
 
 @dataclass(frozen=True)
-class LeadModifications(Section):
+class LeadModifications(Section, PerGear):
     """``[lead_modifications]``: amounts along the line of action in the transverse section. Viewed from the right end
     of the face the pinion turns counter-clockwise."""
 

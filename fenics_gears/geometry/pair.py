@@ -10,10 +10,12 @@ from functools import cached_property, lru_cache
 from math import acos, copysign, cos, exp, floor, pi, sin, sqrt, tan
 
 from fenics_gears.errors import GeometryError
+from fenics_gears.inputs.tree import GEARS
 
 from .gear import Gear, transverse_gear
 from .gear_checks import Impossible, check_gear
 from .gear_data import GearPairData
+from .helix import Helix
 from .involute import inverse_involute, involute_function
 from .pair_checks import check_pair
 from .side import Side
@@ -24,19 +26,6 @@ WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
 REACH_OF_TEETH = 1.1
 REACH_OF_BODY = 1.6
 DEPTH_OF_BODY = 7.0
-
-
-@dataclass(frozen=True)
-class Helix:
-    """`angle`, rad, at the reference cylinders, positive; `pinion_hand`: "right" or "left", the wheel has the other."""
-
-    angle: float
-    pinion_hand: str = "right"
-
-    @property
-    def sign(self) -> float:
-        """1 for a right-hand pinion, -1 for a left-hand one."""
-        return 1.0 if self.pinion_hand == "right" else -1.0
 
 
 @dataclass(frozen=True)
@@ -54,6 +43,11 @@ class GearPair:
     own_face_widths: tuple[float, float] | None = None
     helix: Helix | None = None
     axial_offsets: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def gears(self) -> tuple[Gear, Gear]:
+        """Both gears, the driving one first: the order of everything that has a part for each."""
+        return self.pinion, self.wheel
 
     @cached_property
     def sides(self) -> tuple[Side, Side]:
@@ -101,7 +95,7 @@ class GearPair:
         """
         module = self.pinion.normal_module
         widths = []
-        for gear, overhangs in zip((self.pinion, self.wheel), self.overhangs):
+        for gear, overhangs in zip(self.gears, self.overhangs):
             reach = module * (REACH_OF_TEETH + REACH_OF_BODY * (1.0 - exp(-gear.body_depth / (DEPTH_OF_BODY * module))))
             widths.append(self.face_width + sum(reach * (1.0 - exp(-each / reach)) for each in overhangs))
         return widths[0], widths[1]
@@ -133,6 +127,10 @@ class GearPair:
     def rotation_ratio(self) -> float:
         """Teeth of the pinion over teeth of the wheel."""
         return self.pinion.teeth / self.wheel.teeth
+
+    def force_of(self, torque: float) -> float:
+        """Force (N) along the line of action that carries a torque (N mm) on the wheel, whichever way it acts."""
+        return abs(torque / self.wheel.base_radius)
 
     @cached_property
     def base_pitch(self) -> float:
@@ -233,7 +231,7 @@ class GearPair:
         """Gap (mm) along the line of action between the coast flanks while the drive flanks touch; negative when teeth
         overlap. It is the base pitch less both base-circle thicknesses at the operating pressure angle."""
         swept = involute_function(tan(self.operating_pressure_angle))
-        halves = (gear.base_radius * (gear.tooth_half_angle_at_base - swept) for gear in (self.pinion, self.wheel))
+        halves = (gear.base_radius * (gear.tooth_half_angle_at_base - swept) for gear in self.gears)
         return self.base_pitch - 2.0 * sum(halves)
 
     @property
@@ -245,7 +243,7 @@ class GearPair:
     def centre_distance_without_backlash(self) -> float:
         """Centre distance (mm) at which both flanks of a tooth touch."""
         bases = sum(self.base_radii)
-        both_teeth = sum(gear.base_radius * gear.tooth_half_angle_at_base for gear in (self.pinion, self.wheel))
+        both_teeth = sum(gear.base_radius * gear.tooth_half_angle_at_base for gear in self.gears)
         return bases * sqrt(1.0 + inverse_involute((both_teeth - 0.5 * self.base_pitch) / bases) ** 2)
 
     @property
@@ -279,7 +277,7 @@ def _built(data: GearPairData) -> GearPair:
     """The pair, checked; raises Impossible, without advice."""
     pinion, wheel = (
         transverse_gear(getattr(data, name), data.module, data.pressure_angle, data.helix_angle, data.modulus_of(name))
-        for name in ("pinion", "wheel")
+        for name in GEARS
     )
     check_gear(pinion, "pinion")
     check_gear(wheel, "wheel")
@@ -295,6 +293,6 @@ def _with_web_as_it_counts(pair: GearPair) -> GearPair:
         gear
         if gear.web is None or own == counts
         else replace(gear, web=replace(gear.web, stiff_share=gear.web.share * own / counts))
-        for gear, own, counts in zip((pair.pinion, pair.wheel), pair.face_widths, pair.effective_face_widths)
+        for gear, own, counts in zip(pair.gears, pair.face_widths, pair.effective_face_widths)
     )
     return replace(pair, pinion=pinion, wheel=wheel)

@@ -10,6 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from fenics_gears.inputs.fields import quantity
+from fenics_gears.inputs.per_gear import PerGear
 from fenics_gears.inputs.section import Section
 
 from .pair import GearPair
@@ -44,7 +45,7 @@ class ProfileModification(Section):
 
 
 @dataclass(frozen=True)
-class ProfileModifications(Section):
+class ProfileModifications(Section, PerGear):
     """``[profile_modifications]``: amounts normal to the flank in the transverse section, which is along the line of
     action there, the same on all teeth of a gear."""
 
@@ -91,8 +92,8 @@ def profile_curves(
     pair: GearPair, modifications: ProfileModifications
 ) -> tuple[ProfileCurve | None, ProfileCurve | None]:
     """The curves of pinion and wheel; None for a gear without modification."""
-    sides = zip((pair.pinion, pair.wheel), (modifications.pinion, modifications.wheel), pair.sap_roll_angles)
-    pinion, wheel = (
+    sides = zip(pair.gears, modifications.of_gears, pair.sap_roll_angles)
+    first, second = (
         None if own is None else ProfileCurve(own, start, gear.tip_roll_angle) for gear, own, start in sides
     )
-    return pinion, wheel
+    return first, second

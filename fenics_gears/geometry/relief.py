@@ -12,6 +12,7 @@ import numpy as np
 from fenics_gears.errors import GeometryError
 from fenics_gears.inputs.allowed import Measured
 from fenics_gears.inputs.fields import choice, either, number, quantity
+from fenics_gears.inputs.per_gear import PerGear
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS
 
@@ -117,7 +118,7 @@ class RootReliefOfGear(Relief):
 
 
 @dataclass(frozen=True)
-class Reliefs:
+class Reliefs(PerGear):
     """Relief of pinion and wheel; None for a gear without. One without start or length begins at HPSTC or LPSTC."""
 
     pinion: Relief | None
@@ -212,13 +213,13 @@ def tip_reliefs(pair: GearPair, reliefs: Reliefs) -> tuple[ReliefCurve | None, R
     Raises GeometryError for a relief that starts off the involute or at its own end, or whose depth is negative or more
     than half the tooth's thickness.
     """
-    ends = pair.pinion.tip_roll_angle, pair.wheel.tip_roll_angle
+    ends = [gear.tip_roll_angle for gear in pair.gears]
     return _curves(pair, reliefs, "tip_relief", ends, pair.hpstc_roll_angles)
 
 
 def root_reliefs(pair: GearPair, reliefs: Reliefs) -> tuple[ReliefCurve | None, ReliefCurve | None]:
     """As `tip_reliefs`, from LPSTC to the form circle."""
-    ends = pair.pinion.form_roll_angle, pair.wheel.form_roll_angle
+    ends = [gear.form_roll_angle for gear in pair.gears]
     return _curves(pair, reliefs, "root_relief", ends, pair.lpstc_roll_angles)
 
 

@@ -99,7 +99,7 @@ def mesh_stiffness(scene: Scene, pair: GearPair | None = None) -> float:
 
 def line_load(scene: Scene, pair: GearPair) -> float:
     """N/mm, of the wheel's torque over the face."""
-    return abs(scene.load.wheel_torque / pair.wheel.base_radius) / pair.face_width
+    return pair.force_of(scene.load.wheel_torque) / pair.face_width
 
 
 def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:

@@ -46,12 +46,12 @@ WITH_FRICTION = 3.0
 def _size(model: Model, number: int):
     """Of a gear's body."""
     both = model.scene.coast_flanks is not None
-    return expected_size((model.pair.pinion, model.pair.wheel)[number], face_discretisation(model, number), both)
+    return expected_size(model.pair.gears[number], face_discretisation(model, number), both)
 
 
 def _condensing(model: Model, number: int):
     """What it takes to condense a gear's body."""
-    gear = (model.pair.pinion, model.pair.wheel)[number]
+    gear = model.pair.gears[number]
     division = face_discretisation(model, number)
     both = model.scene.coast_flanks is not None
     return expected_condensing(gear, division, model.touching.reach.farthest, both)
@@ -77,7 +77,7 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
         bodies.append((f"the {name}'s body", size.unknowns))
         ways.append((f"the {name}'s body", f"{own.memory / 1e9:.3g} GB"))
         condensing += UNKNOWN * size.unknowns + MULTIPLICATION * own.operations
-        gear = (model.pair.pinion, model.pair.wheel)[number]
+        gear = model.pair.gears[number]
         division = face_discretisation(model, number)
         condensing += NEAR_UNKNOWN * sum(near_unknowns(gear, division, model.scene.coast_flanks is not None))
         # The flanks' compliance by heights, and by slices for teeth ahead and behind.

@@ -112,9 +112,9 @@ def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
     if overhang > LEAST_OVERHANG * thickness and abs(pair.gear_middles[gear]) < LEAST_OVERHANG * thickness:
         beyond = ceil(overhang / thickness - LEAST_OVERHANG)
     layers = common + 2 * beyond if beyond else ceil(width / thickness - LEAST_OVERHANG)
-    twist = (1.0, -1.0)[gear] * pair.slope / (pair.pinion, pair.wheel)[gear].base_radius
+    twist = (1.0, -1.0)[gear] * pair.slope / pair.gears[gear].base_radius
     section_size = model.scene.accuracy.body_element_size or SECTION_SIZE * model.scene.gears.module
-    web = (pair.pinion, pair.wheel)[gear].web
+    web = pair.gears[gear].web
     swept = web and SweptWeb(
         web.hub_radius, web.rim_radius, *(width * (web.offset + side * web.share) for side in (-0.5, 0.5))
     )

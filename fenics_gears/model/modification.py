@@ -70,7 +70,7 @@ def steepest_relief(pair: GearPair, removal: tuple) -> float:
     """Largest slope of what is removed from both flanks along them. Under a slope m the gap y^2/(2 R) + m y is least at
     y = -R m: so far from the line of action reliefs move the contact."""
     steepest = 0.0
-    for gear, removed in zip((pair.pinion, pair.wheel), removal):
+    for gear, removed in zip(pair.gears, removal):
         if removed is not None:
             rolls = np.linspace(gear.form_roll_angle, gear.tip_roll_angle, PROFILE_POINTS)
             arcs = 0.5 * gear.base_radius * rolls**2

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.dynamics.drivetrain import gear_of
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import resolved_frequency
-from fenics_gears.dynamics.tilting import NUMBERS
 from fenics_gears.effects import common_period
 from fenics_gears.geometry.sliding import sliding_speed
 
@@ -50,12 +50,12 @@ def inertia_rows(model: Model) -> Rows:
     rows: Rows = []
     along = []
     inertia = model.scene.inertia
-    for name, lumped in lumped_gears(model.scene, model.pair).items():
+    for number, (name, lumped) in enumerate(lumped_gears(model.scene, model.pair).items(), 1):
         given = inertia.of(name)
         for field, unit in (("mass", "kg"), ("moment_of_inertia", "kg mm^2")):
             origin = "" if getattr(given, field) is not None else ", of its body by the density"
             rows.append((f"{name} {field.replace('_', ' ')}", 1e3 * getattr(lumped, field), unit + origin))
-        if f"tilt_x{NUMBERS[name]}" in model.drivetrain.coordinates:
+        if f"tilt_x{number}" in model.drivetrain.coordinates:
             origin = "" if given.tilting_moment_of_inertia else ": J/2 + m b^2/12"
             about = f"kg mm^2, about a diameter{origin}"
             rows.append((f"{name} tilting moment of inertia", 1e3 * lumped.tilting_inertia, about))
@@ -113,7 +113,7 @@ def period_rows(model: Model) -> Rows:
     if period == inf:
         return [("mesh cycles of the common period", "none", "(no two mesh cycles are alike)")]
     words = "(all mesh cycles are alike)" if period == 1 else ""
-    if period > 1 and period == lcm(gears.pinion.teeth, gears.wheel.teeth):
+    if period > 1 and period == lcm(*(gear.teeth for gear in gears.of_gears)):
         words = "after which every tooth has met every other"
     return [("mesh cycles of the common period", period, words)]
 
@@ -144,4 +144,4 @@ MOTIONS = {
 def motion_in_words(coordinate: str) -> str:
     if coordinate == "shaft_twist":
         return "twist of the output shaft"
-    return f"{'pinion' if coordinate[-1] == '1' else 'wheel'} {MOTIONS[coordinate[:-1]]}"
+    return f"{gear_of(coordinate)} {MOTIONS[coordinate[:-1]]}"

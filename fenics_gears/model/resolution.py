@@ -185,10 +185,9 @@ def mate_tips(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]
     """Roll angles (rad) of pinion and wheel between which the mate's tip edge may press on the flank: above the start
     of active profile, for a loaded pair touches with the edge alone before it enters and after it has left the path of
     contact."""
-    gears = (pair.pinion, pair.wheel)
     ends = (pair.path_start, pair.line_of_action_length - pair.path_end)
     ranges = []
-    for gear, end in zip(gears, ends):
+    for gear, end in zip(pair.gears, ends):
         arc = arc_length(gear.base_radius, end / gear.base_radius)
         around = np.array([arc - BELOW_MATE_TIP * gear.module, arc + ABOVE_MATE_TIP * gear.module])
         around = gear.sign * np.maximum(gear.sign * around, 0.0)

@@ -107,7 +107,7 @@ def _check_alike(models: Sequence[Model], gear: str, sides: Sequence[tuple[int, 
 
 def _reliefs_apart(one: Model, other: Model, side: int) -> float:
     """The largest difference (mm) of what is removed from a flank of a gear in two meshes."""
-    gear = (one.pair.pinion, one.pair.wheel)[side]
+    gear = one.pair.gears[side]
     rolls = np.linspace(gear.form_roll_angle, gear.tip_roll_angle, PLACES)
     removed = [np.zeros(PLACES) if each.removal[side] is None else each.removal[side](rolls) for each in (one, other)]
     return float(np.abs(removed[1] - removed[0]).max())

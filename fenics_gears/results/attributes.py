@@ -4,6 +4,8 @@ whose error was estimated, by the prefix ``ESTIMATED``."""
 
 from dataclasses import dataclass
 
+from fenics_gears.inputs.tree import GEARS
+
 from .numbers import CUBICS, SOLVED, STEPS
 
 
@@ -235,7 +237,7 @@ _ROWS = (
     ),
     *(
         attribute
-        for gear in ("pinion", "wheel")
+        for gear in GEARS
         for attribute in (
             (f"largest_root_stress_{gear}", "MPa", f"largest root stress (tension) of the {gear}", ASKED_FOR),
             (f"largest_root_stress_{gear}_mesh_phase", "1", "mesh phase of this largest root stress", ASKED_FOR),

@@ -20,6 +20,7 @@ from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.energy_account import account, mean_load, quadratic
 from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps, forces_at, in_block, operator_at, smallest_openings
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
 
 from .side_by_side import SideBySide
@@ -164,7 +165,7 @@ def watched_contact(nodes: SideBySide) -> Values:
     }
     if nodes.cycle.traits.has_pressure:
         pressed = nodes.normal > NO_FORCE
-        edges = [f"on the {gear}'s {edge}" for edge in ("tip", "form circle") for gear in ("pinion", "wheel")]
+        edges = [f"on the {gear}'s {edge}" for edge in ("tip", "form circle") for gear in GEARS]
         watched |= {name: nodes.any(on & pressed) for name, on in zip(edges, nodes.of("on_edge"))}
     return watched
 
@@ -249,12 +250,8 @@ class Transmitted:
 def transmitted(result: Curves | xr.Dataset) -> Transmitted:
     """The side that drives and the work it does, from the first to the last step. Where the wheel drives, the work of
     both sides is negative."""
-    at_pinion, at_wheel = (
-        float(np.subtract(*np.asarray(result[name])[[-1, 0]])) for name in ("work_input", "work_output")
-    )
-    if at_pinion + at_wheel < 0.0:
-        return Transmitted(-at_wheel, -at_pinion, True)
-    return Transmitted(at_pinion, at_wheel, False)
+    done, taken = (float(np.subtract(*np.asarray(result[name])[[-1, 0]])) for name in ("work_input", "work_output"))
+    return Transmitted(-taken, -done, True) if done + taken < 0.0 else Transmitted(done, taken, False)
 
 
 def _carried(drivetrain: Drivetrain, loads: Sequence[VaryingLoad], numbers: np.ndarray, angle: float) -> np.ndarray:
@@ -262,11 +259,6 @@ def _carried(drivetrain: Drivetrain, loads: Sequence[VaryingLoad], numbers: np.n
 
     Both gears' arcs are as long. The wheel turns backwards, against a positive torque.
     """
-    turned = np.zeros(len(drivetrain.coordinates))
-    wheel = drivetrain.coordinates.index("rotation_2")
-    arc = abs(drivetrain.radii[wheel]) * angle
-    turned[wheel] = -arc
-    if "rotation_1" in drivetrain.coordinates:
-        turned[drivetrain.coordinates.index("rotation_1")] = arc
+    turned = abs(drivetrain.radii[drivetrain.driven]) * angle * drivetrain.nominal_motion
     done = -(mean_load(drivetrain, loads, numbers) @ turned) * np.diff(numbers)
     return np.concatenate(([0.0], np.cumsum(done)))[: len(numbers)]

@@ -9,6 +9,7 @@ import xarray as xr
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, sliding_speed, specific_sliding
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
 
 from .contact_variables import Curves, largest_normal_force, mesh_force, transmitted
@@ -127,7 +128,7 @@ def largest_root_stress(counted: xr.Dataset) -> dict[str, float | str]:
         return {}
     settled = counted.isel(time=slice(0, max(counted.sizes["time"] - 1, 1)))
     numbers: dict[str, float | str] = {}
-    for gear in ("pinion", "wheel"):
+    for gear in GEARS:
         stress = settled["root_stress_maximum"].sel(gear=gear).transpose("time", "slot").values
         if not np.nanmax(stress, initial=0.0):
             continue
@@ -179,7 +180,7 @@ def path_point_values(
     """
     points = contact_points(pair)
     rolls = pair.pinion_roll_angle(points), pair.wheel_roll_angle(points)
-    diameters = [2.0 * gear.radius(roll) for gear, roll in zip((pair.pinion, pair.wheel), rolls)]
+    diameters = [2.0 * gear.radius(roll) for gear, roll in zip(pair.gears, rolls)]
     positions = (points - pair.path_start) / pair.base_pitch
     forces = np.where(numbers > 0, forces, np.nan)
     return {

@@ -218,8 +218,7 @@ class EdgesAndKinks:
         if model.face.slices > 1:
             self._end_slices = in_end_zone(model.pair, model.face.positions)
         self._places: list[_Place] = []
-        gears = model.pair.pinion, model.pair.wheel
-        for number, (gear, removal) in enumerate(zip(gears, model.removal)):
+        for number, (gear, removal) in enumerate(zip(model.pair.gears, model.removal)):
             rolls = [(roll, KINK) for roll in kinks(removal)] + [(gear.tip_roll_angle, EDGE)]
             rolls += [(gear.form_roll_angle, EDGE)] if gear.undercut else []
             self._places += [_Place(number, 0.5 * gear.base_radius * roll**2, kind) for roll, kind in rolls]

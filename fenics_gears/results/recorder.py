@@ -191,17 +191,15 @@ class Recorder:
         drivetrain = self.model.drivetrain
         states = block.states[:, 0]
 
-        def both(first: str, second: str) -> np.ndarray:
-            return np.stack([drivetrain.value(states, first), drivetrain.value(states, second)], axis=1)
+        def of_gears(motion: str) -> np.ndarray:
+            return np.stack([drivetrain.value(states, f"{motion}{number}") for number in (1, 2)], axis=1)
 
-        rotation = both("rotation_1", "rotation_2")
-        values = {"transmission_error": self.model.transmission_error(states), "rotation": rotation}
+        values = {"transmission_error": self.model.transmission_error(states), "rotation": of_gears("rotation_")}
         if scene.bearings is not None:
-            values["centre_x"] = both("centre_x1", "centre_x2")
-            values["centre_y"] = both("centre_y1", "centre_y2")
+            values |= {name: of_gears(name) for name in ("centre_x", "centre_y")}
             if scene.bearings.places is not None or scene.bearings.each is not None:
-                values |= {name: both(f"{name}1", f"{name}2") for name in ("tilt_x", "tilt_y")}
-                values["axial_position"] = both("axial_1", "axial_2")
+                values |= {name: of_gears(name) for name in ("tilt_x", "tilt_y")}
+                values["axial_position"] = of_gears("axial_")
         if scene.shafts is not None:
             values["shaft_end_rotation"] = drivetrain.value(states, "shaft_end")
         return values

@@ -87,7 +87,7 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
     """
     on_edge = np.zeros((4, ends[-1]), dtype=bool)
     half = 0.5 * cycle.grid.length * (1.0 - 1e-9)
-    cut = (cycle.pair.pinion.undercut, cycle.pair.wheel.undercut)
+    cut = [gear.undercut for gear in cycle.pair.gears]
     of_flanks = of_flanks.copy()
     by_line = np.array([pair.place.line is None for pair in pairs], dtype=bool)
     if any(cut) and cycle.corner is not None:

@@ -11,6 +11,7 @@ from math import lcm
 import numpy as np
 import xarray as xr
 
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
 
 from .contact_variables import largest_normal_force, mesh_force
@@ -121,17 +122,16 @@ def weights_of(window: str, length: int) -> np.ndarray:
 def sidebands(lines: OrderLines, teeth: tuple[int, int], harmonic: int) -> Sidebands | None:
     """The first SIDEBANDS on either side of a mesh harmonic, no further than half-way to the next; None where the
     record cannot tell them apart."""
-    turns = {"pinion": 1.0, "wheel": teeth[0] / teeth[1]}
-    at_sides = {gear: _beside(teeth[0], harmonic, turn) for gear, turn in turns.items()}
-    every = np.unique(np.round(np.concatenate([*at_sides.values(), [harmonic * teeth[0]]]), 9))
+    at_sides = [_beside(teeth[0], harmonic, turn) for turn in (1.0, teeth[0] / teeth[1])]
+    every = np.unique(np.round(np.concatenate([*at_sides, [harmonic * teeth[0]]]), 9))
     if np.diff(every).min() < (2 * lines.spread + 1) * lines.spacing * (1.0 - 1e-6) or every[-1] > lines.orders[-1]:
         return None
     squares = {order: lines.square(order) for order in every}
-    sums = {gear: sum(squares[order] for order in np.round(orders, 9)) for gear, orders in at_sides.items()}
+    first, second = (sum(squares[order] for order in np.round(orders, 9)) for orders in at_sides)
     line = squares[float(harmonic * teeth[0])]
     # Of the mesh in a quasi-static force that varies with the load alone, round-off is all there is.
     there = line > (ROUND_OFF * lines.amplitudes.max()) ** 2
-    return Sidebands(line if there else 0.0, sums["pinion"], sums["wheel"], sum(squares.values()) - line)
+    return Sidebands(line if there else 0.0, first, second, sum(squares.values()) - line)
 
 
 def _beside(teeth: int, harmonic: int, turn: float) -> np.ndarray:
@@ -166,7 +166,7 @@ def known_orders(scene: Scene) -> list[tuple[float, str]]:
     errors = scene.flank_errors
     run_out = scene.eccentricity
     known = []
-    for name, turns in (("pinion", 1.0), ("wheel", scene.gears.pinion.teeth / scene.gears.wheel.teeth)):
+    for name, turns in zip(GEARS, (1.0, scene.gears.pinion.teeth / scene.gears.wheel.teeth)):
         if run_out is not None and getattr(run_out, name) is not None:
             known.append((turns, f"run-out of the {name}"))
         waves = None if errors is None else getattr(errors, name).waviness

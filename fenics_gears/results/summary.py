@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from fenics_gears.contact.step_solver import NEWTON, PUBLISHED
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.system.progress import seconds_in_words
 
@@ -183,7 +184,7 @@ def _pressure(numbers) -> Said:
 
 
 def _root_stress(numbers) -> Said:
-    for gear in ("pinion", "wheel"):
+    for gear in GEARS:
         name = f"largest_root_stress_{gear}"
         if name in numbers:
             place = f"at mesh cycle {numbers[f'{name}_mesh_phase']:.4g}, tooth of pair {numbers[f'{name}_pair']}"

@@ -96,20 +96,19 @@ def flanks_of(model: Model, bodies: Bodies) -> Flanks:
     """Both gears as contact sees them: in the plane a load over the common face spreads in a gear that is wider."""
     pair = model.pair
     removal = removal_of_nodes(model)
-    first = bodies[0].section
-    second = bodies[1].section
+    sections = [body.section for body in bodies]
     within = pair.effective_face_widths == (pair.face_width, pair.face_width)
-    if within or any(body.solid is not None for body in bodies):
-        return Flanks(pair, (first, second), removal)
-    from fenics_gears.elasticity.overhang import with_overhang
+    if not within and all(body.solid is None for body in bodies):
+        from fenics_gears.elasticity.overhang import with_overhang
 
-    gears = (pair.pinion, pair.wheel)
-    materials = model.scene.gears.materials
-    pinion, wheel = (
-        with_overhang(body.section, gear, material, pair.face_width / width)
-        for body, gear, material, width in zip(bodies, gears, materials, pair.effective_face_widths)
-    )
-    return Flanks(pair, (pinion, wheel), removal)
+        sections = [
+            with_overhang(section, gear, material, pair.face_width / width)
+            for section, gear, material, width in zip(
+                sections, pair.gears, model.scene.gears.materials, pair.effective_face_widths
+            )
+        ]
+    first, second = sections
+    return Flanks(pair, (first, second), removal)
 
 
 def gaps_apart(model: Model) -> bool:

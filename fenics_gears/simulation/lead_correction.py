@@ -79,7 +79,7 @@ def wanted(model: Model) -> bool:
     scene = model.scene
     if not scene.three_dimensional or not gaps_apart(model) or scene.load.wheel_torque <= 0.0:
         return False
-    webs = [gear.web for gear in (model.pair.pinion, model.pair.wheel)]
+    webs = [gear.web for gear in model.pair.gears]
     bearings = scene.bearings
     leaning = scene.misalignment
     return (

@@ -12,6 +12,7 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.spring_mesh import PairSprings, Springs, spring_mesh
 from fenics_gears.contact.stiffness_table import LOADS, stiffness_table
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, coast_place, drive_place, facing_points_at
+from fenics_gears.dynamics.drivetrain import ROTATIONS
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies
 from fenics_gears.geometry.gear import Gear
@@ -47,10 +48,10 @@ def table_cycle(model: Model, bodies: Bodies) -> tuple[Bodies, Cycle]:
     full = Cycle(
         elastic_mesh(flanks_of(model, bodies), resolution.contact_grid, model.corner),
         min(resolution.steps_per_mesh_cycle, MOST_PHASES),
-        [CENTRE_COORDINATES.index("rotation_2")],
+        [CENTRE_COORDINATES.index(ROTATIONS[1])],
         tangential=False,
     )
-    force = abs(model.scene.load.wheel_torque / model.pair.wheel.base_radius)
+    force = model.pair.force_of(model.scene.load.wheel_torque)
     force = force or DEFLECTION_WITHOUT_LOAD * model.scene.gears.module * mesh_stiffness(model.scene, model.pair)
     table = stiffness_table(full, 0, force, LOADS)
     first, second = bodies

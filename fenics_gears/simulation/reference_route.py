@@ -8,6 +8,7 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.remeshing import RemeshedStiffness, remeshed_stiffness
 from fenics_gears.errors import SceneError
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
 from fenics_gears.system.job import Job
@@ -30,7 +31,7 @@ def reference_route(
     order = element_named(model.resolution.element).order
     nodes = paired_nodes(model.pair, model.removal, resolution.contact_grid, order, resolution.steps_per_mesh_cycle)
     gears = []
-    for number, name in enumerate(("pinion", "wheel")):
+    for number, name in enumerate(GEARS):
         progress.stage(f"remesh {name}")
         gear = getattr(model.pair, name)
         material = model.scene.gears.material_of(name)
@@ -40,5 +41,4 @@ def reference_route(
         gears.append(remeshed_stiffness(gear, material, teeth, division, **how))
     positions = list(zip(*(gear.positions for gear in gears)))
     mesh = remeshed_mesh(model.pair, nodes, positions, resolution.contact_grid, order, model.drivetrain.indices)
-    pinion, wheel = gears
-    return (pinion, wheel), cycle_of(model, mesh)
+    return (gears[0], gears[1]), cycle_of(model, mesh)

@@ -4,6 +4,7 @@ it."""
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.results.root_stress_variables import RootStress
 from fenics_gears.system.progress import Progress
@@ -13,7 +14,7 @@ from .bodies import discretisation_of
 
 def root_stress(model: Model, cycle: Cycle, progress: Progress, cache: Cache | None) -> RootStress:
     rows = []
-    for name in ("pinion", "wheel"):
+    for name in GEARS:
         progress.stage(f"root stress of the {name}")
         rows.append(rows_of(model, name, cache))
     return RootStress(model.pair, cycle, (rows[0], rows[1]))
@@ -22,7 +23,7 @@ def root_stress(model: Model, cycle: Cycle, progress: Progress, cache: Cache | N
 def rows_of(model: Model, name: str, cache: Cache | None) -> RootStressRows:
     """Root stress rows of the "pinion" or the "wheel", in the slices of the face where it has some, on the mesh of its
     compliance."""
-    gear = ("pinion", "wheel").index(name)
+    gear = GEARS.index(name)
     face = model.face
     coast = model.scene.coast_flanks is not None
     return root_stress_rows(

@@ -9,9 +9,10 @@ import numpy as np
 
 from fenics_gears.contact.face_mesh import face_mesh
 from fenics_gears.contact.idler import BetweenMeshes
+from fenics_gears.contact.idler_over_face import idler_over_face
+from fenics_gears.contact.joined_meshes import JoinedMeshes
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.row import MeshOfRow, RowCycle, at_phase
-from fenics_gears.contact.row_over_face import RowOverFace, idler_over_face
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Body, Reach
 from fenics_gears.elasticity.face.compliance import idler_compliance
@@ -39,10 +40,10 @@ def row_cycle_over_face(
     coupled = []
     for gear, body in idlers.items():
         (shared,) = couplings(row.layout, gear)
-        first, second = (meshes[mesh].cycle for mesh in shared.meshes)
-        sides = (first.pair.sides[1], first.face), (second.pair.sides[0], second.face)
+        cycles = [meshes[mesh].cycle for mesh in shared.meshes]
+        sides = [(cycle.pair.sides[side], cycle.face) for cycle, side in zip(cycles, shared.sides)]
         coupled.append(idler_over_face(BetweenMeshes(row.gear(gear).teeth, shared), body, sides))
-    return RowCycle(meshes, RowOverFace(coupled))
+    return RowCycle(meshes, JoinedMeshes(coupled))
 
 
 def _bodies(

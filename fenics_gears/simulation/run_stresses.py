@@ -140,7 +140,7 @@ class RunStresses:
         pair = self.model.pair
         coast = stored.on_coast_flanks
         place = coast_place(pair, 0, pair.pitch_point) if coast else drive_place(pair, 0, pair.pitch_point)
-        arcs = pair.pinion.base_radius * motion[0, 2] + pair.wheel.base_radius * motion[1, 2]
+        arcs = sum(radius * turned for radius, turned in zip(pair.base_radii, motion[:, 2]))
         approach = float((motion[0, :2] - motion[1, :2]) @ place.axes[0] + place.turn * arcs)
         gears = tuple(self._gear(gear, stored, motion[gear]) for gear in (0, 1))
         phase, time = (float(self.result[name].values[index]) for name in ("mesh_phase", "time"))
@@ -158,7 +158,7 @@ class RunStresses:
 
     def _gear(self, gear: int, stored: StoredForces, motion: np.ndarray) -> GearInSpace:
         recovery = self.recoveries[gear]
-        data = (self.model.pair.pinion, self.model.pair.wheel)[gear]
+        data = self.model.pair.gears[gear]
         forces = stored.on_flanks(self.model, gear, recovery.heights)
         body = recovery.recovered(forces, self._sectors(data, forces))
         centre, turns, places = self._standing(gear, stored.phase)
@@ -200,7 +200,7 @@ class RunStresses:
         pair = self.model.pair
         centre, angles = standing(pair, gear, phase)
         z = recovery.heights + face.middles[gear]
-        twist = (1.0, -1.0)[gear] * face.slope / recovery.gear.base_radius
+        twist = pair.sides[gear].sense * face.slope / recovery.gear.base_radius
         turns = np.stack([[rotation(angle + twist * height, 3) for height in z] for angle in angles])
         section = np.pad(recovery.points, ((0, 0), (0, 1)))
         along = z[:, None, None] * np.array([0.0, 0.0, 1.0])
@@ -226,7 +226,7 @@ class RunStresses:
 
 
 def recovery_of(model: Model, gear: int) -> GearRecovery:
-    data = (model.pair.pinion, model.pair.wheel)[gear]
+    data = model.pair.gears[gear]
     material = model.scene.gears.materials[gear]
     return gear_recovery(data, material, discretisation_of(model, gear), model.scene.coast_flanks is not None)
 
@@ -234,12 +234,12 @@ def recovery_of(model: Model, gear: int) -> GearRecovery:
 def standing(pair: GearPair, gear: int, phase: float) -> tuple[np.ndarray, np.ndarray]:
     """Centre (2,), mm, and angles (teeth,), rad, of a gear's sectors in the frame of the line of action, at a phase of
     the mesh cycle. Sector 0 has the tooth of pair 0, which reached the start of contact last."""
+    side = pair.sides[gear]
+    own = side.gear
     contact = pair.path_start + phase * pair.base_pitch
-    if gear == 0:
-        return np.zeros(2), contact / pair.pinion.base_radius + pair.pinion.angular_pitch * np.arange(pair.pinion.teeth)
-    centre = np.array([pair.line_of_action_length, -(pair.pinion.base_radius + pair.wheel.base_radius)])
-    first = np.pi + (pair.line_of_action_length - contact) / pair.wheel.base_radius
-    return centre, first + pair.wheel.angular_pitch * np.arange(pair.wheel.tooth_count)
+    centre = np.array([side.foot, side.sense * own.base_radius - pair.base_radii[0]])
+    first = 0.5 * np.pi * (1 - side.sense) + side.arm(contact) / own.base_radius
+    return centre, first + own.angular_pitch * np.arange(own.tooth_count)
 
 
 def hub_motion(result: xr.Dataset, index: int) -> np.ndarray:

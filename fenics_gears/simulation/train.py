@@ -11,9 +11,9 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
+from fenics_gears.contact.joined_meshes import JoinedMeshes
 from fenics_gears.contact.mesh import elastic_mesh, step_by_step
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.meshes_apart import MeshesApart
 from fenics_gears.contact.row import JoinedPosition, MeshOfRow, RowCycle, at_phase
 from fenics_gears.contact.row_in_plane import GearInPlane, RowInPlane
 from fenics_gears.dynamics.march import Marcher
@@ -151,7 +151,7 @@ def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
         members.append(_member(own, of_own, row.drivetrain.modes, progress, cache))
     if len(members) == 1 and isinstance(members[0].cycle, RowCycle):
         return members[0].cycle
-    return RowCycle(members, MeshesApart())
+    return RowCycle(members, JoinedMeshes())
 
 
 def _member(

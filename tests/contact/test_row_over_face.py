@@ -9,7 +9,7 @@ from tests.trains import helical_row
 
 from fenics_gears import ComputationError, model_of, train_from_text
 from fenics_gears.contact.idler import BetweenMeshes
-from fenics_gears.contact.row_over_face import IdlerOverFace
+from fenics_gears.contact.idler_over_face import IdlerOverFace
 from fenics_gears.dynamics.stepping import Stepper
 from fenics_gears.dynamics.train import drivetrain_of_mesh
 from fenics_gears.elasticity.cache import Cache

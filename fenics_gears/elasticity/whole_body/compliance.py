@@ -1,6 +1,8 @@
 """Flank compliance of a gear whose teeth are not all alike."""
 
-from dataclasses import dataclass, field
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
@@ -12,11 +14,11 @@ from fenics_gears.errors import ComputationError
 class WholeBodyCompliance:
     """Displacement of drive-flank nodes per unit line force on drive-flank nodes of every tooth, hub ring held.
 
-    Teeth are counted counter-clockwise. roll_angles: of each tooth's flank nodes (n,), rad, increasing. element_order:
-    1 or 2. blocks: blocks[t][m] (2n', 2n), mm per N/mm (plane strain, unit thickness), is the displacement of the flank
-    m pitches ahead of tooth t under forces on tooth t. Dofs are as in `FlankCompliance`. openings: of a body with
-    cracks, by the loaded tooth within `offsets` of one, (k, 2n), mm per N/mm: how far the faces are moved apart at k
-    places.
+    Teeth are counted counter-clockwise from `first`. roll_angles: of each tooth's flank nodes (n,), rad, increasing.
+    element_order: 1 or 2. blocks: blocks[t][m] (2n', 2n), mm per N/mm (plane strain, unit thickness), is the
+    displacement of the flank m pitches ahead of tooth t under forces on tooth t. Dofs are as in `FlankCompliance`.
+    openings: of a body with cracks, by the loaded tooth within `offsets` of one, (k, 2n), mm per N/mm: how far the
+    faces are moved apart at k places.
     """
 
     roll_angles: tuple[np.ndarray, ...]
@@ -25,7 +27,12 @@ class WholeBodyCompliance:
     openings: dict[int, np.ndarray] = field(default_factory=dict)
     timings: dict = field(default_factory=dict, compare=False)
     flanks: int = 1
+    first: int = 0
     alike: ClassVar[bool] = False
+
+    def counted_from(self, tooth: int) -> WholeBodyCompliance:
+        """The same body, whose tooth of that number is called 0."""
+        return replace(self, first=self.first + tooth)
 
     @property
     def teeth(self) -> int:
@@ -38,23 +45,27 @@ class WholeBodyCompliance:
         return len(self.blocks[0]) - 1
 
     def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
-        """Compliance (2n', 2n) of the flank of one tooth under forces on another; any whole numbers, teeth repeat after
-        a turn. sides: as in `FlankCompliance`. Raises ComputationError for coast flanks, and for teeth further apart
-        than `offsets`."""
+        """As of `compliance.BetweenFlanks`; raises ComputationError for coast flanks, and for teeth further apart than
+        `offsets`."""
         if any(sides):
             raise ComputationError(
                 "flank compliance: of a gear that is meshed as a whole only the drive flanks are known"
             )
-        ahead = (responding - loaded) % self.teeth
+        own, other = self.key(responding, loaded)
+        ahead = (own - other) % self.teeth
         if ahead <= self.offsets:
-            return self.blocks[loaded % self.teeth][ahead]
+            return self.blocks[other][ahead]
         if self.teeth - ahead <= self.offsets:
-            return self.blocks[responding % self.teeth][self.teeth - ahead].T
+            return self.blocks[own][self.teeth - ahead].T
         raise ComputationError(
-            f"flank compliance: teeth {responding % self.teeth} and {loaded % self.teeth} are further apart than the"
+            f"flank compliance: teeth {own} and {other} are further apart than the"
             f" {self.offsets} pitches that were computed; ask whole_body_compliance for more tooth_offsets"
         )
 
     def rolls_of(self, tooth: int) -> np.ndarray:
-        """Roll angles (n,), rad, of the flank nodes of a tooth; any whole number."""
-        return self.roll_angles[tooth % self.teeth]
+        """As of `compliance.FlankBody`."""
+        return self.roll_angles[(self.first + tooth) % self.teeth]
+
+    def key(self, responding: int, loaded: int) -> tuple[int, int]:
+        """As of `compliance.BetweenFlanks`: both teeth, which repeat after a turn."""
+        return (self.first + responding) % self.teeth, (self.first + loaded) % self.teeth

@@ -42,13 +42,12 @@ def in_the_plane(scene: Scene) -> Scene:
     gears = scene.gears
     bearings = scene.bearings
     lean = cos(gears.helix_angle)
-    pinion, wheel = (
-        replace(gear, profile_shift=gear.profile_shift * lean, rack_tip_radius=gear.rack_tip_radius * lean)
-        for gear in (gears.pinion, gears.wheel)
-    )
-    section = replace(
-        gears, module=gears.module / lean, pressure_angle=atan(tan(gears.pressure_angle) / lean), pinion=pinion,
-        wheel=wheel, helix_angle=0.0, pinion_hand="right",
+    section = gears.changed(
+        lambda gear: replace(
+            gear, profile_shift=gear.profile_shift * lean, rack_tip_radius=gear.rack_tip_radius * lean
+        ),
+        module=gears.module / lean, pressure_angle=atan(tan(gears.pressure_angle) / lean), helix_angle=0.0,
+        pinion_hand="right",
     )  # fmt: skip
     accuracy = replace(scene.accuracy, slices=None, layers=None)
     if bearings is not None:

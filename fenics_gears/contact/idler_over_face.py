@@ -1,5 +1,4 @@
-"""Compliance of gears in a row over the face: of each mesh as of a pair over the face, and through each idler's body
-between the meshes on either side of it.
+"""How meshes over the face on either side of an idler feel each other through its body.
 
 The flanks of an idler that its two mates load are on opposite sides of its teeth. They feel each other through its body
 alone, by few motions of their flanks (`elasticity.face.idler_ring`): averaged over slices as the body's compliance is,
@@ -22,20 +21,30 @@ from fenics_gears.geometry.side import Side
 from .face import Face
 from .face_pairing import FacePair, contact_axes, rises_of
 from .fine_sections import together
-from .formed_rows import FormedRows
 from .idler import BetweenMeshes, Part
 from .joined_rows import Coupling
 from .mesh_cycle import Cycle
-from .meshes_apart import side_by_side
 
 
 @dataclass(frozen=True, eq=False)
 class IdlerOverFace(BetweenMeshes):
     """An idler with what is `across` its body, and its `motions` (S n, 3, r) in slices: of a drive flank in the first
-    mesh, of a coast flank in the second."""
+    mesh, of a coast flank in the second. It is a `joined_meshes.CouplingGear`."""
 
     across: AcrossFlanks
     motions: tuple[np.ndarray, np.ndarray]
+
+    def couplings(
+        self, cycles: Sequence[Cycle], parts: Sequence[Part], steps: float
+    ) -> tuple[list[Coupling], list[Coupling]]:
+        meshes = [(gear, cycles[mesh], parts[mesh]) for gear, mesh in zip(self.gear.sides, self.meshes)]
+        seen = [_seen(self, gear, cycle, part.position.operator.pairs) for gear, cycle, part in meshes]
+        now = _coupled(self, seen, seen)
+        if not cycles[0].tangential:
+            return now, []
+        before = [_seen(self, gear, cycle, part.before) for gear, cycle, part in meshes]
+        turned = [_turned(self, gear, cycle, part, steps) for gear, cycle, part in meshes]
+        return now, _coupled(self, before, turned)
 
     def between(self, teeth: np.ndarray, others: np.ndarray, gear: int) -> np.ndarray:
         """What displaces the teeth (T,) by motions of the body, of those of other teeth (U,): (T, U, r, r'); `gear`:
@@ -51,9 +60,7 @@ class IdlerOverFace(BetweenMeshes):
         return found if gear == 1 else found.swapaxes(2, 3)
 
 
-def idler_over_face(
-    place: BetweenMeshes, body: IdlerCompliance, meshes: tuple[tuple[Side, Face], tuple[Side, Face]]
-) -> IdlerOverFace:
+def idler_over_face(place: BetweenMeshes, body: IdlerCompliance, meshes: Sequence[tuple[Side, Face]]) -> IdlerOverFace:
     """An idler with its body; `meshes`: its side of both, and the slices of these."""
     drive, coast = (
         _in_slices(solid, flank, *mesh)
@@ -77,29 +84,6 @@ class _OnIdler:
 
     moved: np.ndarray
     tooth: np.ndarray
-
-
-class RowOverFace:
-    """See `idler.RowCompliance`."""
-
-    def __init__(self, idlers: Sequence[IdlerOverFace]):
-        self._idlers = idlers
-
-    def of(
-        self, cycles: Sequence[Cycle], parts: Sequence[Part], counts: tuple[int, int], steps: float
-    ) -> tuple[FormedRows, FormedRows | None]:
-        tangential = cycles[0].tangential
-        now: list[Coupling] = []
-        earlier: list[Coupling] = []
-        for idler in self._idlers:
-            meshes = [(gear, cycles[mesh], parts[mesh]) for gear, mesh in zip((1, 0), idler.meshes)]
-            seen = [_seen(idler, gear, cycle, part.position.operator.pairs) for gear, cycle, part in meshes]
-            now += _coupled(idler, seen, seen)
-            if tangential:
-                before = [_seen(idler, gear, cycle, part.before) for gear, cycle, part in meshes]
-                turned = [_turned(idler, gear, cycle, part, steps) for gear, cycle, part in meshes]
-                earlier += _coupled(idler, before, turned)
-        return side_by_side(parts, counts, tangential, now, earlier)
 
 
 def _turned(idler: IdlerOverFace, gear: int, cycle: Cycle, part: Part, steps: float) -> _OnIdler:
@@ -133,7 +117,7 @@ def _seen(
 def _coupled(idler: IdlerOverFace, rows: list[_OnIdler], columns: list[_OnIdler]) -> list[Coupling]:
     """Both meshes of an idler by forces on the other one."""
     found = []
-    for number, (gear, own, other) in enumerate(zip((1, 0), rows, reversed(columns))):
+    for number, (gear, own, other) in enumerate(zip(idler.gear.sides, rows, reversed(columns))):
         teeth, places = np.unique(own.tooth, return_inverse=True)
         others, other_places = np.unique(other.tooth, return_inverse=True)
         between = idler.between(teeth, others, gear)

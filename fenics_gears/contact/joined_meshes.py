@@ -1,0 +1,56 @@
+"""Compliance of meshes that move together: rows of all one after the other. Those that have no gear in common do not
+feel each other; a gear in two meshes gives how they do."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+
+from .addresses import form_rows
+from .formed_rows import FormedRows
+from .idler import Part
+from .joined_rows import AllRows, Coupling, Joined, joined_rows
+from .mesh_cycle import Cycle
+
+
+class CouplingGear(Protocol):
+    """A gear in two meshes of a train."""
+
+    def couplings(
+        self, cycles: Sequence[Cycle], parts: Sequence[Part], steps: float
+    ) -> tuple[list[Coupling], list[Coupling]]:
+        """How its meshes feel each other after so many steps: forces now, and with friction those a step before."""
+
+
+class JoinedMeshes:
+    """See `idler.RowCompliance`; `gears`: those in two meshes."""
+
+    def __init__(self, gears: Sequence[CouplingGear] = ()):
+        self._gears = gears
+
+    def of(
+        self, cycles: Sequence[Cycle], parts: Sequence[Part], counts: tuple[int, int], steps: float
+    ) -> tuple[FormedRows, FormedRows | None]:
+        nodes, nodes_before = counts
+        tangential = cycles[0].tangential
+        kinds = 2 if tangential else 1
+        couplings = [gear.couplings(cycles, parts, steps) for gear in self._gears]
+        now, earlier = ([each for found in couplings for each in found[time]] for time in (0, 1))
+        own = [Joined(_rows(part, "compliance"), part.first, part.first) for part in parts]
+        compliance = joined_rows(own, now, (nodes, nodes), (kinds, kinds))
+        # Its first number is the size that others are measured by.
+        form_rows(compliance.address, np.zeros(1, dtype=np.int64))
+        if not tangential:
+            return compliance, None
+        own = [Joined(_rows(part, "previous_compliance"), part.first_before, part.first) for part in parts]
+        return compliance, joined_rows(own, earlier, (nodes_before, nodes), (2, 1), by_columns=True)
+
+
+def _rows(part: Part, name: str) -> FormedRows | AllRows:
+    """A compliance of a mesh by itself, whose rows are not formed by this; of the previous one its columns."""
+    stored = part.position.operator.__dict__[name]
+    if isinstance(stored, FormedRows):
+        return stored
+    return AllRows(np.ascontiguousarray(stored if name == "compliance" else stored.T))
