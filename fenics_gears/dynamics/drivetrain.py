@@ -74,7 +74,8 @@ class Drivetrain:
     @cached_property
     def bending_faces(self) -> np.ndarray:
         """Stiffness and flexibility (2, f, f), N/mm, of the faces that bend by coordinates of their own."""
-        own = [self.coordinates.index(name) for shaft in self.elastic for name in shaft.of_face]
+        faces = (shaft.of_face(seat) for system in self.systems for shaft, seat in system.seated)
+        own = [self.coordinates.index(name) for of_face in faces for name in of_face]
         of_faces = self.stiffness[np.ix_(own, own)]
         return np.stack([of_faces, np.linalg.inv(of_faces)])
 

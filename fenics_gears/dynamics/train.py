@@ -72,7 +72,8 @@ class TrainParts:
     `torsion`: stiffness (N mm/rad) of each shaft, of the first between drive and gears, of the last between gears and
     load, of others between the gears that are driven and those that only drive, infinite where it is rigid. By gear:
     `masses`, none without inertia, and `supports` along and off the line of action of its first mesh (N/mm), None where
-    its centre is fixed. `load`: moment of inertia (N mm s^2) on the last shaft.
+    its centre is fixed. `load`: moment of inertia (N mm s^2) on the last shaft. `turning`: numbers of gears that turn
+    against their shaft, one that bends.
     """
 
     layout: Layout
@@ -81,6 +82,7 @@ class TrainParts:
     masses: Sequence[LumpedGear] = ()
     supports: Sequence[tuple[float, float] | None] = ()
     load: float | None = None
+    turning: Sequence[int] = ()
 
     @property
     def graph(self) -> TrainGraph:
@@ -118,6 +120,10 @@ class _Rows:
             if shaft and isfinite(parts.torsion[shaft]):
                 names.append(f"twist_{shaft + 1}")
                 radii.append((driving or driven)[0])
+        for gear in parts.turning:
+            mesh, side = self.graph.sides[gear][0]
+            names.append(f"turn of gear {gear + 1}")
+            radii.append(pairs[mesh].base_radii[side])
         for gear in range(len(self.graph.shafts)):
             if parts.support(gear) is not None:
                 names += [f"centre_x of gear {gear + 1}", f"centre_y of gear {gear + 1}"]
@@ -136,10 +142,11 @@ class _Rows:
     def rotation(self, gear: int, side: int) -> np.ndarray:
         """Rotation of a gear, as a mesh counts it in which it is the pinion (0) or the wheel (1)."""
         shaft = self.graph.shafts[gear]
-        own = self.of(f"rotation_{shaft + 1}")
+        own = self.of(f"rotation_{shaft + 1}") + self.of(f"turn of gear {gear + 1}")
         if shaft == 0 or side != PINION:
             return own
-        return (0.0 if self.graph.driven(gear) else self.of(f"twist_{shaft + 1}")) - own
+        with_shaft = self.graph.driven(gear) or gear in self.parts.turning
+        return (0.0 if with_shaft else self.of(f"twist_{shaft + 1}")) - own
 
     @property
     def end(self) -> np.ndarray:

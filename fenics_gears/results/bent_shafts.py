@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, ElasticShaft
+from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, SeatedGear
 from fenics_gears.dynamics.elastic_shaft_seat import BentBySeat
 from fenics_gears.dynamics.frequencies import vibrations
 from fenics_gears.dynamics.shaft_elements import SIX, carried
@@ -87,12 +87,12 @@ class BentShafts(MovedAxes):
         self._seats = {}
         self._bent = {}
         for system in self.drivetrain.systems:
-            for shaft in system.shafts:
-                self._lines[shaft.gear] = system.deflection(shaft, self.points(shaft.length))
-                if shaft.yields_within:
-                    self._seats[shaft.gear] = self._seat(system, shaft)
-                if shaft.of_face:
-                    self._bent[shaft.gear] = self._nearest(system.seat(shaft).follows(self._heights(shaft)), shaft)
+            for shaft, seat in system.seated:
+                self._lines[seat.gear] = system.deflection(shaft, self.points(shaft.length))
+                if seat.yields_within:
+                    self._seats[seat.gear] = self._seat(system, seat)
+                if shaft.of_face(seat):
+                    self._bent[seat.gear] = self._nearest(system.seat(seat).follows(self._heights(seat)), seat)
 
     @staticmethod
     def points(length: float) -> np.ndarray:
@@ -106,14 +106,14 @@ class BentShafts(MovedAxes):
         loads = []
         for system in self.drivetrain.systems:
             loads.append(self._values(system, states) @ system.bearing_loads.T)
-            for each in system.shafts:
+            for shaft, each in system.seated:
                 if each.gear in self._seats:
                     seat = self._seats[each.gear]
                     teeth = self._loads(nodes, each.gear)
                     motions[:, GEARS.index(each.gear)] += np.tensordot(teeth, seat.teeth, ((1, 2), (1, 2)))
                     loads[-1] += np.tensordot(teeth, seat.bearings, ((1, 2), (1, 2)))
                 if each.gear in self._bent:
-                    apart = np.stack([self.drivetrain.value(states, name) for name in each.of_face], axis=-1)
+                    apart = np.stack([self.drivetrain.value(states, name) for name in shaft.of_face(each)], axis=-1)
                     motions[:, GEARS.index(each.gear)] += apart @ self._bent[each.gear].T
         on_bearings = np.concatenate(loads, axis=1).reshape(len(states), -1, len(MOTIONS))
         if self.drivetrain.rolling is not None:
@@ -127,7 +127,7 @@ class BentShafts(MovedAxes):
         deflection = np.full((2, len(states), len(NUMBERS), SHAFT_POINTS), np.nan)
         for system in self.drivetrain.systems:
             values = self._values(system, states)
-            for each in system.shafts:
+            for _, each in system.seated:
                 lines = np.einsum("pmn,sn->msp", self._lines[each.gear][:, :2], values)
                 if each.gear in self._seats:
                     line = self._seats[each.gear].line[:, :2]
@@ -138,11 +138,11 @@ class BentShafts(MovedAxes):
     def coordinates(self) -> dict[str, tuple]:
         """Where bearings and points of the shafts are."""
         elastic = self.drivetrain.elastic
-        names = [f"{each.gear} {number + 1}" for each in elastic for number in range(len(each.bearings))]
+        names = [f"{each.name} {number + 1}" for each in elastic for number in range(len(each.bearings))]
         places = [bearing.at for each in elastic for bearing in each.bearings]
         points = np.full((len(NUMBERS), SHAFT_POINTS), np.nan)
         for each in elastic:
-            points[GEARS.index(each.gear)] = self.points(each.length)
+            points[GEARS.index(each.name)] = self.points(each.length)
         from_end = {"units": "mm", "long_name": "distance from the left end of the shaft"}
         return super().coordinates() | {
             "bearing": ("bearing", names, {"long_name": "bearing of a shaft with sections"}),
@@ -157,26 +157,26 @@ class BentShafts(MovedAxes):
         numbers = {"largest_bearing_force": float(forces.max())}
         return super().numbers(counted, known) | numbers | self._rolling_elements(counted) | self._vibrations(counted)
 
-    def _seat(self, system: ShaftSystem, shaft: ElasticShaft) -> BentBySeat:
+    def _seat(self, system: ShaftSystem, seat: SeatedGear) -> BentBySeat:
         """Response of a seat to loads (S, 6) in the slices of the face, at their own heights. Of its teeth: motions (5,
         S, 6), in the middle of the gear, of the straight axis that is nearest to them over the common face."""
         slices = len(self.face.positions)
-        bent = system.bent_by_seat(shaft, self._heights(shaft), self.points(shaft.length))
+        bent = system.bent_by_seat(seat, self._heights(seat), self.points(system.shaft_of(seat).length))
         teeth, line, bearings = (each.reshape(*each.shape[:-2], 2, slices, SIX).mean(axis=-3) for each in bent)
-        return BentBySeat(self._nearest(teeth, shaft), line, bearings)
+        return BentBySeat(self._nearest(teeth, seat), line, bearings)
 
-    def _heights(self, shaft: ElasticShaft) -> np.ndarray:
+    def _heights(self, seat: SeatedGear) -> np.ndarray:
         """Heights (2 S,) from the gear's middle of which two stand for a load that is even over a slice."""
-        z = self._slices(shaft)
+        z = self._slices(seat)
         return np.concatenate([z - GAUSS * self.face.widths, z + GAUSS * self.face.widths])
 
-    def _slices(self, shaft: ElasticShaft) -> np.ndarray:
-        return self.face.positions - self.pair.gear_middles[GEARS.index(shaft.gear)]
+    def _slices(self, seat: SeatedGear) -> np.ndarray:
+        return self.face.positions - self.pair.gear_middles[GEARS.index(seat.gear)]
 
-    def _nearest(self, teeth: np.ndarray, shaft: ElasticShaft) -> np.ndarray:
+    def _nearest(self, teeth: np.ndarray, seat: SeatedGear) -> np.ndarray:
         """Motions (5, ...) in the gear's middle of the straight axis that is nearest over the common face to teeth that
         move by (2 S, 6, ...)."""
-        z = self._slices(shaft)
+        z = self._slices(seat)
         slices = teeth.reshape(2, len(z), *teeth.shape[1:]).mean(axis=0)
         straight = np.stack([np.ones_like(z), z], axis=1)
         nearest = np.linalg.solve((straight.T * self.face.widths) @ straight, straight.T * self.face.widths)
@@ -219,7 +219,7 @@ class BentShafts(MovedAxes):
         drivetrain = self.drivetrain
         if rolling is None:
             return {}
-        if any(shaft.of_face for shaft in drivetrain.elastic):
+        if any(shaft.of_face(seat) for system in drivetrain.systems for shaft, seat in system.seated):
             # The gears' motions are not all that moves shafts in their bearings.
             loads = np.stack([counted[name].mean("time").values for name in LOADS], axis=1)
             return {"largest_rolling_element_force": rolling.largest_under(loads)}

@@ -13,7 +13,7 @@ from tests.helical import helical_scene, on_stand_in_bodies
 from fenics_gears import model_of
 from fenics_gears.dynamics.beam import shear_coefficient
 from fenics_gears.dynamics.bearings import Bearing
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear
 from fenics_gears.dynamics.shaft_at_work import face_compliance_of_shafts, middles_of_slices
 from fenics_gears.dynamics.shaft_elements import carried
 from fenics_gears.dynamics.shafts import ShaftSection
@@ -43,11 +43,13 @@ BEARINGS = {
 
 
 def shaft(bearings, torque_at=0.0):
-    return ElasticShaft("pinion", SECTIONS, STEEL, 55.0, WIDTH, torque_at, bearings, integral=True)
+    return ElasticShaft(
+        "pinion", SECTIONS, STEEL, (SeatedGear("pinion", 55.0, WIDTH, integral=True),), torque_at, bearings
+    )
 
 
 def seat_compliance(shaft, heights, system=None):
-    return (system or alone(shaft)).seat(shaft).whole(heights)
+    return (system or alone(shaft)).seat(shaft.seats[0]).whole(heights)
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
@@ -72,8 +74,10 @@ def test_rigid_seat_and_remainder_make_up_the_whole_compliance(name):
     def shear(outer, bore):
         return float(shear_coefficient(0.3, np.array(bore / outer)))
 
-    places, stiffness = assembled(found, shear, found.gear_at + HEIGHTS)
-    own = np.concatenate([5 * np.abs(np.array(places) - found.gear_at - z).argmin() + np.arange(5) for z in HEIGHTS])
+    places, stiffness = assembled(found, shear, found.seats[0].at + HEIGHTS)
+    own = np.concatenate(
+        [5 * np.abs(np.array(places) - found.seats[0].at - z).argmin() + np.arange(5) for z in HEIGHTS]
+    )
     whole = np.linalg.inv(stiffness)[np.ix_(own, own)]
     rigid = np.concatenate([carried(z)[:5, :5] for z in HEIGHTS])
     seat = seat_compliance(found, HEIGHTS)[:, :5, :, :5].reshape(len(own), -1)
@@ -122,7 +126,7 @@ def test_flanks_give_way_as_their_rows_say(helix, shafts):
         found, added = (each[np.ix_(middle, middle)] for each in (found, added))
         # What is left is the interpolation between flank nodes, and the turn of a helix within a slice.
         assert len(found) and np.abs(found - added).max() <= 3e-6 * np.abs(added).max()
-    assert {each.gear for each in model.drivetrain.elastic} == {"pinion", "wheel"}
+    assert {each.name for each in model.drivetrain.elastic} == {"pinion", "wheel"}
 
 
 def finished(more):
