@@ -116,16 +116,7 @@ def wrong_sections(shaft: TrainShaft, place: Path, graph: TrainGraph, number: in
                 yield Problem((*place, name), "", said)
         return
     at_an_end = number in (0, graph.last)
-    driven = sum(graph.driven(gear) for gear in graph.on(number))
     count = len(shaft.carries)
-    if count > 2 or count == 2 and (at_an_end or driven != 1):
-        said = (
-            f"are {count} gears, {driven} of them driven, on a shaft that bends, which is not yet computed. Allowed"
-            " with sections: one gear on the first and the last shaft; on others one gear, or one that is driven and"
-            " one that only drives."
-        )
-        named = ", ".join(f'"{gear}"' for gear in shaft.carries)
-        yield Problem((*place, "carries"), f"[{named}]", said)
     if shaft.gears_at is None or len(shaft.gears_at) != count:
         allowed = (
             f"Allowed: {count} {'length' if count == 1 else 'lengths'} from the left end, in the order of carries."

@@ -10,7 +10,7 @@ from tests.beam_elements import FIVE, assembled
 from tests.dynamics.test_elastic_shaft import LOAD, STIFF, E, G, area, second, shaft, shear
 
 from fenics_gears.dynamics.bearings import Bearing
-from fenics_gears.dynamics.elastic_shaft import SeatedGear
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear
 from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.dynamics.shafts import ShaftSection
 from fenics_gears.dynamics.train_shafts import mesh_axes, turned_motions
@@ -60,6 +60,22 @@ def test_two_gears_on_a_shaft_twist_against_each_other_as_its_sections():
     polar = [2.0 * second(30.0, 10.0), 2.0 * second(42.0)]
     yielding = sum(length / (G * each) for (length, _), each in zip(lengths, polar))
     assert found.torsional_stiffness(found.shafts[0]) == pytest.approx(1.0 / yielding, rel=1e-9)
+
+
+def test_three_gears_and_a_coupling_twist_as_springs_in_a_row():
+    """Exact: G J over length between neighbours; a turn of all is free."""
+    sections = (ShaftSection(200.0, 30.0),)
+    seats = tuple(SeatedGear(name, at) for name, at in zip("abc", (40.0, 90.0, 120.0)))
+    own = ElasticShaft("line", sections, (E, 0.3), seats, 180.0, (Bearing(10.0, 3e5, 1e5), Bearing(190.0, 3e5)))
+    found = ShaftSystem((own,))
+    wanted = np.zeros((4, 4))
+    for first, length in enumerate((50.0, 30.0, 60.0)):
+        ends = np.ix_([first, first + 1], [first, first + 1])
+        wanted[ends] += G * 2.0 * second(30.0) / length * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    turns = np.zeros((len(found.motions), 4))
+    turns[[found.motions.index(name) for name in own.turns], range(4)] = 1.0
+    assert found.over(turns, "stiffness") == pytest.approx(wanted, rel=1e-9, abs=1e-9 * wanted.max())
+    assert not (found.over(turns, "stiffness") @ np.ones(4)).any()
 
 
 def test_a_shaft_with_two_gears_vibrates_as_a_textbooks_elements():

@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from tests.trains import bearing_sections, bent_paths, bent_two_stages, split_text
+from tests.trains import bearing_sections, bent_two_stages, split_text
 
 from fenics_gears import SceneError, train_from_text
 from fenics_gears.model.train import train_model_of
@@ -59,14 +59,6 @@ def test_a_shaft_without_bearings_is_refused():
     text = text[: text.index("[[shafts.middle.bearings]]")]
     with pytest.raises(SceneError, match=r"(?s)shafts.middle.bearings.*\[\[shafts.middle.bearings\]\] with at"):
         train_from_text(text)
-
-
-def test_a_shaft_that_bends_with_several_driven_gears_is_refused():
-    """Not computed yet: twist between three gears, or between two that are driven alike, is no one number."""
-    bent = 'sections = [{ length = "80 mm", diameter = "25 mm" }]\ngears_at = ["20 mm", "55 mm"]\ntorque_at = "0 mm"\n'
-    bent += '[[shafts.last.bearings]]\nat = "5 mm"\nradial_stiffness = "1e5 N/mm"\naxial_stiffness = "1e5 N/mm"\n'
-    with pytest.raises(SceneError, match=r"(?s)shafts.last.carries.*out2.wheel.* 2 of them driven.*Allowed with"):
-        train_from_text(bent_paths(1.0, bent))
 
 
 def test_a_gear_with_two_mates_on_one_flank_is_refused_beside_a_shaft_that_bends():

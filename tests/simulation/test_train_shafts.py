@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from tests.trains import (
     bearing_sections,
+    bent_ends,
     bent_paths,
     bent_two_stages,
     helical_paths,
@@ -49,6 +50,11 @@ INPUT = (
 OUTPUT = 'sections = [{ length = "150 mm", diameter = "40 mm" }]\ntorque_at = "150 mm"\n'
 IRON = 'material = { name = "ductile cast iron" }\n'
 INERTIA = '[inertia]\ndensity = "7.85 g/cm^3"\n[inertia.load]\nmoment_of_inertia = "0.01 kg m^2"\n'
+
+
+def all_bent(compliance: float, of_last: str = "", more: str = "") -> str:
+    """Two paths all of whose shafts bend."""
+    return bent_ends(bent_paths(compliance, of_last, more), compliance)
 
 
 def tables(name: str, each: tuple[str, ...]) -> str:
@@ -183,11 +189,11 @@ def test_stages_on_a_stiff_shaft_are_pairs_and_depart_as_it_gives_way():
 def test_the_energy_account_on_shafts_that_bend_closes(paths):
     """Work of drive, load, friction and damping is the change of kinetic and elastic energy, to round-off: with a shaft
     that bends between two gears, its mass and its own modes; and in two paths that share unevenly."""
-    more = f'{INERTIA}[damping]\nratio = 0.04\n[friction]\ncoefficient = 0.08\n[bearings]\nstiffness = "2e5 N/mm"\n'
+    more = f'{INERTIA}[damping]\nratio = 0.04\n[friction]\ncoefficient = 0.08\n'
     more += '[motion]\ninput_speed = "2000 rpm"\nmesh_cycles = 2\n'
-    scene = bent_two_stages(1.0, more)
+    scene = bent_two_stages(1.0, f'{more}[bearings]\nstiffness = "2e5 N/mm"\n')
     if paths == 2:
-        scene = train_from_text(bent_paths(1.0, 'clocking = "1e-4 rad"\n', more))
+        scene = train_from_text(all_bent(1.0, 'clocking = "1e-4 rad"\n', more))
     (model,) = train_model_of(scene).rows
     drivetrain = model.drivetrain
     assert paths == 2 or drivetrain.modes > 2
@@ -246,12 +252,35 @@ def test_bearings_of_two_paths_carry_the_forces_of_their_gears():
         assert own == pytest.approx(np.tile(wanted, (len(own), 1)), abs=1e-8 * np.abs(wanted).max())
 
 
-def test_clocked_paths_on_stiff_shafts_are_those_on_rigid_shafts():
+@pytest.mark.parametrize("bent", [bent_paths, pytest.param(all_bent, marks=pytest.mark.nightly)])
+def test_clocked_paths_on_stiff_shafts_are_those_on_rigid_shafts(bent):
     """Limit: of a millionth of the compliance paths share as on rigid shafts, here unevenly."""
     clocking = 'clocking = "1e-4 rad"\n'
     rigid = simulate_train(train_from_text(helical_paths(clocking)))
-    stiff = simulate_train(train_from_text(bent_paths(1e-6, clocking)))
+    stiff = simulate_train(train_from_text(bent(1e-6, clocking)))
     assert (rigid["path_share"].isel(mesh=[1, 3]) < 0.49).all()
     for name in ("path_share", "overall_transmission_error", "line_load", "transmission_error"):
         size = np.nanmax(np.abs(rigid[name].values))
         assert stiff[name].values == pytest.approx(rigid[name].values, abs=1e-5 * size, nan_ok=True), name
+
+
+def test_shafts_that_carry_both_paths_bend_as_their_bearings_are_loaded():
+    """Statics in space: bearings of the first and the last shaft, with two gears each, have the textbook's forces of
+    their meshes, each under the torque that its path carries."""
+    scene = train_from_text(all_bent(1.0))
+    found = simulate_train(scene)
+    forces = found[[f"bearing_force_{axis}" for axis in "xyz"]].to_array()
+    shafts = [str(name).partition(" ")[0] for name in found["bearing"].values]
+    for shaft, meshes, on in (("first", (0, 1), -1.0), ("last", (2, 3), 1.0)):
+        own = forces.isel(bearing=[place for place, name in enumerate(shafts) if name == shaft])
+        # Of both meshes the sum has the direction of one under the whole torque; paths stand opposite each other.
+        wanted = 0.0
+        for mesh in meshes:
+            share = found["normal_force"].isel(mesh=mesh).values
+            of_one = textbook_force(scene.meshes[mesh], 1.0 if shaft == "first" else -1.0)
+            lever = scene.meshes[mesh].pair
+            size = np.linalg.norm(of_one)
+            nominal = scene.meshes[mesh].scene.load.wheel_torque / lever.wheel.base_radius / lever.cosine
+            wanted = wanted + on * np.outer(share / nominal, of_one)
+        total = own.sum("bearing").transpose("time", "variable").values
+        assert total == pytest.approx(wanted, abs=1e-8 * size)
