@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
 
 SIDES = ("pinion", "wheel")
+# Axes of a train: to the right, up, and along its shafts.
+SPACE = np.eye(3)
 
 
 @dataclass(frozen=True, eq=False)

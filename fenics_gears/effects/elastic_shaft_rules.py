@@ -104,7 +104,7 @@ def check_shafts(scene: Any, pair: Any) -> None:
             wrong += [*_bearings_brace(elastic)] if not wrong else []
             wrong += wrong_with_seat(scene, pair, elastic, shaft)
     if not wrong:
-        wrong += [said for system in shaft_systems(scene, pair) for said in _bearings_hold(system)]
+        wrong += [said for system in shaft_systems(scene, pair) for said in bearings_hold(system)]
     if wrong:
         raise SceneError("\n".join(wrong))
 
@@ -246,7 +246,7 @@ def _bearings_brace(elastic: ElasticShaft) -> Iterator[str]:
         )
 
 
-def _bearings_hold(system: ShaftSystem) -> Iterator[str]:
+def bearings_hold(system: ShaftSystem) -> Iterator[str]:
     """The bearings leave no motion free."""
     free_of = free_motions(system.shafts, system.springs)
     for shaft in system.shafts:

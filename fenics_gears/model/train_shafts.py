@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from math import inf
 from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.linalg import block_diag
 
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear
 from fenics_gears.dynamics.shaft_at_work import at_work
 from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.dynamics.train_shafts import (
     SIDES,
+    SPACE,
     BentShafts,
     GearOnShaft,
     MeshFrame,
@@ -20,7 +25,8 @@ from fenics_gears.dynamics.train_shafts import (
     shaft_axes,
     turned_motions,
 )
-from fenics_gears.effects.elastic_shaft_rules import check_held_at_work
+from fenics_gears.effects.elastic_shaft_housing import check_housing, stiffness_of_seats
+from fenics_gears.effects.elastic_shaft_rules import bearings_hold, check_held_at_work
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.problem import NOTHING_DONE
@@ -48,21 +54,42 @@ def bent_shafts(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShaft
             of_mesh = lumped_gears(mesh.scene, mesh.pair)
             masses |= {name: of_mesh[side] for name, side in zip(mesh.gears, SIDES)}
             up_to = max(up_to, 2.0 * highest_of_interest(mesh.scene, mesh.pair, of_mesh))
-    systems = []
     axes = {}
-    gears: list[GearOnShaft] = []
     for bent in shafts.bent:
-        system = ShaftSystem((_shaft(bent, meshes, up_to),))
         first, _ = _places(meshes, bent.own.carries[0])[0]
         axes[bent.name] = shaft_axes(frames[first].axes)
+    systems = []
+    gears: list[GearOnShaft] = []
+    for system in _in_housings(shafts, [_shaft(bent, meshes, up_to) for bent in shafts.bent], axes):
         own = [
-            GearOnShaft(seat, mesh, side, turned_motions(axes[bent.name], frames[mesh].axes))
-            for _, seat in system.seated
+            GearOnShaft(seat, mesh, side, turned_motions(axes[shaft.name], frames[mesh].axes))
+            for shaft, seat in system.seated
             for mesh, side in _places(meshes, seat.gear)
         ]
         systems.append(_at_work(system, own, frames))
         gears += own
     return BentShafts(tuple(systems), axes, tuple(gears), tuple(frames), masses)
+
+
+def _in_housings(
+    shafts: TrainShafts, built: Sequence[ElasticShaft], axes: Mapping[str, np.ndarray]
+) -> Iterator[ShaftSystem]:
+    """Shafts with such axes in space, each by itself or all in one housing, whose matrix is in space. Raises SceneError
+    for a matrix that does not fit, and where a housing leaves a shaft free."""
+    alone = [(f"shafts.{each.name}.housing", each.own.housing, (shaft,)) for each, shaft in zip(shafts.bent, built)]
+    together = [("shafts.housing", shafts.housing, tuple(built))]
+    for field, housing, own in alone if shafts.housing is None else together:
+        if housing is None:
+            yield ShaftSystem(own)
+            continue
+        check_housing(housing, field, sum(len(shaft.bearings) for shaft in own))
+        turn = block_diag(*(turned_motions(axes[shaft.name], SPACE) for shaft in own for _ in shaft.bearings))
+        stiffness = turn.T @ np.array(stiffness_of_seats(housing)) @ turn
+        housed = tuple(replace(shaft, in_housing=True) for shaft in own)
+        system = ShaftSystem(housed, tuple(map(tuple, stiffness.tolist())))
+        if wrong := list(bearings_hold(system)):
+            raise SceneError(f"{_in_words(' '.join(wrong), system)}. {NOTHING_DONE}")
+        yield system
 
 
 def turning_of(
@@ -144,9 +171,13 @@ def _at_work(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequence
     try:
         system = at_work(system, even_loads(system, gears, frames).ravel())
     except SceneError as error:
-        said = str(error)
-        for shaft in system.shafts:
-            said = said.replace(f"bearings.{shaft.name}", f"shafts.{shaft.name}.bearings")
-        raise SceneError(f"{said}. {NOTHING_DONE}") from error
+        raise SceneError(f"{_in_words(str(error), system)}. {NOTHING_DONE}") from error
     check_held_at_work(system, "shafts.{}.bearings")
     return system
+
+
+def _in_words(said: str, system: ShaftSystem) -> str:
+    """What is said of bearings, where a train has them."""
+    for shaft in system.shafts:
+        said = said.replace(f"bearings.{shaft.name}", f"shafts.{shaft.name}.bearings")
+    return said

@@ -11,13 +11,11 @@ import numpy as np
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.elastic_shaft import FIVE, ElasticShaft
 from fenics_gears.dynamics.shaft_system import ShaftSystem
-from fenics_gears.dynamics.train_shafts import BentShafts, turned_motions
+from fenics_gears.dynamics.train_shafts import SPACE, BentShafts, turned_motions
 from fenics_gears.model.storage import SHAFT_POINTS
 
 from .bent_shafts import LOADS
 
-# Of the train: to the right, up, and along the axes.
-SPACE = np.eye(3)
 IN_SPACE = (
     "force of the shaft on its bearing to the right, as directions of stages are counted",
     "force of the shaft on its bearing upwards",

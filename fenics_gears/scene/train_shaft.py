@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fenics_gears.dynamics.bearings import MOST_BEARINGS, Bearing
-from fenics_gears.dynamics.shafts import MOST_SECTIONS, ShaftMaterial, ShaftSection
+from fenics_gears.dynamics.shafts import MOST_SECTIONS, HousingFile, ShaftMaterial, ShaftSection, housing_file
 from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.allowed import Allowed, Refused
 from fenics_gears.inputs.fields import declared, quantities, quantity
@@ -15,10 +15,7 @@ from fenics_gears.inputs.problem import Path, Problem
 from fenics_gears.inputs.section import AllowedTables, Section, names_in
 
 # What shafts of pairs have beside.
-NOT_YET = {
-    "seat": "is not yet computed in trains: gears sit rigidly over their width. Leave it out.",
-    "housing": "is not yet computed in trains: bearings stand in a rigid housing. Leave it out.",
-}
+NOT_YET = {"seat": "is not yet computed in trains: gears sit rigidly over their width. Leave it out."}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,12 +85,28 @@ class TrainShaft(Section):
             otherwise="required with `sections`",
         )
     )
+    housing: HousingFile | None = housing_file(
+        "this shaft's bearings, in the form of a pair's, but along x to the right and y upwards, as directions of"
+        " stages are counted",
+        "the housing is rigid, or that of `[shafts]`",
+    )
     clocking: float | None = quantity(
         "-1 rad to 1 rad",
         "0.002 rad",
         meaning="of a shaft in a loop: angle by which the second of its two gears is turned ahead, as the shaft turns,"
         " of where the loop closes exactly",
         otherwise="0 rad",
+    )
+
+
+@dataclass(frozen=True)
+class TrainHousing(Section):
+    """What `[shafts]` of a train has beside its shafts."""
+
+    housing: HousingFile | None = housing_file(
+        "the bearings of all shafts with sections, which it ties together, in the order of the scene and in the form of"
+        " that of one shaft",
+        "each shaft has its own, if any",
     )
 
 
@@ -110,7 +123,7 @@ def wrong_sections(shaft: TrainShaft, place: Path, graph: TrainGraph, number: in
     """A shaft with sections says where its gears are, has bearings and, at an end of the train, a coupling; another one
     has nothing of it; its `number` in the train."""
     if shaft.sections is None:
-        for name in ("gears_at", "torque_at", "material", "bearings"):
+        for name in ("gears_at", "torque_at", "material", "bearings", "housing"):
             if getattr(shaft, name) not in (None, ShaftMaterial()):
                 said = "has no effect: it is of a shaft with sections. Add sections, or leave it out."
                 yield Problem((*place, name), "", said)

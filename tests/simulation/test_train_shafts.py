@@ -189,7 +189,7 @@ def test_stages_on_a_stiff_shaft_are_pairs_and_depart_as_it_gives_way():
 def test_the_energy_account_on_shafts_that_bend_closes(paths):
     """Work of drive, load, friction and damping is the change of kinetic and elastic energy, to round-off: with a shaft
     that bends between two gears, its mass and its own modes; and in two paths that share unevenly."""
-    more = f'{INERTIA}[damping]\nratio = 0.04\n[friction]\ncoefficient = 0.08\n'
+    more = f"{INERTIA}[damping]\nratio = 0.04\n[friction]\ncoefficient = 0.08\n"
     more += '[motion]\ninput_speed = "2000 rpm"\nmesh_cycles = 2\n'
     scene = bent_two_stages(1.0, f'{more}[bearings]\nstiffness = "2e5 N/mm"\n')
     if paths == 2:
