@@ -59,7 +59,8 @@ def _bent_rows(row: RowModel) -> Rows:
         for seat in shaft.seats:
             x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(system.stiffness_at(seat)))
             said = f"{x:.4g} along x, {y:.4g} along y, {axial:.4g} axially"
-            rows.append((f"its stiffness at {seat.gear}", said, "N/um, with its bearings"))
+            held = "its bearings" if system.housing is None else "its bearings in their housing"
+            rows.append((f"its stiffness at {seat.gear}", said, f"N/um, with {held}"))
         if shaft.density:
             modes = sum(name.endswith(f"_{shaft.name}") for name in system.own_modes)
             words = f"kg, in addition, with {modes} modes up to {shaft.up_to:.4g} Hz"

@@ -42,6 +42,11 @@ class TrainShafts:
     bent: tuple[BentShaft, ...] = ()
     housing: HousingFile | None = None
 
+    @property
+    def housed(self) -> bool:
+        """Whether files have the stiffness of a housing."""
+        return self.housing is not None or any(each.own.housing is not None for each in self.bent)
+
 
 def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, list[Problem]]:
     """What couples the stages of a parsed train, and what is wrong with it; `sound`: nothing is wrong with its

@@ -9,7 +9,9 @@ from tests.trains import bent_two_stages
 
 from fenics_gears import SceneError, scene_from_text, simulate, simulate_train, train_from_text
 from fenics_gears.model.train import train_model_of
+from fenics_gears.results.mesh_of_train import carried_train
 
+BOTH = 'housing = "housing.txt"\n'
 TURNING = np.arange(24) % 6 == 5
 NAMES = ("transmission_error", "normal_force", "line_load", "tilt_x", "axial_position", "axis_inclination_in_plane")
 
@@ -35,7 +37,7 @@ def test_a_train_of_one_mesh_in_one_housing_is_the_pair(tmp_path, bearings, vibr
     housing = np.zeros((24, 24))
     housing[np.ix_(~TURNING, ~TURNING)] = coupled()
     written(tmp_path, housing)
-    head = '[shafts]\nhousing = "housing.txt"\n'
+    head = f"[shafts]\n{BOTH}"
     expected = simulate(scene_from_text(pair.replace("[shafts.input]", f"{head}[shafts.input]"), directory=tmp_path))
     scene = train_from_text(train)
     along = np.deg2rad(25.0 + 90.0) - scene.meshes[0].pair.operating_pressure_angle
@@ -55,18 +57,16 @@ def test_a_housing_of_springs_is_in_series_with_the_bearings(tmp_path):
     k h / (k + h)."""
     spring = 4e5
     written(tmp_path, np.diag([spring, spring, spring, 0.0, 0.0, 0.0] * 2))
-    text = bent_two_stages(1.0).text
-    housed = text.replace("gears_at =", 'housing = "housing.txt"\ngears_at =')
-    in_series = [
-        text := text.replace(f'"{each!r} N/mm"', f'"{each * spring / (each + spring)!r} N/mm"') for each in (1e6, 1e5)
-    ][-1]
+    in_series = bent_two_stages(1.0).text
+    housed = in_series.replace("gears_at =", f"{BOTH}gears_at =")
+    for each in (1e6, 1e5):
+        in_series = in_series.replace(f'"{each!r} N/mm"', f'"{each * spring / (each + spring)!r} N/mm"')
     found, wanted = (simulate_train(train_from_text(each, directory=tmp_path)) for each in (housed, in_series))
     for name in ("transmission_error", "line_load", "bearing_force_x", "bearing_force_z", "shaft_deflection_y"):
         size = np.nanmax(np.abs(wanted[name].values))
         assert found[name].values == pytest.approx(wanted[name].values, rel=1e-9, abs=1e-9 * size), name
-
-
-BOTH = 'housing = "housing.txt"\n'
+    # The result is read again with its files.
+    assert carried_train(found).shafts.bent[0].own.housing.stiffness is not None
 
 
 @pytest.mark.parametrize(
