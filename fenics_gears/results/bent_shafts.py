@@ -47,10 +47,24 @@ class MovedAxes(AlongTheFace):
         super().__init__(cycle)
         self.model = model
         self.drivetrain = model.drivetrain
+        # Motions of the gears' axes by loads of their teeth, and by coordinates of their faces.
+        self._teeth = {}
+        self._apart = []
+        for seat in self.drivetrain.seats:
+            heights = self._heights(seat.gear)
+            by_slices = seat.compliance(heights).reshape(len(heights), SIX, 2, -1, SIX).mean(axis=2)
+            self._teeth[seat.gear] = self._nearest(by_slices, seat.gear)
+            if seat.of_face:
+                self._apart.append((seat, self._nearest(seat.follows(heights), seat.gear)))
 
     def curves(self, curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
         """Departures of the axes in the middle of the common face, um."""
         motions = self._motions(nodes.steps.states[:, 0])
+        for gear, of_teeth in self._teeth.items():
+            motions[:, GEARS.index(gear)] += np.tensordot(self._loads(nodes, gear), of_teeth, ((1, 2), (1, 2)))
+        for seat, of_face in self._apart:
+            apart = [self.drivetrain.value(nodes.steps.states[:, 0], name) for name in seat.of_face]
+            motions[:, GEARS.index(seat.gear)] += np.stack(apart, axis=-1) @ of_face.T
         return super().curves(curves, nodes) | self._departures(motions)
 
     def numbers(self, counted: xr.Dataset, known: Mapping[str, Any]) -> dict[str, float | str]:
@@ -76,6 +90,43 @@ class MovedAxes(AlongTheFace):
         both = [[self.drivetrain.value(states, f"{name}{number}") for name in MOTIONS] for number in NUMBERS.values()]
         return np.moveaxis(np.array(both), 2, 0)
 
+    def _heights(self, gear: str) -> np.ndarray:
+        """Heights (2 S,) from the gear's middle of which two stand for a load that is even over a slice."""
+        z = self._slices(gear)
+        return np.concatenate([z - GAUSS * self.face.widths, z + GAUSS * self.face.widths])
+
+    def _slices(self, gear: str) -> np.ndarray:
+        return self.face.positions - self.pair.gear_middles[GEARS.index(gear)]
+
+    def _nearest(self, teeth: np.ndarray, gear: str) -> np.ndarray:
+        """Motions (5, ...) in the gear's middle of the straight axis that is nearest over the common face to teeth that
+        move by (2 S, 6, ...)."""
+        z = self._slices(gear)
+        slices = teeth.reshape(2, len(z), *teeth.shape[1:]).mean(axis=0)
+        straight = np.stack([np.ones_like(z), z], axis=1)
+        nearest = np.linalg.solve((straight.T * self.face.widths) @ straight, straight.T * self.face.widths)
+        moved = np.zeros((len(MOTIONS), *teeth.shape[2:]))
+        # A positive tilt about x moves what lies further along the axis to negative y.
+        for axis, rows, sense in ((0, [0, 4], 1.0), (1, [1, 3], -1.0)):
+            moved[rows] = np.tensordot(np.diag([1.0, sense]) @ nearest, slices[:, axis], 1)
+        return moved
+
+    def _loads(self, nodes: SideBySide, gear: str) -> np.ndarray:
+        """Loads (steps, S, 6) of the teeth on a gear in the slices of the face, at their own heights, over MOTIONS and
+        the twist."""
+        number = GEARS.index(gear)
+        loaded = np.flatnonzero(nodes.normal)
+        rows = np.array([0, 1, 6, 7, 8, 2]) + 3 * number
+        place = nodes.step[loaded] * self.face.slices + nodes.of("slice")[loaded]
+        forces = nodes.of("rows_of_normals")[rows][:, loaded] * nodes.normal[loaded]
+        if nodes.tangential is not None:
+            forces += nodes.of("rows_of_tangents")[rows][:, loaded] * nodes.tangential[loaded]
+        size = len(nodes.steps) * self.face.slices
+        loads = np.stack([np.bincount(place, each, minlength=size) for each in forces], axis=1)
+        loads = loads.reshape(-1, self.face.slices, SIX)
+        heights = self.face.positions - self.pair.gear_middles[number]
+        return np.einsum("szi,zij->szj", loads, [carried(-each) for each in heights])
+
 
 class BentShafts(MovedAxes):
     """What the result of a face has on shafts that bend: also what is recovered from the motions of the gears' middles,
@@ -85,14 +136,11 @@ class BentShafts(MovedAxes):
         super().__init__(cycle, model)
         self._lines = {}
         self._seats = {}
-        self._bent = {}
         for system in self.drivetrain.systems:
             for shaft, seat in system.seated:
                 self._lines[seat.gear] = system.deflection(shaft, self.points(shaft.length))
                 if seat.yields_within:
                     self._seats[seat.gear] = self._seat(system, seat)
-                if shaft.of_face(seat):
-                    self._bent[seat.gear] = self._nearest(system.seat(seat).follows(self._heights(seat)), seat)
 
     @staticmethod
     def points(length: float) -> np.ndarray:
@@ -100,26 +148,20 @@ class BentShafts(MovedAxes):
         return np.linspace(0.0, length, SHAFT_POINTS)
 
     def curves(self, curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
-        """Departures of the axes in the middle of the common face, um, and loads of the bearings (steps, bearings)."""
+        """The same, and loads of the bearings (steps, bearings)."""
         states = nodes.steps.states[:, 0]
-        motions = self._motions(states)
         loads = []
         for system in self.drivetrain.systems:
             loads.append(self._values(system, states) @ system.bearing_loads.T)
-            for shaft, each in system.seated:
+            for _, each in system.seated:
                 if each.gear in self._seats:
-                    seat = self._seats[each.gear]
-                    teeth = self._loads(nodes, each.gear)
-                    motions[:, GEARS.index(each.gear)] += np.tensordot(teeth, seat.teeth, ((1, 2), (1, 2)))
-                    loads[-1] += np.tensordot(teeth, seat.bearings, ((1, 2), (1, 2)))
-                if each.gear in self._bent:
-                    apart = np.stack([self.drivetrain.value(states, name) for name in shaft.of_face(each)], axis=-1)
-                    motions[:, GEARS.index(each.gear)] += apart @ self._bent[each.gear].T
+                    by_teeth = self._seats[each.gear].bearings
+                    loads[-1] += np.tensordot(self._loads(nodes, each.gear), by_teeth, ((1, 2), (1, 2)))
         on_bearings = np.concatenate(loads, axis=1).reshape(len(states), -1, len(MOTIONS))
         if self.drivetrain.rolling is not None:
             on_bearings = self.drivetrain.rolling.loads(states, on_bearings)
         loads_of_bearings = dict(zip(LOADS, np.moveaxis(on_bearings, -1, 0)))
-        return super().curves(curves, nodes) | self._departures(motions) | loads_of_bearings
+        return super().curves(curves, nodes) | loads_of_bearings
 
     def fields(self, nodes: SideBySide) -> dict[str, np.ndarray]:
         """Deflection of both shafts (steps, gears, points), mm; not a number where a shaft has no sections."""
@@ -158,49 +200,10 @@ class BentShafts(MovedAxes):
         return super().numbers(counted, known) | numbers | self._rolling_elements(counted) | self._vibrations(counted)
 
     def _seat(self, system: ShaftSystem, seat: SeatedGear) -> BentBySeat:
-        """Response of a seat to loads (S, 6) in the slices of the face, at their own heights. Of its teeth: motions (5,
-        S, 6), in the middle of the gear, of the straight axis that is nearest to them over the common face."""
+        """Response of a seat to loads (S, 6) in the slices of the face, at their own heights."""
+        bent = system.bent_by_seat(seat, self._heights(seat.gear), self.points(system.shaft_of(seat).length))
         slices = len(self.face.positions)
-        bent = system.bent_by_seat(seat, self._heights(seat), self.points(system.shaft_of(seat).length))
-        teeth, line, bearings = (each.reshape(*each.shape[:-2], 2, slices, SIX).mean(axis=-3) for each in bent)
-        return BentBySeat(self._nearest(teeth, seat), line, bearings)
-
-    def _heights(self, seat: SeatedGear) -> np.ndarray:
-        """Heights (2 S,) from the gear's middle of which two stand for a load that is even over a slice."""
-        z = self._slices(seat)
-        return np.concatenate([z - GAUSS * self.face.widths, z + GAUSS * self.face.widths])
-
-    def _slices(self, seat: SeatedGear) -> np.ndarray:
-        return self.face.positions - self.pair.gear_middles[GEARS.index(seat.gear)]
-
-    def _nearest(self, teeth: np.ndarray, seat: SeatedGear) -> np.ndarray:
-        """Motions (5, ...) in the gear's middle of the straight axis that is nearest over the common face to teeth that
-        move by (2 S, 6, ...)."""
-        z = self._slices(seat)
-        slices = teeth.reshape(2, len(z), *teeth.shape[1:]).mean(axis=0)
-        straight = np.stack([np.ones_like(z), z], axis=1)
-        nearest = np.linalg.solve((straight.T * self.face.widths) @ straight, straight.T * self.face.widths)
-        moved = np.zeros((len(MOTIONS), *teeth.shape[2:]))
-        # A positive tilt about x moves what lies further along the axis to negative y.
-        for axis, rows, sense in ((0, [0, 4], 1.0), (1, [1, 3], -1.0)):
-            moved[rows] = np.tensordot(np.diag([1.0, sense]) @ nearest, slices[:, axis], 1)
-        return moved
-
-    def _loads(self, nodes: SideBySide, gear: str) -> np.ndarray:
-        """Loads (steps, S, 6) of the teeth on a gear in the slices of the face, at their own heights, over MOTIONS and
-        the twist."""
-        number = GEARS.index(gear)
-        loaded = np.flatnonzero(nodes.normal)
-        rows = np.array([0, 1, 6, 7, 8, 2]) + 3 * number
-        place = nodes.step[loaded] * self.face.slices + nodes.of("slice")[loaded]
-        forces = nodes.of("rows_of_normals")[rows][:, loaded] * nodes.normal[loaded]
-        if nodes.tangential is not None:
-            forces += nodes.of("rows_of_tangents")[rows][:, loaded] * nodes.tangential[loaded]
-        size = len(nodes.steps) * self.face.slices
-        loads = np.stack([np.bincount(place, each, minlength=size) for each in forces], axis=1)
-        loads = loads.reshape(-1, self.face.slices, SIX)
-        heights = self.face.positions - self.pair.gear_middles[number]
-        return np.einsum("szi,zij->szj", loads, [carried(-each) for each in heights])
+        return BentBySeat(*(each.reshape(*each.shape[:-2], 2, slices, SIX).mean(axis=-3) for each in bent))
 
     def _vibrations(self, counted: xr.Dataset) -> dict[str, str]:
         """Natural frequencies with the mesh as it was, a line each; nothing without inertia or contact."""
@@ -219,7 +222,7 @@ class BentShafts(MovedAxes):
         drivetrain = self.drivetrain
         if rolling is None:
             return {}
-        if any(shaft.of_face(seat) for system in drivetrain.systems for shaft, seat in system.seated):
+        if any(seat.of_face for seat in drivetrain.seats):
             # The gears' motions are not all that moves shafts in their bearings.
             loads = np.stack([counted[name].mean("time").values for name in LOADS], axis=1)
             return {"largest_rolling_element_force": rolling.largest_under(loads)}
