@@ -102,6 +102,7 @@ class ElasticShaft:
     """A shaft by its `name`, that of its gear in a pair: its `sections` of one `material` (Young's modulus, N/mm^2,
     Poisson's ratio), its gears in their `seats` from left to right, where the torque is coupled, mm from the left end,
     None where it is not, and the bearings. `in_housing`: whether the bearings are in a housing that yields.
+    `faces_apart`: whether what ends of faces that yield do apart is in coordinates, also on bearings that are alike.
 
     Of a shaft that vibrates: the sections that are `heavy`, where not all that bend are, its `density`, N s^2/mm^4, and
     the frequency, Hz, `up_to` which it has modes of its own.
@@ -114,6 +115,7 @@ class ElasticShaft:
     torque_at: float | None = None
     bearings: tuple[Bearing, ...] = ()
     in_housing: bool = False
+    faces_apart: bool = False
     heavy: tuple[ShaftSection, ...] | None = None
     density: float = 0.0
     up_to: float = inf
@@ -144,7 +146,12 @@ class ElasticShaft:
             holding.append(self.torque_at)
         if not seat.yields_within or len({place > seat.at for place in holding}) < 2:
             return ()
-        alike = not self.in_housing and not others and all(_is_alike(each) for each in self.bearings)
+        alike = (
+            not self.faces_apart
+            and not self.in_housing
+            and not others
+            and all(_is_alike(each) for each in self.bearings)
+        )
         return () if alike else tuple(f"face_{motion}_{seat.gear}" for motion in SHAFT_MOTIONS)
 
     @property

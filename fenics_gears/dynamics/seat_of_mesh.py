@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from fenics_gears.geometry.pair import GearPair
+
     from .elastic_shaft import SeatedGear
     from .shaft_system import ShaftSystem
 
@@ -26,6 +28,17 @@ class SeatOfMesh:
     def of_face(self) -> tuple[str, ...]:
         """Names of the coordinates by which the ends of the face move apart, in the frame of the shaft."""
         return self.system.shaft_of(self.seat).of_face(self.seat)
+
+    def radii_of_face(self, pair: GearPair) -> np.ndarray:
+        """mm per rad or mm of these coordinates (6,), rotations among them being arcs of the base circle."""
+        radius = getattr(pair, self.gear).base_radius
+        return np.array([radius if name.startswith(("face_tilt", "face_turn")) else 1.0 for name in self.of_face])
+
+    @property
+    def stiffness_of_face(self) -> np.ndarray:
+        """Of shaft and bearings over these coordinates, in N, mm and rad."""
+        own = [self.system.coordinates.index(name) for name in self.of_face]
+        return self.system.stiffness[np.ix_(own, own)]
 
     def compliance(self, heights: np.ndarray) -> np.ndarray:
         """Motions (h, 6, h, 6) of teeth at `heights` (h,), mm from the gear's middle, per load there, with the

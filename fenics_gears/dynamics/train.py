@@ -29,6 +29,8 @@ from .modal_damping import modal_damping
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
 
+    from .seat_of_mesh import SeatOfMesh
+
 # Coordinates of one mesh in their order: of the centre along and off the line of action, and the rotation, of either
 # gear.
 OF_A_GEAR = ("centre_x{}", "centre_y{}", "rotation_{}")
@@ -275,9 +277,10 @@ def drivetrain_of_mesh(
     wheel_torque: float,
     names: tuple[str, ...] = ("rotation_1", "rotation_2"),
     supports: Sequence[tuple[float, float] | None] = (),
+    seats: Sequence[SeatOfMesh] = (),
 ) -> Drivetrain:
     """Both gears of one mesh of a train, whose coordinates follow from those of all gears; `supports` as of the
-    train."""
+    train; `seats`: those that give way."""
     turning = ("rotation", "tilt")
     radii = np.array([pair.base_radii[int(name[-1]) - 1] if name.startswith(turning) else 1.0 for name in names])
     load = np.array([wheel_torque if name == "rotation_2" else 0.0 for name in names]) / radii
@@ -287,4 +290,9 @@ def drivetrain_of_mesh(
         for axis, own in zip("xy", support or ()):
             place = names.index(f"centre_{axis}{number}")
             in_bearings[place, place] = own
-    return Drivetrain(names, radii, nothing, load, None, None, bearing_stiffness=in_bearings)
+    stiffness = nothing.copy()
+    for seat in seats:
+        own = [names.index(name) for name in seat.of_face]
+        radii[own] = seat.radii_of_face(pair)
+        stiffness[np.ix_(own, own)] = seat.stiffness_of_face / np.outer(radii[own], radii[own])
+    return Drivetrain(names, radii, stiffness, load, None, None, bearing_stiffness=in_bearings, seats=tuple(seats))

@@ -13,12 +13,14 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from fenics_gears.geometry.pair import GearPair
 
 from .damping import Damping
 from .elastic_shaft import FIVE, MOTIONS, SeatedGear
 from .rolling_springs import springs_of
+from .seat_of_mesh import SeatOfMesh
 from .shaft_at_work import even_load
 from .shaft_system import ShaftSystem
 from .tilting import mesh_over_face
@@ -50,7 +52,7 @@ class MeshFrame:
 @dataclass(frozen=True, eq=False)
 class GearOnShaft:
     """A gear in its `seat` on a shaft that bends, as the pinion (0) or the wheel (1) of a `mesh`, by its number;
-    `turned` (5, 5): its motions in the frame of the mesh, mm and rad, per those in the frame of the shaft."""
+    `turned` (6, 6): its motions in the frame of the mesh, mm and rad, per those in the frame of the shaft."""
 
     seat: SeatedGear
     mesh: int
@@ -85,13 +87,23 @@ class BentShafts:
         """The gears by their names, each in its first mesh."""
         return {gear.seat.gear: gear for gear in reversed(self.gears)}
 
+    def seats_in(self, mesh: int) -> list[SeatOfMesh]:
+        """The seats of its gears that give way."""
+        found = []
+        for gear in self.in_mesh(mesh):
+            if gear.seat.yields_within:
+                system = next(each for each in self.systems if gear.seat in (seat for _, seat in each.seated))
+                found.append(SeatOfMesh(system, gear.seat, SIDES[gear.side], gear.turned))
+        return found
+
     def in_mesh(self, mesh: int) -> list[GearOnShaft]:
         """The gears of a mesh that are on such shafts."""
         return [each for each in self.gears if each.mesh == mesh]
 
     def names_in(self, mesh: int) -> tuple[str, ...]:
         """Names of their motions among the coordinates of the mesh."""
-        return tuple(name for each in self.in_mesh(mesh) for name in each.names)
+        faces = (name for seat in self.seats_in(mesh) for name in seat.of_face)
+        return (*(name for each in self.in_mesh(mesh) for name in each.names), *faces)
 
 
 def mesh_axes(in_plane: np.ndarray, forwards: float) -> np.ndarray:
@@ -109,12 +121,9 @@ def shaft_axes(mesh: np.ndarray) -> np.ndarray:
 
 
 def turned_motions(of: np.ndarray, to: np.ndarray) -> np.ndarray:
-    """Motions (5, 5) along the axes `to` (3, 3), without the turn, per those along other axes."""
+    """Motions (6, 6) along the axes `to` (3, 3) per those along other axes."""
     turn = to @ of.T
-    found = np.zeros((FIVE, FIVE))
-    found[:3, :3] = turn
-    found[3:, 3:] = np.linalg.det(turn) * turn[:2, :2]
-    return found
+    return block_diag(turn, np.linalg.det(turn) * turn)
 
 
 def even_loads(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequence[MeshFrame]) -> np.ndarray:
@@ -124,7 +133,7 @@ def even_loads(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequen
         for gear in gears:
             if gear.seat.gear == seat.gear:
                 frame = frames[gear.mesh]
-                own += gear.turned.T @ even_load(SIDES[gear.side], frame.pair, frame.torque)
+                own += gear.turned[:FIVE, :FIVE].T @ even_load(SIDES[gear.side], frame.pair, frame.torque)
     return loads
 
 
@@ -143,6 +152,9 @@ class _Coordinates:
                 if name.startswith("tilt"):
                     radius = bent.frames[gear.mesh].pair.base_radii[gear.side]
                     self.radii[self.names.index(name)] = radius
+        for mesh, frame in enumerate(bent.frames):
+            for seat in bent.seats_in(mesh):
+                self.radii[[self.names.index(name) for name in seat.of_face]] = seat.radii_of_face(frame.pair)
 
     def padded(self, array: np.ndarray) -> np.ndarray:
         """An array over the coordinates of the rigid shafts as one over all."""
@@ -178,7 +190,10 @@ class _Coordinates:
         for gear in self.bent.in_mesh(mesh):
             radius = self.bent.frames[mesh].pair.base_radii[gear.side]
             arcs = np.array([radius if name.startswith("tilt") else 1.0 for name in MOTIONS])
-            rows.append(arcs[:, None] * gear.turned @ self.of(gear.seat.of_gear))
+            rows.append(arcs[:, None] * gear.turned[:FIVE, :FIVE] @ self.of(gear.seat.of_gear))
+        for seat in self.bent.seats_in(mesh):
+            arcs = seat.radii_of_face(self.bent.frames[mesh].pair)
+            rows.append(arcs[:, None] * self.of(seat.of_face))
         return np.concatenate(rows)
 
     def turn(self, gear: GearOnShaft, names: Sequence[str]) -> np.ndarray:

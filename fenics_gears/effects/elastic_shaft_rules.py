@@ -153,7 +153,7 @@ def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
         gear, shaft.sections, constants, (SeatedGear(gear, shaft.gear_at, width),), shaft.torque_at, bearings,
         in_housing=shaft.housing is not None or scene.shafts.housing is not None,
     )  # fmt: skip
-    return elastic if shaft.seat == RIGID_SEAT else seated(elastic, shaft.seat, getattr(pair, gear), material)
+    return seated(elastic, 0, shaft.seat, getattr(pair, gear), material)
 
 
 def shaft_warnings(scene: Any, pair: Any) -> list[str]:

@@ -23,14 +23,19 @@ ROUND_OFF = 1e-9
 OFF_THE_BORE = 0.01
 
 
-def seated(shaft: ElasticShaft, seat: str, gear: Gear, material: Material) -> ElasticShaft:
-    """A shaft with one gear, of a material, on an elastic seat."""
-    (own,) = shaft.seats
-    if seat == PRESS_FIT:
-        return replace(shaft, seats=(replace(own, hub=hub_of(shaft, own, gear, material)),))
+def seated(shaft: ElasticShaft, number: int, seat: str, gear: Gear, material: Material) -> ElasticShaft:
+    """A shaft one of whose gears, by its number, is of a material and has a seat that may give way."""
+    if seat == RIGID_SEAT:
+        return shaft
+    own = shaft.seats[number]
+    hub = hub_of(shaft, own, gear, material) if seat == PRESS_FIT else None
+    yielding = replace(own, integral=hub is None, hub=hub)
+    shaft = replace(shaft, seats=(*shaft.seats[:number], yielding, *shaft.seats[number + 1 :]))
+    if hub is not None:
+        return shaft
     # The gear's own mass is counted down to its bore.
-    toothed, heavy = (_toothed(shaft.sections, own.ends, 2.0 * each) for each in (gear.root_radius, gear.bore_radius))
-    return replace(shaft, sections=toothed, heavy=heavy, seats=(replace(own, integral=True),))
+    heavy = _toothed(shaft.heavy or shaft.sections, own.ends, 2.0 * gear.bore_radius)
+    return replace(shaft, sections=_toothed(shaft.sections, own.ends, 2.0 * gear.root_radius), heavy=heavy)
 
 
 def hub_of(shaft: ElasticShaft, seat: SeatedGear, gear: Gear, material: Material) -> Hub:

@@ -36,7 +36,11 @@ def motion_rows(row: RowModel) -> Rows:
     on_bent = [] if row.bent is None else list(row.bent.once)
     said = [motion_in_words(name, gears) for name in row.drivetrain.coordinates if _on_rigid(name)]
     said += [f"displacements and tilts of {', '.join(on_bent)}"] if on_bent else []
-    unknown = [name for name in row.drivetrain.coordinates if "_mode_" not in name and not name.startswith("bearing_")]
+    unknown = [
+        name
+        for name in row.drivetrain.coordinates
+        if "_mode_" not in name and not name.startswith(("bearing_", "face_"))
+    ]
     return [*rows, ("motions that are unknown", len(unknown), ", ".join(said))]
 
 

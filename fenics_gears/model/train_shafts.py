@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg import block_diag
 
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear
+from fenics_gears.dynamics.elastic_shaft import FIVE, ElasticShaft, SeatedGear
 from fenics_gears.dynamics.shaft_at_work import at_work
 from fenics_gears.dynamics.shaft_system import ShaftSystem
+from fenics_gears.dynamics.shafts import RIGID_SEAT
 from fenics_gears.dynamics.train_shafts import (
     SIDES,
     SPACE,
@@ -27,6 +28,7 @@ from fenics_gears.dynamics.train_shafts import (
 )
 from fenics_gears.effects.elastic_shaft_housing import check_housing, stiffness_of_seats
 from fenics_gears.effects.elastic_shaft_rules import bearings_hold, check_held_at_work
+from fenics_gears.effects.elastic_shaft_seats import seated
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.problem import NOTHING_DONE
@@ -83,7 +85,9 @@ def _in_housings(
             yield ShaftSystem(own)
             continue
         check_housing(housing, field, sum(len(shaft.bearings) for shaft in own))
-        turn = block_diag(*(turned_motions(axes[shaft.name], SPACE) for shaft in own for _ in shaft.bearings))
+        turn = block_diag(
+            *(turned_motions(axes[shaft.name], SPACE)[:FIVE, :FIVE] for shaft in own for _ in shaft.bearings)
+        )
         stiffness = turn.T @ np.array(stiffness_of_seats(housing)) @ turn
         housed = tuple(replace(shaft, in_housing=True) for shaft in own)
         system = ShaftSystem(housed, tuple(map(tuple, stiffness.tolist())))
@@ -159,10 +163,22 @@ def _shaft(bent: BentShaft, meshes: Sequence[MeshOfScene], up_to: float) -> Elas
     density = 0.0
     if scene.inertia is not None:
         density = own.material.density or scene.inertia.of(SIDES[side]).density or 0.0
-    return ElasticShaft(
+    shaft = ElasticShaft(
         bent.name, own.sections, constants, tuple(seats), own.torque_at, own.bearings, density=density,
-        up_to=up_to if density else inf,
+        up_to=up_to if density else inf, faces_apart=True,
     )  # fmt: skip
+    kinds = dict(zip(own.carries, own.seats or ()))
+    for number, seat in enumerate(seats):
+        kind = kinds.get(seat.gear, RIGID_SEAT)
+        (mesh, side), *more = _places(meshes, seat.gear)
+        if kind != RIGID_SEAT and more:
+            raise SceneError(
+                f"shafts.{bent.name}.seats: {seat.gear} is in several meshes, where a seat that gives way is not yet"
+                f' computed. Allowed for it: "{RIGID_SEAT}". {NOTHING_DONE}'
+            )
+        gear = getattr(meshes[mesh].pair, SIDES[side])
+        shaft = seated(shaft, number, kind, gear, meshes[mesh].scene.gears.materials[side])
+    return shaft
 
 
 def _at_work(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequence[MeshFrame]) -> ShaftSystem:

@@ -107,7 +107,8 @@ class ShaftsOfTrain:
         found = []
         for _, shaft in self._shafts:
             order = np.argsort([each.at for each in shaft.bearings], kind="stable")
-            own = loads[:, first : first + len(order)] @ turned_motions(self._bent.axes[shaft.name], SPACE).T
+            turn = turned_motions(self._bent.axes[shaft.name], SPACE)[:FIVE, :FIVE]
+            own = loads[:, first : first + len(order)] @ turn.T
             first += len(order)
             found.append(own[:, order])
         return np.concatenate(found, axis=1)
@@ -116,6 +117,6 @@ class ShaftsOfTrain:
         """Displacements (2, shafts, points) of the shafts' axes, mm, in a state (k,)."""
         lines = []
         for (system, shaft), points in zip(self._shafts, self._points):
-            turn = turned_motions(self._bent.axes[shaft.name], SPACE)[:2]
+            turn = turned_motions(self._bent.axes[shaft.name], SPACE)[:2, :FIVE]
             lines.append(turn @ (system.deflection(shaft, points) @ self._values(system, state)).T)
         return np.stack(lines, axis=1)

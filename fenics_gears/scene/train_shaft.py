@@ -7,15 +7,24 @@ from dataclasses import dataclass
 from typing import Any
 
 from fenics_gears.dynamics.bearings import MOST_BEARINGS, Bearing
-from fenics_gears.dynamics.shafts import MOST_SECTIONS, HousingFile, ShaftMaterial, ShaftSection, housing_file
+from fenics_gears.dynamics.shafts import (
+    INTEGRAL,
+    MOST_SECTIONS,
+    PRESS_FIT,
+    RIGID_SEAT,
+    HousingFile,
+    ShaftMaterial,
+    ShaftSection,
+    housing_file,
+)
 from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.allowed import Allowed, Refused
 from fenics_gears.inputs.fields import declared, quantities, quantity
 from fenics_gears.inputs.problem import Path, Problem
 from fenics_gears.inputs.section import AllowedTables, Section, names_in
+from fenics_gears.inputs.written import as_written
 
-# What shafts of pairs have beside.
-NOT_YET = {"seat": "is not yet computed in trains: gears sit rigidly over their width. Leave it out."}
+SEATS = (RIGID_SEAT, PRESS_FIT, INTEGRAL)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,6 +34,16 @@ class AllowedGears(Allowed):
     def convert(self, value: Any) -> tuple[str, ...]:
         if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
             raise Refused("is no list of names of gears.")
+        return tuple(value)
+
+
+@dataclass(frozen=True, kw_only=True)
+class AllowedSeats(Allowed):
+    """A list of kinds of seats."""
+
+    def convert(self, value: Any) -> tuple[str, ...]:
+        if not isinstance(value, list) or not all(each in SEATS for each in value):
+            raise Refused("is no list of seats.")
         return tuple(value)
 
 
@@ -64,6 +83,13 @@ class TrainShaft(Section):
         "115 mm",
         meaning="middles of the faces of the gears, in the order of `carries`, from the left end",
         otherwise="required with `sections`",
+    )
+    seats: tuple[str, ...] | None = declared(
+        AllowedSeats(
+            description=f'a list such as ["{RIGID_SEAT}", "{INTEGRAL}"] of {", ".join(map(as_written, SEATS))}',
+            meaning="how the gears sit, in the order of `carries`, as those of a pair",
+            otherwise=f"all of them {RIGID_SEAT}",
+        )
     )
     torque_at: float | None = quantity(
         "0 mm to 100 m",
@@ -123,7 +149,7 @@ def wrong_sections(shaft: TrainShaft, place: Path, graph: TrainGraph, number: in
     """A shaft with sections says where its gears are, has bearings and, at an end of the train, a coupling; another one
     has nothing of it; its `number` in the train."""
     if shaft.sections is None:
-        for name in ("gears_at", "torque_at", "material", "bearings", "housing"):
+        for name in ("gears_at", "seats", "torque_at", "material", "bearings", "housing"):
             if getattr(shaft, name) not in (None, ShaftMaterial()):
                 said = "has no effect: it is of a shaft with sections. Add sections, or leave it out."
                 yield Problem((*place, name), "", said)
@@ -140,6 +166,9 @@ def wrong_sections(shaft: TrainShaft, place: Path, graph: TrainGraph, number: in
             else f"has another number of places, {len(shaft.gears_at)}, than gears, {count}"
         )
         yield Problem((*place, "gears_at"), None if shaft.gears_at is None else "", f"{said}. {allowed}")
+    if shaft.seats is not None and len(shaft.seats) != count:
+        said = f"has another number of seats, {len(shaft.seats)}, than gears, {count}. Allowed: one for each."
+        yield Problem((*place, "seats"), "", said)
     if shaft.bearings is None:
         said = (
             f"is missing: nothing holds the shaft, which has sections. Add its bearings, each as a table"

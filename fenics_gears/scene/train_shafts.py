@@ -19,7 +19,7 @@ from fenics_gears.inputs.problem import Problem, did_you_mean
 from fenics_gears.inputs.section import Section, names_in, read
 from fenics_gears.inputs.written import as_written
 
-from .train_shaft import NOT_YET, BentShaft, TrainHousing, TrainShaft, wrong_sections
+from .train_shaft import BentShaft, TrainHousing, TrainShaft, wrong_sections
 from .train_topology import Shafts, declared_gears, graph_of, in_order, named_meshes, shafts_by_order
 
 # Sections of a train of which each makes its stages move together.
@@ -227,8 +227,6 @@ def explained(problem: Problem, section: type[Section]) -> Problem:
     """A problem with an unknown name told with those of its section."""
     if not problem.unknown:
         return problem
-    if section is TrainShaft and problem.path[-1] in NOT_YET:
-        return replace(problem, message=NOT_YET[problem.path[-1]])
     names = names_in(section)
     said = f"is not known here.{did_you_mean(problem.path[-1], names)} Known: {', '.join(names)}."
     return replace(problem, message=said)

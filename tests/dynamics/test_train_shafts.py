@@ -111,6 +111,6 @@ def test_motions_of_a_rigid_shaft_are_one_motion_in_every_frame(sense, forwards)
     place = np.array([0.0, 0.0, 7.0])
     motion = np.array([0.1, -0.2, 0.3, 0.02, -0.01])
     moved = motion[:3] + np.cross([*motion[3:], 0.0], place)
-    in_mesh = turned_motions(np.eye(3), axes) @ motion
+    in_mesh = turned_motions(np.eye(3), axes)[:5, :5] @ motion
     there = in_mesh[:3] + np.cross([*in_mesh[3:], 0.0], axes @ place)
     assert there == pytest.approx(axes @ moved, abs=1e-15)

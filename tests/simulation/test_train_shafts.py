@@ -61,8 +61,9 @@ def tables(name: str, each: tuple[str, ...]) -> str:
     return "".join(f"[[{name}]]\n{one}" for one in each)
 
 
-def pair_and_train(helix: float, bearings: tuple[str, ...], vibrating: bool) -> tuple[str, str]:
-    """A pair on shafts that bend, and the same as a train of one mesh, seen from another direction."""
+def pair_and_train(helix: float, bearings: tuple[str, ...], vibrating: bool, seat: str = "") -> tuple[str, str]:
+    """A pair on shafts that bend, and the same as a train of one mesh, seen from another direction; gears on such a
+    seat."""
     more = '[friction]\ncoefficient = 0.05\n[load]\n{} = "200 N m"\n'
     motion = ""
     if vibrating:
@@ -77,24 +78,31 @@ def pair_and_train(helix: float, bearings: tuple[str, ...], vibrating: bool) -> 
     train += f'[shafts.a]\ncarries = ["one.pinion"]\n{INPUT}gears_at = ["114 mm"]\n'
     train += tables("shafts.a.bearings", bearings)
     train += f'[shafts.b]\ncarries = ["one.wheel"]\n{OUTPUT}gears_at = ["60 mm"]\n{IRON}'
+    if seat:
+        # Teeth that are cut in are of the shaft's material.
+        pair, train = (each.replace(IRON, "") for each in (pair, train))
+        pair = pair.replace("gear_at =", f'seat = "{seat}"\ngear_at =')
+        train = train.replace("gears_at =", f'seats = ["{seat}"]\ngears_at =')
     return pair, train + tables("shafts.b.bearings", OF_WHEEL)
 
 
 @pytest.mark.parametrize(
-    ("helix", "bearings", "vibrating"),
+    ("helix", "bearings", "vibrating", "seat"),
     [
-        (15.0, LINEAR, False),
-        (15.0, ROLLING, True),
-        pytest.param(0.0, LINEAR, False, marks=pytest.mark.nightly),
-        pytest.param(15.0, ROLLING, False, marks=pytest.mark.nightly),
-        pytest.param(15.0, LINEAR, True, marks=pytest.mark.nightly),
-        pytest.param(0.0, ROLLING, True, marks=pytest.mark.nightly),
+        (15.0, LINEAR, False, ""),
+        (15.0, LINEAR, False, "integral"),
+        (15.0, ROLLING, True, ""),
+        pytest.param(0.0, LINEAR, False, "", marks=pytest.mark.nightly),
+        pytest.param(15.0, ROLLING, False, "", marks=pytest.mark.nightly),
+        pytest.param(15.0, LINEAR, True, "", marks=pytest.mark.nightly),
+        pytest.param(15.0, ROLLING, True, "integral", marks=pytest.mark.nightly),
+        pytest.param(0.0, ROLLING, True, "", marks=pytest.mark.nightly),
     ],
 )
-def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair(helix, bearings, vibrating):
+def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair(helix, bearings, vibrating, seat):
     """Two ways to the same equations, with friction: motions, forces over the face and in all bearings, misalignment
     by the load, at every step. The pair has its bearings' forces along and off the line of action."""
-    pair, train = pair_and_train(helix, bearings, vibrating)
+    pair, train = pair_and_train(helix, bearings, vibrating, seat)
     expected = simulate(scene_from_text(pair))
     scene = train_from_text(train)
     whole = simulate_train(scene)
