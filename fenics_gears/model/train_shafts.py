@@ -169,15 +169,9 @@ def _shaft(bent: BentShaft, meshes: Sequence[MeshOfScene], up_to: float) -> Elas
     )  # fmt: skip
     kinds = dict(zip(own.carries, own.seats or ()))
     for number, seat in enumerate(seats):
-        kind = kinds.get(seat.gear, RIGID_SEAT)
-        (mesh, side), *more = _places(meshes, seat.gear)
-        if kind != RIGID_SEAT and more:
-            raise SceneError(
-                f"shafts.{bent.name}.seats: {seat.gear} is in several meshes, where a seat that gives way is not yet"
-                f' computed. Allowed for it: "{RIGID_SEAT}". {NOTHING_DONE}'
-            )
+        mesh, side = _places(meshes, seat.gear)[0]
         gear = getattr(meshes[mesh].pair, SIDES[side])
-        shaft = seated(shaft, number, kind, gear, meshes[mesh].scene.gears.materials[side])
+        shaft = seated(shaft, number, kinds.get(seat.gear, RIGID_SEAT), gear, meshes[mesh].scene.gears.materials[side])
     return shaft
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -145,9 +145,11 @@ class BentShaft:
     own: TrainShaft
 
 
-def wrong_sections(shaft: TrainShaft, place: Path, graph: TrainGraph, number: int) -> Iterator[Problem]:
+def wrong_sections(
+    shaft: TrainShaft, place: Path, graph: TrainGraph, number: int, shared: Collection[str]
+) -> Iterator[Problem]:
     """A shaft with sections says where its gears are, has bearings and, at an end of the train, a coupling; another one
-    has nothing of it; its `number` in the train."""
+    has nothing of it; its `number` in the train; `shared`: the gears that stand in several meshes."""
     if shaft.sections is None:
         for name in ("gears_at", "seats", "torque_at", "material", "bearings", "housing"):
             if getattr(shaft, name) not in (None, ShaftMaterial()):
@@ -169,6 +171,10 @@ def wrong_sections(shaft: TrainShaft, place: Path, graph: TrainGraph, number: in
     if shaft.seats is not None and len(shaft.seats) != count:
         said = f"has another number of seats, {len(shaft.seats)}, than gears, {count}. Allowed: one for each."
         yield Problem((*place, "seats"), "", said)
+    for gear, seat in zip(shaft.carries, shaft.seats or ()):
+        if gear in shared and seat != RIGID_SEAT:
+            said = f'of {gear}, which is in several meshes, is not yet computed. Allowed for it: "{RIGID_SEAT}".'
+            yield Problem((*place, "seats"), f'"{seat}"', said)
     if shaft.bearings is None:
         said = (
             f"is missing: nothing holds the shaft, which has sections. Add its bearings, each as a table"

@@ -77,10 +77,12 @@ def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, l
             graph = graph_of(meshes, carried)
             torsion = [None] * len(carried)
             clocking = [None] * len(carried)
+            gears = [gear for mesh in meshes for gear in mesh.gears]
+            shared = {gear for gear in gears if gears.count(gear) > 1}
             for name, shaft in sections.items():
                 number = next(place for place, each in enumerate(carried) if shaft.carries[0] in each)
                 problems += _put(torsion, clocking, (name, shaft, number), graph)
-                problems += wrong_sections(shaft, ("shafts", name), graph, number)
+                problems += wrong_sections(shaft, ("shafts", name), graph, number, shared)
                 bent += [] if shaft.sections is None else [BentShaft(name, number, shaft)]
             problems += _misplaced_housings(housing, bent)
             if "bearings" in tree and {each.number for each in bent} == {*range(len(carried))}:

@@ -1,6 +1,7 @@
 """A gear that is cut into its shaft, and the gaps that shafts open over the face."""
 
 import re
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -14,6 +15,7 @@ from fenics_gears import model_of
 from fenics_gears.dynamics.beam import shear_coefficient
 from fenics_gears.dynamics.bearings import Bearing
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear
+from fenics_gears.dynamics.seat_of_mesh import SeatOfMesh
 from fenics_gears.dynamics.shaft_at_work import face_compliance_of_shafts, middles_of_slices
 from fenics_gears.dynamics.shaft_elements import carried
 from fenics_gears.dynamics.shafts import ShaftSection
@@ -86,6 +88,44 @@ def test_rigid_seat_and_remainder_make_up_the_whole_compliance(name):
     assert np.abs((seat - wanted) / size).max() <= 1e-9
     assert rigid.T @ np.linalg.solve(whole, rigid) == pytest.approx(alone(found).gear_stiffness, rel=1e-6, abs=1e-3)
     assert np.linalg.eigvalsh(seat / size)[0] >= -1e-12
+
+
+def in_mesh(found, turned, heights):
+    """What a seat does in the frame of a mesh, with what the coordinates of its face do."""
+    seat = SeatOfMesh(alone(found), found.seats[0], "pinion", turned)
+    whole = seat.compliance(heights)
+    if seat.of_face:
+        follows = seat.follows(heights)
+        moved = np.linalg.solve(seat.stiffness_of_face, np.moveaxis(follows, 2, 0).reshape(6, -1))
+        whole = whole + (follows.reshape(-1, 6) @ moved).reshape(whole.shape)
+    return whole
+
+
+@pytest.mark.parametrize("name", BEARINGS)
+def test_a_seat_in_another_frame_is_that_of_the_shaft_described_in_it(name):
+    """Identity: a shaft seen from its other end has its sections and bearings the other way round, y and z the other
+    way; on bearings that are alike in all directions its mirror image is itself."""
+    found = shaft(BEARINGS[name])
+    about_x = np.diag([1.0, -1.0, -1.0] * 2)
+    five = about_x[:5, :5]
+    bearings = [
+        replace(
+            each,
+            at=found.length - each.at,
+            stiffness_matrix=each.stiffness_matrix and (five @ np.array(each.stiffness_matrix) @ five).tolist(),
+        )
+        for each in found.bearings
+    ]
+    seat = replace(found.seats[0], at=found.length - found.seats[0].at)
+    other = replace(
+        found, sections=SECTIONS[::-1], seats=(seat,), torque_at=found.length, bearings=tuple(bearings[::-1])
+    )
+    wanted = seat_compliance(other, HEIGHTS)
+    assert in_mesh(found, about_x, HEIGHTS) == pytest.approx(wanted, rel=1e-8, abs=1e-9 * np.abs(wanted).max())
+    if "not alike" not in name:
+        mirrored = np.diag([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+        itself = seat_compliance(found, HEIGHTS)
+        assert in_mesh(found, mirrored, HEIGHTS) == pytest.approx(itself, rel=1e-8, abs=1e-9 * np.abs(itself).max())
 
 
 def test_an_overhung_seat_gives_way_alike_whatever_the_bearings():
