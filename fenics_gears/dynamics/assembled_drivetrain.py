@@ -5,7 +5,7 @@ Mass and moment of inertia of a gear are given, or follow from its cross-section
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
 
     from .bearings import Bearings
-    from .seat_of_mesh import SeatOfMesh
     from .shaft_system import ShaftSystem
     from .shafts import Shafts
 
@@ -82,24 +81,25 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
 
             mesh = mesh_over_face(pair, names)
     load = forces_of_torque(names, radii, wheel_torque)
+    seats = tuple(seat for system in supports.systems for seat in system.yielding)
     undamped = Drivetrain(
-        names, radii, scale * stiffness, load, mass, None, mesh, supports.systems, scale * in_bearings, coupling
+        names,
+        radii,
+        scale * stiffness,
+        load,
+        mass,
+        None,
+        mesh,
+        supports.systems,
+        scale * in_bearings,
+        coupling,
+        seats=seats,
     )
-    if supports.systems:
-        undamped = replace(undamped, seats=_yielding_seats(supports.systems))
     if supports.even_loads:
         from .rolling_springs import springs_of
 
         undamped = replace(undamped, rolling=springs_of(undamped, supports.even_loads))
     return replace(undamped, damping=None if mass is None else _damping(supports, undamped, mesh_stiffness, scale))
-
-
-def _yielding_seats(systems: Sequence[ShaftSystem]) -> tuple[SeatOfMesh, ...]:
-    """The seats on shafts that bend which are not rigid; such shafts have the frame of the mesh."""
-    from .seat_of_mesh import SeatOfMesh
-
-    seated = [(system, seat) for system in systems for _, seat in system.seated if seat.yields_within]
-    return tuple(SeatOfMesh(system, seat, seat.gear, np.eye(6)) for system, seat in seated)
 
 
 def _stiffness(names: tuple[str, ...], supports: Supports) -> tuple[np.ndarray, np.ndarray]:

@@ -18,6 +18,7 @@ from scipy.linalg import block_diag, eigh
 from .beam import Beam
 from .elastic_shaft import FIVE, NUMBERS, ElasticShaft, SeatedGear
 from .elastic_shaft_seat import BentBySeat
+from .seat_of_mesh import SeatOfMesh
 from .shaft_elements import SIX, Assembly, Element, Springs, carried, motions_of
 from .shafts_at_rest import ShaftsAtRest
 
@@ -55,6 +56,11 @@ class ShaftSystem(ShaftsAtRest):
         of_gears = (name for each in shaft.seats for name in (*each.of_gear, *shaft.of_face(each)))
         own = (name for name in self.own_modes if name.endswith(f"_{shaft.name}"))
         return (*of_gears, *shaft.in_rolling, *own)
+
+    @property
+    def yielding(self) -> list[SeatOfMesh]:
+        """The seats of a pair that are not rigid; its shafts have the frame of the mesh."""
+        return [SeatOfMesh(self, seat, seat.gear, np.eye(SIX)) for _, seat in self.seated if seat.yields_within]
 
     @cached_property
     def motions(self) -> tuple[str, ...]:

@@ -292,7 +292,7 @@ def drivetrain_of_mesh(
             in_bearings[place, place] = own
     stiffness = nothing.copy()
     for seat in seats:
-        own = [names.index(name) for name in seat.of_face]
-        radii[own] = seat.radii_of_face(pair)
-        stiffness[np.ix_(own, own)] = seat.stiffness_of_face / np.outer(radii[own], radii[own])
+        places = [names.index(name) for name in seat.of_face]
+        radii[places] = seat.radii_of_face(pair)
+        stiffness[np.ix_(places, places)] = seat.stiffness_of_face / np.outer(radii[places], radii[places])
     return Drivetrain(names, radii, stiffness, load, None, None, bearing_stiffness=in_bearings, seats=tuple(seats))
