@@ -85,7 +85,10 @@ class BentShafts:
     @property
     def once(self) -> dict[str, GearOnShaft]:
         """The gears by their names, each in its first mesh."""
-        return {gear.seat.gear: gear for gear in reversed(self.gears)}
+        found: dict[str, GearOnShaft] = {}
+        for gear in self.gears:
+            found.setdefault(gear.seat.gear, gear)
+        return found
 
     def seats_in(self, mesh: int) -> list[SeatOfMesh]:
         """The seats of its gears that give way."""

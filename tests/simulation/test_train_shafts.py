@@ -270,7 +270,17 @@ def test_bearings_of_two_paths_carry_the_forces_of_their_gears():
         assert own == pytest.approx(np.tile(wanted, (len(own), 1)), abs=1e-8 * np.abs(wanted).max())
 
 
-@pytest.mark.parametrize("bent", [bent_paths, pytest.param(all_bent, marks=pytest.mark.nightly)])
+def coupled_within(compliance: float, of_last: str = "") -> str:
+    """The same, drive and load coupled within the faces of second gears."""
+    text = all_bent(compliance, of_last)
+    return text.replace('torque_at = "0.0 mm"', 'torque_at = "60 mm"').replace(
+        'torque_at = "90.0 mm"', 'torque_at = "60 mm"'
+    )
+
+
+@pytest.mark.parametrize(
+    "bent", [bent_paths, *(pytest.param(each, marks=pytest.mark.nightly) for each in (all_bent, coupled_within))]
+)
 def test_clocked_paths_on_stiff_shafts_are_those_on_rigid_shafts(bent):
     """Limit: of a millionth of the compliance paths share as on rigid shafts, here unevenly."""
     clocking = 'clocking = "1e-4 rad"\n'
