@@ -85,6 +85,11 @@ def pair_and_train(helix: float, bearings: tuple[str, ...], vibrating: bool, sea
         pair, train = (each.replace(IRON, "") for each in (pair, train))
         pair = pair.replace("gear_at =", f'seat = "{seat}"\ngear_at =')
         train = train.replace("gears_at =", f'seats = ["{seat}"]\ngears_at =')
+    if seat == "press fit":
+        # The shafts are as thick as the bores.
+        pair, train = (
+            each.replace('"35 mm"', '"27 mm"').replace('"40 mm" }]', '"52.5 mm" }]') for each in (pair, train)
+        )
     return pair, train + tables("shafts.b.bearings", OF_WHEEL)
 
 
@@ -99,6 +104,7 @@ def pair_and_train(helix: float, bearings: tuple[str, ...], vibrating: bool, sea
         pytest.param(15.0, LINEAR, True, "", marks=pytest.mark.nightly),
         pytest.param(15.0, LINEAR, False, "integral", marks=pytest.mark.nightly),
         pytest.param(15.0, BETWEEN, True, "integral", marks=pytest.mark.nightly),
+        pytest.param(15.0, BETWEEN, False, "press fit", marks=pytest.mark.nightly),
         pytest.param(0.0, ROLLING, True, "", marks=pytest.mark.nightly),
     ],
 )
