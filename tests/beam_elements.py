@@ -35,8 +35,9 @@ def assembled(shaft, shear, more=(), seat_stiffness=1.0):
     """Places along an elastic shaft of cylinders, also `more`, and its stiffness (5 p, 5 p), bearings with it;
     `shear`: coefficient by outer and inner diameter; `seat_stiffness`: of what the gear sits on."""
     ends = np.cumsum([0.0, *(each.length for each in shaft.sections)])
-    seat = shaft.gear_at - 0.5 * shaft.seat, shaft.gear_at + 0.5 * shaft.seat
-    places = sorted({*ends, *seat, shaft.gear_at, *more, *(each.at for each in shaft.bearings)})
+    (gear,) = shaft.seats
+    seat = gear.ends
+    places = sorted({*ends, *seat, gear.at, *more, *(each.at for each in shaft.bearings)})
     stiffness = np.zeros((FIVE * len(places),) * 2)
     for number, (left, right) in enumerate(zip(places, places[1:])):
         section = shaft.sections[int(np.searchsorted(ends, 0.5 * (left + right))) - 1]
@@ -55,7 +56,7 @@ def assembled(shaft, shear, more=(), seat_stiffness=1.0):
 def condensed(shaft, shear, seat_stiffness=1.0):
     """Stiffness (5, 5) at the middle of the gear."""
     places, stiffness = assembled(shaft, shear, (), seat_stiffness)
-    kept = np.arange(FIVE) + FIVE * places.index(shaft.gear_at)
+    kept = np.arange(FIVE) + FIVE * places.index(shaft.seats[0].at)
     others = np.setdiff1d(np.arange(len(stiffness)), kept)
     return stiffness[np.ix_(kept, kept)] - stiffness[np.ix_(kept, others)] @ np.linalg.solve(
         stiffness[np.ix_(others, others)], stiffness[np.ix_(others, kept)]

@@ -218,3 +218,15 @@ def bent_paths(compliance: float, of_last: str = "", more: str = "") -> str:
         own + bearing_sections(f"path{path}", (5.0, 75.0), 3e5 / compliance, 1e5 / compliance) for path in (1, 2)
     )
     return helical_paths(of_last, (*of_paths,), more)
+
+
+def bent_ends(text: str, compliance: float) -> str:
+    """Two such paths whose first and last shafts bend too: either carries two gears, and drive or load at its end."""
+    steel = f'material = {{ youngs_modulus = "{206e3 / compliance!r} N/mm^2", poissons_ratio = 0.3 }}\n'
+    for name, gears, place in (("first", "in{}.pinion", 0.0), ("last", "out{}.wheel", 90.0)):
+        carries = ", ".join(f'"{gears.format(path)}"' for path in (1, 2))
+        own = f'sections = [{{ length = "90 mm", diameter = "25 mm" }}]\ngears_at = ["30 mm", "60 mm"]\n{steel}'
+        own += f'torque_at = "{place} mm"\n'
+        text = text.replace(f"carries = [{carries}]\n", f"carries = [{carries}]\n{own}")
+        text += bearing_sections(name, (10.0, 80.0), 3e5 / compliance, 1e5 / compliance)
+    return text

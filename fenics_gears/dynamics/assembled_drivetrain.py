@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -81,8 +80,19 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
 
             mesh = mesh_over_face(pair, names)
     load = forces_of_torque(names, radii, wheel_torque)
+    seats = tuple(seat for system in supports.systems for seat in system.yielding)
     undamped = Drivetrain(
-        names, radii, scale * stiffness, load, mass, None, mesh, supports.systems, scale * in_bearings, coupling
+        names,
+        radii,
+        scale * stiffness,
+        load,
+        mass,
+        None,
+        mesh,
+        supports.systems,
+        scale * in_bearings,
+        coupling,
+        seats=seats,
     )
     if supports.even_loads:
         from .rolling_springs import springs_of
@@ -104,10 +114,11 @@ def _stiffness(names: tuple[str, ...], supports: Supports) -> tuple[np.ndarray, 
             add_bearings(stiffness, names, supports.bearings)
     in_bearings = stiffness.copy()
     for system in supports.systems:
-        stiffness += _spread(names, system, system.stiffness)
-        in_bearings += _spread(names, system, system.bearing_stiffness)
+        moved = system.motions_of_pair(names)
+        stiffness += system.over(moved, "stiffness")
+        in_bearings += system.over(moved, "bearing_stiffness")
     for name, torsion in _torsion(supports).items():
-        stiffness[names.index(name), names.index(name)] += torsion
+        stiffness[names.index(name), names.index(name)] += torsion or 0.0
     return stiffness, in_bearings
 
 
@@ -116,18 +127,9 @@ def _mass_of_all(names: tuple[str, ...], supports: Supports) -> tuple[np.ndarray
     mass = _mass(names, supports.inertia, supports.gears)
     coupling = np.zeros(len(names))
     for system in supports.systems:
-        own, momentum = system.mass_over(names)
-        mass += own
-        coupling += momentum
+        mass += system.over(system.motions_of_pair(names), "mass")
+        coupling += system.momentum_of_coupling(names)
     return mass, coupling
-
-
-def _spread(names: tuple[str, ...], system: ShaftSystem, matrix: np.ndarray) -> np.ndarray:
-    """A matrix over a system's own coordinates as one over all (k, k)."""
-    spread = np.zeros((len(names), len(names)))
-    own = [names.index(name) for name in system.coordinates]
-    spread[np.ix_(own, own)] = matrix
-    return spread
 
 
 def _moving_coordinates(supports: Supports) -> tuple[str, ...]:
@@ -147,19 +149,17 @@ def _leaning(bearings: Bearings) -> set[str]:
     return {name for name in tilting if kind_of(name) == "tilt" or bearings.axial(SIDE[name]) is not None}
 
 
-def _torsion(supports: Supports) -> dict[str, float]:
-    """Torsional stiffness (N mm/rad) of the shafts that twist, by coordinate: the input shaft's between the prescribed
-    rotation and phi1; the output shaft's, whose twist is phi3 - phi2 [4]-[6]."""
-    stiffnesses = {}
-    for name, shaft in ((ROTATIONS[0], "input"), ("shaft_twist", "output")) if supports.shafts is not None else ():
-        bent = [
-            system.torsional_stiffness(each)
-            for system in supports.systems
-            for each in system.shafts
-            if each.gear == SIDE[name]
-        ]
-        torsion = bent[0] if bent else supports.shafts.of(shaft)
-        if torsion is not None and isfinite(torsion):
+def _torsion(supports: Supports) -> dict[str, float | None]:
+    """The shafts that twist, by coordinate, and their torsional stiffness (N mm/rad), None of one that bends: the input
+    shaft's between the prescribed rotation and phi1; the output shaft's, whose twist is phi3 - phi2 [4]-[6]."""
+    if supports.shafts is None:
+        return {}
+    bent = {shaft.name: shaft for system in supports.systems for shaft in system.shafts}
+    stiffnesses: dict[str, float | None] = {}
+    for name, shaft in ((ROTATIONS[0], "input"), ("shaft_twist", "output")):
+        own = bent.get(SIDE[name])
+        torsion = None if own is not None else supports.shafts.of(shaft)
+        if torsion is not None or own is not None and own.coupled is None:
             stiffnesses[name] = torsion
     return stiffnesses
 
@@ -195,7 +195,9 @@ def _check_load(end: float, wheel: float) -> None:
 def _damping(supports: Supports, undamped: Drivetrain, mesh_stiffness: float, scale: np.ndarray) -> np.ndarray | None:
     """D (k, k): alpha K + beta M of either shaft, or by the ratios of the modes with one tooth pair in mesh, and what
     elements of shafts have of their own."""
-    damping_of_shafts = sum(scale * _spread(undamped.coordinates, each, each.damping) for each in supports.systems)
+    damping_of_shafts = sum(
+        scale * each.over(each.motions_of_pair(undamped.coordinates), "damping") for each in supports.systems
+    )
     damping = supports.damping
     if damping is None:
         return damping_of_shafts if np.any(damping_of_shafts) else None

@@ -12,6 +12,7 @@ import numpy as np
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import per_node
 
+from .elastic_shaft import NUMBERS, SeatedGear
 from .shaft_elements import SIX, carried
 
 if TYPE_CHECKING:
@@ -19,8 +20,7 @@ if TYPE_CHECKING:
     from fenics_gears.contact.operator import ContactOperator, Position
 
     from .drivetrain import Drivetrain
-    from .elastic_shaft import ElasticShaft
-    from .shaft_system import ShaftSystem
+    from .seat_of_mesh import SeatOfMesh
 
 
 # Gauss points of a slice, in parts of its width from its middle.
@@ -36,15 +36,14 @@ class BendingFace:
     motions: np.ndarray
 
 
-def bending_face(
-    drivetrain: Drivetrain, system: ShaftSystem, shaft: ElasticShaft, middles: np.ndarray, widths: np.ndarray
-) -> BendingFace:
-    """The face of a shaft's gear, whose slices have such middles (S,), mm from the gear's, and widths (S,), mm."""
-    columns = [drivetrain.coordinates.index(name) for name in (*shaft.of_gear, shaft.rotation)]
-    own = [drivetrain.coordinates.index(name) for name in shaft.of_face]
+def bending_face(drivetrain: Drivetrain, seat: SeatOfMesh, middles: np.ndarray, widths: np.ndarray) -> BendingFace:
+    """The face of a gear, whose slices have such middles (S,), mm from the gear's, and widths (S,), mm."""
+    names = (*SeatedGear(seat.gear, 0.0).of_gear, f"rotation_{NUMBERS[seat.gear]}")
+    columns = [drivetrain.coordinates.index(name) for name in names]
+    own = [drivetrain.coordinates.index(name) for name in seat.of_face]
     # The mean over a slice, exact for a cylinder's.
     ends = np.stack([middles - GAUSS * widths, middles + GAUSS * widths])
-    follows = system.seat(shaft).follows(ends.ravel()).reshape(2, len(middles), SIX, SIX).mean(axis=0)
+    follows = seat.follows(ends.ravel()).reshape(2, len(middles), SIX, SIX).mean(axis=0)
     of_middle = np.array([carried(-each) for each in middles]) @ follows
     return BendingFace(np.array(columns), drivetrain.radii[columns][:, None] * of_middle / drivetrain.radii[own])
 

@@ -18,6 +18,7 @@ from fenics_gears.inputs.tree import GEARS
 if TYPE_CHECKING:
     from .elastic_shaft import ElasticShaft
     from .rolling_springs import RollingSprings
+    from .seat_of_mesh import SeatOfMesh
     from .shaft_system import ShaftSystem
     from .tilting import MeshOverFace
 
@@ -37,7 +38,8 @@ class Drivetrain:
     the coordinates move flanks that have a width; None in the plane. `systems`: of the shafts that also bend, and
     `bearing_stiffness` (k, k), N/mm, the part of the stiffness that is in the bearings. `of_the_coupling` (k,),
     N s^2/mm: mass of an elastic input shaft that turns with its coupling, whose rotation is prescribed. `rolling`: by
-    how much bearings depart from the stiffness that the matrix has for them, None where none does.
+    how much bearings depart from the stiffness that the matrix has for them, None where none does. `seats`: those of
+    the gears that give way.
     """
 
     coordinates: tuple[str, ...]
@@ -51,6 +53,7 @@ class Drivetrain:
     bearing_stiffness: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
     of_the_coupling: np.ndarray | float = 0.0
     rolling: RollingSprings | None = None
+    seats: tuple[SeatOfMesh, ...] = ()
 
     @property
     def indices(self) -> list[int]:
@@ -77,7 +80,7 @@ class Drivetrain:
     @cached_property
     def bending_faces(self) -> np.ndarray:
         """Stiffness and flexibility (2, f, f), N/mm, of the faces that bend by coordinates of their own."""
-        own = [self.coordinates.index(name) for shaft in self.elastic for name in shaft.of_face]
+        own = [self.coordinates.index(name) for seat in self.seats for name in seat.of_face]
         of_faces = self.stiffness[np.ix_(own, own)]
         return np.stack([of_faces, np.linalg.inv(of_faces)])
 

@@ -21,7 +21,7 @@ from .beam import beams, properties
 from .shaft_elements import SIX, Assembly, carried, motions_of
 
 if TYPE_CHECKING:
-    from .elastic_shaft import ElasticShaft
+    from .elastic_shaft import ElasticShaft, SeatedGear
 
 NOWHERE = np.empty(0)
 MIDDLE = np.zeros(1)
@@ -48,10 +48,11 @@ class BentBySeat(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Seat:
-    """The seat of the gear on a shaft, held at both ends of its face by a stiffness of its `supports` (12, 12) over the
+    """The seat of a gear on its shaft, held at both ends of its face by a stiffness of its `supports` (12, 12) over the
     motions of the left and the right end, each as one of the gear's middle."""
 
     shaft: ElasticShaft
+    gear: SeatedGear
     supports: np.ndarray
 
     @cached_property
@@ -87,7 +88,7 @@ class Seat:
         to_end = np.linalg.solve(whole[-SIX:, -SIX:], whole[-SIX:, :size])
         compliance = whole[:size, :size] - whole[:size, -SIX:] @ to_end
         ends = np.zeros((2 * SIX, SIX * len(heights)))
-        if not self.shaft.of_face:
+        if not self.shaft.of_face(self.gear):
             follows = self._follows(free, places).reshape(size, SIX)
             moved = np.linalg.solve(self.stiffness_apart, follows.T)
             compliance += follows @ moved
@@ -100,7 +101,7 @@ class Seat:
     def whole(self, heights: np.ndarray) -> np.ndarray:
         """D (h, 6, h, 6) with what the ends' motions apart do, also where these are coordinates."""
         compliance = self.under(heights).compliance
-        if self.shaft.of_face:
+        if self.shaft.of_face(self.gear):
             follows = self.follows(heights)
             moved = np.linalg.solve(self.stiffness_apart, follows.reshape(-1, SIX).T)
             compliance = compliance + (follows.reshape(-1, SIX) @ moved).reshape(compliance.shape)
@@ -113,7 +114,7 @@ class Seat:
 
     @property
     def _to_end(self) -> np.ndarray:
-        return carried(0.5 * self.shaft.seat)
+        return carried(0.5 * self.gear.width)
 
     def _follows(self, free: np.ndarray, places: np.ndarray) -> np.ndarray:
         """The same by motions `free` (p + 1, 6, p + 1, 6) of the face with its left end held."""
@@ -125,16 +126,17 @@ class Seat:
         """Motions (h + a + 1, 6, h + a + 1, 6) of places within the face, the last ones of the shaft's `axis`, and of
         its right end, per load there, with its left end held."""
         shaft = self.shaft
-        if shaft.hub is not None:
+        gear = self.gear
+        if gear.hub is not None:
             # Imported here: few gears have a hub that gives way.
             from .elastic_shaft_hub import hub_flexibility
 
-            return hub_flexibility(shaft.hub, heights, axis)
-        begin, end = shaft.seat_ends
-        places = np.array([*(shaft.gear_at + heights), *(shaft.gear_at + axis), end])
+            return hub_flexibility(gear.hub, heights, axis)
+        begin, end = gear.ends
+        places = np.array([*(gear.at + heights), *(gear.at + axis), end])
         nodes = np.unique(np.append(places, begin))
         along = properties(shaft.sections, shaft.material, nodes)
-        face = Assembly(beams(shaft.gear, range(len(nodes)), nodes, along))
-        held = face.held(motions_of(shaft.gear, 0))
+        face = Assembly(beams(shaft.name, range(len(nodes)), nodes, along))
+        held = face.held(motions_of(shaft.name, 0))
         own = (SIX * np.searchsorted(nodes, places)[:, None] + np.arange(SIX)).ravel()
         return held.flexibility[np.ix_(own, own)].reshape(len(places), SIX, len(places), SIX)

@@ -133,7 +133,7 @@ def _motions(drivetrain: Drivetrain, frequencies: np.ndarray, shapes: np.ndarray
         return [""] * shapes.shape[1]
     # Of modes of modal mass 1 these are shares.
     energy, said = shapes * (drivetrain.mass @ shapes), [""] * shapes.shape[1]
-    bent = [shaft.gear for shaft in drivetrain.elastic]
+    bent = [shaft.name for shaft in drivetrain.elastic]
     for gear in GEARS:
         for kinds, words in (*(OF_SHAFTS if gear in bent else ()), *OF_GEARS):
             rows = [

@@ -196,7 +196,7 @@ def springs_of(drivetrain: Drivetrain, loads: Sequence[np.ndarray]) -> RollingSp
     reference = np.zeros(len(drivetrain.coordinates))
     left = list(loads)
     for system in drivetrain.systems:
-        own = np.concatenate([left.pop(0) for _ in system.shafts])
+        own = np.concatenate([left.pop(0) for _ in system.seated])
         gears = np.linalg.solve(system.gear_stiffness, own)
         motions = (system.bearings_at_rest @ gears).reshape(-1, MOTIONS)
         rolling = [number for number, each in enumerate(system.bearings) if each.rolling is not None]

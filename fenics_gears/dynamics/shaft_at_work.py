@@ -14,7 +14,7 @@ from fenics_gears.contact.face import even_slices
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
 
-from .elastic_shaft import FIVE, NUMBERS, ElasticShaft
+from .elastic_shaft import FIVE, NUMBERS, ElasticShaft, SeatedGear
 from .rolling_bearing import MOTIONS, reaction, secant_stiffness
 from .shaft_elements import carried
 from .shaft_system import ShaftSystem
@@ -63,8 +63,8 @@ def face_compliance_of_shafts(systems: Iterable[ShaftSystem], pair: GearPair, z:
     across = -pair.pinion.base_radius, pair.wheel.base_radius
     for system in systems:
         moves = []
-        for shaft in system.shafts:
-            gear = list(NUMBERS).index(shaft.gear)
+        for _, seat in system.seated:
+            gear = list(NUMBERS).index(seat.gear)
             sense = (1.0, -1.0)[gear]
             x = along[gear]
             y = across[gear]
@@ -72,22 +72,22 @@ def face_compliance_of_shafts(systems: Iterable[ShaftSystem], pair: GearPair, z:
             row = np.array([1.0, 0.0, lean, y * lean, -x * lean, -y])
             heights = z - pair.gear_middles[gear]
             moves.append(sense * np.einsum("i,sij->sj", row, [carried(each) for each in heights])[:, :FIVE])
-            if shaft.yields_within:
-                compliance += np.einsum("i,sitj,j->st", row, system.seat(shaft).whole(heights), row)
+            if seat.yields_within:
+                compliance += np.einsum("i,sitj,j->st", row, system.seat(seat).whole(heights), row)
         moved_by = np.concatenate(moves, axis=1)
         compliance += moved_by @ np.linalg.solve(system.gear_stiffness, moved_by.T)
     return compliance
 
 
-def even_load(shaft: ElasticShaft, pair: GearPair, torque: float) -> np.ndarray:
-    """Load (5,) of the gear on its shaft under a torque (N mm) on the wheel, spread evenly over the common face, at the
-    pitch point and without friction, on coast flanks if that is negative."""
-    names = (*shaft.of_gear, "rotation_2")
+def even_load(gear: str, pair: GearPair, torque: float) -> np.ndarray:
+    """Load (5,) of the "pinion" or the "wheel" on its shaft under a torque (N mm) on the wheel, spread evenly over the
+    common face, at the pitch point and without friction, on coast flanks if that is negative."""
+    names = (*SeatedGear(gear, 0.0).of_gear, "rotation_2")
     # Both lines of action pass through the pitch point.
     normal = coast_normal(pair) if torque < 0.0 else contact_normal(pair)
     row = moved(pair, names, (pair.pitch_point, 0.0), normal)
     # Tilts are arc lengths there.
-    scale = np.array([1.0, 1.0, 1.0, *[getattr(pair, shaft.gear).base_radius] * 2])
+    scale = np.array([1.0, 1.0, 1.0, *[getattr(pair, gear).base_radius] * 2])
     return -abs(torque / pair.wheel.base_radius / row[-1]) * row[:-1] * scale
 
 
@@ -172,7 +172,7 @@ def _balanced(system: ShaftSystem, load: np.ndarray) -> np.ndarray:
             return motion[:count]
         matrix = np.block([[np.eye(count) + flexibility @ stiffness, -rigid], [rigid.T @ stiffness, otherwise]])
         motion = motion - np.linalg.lstsq(matrix, np.concatenate([apart, missing]), rcond=None)[0]
-    gears = " and ".join(f"bearings.{shaft.gear}" for shaft in system.shafts)
+    gears = " and ".join(f"bearings.{shaft.name}" for shaft in system.shafts)
     raise SceneError(
         f"{gears}: no place of the shaft was found in which its rolling bearings balance the load. Check numbers,"
         " diameters, contact_angle and clearance of their rolling elements"

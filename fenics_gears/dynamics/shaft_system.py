@@ -16,8 +16,9 @@ import numpy as np
 from scipy.linalg import block_diag, eigh
 
 from .beam import Beam
-from .elastic_shaft import FIVE, ElasticShaft
+from .elastic_shaft import FIVE, NUMBERS, ElasticShaft, SeatedGear
 from .elastic_shaft_seat import BentBySeat
+from .seat_of_mesh import SeatOfMesh
 from .shaft_elements import SIX, Assembly, Element, Springs, carried, motions_of
 from .shafts_at_rest import ShaftsAtRest
 
@@ -32,8 +33,8 @@ class ShaftSystem(ShaftsAtRest):
     @property
     def moved(self) -> tuple[str, ...]:
         """Names of the coordinates that contact moves."""
-        of_gears = [name for shaft in self.shafts for name in shaft.of_gear]
-        return (*of_gears, *(name for shaft in self.shafts for name in shaft.of_face))
+        of_gears = [name for _, seat in self.seated for name in seat.of_gear]
+        return (*of_gears, *(name for shaft, seat in self.seated for name in shaft.of_face(seat)))
 
     @property
     def in_rolling(self) -> tuple[str, ...]:
@@ -50,15 +51,56 @@ class ShaftSystem(ShaftsAtRest):
         """Names (k,) of the coordinates that the shafts' bending and their bearings act on."""
         return (*self.moved, *self.modes)
 
+    def coordinates_of(self, shaft: ElasticShaft) -> tuple[str, ...]:
+        """Names of those of one shaft."""
+        of_gears = (name for each in shaft.seats for name in (*each.of_gear, *shaft.of_face(each)))
+        own = (name for name in self.own_modes if name.endswith(f"_{shaft.name}"))
+        return (*of_gears, *shaft.in_rolling, *own)
+
+    @property
+    def yielding(self) -> list[SeatOfMesh]:
+        """The seats of a pair that are not rigid; its shafts have the frame of the mesh."""
+        return [SeatOfMesh(self, seat, seat.gear, np.eye(SIX)) for _, seat in self.seated if seat.yields_within]
+
+    @cached_property
+    def motions(self) -> tuple[str, ...]:
+        """Names (g + m,) of all given motions and of the modes."""
+        return (*self.given, *self.own_modes)
+
+    @cached_property
+    def of_coordinates(self) -> np.ndarray:
+        """Numbers (k,) of the coordinates among the motions: all but the turns of gears and couplings."""
+        return np.array([self.motions.index(name) for name in (*self.bending_names, *self.own_modes)], dtype=int)
+
     @cached_property
     def stiffness(self) -> np.ndarray:
         """Of shafts and bearings over the coordinates (k, k)."""
-        at_rest = self.bending.T @ self.held.stiffness @ self.bending
-        for shaft in self.shafts:
-            if shaft.of_face:
-                own = [self.moved.index(name) for name in shaft.of_face]
-                at_rest[np.ix_(own, own)] += self.seat(shaft).stiffness_of_face
+        return self.stiffness_of_motions[np.ix_(self.of_coordinates, self.of_coordinates)]
+
+    @cached_property
+    def stiffness_of_motions(self) -> np.ndarray:
+        """Of shafts and bearings over all motions (g + m, g + m), N, mm and rad."""
+        at_rest = self.of_given.T @ self.held.stiffness @ self.of_given
+        for shaft, seat in self.seated:
+            if shaft.of_face(seat):
+                own = [self.given.index(name) for name in seat.apart]
+                at_rest[np.ix_(own, own)] += self.seat(seat).stiffness_of_face
         return block_diag(0.5 * (at_rest + at_rest.T), np.diag(self._vibrations[0]))
+
+    def over(self, moved: np.ndarray, matrix: str) -> np.ndarray:
+        """The `stiffness`, its part in bearings, `bearing_stiffness`, the `damping` or the `mass` over k coordinates
+        that move all motions by rows `moved` (g + m, k)."""
+        if matrix == "mass":
+            return moved.T @ self.mass @ moved
+        if matrix != "stiffness":
+            own = moved[self.of_coordinates]
+            return own.T @ getattr(self, matrix) @ own
+        moved = moved.copy()
+        # No shaft resists its turning as a whole: what it resists is taken from differences, exact however stiff it is.
+        for shaft in self.shafts:
+            turns = [self.motions.index(name) for name in shaft.turns]
+            moved[turns] -= moved[turns[0]]
+        return moved.T @ self.stiffness_of_motions @ moved
 
     @cached_property
     def damping(self) -> np.ndarray:
@@ -89,16 +131,16 @@ class ShaftSystem(ShaftsAtRest):
             loads |= dict(zip(each.motions, self._loads_on(each)))
         return np.array([loads[name] for name in self.in_bearings])
 
-    def bent_by_seat(self, shaft: ElasticShaft, heights: np.ndarray, places: np.ndarray) -> BentBySeat:
+    def bent_by_seat(self, seat: SeatedGear, heights: np.ndarray, places: np.ndarray) -> BentBySeat:
         """A shaft whose gear is loaded at `heights` (h,), mm from its middle, and `places` (p,), mm from the left end:
         what is beside the face follows its ends."""
-        within = (places > shaft.seat_ends[0]) & (places < shaft.seat_ends[1])
-        yielding = self.seat(shaft).under(heights, places[within] - shaft.gear_at)
-        own, carry = self.face(shaft)
+        within = (places > seat.ends[0]) & (places < seat.ends[1])
+        yielding = self.seat(seat).under(heights, places[within] - seat.at)
+        own, carry = self.face(seat)
         ends = carry @ yielding.ends.reshape(2 * SIX, -1)
         line = np.zeros((len(places), FIVE, len(heights), SIX))
         line[within] = yielding.axis[:, :FIVE]
-        outside = self.shaft_motions(shaft, places[~within], ()) @ np.eye(len(self.ends))[:, own]
+        outside = self.shaft_motions(self.shaft_of(seat), places[~within], ()) @ np.eye(len(self.ends))[:, own]
         line[~within] = (outside @ ends).reshape(-1, *line.shape[1:])
         moved = self.at_rest.motions_of(self.in_bearings)[:, own] @ ends
         loads = self.springs @ moved
@@ -107,19 +149,22 @@ class ShaftSystem(ShaftsAtRest):
     def deflection(self, shaft: ElasticShaft, places: Sequence[float]) -> np.ndarray:
         """Motions (p, 5, k) of places on a shaft's axis (mm from its left end) per coordinate."""
         at = np.asarray(places, dtype=float)
-        within = (at >= shaft.seat_ends[0]) & (at <= shaft.seat_ends[1])
         bent = np.zeros((len(at), FIVE, self.bending.shape[1]))
-        heights = at[within] - shaft.gear_at
-        columns = [self.moved.index(name) for name in shaft.of_gear]
-        inside = np.zeros((len(heights), *bent.shape[1:]))
-        inside[:, :, columns] = np.reshape([carried(each)[:FIVE, :FIVE] for each in heights], (-1, FIVE, FIVE))
-        if shaft.of_face:
-            columns = [self.moved.index(name) for name in shaft.of_face]
-            inside[:, :, columns] = self.seat(shaft).axis_follows(heights)[:, :FIVE]
-        bent[within] = inside
-        bent[~within] = self.shaft_motions(shaft, at[~within], self.in_rolling_motions) @ self.bending
+        beside = np.ones(len(at), dtype=bool)
+        for seat in shaft.seats:
+            within = (at >= seat.ends[0]) & (at <= seat.ends[1])
+            heights = at[within] - seat.at
+            columns = [self.moved.index(name) for name in seat.of_gear]
+            inside = np.zeros((len(heights), *bent.shape[1:]))
+            inside[:, :, columns] = np.reshape([carried(each)[:FIVE, :FIVE] for each in heights], (-1, FIVE, FIVE))
+            if shaft.of_face(seat):
+                columns = [self.moved.index(name) for name in shaft.of_face(seat)]
+                inside[:, :, columns] = self.seat(seat).axis_follows(heights)[:, :FIVE]
+            bent[within] = inside
+            beside &= ~within
+        bent[beside] = self.shaft_motions(shaft, at[beside], self.in_rolling_motions) @ self.bending
         nodes = range(len(shaft.chain.places))
-        shapes = self._shapes[self._nodes.numbers(name for node in nodes for name in motions_of(shaft.gear, node))]
+        shapes = self._shapes[self._nodes.numbers(name for node in nodes for name in motions_of(shaft.name, node))]
         own = [np.interp(at, shaft.chain.places, each) for each in shapes.reshape(len(nodes), -1).T]
         vibrating = np.reshape(own, (SIX, -1, len(at)))[:FIVE]
         return np.concatenate([bent, np.moveaxis(vibrating, 2, 0)], axis=2)
@@ -138,43 +183,46 @@ class ShaftSystem(ShaftsAtRest):
         return mass
 
     def motions_over(self, names: Sequence[str]) -> np.ndarray:
-        """Given motions and modes (g + m, k) per coordinate of a drivetrain of such names, in mm and rad, as far as the
-        gears' turns do not move them."""
-        moved = np.zeros((len(self.mass), len(names)))
-        places = [names.index(name) for name in self.coordinates]
-        moved[:, places] = block_diag(self.selected(self.bending_names), np.eye(len(self.own_modes)))
+        """All motions (g + m, k) per coordinate of a drivetrain of such names, in mm and rad, as far as the gears'
+        turns do not move them."""
+        moved = np.zeros((len(self.motions), len(names)))
+        moved[self.of_coordinates, [names.index(name) for name in self.coordinates]] = 1.0
         return moved
 
-    def mass_over(self, names: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:
-        """The mass (k, k) over a drivetrain's coordinates of such names, in N, mm, s and rad; and the momentum (k,)
-        over these per speed (rad/s) of the prescribed rotation of a whole input shaft, as far as it is not that of the
-        gear."""
+    def motions_of_pair(self, names: Sequence[str]) -> np.ndarray:
+        """The same, with the turns of the gears of a pair and of its output shaft's coupling."""
         moved = self.motions_over(names)
-        turning = np.zeros(len(self.mass))
-        given = len(self.given)
-        for shaft in self.shafts:
-            for name, turned in shaft.turned_by.items():
+        for shaft, seat in self.seated:
+            rotation = f"rotation_{NUMBERS[seat.gear]}"
+            coupling = () if shaft.driven else shaft.coupling(shaft.chain)
+            for name, turned in ((rotation, (seat.motions[-1], *coupling)), ("shaft_twist", coupling)):
                 if name in names:
-                    moved[:given, names.index(name)] = self.selected(turned).sum(axis=1)
+                    moved[[self.motions.index(each) for each in turned], names.index(name)] = 1.0
+        return moved
+
+    def momentum_of_coupling(self, names: Sequence[str]) -> np.ndarray:
+        """Momentum (k,) over a pair's coordinates per speed (rad/s) of the prescribed rotation of a whole input shaft,
+        as far as it is not that of the gear."""
+        turning = np.zeros(len(self.motions))
+        for shaft, seat in self.seated:
             if shaft.driven:
-                gear = self.selected(motions_of(shaft.gear, "gear")[-1:]).sum(axis=1)
-                turning[:given] += self.selected(shaft.coupling(shaft.chain)).sum(axis=1)
-                turning[:given] += gear * (shaft.rotation not in names)
-        return moved.T @ self.mass @ moved, moved.T @ self.mass @ turning
+                held = seat.motions[-1:] if f"rotation_{NUMBERS[seat.gear]}" not in names else ()
+                turning[[self.motions.index(each) for each in (*held, *shaft.coupling(shaft.chain))]] = 1.0
+        return self.motions_of_pair(names).T @ self.mass @ turning
 
     @cached_property
     def own_modes(self) -> tuple[str, ...]:
         """Names of the shafts' own modes, by frequency."""
         energies = self._shapes * (self._mass_of_nodes @ self._shapes)
-        counted = dict.fromkeys((shaft.gear for shaft in self.shafts), 0)
+        counted = dict.fromkeys((shaft.name for shaft in self.shafts), 0)
         shafts = np.array([name.partition("/")[0] for name in self._nodes.names])
         motions = np.arange(len(shafts)) % SIX
         names = []
         for energy in energies.T:
-            gear = max(counted, key=lambda each: energy[shafts == each].sum())
+            shaft = max(counted, key=lambda each: energy[shafts == each].sum())
             kind = max(KINDS, key=lambda each: energy[np.isin(motions, KINDS[each])].sum())
-            counted[gear] += 1
-            names.append(f"{kind}_mode_{counted[gear]}_{gear}")
+            counted[shaft] += 1
+            names.append(f"{kind}_mode_{counted[shaft]}_{shaft}")
         return tuple(names)
 
     @property
@@ -223,15 +271,14 @@ class ShaftSystem(ShaftsAtRest):
         known = [name in self.held.assembly for name in names]
         motions = np.zeros((len(names), len(self.given)))
         motions[known] = self.held.motions_of(each for each, has in zip(names, known) if has) @ self.of_given
-        for shaft in self.shafts:
-            left, right = shaft.chain.faces[0]
+        for shaft, seat in self.seated:
+            left, right = shaft.chain.faces[shaft.seats.index(seat)]
             for node in range(left + 1, right):
-                rows = self._nodes.numbers(motions_of(shaft.gear, node))
-                height = shaft.chain.places[node] - shaft.gear_at
-                motions[rows] = carried(height) @ self.selected(motions_of(shaft.gear, "gear")).T
-                if shaft.of_face:
-                    bent = self.seat(shaft).axis_follows(np.array([height]))[0]
-                    motions[rows] += bent @ self.selected(motions_of(shaft.gear, "face")).T
+                rows = self._nodes.numbers(motions_of(shaft.name, node))
+                height = shaft.chain.places[node] - seat.at
+                motions[rows] = carried(height) @ self.selected(seat.motions).T
+                if shaft.of_face(seat):
+                    motions[rows] += self.seat(seat).axis_follows(np.array([height]))[0] @ self.selected(seat.apart).T
         return motions
 
     @property

@@ -90,7 +90,8 @@ class HousingFile:
     problem: str = ""
 
 
-def _housing(seats: str, otherwise: str):
+def housing_file(seats: str, otherwise: str):
+    """A field that names the file of a housing."""
     return file_name(
         ".txt",
         "housing.txt",
@@ -125,7 +126,7 @@ class Shaft(Section):
         default=RIGID_SEAT,
     )
     material: ShaftMaterial = ShaftMaterial()
-    housing: HousingFile | None = _housing(
+    housing: HousingFile | None = housing_file(
         "this shaft's bearings, in N, mm and rad, a row on each line: six motions of each seat in the order of the"
         " bearings, displacements along x (the line of action), y and z (the axis) and rotations about them; lines that"
         " begin with #, %, ! or * are passed over",
@@ -142,7 +143,7 @@ class Shafts(Section):
     )
     input: Shaft | None = None
     output: Shaft | None = None
-    housing: HousingFile | None = _housing(
+    housing: HousingFile | None = housing_file(
         "all bearings of both shafts, which it ties together: first those of `[[bearings.pinion]]`, then those of"
         " `[[bearings.wheel]]`, in the form of that of one shaft",
         "each shaft has its own, if any",

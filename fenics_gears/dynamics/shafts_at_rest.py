@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg import block_diag
 
-from .elastic_shaft import FIVE, ROUND_OFF, Chain, ElasticShaft, in_series
+from .elastic_shaft import FIVE, ROUND_OFF, Chain, ElasticShaft, SeatedGear, in_series
 from .elastic_shaft_seat import Seat
-from .shaft_elements import ARM, SIX, STIFFNESS, Assembly, Element, Held, Link, Springs, carried, motions_of
+from .shaft_elements import ARM, SIX, STIFFNESS, Assembly, Element, Held, Link, Springs, carried
 
 if TYPE_CHECKING:
     from fenics_gears.inputs.allowed import Matrix
@@ -44,6 +44,15 @@ class ShaftsAtRest:
     def key(self) -> tuple:
         """What systems have in common that are alike."""
         return self.shafts, self.housing, self.more
+
+    @cached_property
+    def seated(self) -> tuple[tuple[ElasticShaft, SeatedGear], ...]:
+        """The gears of all shafts, one after the other, with the shafts that they are on."""
+        return tuple((shaft, seat) for shaft in self.shafts for seat in shaft.seats)
+
+    def shaft_of(self, seat: SeatedGear) -> ElasticShaft:
+        """The shaft that a gear is on."""
+        return next(shaft for shaft, each in self.seated if each.gear == seat.gear)
 
     @property
     def bearings(self) -> tuple[Bearing, ...]:
@@ -77,16 +86,17 @@ class ShaftsAtRest:
         """Names (g,) of all motions that others follow at rest."""
         names: list[str] = []
         for shaft in self.shafts:
-            names += motions_of(shaft.gear, "gear")
-            names += motions_of(shaft.gear, "face") if shaft.of_face else ()
+            for seat in shaft.seats:
+                names += seat.motions
+                names += seat.apart if shaft.of_face(seat) else ()
             names += shaft.coupling(shaft.chain)
         return (*names, *self.in_rolling_motions)
 
     @cached_property
     def bending_names(self) -> tuple[str, ...]:
         """Those that are coordinates, in the order of these."""
-        of_gears = [name for shaft in self.shafts for name in motions_of(shaft.gear, "gear")[:FIVE]]
-        of_faces = [name for shaft in self.shafts if shaft.of_face for name in motions_of(shaft.gear, "face")]
+        of_gears = [name for _, seat in self.seated for name in seat.motions[:FIVE]]
+        of_faces = [name for shaft, seat in self.seated if shaft.of_face(seat) for name in seat.apart]
         return (*of_gears, *of_faces, *self.in_rolling_motions)
 
     def selected(self, names: Sequence[str]) -> np.ndarray:
@@ -102,16 +112,19 @@ class ShaftsAtRest:
         """The same of shafts with such chains."""
         names: list[str] = []
         for shaft, chain in zip(self.shafts, chains):
-            left, right = shaft.ends(chain)
-            names += [*left, *right, *shaft.coupling(chain)]
+            for number in range(len(shaft.seats)):
+                left, right = shaft.ends(chain, number)
+                names += [*left, *right]
+            names += shaft.coupling(chain)
         return tuple(names)
 
-    def face(self, shaft: ElasticShaft) -> tuple[list[int], np.ndarray]:
+    def face(self, seat: SeatedGear) -> tuple[list[int], np.ndarray]:
         """Numbers (12,) of the motions of both ends of a face among `ends`, and these motions per motion of either end
         as one of the gear's middle."""
-        left, right = shaft.ends(shaft.chain)
+        shaft = self.shaft_of(seat)
+        left, right = shaft.ends(shaft.chain, shaft.seats.index(seat))
         own = [self.ends.index(name) for name in (*left, *right)]
-        return own, block_diag(carried(-0.5 * shaft.seat), carried(0.5 * shaft.seat))
+        return own, block_diag(carried(-0.5 * seat.width), carried(0.5 * seat.width))
 
     @cached_property
     def gear_stiffness(self) -> np.ndarray:
@@ -119,20 +132,20 @@ class ShaftsAtRest:
         stiffness = self.rigid.T @ self.at_rest.stiffness @ self.rigid
         return 0.5 * (stiffness + stiffness.T)
 
-    def stiffness_at(self, shaft: ElasticShaft) -> np.ndarray:
-        """The same (5, 5) of the gear on one shaft, with no load on the other."""
-        if len(self.shafts) == 1:
+    def stiffness_at(self, seat: SeatedGear) -> np.ndarray:
+        """The same (5, 5) of one gear, with no load on the others."""
+        if len(self.seated) == 1:
             return self.gear_stiffness
-        first = FIVE * self.shafts.index(shaft)
+        first = FIVE * [each for _, each in self.seated].index(seat)
         own = slice(first, first + FIVE)
         return np.linalg.inv(np.linalg.inv(self.gear_stiffness)[own, own])
 
     def torsional_stiffness(self, shaft: ElasticShaft) -> float:
-        """Of a shaft between gear and coupling, N mm/rad; infinite where the torque is coupled within the seat."""
-        if shaft.coupled_within:
+        """Of a shaft between two gears, or between gear and coupling, N mm/rad; infinite where nothing of it twists."""
+        if len(shaft.turns) < 2:
             return inf
-        place = self.ends.index(*shaft.coupling(shaft.chain))
-        return float(self.at_rest.stiffness[place, place])
+        turned = self.of_given @ self.selected(shaft.turns[:2])
+        return float(-(turned.T @ self.held.stiffness @ turned)[0, 1])
 
     @cached_property
     def springs(self) -> np.ndarray:
@@ -153,12 +166,12 @@ class ShaftsAtRest:
     @cached_property
     def rigid(self) -> np.ndarray:
         """Motions of both ends of all faces, and of couplings, per motion (5 g) of the gears on rigid seats."""
-        return self.bending[: len(self.ends), : FIVE * len(self.shafts)]
+        return self.bending[: len(self.ends), : FIVE * len(self.seated)]
 
-    def seat(self, shaft: ElasticShaft) -> Seat:
-        """The seat of a shaft's gear between what holds it on either side."""
-        own, carry = self.face(shaft)
-        return Seat(shaft, carry.T @ self.at_rest.stiffness[np.ix_(own, own)] @ carry)
+    def seat(self, seat: SeatedGear) -> Seat:
+        """The seat of a gear between what holds it on either side."""
+        own, carry = self.face(seat)
+        return Seat(self.shaft_of(seat), seat, carry.T @ self.at_rest.stiffness[np.ix_(own, own)] @ carry)
 
     @cached_property
     def held(self) -> Held:
@@ -173,11 +186,11 @@ class ShaftsAtRest:
     def of_given(self) -> np.ndarray:
         """Motions of `ends` and in rolling bearings per given one."""
         motions = np.zeros((len(self.held.names), len(self.given)))
-        for shaft in self.shafts:
-            own, carry = self.face(shaft)
-            gear = np.concatenate([np.eye(SIX)] * 2) @ self.selected(motions_of(shaft.gear, "gear")).T
-            if shaft.of_face:
-                gear += self.seat(shaft).apart @ self.selected(motions_of(shaft.gear, "face")).T
+        for shaft, seat in self.seated:
+            own, carry = self.face(seat)
+            gear = np.concatenate([np.eye(SIX)] * 2) @ self.selected(seat.motions).T
+            if shaft.of_face(seat):
+                gear += self.seat(seat).apart @ self.selected(seat.apart).T
             motions[own] = carry @ gear
         for number, name in enumerate(self.held.names):
             if name in self.given:
@@ -190,7 +203,7 @@ class ShaftsAtRest:
         return self.of_given @ self.selected(self.bending_names)
 
     def shaft_motions(self, shaft: ElasticShaft, places: np.ndarray, more: Sequence[str]) -> np.ndarray:
-        """Motions (p, 5, h) of places beside a shaft's face per motion of `ends` and of `more`."""
+        """Motions (p, 5, h) of places beside a shaft's faces per motion of `ends` and of `more`."""
         chains = [each.chain_with(places) if each is shaft else each.chain for each in self.shafts]
         held = self.assembled(chains).held((*self.ends_of(chains), *more))
         chain = chains[self.shafts.index(shaft)]
@@ -206,10 +219,6 @@ class ShaftsAtRest:
             elements += chain.outside
             for number in range(len(shaft.bearings)):
                 elements += self.of_bearing(shaft, chain, number, loaded)
-        for shaft, chain, behind in zip(self.shafts, chains, self.shafts[1:]):
-            if shaft.goes_on:
-                ends = motions_of(shaft.gear, len(chain.places) - 1), motions_of(behind.gear, 0)
-                elements.append(Link((*ends[0], *ends[1])))
         if self.housing is not None:
             rigid = RIGID * np.diag(TILTING)
             matrices = (rigid if each.rolling is not None else np.array(each.matrix) for each in self.bearings)
@@ -225,7 +234,7 @@ class ShaftsAtRest:
         if bearing.rolling is not None and loaded:
             yield Springs(inner, np.array(bearing.matrix))
         if self.housing is None:
-            at_face = any(abs(bearing.at - end) <= ROUND_OFF for end in shaft.seat_ends)
+            at_face = any(abs(bearing.at - end) <= ROUND_OFF for seat in shaft.seats for end in seat.ends)
             rolls = Link((*ring, *inner), LEAST_YIELDING if at_face else 0.0)
             yield Springs(ring, np.array(bearing.matrix)) if bearing.rolling is None else rolls
 

@@ -29,6 +29,8 @@ from .modal_damping import modal_damping
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
 
+    from .seat_of_mesh import SeatOfMesh
+
 # Coordinates of one mesh in their order: of the centre along and off the line of action, and the rotation, of either
 # gear.
 OF_A_GEAR = ("centre_x{}", "centre_y{}", "rotation_{}")
@@ -72,7 +74,8 @@ class TrainParts:
     `torsion`: stiffness (N mm/rad) of each shaft, of the first between drive and gears, of the last between gears and
     load, of others between the gears that are driven and those that only drive, infinite where it is rigid. By gear:
     `masses`, none without inertia, and `supports` along and off the line of action of its first mesh (N/mm), None where
-    its centre is fixed. `load`: moment of inertia (N mm s^2) on the last shaft.
+    its centre is fixed. `load`: moment of inertia (N mm s^2) on the last shaft. `turning`: numbers of gears that turn
+    against their shaft, one that bends.
     """
 
     layout: Layout
@@ -81,6 +84,7 @@ class TrainParts:
     masses: Sequence[LumpedGear] = ()
     supports: Sequence[tuple[float, float] | None] = ()
     load: float | None = None
+    turning: Sequence[int] = ()
 
     @property
     def graph(self) -> TrainGraph:
@@ -118,6 +122,10 @@ class _Rows:
             if shaft and isfinite(parts.torsion[shaft]):
                 names.append(f"twist_{shaft + 1}")
                 radii.append((driving or driven)[0])
+        for gear in parts.turning:
+            mesh, side = self.graph.sides[gear][0]
+            names.append(f"turn of gear {gear + 1}")
+            radii.append(pairs[mesh].base_radii[side])
         for gear in range(len(self.graph.shafts)):
             if parts.support(gear) is not None:
                 names += [f"centre_x of gear {gear + 1}", f"centre_y of gear {gear + 1}"]
@@ -136,10 +144,11 @@ class _Rows:
     def rotation(self, gear: int, side: int) -> np.ndarray:
         """Rotation of a gear, as a mesh counts it in which it is the pinion (0) or the wheel (1)."""
         shaft = self.graph.shafts[gear]
-        own = self.of(f"rotation_{shaft + 1}")
+        own = self.of(f"rotation_{shaft + 1}") + self.of(f"turn of gear {gear + 1}")
         if shaft == 0 or side != PINION:
             return own
-        return (0.0 if self.graph.driven(gear) else self.of(f"twist_{shaft + 1}")) - own
+        with_shaft = self.graph.driven(gear) or gear in self.parts.turning
+        return (0.0 if with_shaft else self.of(f"twist_{shaft + 1}")) - own
 
     @property
     def end(self) -> np.ndarray:
@@ -268,9 +277,10 @@ def drivetrain_of_mesh(
     wheel_torque: float,
     names: tuple[str, ...] = ("rotation_1", "rotation_2"),
     supports: Sequence[tuple[float, float] | None] = (),
+    seats: Sequence[SeatOfMesh] = (),
 ) -> Drivetrain:
     """Both gears of one mesh of a train, whose coordinates follow from those of all gears; `supports` as of the
-    train."""
+    train; `seats`: those that give way."""
     turning = ("rotation", "tilt")
     radii = np.array([pair.base_radii[int(name[-1]) - 1] if name.startswith(turning) else 1.0 for name in names])
     load = np.array([wheel_torque if name == "rotation_2" else 0.0 for name in names]) / radii
@@ -280,4 +290,9 @@ def drivetrain_of_mesh(
         for axis, own in zip("xy", support or ()):
             place = names.index(f"centre_{axis}{number}")
             in_bearings[place, place] = own
-    return Drivetrain(names, radii, nothing, load, None, None, bearing_stiffness=in_bearings)
+    stiffness = nothing.copy()
+    for seat in seats:
+        places = [names.index(name) for name in seat.of_face]
+        radii[places] = seat.radii_of_face(pair)
+        stiffness[np.ix_(places, places)] = seat.stiffness_of_face / np.outer(radii[places], radii[places])
+    return Drivetrain(names, radii, stiffness, load, None, None, bearing_stiffness=in_bearings, seats=tuple(seats))

@@ -1,9 +1,8 @@
 """Shafts of a train that bend: gears at places along them move together, in all of their meshes.
 
-A shaft that carries several gears is cut between these: each has its part, an `ElasticShaft` which goes on with the
-next one. Along all shafts of a train z is the axis, towards the end from which the first gear of the train is seen to
-turn counter-clockwise. Across it x is along the line of action of the first mesh of the shaft's first gear. A mesh has
-a frame of its own, in which its pinion turns counter-clockwise; displacements stand in it as vectors, tilts as axial
+Along all shafts of a train z is the axis, towards the end from which the first gear of the train is seen to turn
+counter-clockwise. Across it x is along the line of action of the first mesh of the shaft's first gear. A mesh has a
+frame of its own, in which its pinion turns counter-clockwise; displacements stand in it as vectors, tilts as axial
 vectors, which a mirror image turns round.
 """
 
@@ -14,14 +13,15 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from fenics_gears.geometry.pair import GearPair
 
 from .damping import Damping
-from .elastic_shaft import FIVE, MOTIONS, ElasticShaft
+from .elastic_shaft import FIVE, MOTIONS, SeatedGear
 from .rolling_springs import springs_of
+from .seat_of_mesh import SeatOfMesh
 from .shaft_at_work import even_load
-from .shaft_elements import motions_of
 from .shaft_system import ShaftSystem
 from .tilting import mesh_over_face
 from .train import MeshSprings, TrainDrivetrain, damped
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
 
 SIDES = ("pinion", "wheel")
+# Axes of a train: to the right, up, and along its shafts.
+SPACE = np.eye(3)
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,10 +51,10 @@ class MeshFrame:
 
 @dataclass(frozen=True, eq=False)
 class GearOnShaft:
-    """A gear on its part of a `shaft` that bends, as the pinion (0) or the wheel (1) of a `mesh`, by its number;
-    `turned` (5, 5): its motions in the frame of the mesh, mm and rad, per those in the frame of the shaft."""
+    """A gear in its `seat` on a shaft that bends, as the pinion (0) or the wheel (1) of a `mesh`, by its number;
+    `turned` (6, 6): its motions in the frame of the mesh, mm and rad, per those in the frame of the shaft."""
 
-    shaft: ElasticShaft
+    seat: SeatedGear
     mesh: int
     side: int
     turned: np.ndarray
@@ -65,16 +67,37 @@ class GearOnShaft:
 
 @dataclass(frozen=True, eq=False)
 class BentShafts:
-    """All shafts of a train that bend, by their `names`: a system of each, the `gears` on them, once in each of their
-    meshes, the `frames` of all meshes; `axes` (3, 3) of each shaft in space, one a row. `masses`: of the gears by their
-    names, none without inertia."""
+    """All shafts of a train that bend: their `systems`, the `gears` on them, once in each of their meshes, the `frames`
+    of all meshes; `axes` (3, 3) of each shaft in space, one a row, by its name. `masses`: of the gears by their names,
+    none without inertia."""
 
-    names: tuple[str, ...]
     systems: tuple[ShaftSystem, ...]
-    axes: tuple[np.ndarray, ...]
+    axes: Mapping[str, np.ndarray]
     gears: tuple[GearOnShaft, ...]
     frames: tuple[MeshFrame, ...]
     masses: Mapping[str, LumpedGear]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the shafts."""
+        return tuple(self.axes)
+
+    @property
+    def once(self) -> dict[str, GearOnShaft]:
+        """The gears by their names, each in its first mesh."""
+        found: dict[str, GearOnShaft] = {}
+        for gear in self.gears:
+            found.setdefault(gear.seat.gear, gear)
+        return found
+
+    def seats_in(self, mesh: int) -> list[SeatOfMesh]:
+        """The seats of its gears that give way."""
+        found = []
+        for gear in self.in_mesh(mesh):
+            if gear.seat.yields_within:
+                system = next(each for each in self.systems if gear.seat in (seat for _, seat in each.seated))
+                found.append(SeatOfMesh(system, gear.seat, SIDES[gear.side], gear.turned))
+        return found
 
     def in_mesh(self, mesh: int) -> list[GearOnShaft]:
         """The gears of a mesh that are on such shafts."""
@@ -82,7 +105,8 @@ class BentShafts:
 
     def names_in(self, mesh: int) -> tuple[str, ...]:
         """Names of their motions among the coordinates of the mesh."""
-        return tuple(name for each in self.in_mesh(mesh) for name in each.names)
+        faces = (name for seat in self.seats_in(mesh) for name in seat.of_face)
+        return (*(name for each in self.in_mesh(mesh) for name in each.names), *faces)
 
 
 def mesh_axes(in_plane: np.ndarray, forwards: float) -> np.ndarray:
@@ -100,34 +124,20 @@ def shaft_axes(mesh: np.ndarray) -> np.ndarray:
 
 
 def turned_motions(of: np.ndarray, to: np.ndarray) -> np.ndarray:
-    """Motions (5, 5) along the axes `to` (3, 3), without the turn, per those along other axes."""
+    """Motions (6, 6) along the axes `to` (3, 3) per those along other axes."""
     turn = to @ of.T
-    found = np.zeros((FIVE, FIVE))
-    found[:3, :3] = turn
-    found[3:, 3:] = np.linalg.det(turn) * turn[:2, :2]
-    return found
+    return block_diag(turn, np.linalg.det(turn) * turn)
 
 
-def even_loads(shafts: Sequence[ElasticShaft], gears: Sequence[GearOnShaft], frames: Sequence[MeshFrame]) -> np.ndarray:
-    """Loads (5 g,) of the gears on the parts of a shaft, in its frame, by an even line load in each mesh."""
-    loads = np.zeros((len(shafts), FIVE))
-    for own, shaft in zip(loads, shafts):
+def even_loads(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequence[MeshFrame]) -> np.ndarray:
+    """Loads (g, 5) of the gears of a system of shafts, in the frames of these, by an even line load in each mesh."""
+    loads = np.zeros((len(system.seated), FIVE))
+    for own, (_, seat) in zip(loads, system.seated):
         for gear in gears:
-            if gear.shaft.gear == shaft.gear:
+            if gear.seat.gear == seat.gear:
                 frame = frames[gear.mesh]
-                of_mesh = even_load(replace(shaft, gear=SIDES[gear.side]), frame.pair, frame.torque)
-                own += gear.turned.T @ of_mesh
-    return loads.ravel()
-
-
-def torsional_stiffness(system: ShaftSystem) -> float:
-    """Of a shaft between its gears, or between its gear and its coupling, N mm/rad; infinite where it has neither."""
-    if len(system.shafts) == 1:
-        return system.torsional_stiffness(system.shafts[0])
-    turns = [*(motions_of(shaft.gear, "gear")[-1] for shaft in system.shafts)]
-    turned = system.of_given @ system.selected(turns)
-    stiffness = turned.T @ system.held.stiffness @ turned
-    return float(-stiffness[0, 1])
+                own += gear.turned[:FIVE, :FIVE].T @ even_load(SIDES[gear.side], frame.pair, frame.torque)
+    return loads
 
 
 class _Coordinates:
@@ -141,10 +151,13 @@ class _Coordinates:
         self.names = (*base.coordinates, *moved, *modes)
         self.radii = np.concatenate([base.radii, np.ones(len(moved) + len(modes))])
         for gear in bent.gears:
-            for name in gear.shaft.of_gear:
+            for name in gear.seat.of_gear:
                 if name.startswith("tilt"):
                     radius = bent.frames[gear.mesh].pair.base_radii[gear.side]
                     self.radii[self.names.index(name)] = radius
+        for mesh, frame in enumerate(bent.frames):
+            for seat in bent.seats_in(mesh):
+                self.radii[[self.names.index(name) for name in seat.of_face]] = seat.radii_of_face(frame.pair)
 
     def padded(self, array: np.ndarray) -> np.ndarray:
         """An array over the coordinates of the rigid shafts as one over all."""
@@ -159,10 +172,18 @@ class _Coordinates:
             row[place] = 1.0 / self.radii[place]
         return rows
 
-    def spread(self, system: ShaftSystem, matrix: np.ndarray) -> np.ndarray:
-        """A matrix over the coordinates of a system, in N, mm and rad, as one over all (k, k)."""
-        rows = self.of(system.coordinates)
-        return rows.T @ matrix @ rows
+    def moving(self, system: ShaftSystem, names_of: Sequence[tuple[str, ...]]) -> np.ndarray:
+        """All motions (g + m, k) of a system of shafts; `names_of`: names of the coordinates of each mesh."""
+        moved = system.motions_over(self.names) / self.radii
+        for shaft in system.shafts:
+            for gear in (self.bent.once[seat.gear] for seat in shaft.seats):
+                moved[system.motions.index(gear.seat.motions[-1])] = self.turn(gear, names_of[gear.mesh])
+                # The turn of the drive is prescribed.
+                if gear.side and shaft.torque_at is not None:
+                    sense = self.bent.frames[gear.mesh].sense
+                    for name in shaft.coupling(shaft.chain):
+                        moved[system.motions.index(name)] = sense * self.padded(self.base.end)
+        return moved
 
     def of_mesh(self, mesh: int) -> np.ndarray:
         """A mesh's own coordinates (l, k), in mm: those that it has on rigid shafts, then those of its gears on shafts
@@ -172,7 +193,10 @@ class _Coordinates:
         for gear in self.bent.in_mesh(mesh):
             radius = self.bent.frames[mesh].pair.base_radii[gear.side]
             arcs = np.array([radius if name.startswith("tilt") else 1.0 for name in MOTIONS])
-            rows.append(arcs[:, None] * gear.turned @ self.of(gear.shaft.of_gear))
+            rows.append(arcs[:, None] * gear.turned[:FIVE, :FIVE] @ self.of(gear.seat.of_gear))
+        for seat in self.bent.seats_in(mesh):
+            arcs = seat.radii_of_face(self.bent.frames[mesh].pair)
+            rows.append(arcs[:, None] * self.of(seat.of_face))
         return np.concatenate(rows)
 
     def turn(self, gear: GearOnShaft, names: Sequence[str]) -> np.ndarray:
@@ -193,58 +217,46 @@ def with_bent_shafts(
     coordinates of each mesh. `mesh_stiffness`, N/mm: of either half of the face of one tooth pair in each mesh,
     roughly."""
     coordinates = _Coordinates(base, bent)
-    stiffness, in_bearings = (coordinates.padded(each) for each in (base.stiffness, base.bearing_stiffness))
-    for system in bent.systems:
-        stiffness = stiffness + coordinates.spread(system, system.stiffness)
-        in_bearings = in_bearings + coordinates.spread(system, system.bearing_stiffness)
+    moving = [(system, coordinates.moving(system, names_of)) for system in bent.systems]
+
+    def with_shafts(of_base: np.ndarray, matrix: str) -> np.ndarray:
+        return coordinates.padded(of_base) + sum(system.over(moved, matrix) for system, moved in moving)
+
     of_meshes = tuple(coordinates.of_mesh(mesh) for mesh in range(len(names_of)))
     springs = [mesh_over_face(frame.pair, names) for frame, names in zip(bent.frames, names_of)]
     whole = replace(
         base,
         coordinates=coordinates.names,
         radii=coordinates.radii,
-        stiffness=stiffness,
+        stiffness=with_shafts(base.stiffness, "stiffness"),
         load=coordinates.padded(base.load),
-        mass=None if base.mass is None else _mass(coordinates, names_of),
+        mass=None if base.mass is None else with_shafts(base.mass, "mass") + _mass_of_gears(coordinates),
         mesh=MeshSprings(
             np.concatenate([each.normals @ rows for each, rows in zip(springs, of_meshes)]),
             np.concatenate([each.across @ rows for each, rows in zip(springs, of_meshes)]),
         ),
         systems=bent.systems,
-        bearing_stiffness=in_bearings,
+        bearing_stiffness=with_shafts(base.bearing_stiffness, "bearing_stiffness"),
         motions=tuple(tuple(coordinates.padded(np.array(each)).tolist()) for each in base.motions),
         angle=coordinates.padded(base.angle),
         of_meshes=of_meshes,
         end=coordinates.padded(base.end),
     )
     if any(system.in_rolling for system in bent.systems):
-        loads = [even_loads(system.shafts, bent.gears, bent.frames).reshape(-1, FIVE) for system in bent.systems]
+        loads = [even_loads(system, bent.gears, bent.frames) for system in bent.systems]
         whole = replace(whole, rolling=springs_of(whole, [each for of_system in loads for each in of_system]))
     if whole.mass is None:
         return whole
-    dampers = sum(coordinates.spread(system, system.damping) for system in bent.systems)
+    dampers = with_shafts(np.zeros_like(base.stiffness), "damping")
     whole = replace(whole, damping=dampers if np.any(dampers) else None)
     return whole if damping is None else damped(whole, damping, mesh_stiffness)
 
 
-def _mass(coordinates: _Coordinates, names_of: Sequence[tuple[str, ...]]) -> np.ndarray:
-    """Mass (k, k), N s^2/mm, of gears that also move and tilt, of the load, and of shafts."""
-    bent = coordinates.bent
-    mass = coordinates.padded(coordinates.base.mass)
-    once = {gear.shaft.gear: gear for gear in reversed(bent.gears)}
-    for name, gear in once.items():
-        own = bent.masses[name]
-        rows = coordinates.of(gear.shaft.of_gear)
+def _mass_of_gears(coordinates: _Coordinates) -> np.ndarray:
+    """Mass (k, k), N s^2/mm, of gears as far as they move and tilt with their shafts."""
+    mass = np.zeros((len(coordinates.names),) * 2)
+    for name, gear in coordinates.bent.once.items():
+        own = coordinates.bent.masses[name]
+        rows = coordinates.of(gear.seat.of_gear)
         mass += rows.T @ np.diag([own.mass] * 3 + [own.tilting_inertia] * 2) @ rows
-    for system in bent.systems:
-        moved = system.motions_over(coordinates.names) / coordinates.radii
-        for shaft in system.shafts:
-            gear = once[shaft.gear]
-            turns = {motions_of(shaft.gear, "gear")[-1]: coordinates.turn(gear, names_of[gear.mesh])}
-            # The turn of the drive is prescribed.
-            end = coordinates.padded(coordinates.base.end) if gear.side else np.zeros(len(mass))
-            turns |= dict.fromkeys(shaft.coupling(shaft.chain), bent.frames[gear.mesh].sense * end)
-            for name, row in turns.items():
-                moved[: len(system.given)] += np.outer(system.selected((name,))[:, 0], row)
-        mass += moved.T @ system.mass @ moved
     return mass

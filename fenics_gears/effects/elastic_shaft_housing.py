@@ -8,11 +8,11 @@ import re
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
-from fenics_gears.dynamics.shafts import HousingFile, Shaft, Shafts
+from fenics_gears.dynamics.shafts import HousingFile
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.allowed import AllowedMatrix, Matrix, Refused
 from fenics_gears.inputs.written import as_written
@@ -26,11 +26,11 @@ COMMENTS = ("#", "%", "!", "*")
 ROUNDING = 1e-6
 
 
-Housed = TypeVar("Housed", Shaft, Shafts)
+Housed = TypeVar("Housed", bound=Any)
 
 
 def located_housing(housed: Housed, directory: Path) -> Housed:
-    """A shaft, or both, with the matrix of the housing, whose file is looked for from a directory on."""
+    """Shafts, or one, with the matrix of their `housing`, whose file is looked for from a directory on."""
     if housed.housing is None:
         return housed
     # `check` says what is wrong; a scene that is only looked at needs no file.

@@ -10,7 +10,7 @@ import numpy as np
 
 from fenics_gears.dynamics.beam import STEEPEST_CONE
 from fenics_gears.dynamics.bearings import BALLS, OF_BALLS, OF_ROLLERS, ROLLERS, Bearing, RollingBearing, Stiffnesses
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear, free_motions
 from fenics_gears.dynamics.shaft_at_work import at_work, even_load
 from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.dynamics.shafts import INTEGRAL, RIGID_SEAT
@@ -104,7 +104,7 @@ def check_shafts(scene: Any, pair: Any) -> None:
             wrong += [*_bearings_brace(elastic)] if not wrong else []
             wrong += wrong_with_seat(scene, pair, elastic, shaft)
     if not wrong:
-        wrong += [said for system in shaft_systems(scene, pair) for said in _bearings_hold(system)]
+        wrong += [said for system in shaft_systems(scene, pair) for said in bearings_hold(system)]
     if wrong:
         raise SceneError("\n".join(wrong))
 
@@ -114,21 +114,17 @@ def systems_at_work(scene: Any, pair: Any) -> tuple[ShaftSystem, ...]:
     systems = []
     for system in shaft_systems(scene, pair):
         if system.in_rolling:
-            loads = [even_load(shaft, pair, scene.load.wheel_torque) for shaft in system.shafts]
+            loads = [even_load(seat.gear, pair, scene.load.wheel_torque) for _, seat in system.seated]
             system = at_work(system, np.concatenate(loads))
-            _check_held_at_work(system)
+            check_held_at_work(system, "bearings.{}")
         systems.append(system)
     return tuple(systems)
 
 
-def _check_held_at_work(system: ShaftSystem) -> None:
-    """Raise SceneError where rolling elements that carry the load leave a shaft free, as one alone does across it."""
-    check_held_at_work(system.shafts, system.springs, "bearings.{}")
-
-
-def check_held_at_work(shafts: Sequence[ElasticShaft], springs: np.ndarray, field: str) -> None:
-    """The same of whole shafts on bearings of a stiffness (5 b, 5 b); `field`: where bearings are in the scene."""
-    for gear, free in free_motions(shafts, springs).items():
+def check_held_at_work(system: ShaftSystem, field: str) -> None:
+    """Raise SceneError where rolling elements that carry the load leave a shaft free, as one alone does across it;
+    `field`: where bearings are in the scene."""
+    for gear, free in free_motions(system.shafts, system.springs).items():
         if free:
             raise SceneError(
                 f"{field.format(gear)}: under the load of the teeth so few rolling elements carry that the shaft freely"
@@ -141,7 +137,7 @@ def shaft_systems(scene: Any, pair: Any) -> tuple[ShaftSystem, ...]:
     shafts = [elastic_shaft(scene, pair, gear) for gear in scene.shafts.sections]
     if scene.shafts.housing is not None:
         return (ShaftSystem(tuple(shafts), stiffness_of_seats(scene.shafts.housing)),)
-    housings = [stiffness_of_seats(scene.shafts.sections[shaft.gear].housing) for shaft in shafts]
+    housings = [stiffness_of_seats(scene.shafts.sections[shaft.name].housing) for shaft in shafts]
     return tuple(ShaftSystem((shaft,), housing) for shaft, housing in zip(shafts, housings))
 
 
@@ -154,10 +150,10 @@ def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
     width = pair.face_widths[number]
     bearings = scene.bearings.each_of(gear)
     elastic = ElasticShaft(
-        gear, shaft.sections, constants, shaft.gear_at, width, shaft.torque_at, bearings,
+        gear, shaft.sections, constants, (SeatedGear(gear, shaft.gear_at, width),), shaft.torque_at, bearings,
         in_housing=shaft.housing is not None or scene.shafts.housing is not None,
     )  # fmt: skip
-    return elastic if shaft.seat == RIGID_SEAT else seated(elastic, shaft.seat, getattr(pair, gear), material)
+    return seated(elastic, 0, shaft.seat, getattr(pair, gear), material)
 
 
 def shaft_warnings(scene: Any, pair: Any) -> list[str]:
@@ -168,7 +164,7 @@ def shaft_warnings(scene: Any, pair: Any) -> list[str]:
         name = SHAFTS[GEARS.index(gear)]
         if shaft.seat != RIGID_SEAT:
             continue
-        under = under_the_face(shaft.sections, elastic_shaft(scene, pair, gear).seat_ends)
+        under = under_the_face(shaft.sections, elastic_shaft(scene, pair, gear).seats[0].ends)
         off = [each for each in under if abs(each - bore) > OFF_THE_BORE * bore]
         if off:
             sentences.append(
@@ -201,29 +197,30 @@ def _sections_are_solid(elastic: ElasticShaft, shaft: str) -> Iterator[str]:
 
 def _places_are_on_the_shaft(elastic: ElasticShaft, shaft: str) -> Iterator[str]:
     """The gear's whole face and the coupling are on the shaft; bearings are outside the gear's face."""
+    (seat,) = elastic.seats
     length = elastic.length
-    half = 0.5 * elastic.seat
-    width = f"{elastic.seat:g} mm"
-    if length < elastic.seat - ROUND_OFF:
+    half = 0.5 * seat.width
+    width = f"{seat.width:g} mm"
+    if length < seat.width - ROUND_OFF:
         yield (
-            f"shafts.{shaft}.sections: are {length:g} mm long in all, shorter than the {elastic.gear}'s face of"
+            f"shafts.{shaft}.sections: are {length:g} mm long in all, shorter than the {seat.gear}'s face of"
             f" {width}; lengthen them"
         )
-    elif not half - ROUND_OFF <= elastic.gear_at <= length - half + ROUND_OFF:
+    elif not half - ROUND_OFF <= seat.at <= length - half + ROUND_OFF:
         yield (
-            f"shafts.{shaft}.gear_at = {elastic.gear_at:g} mm: the {elastic.gear}'s face of {width} reaches beyond the"
+            f"shafts.{shaft}.gear_at = {seat.at:g} mm: the {seat.gear}'s face of {width} reaches beyond the"
             f" shaft, which is {length:g} mm long; allowed is {half:g} mm to {length - half:g} mm"
         )
     if elastic.torque_at > length + ROUND_OFF:
         yield f"shafts.{shaft}.torque_at = {elastic.torque_at:g} mm: is beyond the shaft, which is {length:g} mm long"
     for number, bearing in enumerate(elastic.bearings, 1):
-        name = f"bearings.{elastic.gear}: the bearing at {bearing.at:g} mm, place {number},"
+        name = f"bearings.{seat.gear}: the bearing at {bearing.at:g} mm, place {number},"
         if bearing.at > length + ROUND_OFF:
             yield f"{name} is beyond the shaft, which is {length:g} mm long"
-        elif abs(bearing.at - elastic.gear_at) < half - ROUND_OFF:
+        elif abs(bearing.at - seat.at) < half - ROUND_OFF:
             yield (
-                f"{name} overlaps the gear, whose face reaches from {elastic.gear_at - half:g} mm to"
-                f" {elastic.gear_at + half:g} mm; move it out"
+                f"{name} overlaps the gear, whose face reaches from {seat.at - half:g} mm to"
+                f" {seat.at + half:g} mm; move it out"
             )
         yield from _stiffness_is_given_once(bearing, name)
 
@@ -244,16 +241,16 @@ def _bearings_brace(elastic: ElasticShaft) -> Iterator[str]:
     braced = [each.rolling.bracing for each in elastic.bearings if each.rolling is not None and each.rolling.preload]
     if abs(sum(braced)) > ROUND_OFF * sum(map(abs, braced)):
         yield (
-            f"bearings.{elastic.gear}: preloads push the shaft with {sum(braced):g} N along its axis; bearings that"
+            f"bearings.{elastic.name}: preloads push the shaft with {sum(braced):g} N along its axis; bearings that"
             " brace each other have the same preload, and contact angles of opposite signs"
         )
 
 
-def _bearings_hold(system: ShaftSystem) -> Iterator[str]:
+def bearings_hold(system: ShaftSystem) -> Iterator[str]:
     """The bearings leave no motion free."""
     free_of = free_motions(system.shafts, system.springs)
     for shaft in system.shafts:
-        free = free_of[shaft.gear]
+        free = free_of[shaft.name]
         if free:
             count = len(shaft.bearings)
             held = "one bearing holds" if count == 1 else f"{count} bearings hold"
@@ -264,7 +261,7 @@ def _bearings_hold(system: ShaftSystem) -> Iterator[str]:
             }
             remedy = "; ".join(words for motion, words in remedies.items() if any(motion in each for each in free))
             yield (
-                f"bearings.{shaft.gear}: {held} the shaft, which freely {' and '.join(free)}"
+                f"bearings.{shaft.name}: {held} the shaft, which freely {' and '.join(free)}"
                 + (f": {remedy}" if remedy else "")
             )
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear
 from fenics_gears.dynamics.elastic_shaft_hub import Hub, Ring
 from fenics_gears.dynamics.shafts import PRESS_FIT, RIGID_SEAT, ShaftSection
 from fenics_gears.inputs.tree import GEARS
@@ -23,28 +23,33 @@ ROUND_OFF = 1e-9
 OFF_THE_BORE = 0.01
 
 
-def seated(shaft: ElasticShaft, seat: str, gear: Gear, material: Material) -> ElasticShaft:
-    """A shaft with a gear of a material on an elastic seat."""
-    if seat == PRESS_FIT:
-        return replace(shaft, hub=hub_of(shaft, gear, material))
-    face = shaft.seat_ends
+def seated(shaft: ElasticShaft, number: int, seat: str, gear: Gear, material: Material) -> ElasticShaft:
+    """A shaft one of whose gears, by its number, is of a material and has a seat that may give way."""
+    if seat == RIGID_SEAT:
+        return shaft
+    own = shaft.seats[number]
+    hub = hub_of(shaft, own, gear, material) if seat == PRESS_FIT else None
+    yielding = replace(own, integral=hub is None, hub=hub)
+    shaft = replace(shaft, seats=(*shaft.seats[:number], yielding, *shaft.seats[number + 1 :]))
+    if hub is not None:
+        return shaft
     # The gear's own mass is counted down to its bore.
-    toothed, heavy = (_toothed(shaft.sections, face, 2.0 * each) for each in (gear.root_radius, gear.bore_radius))
-    return replace(shaft, sections=toothed, heavy=heavy, integral=True)
+    heavy = _toothed(shaft.heavy or shaft.sections, own.ends, 2.0 * gear.bore_radius)
+    return replace(shaft, sections=_toothed(shaft.sections, own.ends, 2.0 * gear.root_radius), heavy=heavy)
 
 
-def hub_of(shaft: ElasticShaft, gear: Gear, material: Material) -> Hub:
+def hub_of(shaft: ElasticShaft, seat: SeatedGear, gear: Gear, material: Material) -> Hub:
     """Gear and shaft within the face as rings, the shaft as bored as it is there."""
-    half = 0.5 * shaft.seat
+    half = 0.5 * seat.width
     bore = gear.bore_radius
     constants = (material.youngs_modulus, material.poissons_ratio)
-    bores = [part.bore for part, under in _cut_at(shaft.sections, shaft.seat_ends) if under]
+    bores = [part.bore for part, under in _cut_at(shaft.sections, seat.ends) if under]
     hollow = 0.5 * max(bores, default=0.0)
     within = Ring(hollow, bore, -half, half, *shaft.material)
     if gear.web is None:
         return Hub((Ring(bore, gear.root_radius, -half, half, *constants),), within)
-    middle = gear.web.offset * shaft.seat
-    thick = 0.5 * gear.web.share * shaft.seat
+    middle = gear.web.offset * seat.width
+    thick = 0.5 * gear.web.share * seat.width
     hub = gear.web.hub_radius
     rim = gear.web.rim_radius
     rings = [
@@ -89,40 +94,41 @@ def under_the_face(sections: Sequence[ShaftSection], face: tuple[float, float]) 
 def wrong_with_seat(scene: Any, pair: Any, elastic: ElasticShaft, shaft: str) -> Iterator[str]:
     """The shaft fits within the root circle; a gear cut into it is of the same material, and its coupling is outside
     the face."""
-    own = scene.shafts.sections[elastic.gear]
-    gear = getattr(pair, elastic.gear)
+    (seat,) = elastic.seats
+    own = scene.shafts.sections[elastic.name]
+    gear = getattr(pair, seat.gear)
     root = 2.0 * gear.root_radius
-    thickest = max(under_the_face(own.sections, elastic.seat_ends), default=0.0)
+    thickest = max(under_the_face(own.sections, seat.ends), default=0.0)
     if thickest > root:
         yield (
-            f"shafts.{shaft}.sections: the shaft is {thickest:g} mm thick under the {elastic.gear}'s face, more than"
+            f"shafts.{shaft}.sections: the shaft is {thickest:g} mm thick under the {seat.gear}'s face, more than"
             f" the root diameter of {root:g} mm; allowed are smaller ones"
         )
-    if not elastic.yields_within:
+    if not seat.yields_within:
         return
     named = f'shafts.{shaft}.seat = "{own.seat}"'
-    material = scene.gears.materials[GEARS.index(elastic.gear)]
-    if elastic.hub is not None:
-        yield from _is_a_cylinder(own, elastic, 2.0 * gear.bore_radius, named)
+    material = scene.gears.materials[GEARS.index(seat.gear)]
+    if seat.hub is not None:
+        yield from _is_a_cylinder(own, seat, 2.0 * gear.bore_radius, named)
     elif elastic.material != (material.youngs_modulus, material.poissons_ratio):
-        made_of = f"{elastic.gear} and shaft are one piece, but of two materials"
+        made_of = f"{seat.gear} and shaft are one piece, but of two materials"
         yield f"{named}: {made_of}; leave shafts.{shaft}.material out"
-    if gear.web is not None and elastic.integral:
-        web = f"gears.{elastic.gear}.web"
+    if gear.web is not None and seat.integral:
+        web = f"gears.{seat.gear}.web"
         yield f'{named}: {web} stands between teeth and shaft; leave one out, or seat = "{RIGID_SEAT}"'
-    if abs(elastic.torque_at - elastic.gear_at) < 0.5 * elastic.seat - ROUND_OFF:
+    if abs(elastic.torque_at - seat.at) < 0.5 * seat.width - ROUND_OFF:
         yield f"{named}: torque_at = {elastic.torque_at:g} mm is within the face; move the coupling out of it"
 
 
-def _is_a_cylinder(own: Any, elastic: ElasticShaft, bore: float, named: str) -> Iterator[str]:
+def _is_a_cylinder(own: Any, seat: SeatedGear, bore: float, named: str) -> Iterator[str]:
     """The shaft in an elastic hub is as thick as the hub's bore, and has one bore itself."""
-    under = [part for part, within in _cut_at(own.sections, elastic.seat_ends) if within]
+    under = [part for part, within in _cut_at(own.sections, seat.ends) if within]
     ends = [each for part in under for each in (part.diameter, part.right_diameter)]
     off = [each for each in ends if abs(each - bore) > OFF_THE_BORE * bore]
     if off:
         yield (
-            f"{named}: the shaft is {off[0]:g} mm thick under the {elastic.gear}'s face; allowed is a cylinder as thick"
-            f" as gears.{elastic.gear}.bore_diameter, {bore:g} mm"
+            f"{named}: the shaft is {off[0]:g} mm thick under the {seat.gear}'s face; allowed is a cylinder as thick"
+            f" as gears.{seat.gear}.bore_diameter, {bore:g} mm"
         )
     elif len({part.bore for part in under}) > 1:
-        yield f"{named}: the shaft's bore changes under the {elastic.gear}'s face; let it change outside the face"
+        yield f"{named}: the shaft's bore changes under the {seat.gear}'s face; let it change outside the face"

@@ -46,8 +46,8 @@ def even_loads(scene: Scene, pair: GearPair, systems: Sequence[ShaftSystem]) -> 
         return ()
     from fenics_gears.dynamics.shaft_at_work import even_load
 
-    shafts = (shaft for system in systems for shaft in system.shafts)
-    return tuple(even_load(shaft, pair, scene.load.wheel_torque) for shaft in shafts)
+    gears = (seat.gear for system in systems for _, seat in system.seated)
+    return tuple(even_load(gear, pair, scene.load.wheel_torque) for gear in gears)
 
 
 def _shaft_systems(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]) -> tuple[ShaftSystem, ...]:
@@ -61,8 +61,8 @@ def _shaft_systems(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]
     up_to = 2.0 * highest_of_interest(scene, pair, gears)
 
     def vibrating(shaft: ElasticShaft) -> ElasticShaft:
-        given = scene.shafts.sections[shaft.gear].material.density
-        return replace(shaft, density=given or scene.inertia.of(shaft.gear).density, up_to=up_to)
+        given = scene.shafts.sections[shaft.name].material.density
+        return replace(shaft, density=given or scene.inertia.of(shaft.name).density, up_to=up_to)
 
     return tuple(replace(each, shafts=tuple(map(vibrating, each.shafts))) for each in systems)
 

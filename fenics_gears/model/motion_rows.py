@@ -61,10 +61,10 @@ def inertia_rows(model: Model) -> Rows:
             rows.append((f"{name} tilting moment of inertia", 1e3 * lumped.tilting_inertia, about))
         along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
     for system, shaft in shafts_of(model):
-        modes = sum(name.endswith(f"_{shaft.gear}") for name in system.own_modes)
+        modes = sum(name.endswith(f"_{shaft.name}") for name in system.own_modes)
         lowest = "lowest mode" if modes == 1 else f"{modes} lowest modes"
         words = f"kg, in addition, with its {lowest}, up to {shaft.up_to:.4g} Hz"
-        rows.append((f"mass of the {shaft.gear}'s shaft", 1e3 * shaft.mass_of_all, words))
+        rows.append((f"mass of the {shaft.name}'s shaft", 1e3 * shaft.mass_of_all, words))
     twists = "shaft_twist" in model.drivetrain.coordinates
     if twists or inertia.load is not None:
         place = "far end of the output shaft" if twists else "with the wheel"
@@ -83,20 +83,21 @@ def unknown_rows(model: Model) -> Rows:
     """The shafts that bend, with how stiff they are where the gear is, and the motions that are unknown."""
     rows: Rows = []
     for system, shaft in shafts_of(model):
+        (seat,) = shaft.seats
         places = ", ".join(f"{bearing.at:g}" for bearing in shaft.bearings)
-        rows.append((f"shaft of the {shaft.gear}", shaft.length, f"mm, on bearings at {places} mm from its left end"))
-        x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(system.stiffness_at(shaft)))
+        rows.append((f"shaft of the {seat.gear}", shaft.length, f"mm, on bearings at {places} mm from its left end"))
+        x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(system.stiffness_at(seat)))
         words = f"{x:.4g} along x, {y:.4g} along y, {axial:.4g} axially"
         held = "its bearings" if system.housing is None else "its bearings in their housing"
-        rows.append((f"its stiffness at the {shaft.gear}", words, f"N/um, with {held}"))
-        if shaft.integral:
+        rows.append((f"its stiffness at the {seat.gear}", words, f"N/um, with {held}"))
+        if seat.integral:
             words = "mm, the root diameter, as which the shaft bends and twists within the face"
             rows.append(
-                (f"the {shaft.gear} is cut into its shaft", 2.0 * getattr(model.pair, shaft.gear).root_radius, words)
+                (f"the {seat.gear} is cut into its shaft", 2.0 * getattr(model.pair, seat.gear).root_radius, words)
             )
-        elif shaft.hub is not None:
+        elif seat.hub is not None:
             words = "mm, the bore, where hub and shaft hold each other without slip and give way together"
-            rows.append((f"press fit of the {shaft.gear}", 2.0 * shaft.hub.shaft.outer, words))
+            rows.append((f"press fit of the {seat.gear}", 2.0 * seat.hub.shaft.outer, words))
     names = [
         name
         for name in model.drivetrain.coordinates

@@ -244,7 +244,8 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
         model = model_of_mesh(mesh, replace(mesh.scene, accuracy=accuracy, motion=motion, inertia=None))
         names = coordinates_of_mesh(parts, number) + (() if bent is None else bent.names_in(number))
         supports = [parts.support(gear) for gear in parts.gears[number]]
-        drivetrain = drivetrain_of_mesh(mesh.pair, mesh.scene.load.wheel_torque, names, supports)
+        seats = () if bent is None else bent.seats_in(number)
+        drivetrain = drivetrain_of_mesh(mesh.pair, mesh.scene.load.wheel_torque, names, supports, seats)
         found.append(replace(model, drivetrain=drivetrain))
     check_alike(meshes, found)
     recorded = recorded_cycles * max(steps) if shafts.moving else 0

@@ -30,39 +30,45 @@ def motion_rows(row: RowModel) -> Rows:
     if parts.load is not None:
         rows.append(("load: moment of inertia", 1e3 * parts.load, "kg mm^2, on the last shaft"))
     for number, torsion in enumerate(parts.torsion, 1):
-        if isfinite(torsion):
+        if isfinite(torsion) and torsion:
             rows.append((f"shaft {number}: torsional stiffness", torsion, "N mm/rad"))
     rows += _bent_rows(row)
-    on_bent = [] if row.bent is None else list(dict.fromkeys(gear.shaft.gear for gear in row.bent.gears))
+    on_bent = [] if row.bent is None else list(row.bent.once)
     said = [motion_in_words(name, gears) for name in row.drivetrain.coordinates if _on_rigid(name)]
     said += [f"displacements and tilts of {', '.join(on_bent)}"] if on_bent else []
-    unknown = [name for name in row.drivetrain.coordinates if "_mode_" not in name and not name.startswith("bearing_")]
+    unknown = [
+        name
+        for name in row.drivetrain.coordinates
+        if "_mode_" not in name and not name.startswith(("bearing_", "face_"))
+    ]
     return [*rows, ("motions that are unknown", len(unknown), ", ".join(said))]
 
 
 def _bent_rows(row: RowModel) -> Rows:
     """The shafts that bend, with what is on them, and how stiff they are at their gears."""
     rows: Rows = []
-    for name, system in zip(row.bent.names, row.bent.systems) if row.bent is not None else ():
-        begins = np.cumsum([0.0, *(part.length for part in system.shafts)])
-        parts = list(zip(begins, system.shafts))
-        gears = ", ".join(f"{part.gear} at {begin + part.gear_at:g}" for begin, part in parts)
+    shafts = [] if row.bent is None else [(system, each) for system in row.bent.systems for each in system.shafts]
+    for system, shaft in shafts:
+        gears = ", ".join(f"{each.gear} at {each.at:g}" for each in shaft.seats)
         places = sorted(
-            (begin + each.at, "" if each.rolling is None else f" ({each.rolling.elements})")
-            for begin, part in parts
-            for each in part.bearings
+            (each.at, "" if each.rolling is None else f" ({each.rolling.elements})") for each in shaft.bearings
         )
         bearings = ", ".join(f"{at:g}{kind}" for at, kind in places)
         words = f"mm, bends; {gears}; bearings at {bearings} mm from its left end"
-        rows.append((f"shaft {name}", float(begins[-1]), words))
-        for part in system.shafts:
-            x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(system.stiffness_at(part)))
+        rows.append((f"shaft {shaft.name}", shaft.length, words))
+        torsion = system.torsional_stiffness(shaft)
+        if isfinite(torsion):
+            ends = [*(each.gear for each in shaft.seats), "drive or load"][:2]
+            rows.append(("its torsional stiffness", torsion, f"N mm/rad, between {' and '.join(ends)}"))
+        for seat in shaft.seats:
+            x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(system.stiffness_at(seat)))
             said = f"{x:.4g} along x, {y:.4g} along y, {axial:.4g} axially"
-            rows.append((f"its stiffness at {part.gear}", said, "N/um, with its bearings"))
-        if system.vibrates:
-            mass = 1e3 * sum(part.mass_of_all for part in system.shafts)
-            words = f"kg, in addition, with {len(system.own_modes)} modes up to {system.shafts[0].up_to:.4g} Hz"
-            rows.append((f"mass of shaft {name}", mass, words))
+            held = "its bearings" if system.housing is None else "its bearings in their housing"
+            rows.append((f"its stiffness at {seat.gear}", said, f"N/um, with {held}"))
+        if shaft.density:
+            modes = sum(name.endswith(f"_{shaft.name}") for name in system.own_modes)
+            words = f"kg, in addition, with {modes} modes up to {shaft.up_to:.4g} Hz"
+            rows.append((f"mass of shaft {shaft.name}", 1e3 * shaft.mass_of_all, words))
     return rows
 
 
@@ -110,16 +116,19 @@ def _moving(row: RowModel) -> list[str]:
     """What each coordinate moves, in words; of a shaft that bends as a whole."""
     gears = gear_names(row.meshes)
     shaft_of = {}
-    for name, system in zip(row.bent.names, row.bent.systems) if row.bent is not None else ():
-        for coordinate in system.coordinates:
-            kind = coordinate.partition("_")[0]
-            shaft_of[coordinate] = f"{OF_SHAFTS.get(kind, 'bending')} of shaft {name}"
+    for system in row.drivetrain.systems:
+        for shaft in system.shafts:
+            for coordinate in system.coordinates_of(shaft):
+                kind = coordinate.partition("_")[0]
+                shaft_of[coordinate] = f"{OF_SHAFTS.get(kind, 'bending')} of shaft {shaft.name}"
     return [shaft_of.get(name) or motion_in_words(name, gears) for name in row.drivetrain.coordinates]
 
 
 def motion_in_words(name: str, gears: list[str]) -> str:
     """A coordinate of a train for people; `gears`: names of all, from the first on."""
     kind, _, number = name.partition(" of gear ")
+    if kind == "turn":
+        return f"turn of {gears[int(number) - 1]} against its shaft"
     if number:
         direction = "along" if kind == "centre_x" else "off"
         return f"centre of {gears[int(number) - 1]} {direction} the line of action"

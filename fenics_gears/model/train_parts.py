@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from math import ceil, gcd, inf, lcm
 from typing import TYPE_CHECKING
 
@@ -45,9 +45,15 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
         supports.append(_support(mesh.scene, GEARS[side]))
     torque = sum(meshes[mesh].scene.load.wheel_torque for mesh in graph.into(graph.last))
     torsion = [inf if each is None else each for each in shafts.torsion or (None,) * (graph.last + 1)]
-    for number, stiffness in torsions(meshes, shafts).items():
-        torsion[number] = stiffness
-    return TrainParts(layout, torque, torsion, masses, supports, shafts.load)
+    turning: list[int] = []
+    if shafts.bent:
+        # Trains on rigid shafts load neither beams nor bearings.
+        from .train_shafts import turning_of
+
+        twists, turning = turning_of(meshes, shafts, graph)
+        for number, twist in twists.items():
+            torsion[number] = twist
+    return TrainParts(layout, torque, torsion, masses, supports, shafts.load, turning)
 
 
 def offsets_of(
@@ -70,16 +76,6 @@ def whole_torques(layout: Layout, output: float) -> list[float]:
     """Torque (N mm) on the wheel of each mesh without losses, as if it alone drove its shaft."""
     turns = turns_of_shafts(layout.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in layout.pairs])
     return [output * float(turns[-1] / turns[driven]) for _, driven in layout.graph.between]
-
-
-def torsions(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> Mapping[int, float]:
-    """Torsional stiffness (N mm/rad) of the shafts that bend, by their numbers."""
-    if not shafts.bent:
-        return {}
-    # Trains on rigid shafts load neither beams nor bearings.
-    from .train_shafts import torsions_of
-
-    return torsions_of(meshes, shafts)
 
 
 def _support(scene: Scene, gear: str) -> tuple[float, float] | None:

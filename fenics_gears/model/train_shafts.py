@@ -1,33 +1,38 @@
-"""Shafts of a train that bend: their parts, one for each gear, on the bearings that the scene has."""
+"""Shafts of a train that bend, with their gears, on the bearings that the scene has."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
+from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.linalg import block_diag
 
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+from fenics_gears.dynamics.elastic_shaft import FIVE, ElasticShaft, SeatedGear
 from fenics_gears.dynamics.shaft_at_work import at_work
 from fenics_gears.dynamics.shaft_system import ShaftSystem
+from fenics_gears.dynamics.shafts import RIGID_SEAT
 from fenics_gears.dynamics.train_shafts import (
     SIDES,
+    SPACE,
     BentShafts,
     GearOnShaft,
     MeshFrame,
     even_loads,
     mesh_axes,
     shaft_axes,
-    torsional_stiffness,
     turned_motions,
 )
-from fenics_gears.effects.elastic_shaft_rules import check_held_at_work
-from fenics_gears.effects.elastic_shaft_seats import sections_between
+from fenics_gears.effects.elastic_shaft_housing import check_housing, stiffness_of_seats
+from fenics_gears.effects.elastic_shaft_rules import bearings_hold, check_held_at_work
+from fenics_gears.effects.elastic_shaft_seats import seated
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.problem import NOTHING_DONE
-from fenics_gears.scene.train_mesh import MeshOfScene, layout_of
+from fenics_gears.scene.train_mesh import MeshOfScene, gear_names, layout_of
 from fenics_gears.scene.train_shaft import BentShaft
 from fenics_gears.scene.train_shafts import TrainShafts
 
@@ -51,28 +56,71 @@ def bent_shafts(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShaft
             of_mesh = lumped_gears(mesh.scene, mesh.pair)
             masses |= {name: of_mesh[side] for name, side in zip(mesh.gears, SIDES)}
             up_to = max(up_to, 2.0 * highest_of_interest(mesh.scene, mesh.pair, of_mesh))
-    systems = []
-    axes = []
-    gears: list[GearOnShaft] = []
+    axes = {}
     for bent in shafts.bent:
-        parts = _parts(bent, meshes, up_to)
-        system = ShaftSystem(parts)
         first, _ = _places(meshes, bent.own.carries[0])[0]
-        axes.append(shaft_axes(frames[first].axes))
+        axes[bent.name] = shaft_axes(frames[first].axes)
+    systems = []
+    gears: list[GearOnShaft] = []
+    for system in _in_housings(shafts, [_shaft(bent, meshes, up_to) for bent in shafts.bent], axes):
         own = [
-            GearOnShaft(part, mesh, side, turned_motions(axes[-1], frames[mesh].axes))
-            for part in parts
-            for mesh, side in _places(meshes, part.gear)
+            GearOnShaft(seat, mesh, side, turned_motions(axes[shaft.name], frames[mesh].axes))
+            for shaft, seat in system.seated
+            for mesh, side in _places(meshes, seat.gear)
         ]
-        systems.append(_at_work(system, own, frames, bent))
+        systems.append(_at_work(system, own, frames))
         gears += own
-    names = tuple(bent.name for bent in shafts.bent)
-    return BentShafts(names, tuple(systems), tuple(axes), tuple(gears), tuple(frames), masses)
+    return BentShafts(tuple(systems), axes, tuple(gears), tuple(frames), masses)
 
 
-def torsions_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> Mapping[int, float]:
-    """Torsional stiffness (N mm/rad) of the shafts that bend, by their numbers."""
-    return {bent.number: torsional_stiffness(ShaftSystem(_parts(bent, meshes, 0.0))) for bent in shafts.bent}
+def _in_housings(
+    shafts: TrainShafts, built: Sequence[ElasticShaft], axes: Mapping[str, np.ndarray]
+) -> Iterator[ShaftSystem]:
+    """Shafts with such axes in space, each by itself or all in one housing, whose matrix is in space. Raises SceneError
+    for a matrix that does not fit, and where a housing leaves a shaft free."""
+    alone = [(f"shafts.{each.name}.housing", each.own.housing, (shaft,)) for each, shaft in zip(shafts.bent, built)]
+    together = [("shafts.housing", shafts.housing, tuple(built))]
+    for field, housing, own in alone if shafts.housing is None else together:
+        if housing is None:
+            yield ShaftSystem(own)
+            continue
+        check_housing(housing, field, sum(len(shaft.bearings) for shaft in own))
+        turn = block_diag(
+            *(turned_motions(axes[shaft.name], SPACE)[:FIVE, :FIVE] for shaft in own for _ in shaft.bearings)
+        )
+        stiffness = turn.T @ np.array(stiffness_of_seats(housing)) @ turn
+        housed = tuple(replace(shaft, in_housing=True) for shaft in own)
+        system = ShaftSystem(housed, tuple(map(tuple, stiffness.tolist())))
+        if wrong := list(bearings_hold(system)):
+            raise SceneError(f"{_in_words(' '.join(wrong), system)}. {NOTHING_DONE}")
+        yield system
+
+
+def turning_of(
+    meshes: Sequence[MeshOfScene], shafts: TrainShafts, graph: TrainGraph
+) -> tuple[Mapping[int, float], list[int]]:
+    """How the shafts that bend turn in the equations of rigid ones: 0.0 for those that twist, by their numbers, whose
+    torsional stiffness is their own, infinite for others; and the gears that turn against them besides.
+
+    A shaft turns with the gear that its torque is coupled to, or the first that is driven. A twist is that of drive or
+    load, or of the first gear that only drives.
+    """
+    names = gear_names(meshes)
+    twists = {}
+    turning = []
+    for bent in shafts.bent:
+        shaft = _shaft(bent, meshes, 0.0)
+        gears = graph.on(bent.number)
+        driven = [gear for gear in gears if graph.driven(gear)]
+        coupled = [gear for gear in gears if shaft.coupled is not None and names[gear] == shaft.coupled.gear]
+        against = [gear for gear in gears if gear != (coupled or driven or gears)[0]]
+        twisted = shaft.torque_at is not None and not coupled
+        if shaft.torque_at is None and (driving := [gear for gear in against if gear not in driven]):
+            twisted = True
+            against.remove(driving[0])
+        twists[bent.number] = 0.0 if twisted else inf
+        turning += against
+    return twists, turning
 
 
 def mesh_frames(meshes: Sequence[MeshOfScene]) -> list[MeshFrame]:
@@ -95,67 +143,51 @@ def _places(meshes: Sequence[MeshOfScene], gear: str) -> list[tuple[int, int]]:
     return [(number, mesh.gears.index(gear)) for number, mesh in enumerate(meshes) if gear in mesh.gears]
 
 
-def _parts(bent: BentShaft, meshes: Sequence[MeshOfScene], up_to: float) -> tuple[ElasticShaft, ...]:
-    """A shaft cut in the middle between its gears; modes `up_to` a frequency (Hz) where it has a mass."""
+def _shaft(bent: BentShaft, meshes: Sequence[MeshOfScene], up_to: float) -> ElasticShaft:
+    """A shaft with its gears; modes `up_to` a frequency (Hz) where it has a mass."""
     own = bent.own
-    order = sorted(zip(own.gears_at, own.carries))
-    widths = []
-    for _, gear in order:
+    seats = []
+    for at, gear in sorted(zip(own.gears_at, own.carries)):
         mesh, side = _places(meshes, gear)[0]
-        widths.append(meshes[mesh].pair.face_widths[side])
-    ends = [(at - 0.5 * width, at + 0.5 * width) for (at, _), width in zip(order, widths)]
-    cuts = [0.0, *_cuts(bent, order, ends), sum(each.length for each in own.sections)]
+        seats.append(SeatedGear(gear, at, meshes[mesh].pair.face_widths[side]))
+    for one, other in pairwise(seats):
+        if other.ends[0] - one.ends[1] < LEAST_GAP:
+            raise SceneError(
+                f"shafts.{bent.name}.gears_at: the face of {one.gear} ends at {one.ends[1]:g} mm, that of {other.gear}"
+                f" begins at {other.ends[0]:g} mm; allowed are gears that are at least {LEAST_GAP:g} mm apart."
+                f" {NOTHING_DONE}"
+            )
     mesh, side = _places(meshes, own.carries[0])[0]
     scene = meshes[mesh].scene
     constants = own.material.constants(scene.gears.materials[side])
     density = 0.0
     if scene.inertia is not None:
         density = own.material.density or scene.inertia.of(SIDES[side]).density or 0.0
-    parts = []
-    part_of = np.searchsorted(cuts[1:-1], [each.at for each in own.bearings])
-    for number, ((at, gear), width, (begin, end)) in enumerate(zip(order, widths, pairwise(cuts))):
-        bearings = [each for each, part in zip(own.bearings, part_of) if part == number]
-        torque_at = at if own.torque_at is None else own.torque_at
-        parts.append(ElasticShaft(
-            gear, sections_between(own.sections, begin, end), constants, at - begin, width, torque_at - begin,
-            tuple(replace(each, at=each.at - begin) for each in bearings), density=density,
-            goes_on=gear != order[-1][1],
-        ))  # fmt: skip
-        if density:
-            parts[-1] = replace(parts[-1], up_to=up_to)
-    return tuple(parts)
+    shaft = ElasticShaft(
+        bent.name, own.sections, constants, tuple(seats), own.torque_at, own.bearings, density=density,
+        up_to=up_to if density else inf, faces_apart=True,
+    )  # fmt: skip
+    kinds = dict(zip(own.carries, own.seats or ()))
+    for number, seat in enumerate(seats):
+        mesh, side = _places(meshes, seat.gear)[0]
+        gear = getattr(meshes[mesh].pair, SIDES[side])
+        shaft = seated(shaft, number, kinds.get(seat.gear, RIGID_SEAT), gear, meshes[mesh].scene.gears.materials[side])
+    return shaft
 
 
-def _cuts(bent: BentShaft, order: Sequence[tuple[float, str]], ends: Sequence[tuple[float, float]]) -> Iterator[float]:
-    """Places in the middle between neighbouring gears."""
-    for (_, one), (_, other), (_, before), (behind, _) in zip(order, order[1:], ends, ends[1:]):
-        if behind - before < LEAST_GAP:
-            raise SceneError(
-                f"shafts.{bent.name}.gears_at: the face of {one} ends at {before:g} mm, that of {other} begins at"
-                f" {behind:g} mm; allowed are gears that are at least {LEAST_GAP:g} mm apart. {NOTHING_DONE}"
-            )
-        yield 0.5 * (before + behind)
-
-
-def _at_work(
-    system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequence[MeshFrame], bent: BentShaft
-) -> ShaftSystem:
+def _at_work(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequence[MeshFrame]) -> ShaftSystem:
     if not system.in_rolling:
         return system
     try:
-        system = at_work(system, even_loads(system.shafts, gears, frames))
+        system = at_work(system, even_loads(system, gears, frames).ravel())
     except SceneError as error:
-        words = " and ".join(f"bearings.{shaft.gear}" for shaft in system.shafts)
-        raise SceneError(f"{str(error).replace(words, f'shafts.{bent.name}.bearings')}. {NOTHING_DONE}") from error
-    first = system.shafts[0]
-    whole = replace(first, gear=bent.name, sections=bent.own.sections, bearings=tuple(_bearings(system)))
-    check_held_at_work([whole], np.asarray(system.springs), "shafts.{}.bearings")
+        raise SceneError(f"{_in_words(str(error), system)}. {NOTHING_DONE}") from error
+    check_held_at_work(system, "shafts.{}.bearings")
     return system
 
 
-def _bearings(system: ShaftSystem) -> Iterator:
-    """All bearings of a shaft in parts at their places from its left end."""
-    begin = 0.0
-    for part in system.shafts:
-        yield from (replace(each, at=each.at + begin) for each in part.bearings)
-        begin += part.length
+def _in_words(said: str, system: ShaftSystem) -> str:
+    """What is said of bearings, where a train has them."""
+    for shaft in system.shafts:
+        said = said.replace(f"bearings.{shaft.name}", f"shafts.{shaft.name}.bearings")
+    return said

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, ElasticShaft
+from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS, SeatedGear
 from fenics_gears.dynamics.elastic_shaft_seat import BentBySeat
 from fenics_gears.dynamics.frequencies import vibrations
 from fenics_gears.dynamics.shaft_elements import SIX, carried
@@ -47,10 +47,24 @@ class MovedAxes(AlongTheFace):
         super().__init__(cycle)
         self.model = model
         self.drivetrain = model.drivetrain
+        # Motions of the gears' axes by loads of their teeth, and by coordinates of their faces.
+        self._teeth = {}
+        self._apart = []
+        for seat in self.drivetrain.seats:
+            heights = self._heights(seat.gear)
+            by_slices = seat.compliance(heights).reshape(len(heights), SIX, 2, -1, SIX).mean(axis=2)
+            self._teeth[seat.gear] = self._nearest(by_slices, seat.gear)
+            if seat.of_face:
+                self._apart.append((seat, self._nearest(seat.follows(heights), seat.gear)))
 
     def curves(self, curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
         """Departures of the axes in the middle of the common face, um."""
         motions = self._motions(nodes.steps.states[:, 0])
+        for gear, of_teeth in self._teeth.items():
+            motions[:, GEARS.index(gear)] += np.tensordot(self._loads(nodes, gear), of_teeth, ((1, 2), (1, 2)))
+        for seat, of_face in self._apart:
+            apart = [self.drivetrain.value(nodes.steps.states[:, 0], name) for name in seat.of_face]
+            motions[:, GEARS.index(seat.gear)] += np.stack(apart, axis=-1) @ of_face.T
         return super().curves(curves, nodes) | self._departures(motions)
 
     def numbers(self, counted: xr.Dataset, known: Mapping[str, Any]) -> dict[str, float | str]:
@@ -76,107 +90,18 @@ class MovedAxes(AlongTheFace):
         both = [[self.drivetrain.value(states, f"{name}{number}") for name in MOTIONS] for number in NUMBERS.values()]
         return np.moveaxis(np.array(both), 2, 0)
 
-
-class BentShafts(MovedAxes):
-    """What the result of a face has on shafts that bend: also what is recovered from the motions of the gears' middles,
-    of which it is a linear function."""
-
-    def __init__(self, cycle: Cycle, model: Model):
-        super().__init__(cycle, model)
-        self._lines = {}
-        self._seats = {}
-        self._bent = {}
-        for system in self.drivetrain.systems:
-            for shaft in system.shafts:
-                self._lines[shaft.gear] = system.deflection(shaft, self.points(shaft.length))
-                if shaft.yields_within:
-                    self._seats[shaft.gear] = self._seat(system, shaft)
-                if shaft.of_face:
-                    self._bent[shaft.gear] = self._nearest(system.seat(shaft).follows(self._heights(shaft)), shaft)
-
-    @staticmethod
-    def points(length: float) -> np.ndarray:
-        """Where the deflection of a shaft is given, mm from its left end."""
-        return np.linspace(0.0, length, SHAFT_POINTS)
-
-    def curves(self, curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
-        """Departures of the axes in the middle of the common face, um, and loads of the bearings (steps, bearings)."""
-        states = nodes.steps.states[:, 0]
-        motions = self._motions(states)
-        loads = []
-        for system in self.drivetrain.systems:
-            loads.append(self._values(system, states) @ system.bearing_loads.T)
-            for each in system.shafts:
-                if each.gear in self._seats:
-                    seat = self._seats[each.gear]
-                    teeth = self._loads(nodes, each.gear)
-                    motions[:, GEARS.index(each.gear)] += np.tensordot(teeth, seat.teeth, ((1, 2), (1, 2)))
-                    loads[-1] += np.tensordot(teeth, seat.bearings, ((1, 2), (1, 2)))
-                if each.gear in self._bent:
-                    apart = np.stack([self.drivetrain.value(states, name) for name in each.of_face], axis=-1)
-                    motions[:, GEARS.index(each.gear)] += apart @ self._bent[each.gear].T
-        on_bearings = np.concatenate(loads, axis=1).reshape(len(states), -1, len(MOTIONS))
-        if self.drivetrain.rolling is not None:
-            on_bearings = self.drivetrain.rolling.loads(states, on_bearings)
-        loads_of_bearings = dict(zip(LOADS, np.moveaxis(on_bearings, -1, 0)))
-        return super().curves(curves, nodes) | self._departures(motions) | loads_of_bearings
-
-    def fields(self, nodes: SideBySide) -> dict[str, np.ndarray]:
-        """Deflection of both shafts (steps, gears, points), mm; not a number where a shaft has no sections."""
-        states = nodes.steps.states[:, 0]
-        deflection = np.full((2, len(states), len(NUMBERS), SHAFT_POINTS), np.nan)
-        for system in self.drivetrain.systems:
-            values = self._values(system, states)
-            for each in system.shafts:
-                lines = np.einsum("pmn,sn->msp", self._lines[each.gear][:, :2], values)
-                if each.gear in self._seats:
-                    line = self._seats[each.gear].line[:, :2]
-                    lines += np.einsum("pmzi,szi->msp", line, self._loads(nodes, each.gear), optimize=True)
-                deflection[:, :, GEARS.index(each.gear)] = lines
-        return super().fields(nodes) | {"shaft_deflection_x": deflection[0], "shaft_deflection_y": deflection[1]}
-
-    def coordinates(self) -> dict[str, tuple]:
-        """Where bearings and points of the shafts are."""
-        elastic = self.drivetrain.elastic
-        names = [f"{each.gear} {number + 1}" for each in elastic for number in range(len(each.bearings))]
-        places = [bearing.at for each in elastic for bearing in each.bearings]
-        points = np.full((len(NUMBERS), SHAFT_POINTS), np.nan)
-        for each in elastic:
-            points[GEARS.index(each.gear)] = self.points(each.length)
-        from_end = {"units": "mm", "long_name": "distance from the left end of the shaft"}
-        return super().coordinates() | {
-            "bearing": ("bearing", names, {"long_name": "bearing of a shaft with sections"}),
-            "bearing_place": ("bearing", places, from_end),
-            "shaft_place": (("gear", "shaft_point"), points, from_end),
-        }
-
-    def numbers(self, counted: xr.Dataset, known: Mapping[str, Any]) -> dict[str, float | str]:
-        """Of the settled steps of a result: means of the axes' departures, the largest force of a bearing, and natural
-        frequencies."""
-        forces = np.sqrt(sum(counted[name] ** 2 for name in LOADS[:3]))
-        numbers = {"largest_bearing_force": float(forces.max())}
-        return super().numbers(counted, known) | numbers | self._rolling_elements(counted) | self._vibrations(counted)
-
-    def _seat(self, system: ShaftSystem, shaft: ElasticShaft) -> BentBySeat:
-        """Response of a seat to loads (S, 6) in the slices of the face, at their own heights. Of its teeth: motions (5,
-        S, 6), in the middle of the gear, of the straight axis that is nearest to them over the common face."""
-        slices = len(self.face.positions)
-        bent = system.bent_by_seat(shaft, self._heights(shaft), self.points(shaft.length))
-        teeth, line, bearings = (each.reshape(*each.shape[:-2], 2, slices, SIX).mean(axis=-3) for each in bent)
-        return BentBySeat(self._nearest(teeth, shaft), line, bearings)
-
-    def _heights(self, shaft: ElasticShaft) -> np.ndarray:
+    def _heights(self, gear: str) -> np.ndarray:
         """Heights (2 S,) from the gear's middle of which two stand for a load that is even over a slice."""
-        z = self._slices(shaft)
+        z = self._slices(gear)
         return np.concatenate([z - GAUSS * self.face.widths, z + GAUSS * self.face.widths])
 
-    def _slices(self, shaft: ElasticShaft) -> np.ndarray:
-        return self.face.positions - self.pair.gear_middles[GEARS.index(shaft.gear)]
+    def _slices(self, gear: str) -> np.ndarray:
+        return self.face.positions - self.pair.gear_middles[GEARS.index(gear)]
 
-    def _nearest(self, teeth: np.ndarray, shaft: ElasticShaft) -> np.ndarray:
+    def _nearest(self, teeth: np.ndarray, gear: str) -> np.ndarray:
         """Motions (5, ...) in the gear's middle of the straight axis that is nearest over the common face to teeth that
         move by (2 S, 6, ...)."""
-        z = self._slices(shaft)
+        z = self._slices(gear)
         slices = teeth.reshape(2, len(z), *teeth.shape[1:]).mean(axis=0)
         straight = np.stack([np.ones_like(z), z], axis=1)
         nearest = np.linalg.solve((straight.T * self.face.widths) @ straight, straight.T * self.face.widths)
@@ -202,6 +127,84 @@ class BentShafts(MovedAxes):
         heights = self.face.positions - self.pair.gear_middles[number]
         return np.einsum("szi,zij->szj", loads, [carried(-each) for each in heights])
 
+
+class BentShafts(MovedAxes):
+    """What the result of a face has on shafts that bend: also what is recovered from the motions of the gears' middles,
+    of which it is a linear function."""
+
+    def __init__(self, cycle: Cycle, model: Model):
+        super().__init__(cycle, model)
+        self._lines = {}
+        self._seats = {}
+        for system in self.drivetrain.systems:
+            for shaft, seat in system.seated:
+                self._lines[seat.gear] = system.deflection(shaft, self.points(shaft.length))
+                if seat.yields_within:
+                    self._seats[seat.gear] = self._seat(system, seat)
+
+    @staticmethod
+    def points(length: float) -> np.ndarray:
+        """Where the deflection of a shaft is given, mm from its left end."""
+        return np.linspace(0.0, length, SHAFT_POINTS)
+
+    def curves(self, curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
+        """The same, and loads of the bearings (steps, bearings)."""
+        states = nodes.steps.states[:, 0]
+        loads = []
+        for system in self.drivetrain.systems:
+            loads.append(self._values(system, states) @ system.bearing_loads.T)
+            for _, each in system.seated:
+                if each.gear in self._seats:
+                    by_teeth = self._seats[each.gear].bearings
+                    loads[-1] += np.tensordot(self._loads(nodes, each.gear), by_teeth, ((1, 2), (1, 2)))
+        on_bearings = np.concatenate(loads, axis=1).reshape(len(states), -1, len(MOTIONS))
+        if self.drivetrain.rolling is not None:
+            on_bearings = self.drivetrain.rolling.loads(states, on_bearings)
+        loads_of_bearings = dict(zip(LOADS, np.moveaxis(on_bearings, -1, 0)))
+        return super().curves(curves, nodes) | loads_of_bearings
+
+    def fields(self, nodes: SideBySide) -> dict[str, np.ndarray]:
+        """Deflection of both shafts (steps, gears, points), mm; not a number where a shaft has no sections."""
+        states = nodes.steps.states[:, 0]
+        deflection = np.full((2, len(states), len(NUMBERS), SHAFT_POINTS), np.nan)
+        for system in self.drivetrain.systems:
+            values = self._values(system, states)
+            for _, each in system.seated:
+                lines = np.einsum("pmn,sn->msp", self._lines[each.gear][:, :2], values)
+                if each.gear in self._seats:
+                    line = self._seats[each.gear].line[:, :2]
+                    lines += np.einsum("pmzi,szi->msp", line, self._loads(nodes, each.gear), optimize=True)
+                deflection[:, :, GEARS.index(each.gear)] = lines
+        return super().fields(nodes) | {"shaft_deflection_x": deflection[0], "shaft_deflection_y": deflection[1]}
+
+    def coordinates(self) -> dict[str, tuple]:
+        """Where bearings and points of the shafts are."""
+        elastic = self.drivetrain.elastic
+        names = [f"{each.name} {number + 1}" for each in elastic for number in range(len(each.bearings))]
+        places = [bearing.at for each in elastic for bearing in each.bearings]
+        points = np.full((len(NUMBERS), SHAFT_POINTS), np.nan)
+        for each in elastic:
+            points[GEARS.index(each.name)] = self.points(each.length)
+        from_end = {"units": "mm", "long_name": "distance from the left end of the shaft"}
+        return super().coordinates() | {
+            "bearing": ("bearing", names, {"long_name": "bearing of a shaft with sections"}),
+            "bearing_place": ("bearing", places, from_end),
+            "shaft_place": (("gear", "shaft_point"), points, from_end),
+        }
+
+    def numbers(self, counted: xr.Dataset, known: Mapping[str, Any]) -> dict[str, float | str]:
+        """Of the settled steps of a result: means of the axes' departures, the largest force of a bearing, and natural
+        frequencies."""
+        forces = np.sqrt(sum(counted[name] ** 2 for name in LOADS[:3]))
+        numbers = {"largest_bearing_force": float(forces.max())}
+        return super().numbers(counted, known) | numbers | self._rolling_elements(counted) | self._vibrations(counted)
+
+    def _seat(self, system: ShaftSystem, seat: SeatedGear) -> BentBySeat:
+        """Response of a seat to loads (S, 6) in the slices of the face, at their own heights."""
+        bent = system.bent_by_seat(seat, self._heights(seat.gear), self.points(system.shaft_of(seat).length))
+        slices = len(self.face.positions)
+        return BentBySeat(*(each.reshape(*each.shape[:-2], 2, slices, SIX).mean(axis=-3) for each in bent))
+
     def _vibrations(self, counted: xr.Dataset) -> dict[str, str]:
         """Natural frequencies with the mesh as it was, a line each; nothing without inertia or contact."""
         if self.drivetrain.mass is None or "mesh_stiffness_tangent" not in counted:
@@ -219,7 +222,7 @@ class BentShafts(MovedAxes):
         drivetrain = self.drivetrain
         if rolling is None:
             return {}
-        if any(shaft.of_face for shaft in drivetrain.elastic):
+        if any(seat.of_face for seat in drivetrain.seats):
             # The gears' motions are not all that moves shafts in their bearings.
             loads = np.stack([counted[name].mean("time").values for name in LOADS], axis=1)
             return {"largest_rolling_element_force": rolling.largest_under(loads)}

@@ -242,8 +242,8 @@ def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.nda
 
 def _folder(model: TrainModel) -> dict[str, str]:
     """The folder from which files are looked for, where the train names any."""
-    named = [scene_attributes(each.scene) for each in model.models]
-    return next(({"scene_folder": each["scene_folder"]} for each in named if "scene_folder" in each), {})
+    named = any("scene_folder" in scene_attributes(each.scene) for each in model.models)
+    return {"scene_folder": model.models[0].scene.folder} if named or model.scene.shafts.housed else {}
 
 
 def _iterations(model: TrainModel, meshes: Sequence[MeshResult]) -> int:

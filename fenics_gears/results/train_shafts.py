@@ -11,13 +11,11 @@ import numpy as np
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.elastic_shaft import FIVE, ElasticShaft
 from fenics_gears.dynamics.shaft_system import ShaftSystem
-from fenics_gears.dynamics.train_shafts import BentShafts, turned_motions
+from fenics_gears.dynamics.train_shafts import SPACE, BentShafts, turned_motions
 from fenics_gears.model.storage import SHAFT_POINTS
 
 from .bent_shafts import LOADS
 
-# Of the train: to the right, up, and along the axes.
-SPACE = np.eye(3)
 IN_SPACE = (
     "force of the shaft on its bearing to the right, as directions of stages are counted",
     "force of the shaft on its bearing upwards",
@@ -81,18 +79,20 @@ class ShaftsOfTrain:
             "shaft_place": (("shaft", "shaft_point"), np.array(self._points), from_end),
         }
 
+    @cached_property
+    def _shafts(self) -> list[tuple[ShaftSystem, ElasticShaft]]:
+        return [(system, shaft) for system in self._bent.systems for shaft in system.shafts]
+
     def _bearings(self) -> Iterator[tuple[str, int, float]]:
         """Shaft, number there from left to right, and place (mm) of each bearing."""
-        for name, system in zip(self._bent.names, self._bent.systems):
-            places = [begin + each.at for begin, part in _begun(system) for each in part.bearings]
-            order = np.argsort(places, kind="stable")
-            yield from ((name, number, places[place]) for number, place in enumerate(order, 1))
+        for _, shaft in self._shafts:
+            for number, place in enumerate(np.sort([each.at for each in shaft.bearings]), 1):
+                yield shaft.name, number, float(place)
 
     @cached_property
     def _points(self) -> list[np.ndarray]:
         """Places (p,), mm, on each shaft at which its deflection is given."""
-        lengths = [sum(part.length for part in system.shafts) for system in self._bent.systems]
-        return [np.linspace(0.0, length, SHAFT_POINTS) for length in lengths]
+        return [np.linspace(0.0, shaft.length, SHAFT_POINTS) for _, shaft in self._shafts]
 
     def _values(self, system: ShaftSystem, states: np.ndarray) -> np.ndarray:
         return np.stack([self._drivetrain.value(states, name) for name in system.coordinates], axis=-1)
@@ -105,32 +105,18 @@ class ShaftsOfTrain:
             loads = self._drivetrain.rolling.loads(states, loads)
         first = 0
         found = []
-        for system, axes in zip(self._bent.systems, self._bent.axes):
-            own = loads[:, first : first + len(system.bearings)] @ turned_motions(axes, SPACE).T
-            first += len(system.bearings)
-            places = [begin + each.at for begin, part in _begun(system) for each in part.bearings]
-            found.append(own[:, np.argsort(places, kind="stable")])
+        for _, shaft in self._shafts:
+            order = np.argsort([each.at for each in shaft.bearings], kind="stable")
+            turn = turned_motions(self._bent.axes[shaft.name], SPACE)[:FIVE, :FIVE]
+            own = loads[:, first : first + len(order)] @ turn.T
+            first += len(order)
+            found.append(own[:, order])
         return np.concatenate(found, axis=1)
 
     def _deflections(self, state: np.ndarray) -> np.ndarray:
         """Displacements (2, shafts, points) of the shafts' axes, mm, in a state (k,)."""
         lines = []
-        for system, axes, points in zip(self._bent.systems, self._bent.axes, self._points):
-            values = self._values(system, state)
-            turn = turned_motions(axes, SPACE)[:2]
-            own = []
-            for begin, part in _begun(system):
-                end = begin + part.length
-                last = part is system.shafts[-1]
-                there = points[(points >= begin) & ((points < end) | last)]
-                own.append(system.deflection(part, np.clip(there - begin, 0.0, part.length)) @ values @ turn.T)
-            lines.append(np.concatenate(own).T)
+        for (system, shaft), points in zip(self._shafts, self._points):
+            turn = turned_motions(self._bent.axes[shaft.name], SPACE)[:2, :FIVE]
+            lines.append(turn @ (system.deflection(shaft, points) @ self._values(system, state)).T)
         return np.stack(lines, axis=1)
-
-
-def _begun(system: ShaftSystem) -> Iterator[tuple[float, ElasticShaft]]:
-    """Where each part of a shaft begins (mm), and the part."""
-    begin = 0.0
-    for part in system.shafts:
-        yield begin, part
-        begin += part.length

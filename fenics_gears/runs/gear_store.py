@@ -17,7 +17,7 @@ from fenics_gears.model.model import Model
 from fenics_gears.model.shared_gears import couplings
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.bodies import body_key, gear_body
-from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_of_gaps, yielding_seats
+from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_of_gaps
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 
@@ -172,7 +172,7 @@ def operators_key(model: Model, grid: ContactGrid | None = None) -> tuple:
         (model.face.slices, *divided),
         in_operators,
         scene.coast_flanks is not None,
-        (accuracy, springs, tuple(system.key for system, _ in yielding_seats(model))),
+        (accuracy, springs, tuple(seat.system.key for seat in model.drivetrain.seats)),
         tuple(model.drivetrain.indices),
         scene.friction is not None,
         bool(apart),

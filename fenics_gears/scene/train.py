@@ -36,7 +36,7 @@ from .train_pair import MistakesOfStage, Placed, TrainMistakes, check_together, 
 from .train_pair_shafts import in_train, in_words_of_train, of_pair, place_of, sections_of_pair
 from .train_rules import OF_A_STAGE, SHARED, TrainSections, checked_train
 from .train_shaft import BentShaft
-from .train_shafts import TrainShafts
+from .train_shafts import TrainShafts, located_shafts
 from .train_topology import NamedMesh, gears_within, graph_of, named_meshes
 
 
@@ -137,6 +137,7 @@ def train_of(tree: Mapping[str, Any], text: str, name: str, source: str, folder:
     meshes: list[MeshOfScene] = []
     try:
         if sections is not None:
+            sections = replace(sections, shafts=located_shafts(sections.shafts, folder))
             meshes = _meshes_of(tree, sections, source, folder)
     except MistakesOfStage as error:
         problems = error.problems

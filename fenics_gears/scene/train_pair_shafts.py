@@ -44,6 +44,7 @@ def sections_of_pair(both: OfPair, tree: Mapping[str, Any], sections: Mapping[st
         coupled = own.get("torque_at", next(iter(places.values()), at))
         shafts[shaft] = {"sections": own["sections"], "gear_at": at, "torque_at": coupled}
         shafts[shaft] |= {"material": own["material"]} if "material" in own else {}
+        shafts[shaft] |= {"seat": bent.own.seats[bent.own.carries.index(gear)]} if bent.own.seats else {}
         beside[side] = own["bearings"]
     found: dict[str, Any] = {"shafts": shafts, "bearings": beside}
     if "inertia" in sections:
@@ -56,7 +57,7 @@ def place_of(both: OfPair, path: Path) -> Path | None:
     """Where a train has what a pair's scene has of its shafts at a path; None of anything else."""
     for (_, bent), side, shaft in zip(both, GEARS, SHAFTS):
         if bent is not None and path[:2] == ("shafts", shaft):
-            rest = tuple("gears_at" if each == "gear_at" else each for each in path[2:])
+            rest = tuple({"gear_at": "gears_at", "seat": "seats"}.get(each, each) for each in path[2:])
             return ("shafts", bent.name, *rest)
         if bent is not None and path[:2] == ("bearings", side):
             return ("shafts", bent.name, "bearings")
@@ -71,6 +72,7 @@ def in_words_of_train(both: OfPair, text: str) -> str:
         bearings = f"shafts.{bent.name}.bearings"
         for old, new in (
             (f"shafts.{shaft}.gear_at", f"shafts.{bent.name}.gears_at"),
+            (f"shafts.{shaft}.seat ", f"shafts.{bent.name}.seats "),
             (f"shafts.{shaft}", f"shafts.{bent.name}"),
             (f"bearings.{side}", bearings),
             (f"the {side}", gear),

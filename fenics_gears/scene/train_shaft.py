@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from fenics_gears.dynamics.bearings import MOST_BEARINGS, Bearing
-from fenics_gears.dynamics.shafts import MOST_SECTIONS, ShaftMaterial, ShaftSection
+from fenics_gears.dynamics.shafts import (
+    INTEGRAL,
+    MOST_SECTIONS,
+    PRESS_FIT,
+    RIGID_SEAT,
+    HousingFile,
+    ShaftMaterial,
+    ShaftSection,
+    housing_file,
+)
 from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.allowed import Allowed, Refused
 from fenics_gears.inputs.fields import declared, quantities, quantity
 from fenics_gears.inputs.problem import Path, Problem
 from fenics_gears.inputs.section import AllowedTables, Section, names_in
+from fenics_gears.inputs.written import as_written
 
-# What shafts of pairs have beside.
-NOT_YET = {
-    "seat": "is not yet computed in trains: gears sit rigidly over their width. Leave it out.",
-    "housing": "is not yet computed in trains: bearings stand in a rigid housing. Leave it out.",
-}
+SEATS = (RIGID_SEAT, PRESS_FIT, INTEGRAL)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,6 +34,16 @@ class AllowedGears(Allowed):
     def convert(self, value: Any) -> tuple[str, ...]:
         if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
             raise Refused("is no list of names of gears.")
+        return tuple(value)
+
+
+@dataclass(frozen=True, kw_only=True)
+class AllowedSeats(Allowed):
+    """A list of kinds of seats."""
+
+    def convert(self, value: Any) -> tuple[str, ...]:
+        if not isinstance(value, list) or not all(each in SEATS for each in value):
+            raise Refused("is no list of seats.")
         return tuple(value)
 
 
@@ -68,6 +84,13 @@ class TrainShaft(Section):
         meaning="middles of the faces of the gears, in the order of `carries`, from the left end",
         otherwise="required with `sections`",
     )
+    seats: tuple[str, ...] | None = declared(
+        AllowedSeats(
+            description=f'a list such as ["{RIGID_SEAT}", "{INTEGRAL}"] of {", ".join(map(as_written, SEATS))}',
+            meaning="how the gears sit, in the order of `carries`, as those of a pair",
+            otherwise=f"all of them {RIGID_SEAT}",
+        )
+    )
     torque_at: float | None = quantity(
         "0 mm to 100 m",
         "0 mm",
@@ -88,12 +111,28 @@ class TrainShaft(Section):
             otherwise="required with `sections`",
         )
     )
+    housing: HousingFile | None = housing_file(
+        "this shaft's bearings, in the form of a pair's, but along x to the right and y upwards, as directions of"
+        " stages are counted",
+        "the housing is rigid, or that of `[shafts]`",
+    )
     clocking: float | None = quantity(
         "-1 rad to 1 rad",
         "0.002 rad",
         meaning="of a shaft in a loop: angle by which the second of its two gears is turned ahead, as the shaft turns,"
         " of where the loop closes exactly",
         otherwise="0 rad",
+    )
+
+
+@dataclass(frozen=True)
+class TrainHousing(Section):
+    """What `[shafts]` of a train has beside its shafts."""
+
+    housing: HousingFile | None = housing_file(
+        "the bearings of all shafts with sections, which it ties together, in the order of the scene and in the form of"
+        " that of one shaft",
+        "each shaft has its own, if any",
     )
 
 
@@ -106,26 +145,19 @@ class BentShaft:
     own: TrainShaft
 
 
-def wrong_sections(shaft: TrainShaft, place: Path, graph: TrainGraph, number: int) -> Iterator[Problem]:
+def wrong_sections(
+    shaft: TrainShaft, place: Path, graph: TrainGraph, number: int, shared: Collection[str]
+) -> Iterator[Problem]:
     """A shaft with sections says where its gears are, has bearings and, at an end of the train, a coupling; another one
-    has nothing of it; its `number` in the train."""
+    has nothing of it; its `number` in the train; `shared`: the gears that stand in several meshes."""
     if shaft.sections is None:
-        for name in ("gears_at", "torque_at", "material", "bearings"):
+        for name in ("gears_at", "seats", "torque_at", "material", "bearings", "housing"):
             if getattr(shaft, name) not in (None, ShaftMaterial()):
                 said = "has no effect: it is of a shaft with sections. Add sections, or leave it out."
                 yield Problem((*place, name), "", said)
         return
     at_an_end = number in (0, graph.last)
-    driven = sum(graph.driven(gear) for gear in graph.on(number))
     count = len(shaft.carries)
-    if count > 2 or count == 2 and (at_an_end or driven != 1):
-        said = (
-            f"are {count} gears, {driven} of them driven, on a shaft that bends, which is not yet computed. Allowed"
-            " with sections: one gear on the first and the last shaft; on others one gear, or one that is driven and"
-            " one that only drives."
-        )
-        named = ", ".join(f'"{gear}"' for gear in shaft.carries)
-        yield Problem((*place, "carries"), f"[{named}]", said)
     if shaft.gears_at is None or len(shaft.gears_at) != count:
         allowed = (
             f"Allowed: {count} {'length' if count == 1 else 'lengths'} from the left end, in the order of carries."
@@ -136,6 +168,13 @@ def wrong_sections(shaft: TrainShaft, place: Path, graph: TrainGraph, number: in
             else f"has another number of places, {len(shaft.gears_at)}, than gears, {count}"
         )
         yield Problem((*place, "gears_at"), None if shaft.gears_at is None else "", f"{said}. {allowed}")
+    if shaft.seats is not None and len(shaft.seats) != count:
+        said = f"has another number of seats, {len(shaft.seats)}, than gears, {count}. Allowed: one for each."
+        yield Problem((*place, "seats"), "", said)
+    for gear, seat in zip(shaft.carries, shaft.seats or ()):
+        if gear in shared and seat != RIGID_SEAT:
+            said = f'of {gear}, which is in several meshes, is not yet computed. Allowed for it: "{RIGID_SEAT}".'
+            yield Problem((*place, "seats"), f'"{seat}"', said)
     if shaft.bearings is None:
         said = (
             f"is missing: nothing holds the shaft, which has sections. Add its bearings, each as a table"

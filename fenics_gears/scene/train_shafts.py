@@ -5,18 +5,21 @@ Without any of it rigid shafts hand on torque and rotation alone, and each stage
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from fenics_gears.dynamics.damping import Damping
 from fenics_gears.dynamics.inertia import LoadInertia
+from fenics_gears.dynamics.shafts import HousingFile
+from fenics_gears.effects.elastic_shaft_housing import located_housing
 from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.problem import Problem, did_you_mean
 from fenics_gears.inputs.section import Section, names_in, read
 from fenics_gears.inputs.written import as_written
 
-from .train_shaft import NOT_YET, BentShaft, TrainShaft, wrong_sections
+from .train_shaft import BentShaft, TrainHousing, TrainShaft, wrong_sections
 from .train_topology import Shafts, declared_gears, graph_of, in_order, named_meshes, shafts_by_order
 
 # Sections of a train of which each makes its stages move together.
@@ -28,7 +31,7 @@ class TrainShafts:
     """What the shafts of a train carry, from the driven one on, by the names of gears; and of each its torsional
     stiffness (N mm/rad) and clocking (rad), None where they are not given. The moment of inertia (N mm s^2) of the
     load, and the damping, None where there is none. `moving`: whether stages move together. `bent`: the shafts that
-    also bend."""
+    also bend, and the `housing` of all of these."""
 
     carried: tuple[tuple[str, ...], ...] = ()
     torsion: tuple[float | None, ...] = ()
@@ -37,12 +40,20 @@ class TrainShafts:
     damping: Damping | None = None
     moving: bool = False
     bent: tuple[BentShaft, ...] = ()
+    housing: HousingFile | None = None
+
+    @property
+    def housed(self) -> bool:
+        """Whether files have the stiffness of a housing."""
+        return self.housing is not None or any(each.own.housing is not None for each in self.bent)
 
 
 def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, list[Problem]]:
     """What couples the stages of a parsed train, and what is wrong with it; `sound`: nothing is wrong with its
     stages."""
     problems: list[Problem] = []
+    housing, wrong = _housing(tree)
+    problems += wrong
     sections: dict[str, TrainShaft] = {}
     for name, content in _sections(tree, "shafts", problems):
         shaft, wrong = read(TrainShaft, content, ("shafts", name))
@@ -66,11 +77,14 @@ def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, l
             graph = graph_of(meshes, carried)
             torsion = [None] * len(carried)
             clocking = [None] * len(carried)
+            gears = [gear for mesh in meshes for gear in mesh.gears]
+            shared = {gear for gear in gears if gears.count(gear) > 1}
             for name, shaft in sections.items():
                 number = next(place for place, each in enumerate(carried) if shaft.carries[0] in each)
                 problems += _put(torsion, clocking, (name, shaft, number), graph)
-                problems += wrong_sections(shaft, ("shafts", name), graph, number)
+                problems += wrong_sections(shaft, ("shafts", name), graph, number, shared)
                 bent += [] if shaft.sections is None else [BentShaft(name, number, shaft)]
+            problems += _misplaced_housings(housing, bent)
             if "bearings" in tree and {each.number for each in bent} == {*range(len(carried))}:
                 said = "has no effect: all gears are on shafts with bearings of their own. Leave it out."
                 problems.append(Problem(("bearings",), "", said))
@@ -87,7 +101,7 @@ def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, l
         said = "is missing. The far end of the last shaft needs a moment of inertia: add [inertia.load]."
         problems.append(Problem(("inertia", "load"), None, said))
     of_shafts = tuple(map(tuple, carried)), tuple(torsion), tuple(clocking)
-    return TrainShafts(*of_shafts, load, damping, moving, tuple(bent)), problems
+    return TrainShafts(*of_shafts, load, damping, moving, tuple(bent), housing), problems
 
 
 def _sections(tree: Mapping[str, Any], name: str, problems: list[Problem]) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -99,11 +113,41 @@ def _sections(tree: Mapping[str, Any], name: str, problems: list[Problem]) -> It
     for each, content in written.items():
         if isinstance(content, Mapping):
             yield each, content
+        elif each in names_in(TrainHousing):
+            continue
         else:
             said = (
                 f"is not of a train. Allowed: sections [{name}.NAME], each of a shaft with the gears that it carries."
             )
             problems.append(Problem((name, each), as_written(content), said))
+
+
+def _housing(tree: Mapping[str, Any]) -> tuple[HousingFile | None, list[Problem]]:
+    """The housing of all shafts that bend, and what is wrong with it."""
+    written = tree.get("shafts")
+    own = written.get("housing") if isinstance(written, Mapping) else None
+    if own is None or isinstance(own, Mapping):
+        return None, []
+    found, wrong = read(TrainHousing, {"housing": own}, ("shafts",))
+    return None if found is None else found.housing, wrong
+
+
+def _misplaced_housings(housing: HousingFile | None, bent: Sequence[BentShaft]) -> Iterator[Problem]:
+    if housing is None:
+        return
+    if not bent:
+        said = "is the housing of shafts with sections, and none has any. Add sections, or leave it out."
+        yield Problem(("shafts", "housing"), as_written(housing.path), said)
+    for each in bent:
+        if each.own.housing is not None:
+            said = "is given together with the housing of [shafts], which is that of all shafts. Leave one out."
+            yield Problem(("shafts", each.name, "housing"), as_written(each.own.housing.path), said)
+
+
+def located_shafts(shafts: TrainShafts, folder: Path) -> TrainShafts:
+    """The same with the matrices of their housings, whose files are looked for from a folder on."""
+    bent = tuple(replace(each, own=located_housing(each.own, folder)) for each in shafts.bent)
+    return located_housing(replace(shafts, bent=bent), folder)
 
 
 def _tables(written: Mapping[str, Any]) -> list[Mapping[str, Any]]:
@@ -185,8 +229,6 @@ def explained(problem: Problem, section: type[Section]) -> Problem:
     """A problem with an unknown name told with those of its section."""
     if not problem.unknown:
         return problem
-    if section is TrainShaft and problem.path[-1] in NOT_YET:
-        return replace(problem, message=NOT_YET[problem.path[-1]])
     names = names_in(section)
     said = f"is not known here.{did_you_mean(problem.path[-1], names)} Known: {', '.join(names)}."
     return replace(problem, message=said)

@@ -22,8 +22,6 @@ from .bodies import gear_bodies
 from .routes import CONDENSED, route_of
 
 if TYPE_CHECKING:
-    from fenics_gears.dynamics.elastic_shaft import ElasticShaft
-    from fenics_gears.dynamics.shaft_system import ShaftSystem
     from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
 
@@ -60,16 +58,10 @@ def _over_face() -> ModuleType:
 def _seated(model: Model, *bodies: FaceCompliance) -> tuple[FaceCompliance, FaceCompliance]:
     """Both bodies, those on a seat that gives way with what it does so within the face."""
     by_gear = dict(zip(GEARS, bodies))
-    for system, shaft in yielding_seats(model):
-        body = by_gear[shaft.gear]
-        by_gear[shaft.gear] = replace(body, seat=system.seat(shaft).under(body.heights).compliance)
+    for seat in model.drivetrain.seats:
+        body = by_gear[seat.gear]
+        by_gear[seat.gear] = replace(body, seat=seat.compliance(body.heights))
     return by_gear[GEARS[0]], by_gear[GEARS[1]]
-
-
-def yielding_seats(model: Model) -> list[tuple[ShaftSystem, ElasticShaft]]:
-    """The elastic shafts on which a gear is no rigid seat, with their systems: flanks give way by them."""
-    systems = model.drivetrain.systems
-    return [(system, shaft) for system in systems for shaft in system.shafts if shaft.yields_within]
 
 
 def cycle_of(model: Model, mesh: Mesh) -> Cycle:
@@ -78,16 +70,16 @@ def cycle_of(model: Model, mesh: Mesh) -> Cycle:
     friction = model.scene.friction is not None
     indices = model.drivetrain.indices
     # Gears whose faces bend by coordinates of their own.
-    bending = [(system, shaft) for system, shaft in yielding_seats(model) if shaft.of_face]
+    bending = [seat for seat in model.drivetrain.seats if seat.of_face]
     if not bending:
         cycle = Cycle(mesh, steps, indices, friction)
         return cycle.with_gaps(gaps_of(model, cycle))
     from fenics_gears.dynamics.bending_faces import CycleOfBendingFaces, bending_face
 
     faces = []
-    for system, shaft in bending:
-        middles = model.face.positions - model.face.middles[GEARS.index(shaft.gear)]
-        faces.append(bending_face(model.drivetrain, system, shaft, middles, model.face.widths))
+    for seat in bending:
+        middles = model.face.positions - model.face.middles[GEARS.index(seat.gear)]
+        faces.append(bending_face(model.drivetrain, seat, middles, model.face.widths))
     cycle = CycleOfBendingFaces(mesh, steps, indices, friction, faces)
     return cycle.with_gaps(gaps_of(model, cycle))
 

@@ -9,7 +9,7 @@ from tests.beam_elements import alone, condensed
 
 from fenics_gears.dynamics.beam import shear_coefficient
 from fenics_gears.dynamics.bearings import Bearing, BearingPlaces, Bearings, Support
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions, in_series
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear, free_motions, in_series
 from fenics_gears.dynamics.shafts import Shaft, ShaftMaterial, Shafts, ShaftSection
 from fenics_gears.model.drivetrain import drivetrain
 
@@ -20,7 +20,9 @@ LOAD = 1e3
 
 
 def shaft(sections, gear_at, bearings, torque_at=0.0, seat=0.0):
-    return ElasticShaft("pinion", tuple(sections), STEEL, gear_at, seat, torque_at, tuple(bearings))
+    return ElasticShaft(
+        "pinion", tuple(sections), STEEL, (SeatedGear("pinion", gear_at, seat),), torque_at, tuple(bearings)
+    )
 
 
 def area(diameter, bore=0.0):
@@ -170,7 +172,7 @@ def test_the_stiffness_is_that_of_a_textbooks_elements():
     by_elements = 2.0 * condensed(found, shear, 2e4) - condensed(found, shear, 1e4)
     size = np.outer(*2 * [np.sqrt(np.diag(by_elements))])
     assert alone(found).stiffness / size == pytest.approx(by_elements / size, abs=1e-8)
-    free = replace(found, seat=0.0)
+    free = replace(found, seats=(SeatedGear("pinion", 55.0),))
     assert alone(free).stiffness / size == pytest.approx(condensed(free, shear) / size, abs=1e-9)
 
 

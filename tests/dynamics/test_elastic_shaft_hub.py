@@ -10,7 +10,7 @@ from scipy.sparse.linalg import splu
 from tests.beam_elements import alone
 
 from fenics_gears.dynamics.bearings import Bearing
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear
 from fenics_gears.dynamics.elastic_shaft_hub import Hub
 from fenics_gears.dynamics.shaft_elements import carried
 from fenics_gears.dynamics.shafts import ShaftSection
@@ -47,11 +47,11 @@ def test_body_on_its_bore_rigid_seat_and_hub_make_up_one_solid():
     held = Bearing(0.0, SPRING, SPRING, TILTING), Bearing(LENGTH, SPRING, 0.0, TILTING)
     sections = (ShaftSection(LENGTH, 2.0 * BORE, bore=2.0 * BORED),)
     hub = Hub(GEAR, Ring(BORED, BORE, -HALF, HALF, *STEEL))
-    shaft = ElasticShaft("wheel", sections, STEEL, AT, 2.0 * HALF, 0.0, held, hub=hub)
+    shaft = ElasticShaft("wheel", sections, STEEL, (SeatedGear("wheel", AT, 2.0 * HALF, hub=hub),), 0.0, held)
     system = alone(shaft)
     rigid = block_diag(np.linalg.inv(system.stiffness), 1.0 / system.torsional_stiffness(shaft))
     carry = np.array([carried(z) for z in HEIGHTS])
-    seat, line, bearings = system.bent_by_seat(shaft, HEIGHTS, PLACES)
+    seat, line, bearings = system.bent_by_seat(shaft.seats[0], HEIGHTS, PLACES)
     found = seat + np.einsum("sia,ab,tjb->sitj", carry, rigid, carry)
     gear = np.einsum("ab,tjb->atj", rigid, carry)[:5]
     line = line + np.einsum("pma,atj->pmtj", system.deflection(shaft, PLACES), gear)

@@ -133,7 +133,7 @@ def test_a_gear_that_is_cut_into_its_shaft_is_not_counted_twice():
     more = CUT.replace("torque_at", 'material = { density = "7.85 g/cm^3" }\ntorque_at') + INERTIA
     model = model_of(helical_scene(more, accuracy=""))
     system, own, bore = model.drivetrain.systems[0], model.drivetrain.elastic[0], 2.0 * model.pair.pinion.bore_radius
-    wanted = area(28.0, 8.0) * 40.0 + area(35.0) * (90.0 - own.seat) + area(bore) * own.seat
+    wanted = area(28.0, 8.0) * 40.0 + area(35.0) * (90.0 - own.seats[0].width) + area(bore) * own.seats[0].width
     assert own.mass_of_all == pytest.approx(DENSITY * wanted, rel=1e-12)
     assert system.mass[:2, :2] == pytest.approx(system.mass[0, 0] * np.eye(2))
 
@@ -148,9 +148,9 @@ def test_an_accelerated_input_shaft_is_twisted_by_its_own_inertia():
     found = load[there] / own.stiffness[there, there] / own.radii[there]
     speed, beam = 2.0 * pi / scene.gears.pinion.teeth, own.elastic[0]
     # Parts of the shaft between coupling and seat, from the coupling on, and all that is beyond.
-    places = [0.0, 40.0, beam.seat_ends[0]]
+    places = [0.0, 40.0, beam.seats[0].ends[0]]
     polar = [2.0 * second(28.0, 8.0), 2.0 * second(35.0)]
-    beyond, twist = 2e-3 * 1e3 + 2.0 * second(35.0) * beam.density * (130.0 - beam.seat_ends[0]), 0.0
+    beyond, twist = 2e-3 * 1e3 + 2.0 * second(35.0) * beam.density * (130.0 - beam.seats[0].ends[0]), 0.0
     for left, right, part in reversed(list(zip(places, places[1:], polar))):
         length = right - left
         twist += beyond * length / (G * part) + beam.density * length**2 / (2.0 * G)

@@ -1,6 +1,7 @@
 """A gear that is cut into its shaft, and the gaps that shafts open over the face."""
 
 import re
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -13,7 +14,8 @@ from tests.helical import helical_scene, on_stand_in_bodies
 from fenics_gears import model_of
 from fenics_gears.dynamics.beam import shear_coefficient
 from fenics_gears.dynamics.bearings import Bearing
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear
+from fenics_gears.dynamics.seat_of_mesh import SeatOfMesh
 from fenics_gears.dynamics.shaft_at_work import face_compliance_of_shafts, middles_of_slices
 from fenics_gears.dynamics.shaft_elements import carried
 from fenics_gears.dynamics.shafts import ShaftSection
@@ -43,11 +45,13 @@ BEARINGS = {
 
 
 def shaft(bearings, torque_at=0.0):
-    return ElasticShaft("pinion", SECTIONS, STEEL, 55.0, WIDTH, torque_at, bearings, integral=True)
+    return ElasticShaft(
+        "pinion", SECTIONS, STEEL, (SeatedGear("pinion", 55.0, WIDTH, integral=True),), torque_at, bearings
+    )
 
 
 def seat_compliance(shaft, heights, system=None):
-    return (system or alone(shaft)).seat(shaft).whole(heights)
+    return (system or alone(shaft)).seat(shaft.seats[0]).whole(heights)
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
@@ -72,8 +76,10 @@ def test_rigid_seat_and_remainder_make_up_the_whole_compliance(name):
     def shear(outer, bore):
         return float(shear_coefficient(0.3, np.array(bore / outer)))
 
-    places, stiffness = assembled(found, shear, found.gear_at + HEIGHTS)
-    own = np.concatenate([5 * np.abs(np.array(places) - found.gear_at - z).argmin() + np.arange(5) for z in HEIGHTS])
+    places, stiffness = assembled(found, shear, found.seats[0].at + HEIGHTS)
+    own = np.concatenate(
+        [5 * np.abs(np.array(places) - found.seats[0].at - z).argmin() + np.arange(5) for z in HEIGHTS]
+    )
     whole = np.linalg.inv(stiffness)[np.ix_(own, own)]
     rigid = np.concatenate([carried(z)[:5, :5] for z in HEIGHTS])
     seat = seat_compliance(found, HEIGHTS)[:, :5, :, :5].reshape(len(own), -1)
@@ -82,6 +88,44 @@ def test_rigid_seat_and_remainder_make_up_the_whole_compliance(name):
     assert np.abs((seat - wanted) / size).max() <= 1e-9
     assert rigid.T @ np.linalg.solve(whole, rigid) == pytest.approx(alone(found).gear_stiffness, rel=1e-6, abs=1e-3)
     assert np.linalg.eigvalsh(seat / size)[0] >= -1e-12
+
+
+def in_mesh(found, turned, heights):
+    """What a seat does in the frame of a mesh, with what the coordinates of its face do."""
+    seat = SeatOfMesh(alone(found), found.seats[0], "pinion", turned)
+    whole = seat.compliance(heights)
+    if seat.of_face:
+        follows = seat.follows(heights)
+        moved = np.linalg.solve(seat.stiffness_of_face, np.moveaxis(follows, 2, 0).reshape(6, -1))
+        whole = whole + (follows.reshape(-1, 6) @ moved).reshape(whole.shape)
+    return whole
+
+
+@pytest.mark.parametrize("name", BEARINGS)
+def test_a_seat_in_another_frame_is_that_of_the_shaft_described_in_it(name):
+    """Identity: a shaft seen from its other end has its sections and bearings the other way round, y and z the other
+    way; on bearings that are alike in all directions its mirror image is itself."""
+    found = shaft(BEARINGS[name])
+    about_x = np.diag([1.0, -1.0, -1.0] * 2)
+    five = about_x[:5, :5]
+    bearings = [
+        replace(
+            each,
+            at=found.length - each.at,
+            stiffness_matrix=each.stiffness_matrix and (five @ np.array(each.stiffness_matrix) @ five).tolist(),
+        )
+        for each in found.bearings
+    ]
+    seat = replace(found.seats[0], at=found.length - found.seats[0].at)
+    other = replace(
+        found, sections=SECTIONS[::-1], seats=(seat,), torque_at=found.length, bearings=tuple(bearings[::-1])
+    )
+    wanted = seat_compliance(other, HEIGHTS)
+    assert in_mesh(found, about_x, HEIGHTS) == pytest.approx(wanted, rel=1e-8, abs=1e-9 * np.abs(wanted).max())
+    if "not alike" not in name:
+        mirrored = np.diag([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+        itself = seat_compliance(found, HEIGHTS)
+        assert in_mesh(found, mirrored, HEIGHTS) == pytest.approx(itself, rel=1e-8, abs=1e-9 * np.abs(itself).max())
 
 
 def test_an_overhung_seat_gives_way_alike_whatever_the_bearings():
@@ -122,7 +166,7 @@ def test_flanks_give_way_as_their_rows_say(helix, shafts):
         found, added = (each[np.ix_(middle, middle)] for each in (found, added))
         # What is left is the interpolation between flank nodes, and the turn of a helix within a slice.
         assert len(found) and np.abs(found - added).max() <= 3e-6 * np.abs(added).max()
-    assert {each.gear for each in model.drivetrain.elastic} == {"pinion", "wheel"}
+    assert {each.name for each in model.drivetrain.elastic} == {"pinion", "wheel"}
 
 
 def finished(more):

@@ -6,7 +6,7 @@ from scipy.optimize import root
 from tests.beam_elements import alone
 
 from fenics_gears.dynamics.bearings import Bearing, RollingBearing
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear
 from fenics_gears.dynamics.rolling_bearing import reaction, secant_stiffness
 from fenics_gears.dynamics.shaft_at_work import at_work
 from fenics_gears.dynamics.shafts import ShaftSection
@@ -103,7 +103,9 @@ def test_a_shaft_on_rolling_bearings_rests_where_they_carry_its_load(force):
         Bearing(at=12.0, rolling=RollingBearing(number=9, diameter=12.7, pitch_diameter=65.0, clearance=0.1)),
         Bearing(at=85.0, rolling=BEARINGS["long rollers"]),
     )
-    shaft = ElasticShaft("pinion", (ShaftSection(130.0, 35.0),), STEEL, 114.0, 24.0, 0.0, bearings)
+    shaft = ElasticShaft(
+        "pinion", (ShaftSection(130.0, 35.0),), STEEL, (SeatedGear("pinion", 114.0, 24.0),), 0.0, bearings
+    )
     load = force * np.array([-1.0, 0.06, 0.18, 4.0, 8.0])
     working = at_work(alone(shaft), load)
     gear = np.linalg.solve(working.gear_stiffness, load)

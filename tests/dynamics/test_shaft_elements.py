@@ -10,7 +10,7 @@ from tests.dynamics.test_elastic_shaft import ON_THREE, STEEL, STEPS, STIFF, E, 
 
 from fenics_gears.dynamics.beam import Beam
 from fenics_gears.dynamics.bearings import Bearing
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft, Line
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear
 from fenics_gears.dynamics.shaft_elements import Assembly, Element, Link, Springs, carried, motions_of
 from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.dynamics.shafts import ShaftSection
@@ -32,8 +32,8 @@ def influence(x, load):
 def test_two_gears_on_one_shaft_bend_it_as_in_closed_form():
     """Exact: the influence lines of a beam between two supports, and the twist between the gears, L / G J."""
     gears = (40.0, 105.0)
-    faces = tuple((each, each) for each in gears)
-    chain = Line("shaft", (ShaftSection(LENGTH, DIAMETER),), STEEL, faces).chain([0.0, LENGTH])
+    seats = tuple(SeatedGear(str(each), each) for each in gears)
+    chain = ElasticShaft("shaft", (ShaftSection(LENGTH, DIAMETER),), STEEL, seats).chain
     nodes = [motions_of("shaft", number) for number in chain.nodes([0.0, LENGTH])]
     ends = [tuple(motions_of("shaft", node) for node in face) for face in chain.faces]
     elements = [
@@ -86,14 +86,16 @@ def test_an_element_of_ones_own_joins_by_the_names_of_its_motions():
     moved = carried(115.0 - 55.0)[:2, :5]
     assert stiff.damping == pytest.approx(3.0 * moved.T @ moved, rel=1e-9, abs=1e-9)
     heavy = replace(stiff, more=(Foot(node[:2], 2e5, 3.0, 0.7),))
-    assert heavy.mass_over(heavy.coordinates)[0] == pytest.approx(0.7 * moved.T @ moved, rel=1e-9, abs=1e-9)
+    assert heavy.over(heavy.motions_over(heavy.coordinates), "mass") == pytest.approx(
+        0.7 * moved.T @ moved, rel=1e-9, abs=1e-9
+    )
 
 
 def test_a_beam_has_the_stiffness_of_the_textbooks_element():
     """Textbook: tests.beam_elements, which has no twist."""
     from tests.beam_elements import element
 
-    chain = Line("shaft", (ShaftSection(60.0, 30.0, bore=10.0),), STEEL, ()).chain([])
+    chain = ElasticShaft("shaft", (ShaftSection(60.0, 30.0, bore=10.0),), STEEL, ()).chain
     (beam,) = chain.outside
     assert isinstance(beam, Beam)
     five = [*range(5), *range(6, 11)]
@@ -102,7 +104,12 @@ def test_a_beam_has_the_stiffness_of_the_textbooks_element():
 
 
 OTHER = ElasticShaft(
-    "wheel", (ShaftSection(150.0, 40.0),), STEEL, 60.0, 0.0, 150.0, (Bearing(20.0, 2e5, 1e5), Bearing(110.0, 4e5))
+    "wheel",
+    (ShaftSection(150.0, 40.0),),
+    STEEL,
+    (SeatedGear("wheel", 60.0),),
+    150.0,
+    (Bearing(20.0, 2e5, 1e5), Bearing(110.0, 4e5)),
 )
 PAIR = (replace(shaft(STEPS, 55.0, ON_THREE[:2]), in_housing=True), replace(OTHER, in_housing=True))
 
@@ -134,7 +141,8 @@ def by_textbook(shafts, housing, seat_stiffness=1.0):
             rows[:, seat : seat + 5] = -np.eye(5)
             whole += rows.T @ np.array(bearing.matrix) @ rows
             seat += 5
-        gears += range(first + 5 * places.index(each.gear_at), first + 5 * places.index(each.gear_at) + 5)
+        gear = first + 5 * places.index(each.seats[0].at)
+        gears += range(gear, gear + 5)
         first += size
     others = np.setdiff1d(np.arange(len(whole)), gears)
     follow = np.linalg.solve(whole[np.ix_(others, others)], whole[np.ix_(others, gears)])
@@ -155,4 +163,4 @@ def test_two_shafts_in_one_housing_are_those_of_a_textbooks_elements():
     both = ShaftSystem(PAIR, apart)
     for each, own in zip(PAIR, (apart[:10, :10], apart[10:, 10:])):
         single = alone(each, own).gear_stiffness
-        assert both.stiffness_at(each) == pytest.approx(single, rel=1e-9, abs=1e-10 * single.max())
+        assert both.stiffness_at(each.seats[0]) == pytest.approx(single, rel=1e-9, abs=1e-10 * single.max())

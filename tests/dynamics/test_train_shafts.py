@@ -1,4 +1,4 @@
-"""Shafts that bend and carry several gears: parts of one shaft that go on with each other."""
+"""Shafts that bend and carry several gears."""
 
 from dataclasses import replace
 from math import pi
@@ -10,36 +10,22 @@ from tests.beam_elements import FIVE, assembled
 from tests.dynamics.test_elastic_shaft import LOAD, STIFF, E, G, area, second, shaft, shear
 
 from fenics_gears.dynamics.bearings import Bearing
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear
 from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.dynamics.shafts import ShaftSection
-from fenics_gears.dynamics.train_shafts import mesh_axes, torsional_stiffness, turned_motions
-from fenics_gears.effects.elastic_shaft_seats import sections_between
+from fenics_gears.dynamics.train_shafts import mesh_axes, turned_motions
 
 SECTIONS = (ShaftSection(50.0, 30.0, bore=10.0), ShaftSection(60.0, 42.0), ShaftSection(40.0, 25.0))
 BEARINGS = (Bearing(12.0, 3e5, 1e5), Bearing(85.0, 2e5, 0.0, 1e7), Bearing(140.0, 4e5))
 GEARS = (30.0, 110.0)
-CUT = 70.0
 
 
-def two_gears(sections=SECTIONS, bearings=BEARINGS, gears=GEARS, cut=CUT, density=0.0):
-    """A shaft with two gears without width, cut between these; and the same as one with the first gear alone."""
+def two_gears(sections=SECTIONS, bearings=BEARINGS, gears=GEARS, density=0.0):
+    """A shaft with two gears without width; and the same as one with the first gear alone."""
     whole = shaft(sections, gears[0], bearings, torque_at=gears[0])
-    length = sum(each.length for each in sections)
-    parts = [
-        replace(
-            whole,
-            gear=name,
-            sections=sections_between(sections, begin, end),
-            gear_at=at - begin,
-            torque_at=at - begin,
-            bearings=tuple(replace(each, at=each.at - begin) for each in bearings if (each.at < cut) == (begin < cut)),
-            goes_on=name == "one",
-            density=density,
-            up_to=1e6 if density else whole.up_to,
-        )  # fmt: skip
-        for name, at, begin, end in zip(("one", "other"), gears, (0.0, cut), (cut, length))
-    ]
-    return ShaftSystem(tuple(parts)), whole
+    seats = tuple(SeatedGear(name, at) for name, at in zip(("one", "other"), gears))
+    both = replace(whole, name="both", seats=seats, torque_at=None, density=density)
+    return ShaftSystem((replace(both, up_to=1e6) if density else both,)), whole
 
 
 def test_two_gears_on_a_shaft_have_the_stiffness_of_a_textbooks_elements():
@@ -53,14 +39,13 @@ def test_two_gears_on_a_shaft_have_the_stiffness_of_a_textbooks_elements():
     assert found.stiffness == pytest.approx(wanted, rel=1e-8, abs=1e-9 * np.abs(wanted).max())
 
 
-@pytest.mark.parametrize("cut", [31.0, 60.0, 79.0])
-def test_one_gears_force_tilts_the_other_as_in_closed_form(cut):
+def test_one_gears_force_tilts_the_other_as_in_closed_form():
     """Exact: a beam between two supports with F at c from the left has at x < c the slope F (L - c) (L^2 - (L - c)^2 -
-    3 x^2) / 6 E I L, shear or not, and F (2 c - L) / k L^2 by the supports; wherever it is cut."""
+    3 x^2) / 6 E I L, shear or not, and F (2 c - L) / k L^2 by the supports."""
     length, diameter, x, c = 120.0, 24.0, 30.0, 80.0
     sections = (ShaftSection(length, diameter),)
     bearings = (Bearing(0.0, STIFF, 1e5), Bearing(length, STIFF))
-    found, _ = two_gears(sections, bearings, (x, c), cut)
+    found, _ = two_gears(sections, bearings, (x, c))
     moved = np.linalg.solve(found.stiffness, LOAD * np.eye(2 * FIVE)[FIVE])
     b = length - c
     slope = b * (length**2 - b**2 - 3.0 * x**2) / (6.0 * E * second(diameter) * length)
@@ -74,7 +59,23 @@ def test_two_gears_on_a_shaft_twist_against_each_other_as_its_sections():
     lengths = (20.0, 30.0), (60.0, 42.0)
     polar = [2.0 * second(30.0, 10.0), 2.0 * second(42.0)]
     yielding = sum(length / (G * each) for (length, _), each in zip(lengths, polar))
-    assert torsional_stiffness(found) == pytest.approx(1.0 / yielding, rel=1e-9)
+    assert found.torsional_stiffness(found.shafts[0]) == pytest.approx(1.0 / yielding, rel=1e-9)
+
+
+def test_three_gears_and_a_coupling_twist_as_springs_in_a_row():
+    """Exact: G J over length between neighbours; a turn of all is free."""
+    sections = (ShaftSection(200.0, 30.0),)
+    seats = tuple(SeatedGear(name, at) for name, at in zip("abc", (40.0, 90.0, 120.0)))
+    own = ElasticShaft("line", sections, (E, 0.3), seats, 180.0, (Bearing(10.0, 3e5, 1e5), Bearing(190.0, 3e5)))
+    found = ShaftSystem((own,))
+    wanted = np.zeros((4, 4))
+    for first, length in enumerate((50.0, 30.0, 60.0)):
+        ends = np.ix_([first, first + 1], [first, first + 1])
+        wanted[ends] += G * 2.0 * second(30.0) / length * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    turns = np.zeros((len(found.motions), 4))
+    turns[[found.motions.index(name) for name in own.turns], range(4)] = 1.0
+    assert found.over(turns, "stiffness") == pytest.approx(wanted, rel=1e-9, abs=1e-9 * wanted.max())
+    assert not (found.over(turns, "stiffness") @ np.ones(4)).any()
 
 
 def test_a_shaft_with_two_gears_vibrates_as_a_textbooks_elements():
@@ -110,6 +111,6 @@ def test_motions_of_a_rigid_shaft_are_one_motion_in_every_frame(sense, forwards)
     place = np.array([0.0, 0.0, 7.0])
     motion = np.array([0.1, -0.2, 0.3, 0.02, -0.01])
     moved = motion[:3] + np.cross([*motion[3:], 0.0], place)
-    in_mesh = turned_motions(np.eye(3), axes) @ motion
+    in_mesh = turned_motions(np.eye(3), axes)[:5, :5] @ motion
     there = in_mesh[:3] + np.cross([*in_mesh[3:], 0.0], axes @ place)
     assert there == pytest.approx(axes @ moved, abs=1e-15)

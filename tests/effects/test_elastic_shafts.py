@@ -66,10 +66,10 @@ def test_bearings_carry_what_the_gear_puts_on_its_shaft(run):
     """Exact: bearings balance the contact's forces and moments; the torque is the load's."""
     model, result = run
     for shaft in model.drivetrain.elastic:
-        own = [name.startswith(shaft.gear) for name in result["bearing"].values]
-        gear = result.sel(gear=shaft.gear)
+        own = [name.startswith(shaft.name) for name in result["bearing"].values]
+        gear = result.sel(gear=shaft.name)
         force = {axis: result[f"bearing_force_{axis}"].values[:, own] for axis in "xyz"}
-        arms = result["bearing_place"].values[own] - shaft.gear_at
+        arms = result["bearing_place"].values[own] - shaft.seats[0].at
         scale = np.abs(result["normal_force"].values).max()
         for axis in "xyz":
             assert np.abs(force[axis].sum(axis=1) - gear[f"reaction_{axis}"].values).max() <= 1e-10 * scale
@@ -84,7 +84,7 @@ def test_gears_move_by_the_compliance_of_elements_under_their_own_reactions(run)
     """Brute force: a textbook's elements under the recorded contact; the seat is extrapolated to rigid."""
     model, result = run
     for shaft in model.drivetrain.elastic:
-        gear = result.sel(gear=shaft.gear)
+        gear = result.sel(gear=shaft.name)
         names = ("reaction_x", "reaction_y", "reaction_z", "reaction_moment_x", "reaction_moment_y")
         loads = np.array([gear[name].values for name in names])
         stiffness = 2.0 * condensed(shaft, shear, 2e4) - condensed(shaft, shear, 1e4)
@@ -98,7 +98,7 @@ def test_axes_and_lines_are_those_of_the_gears(run):
     closes."""
     model, result = run
     assert np.abs(result["energy_defect"].values).max() <= 1e-9 * result["energy"].values.max()
-    if model.drivetrain.elastic[0].yields_within:
+    if model.drivetrain.elastic[0].seats[0].yields_within:
         return
     width, middles = model.pair.face_width, np.array(model.pair.gear_middles)
     tilt = {axis: result[f"tilt_{axis}"].values for axis in "xy"}
@@ -107,11 +107,11 @@ def test_axes_and_lines_are_those_of_the_gears(run):
     along = result["centre_x"].values - middles * tilt["y"]
     near(result["axis_offset_in_plane"].values, 1e3 * (along[:, 1] - along[:, 0]))
     for shaft in model.drivetrain.elastic:
-        gear = result.sel(gear=shaft.gear)
+        gear = result.sel(gear=shaft.name)
         for axis in "xy":
             line = gear[f"shaft_deflection_{axis}"].values[-1]
             # Within the seat the shaft is straight.
-            at_gear = np.interp(shaft.gear_at, gear["shaft_place"].values, line)
+            at_gear = np.interp(shaft.seats[0].at, gear["shaft_place"].values, line)
             assert at_gear == pytest.approx(gear[f"centre_{axis}"].values[-1], rel=1e-9)
 
 
@@ -143,18 +143,18 @@ def test_axes_lines_and_bearings_of_gears_cut_into_shafts_are_those_of_elements(
     operator, (points, weights) = record.position.operator, np.polynomial.legendre.leggauss(6)
     of_slice = np.tile(np.concatenate([[each.place.slice] * len(each.offsets) for each in operator.pairs]), 2)
     for shaft, middle in zip(drivetrain.elastic, model.pair.gear_middles):
-        columns = [drivetrain.coordinates.index(name) for name in shaft.of_gear]
+        columns = [drivetrain.coordinates.index(name) for name in shaft.seats[0].of_gear]
         forces = -operator.jacobian[:, columns] * drivetrain.radii[columns] * record.solution.forces[:, None]
         of_teeth = np.array([forces[of_slice == each].sum(axis=0) for each in range(face.slices)])
         # About the slices' own heights.
         z = face.positions - middle
         of_teeth[:, 3:] += np.stack([z * of_teeth[:, 1], -z * of_teeth[:, 0]], axis=1)
-        loaded = shaft.gear_at + z[:, None] + 0.5 * face.widths[:, None] * points
-        if not shaft.yields_within:
+        loaded = shaft.seats[0].at + z[:, None] + 0.5 * face.widths[:, None] * points
+        if not shaft.seats[0].yields_within:
             axes.append(None)
             continue
         shaft = on_secants(shaft, record.state.position[columns_of(drivetrain, shaft.in_rolling)])
-        gear, along = result.sel(gear=shaft.gear), result["shaft_place"].sel(gear=shaft.gear).values
+        gear, along = result.sel(gear=shaft.name), result["shaft_place"].sel(gear=shaft.name).values
         places, stiffness = assembled(shaft, shear, [*along, *loaded.ravel()])
 
         def nodes(wanted, places=np.array(places)):
@@ -165,7 +165,7 @@ def test_axes_lines_and_bearings_of_gears_cut_into_shafts_are_those_of_elements(
         moved = np.linalg.solve(stiffness, load.ravel()).reshape(-1, 5)
         slices = np.einsum("p,spi->si", 0.5 * weights, moved[nodes(loaded)].reshape(face.slices, -1, 5))
         axes.append(np.polyfit(face.positions, slices[:, :2], 1, w=np.sqrt(face.widths)))
-        own = [name.startswith(shaft.gear) for name in result["bearing"].values]
+        own = [name.startswith(shaft.name) for name in result["bearing"].values]
         carried = np.array([each.matrix @ moved[nodes(each.at)[0]] for each in shaft.bearings])
         for axis, name in enumerate("xy"):
             near(gear[f"shaft_deflection_{name}"].values, moved[nodes(along), axis], 1e-4)
@@ -226,7 +226,7 @@ def test_the_even_load_is_the_force_of_a_run_on_the_flanks_that_carry(torque):
     motions = np.stack([recorder.arrays[name][1:].mean(axis=0) for name in OF_GEARS])
     for number, shaft in enumerate(model.drivetrain.elastic):
         load = model.drivetrain.systems[number].gear_stiffness @ motions[:, number]
-        even = even_load(shaft, model.pair, torque)
+        even = even_load(shaft.name, model.pair, torque)
         # Each gear's tilts about the pitch point are what the line load makes of them.
         assert np.abs(even - load)[:3].max() <= 1e-4 * np.linalg.norm(load[:3])
 

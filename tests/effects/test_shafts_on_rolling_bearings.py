@@ -23,7 +23,7 @@ VIBRATING_ROLLING, VIBRATING_E_AXLE = (
 
 def rigid_motions(shaft):
     """Motions (5 b, 5) of a rigid shaft in its bearings per motion of the gear."""
-    return np.concatenate([carried(each.at - shaft.gear_at)[:5, :5] for each in shaft.bearings])
+    return np.concatenate([carried(each.at - shaft.seats[0].at)[:5, :5] for each in shaft.bearings])
 
 
 @pytest.mark.parametrize("of_input", [ROLLING, INTEGRAL_ROLLING], ids=["rigid seat", "teeth cut in"])

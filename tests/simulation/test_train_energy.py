@@ -6,8 +6,8 @@ from functools import reduce
 import numpy as np
 import pytest
 from tests.simulation.test_train_motion import BEARINGS, FRICTION, INERTIA, motion, shaft
-from tests.simulation.test_train_shafts import bent_paths, bent_two_stages
-from tests.trains import COARSE, helical_row, row, row_section, split_text, stage
+from tests.simulation.test_train_shafts import all_bent, cut_in
+from tests.trains import COARSE, bent_two_stages, helical_row, row, row_section, split_text, stage
 
 from fenics_gears import train_from_text
 from fenics_gears.dynamics.energy_account import account, quadratic
@@ -40,7 +40,7 @@ def clocked_paths(more: str = "") -> TrainScene:
 
 
 def bent_clocked_paths() -> TrainScene:
-    return train_from_text(bent_paths(1.0, 'clocking = "1e-4 rad"\n', MOVING + FRICTION))
+    return train_from_text(all_bent(1.0, 'clocking = "1e-4 rad"\n', MOVING + FRICTION))
 
 
 CASES = {
@@ -51,6 +51,7 @@ CASES = {
     "clocked paths": (clocked_paths, 1e9),
     "clocked paths that move": (lambda: clocked_paths(MOVING), 1e9),
     "shafts that bend": (lambda: bent_two_stages(1.0, MOVING + FRICTION), 1e9),
+    "teeth cut into a shaft that bends": (lambda: cut_in(bent_two_stages(1.0, MOVING + FRICTION)), 1e9),
     "paths on shafts that bend": (bent_clocked_paths, 1e9),
 }
 LONG = {"paths on shafts that bend"}

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from tests.trains import (
     bearing_sections,
+    bent_ends,
     bent_paths,
     bent_two_stages,
     helical_paths,
@@ -31,6 +32,8 @@ ROLLING = (
     'at = "85 mm"\nrolling = { elements = "rollers", number = 14, diameter = "9 mm", length = "10 mm",'
     ' pitch_diameter = "65 mm", clearance = "20 um" }\n',
 )
+# With teeth cut in between them, as on the input shaft of an electric axle.
+BETWEEN = tuple(each.replace("85 mm", "128 mm") for each in ROLLING)
 ROWS = "[[3e5, 1e4, 0, 0, 2e5], [1e4, 3e5, 0, 1e5, 0], [0, 0, 2e5, 0, 0], [0, 1e5, 0, 1e7, 0], [2e5, 0, 0, 0, 1e7]]"
 OF_WHEEL = (f'at = "20 mm"\nstiffness_matrix = {ROWS}\n', 'at = "110 mm"\nradial_stiffness = "0.4e6 N/mm"\n')
 INPUT = (
@@ -42,12 +45,18 @@ IRON = 'material = { name = "ductile cast iron" }\n'
 INERTIA = '[inertia]\ndensity = "7.85 g/cm^3"\n[inertia.load]\nmoment_of_inertia = "0.01 kg m^2"\n'
 
 
+def all_bent(compliance: float, of_last: str = "", more: str = "") -> str:
+    """Two paths all of whose shafts bend."""
+    return bent_ends(bent_paths(compliance, of_last, more), compliance)
+
+
 def tables(name: str, each: tuple[str, ...]) -> str:
     return "".join(f"[[{name}]]\n{one}" for one in each)
 
 
-def pair_and_train(helix: float, bearings: tuple[str, ...], vibrating: bool) -> tuple[str, str]:
-    """A pair on shafts that bend, and the same as a train of one mesh, seen from another direction."""
+def pair_and_train(helix: float, bearings: tuple[str, ...], vibrating: bool, seat: str = "") -> tuple[str, str]:
+    """A pair on shafts that bend, and the same as a train of one mesh, seen from another direction; gears on such a
+    seat."""
     more = '[friction]\ncoefficient = 0.05\n[load]\n{} = "200 N m"\n'
     motion = ""
     if vibrating:
@@ -62,24 +71,38 @@ def pair_and_train(helix: float, bearings: tuple[str, ...], vibrating: bool) -> 
     train += f'[shafts.a]\ncarries = ["one.pinion"]\n{INPUT}gears_at = ["114 mm"]\n'
     train += tables("shafts.a.bearings", bearings)
     train += f'[shafts.b]\ncarries = ["one.wheel"]\n{OUTPUT}gears_at = ["60 mm"]\n{IRON}'
+    if seat:
+        # Teeth that are cut in are of the shaft's material.
+        pair, train = (each.replace(IRON, "") for each in (pair, train))
+        pair = pair.replace("gear_at =", f'seat = "{seat}"\ngear_at =')
+        train = train.replace("gears_at =", f'seats = ["{seat}"]\ngears_at =')
+    if seat == "press fit":
+        # The shafts are as thick as the bores.
+        pair, train = (
+            each.replace('"35 mm"', '"27 mm"').replace('"40 mm" }]', '"52.5 mm" }]') for each in (pair, train)
+        )
     return pair, train + tables("shafts.b.bearings", OF_WHEEL)
 
 
 @pytest.mark.parametrize(
-    ("helix", "bearings", "vibrating"),
+    ("helix", "bearings", "vibrating", "seat"),
     [
-        (15.0, LINEAR, False),
-        (15.0, ROLLING, True),
-        pytest.param(0.0, LINEAR, False, marks=pytest.mark.nightly),
-        pytest.param(15.0, ROLLING, False, marks=pytest.mark.nightly),
-        pytest.param(15.0, LINEAR, True, marks=pytest.mark.nightly),
-        pytest.param(0.0, ROLLING, True, marks=pytest.mark.nightly),
+        (15.0, LINEAR, False, ""),
+        (15.0, BETWEEN, False, "integral"),
+        (15.0, ROLLING, True, ""),
+        pytest.param(0.0, LINEAR, False, "", marks=pytest.mark.nightly),
+        pytest.param(15.0, ROLLING, False, "", marks=pytest.mark.nightly),
+        pytest.param(15.0, LINEAR, True, "", marks=pytest.mark.nightly),
+        pytest.param(15.0, LINEAR, False, "integral", marks=pytest.mark.nightly),
+        pytest.param(15.0, BETWEEN, True, "integral", marks=pytest.mark.nightly),
+        pytest.param(15.0, BETWEEN, False, "press fit", marks=pytest.mark.nightly),
+        pytest.param(0.0, ROLLING, True, "", marks=pytest.mark.nightly),
     ],
 )
-def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair(helix, bearings, vibrating):
+def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair(helix, bearings, vibrating, seat):
     """Two ways to the same equations, with friction: motions, forces over the face and in all bearings, misalignment
     by the load, at every step. The pair has its bearings' forces along and off the line of action."""
-    pair, train = pair_and_train(helix, bearings, vibrating)
+    pair, train = pair_and_train(helix, bearings, vibrating, seat)
     expected = simulate(scene_from_text(pair))
     scene = train_from_text(train)
     whole = simulate_train(scene)
@@ -114,11 +137,18 @@ def textbook_force(mesh, sense: float) -> np.ndarray:
     return tangential * (onwards + pressed - np.array([0.0, 0.0, sense * helix]))
 
 
-def test_bearings_of_a_shaft_carry_both_of_its_gears():
+def cut_in(scene):
+    """A train of two stages, the teeth of whose second pinion are cut into the shaft."""
+    seats = 'seats = ["rigid over its width", "integral"]\n'
+    return train_from_text(scene.text.replace("gears_at =", f"{seats}gears_at ="))
+
+
+@pytest.mark.parametrize("seated", [lambda scene: scene, cut_in], ids=["rigid", "cut in"])
+def test_bearings_of_a_shaft_carry_both_of_its_gears(seated):
     """Statics: without friction the bearings have the sum of the textbook's forces of both meshes in space; and about
     the left bearing the moments of these forces, each in the middle of its gear, with those that the gears have there
     by the distribution of the load over the face."""
-    scene = bent_two_stages()
+    scene = seated(bent_two_stages())
     found = simulate_train(scene)
     on_wheel = textbook_force(scene.meshes[0], 1.0)
     on_pinion = -textbook_force(scene.meshes[1], -1.0)
@@ -214,12 +244,45 @@ def test_bearings_of_two_paths_carry_the_forces_of_their_gears():
         assert own == pytest.approx(np.tile(wanted, (len(own), 1)), abs=1e-8 * np.abs(wanted).max())
 
 
-def test_clocked_paths_on_stiff_shafts_are_those_on_rigid_shafts():
+def coupled_within(compliance: float, of_last: str = "") -> str:
+    """The same, drive and load coupled within the faces of second gears."""
+    text = all_bent(compliance, of_last)
+    return text.replace('torque_at = "0.0 mm"', 'torque_at = "60 mm"').replace(
+        'torque_at = "90.0 mm"', 'torque_at = "60 mm"'
+    )
+
+
+@pytest.mark.parametrize(
+    "bent", [bent_paths, *(pytest.param(each, marks=pytest.mark.nightly) for each in (all_bent, coupled_within))]
+)
+def test_clocked_paths_on_stiff_shafts_are_those_on_rigid_shafts(bent):
     """Limit: of a millionth of the compliance paths share as on rigid shafts, here unevenly."""
     clocking = 'clocking = "1e-4 rad"\n'
     rigid = simulate_train(train_from_text(helical_paths(clocking)))
-    stiff = simulate_train(train_from_text(bent_paths(1e-6, clocking)))
+    stiff = simulate_train(train_from_text(bent(1e-6, clocking)))
     assert (rigid["path_share"].isel(mesh=[1, 3]) < 0.49).all()
     for name in ("path_share", "overall_transmission_error", "line_load", "transmission_error"):
         size = np.nanmax(np.abs(rigid[name].values))
         assert stiff[name].values == pytest.approx(rigid[name].values, abs=1e-5 * size, nan_ok=True), name
+
+
+def test_shafts_that_carry_both_paths_bend_as_their_bearings_are_loaded():
+    """Statics in space: bearings of the first and the last shaft, with two gears each, have the textbook's forces of
+    their meshes, each under the torque that its path carries."""
+    scene = train_from_text(all_bent(1.0))
+    found = simulate_train(scene)
+    forces = found[[f"bearing_force_{axis}" for axis in "xyz"]].to_array()
+    shafts = [str(name).partition(" ")[0] for name in found["bearing"].values]
+    for shaft, meshes, on in (("first", (0, 1), -1.0), ("last", (2, 3), 1.0)):
+        own = forces.isel(bearing=[place for place, name in enumerate(shafts) if name == shaft])
+        # Of both meshes the sum has the direction of one under the whole torque; paths stand opposite each other.
+        wanted = 0.0
+        for mesh in meshes:
+            share = found["normal_force"].isel(mesh=mesh).values
+            of_one = textbook_force(scene.meshes[mesh], 1.0 if shaft == "first" else -1.0)
+            lever = scene.meshes[mesh].pair
+            size = np.linalg.norm(of_one)
+            nominal = scene.meshes[mesh].scene.load.wheel_torque / lever.wheel.base_radius / lever.cosine
+            wanted = wanted + on * np.outer(share / nominal, of_one)
+        total = own.sum("bearing").transpose("time", "variable").values
+        assert total == pytest.approx(wanted, abs=1e-8 * size)

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.linalg import block_diag, eigh
 
 from fenics_gears.dynamics.bearings import Bearing
-from fenics_gears.dynamics.elastic_shaft import FIVE, ElasticShaft
+from fenics_gears.dynamics.elastic_shaft import FIVE, ElasticShaft, SeatedGear
 from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.dynamics.shafts import ShaftSection
 
@@ -35,7 +35,7 @@ def by_ross(python: str, shaft: ElasticShaft, pieces: int) -> tuple[np.ndarray, 
     """Displacements (5, 5) of the gear's middle per load, and natural frequencies, Hz."""
     ends = np.cumsum([0.0, *(each.length for each in shaft.sections)])
     within = [np.linspace(a, b, pieces + 1) for a, b in zip(ends, ends[1:])]
-    places = np.unique(np.concatenate([ends, [shaft.gear_at], [each.at for each in shaft.bearings], *within]))
+    places = np.unique(np.concatenate([ends, [shaft.seats[0].at], [each.at for each in shaft.bearings], *within]))
     elements = []
     for left, right in zip(places, places[1:]):
         number = int(np.searchsorted(ends, 0.5 * (left + right))) - 1
@@ -50,7 +50,7 @@ def by_ross(python: str, shaft: ElasticShaft, pieces: int) -> tuple[np.ndarray, 
         "material": shaft.material,
         "elements": elements,
         "bearings": [[node(each.at), each.radial_stiffness, each.axial_stiffness] for each in shaft.bearings],
-        "node": node(shaft.gear_at),
+        "node": node(shaft.seats[0].at),
         "density": DENSITY,
         "disc": DISC,
     }
@@ -81,7 +81,7 @@ def compared(python: str) -> dict[str, tuple[tuple[np.ndarray, np.ndarray], tupl
     """Displacements (5, 5) per load and natural frequencies, by this program and by ROSS, for each shaft."""
     found = {}
     for name, (sections, gear_at, pieces) in SHAFTS.items():
-        shaft = ElasticShaft("pinion", sections, (206e3, 0.3), gear_at, 0.0, 0.0, BEARINGS)
+        shaft = ElasticShaft("pinion", sections, (206e3, 0.3), (SeatedGear("pinion", gear_at),), 0.0, BEARINGS)
         own = np.linalg.inv(ShaftSystem((shaft,)).stiffness), free_frequencies(shaft)
         found[name] = own, by_ross(python, shaft, pieces)
     return found
