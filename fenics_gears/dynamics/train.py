@@ -1,8 +1,9 @@
 """Rotations and centres of all gears of a train, the turn of its first shaft prescribed.
 
-A shaft's rotation is counted as the meshes do that drive it, and carried as the arc of a base circle (mm). In a mesh
-that it drives, whose frame is the mirror image, the same rotation counts the other way, whether an idler drives there
-or another gear on the shaft. A shaft that twists adds its twist between the gears that are driven and those that drive,
+A shaft's rotation is counted as the meshes do that drive it, and carried as the arc of a base circle (mm), which of an
+internal gear has a negative radius. In a mesh that it drives, whose frame is the mirror image, the same rotation counts
+the other way, whether an idler drives there or another gear on the shaft; where an internal gear is driven, the frame
+stays. A shaft that twists adds its twist between the gears that are driven and those that drive,
 or the load, as the arc of what is at its far end. All matrices are summed over gears and shafts, each of which moves by
 its own rows of the coordinates.
 """
@@ -139,13 +140,23 @@ class _Rows:
         own = self.of(f"rotation_{shaft + 1}")
         if shaft == 0 or side != PINION:
             return own
-        return (0.0 if self.graph.driven(gear) else self.of(f"twist_{shaft + 1}")) - own
+        # Of external gears the frame is the mirror image.
+        return (0.0 if self.graph.driven(gear) else self.of(f"twist_{shaft + 1}")) + self.onwards(shaft) * own
+
+    def onwards(self, shaft: int) -> int:
+        """1 where the gear that is driven on a shaft is internal, -1 where it turns against its mate."""
+        return self.graph.onwards(self.graph.into(shaft)[0])
 
     @property
     def end(self) -> np.ndarray:
         """Rotation of the load."""
         number = self.graph.last + 1
         return self.of(f"rotation_{number}") + self.of(f"twist_{number}")
+
+    @property
+    def lag(self) -> np.ndarray:
+        """The same against the nominal rotation: of an internal gear its frame counts it the other way."""
+        return -self.onwards(self.graph.last) * self.end
 
     def centre(self, gear: int) -> np.ndarray:
         """Displacements (2, k) of a gear's centre, along and off the line of action of its first mesh."""
@@ -169,7 +180,7 @@ class _Rows:
         motion = np.zeros(len(self.names))
         for shaft in shafts:
             place = self.names.index(f"rotation_{shaft + 1}")
-            motion[place] = self.radii[place] * float(turns[shaft] / turns[shafts[0]])
+            motion[place] = abs(self.radii[place]) * float(turns[shaft] / turns[shafts[0]])
         return tuple(motion / np.linalg.norm(motion))
 
 
@@ -197,15 +208,15 @@ def train_drivetrain(
         rows.names,
         rows.radii,
         stiffness,
-        parts.torque * rows.end,
+        parts.torque * rows.lag,
         _mass(rows) if parts.masses else None,
         None,
         MeshSprings(cosines * flanks(MESH_DIRECTION), flanks(ACROSS_DIRECTION)),
         bearing_stiffness=in_bearings,
         motions=tuple(rows.motion_of(shafts, turns) for shafts in graph.cuts),
-        angle=rows.of(f"rotation_{graph.last + 1}"),
+        angle=-rows.onwards(graph.last) * rows.of(f"rotation_{graph.last + 1}"),
         of_meshes=of_meshes,
-        end=rows.end,
+        end=rows.lag,
     )
     return undamped if damping is None else damped(undamped, damping, mesh_stiffness)
 
@@ -273,7 +284,7 @@ def drivetrain_of_mesh(
     train."""
     turning = ("rotation", "tilt")
     radii = np.array([pair.base_radii[int(name[-1]) - 1] if name.startswith(turning) else 1.0 for name in names])
-    load = np.array([wheel_torque if name == "rotation_2" else 0.0 for name in names]) / radii
+    load = np.array([wheel_torque if name == "rotation_2" else 0.0 for name in names]) / np.abs(radii)
     nothing = np.zeros((len(names), len(names)))
     in_bearings = nothing.copy()
     for number, support in enumerate(supports, 1):

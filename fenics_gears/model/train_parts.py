@@ -61,7 +61,7 @@ def offsets_of(
         own = np.zeros(len(names))
         # A wheel's rotation is counted against the sense in which it turns.
         for side, (gear, sign) in enumerate(zip(mesh.gears, (1.0, -1.0))):
-            own[names.index(f"rotation_{side + 1}")] = sign * mesh.pair.base_radii[side] * ahead.get(gear, 0.0)
+            own[names.index(f"rotation_{side + 1}")] = sign * abs(mesh.pair.base_radii[side]) * ahead.get(gear, 0.0)
         found.append(own)
     return found
 

@@ -109,7 +109,7 @@ class RowResult:
     def _driving_work(self, steps: int) -> float:
         """Work (N mm) of the drive over so many steps without losses."""
         driving = [self._row.models[mesh] for mesh in self._row.graph.out_of(0)]
-        torque = sum(each.scene.load.wheel_torque * each.pair.rotation_ratio for each in driving)
+        torque = sum(each.scene.load.wheel_torque * abs(each.pair.rotation_ratio) for each in driving)
         first = driving[0]
         return torque * first.pair.pinion.angular_pitch * steps / first.resolution.steps_per_mesh_cycle
 

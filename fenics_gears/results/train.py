@@ -114,7 +114,8 @@ def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.n
         sides = [mesh.gears for mesh in model.scene.meshes]
         ends = [[both[0] for both in sides].index(carried[0][0]), [both[1] for both in sides].index(carried[-1][0])]
         first, last = (np.asarray(meshes[number].variables["rotation"][1]) for number in ends)
-        return np.asarray(meshes[0].variables["time"][1]), last[:, 1] + first[:, 0] / model.scene.ratio
+        lag = model.scene.meshes[ends[1]].pair.wheel.sign * last[:, 1]
+        return np.asarray(meshes[0].variables["time"][1]), lag + first[:, 0] / model.scene.ratio
     frequencies = [own.scene.motion.mesh_frequency for own in model.models]
     steps = [frequency * each.numbers["steps_per_mesh_cycle"] for frequency, each in zip(frequencies, meshes)]
     cycles = model.models[0].scene.motion.mesh_cycles
@@ -131,7 +132,7 @@ def of_last_shaft(model: TrainModel, lags: Iterable[Any]) -> Any:
     """Lag (rad) of the last shaft, of what the wheel of each mesh lags: each through the ratios behind it."""
     whole: Any = 0.0
     for own, lag in zip(model.models, lags):
-        whole = whole * own.pair.rotation_ratio + lag
+        whole = whole * abs(own.pair.rotation_ratio) + lag
     return whole
 
 

@@ -209,13 +209,7 @@ def _scene_of(
     in_its_stage = partial(in_stage, mesh.stage, places, shared.keys() - inner.keys())
     put = Placed(lambda path: place_of(on_shafts, path) or in_its_stage(path), partial(in_words_of_train, on_shafts))
     label = f"{source}, stage {mesh.stage}"
-    scene = pair_scene(sections, name, label, folder, put)
-    if scene.gears.wheel.teeth < 0:
-        raise SceneError(
-            f"{label}: an internal gear is not computed in a train yet. Allowed: external gears in a train, an internal"
-            f" wheel in a scene of one pair. {NOTHING_DONE}"
-        )
-    return scene
+    return pair_scene(sections, name, label, folder, put)
 
 
 def _direction(mesh: NamedMesh, content: Mapping[str, Any], source: str) -> float:
@@ -275,5 +269,5 @@ def even_torques(layout: Layout, output: float) -> list[float]:
         driving = graph.into(shaft)
         for mesh in driving:
             found[mesh] = on_shafts[shaft] / len(driving)
-            on_shafts[graph.between[mesh][0]] += found[mesh] * layout.pairs[mesh].rotation_ratio
+            on_shafts[graph.between[mesh][0]] += found[mesh] * abs(layout.pairs[mesh].rotation_ratio)
     return found

@@ -41,11 +41,17 @@ def layout_of(meshes: Sequence[MeshOfScene]) -> Layout:
     names = gear_names(meshes)
     of_gear = {name: shaft for mesh in meshes for name, shaft in zip(mesh.gears, mesh.shafts)}
     shafts = sorted({*of_gear.values()})
-    turning = {shaft: sense for mesh in meshes for shaft, sense in zip(mesh.shafts, (mesh.sense, -mesh.sense))}
+    internal = frozenset(number for number, mesh in enumerate(meshes) if mesh.pair.wheel.internal)
+    turning = {
+        shaft: sense
+        for number, mesh in enumerate(meshes)
+        for shaft, sense in zip(mesh.shafts, (mesh.sense, mesh.sense if number in internal else -mesh.sense))
+    }
     graph = TrainGraph(
         tuple((names.index(mesh.gears[0]), names.index(mesh.gears[1])) for mesh in meshes),
         tuple(shafts.index(of_gear[name]) for name in names),
         tuple(turning[shaft] for shaft in shafts),
+        internal,
     )
     return Layout(graph, [mesh.pair for mesh in meshes], [mesh.direction for mesh in meshes])
 

@@ -179,7 +179,9 @@ def _row_in_plane(
 ) -> RowCycle:
     bodies = list(_bodies(row, progress, cache))
     coupled = [
-        GearInPlane(row.gear(gear).teeth, shared, bodies[gear].section, row.models[shared.meshes[0]].pair.face_width)
+        GearInPlane(
+            row.gear(gear).tooth_count, shared, bodies[gear].section, row.models[shared.meshes[0]].pair.face_width
+        )
         for gear in row.graph.shared
         for shared in couplings(row.layout, gear)
     ]
