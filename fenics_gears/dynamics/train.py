@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from math import isfinite
+from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -73,7 +73,8 @@ class TrainParts:
     `torsion`: stiffness (N mm/rad) of each shaft, of the first between drive and gears, of the last between gears and
     load, of others between the gears that are driven and those that only drive, infinite where it is rigid. By gear:
     `masses`, none without inertia, and `supports` along and off the line of action of its first mesh (N/mm), None where
-    its centre is fixed. `load`: moment of inertia (N mm s^2) on the last shaft.
+    its centre is fixed, infinite where it is fixed beside its place. `load`: moment of inertia (N mm s^2) on the last
+    shaft.
     """
 
     layout: Layout
@@ -99,6 +100,10 @@ class TrainParts:
     def support(self, gear: int) -> tuple[float, float] | None:
         return self.supports[gear] if self.supports else None
 
+    def moves(self, gear: int) -> bool:
+        """Whether the centre of a gear is free to move against its support."""
+        return isfinite((self.support(gear) or (inf,))[0])
+
 
 class _Rows:
     """How each gear moves (k,) by the coordinates of a train, in mm and rad."""
@@ -120,7 +125,7 @@ class _Rows:
                 names.append(f"twist_{shaft + 1}")
                 radii.append((driving or driven)[0])
         for gear in range(len(self.graph.shafts)):
-            if parts.support(gear) is not None:
+            if parts.moves(gear):
                 names += [f"centre_x of gear {gear + 1}", f"centre_y of gear {gear + 1}"]
                 radii += [1.0, 1.0]
         self.names = tuple(names)
@@ -241,7 +246,7 @@ def _stiffness(rows: _Rows) -> tuple[np.ndarray, np.ndarray]:
     in_bearings = np.zeros((len(rows.names), len(rows.names)))
     for gear in range(len(rows.graph.shafts)):
         support = parts.support(gear)
-        if support is not None:
+        if support is not None and parts.moves(gear):
             centre = rows.centre(gear)
             in_bearings += centre.T @ np.diag(support) @ centre
     stiffness = in_bearings.copy()
@@ -290,5 +295,5 @@ def drivetrain_of_mesh(
     for number, support in enumerate(supports, 1):
         for axis, own in zip("xy", support or ()):
             place = names.index(f"centre_{axis}{number}")
-            in_bearings[place, place] = own
+            in_bearings[place, place] = own if isfinite(own) else 0.0
     return Drivetrain(names, radii, nothing, load, None, None, bearing_stiffness=in_bearings)

@@ -27,7 +27,6 @@ from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Load, Motion
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_mesh import MeshOfScene, OfMeshes, rows_of
-from fenics_gears.scene.train_pair_shafts import in_words_of_train
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import mesh_stiffness
@@ -135,10 +134,9 @@ class RowModel(OfMeshes):
     @property
     def warnings_of_meshes(self) -> list[str]:
         """Sentences on each mesh, with its name."""
-        of_meshes = zip(self.meshes, self.models)
-        return [
-            f"{mesh.name}: {in_words_of_train(mesh.bent, said)}" for mesh, own in of_meshes for said in own.warnings
-        ]
+        # Meshes that are like others have the same.
+        of_meshes = [(mesh, own) for mesh, own in zip(self.meshes, self.models) if mesh.like is None]
+        return [f"{mesh.name}: {mesh.words(said)}" for mesh, own in of_meshes for said in own.warnings]
 
     @property
     def over_face(self) -> bool:
@@ -156,6 +154,21 @@ class RowModel(OfMeshes):
         moves."""
         offsets = offsets_of(self.meshes, self.shafts, [model.drivetrain.coordinates for model in self.models])
         return list(zip(self.drivetrain.of_meshes, offsets))
+
+    @property
+    def phases(self) -> list[tuple[float, int]]:
+        """Of each mesh the mesh cycles by which it is past a start of contact as the run begins, and the whole steps
+        by which it is ahead of that: meshes that are like others pass the very same places."""
+        known = self.layout.phases
+        found = []
+        for mesh, model, phase in zip(self.meshes, self.models, known):
+            if mesh.like is None:
+                found.append((phase, 0))
+                continue
+            steps = model.resolution.steps_per_mesh_cycle
+            begins = known[mesh.like]
+            found.append((begins, round(mesh.ahead * steps) + steps * round(phase - begins - float(mesh.ahead))))
+        return found
 
     def gear(self, gear: int) -> Gear:
         """A gear by its number."""

@@ -21,13 +21,14 @@ from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.geometry.train_graph import turns_of_shafts
-from fenics_gears.inputs.problem import NOTHING_DONE, line_numbers, listed
+from fenics_gears.inputs.problem import NOTHING_DONE, Problem, line_numbers, listed
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.units import QuantityError, of_kind
 from fenics_gears.inputs.written import as_written
 
 from .data import Load, Motion, Scene
 from .parsing import is_train, name_of, parsed, text_of
+from .planetary import has_planets, planetary_parts
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
 from .train_layout import check_cut_alike, check_layout
 from .train_mesh import MeshOfScene, OfMeshes, gear_names, layout_of, rows_of
@@ -132,11 +133,16 @@ def exact_turns(layout: Layout) -> list[Fraction]:
 def train_of(tree: Mapping[str, Any], text: str, name: str, source: str, folder: Path) -> TrainScene:
     """The train of a parsed text. Raises SceneError, naming all mistakes of the train or of one of its stages at once,
     and GeometryError for gears that overlap."""
-    sections, problems = checked_train(tree)
+    sections: TrainSections | None = None
+    problems: list[Problem] = []
     meshes: list[MeshOfScene] = []
     try:
-        if sections is not None:
-            meshes = _meshes_of(tree, sections, source, folder)
+        if has_planets(tree):
+            meshes, sections = planetary_parts(tree, source, folder)
+        else:
+            sections, problems = checked_train(tree)
+            if sections is not None:
+                meshes = _meshes_of(tree, sections, source, folder)
     except MistakesOfStage as error:
         problems = error.problems
     if problems or sections is None:
