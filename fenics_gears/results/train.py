@@ -40,7 +40,7 @@ OF_THE_WHOLE = (
 @dataclass(frozen=True)
 class MeshResult:
     """A mesh of a train: its variables, as dimensions, values and labels, its numbers, also those in words, and its
-    warnings. `shafts`: of the first mesh of a train, that of its shafts that bend."""
+    warnings. `shafts`: of the first mesh of a train, that of its shafts that bend, or of its planetary set."""
 
     name: str
     variables: dict[str, tuple]

@@ -42,9 +42,9 @@ from .train_topology import NamedMesh, gears_within, graph_of, named_meshes
 
 @dataclass(frozen=True)
 class TrainScene(OfMeshes):
-    """A train of gears: its meshes from the driven shaft on, torques (N mm) on the first and the last shaft, what its
-    shafts are, and the text that it was read from. `recorded_cycles`: of the slowest mesh, whose steps numbers are
-    taken from where stages move together."""
+    """A train of gears: its meshes from the driven shaft on, torques (N mm) on the first and the last shaft, of a
+    planetary set on its input and its output, what its shafts are, and the text that it was read from.
+    `recorded_cycles`: of the slowest mesh, whose steps numbers are taken from where stages move together."""
 
     title: str
     name: str
@@ -70,12 +70,15 @@ class TrainScene(OfMeshes):
     def input_speed(self) -> float:
         """Turns of the first shaft in a second."""
         first = self.meshes[self.graph.out_of(0)[0]]
-        return first.scene.motion.mesh_frequency / first.pair.pinion.teeth
+        own = first.scene.motion.mesh_frequency / first.pair.pinion.teeth
+        carrier = self.shafts.carrier
+        return own if carrier is None else own / abs(float(carrier.set.sun_by_carrier))
 
     @property
     def ratio(self) -> float:
-        """Turns of the first shaft in one turn of the last."""
-        return 1.0 / self.turns_of_last
+        """Turns of the first shaft in one turn of the last; of a planetary set of its input and its output."""
+        carrier = self.shafts.carrier
+        return 1.0 / self.turns_of_last if carrier is None else abs(float(carrier.set.ratio))
 
     @property
     def turns_of_last(self) -> float:
@@ -263,6 +266,8 @@ def _completed(title: str, name: str, text: str, meshes: Sequence[MeshOfScene], 
         found.append(replace(mesh, scene=replace(mesh.scene, load=Load(torques[number]), motion=moving)))
     recorded = min(motion.recorded_cycles or LAST_CYCLES, cycles)
     of_ends = output * turns[-1], output
+    if (carrier := sections.shafts.carrier) is not None:
+        of_ends = carrier.torque, abs(carrier.set.torques(carrier.torque)[carrier.set.output])
     return TrainScene(title, name, tuple(found), *of_ends, speed is not None, text, sections.shafts, recorded)
 
 
