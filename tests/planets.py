@@ -33,3 +33,40 @@ def written_out(teeth: tuple[int, int, int], angles: list[float], more: str = ""
             own = f'pinion = {pinion}\nwheel = {wheel}\ndirection = "{angle!r} deg"\n{more}'
             stages += f"[stages.{name}]\n{SHARED}\n{own}\n"
     return train_from_text(f'{stages}\n[load]\noutput_torque = "2 kN m"\n[accuracy]\n{COARSE}\n')
+
+
+def planetary_text(
+    teeth: tuple[int, int, int] = (17, 18, 53),
+    planets: str = "planets = 2",
+    parts: tuple[str, str, str] = ("ring", "sun", "carrier"),
+    more: str = "",
+    load: str = 'input_torque = "600 N m"',
+    accuracy: str = COARSE,
+    sections: str = "",
+) -> str:
+    """The scene of a planetary set; `parts`: what is fixed, input and output; `more` of the stage."""
+    sun, planet, ring = teeth
+    fixed, driven, loaded = parts
+    return f"""
+[stages.set]
+kind = "planetary"
+{SHARED}
+{planets}
+sun = {{ teeth = {sun}, profile_shift = 0, bore_diameter = "20 mm" }}
+planet = {{ teeth = {planet}, profile_shift = 0, bore_diameter = "30 mm" }}
+ring = {{ teeth = {ring}, profile_shift = 0, outer_diameter = "{4 * ring + 60} mm", support = "held" }}
+fixed = "{fixed}"
+input = "{driven}"
+output = "{loaded}"
+{more}
+[load]
+{load}
+[accuracy]
+{accuracy}
+{sections}
+"""
+
+
+def planetary(**options) -> TrainScene:
+    """A planetary set; options are those of `planetary_text`."""
+    return train_from_text(planetary_text(**options))

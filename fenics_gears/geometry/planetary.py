@@ -92,12 +92,6 @@ class PlanetarySet:
         return [Fraction(-self.teeth[0] * place, self.turn) % 1 for place in self.places]
 
     @property
-    def whole_cycles(self) -> list[int]:
-        """Cycles by which the ring's meshes are ahead of these phases."""
-        sun, _, ring = self.teeth
-        return [int(Fraction(ring * place, self.turn) - Fraction(-sun * place, self.turn) % 1) for place in self.places]
-
-    @property
     def denominator(self) -> int:
         """Phases are whole multiples of one over this."""
         return lcm(*(each.denominator for each in self.phases))

@@ -167,7 +167,9 @@ class RowModel(OfMeshes):
                 continue
             steps = model.resolution.steps_per_mesh_cycle
             begins = known[mesh.like]
-            found.append((begins, round(mesh.ahead * steps) + steps * round(phase - begins - float(mesh.ahead))))
+            over, under = mesh.ahead
+            whole = round(phase - begins - over / under)
+            found.append((begins, over * steps // under + steps * whole))
         return found
 
     def gear(self, gear: int) -> Gear:

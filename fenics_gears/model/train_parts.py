@@ -119,7 +119,7 @@ def whole_steps(meshes: Sequence[MeshOfScene], least: Sequence[int]) -> list[int
     common = gcd(*units)
     units = [each // common for each in units]
     times = max(ceil(wanted / unit) for wanted, unit in zip(least, units))
-    ahead = lcm(*(mesh.ahead.denominator for mesh in meshes))
+    ahead = lcm(*(mesh.ahead[1] for mesh in meshes))
     times = ahead * ceil(times / ahead)
     steps = [times * unit for unit in units]
     if sum(steps) > MOST_POSITIONS:

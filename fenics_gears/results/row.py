@@ -81,9 +81,9 @@ class RowResult:
             # Trains of pairs have none.
             from .planetary import result_of_set
 
-            curves = [recorder.arrays for recorder in self._recorders]
-            own = result_of_set(self._row, self._row.shafts.carrier, np.concatenate(self._states), curves)
-            found[0] = replace(found[0], shafts=own)
+            arrays = [recorder.arrays for recorder in self._recorders]
+            of_set = result_of_set(self._row, self._row.shafts.carrier, np.concatenate(self._states), arrays)
+            found[0] = replace(found[0], shafts=of_set)
         return found
 
     def _friction_loss(self) -> float:

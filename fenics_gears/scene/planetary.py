@@ -11,7 +11,7 @@ from typing import Any
 
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
-from fenics_gears.geometry.planetary import CARRIER, MEMBERS, RING, SUN, PlanetarySet, planets_that_assemble
+from fenics_gears.geometry.planetary import MEMBERS, RING, PlanetarySet, planets_that_assemble
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean
 from fenics_gears.inputs.section import names_in, read
 from fenics_gears.inputs.written import as_written
@@ -333,12 +333,7 @@ def _meshes(carrier: Carrier, scenes: Sequence[Scene], pairs: Sequence[GearPair]
             found.append(
                 MeshOfScene(
                     f"{carrier.stage}: {name}", scenes[kind], pairs[kind], angle, gears, shafts, sense,
-                    of_set=of_set, like=kind if number else None, ahead=phase,
+                    of_set=of_set, like=kind if number else None, ahead=(phase.numerator, phase.denominator),
                 )
             )  # fmt: skip
     return found
-
-
-def members_of(carrier: Carrier) -> dict[str, str | None]:
-    """Names of the gears of the members that have one."""
-    return {SUN: carrier.sun, RING: carrier.ring, CARRIER: None}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 
 from fenics_gears.geometry.gear_train import Layout
@@ -22,7 +21,7 @@ class MeshOfScene:
     `gears`: names of pinion and wheel; of a gear in several meshes it is the same in all. `shafts`: the numbers of
     those that it joins. `sense`: how its pinion turns, 1 counter-clockwise, -1 clockwise. `bent`: with shafts that
     bend, those that both are on. `of_set`: how a planetary set calls it; its meshes are `like` its first two, but for
-    the mesh cycles that they are `ahead` of a planet at place 0."""
+    the mesh cycles that they are `ahead`, numerator and denominator, of a planet at place 0."""
 
     name: str
     scene: Scene
@@ -34,7 +33,7 @@ class MeshOfScene:
     bent: OfPair = ()
     of_set: OfSet | None = None
     like: int | None = None
-    ahead: Fraction = Fraction(0)
+    ahead: tuple[int, int] = (0, 1)
 
     def words(self, said: str) -> str:
         """What is said of its pair, in words of the train."""
