@@ -32,6 +32,7 @@ from fenics_gears.scene.train_shafts import TrainShafts
 from .drivetrain import mesh_stiffness
 from .face_resolution import face_discretisation
 from .model import Model, model_of
+from .planetary_windows import largest_torque, narrowed, with_own_nodes
 from .shared_gears import reach_of
 from .train_parts import (
     bent_of,
@@ -252,8 +253,13 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
         accuracy = replace(mesh.scene.accuracy, steps_per_mesh_cycle=own, flank_element_size=size)
         if parts.graph.in_loop(number):
             # It may have to carry what all paths do together.
-            alone = replace(mesh.scene, accuracy=accuracy, load=Load(wholes[number]), inertia=None)
+            torque = wholes[number]
+            if shafts.carrier is not None:
+                torque = largest_torque(mesh.scene.load.wheel_torque, torque)
+            alone = replace(mesh.scene, accuracy=accuracy, load=Load(torque), inertia=None)
             wide = model_of_mesh(mesh, alone).resolution.contact_grid.length
+            if shafts.carrier is not None:
+                accuracy = with_own_nodes(accuracy, models[number], wide)
             accuracy = replace(accuracy, contact_length=wide)
         passed = ceil(cycles * max(steps) / own)
         recorded = min(ceil(recorded_cycles * max(steps) / own), passed)
@@ -263,6 +269,8 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
         names = coordinates_of_mesh(parts, number) + (() if bent is None else bent.names_in(number))
         supports = [parts.support(gear) for gear in parts.gears[number]]
         drivetrain = drivetrain_of_mesh(mesh.pair, mesh.scene.load.wheel_torque, names, supports)
+        if shafts.carrier is not None:
+            model = narrowed(model)
         found.append(replace(model, drivetrain=drivetrain))
     check_alike(meshes, found)
     recorded = recorded_cycles * max(steps) if shafts.moving else 0
