@@ -13,9 +13,8 @@ RELIEF = '{ depth = "20 um", start = "HPSTC", shape = "parabolic" }'
 COARSE = 'steps_per_mesh_cycle = 12\nflank_element_size = "0.3 mm"'
 
 
-def written_out(teeth: tuple[int, int, int], angles: list[float], more: str = "") -> TrainScene:
-    """Sun, planets at these angles (degrees) and ring as a train of pairs, under a torque on the ring; `more`: of each
-    mesh."""
+def written_out(teeth: tuple[int, int, int], angles: list[float], accuracy: str = COARSE) -> TrainScene:
+    """Sun, planets at these angles (degrees) and ring as a train of pairs, under a torque on the ring."""
     sun, planet, ring = (f"teeth = {each}, profile_shift = 0" for each in teeth)
     stages = ""
     for number, angle in enumerate(angles):
@@ -30,9 +29,9 @@ def written_out(teeth: tuple[int, int, int], angles: list[float], more: str = ""
             else '"ring0.wheel"',
         )
         for (name, pinion), wheel in zip(gears.items(), wheels):
-            own = f'pinion = {pinion}\nwheel = {wheel}\ndirection = "{angle!r} deg"\n{more}'
+            own = f'pinion = {pinion}\nwheel = {wheel}\ndirection = "{angle!r} deg"'
             stages += f"[stages.{name}]\n{SHARED}\n{own}\n"
-    return train_from_text(f'{stages}\n[load]\noutput_torque = "2 kN m"\n[accuracy]\n{COARSE}\n')
+    return train_from_text(f'{stages}\n[load]\noutput_torque = "2 kN m"\n[accuracy]\n{accuracy}\n')
 
 
 def planetary_text(
