@@ -1,5 +1,6 @@
-"""Contact windows of a planetary set. Rings and planets are nearly conformal, so that windows in which tip edges may
-touch hold hundreds of nodes; and all meshes of a set are solved together."""
+"""Steps, elements and contact windows of a planetary set, all of whose meshes are solved together: it has fewer than as
+many pairs by themselves. Rings and planets are nearly conformal, so that windows in which tip edges may touch hold
+hundreds of nodes."""
 
 from __future__ import annotations
 
@@ -15,9 +16,28 @@ from .resolution import hertz_half_width, in_steps, plane_contact_modulus, steep
 
 if TYPE_CHECKING:
     from fenics_gears.scene.accuracy import Accuracy
+    from fenics_gears.scene.train_mesh import MeshOfScene
 
+# Where a scene does not say: steps of a mesh cycle, and flank elements in a Hertz half-width. FVA's set is then within
+# 0.01 % in the mean transmission error, 0.8 % in its span and 0.6 % in peak pressures of elements half as wide.
+STEPS = 100
+ELEMENTS_PER_HALF_WIDTH = 1.5
 # Of an even share, what one planet may carry: of four planets two opposite ones may carry all.
 LARGEST_SHARE = 2.0
+
+
+def coarser(mesh: MeshOfScene, model: Model) -> Model:
+    """The model of a mesh of a set with the defaults of sets."""
+    asked = mesh.scene.accuracy
+    resolution = model.resolution
+    if asked.steps_per_mesh_cycle is None:
+        resolution = replace(resolution, steps_per_mesh_cycle=STEPS)
+    if asked.flank_element_size is None and resolution.half_width:
+        size = max(resolution.half_width / ELEMENTS_PER_HALF_WIDTH, resolution.flank_element_size)
+        grid = resolution.contact_grid
+        nodes = max(ceil(grid.length / (grid.spacing * size / resolution.flank_element_size)) + 1, 3)
+        resolution = replace(resolution, flank_element_size=size, contact_grid=replace(grid, nodes=nodes))
+    return replace(model, resolution=resolution)
 
 
 def largest_torque(even: float, whole: float) -> float:

@@ -32,7 +32,7 @@ from fenics_gears.scene.train_shafts import TrainShafts
 from .drivetrain import mesh_stiffness
 from .face_resolution import face_discretisation
 from .model import Model, model_of
-from .planetary_windows import largest_torque, narrowed, with_own_nodes
+from .planetary_windows import coarser, largest_torque, narrowed, with_own_nodes
 from .shared_gears import reach_of
 from .train_parts import (
     bent_of,
@@ -242,6 +242,8 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
     TrainScene."""
     check_supports(meshes)
     models = [model_of_mesh(mesh, mesh.scene) for mesh in meshes]
+    if shafts.carrier is not None:
+        models = [coarser(mesh, model) for mesh, model in zip(meshes, models)]
     steps = whole_steps(meshes, [model.resolution.steps_per_mesh_cycle for model in models])
     cycles = meshes[0].scene.motion.mesh_cycles
     parts = parts_of(meshes, shafts)
