@@ -50,6 +50,12 @@ if TYPE_CHECKING:
     from fenics_gears.dynamics.train_shafts import BentShafts
 
 
+REVERSED = (
+    "{}: as the carrier sees it, the ring drives; the set is run with the sun driving: without friction its forces are"
+    " the same, in the reverse order of time"
+)
+
+
 @dataclass(frozen=True)
 class RowModel(OfMeshes):
     """Meshes of a train that move together, or a single one: its `meshes` and the models of their pairs, and the
@@ -123,6 +129,9 @@ class RowModel(OfMeshes):
     @property
     def warnings(self) -> list[str]:
         """Sentences on the motion of all meshes together."""
+        carrier = self.shafts.carrier
+        if carrier is not None and not carrier.set.sun_drives:
+            return [REVERSED.format(carrier.stage)]
         if not self.vibrations:
             return []
         from fenics_gears.dynamics.guidance import time_step_warnings

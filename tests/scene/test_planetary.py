@@ -81,6 +81,13 @@ def test_loads_of_input_and_output_are_one():
     assert given.ratio == pytest.approx(ratio)
 
 
+def test_a_set_that_the_ring_drives_says_so():
+    """The carrier driven, the sun loaded: the sentence of `gears check` and of the result."""
+    said = train_model_of(planetary(parts=("ring", "carrier", "sun"))).warnings
+    assert any("as the carrier sees it, the ring drives" in each for each in said)
+    assert not any("the ring drives" in each for each in train_model_of(planetary()).warnings)
+
+
 def test_steps_hold_all_phases():
     """A mesh cycle has steps for the phases of all planets: thirds here, whatever is asked for."""
     scene = planetary(
