@@ -113,9 +113,9 @@ def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.n
         carried = model.scene.shafts.carried
         sides = [mesh.gears for mesh in model.scene.meshes]
         ends = [[both[0] for both in sides].index(carried[0][0]), [both[1] for both in sides].index(carried[-1][0])]
-        first, last = (np.asarray(meshes[number].variables["rotation"][1]) for number in ends)
-        lag = model.scene.meshes[ends[1]].pair.wheel.sign * last[:, 1]
-        return np.asarray(meshes[0].variables["time"][1]), lag + first[:, 0] / model.scene.ratio
+        first, last = (np.asarray(meshes[number].variables["rotation"][1])[:, side] for side, number in enumerate(ends))
+        lag = model.scene.meshes[ends[1]].pair.wheel.sign * last + first / model.scene.ratio
+        return np.asarray(meshes[0].variables["time"][1]), lag
     frequencies = [own.scene.motion.mesh_frequency for own in model.models]
     steps = [frequency * each.numbers["steps_per_mesh_cycle"] for frequency, each in zip(frequencies, meshes)]
     cycles = model.models[0].scene.motion.mesh_cycles

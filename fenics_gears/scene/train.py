@@ -28,7 +28,8 @@ from fenics_gears.inputs.written import as_written
 
 from .data import Load, Motion, Scene
 from .parsing import is_train, name_of, parsed, text_of
-from .planetary import has_planets, planetary_parts
+from .planetary import planetary_parts
+from .planetary_rules import has_planets
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
 from .train_layout import check_cut_alike, check_layout
 from .train_mesh import MeshOfScene, OfMeshes, gear_names, layout_of, rows_of
