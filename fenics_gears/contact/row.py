@@ -22,15 +22,30 @@ from .step_solver import StepProblem, StepSolution, solve_step
 from .tooth_pair import PairNodes
 
 
-def at_phase(mesh: Mesh, phase: float) -> Mesh:
-    """A mesh whose pairs are so many mesh cycles (0 to 1) further on their way."""
+def at_phase(mesh: Mesh, phase: float, ahead: int = 0, steps: int = 1) -> Mesh:
+    """A mesh whose pairs are so many mesh cycles (0 to 1) further on their way, and further `ahead` by whole steps, of
+    which a mesh cycle has so many: then they pass the very same places, to the last digit."""
+
+    def place(each: float) -> tuple[int, float]:
+        """Whole mesh cycles before a place, and the rest."""
+        if not ahead:
+            return 0, each
+        step = each * steps
+        whole = round(step)
+        cycles, rest = divmod((whole if abs(step - whole) < STEP_ROUND_OFF else step) + ahead, steps)
+        return int(cycles), rest / steps
 
     def nodes(phases: Sequence[float]) -> list[tuple[PairNodes, ...]]:
-        passed = [floor(each + phase) for each in phases]
-        found = mesh.nodes([each + phase - whole for each, whole in zip(phases, passed)])
-        return [counted_from(-whole, pairs) for whole, pairs in zip(passed, found)]
+        places = [place(each) for each in phases]
+        passed = [floor(each + phase) for _, each in places]
+        found = mesh.nodes([each + phase - whole for (_, each), whole in zip(places, passed)])
+        return [counted_from(-whole - before, pairs) for whole, (before, _), pairs in zip(passed, places, found)]
 
-    return replace(mesh, nodes=nodes, ahead=phase) if phase else mesh
+    return replace(mesh, nodes=nodes, ahead=phase + ahead / steps) if phase or ahead else mesh
+
+
+# Of places in steps.
+STEP_ROUND_OFF = 1e-6
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,9 @@
 """Rotations and centres of all gears of a train, the turn of its first shaft prescribed.
 
-A shaft's rotation is counted as the meshes do that drive it, and carried as the arc of a base circle (mm). In a mesh
-that it drives, whose frame is the mirror image, the same rotation counts the other way, whether an idler drives there
-or another gear on the shaft. A shaft that twists adds its twist between the gears that are driven and those that drive,
+A shaft's rotation is counted as the meshes do that drive it, and carried as the arc of a base circle (mm), which of an
+internal gear has a negative radius. In a mesh that it drives, whose frame is the mirror image, the same rotation counts
+the other way, whether an idler drives there or another gear on the shaft; where an internal gear is driven, the frame
+stays. A shaft that twists adds its twist between the gears that are driven and those that drive,
 or the load, as the arc of what is at its far end. All matrices are summed over gears and shafts, each of which moves by
 its own rows of the coordinates.
 """
@@ -12,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from math import isfinite
+from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -74,8 +75,8 @@ class TrainParts:
     `torsion`: stiffness (N mm/rad) of each shaft, of the first between drive and gears, of the last between gears and
     load, of others between the gears that are driven and those that only drive, infinite where it is rigid. By gear:
     `masses`, none without inertia, and `supports` along and off the line of action of its first mesh (N/mm), None where
-    its centre is fixed. `load`: moment of inertia (N mm s^2) on the last shaft. `turning`: numbers of gears that turn
-    against their shaft, one that bends.
+    its centre is fixed, infinite where it is fixed beside its place. `load`: moment of inertia (N mm s^2) on the last
+    shaft. `turning`: numbers of gears that turn against their shaft, one that bends.
     """
 
     layout: Layout
@@ -102,6 +103,10 @@ class TrainParts:
     def support(self, gear: int) -> tuple[float, float] | None:
         return self.supports[gear] if self.supports else None
 
+    def moves(self, gear: int) -> bool:
+        """Whether the centre of a gear is free to move against its support."""
+        return isfinite((self.support(gear) or (inf,))[0])
+
 
 class _Rows:
     """How each gear moves (k,) by the coordinates of a train, in mm and rad."""
@@ -127,7 +132,7 @@ class _Rows:
             names.append(f"turn of gear {gear + 1}")
             radii.append(pairs[mesh].base_radii[side])
         for gear in range(len(self.graph.shafts)):
-            if parts.support(gear) is not None:
+            if parts.moves(gear):
                 names += [f"centre_x of gear {gear + 1}", f"centre_y of gear {gear + 1}"]
                 radii += [1.0, 1.0]
         self.names = tuple(names)
@@ -148,13 +153,23 @@ class _Rows:
         if shaft == 0 or side != PINION:
             return own
         with_shaft = self.graph.driven(gear) or gear in self.parts.turning
-        return (0.0 if with_shaft else self.of(f"twist_{shaft + 1}")) - own
+        # Of external gears the frame is the mirror image.
+        return (0.0 if with_shaft else self.of(f"twist_{shaft + 1}")) + self.onwards(shaft) * own
+
+    def onwards(self, shaft: int) -> int:
+        """1 where the gear that is driven on a shaft is internal, -1 where it turns against its mate."""
+        return self.graph.onwards(self.graph.into(shaft)[0])
 
     @property
     def end(self) -> np.ndarray:
         """Rotation of the load."""
         number = self.graph.last + 1
         return self.of(f"rotation_{number}") + self.of(f"twist_{number}")
+
+    @property
+    def lag(self) -> np.ndarray:
+        """The same against the nominal rotation: of an internal gear its frame counts it the other way."""
+        return -self.onwards(self.graph.last) * self.end
 
     def centre(self, gear: int) -> np.ndarray:
         """Displacements (2, k) of a gear's centre, along and off the line of action of its first mesh."""
@@ -178,7 +193,7 @@ class _Rows:
         motion = np.zeros(len(self.names))
         for shaft in shafts:
             place = self.names.index(f"rotation_{shaft + 1}")
-            motion[place] = self.radii[place] * float(turns[shaft] / turns[shafts[0]])
+            motion[place] = abs(self.radii[place]) * float(turns[shaft] / turns[shafts[0]])
         return tuple(motion / np.linalg.norm(motion))
 
 
@@ -206,15 +221,15 @@ def train_drivetrain(
         rows.names,
         rows.radii,
         stiffness,
-        parts.torque * rows.end,
+        parts.torque * rows.lag,
         _mass(rows) if parts.masses else None,
         None,
         MeshSprings(cosines * flanks(MESH_DIRECTION), flanks(ACROSS_DIRECTION)),
         bearing_stiffness=in_bearings,
         motions=tuple(rows.motion_of(shafts, turns) for shafts in graph.cuts),
-        angle=rows.of(f"rotation_{graph.last + 1}"),
+        angle=-rows.onwards(graph.last) * rows.of(f"rotation_{graph.last + 1}"),
         of_meshes=of_meshes,
-        end=rows.end,
+        end=rows.lag,
     )
     return undamped if damping is None else damped(undamped, damping, mesh_stiffness)
 
@@ -239,7 +254,7 @@ def _stiffness(rows: _Rows) -> tuple[np.ndarray, np.ndarray]:
     in_bearings = np.zeros((len(rows.names), len(rows.names)))
     for gear in range(len(rows.graph.shafts)):
         support = parts.support(gear)
-        if support is not None:
+        if support is not None and parts.moves(gear):
             centre = rows.centre(gear)
             in_bearings += centre.T @ np.diag(support) @ centre
     stiffness = in_bearings.copy()
@@ -283,13 +298,13 @@ def drivetrain_of_mesh(
     train; `seats`: those that give way."""
     turning = ("rotation", "tilt")
     radii = np.array([pair.base_radii[int(name[-1]) - 1] if name.startswith(turning) else 1.0 for name in names])
-    load = np.array([wheel_torque if name == "rotation_2" else 0.0 for name in names]) / radii
+    load = np.array([wheel_torque if name == "rotation_2" else 0.0 for name in names]) / np.abs(radii)
     nothing = np.zeros((len(names), len(names)))
     in_bearings = nothing.copy()
     for number, support in enumerate(supports, 1):
         for axis, own in zip("xy", support or ()):
             place = names.index(f"centre_{axis}{number}")
-            in_bearings[place, place] = own
+            in_bearings[place, place] = own if isfinite(own) else 0.0
     stiffness = nothing.copy()
     for seat in seats:
         places = [names.index(name) for name in seat.of_face]

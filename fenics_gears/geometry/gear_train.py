@@ -51,7 +51,8 @@ class SharedGear:
 @dataclass(frozen=True)
 class Layout:
     """Where the meshes of a train stand: the `pairs` of its gears, and the `directions` (rad) of each wheel from its
-    pinion, counter-clockwise, where the first shaft turns so."""
+    pinion, counter-clockwise, where the first shaft turns so. That of an internal gear is the direction in which its
+    teeth are, away from its centre: the distance of the centres is negative."""
 
     graph: TrainGraph
     pairs: Sequence[GearPair]
@@ -162,6 +163,15 @@ def _within_a_cycle(phase: float) -> float:
 
 def check_apart(one: Gear, other: Gear, distance: float, words: str) -> None:
     """Raise GeometryError where two gears that do not mesh overlap; `words`: which."""
+    if one.internal or other.internal:
+        ring, within = (one, other) if one.internal else (other, one)
+        if distance + within.tip_radius > abs(ring.tip_radius):
+            raise GeometryError(
+                f"{words} overlap: their centres are {distance:.4g} mm apart, and the smaller one reaches"
+                f" {distance + within.tip_radius:.4g} mm from the centre of the internal gear, whose tip circle has a"
+                f" radius of {abs(ring.tip_radius):.4g} mm; change the directions of the meshes"
+            )
+        return
     if distance < one.tip_radius + other.tip_radius:
         raise GeometryError(
             f"{words} overlap: their centres are {distance:.4g} mm apart, their tip circles need"

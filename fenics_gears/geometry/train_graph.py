@@ -19,11 +19,13 @@ class TrainGraph:
     """Meshes between shafts. `gears`: of each mesh the numbers of its pinion and its wheel; `shafts`: of each gear the
     number of its shaft. Shafts are numbered from the driven one, 0, to that of the load, the last one, so that each
     mesh leads to a higher number. `turning`: how each turns, 1 counter-clockwise, -1 clockwise; unless given the first
-    one counter-clockwise, and gears that mesh against each other."""
+    one counter-clockwise. Gears that mesh turn against each other, but in the meshes of `internal` the same way: their
+    wheel is an internal gear."""
 
     gears: tuple[tuple[int, int], ...]
     shafts: tuple[int, ...]
     turning: tuple[int, ...] = ()
+    internal: frozenset[int] = frozenset()
 
     @property
     def last(self) -> int:
@@ -85,9 +87,13 @@ class TrainGraph:
         if self.turning:
             return self.turning
         found = {0: 1}
-        for driving, driven in sorted(self.between):
-            found.setdefault(driven, -found[driving])
+        for mesh, (driving, driven) in sorted(enumerate(self.between), key=lambda each: each[1]):
+            found.setdefault(driven, self.onwards(mesh) * found[driving])
         return [found[shaft] for shaft in range(self.last + 1)]
+
+    def onwards(self, mesh: int) -> int:
+        """1 where both gears of a mesh turn the same way, -1 where they turn against each other."""
+        return 1 if mesh in self.internal else -1
 
     def sense(self, mesh: int) -> int:
         """How the pinion of a mesh turns, whose frame is the mirror image where this is -1."""
@@ -162,5 +168,5 @@ def turns_of_shafts(graph: TrainGraph, teeth: Sequence[tuple[int, int]]) -> list
     """Turns of each shaft in one turn of the first, by the teeth of both gears of each mesh; in either sense."""
     found = [Fraction(1)] * (graph.last + 1)
     for mesh, (driving, driven) in sorted(enumerate(graph.between), key=lambda each: each[1]):
-        found[driven] = found[driving] * Fraction(*teeth[mesh])
+        found[driven] = found[driving] * abs(Fraction(*teeth[mesh]))
     return found

@@ -35,7 +35,7 @@ def _clockings(scene: TrainScene) -> Iterator[Row]:
         if len(gears) != 2 or not all(any(graph.in_loop(mesh) for mesh, _ in graph.sides[gear]) for gear in gears):
             continue
         one, other = gears
-        pitch = 2.0 * pi / lcm(*(layout.gear(gear).teeth for gear in gears))
+        pitch = 2.0 * pi / lcm(*(layout.gear(gear).tooth_count for gear in gears))
         angle = (layout.tooth_angle(other) - layout.tooth_angle(one)) % pitch
         words = (
             f"rad: 0 closes the loop exactly, where a tooth of {names[other]} stands {180.0 / pi * angle:.5g} deg"

@@ -130,7 +130,7 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain, removal: tuple
     smallest = min(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end))
     half_width = hertz_half_width(load, smallest, plane_contact_modulus(scene))
     size = asked.flank_element_size or _flank_element_size(scene, half_width)
-    shift = _widest(pair) * steepest_relief(pair, removal)
+    shift = widest(pair) * steepest_relief(pair, removal)
     length = asked.contact_length or _contact_length(scene, pair, load, half_width, size, shift)
     spacing = NODE_SPACING * size if (asked.element or DEFAULT_ELEMENT).endswith("2") else size
     nodes = asked.contact_nodes or max(ceil(length / spacing), 2) + 1
@@ -140,7 +140,7 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain, removal: tuple
         from .face_resolution import inner_length
 
         modulus = plane_contact_modulus(scene)
-        half_width_of = partial(hertz_half_width, relative_radius=_widest(pair), plane_modulus=modulus)
+        half_width_of = partial(hertz_half_width, relative_radius=widest(pair), plane_modulus=modulus)
         needed = inner_length(scene, pair, load, half_width_of) + 2.0 * shift + 2.0 * spacing
         inner = in_steps(needed, length)
     return Resolution(
@@ -214,12 +214,12 @@ def _contact_length(
     """Where teeth may touch off the line of action, mm: as far as their deflection lets them, or reliefs `shift` the
     contact (mm)."""
     deflection = line_load / (LEAST_PAIR_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity))
-    reach = max(sqrt(2.0 * _widest(pair) * deflection), shift)
+    reach = max(sqrt(2.0 * widest(pair) * deflection), shift)
     wanted = 2.0 * (reach + SPARE_HALF_WIDTHS * half_width + 2.0 * size)
     return min(wanted, LONGEST_WINDOW * scene.gears.module)
 
 
-def _widest(pair: GearPair) -> float:
+def widest(pair: GearPair) -> float:
     """The largest relative radius (mm) on the path of contact."""
     middle = min(max(0.5 * pair.line_of_action_length, pair.path_start), pair.path_end)
     return max(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end, middle))

@@ -30,7 +30,7 @@ def couplings(layout: Layout, gear: int) -> list[SharedGear]:
 def reach_of(models: Sequence[Model], layout: Layout, gear: int) -> Reach:
     """Between which teeth of a gear of several meshes compliance is needed: on its flanks of each mesh, and from one to
     another."""
-    teeth = layout.gear(gear).teeth
+    teeth = layout.gear(gear).tooth_count
     same = max(models[mesh].touching.reach.same for mesh, _ in layout.graph.sides[gear])
     across: list[tuple[int, int]] = []
     for shared in couplings(layout, gear):

@@ -29,12 +29,12 @@ from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Load, Motion
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_mesh import MeshOfScene, OfMeshes, rows_of
-from fenics_gears.scene.train_pair_shafts import in_words_of_train
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import mesh_stiffness
 from .face_resolution import face_discretisation
 from .model import Model, model_of
+from .planetary_windows import coarser, largest_torque, narrowed, with_own_nodes
 from .shared_gears import reach_of
 from .train_parts import (
     bent_of,
@@ -49,6 +49,12 @@ from .train_parts import (
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.train_shafts import BentShafts
+
+
+REVERSED = (
+    "{}: as the carrier sees it, the ring drives; the set is run with the sun driving: without friction its forces are"
+    " the same, in the reverse order of time"
+)
 
 
 @dataclass(frozen=True)
@@ -122,6 +128,9 @@ class RowModel(OfMeshes):
     @property
     def warnings(self) -> list[str]:
         """Sentences on the motion of all meshes together."""
+        carrier = self.shafts.carrier
+        if carrier is not None and not carrier.set.sun_drives:
+            return [REVERSED.format(carrier.stage)]
         if not self.vibrations:
             return []
         fastest = max(self.models, key=lambda model: model.scene.motion.mesh_frequency)
@@ -132,10 +141,9 @@ class RowModel(OfMeshes):
     @property
     def warnings_of_meshes(self) -> list[str]:
         """Sentences on each mesh, with its name."""
-        of_meshes = zip(self.meshes, self.models)
-        return [
-            f"{mesh.name}: {in_words_of_train(mesh.bent, said)}" for mesh, own in of_meshes for said in own.warnings
-        ]
+        # Meshes that are like others have the same.
+        of_meshes = [(mesh, own) for mesh, own in zip(self.meshes, self.models) if mesh.like is None]
+        return [f"{mesh.name}: {mesh.words(said)}" for mesh, own in of_meshes for said in own.warnings]
 
     @property
     def over_face(self) -> bool:
@@ -153,6 +161,23 @@ class RowModel(OfMeshes):
         moves."""
         offsets = offsets_of(self.meshes, self.shafts, [model.drivetrain.coordinates for model in self.models])
         return list(zip(self.drivetrain.of_meshes, offsets))
+
+    @property
+    def phases(self) -> list[tuple[float, int]]:
+        """Of each mesh the mesh cycles by which it is past a start of contact as the run begins, and the whole steps
+        by which it is ahead of that: meshes that are like others pass the very same places."""
+        known = self.layout.phases
+        found = []
+        for mesh, model, phase in zip(self.meshes, self.models, known):
+            if mesh.like is None:
+                found.append((phase, 0))
+                continue
+            steps = model.resolution.steps_per_mesh_cycle
+            begins = known[mesh.like]
+            over, under = mesh.ahead
+            whole = round(phase - begins - over / under)
+            found.append((begins, over * steps // under + steps * whole))
+        return found
 
     def gear(self, gear: int) -> Gear:
         """A gear by its number."""
@@ -223,6 +248,8 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
     TrainScene."""
     check_supports(meshes)
     models = [model_of_mesh(mesh, mesh.scene) for mesh in meshes]
+    if shafts.carrier is not None:
+        models = [coarser(mesh, model) for mesh, model in zip(meshes, models)]
     steps = whole_steps(meshes, [model.resolution.steps_per_mesh_cycle for model in models])
     cycles = meshes[0].scene.motion.mesh_cycles
     parts = parts_of(meshes, shafts)
@@ -234,8 +261,13 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
         accuracy = replace(mesh.scene.accuracy, steps_per_mesh_cycle=own, flank_element_size=size)
         if parts.graph.in_loop(number):
             # It may have to carry what all paths do together.
-            alone = replace(mesh.scene, accuracy=accuracy, load=Load(wholes[number]), inertia=None)
+            torque = wholes[number]
+            if shafts.carrier is not None:
+                torque = largest_torque(mesh.scene.load.wheel_torque, torque)
+            alone = replace(mesh.scene, accuracy=accuracy, load=Load(torque), inertia=None)
             wide = model_of_mesh(mesh, alone).resolution.contact_grid.length
+            if shafts.carrier is not None:
+                accuracy = with_own_nodes(accuracy, models[number], wide)
             accuracy = replace(accuracy, contact_length=wide)
         passed = ceil(cycles * max(steps) / own)
         recorded = min(ceil(recorded_cycles * max(steps) / own), passed)
@@ -246,6 +278,8 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
         supports = [parts.support(gear) for gear in parts.gears[number]]
         seats = () if bent is None else bent.seats_in(number)
         drivetrain = drivetrain_of_mesh(mesh.pair, mesh.scene.load.wheel_torque, names, supports, seats)
+        if shafts.carrier is not None:
+            model = narrowed(model)
         found.append(replace(model, drivetrain=drivetrain))
     check_alike(meshes, found)
     recorded = recorded_cycles * max(steps) if shafts.moving else 0

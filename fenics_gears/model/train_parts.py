@@ -16,7 +16,6 @@ from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.train_mesh import MeshOfScene, gear_names, layout_of
-from fenics_gears.scene.train_pair_shafts import in_words_of_train
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import lumped_gears
@@ -26,6 +25,7 @@ from .shared_gears import check_shared
 if TYPE_CHECKING:
     from fenics_gears.dynamics.train_shafts import BentShafts
     from fenics_gears.geometry.gear_data import LumpedGear
+    from fenics_gears.scene.carrier import Carrier
 
 # Steps of the mesh cycles of all meshes together: each has its contact operators.
 MOST_POSITIONS = 20000
@@ -42,7 +42,8 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
         mesh = meshes[first]
         if mesh.scene.inertia is not None:
             masses.append(lumped_gears(mesh.scene, mesh.pair)[GEARS[side]])
-        supports.append(_support(mesh.scene, GEARS[side]))
+        name = mesh.gears[side]
+        supports.append(_support(mesh.scene, GEARS[side]) if shafts.carrier is None else shafts.carrier.support(name))
     torque = sum(meshes[mesh].scene.load.wheel_torque for mesh in graph.into(graph.last))
     torsion = [inf if each is None else each for each in shafts.torsion or (None,) * (graph.last + 1)]
     turning: list[int] = []
@@ -60,16 +61,31 @@ def offsets_of(
     meshes: Sequence[MeshOfScene], shafts: TrainShafts, names_of: Sequence[tuple[str, ...]]
 ) -> list[np.ndarray]:
     """Of each mesh, how its own coordinates (l,), by their names, stand (mm) where nothing moves: by the clocking of
-    shafts, of which the second gear is turned ahead."""
+    shafts, of which the second gear is turned ahead, and by pins beside their places."""
     ahead = {carried[1]: clocking for carried, clocking in zip(shafts.carried, shafts.clocking) if clocking is not None}
+    axes_of = layout_of(meshes).axes
     found = []
-    for mesh, names in zip(meshes, names_of):
+    for number, (mesh, names) in enumerate(zip(meshes, names_of)):
         own = np.zeros(len(names))
         # A wheel's rotation is counted against the sense in which it turns.
         for side, (gear, sign) in enumerate(zip(mesh.gears, (1.0, -1.0))):
-            own[names.index(f"rotation_{side + 1}")] = sign * mesh.pair.base_radii[side] * ahead.get(gear, 0.0)
+            own[names.index(f"rotation_{side + 1}")] = sign * abs(mesh.pair.base_radii[side]) * ahead.get(gear, 0.0)
+        if shafts.carrier is not None:
+            own += _pins_beside(shafts.carrier, mesh, axes_of(number), names)
         found.append(own)
     return found
+
+
+def _pins_beside(carrier: Carrier, mesh: MeshOfScene, axes: np.ndarray, names: tuple[str, ...]) -> np.ndarray:
+    """The same (l,) of the pins of a planetary set; `axes` (2, 2) of the mesh."""
+    own = np.zeros(len(names))
+    for number, gear in enumerate(mesh.gears, 1):
+        beside = carrier.displaced(gear)
+        along = axes @ np.array([beside.real, beside.imag])
+        for axis, size in zip("xy", along):
+            if f"centre_{axis}{number}" in names:
+                own[names.index(f"centre_{axis}{number}")] = size
+    return own
 
 
 def whole_torques(layout: Layout, output: float) -> list[float]:
@@ -89,7 +105,8 @@ def _support(scene: Scene, gear: str) -> tuple[float, float] | None:
 
 def whole_steps(meshes: Sequence[MeshOfScene], least: Sequence[int]) -> list[int]:
     """Steps of the cycle of each mesh, all of one length in time and at least so many: whole numbers, by the teeth of
-    the gears on each shaft. Raises SceneError where they are too many."""
+    the gears on each shaft, and such that meshes are whole steps ahead of those that they are like. Raises SceneError
+    where they are too many."""
     graph = layout_of(meshes).graph
     turns = turns_of_shafts(graph, [(mesh.pair.pinion.teeth, mesh.pair.wheel.teeth) for mesh in meshes])
     lengths = [1 / (turns[shaft] * mesh.pair.pinion.teeth) for mesh, (shaft, _) in zip(meshes, graph.between)]
@@ -98,6 +115,8 @@ def whole_steps(meshes: Sequence[MeshOfScene], least: Sequence[int]) -> list[int
     common = gcd(*units)
     units = [each // common for each in units]
     times = max(ceil(wanted / unit) for wanted, unit in zip(least, units))
+    ahead = lcm(*(mesh.ahead[1] for mesh in meshes))
+    times = ahead * ceil(times / ahead)
     steps = [times * unit for unit in units]
     if sum(steps) > MOST_POSITIONS:
         raise SceneError(
@@ -125,9 +144,9 @@ def model_of_mesh(mesh: MeshOfScene, scene: Scene) -> Model:
     try:
         return model_of(scene)
     except SceneError as error:
-        if not mesh.bent:
+        if not mesh.bent and mesh.of_set is None:
             raise
-        raise SceneError(in_words_of_train(mesh.bent, str(error))) from error
+        raise SceneError(mesh.words(str(error))) from error
 
 
 def bent_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShafts | None:

@@ -56,7 +56,7 @@ def cycles_of_meshes(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]
     found = []
     behind = train.turns_of_last
     for number, mesh in enumerate(train.meshes):
-        behind /= mesh.pair.rotation_ratio
+        behind /= abs(mesh.pair.rotation_ratio)
         frequency = mesh.scene.motion.mesh_frequency
         steps = int(result["steps_per_mesh_cycle"][number])
         error = result["transmission_error"].isel(mesh=number).values

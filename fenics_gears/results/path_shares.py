@@ -46,7 +46,7 @@ def path_shares(model: TrainModel, meshes: Sequence[MeshResult]) -> dict[str, tu
         others = beside(graph, mesh)
         # On the shaft that they have in common.
         side = 1 if graph.between[others[0]][1] == graph.between[mesh][1] else 0
-        on_shaft = [torques[each] * model.models[each].pair.base_radii[side] for each in others]
+        on_shaft = [torques[each] * abs(model.models[each].pair.base_radii[side]) for each in others]
         whole = np.sum(on_shaft, axis=0)
         carried = on_shaft[others.index(mesh)]
         shares.append(np.divide(carried, whole, out=np.full_like(whole, np.nan), where=whole > 0.0))

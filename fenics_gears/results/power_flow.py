@@ -62,7 +62,7 @@ def power_flow(result: xr.Dataset, train: TrainScene) -> PowerFlow:
         for mesh in driving:
             own = torques[shaft] * (shares[mesh] if len(driving) > 1 else 1.0)
             before = graph.between[mesh][0]
-            torques[before] += own * train.meshes[mesh].pair.rotation_ratio / (1.0 - taken[mesh])
+            torques[before] += own * abs(train.meshes[mesh].pair.rotation_ratio) / (1.0 - taken[mesh])
     shafts = [ShaftFlow(train.input_speed * turns, torque) for turns, torque in zip(train.turns, torques)]
     meshes = [
         MeshFlow(", ".join(train.meshes[number].name for number in row), float(1.0 - lost[row[-1]]))

@@ -36,6 +36,8 @@ class RowResult:
         self._driven: list[np.ndarray] = []
         self._last: Steps | None = None
         self._shafts = _shafts_of(row)
+        # Of a planetary set, of its members.
+        self._states: list[np.ndarray] = []
 
     def take(self, solved: Steps, of_meshes: Sequence[Steps]) -> None:
         """The next steps, of all meshes together and of each."""
@@ -43,6 +45,8 @@ class RowResult:
             recorder.take(own)
         if self._shafts is not None:
             self._shafts.take(solved.states[:, 0])
+        if self._row.shafts.carrier is not None:
+            self._states.append(solved.states[:, 0])
         if self._row.models[0].scene.friction is None:
             return
         together = solved if self._last is None else self._last.followed_by(solved)
@@ -73,6 +77,13 @@ class RowResult:
             found[-1].numbers["friction_loss"] = self._friction_loss()
         if self._shafts is not None:
             found[0] = replace(found[0], shafts=self._shafts.result(self._row.recorded))
+        if self._row.shafts.carrier is not None:
+            # Trains of pairs have none.
+            from .planetary import result_of_set
+
+            arrays = [recorder.arrays for recorder in self._recorders]
+            of_set = result_of_set(self._row, self._row.shafts.carrier, np.concatenate(self._states), arrays)
+            found[0] = replace(found[0], shafts=of_set)
         return found
 
     def _friction_loss(self) -> float:
@@ -109,7 +120,7 @@ class RowResult:
     def _driving_work(self, steps: int) -> float:
         """Work (N mm) of the drive over so many steps without losses."""
         driving = [self._row.models[mesh] for mesh in self._row.graph.out_of(0)]
-        torque = sum(each.scene.load.wheel_torque * each.pair.rotation_ratio for each in driving)
+        torque = sum(each.scene.load.wheel_torque * abs(each.pair.rotation_ratio) for each in driving)
         first = driving[0]
         return torque * first.pair.pinion.angular_pitch * steps / first.resolution.steps_per_mesh_cycle
 

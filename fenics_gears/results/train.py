@@ -40,7 +40,7 @@ OF_THE_WHOLE = (
 @dataclass(frozen=True)
 class MeshResult:
     """A mesh of a train: its variables, as dimensions, values and labels, its numbers, also those in words, and its
-    warnings. `shafts`: of the first mesh of a train, that of its shafts that bend."""
+    warnings. `shafts`: of the first mesh of a train, that of its shafts that bend, or of its planetary set."""
 
     name: str
     variables: dict[str, tuple]
@@ -113,8 +113,9 @@ def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.n
         carried = model.scene.shafts.carried
         sides = [mesh.gears for mesh in model.scene.meshes]
         ends = [[both[0] for both in sides].index(carried[0][0]), [both[1] for both in sides].index(carried[-1][0])]
-        first, last = (np.asarray(meshes[number].variables["rotation"][1]) for number in ends)
-        return np.asarray(meshes[0].variables["time"][1]), last[:, 1] + first[:, 0] / model.scene.ratio
+        first, last = (np.asarray(meshes[number].variables["rotation"][1])[:, side] for side, number in enumerate(ends))
+        lag = model.scene.meshes[ends[1]].pair.wheel.sign * last + first / model.scene.ratio
+        return np.asarray(meshes[0].variables["time"][1]), lag
     frequencies = [own.scene.motion.mesh_frequency for own in model.models]
     steps = [frequency * each.numbers["steps_per_mesh_cycle"] for frequency, each in zip(frequencies, meshes)]
     cycles = model.models[0].scene.motion.mesh_cycles
@@ -131,7 +132,7 @@ def of_last_shaft(model: TrainModel, lags: Iterable[Any]) -> Any:
     """Lag (rad) of the last shaft, of what the wheel of each mesh lags: each through the ratios behind it."""
     whole: Any = 0.0
     for own, lag in zip(model.models, lags):
-        whole = whole * own.pair.rotation_ratio + lag
+        whole = whole * abs(own.pair.rotation_ratio) + lag
     return whole
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -32,7 +33,7 @@ class ResultOfShafts:
 
     variables: Variables
     coordinates: Variables
-    numbers: dict[str, float]
+    numbers: dict[str, Any]
 
 
 class ShaftsOfTrain:

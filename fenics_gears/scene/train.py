@@ -29,6 +29,8 @@ from fenics_gears.inputs.written import as_written
 
 from .data import Load, Motion, Scene
 from .parsing import is_train, name_of, parsed, text_of
+from .planetary import planetary_parts
+from .planetary_rules import has_planets
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
 from .train_layout import check_cut_alike, check_layout
 from .train_mesh import MeshOfScene, OfMeshes, gear_names, layout_of, rows_of
@@ -42,9 +44,9 @@ from .train_topology import NamedMesh, gears_within, graph_of, named_meshes
 
 @dataclass(frozen=True)
 class TrainScene(OfMeshes):
-    """A train of gears: its meshes from the driven shaft on, torques (N mm) on the first and the last shaft, what its
-    shafts are, and the text that it was read from. `recorded_cycles`: of the slowest mesh, whose steps numbers are
-    taken from where stages move together."""
+    """A train of gears: its meshes from the driven shaft on, torques (N mm) on the first and the last shaft, of a
+    planetary set on its input and its output, what its shafts are, and the text that it was read from.
+    `recorded_cycles`: of the slowest mesh, whose steps numbers are taken from where stages move together."""
 
     title: str
     name: str
@@ -70,12 +72,15 @@ class TrainScene(OfMeshes):
     def input_speed(self) -> float:
         """Turns of the first shaft in a second."""
         first = self.meshes[self.graph.out_of(0)[0]]
-        return first.scene.motion.mesh_frequency / first.pair.pinion.teeth
+        own = first.scene.motion.mesh_frequency / first.pair.pinion.teeth
+        carrier = self.shafts.carrier
+        return own if carrier is None else own / abs(float(carrier.set.sun_by_carrier))
 
     @property
     def ratio(self) -> float:
-        """Turns of the first shaft in one turn of the last."""
-        return 1.0 / self.turns_of_last
+        """Turns of the first shaft in one turn of the last; of a planetary set of its input and its output."""
+        carrier = self.shafts.carrier
+        return 1.0 / self.turns_of_last if carrier is None else abs(float(carrier.set.ratio))
 
     @property
     def turns_of_last(self) -> float:
@@ -133,12 +138,17 @@ def exact_turns(layout: Layout) -> list[Fraction]:
 def train_of(tree: Mapping[str, Any], text: str, name: str, source: str, folder: Path) -> TrainScene:
     """The train of a parsed text. Raises SceneError, naming all mistakes of the train or of one of its stages at once,
     and GeometryError for gears that overlap."""
-    sections, problems = checked_train(tree)
+    sections: TrainSections | None = None
+    problems: list[Problem] = []
     meshes: list[MeshOfScene] = []
     try:
-        if sections is not None:
-            sections = replace(sections, shafts=located_shafts(sections.shafts, folder))
-            meshes = _meshes_of(tree, sections, source, folder)
+        if has_planets(tree):
+            meshes, sections = planetary_parts(tree, source, folder)
+        else:
+            sections, problems = checked_train(tree)
+            if sections is not None:
+                sections = replace(sections, shafts=located_shafts(sections.shafts, folder))
+                meshes = _meshes_of(tree, sections, source, folder)
     except MistakesOfStage as error:
         problems = error.problems
     if problems or sections is None:
@@ -229,13 +239,7 @@ def _scene_of(
     in_its_stage = partial(in_stage, mesh.stage, places, shared.keys() - inner.keys())
     put = Placed(lambda path: place_of(on_shafts, path) or in_its_stage(path), partial(in_words_of_train, on_shafts))
     label = f"{source}, stage {mesh.stage}"
-    scene = pair_scene(sections, name, label, folder, put)
-    if scene.gears.wheel.teeth < 0:
-        raise SceneError(
-            f"{label}: an internal gear is not computed in a train yet. Allowed: external gears in a train, an internal"
-            f" wheel in a scene of one pair. {NOTHING_DONE}"
-        )
-    return scene
+    return pair_scene(sections, name, label, folder, put)
 
 
 def _direction(mesh: NamedMesh, content: Mapping[str, Any], source: str) -> float:
@@ -283,6 +287,8 @@ def _completed(title: str, name: str, text: str, meshes: Sequence[MeshOfScene], 
         found.append(replace(mesh, scene=replace(mesh.scene, load=Load(torques[number]), motion=moving)))
     recorded = min(motion.recorded_cycles or LAST_CYCLES, cycles)
     of_ends = output * turns[-1], output
+    if (carrier := sections.shafts.carrier) is not None:
+        of_ends = carrier.torque, abs(carrier.set.torques(carrier.torque)[carrier.set.output])
     return TrainScene(title, name, tuple(found), *of_ends, speed is not None, text, sections.shafts, recorded)
 
 
@@ -295,5 +301,5 @@ def even_torques(layout: Layout, output: float) -> list[float]:
         driving = graph.into(shaft)
         for mesh in driving:
             found[mesh] = on_shafts[shaft] / len(driving)
-            on_shafts[graph.between[mesh][0]] += found[mesh] * layout.pairs[mesh].rotation_ratio
+            on_shafts[graph.between[mesh][0]] += found[mesh] * abs(layout.pairs[mesh].rotation_ratio)
     return found

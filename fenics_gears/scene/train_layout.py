@@ -6,6 +6,7 @@ from __future__ import annotations
 from cmath import rect
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from math import pi
 
 import numpy as np
@@ -60,7 +61,7 @@ def _wrong(layout: Layout, names: Sequence[str], gears: Sequence[str]) -> Iterat
     teeth = [(pair.pinion.teeth, pair.wheel.teeth) for pair in layout.pairs]
     turns = turns_of_shafts(graph, teeth)
     for mesh, (driving, driven) in enumerate(graph.between):
-        by_this = turns[driving] * teeth[mesh][0] / teeth[mesh][1]
+        by_this = turns[driving] * abs(Fraction(*teeth[mesh]))
         if by_this != turns[driven]:
             yield (
                 f"the loop that {names[mesh]} closes locks: by this mesh its wheel {gears[graph.gears[mesh][1]]} would"

@@ -10,8 +10,9 @@ from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.train_graph import TrainGraph
 
+from .carrier import OfSet
 from .data import Scene
-from .train_pair_shafts import OfPair
+from .train_pair_shafts import OfPair, in_words_of_train
 
 
 @dataclass(frozen=True)
@@ -19,7 +20,8 @@ class MeshOfScene:
     """A mesh of a train: the `scene` of its pair, its name, and the direction (rad) of its wheel from its pinion.
     `gears`: names of pinion and wheel; of a gear in several meshes it is the same in all. `shafts`: the numbers of
     those that it joins. `sense`: how its pinion turns, 1 counter-clockwise, -1 clockwise. `bent`: with shafts that
-    bend, those that both are on."""
+    bend, those that both are on. `of_set`: how a planetary set calls it; its meshes are `like` its first two, but for
+    the mesh cycles that they are `ahead`, numerator and denominator, of a planet at place 0."""
 
     name: str
     scene: Scene
@@ -29,6 +31,13 @@ class MeshOfScene:
     shafts: tuple[int, int] = (0, 1)
     sense: int = 1
     bent: OfPair = ()
+    of_set: OfSet | None = None
+    like: int | None = None
+    ahead: tuple[int, int] = (0, 1)
+
+    def words(self, said: str) -> str:
+        """What is said of its pair, in words of the train."""
+        return in_words_of_train(self.bent, said) if self.of_set is None else self.of_set.words(said)
 
 
 def gear_names(meshes: Sequence[MeshOfScene]) -> list[str]:
@@ -41,11 +50,17 @@ def layout_of(meshes: Sequence[MeshOfScene]) -> Layout:
     names = gear_names(meshes)
     of_gear = {name: shaft for mesh in meshes for name, shaft in zip(mesh.gears, mesh.shafts)}
     shafts = sorted({*of_gear.values()})
-    turning = {shaft: sense for mesh in meshes for shaft, sense in zip(mesh.shafts, (mesh.sense, -mesh.sense))}
+    internal = frozenset(number for number, mesh in enumerate(meshes) if mesh.pair.wheel.internal)
+    turning = {
+        shaft: sense
+        for number, mesh in enumerate(meshes)
+        for shaft, sense in zip(mesh.shafts, (mesh.sense, mesh.sense if number in internal else -mesh.sense))
+    }
     graph = TrainGraph(
         tuple((names.index(mesh.gears[0]), names.index(mesh.gears[1])) for mesh in meshes),
         tuple(shafts.index(of_gear[name]) for name in names),
         tuple(turning[shaft] for shaft in shafts),
+        internal,
     )
     return Layout(graph, [mesh.pair for mesh in meshes], [mesh.direction for mesh in meshes])
 

@@ -17,6 +17,7 @@ from .train_topology import coupled_stages
 
 PAIR = "pair"
 ROW = "row"
+ENDS = ("load", "motion")
 # Sections that a train may have for all of its stages, and those that a row may have of its own; and a stage of two
 # gears. Others are of a pair alone so far.
 SHARED = ("friction", "accuracy", "inertia", "bearings")
@@ -110,7 +111,22 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[TrainSections | None, list[P
             allowed = "Allowed: letters, digits, _ and -; a folder of results has this name."
             problems.append(Problem(("stages", stage), "", f"is no name of a stage. {allowed}"))
         problems += _of_stage(("stages", stage), content, stage in coupled)
-    found = []
+    found, wrong = load_and_motion(tree)
+    problems += wrong
+    shafts, wrong = checked_shafts(tree, not problems)
+    problems += wrong
+    if problems:
+        return None, problems
+    load, motion = found
+    sections = TrainSections(load, motion, shafts)
+    problems += _needed(tree, sections)
+    return (None if problems else sections), problems
+
+
+def load_and_motion(tree: Mapping[str, Any]) -> tuple[list[Any], list[Problem]]:
+    """Load and motion of a parsed train, None where they are wrong, and what is wrong with them."""
+    problems: list[Problem] = []
+    found: list[Any] = []
     for name, section in (("load", TrainLoad), ("motion", TrainMotion)):
         written = tree.get(name, {})
         if not isinstance(written, Mapping):
@@ -121,14 +137,7 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[TrainSections | None, list[P
         problems += [explained(each, section) for each in wrong]
     if isinstance(tree.get("load", {}), Mapping) and not {*names_in(TrainLoad)} & {*tree.get("load", {})}:
         problems.append(Problem(("load",), None, f"is missing. Add the section [load] with {fields_of(TrainLoad)}."))
-    shafts, wrong = checked_shafts(tree, not problems)
-    problems += wrong
-    if problems:
-        return None, problems
-    load, motion = found
-    sections = TrainSections(load, motion, shafts)
-    problems += _needed(tree, sections)
-    return (None if problems else sections), problems
+    return found, problems
 
 
 def _needed(tree: Mapping[str, Any], sections: TrainSections) -> Iterator[Problem]:
@@ -162,8 +171,8 @@ def _of_stage(path: tuple[str, ...], content: Any, coupled: bool) -> Iterator[Pr
         return
     kind = content.get("kind", PAIR)
     if kind not in (PAIR, ROW):
-        said = "is not computed yet." if kind == "planetary" else "is no kind of stage."
-        yield Problem((*path, "kind"), as_written(kind), f'{said} Allowed: "{PAIR}" or "{ROW}".')
+        said = f'is no kind of stage. Allowed: "{PAIR}", "{ROW}" or "planetary".'
+        yield Problem((*path, "kind"), as_written(kind), said)
     elif kind == ROW:
         yield from _of_row(path, content)
     elif "gears" in content or "directions" in content:

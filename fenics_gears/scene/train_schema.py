@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass, field, make_dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field, fields, make_dataclass
+from typing import Any, get_type_hints
 
 from fenics_gears.effects import effect_named
 from fenics_gears.inputs.fields import choice, declared, quantities, quantity, text
@@ -11,6 +13,7 @@ from fenics_gears.inputs.section import AllowedTables, Section
 
 from .accuracy import Accuracy
 from .gear_schema import Gears, GearText
+from .planetary_schema import GEARS_OF_SET, MESHES, OF_A_MESH, PLANETARY, PlanetaryText
 from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED, TrainLoad, TrainMotion
 
 ACCURACY = "accuracy"
@@ -27,9 +30,15 @@ GEARS_OF_A_ROW = AllowedTables(
 
 @dataclass(frozen=True, kw_only=True)
 class _Stage(Gears):
-    """``[stages.NAME]``: a pair of gears, or a row of them."""
+    """``[stages.NAME]``: a pair of gears, a row of them, or a planetary set."""
 
-    kind: str | None = choice(PAIR, ROW, meaning="a pair of gears, or a row with idlers", otherwise="`pair`")
+    kind: str | None = choice(
+        PAIR,
+        ROW,
+        PLANETARY,
+        meaning="a pair of gears, a row with idlers, or a planetary set (`demos/planetary_sets/README.md`)",
+        otherwise="`pair`",
+    )
     direction: float | None = quantity(
         ANGLES, "35 deg", meaning="direction of the wheel's centre from the pinion's", otherwise="0 deg"
     )
@@ -48,8 +57,20 @@ class _AlwaysThere(Section):
 
 @functools.cache
 def stage_text() -> type[Section]:
-    """The section of a stage, with those of its effects."""
-    return _with(_Stage, OF_A_STAGE)
+    """The section of a stage, with those of its effects, and what a planetary set has."""
+    return make_dataclass("Stage", list(_of_planets()), bases=(_with(_Stage, OF_A_STAGE),), frozen=True, kw_only=True)
+
+
+def _of_planets() -> Iterator[tuple[str, Any, Any]]:
+    """Name, kind and field of what a planetary set has beside the fields of all stages."""
+    hints = get_type_hints(PlanetaryText)
+    for each in fields(PlanetaryText):
+        yield each.name, hints[each.name], field(default=None, metadata=each.metadata)
+    for gear in GEARS_OF_SET:
+        yield gear, GearText | None, field(default=None)
+    effects = _with(Section, OF_A_MESH)
+    for mesh in MESHES:
+        yield mesh, effects | None, field(default=None)
 
 
 @functools.cache

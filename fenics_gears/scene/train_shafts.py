@@ -19,6 +19,7 @@ from fenics_gears.inputs.problem import Problem, did_you_mean
 from fenics_gears.inputs.section import Section, names_in, read
 from fenics_gears.inputs.written import as_written
 
+from .carrier import Carrier
 from .train_shaft import BentShaft, TrainHousing, TrainShaft, wrong_sections
 from .train_topology import Shafts, declared_gears, graph_of, in_order, named_meshes, shafts_by_order
 
@@ -31,7 +32,7 @@ class TrainShafts:
     """What the shafts of a train carry, from the driven one on, by the names of gears; and of each its torsional
     stiffness (N mm/rad) and clocking (rad), None where they are not given. The moment of inertia (N mm s^2) of the
     load, and the damping, None where there is none. `moving`: whether stages move together. `bent`: the shafts that
-    also bend, and the `housing` of all of these."""
+    also bend, and the `housing` of all of these. `carrier`: of a planetary set, in whose frame the train is."""
 
     carried: tuple[tuple[str, ...], ...] = ()
     torsion: tuple[float | None, ...] = ()
@@ -41,6 +42,7 @@ class TrainShafts:
     moving: bool = False
     bent: tuple[BentShaft, ...] = ()
     housing: HousingFile | None = None
+    carrier: Carrier | None = None
 
     @property
     def housed(self) -> bool:

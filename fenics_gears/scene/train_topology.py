@@ -18,12 +18,14 @@ Shafts = list[list[str]]
 
 @dataclass(frozen=True)
 class NamedMesh:
-    """A mesh by the names of its gears: that of this `number` in its stage, which has so many (`count`)."""
+    """A mesh by the names of its gears: that of this `number` in its stage, which has so many (`count`). `internal`:
+    whether its wheel is an internal gear."""
 
     stage: str
     number: int
     count: int
     gears: tuple[str, str]
+    internal: bool = False
 
     @property
     def name(self) -> str:
@@ -51,12 +53,15 @@ def gears_within(stage: str, content: Any) -> list[tuple[str, Any]]:
 def named_meshes(stages: Mapping[str, Any]) -> tuple[list[NamedMesh], list[Problem]]:
     """The meshes of the stages, those together in which one gear stands, and what is wrong with the names."""
     known = declared_gears(stages)
+    internal = [
+        name for stage, own in stages.items() for name, written in gears_within(stage, own) if is_internal_gear(written)
+    ]
     meshes: list[NamedMesh] = []
     problems: list[Problem] = []
     for stage, content in stages.items():
         named = [(name if _declared(written) else str(written)) for name, written in gears_within(stage, content)]
         for number, both in enumerate(zip(named, named[1:])):
-            mesh = NamedMesh(stage, number, len(named) - 1, both)
+            mesh = NamedMesh(stage, number, len(named) - 1, both, both[1] in internal)
             wrong = list(_wrong_names(mesh, known, meshes))
             problems += wrong
             meshes += [] if wrong else [mesh]
@@ -67,6 +72,14 @@ def named_meshes(stages: Mapping[str, Any]) -> tuple[list[NamedMesh], list[Probl
 def declared_gears(stages: Mapping[str, Any]) -> list[str]:
     """Names of the gears that stages declare."""
     return [name for stage, own in stages.items() for name, written in gears_within(stage, own) if _declared(written)]
+
+
+def is_internal_gear(written: Any) -> bool:
+    """Whether what is written of a gear is an internal one."""
+    if not isinstance(written, Mapping):
+        return False
+    teeth = written.get("teeth")
+    return written.get("internal") is True or isinstance(teeth, int) and teeth < 0
 
 
 def coupled_stages(stages: Mapping[str, Any]) -> set[str]:
@@ -151,7 +164,8 @@ def graph_of(meshes: Sequence[NamedMesh], shafts: Sequence[Sequence[str]]) -> Tr
     of_gear = {gear: number for number, each in enumerate(shafts) for gear in each}
     gears = list(dict.fromkeys(gear for mesh in meshes for gear in mesh.gears))
     of_meshes = tuple((gears.index(mesh.gears[0]), gears.index(mesh.gears[1])) for mesh in meshes)
-    return TrainGraph(of_meshes, tuple(of_gear[gear] for gear in gears))
+    internal = frozenset(number for number, mesh in enumerate(meshes) if mesh.internal)
+    return TrainGraph(of_meshes, tuple(of_gear[gear] for gear in gears), internal=internal)
 
 
 def _wrong_shafts(
@@ -178,8 +192,14 @@ def _wrong_shafts(
 
 
 def _wrong_senses(meshes: Sequence[NamedMesh], graph: TrainGraph) -> Iterator[str]:
-    for mesh, (driving, driven) in zip(meshes, graph.between):
-        if graph.senses[driving] == graph.senses[driven]:
+    for number, (mesh, (driving, driven)) in enumerate(zip(meshes, graph.between)):
+        if graph.senses[driven] != graph.onwards(number) * graph.senses[driving]:
+            if mesh.internal:
+                yield (
+                    f"the loop that {mesh.name} closes locks: its gears, {_quoted(mesh.gears)}, would turn against each"
+                    " other. An internal gear turns the same way as the gear within it."
+                )
+                return
             yield (
                 f"the loop that {mesh.name} closes locks: both of its gears, {_quoted(mesh.gears)}, would turn the same"
                 " way. Gears that mesh turn against each other, so that a loop has an even number of meshes."

@@ -10,5 +10,13 @@ PICTURE_FILES = (
 )
 # Those of runs whose flanks are resolved over the face; the last one of shafts that bend.
 FACE_PICTURE_FILES = ("contact_pattern.png", "line_load.png", "shafts.png")
-# Those of runs of trains; the last one of shafts that bend.
-TRAIN_PICTURE_FILES = ("train.png", "transmission_error.png", "order_spectrum.png", "line_load.png", "shafts.png")
+# Those of runs of trains; the last ones of shafts that bend, and of planetary sets.
+TRAIN_PICTURE_FILES = (
+    "train.png",
+    "transmission_error.png",
+    "order_spectrum.png",
+    "line_load.png",
+    "shafts.png",
+    "load_sharing.png",
+    "orbit.png",
+)

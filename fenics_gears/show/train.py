@@ -23,6 +23,7 @@ from .chart import BARS, LEAST_SHARE, Chart, Curve, Flag
 from .drawing import picture
 from .line_load import line_loads
 from .panels import PALETTE
+from .planetary import orbits, set_drawing, shares
 from .plots import heading, save_figures
 from .run import ShownRun
 from .train_shafts import deflections
@@ -43,11 +44,13 @@ def draw_train(dataset: xr.Dataset, directory: Path) -> list[Path]:
     of this version."""
     scene = carried_train(dataset)
     subjects = (
-        ("Gear train", [drawing_of(scene)]),
+        ("Gear train" if scene.shafts.carrier is None else "Planetary set", [drawing_of(scene)]),
         ("Transmission error", errors(scene, dataset)),
         ("Orders of the overall transmission error", [orders(scene, dataset)]),
         ("Line load along the face", loads_along_face(scene, dataset)),
         ("Shafts under load", bent_shafts_of(scene, dataset)),
+        ("Load sharing of the planets", shares(scene, dataset)),
+        ("Orbits of floating members", orbits(scene, dataset)),
     )
     figures = {
         name: picture(heading(subject, scene.title), charts)
@@ -58,7 +61,10 @@ def draw_train(dataset: xr.Dataset, directory: Path) -> list[Path]:
 
 
 def drawing_of(scene: TrainScene) -> Chart:
-    """All gears seen along their axes: tip circles, and dashed pitch circles. Gears on one shaft have one centre."""
+    """All gears seen along their axes: tip circles, and dashed pitch circles. Gears on one shaft have one centre. A
+    planetary set has its teeth."""
+    if scene.shafts.carrier is not None:
+        return set_drawing(scene)
     at = centres(scene.layout)
     graph = scene.graph
     curves = []
@@ -90,7 +96,7 @@ def _circles(centre: complex, gear: Gear, pair: GearPair, name: str, colour: str
 
 
 def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
-    """Of the whole over time, and of each mesh over its own mesh cycles."""
+    """Of the whole over time, and of each mesh over its own mesh cycles; of a planetary set of the first planet."""
     frequency = scene.meshes[0].scene.motion.mesh_frequency
     overall = MICRO * np.asarray(dataset["overall_transmission_error"])
     # Of the last cycles where stages vibrate.
@@ -100,12 +106,14 @@ def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
             f"Overall transmission error: peak to peak {MICRO * span:#.4g} µrad",
             [Curve("overall transmission error", frequency * np.asarray(dataset["time"]), overall)],
             "Time (cycles of the first mesh)",
-            "Lag of the last shaft (µrad)",
+            f"Lag of the {'last shaft' if scene.shafts.carrier is None else 'output'} (µrad)",
             least=LEAST_SHARE * float(np.abs(overall).max(initial=0.0)),
             height=320,
         )
     ]
     for number, mesh in enumerate(scene.meshes):
+        if mesh.like is not None:
+            continue
         own = dataset.isel(mesh=number)
         values = 1e3 * mesh.pair.wheel.base_radius * np.asarray(own["transmission_error"])
         known = np.isfinite(values)
@@ -125,6 +133,7 @@ def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
 
 def orders(scene: TrainScene, dataset: xr.Dataset) -> Chart:
     """Amplitudes of the overall transmission error over orders of the first shaft, by the meshes that make them."""
+    first, last = ("first shaft", "last shaft") if scene.shafts.carrier is None else ("input", "output")
     found = overall_orders(dataset, scene)
     highest = max(each.order for each in found if each.harmonic <= HARMONICS_SHOWN)
     shown = [each for each in found if each.order <= highest * (1.0 + 1e-9)]
@@ -143,8 +152,8 @@ def orders(scene: TrainScene, dataset: xr.Dataset) -> Chart:
             if height > LEAST_FLAGGED * top
         ]
     return Chart(
-        "Harmonics of the meshes, as they reach the last shaft", curves, "Order (events a turn of the first shaft)",
-        "Amplitude of the last shaft (µrad)", ORDERS_NOTE, height=420, x_range=(0.0, 1.12 * highest), flags=flags,
+        f"Harmonics of the meshes, as they reach the {last}", curves, f"Order (events a turn of the {first})",
+        f"Amplitude of the {last} (µrad)", ORDERS_NOTE, height=420, x_range=(0.0, 1.12 * highest), flags=flags,
     )  # fmt: skip
 
 

@@ -179,12 +179,14 @@ def _row_in_plane(
 ) -> RowCycle:
     bodies = list(_bodies(row, progress, cache))
     coupled = [
-        GearInPlane(row.gear(gear).teeth, shared, bodies[gear].section, row.models[shared.meshes[0]].pair.face_width)
+        GearInPlane(
+            row.gear(gear).tooth_count, shared, bodies[gear].section, row.models[shared.meshes[0]].pair.face_width
+        )
         for gear in row.graph.shared
         for shared in couplings(row.layout, gear)
     ]
     meshes = []
-    for own, gears, phase, (coordinates, offset) in zip(row.models, row.graph.gears, row.layout.phases, placed):
+    for own, gears, phase, (coordinates, offset) in zip(row.models, row.graph.gears, row.phases, placed):
         cycle = _cycle(own, (bodies[gears[0]], bodies[gears[1]]), phase)
         meshes.append(MeshOfRow(cycle, coordinates, offset))
     return RowCycle(meshes, RowInPlane(coupled))
@@ -213,10 +215,10 @@ def shared_body(row: RowModel, gear: int, cache: Cache) -> Body:
     return Body.of(flank_compliance(*row.key_of_shared(gear), cache))
 
 
-def _cycle(model: Model, bodies: tuple[Body, Body], phase: float) -> Cycle:
-    """The contact equations of one mesh of a row."""
+def _cycle(model: Model, bodies: tuple[Body, Body], phase: tuple[float, int]) -> Cycle:
+    """The contact equations of one mesh of a row; `phase` as of its model."""
     mesh = elastic_mesh(flanks_of(model, bodies), model.resolution.contact_grid, model.corner, coast=False)
-    return cycle_of(model, at_phase(mesh, phase))
+    return cycle_of(model, at_phase(mesh, *phase, model.resolution.steps_per_mesh_cycle))
 
 
 def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:

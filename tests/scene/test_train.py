@@ -37,7 +37,7 @@ SHAFT = '[shafts.one]\ncarries = ["{}"]\ntorsional_stiffness = "1e8 N mm/rad"'
         ),
         (stage("one", 2.0, (20, 30), '[stages.one.inertia]\ndensity = "7.8 g/cm^3"') + LOAD, "is of one stage"),
         (f"{TWO}{LOAD}\n[tip_relief]\n", r"\[stages.NAME.tip_relief\]"),
-        (f'[stages.one]\nkind = "planetary"\n{LOAD}', "is not computed yet"),
+        (f'[stages.one]\nkind = "planets"\n{LOAD}', 'is no kind of stage. Allowed: "pair", "row" or "planetary"'),
         (f'[stages.one]\nkind = "row"\ngears = [{{ teeth = 20 }}]\n{LOAD}', "has not the gears of a row"),
         (f"[stages]\n{LOAD}", "has no stages"),
         (f"title = 3\n{TWO}{LOAD}", "is no text"),

@@ -37,6 +37,7 @@ def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
     directory = options.output or Path("results") / scene.name
     check_writable(directory, RUN_FILE, *TRAIN_PICTURE_FILES)
     model = train_model_of(scene)
+    from fenics_gears.results.planetary import has_set, set_rows
     from fenics_gears.results.train import train_rows
     from fenics_gears.runs.train import simulate_train
 
@@ -53,7 +54,7 @@ def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
                 after_result(own / RUN_FILE, "pictures", partial(plots().draw_run, of, own))
     if not options.quiet:
         said = [("WARNING", warning, "") for warning in found.attrs["warnings"].splitlines()]
-        print_rows(scene.title, [*train_rows(found), *said])
+        print_rows(scene.title, [*(set_rows if has_set(found) else train_rows)(found), *said])
         print_rows("Files", [("", str(each), "") for each in (file, *(pictures or []))])
         if stages:
             print_rows("Stages as pairs, for all other commands", [("", str(own), "") for own, _ in stages])
@@ -83,16 +84,25 @@ def check_train(scene: TrainScene) -> int:
     would, where memory does not hold it."""
     model = train_model_of(scene)
     print(f"{scene.title}\n")
-    print_rows("Train", _train_rows(model))
-    print_rows("Shafts", list(_shaft_rows(model)))
-    if scene.graph.loops:
-        print_rows("Loops of meshes", loop_rows(scene))
+    if scene.shafts.carrier is not None:
+        from fenics_gears.model.planetary_rows import member_rows, planet_rows, set_rows
+
+        print_rows("Planetary set", set_rows(model.rows[0]))
+        print_rows("Members, without losses", member_rows(scene.shafts.carrier))
+        print_rows("Planets", planet_rows(model.rows[0]))
+    else:
+        print_rows("Train", _train_rows(model))
+        print_rows("Shafts", list(_shaft_rows(model)))
+        if scene.graph.loops:
+            print_rows("Loops of meshes", loop_rows(scene))
     for row in model.rows:
         for mesh, own, phase in zip(row.meshes, row.models, row.layout.phases):
+            if mesh.like is not None:
+                continue
             print_rows(f"Mesh {mesh.name}", _mesh_rows(mesh, own, phase))
             if derived := derived_rows(mesh.scene):
                 print_rows(f"Mesh {mesh.name}: derived, since the scene leaves it out", derived)
-    if scene.shafts.moving:
+    if scene.shafts.moving and scene.shafts.carrier is None:
         print_rows("Motion of all stages together", motion_rows(model.rows[0]))
         if frequencies := frequency_rows(model.rows[0]):
             print_rows("Natural frequencies, about, with one tooth pair in each mesh", frequencies)
@@ -143,8 +153,8 @@ def _shaft_rows(model: TrainModel) -> Iterator[Row]:
 def _mesh_rows(mesh: MeshOfScene, own: Model, phase: float) -> list[Row]:
     pair = own.pair
     rows = [
-        ("teeth", f"{pair.pinion.teeth} / {pair.wheel.teeth}", ""),
-        ("centre distance", f"{pair.centre_distance:.6g}", "mm"),
+        ("teeth", f"{pair.pinion.teeth} / {pair.wheel.tooth_count}", "internal" if pair.wheel.internal else ""),
+        ("centre distance", f"{abs(pair.centre_distance):.6g}", "mm"),
         ("direction of the wheel from the pinion", f"{180.0 / pi * mesh.direction:.4g}", "deg"),
         ("contact ratio, with overlap", f"{pair.total_contact_ratio:.4g}", ""),
         ("torque on its wheel", f"{1e-3 * own.scene.load.wheel_torque:.5g}", "N m"),

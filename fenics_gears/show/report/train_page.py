@@ -12,6 +12,7 @@ from fenics_gears.model.train_motion_rows import Rows, frequency_rows, motion_ro
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
 from fenics_gears.results.overall_orders import overall_orders
 from fenics_gears.results.path_shares import OF_SHARES, SHARE
+from fenics_gears.results.planetary import has_set, set_rows
 from fenics_gears.results.power_flow import PowerFlow, power_flow
 from fenics_gears.results.summary import result_rows
 from fenics_gears.results.train import train_rows
@@ -22,6 +23,8 @@ from fenics_gears.system.progress import Progress, SilentProgress
 from ..line_load import line_loads
 from ..motion import pair_forces
 from ..panels import digits, factor
+from ..planetary import member_table, orbits
+from ..planetary import shares as planet_shares
 from ..pressure import has_pressure, largest_pressures
 from ..run import ShownRun
 from ..train import bent_shafts_of, drawing_of, errors, orders
@@ -46,13 +49,18 @@ def train_page(dataset: xr.Dataset, file: Path, progress: Progress | None = None
         PageSection("motion", "Transmission error", errors(train, dataset)), _orders(dataset, train),
         *_shafts(dataset, train), *_frequencies(train),
     ]  # fmt: skip
-    sections += [_mesh(dataset, train, number) for number in range(len(train.meshes))]
+    # Meshes of a planetary set that are like others are left out.
+    sections += [_mesh(dataset, train, number) for number, mesh in enumerate(train.meshes) if mesh.like is None]
     sections += [
-        PageSection("numbers", "Numbers", [Facts(train_rows(dataset), "Of the whole and of each mesh")]),
+        PageSection("numbers", "Numbers", [Facts(_numbers(dataset), "Of the whole and of each mesh")]),
         version_section(dataset.attrs, file), scene_section(str(dataset.attrs.get("scene", ""))),
     ]  # fmt: skip
     title = " ".join(train.title.split()) or file.stem
     return Page("Gear train: report on a run", title, _conditions(train), sections, made_by())
+
+
+def _numbers(dataset: xr.Dataset) -> list[tuple[str, str, str]]:
+    return (set_rows if has_set(dataset) else train_rows)(dataset)
 
 
 def _conditions(train: TrainScene) -> str:
@@ -103,7 +111,8 @@ def _summary(dataset: xr.Dataset, train: TrainScene, flow: PowerFlow) -> PageSec
         value = digits(torque * factor("N mm", "N m"))
         tiles.append(Tile(f"Torque on the {words} shaft", value, "N m", "without losses" if words == "first" else ""))
     if "friction_loss" in said:
-        tiles.append(Tile("Efficiency", f"{100.0 * flow.efficiency:.4g}", "%", "of all meshes, by their friction"))
+        efficiency = said.get("efficiency", flow.efficiency)
+        tiles.append(Tile("Efficiency", f"{100.0 * efficiency:.4g}", "%", "of all meshes, by their friction"))
     return PageSection("summary", "Summary", [Tiles(tiles)])
 
 
@@ -111,7 +120,7 @@ def _geometry(train: TrainScene) -> PageSection:
     headings = (
         "Mesh", "Teeth", "Module (mm)", "Helix angle (°)", "Centre distance (mm)", "Direction (°)", "Contact ratio",
     )  # fmt: skip
-    rows = [_of_mesh(each) for each in train.meshes]
+    rows = [_of_mesh(each) for each in train.meshes if each.like is None]
     note = Words("Direction: of the wheel's centre from the pinion's. Contact ratio: with overlap.")
     return PageSection("geometry", "Gears", [drawing_of(train), Table(headings, rows), note])
 
@@ -120,13 +129,15 @@ def _of_mesh(mesh: MeshOfScene) -> tuple[str, ...]:
     pair = mesh.pair
     gears = mesh.scene.gears
     return (
-        mesh.name, f"{pair.pinion.teeth} / {pair.wheel.teeth}", f"{gears.module:g}",
-        f"{gears.helix_angle * factor('rad', 'deg'):g}", f"{pair.centre_distance:.6g}",
+        mesh.name, f"{pair.pinion.teeth} / {pair.wheel.tooth_count}", f"{gears.module:g}",
+        f"{gears.helix_angle * factor('rad', 'deg'):g}", f"{abs(pair.centre_distance):.6g}",
         f"{180.0 / pi * mesh.direction:.4g}", f"{pair.total_contact_ratio:.4g}",
     )  # fmt: skip
 
 
 def _power(dataset: xr.Dataset, train: TrainScene, flow: PowerFlow) -> PageSection:
+    if train.shafts.carrier is not None:
+        return _members(dataset, train)
     rows = [
         (
             f"shaft {number}",
@@ -148,6 +159,16 @@ def _power(dataset: xr.Dataset, train: TrainScene, flow: PowerFlow) -> PageSecti
             Words("The last shaft has the torque of the load. Before each mesh the torque is higher by what it loses.")
         )
     return PageSection("power", "Power flow", blocks)
+
+
+def _members(dataset: xr.Dataset, train: TrainScene) -> PageSection:
+    """Members of a planetary set, and how the planets share the load."""
+    of_speed = ("Speed (rpm)", "Power (kW)") if train.speed_given else ()
+    headings = ("Member", "Part", "Torque (N m)", "Turns in one of the input", *of_speed)
+    blocks: list[Block] = [
+        Table(headings, member_table(train, dataset), "Members, mean torques from outside", numbers=2)
+    ]
+    return PageSection("power", "Power flow", [*blocks, *planet_shares(train, dataset), *orbits(train, dataset)])
 
 
 def _shares(dataset: xr.Dataset) -> list[Block]:

@@ -1,0 +1,85 @@
+"""What `gears check` tells of a planetary set: its ratio, members, planets and phases, in rows for people."""
+
+from __future__ import annotations
+
+from math import pi
+
+from fenics_gears.geometry.planetary import MEMBERS, RING, SUN, PlanetarySet
+from fenics_gears.scene.carrier import Carrier
+
+from .train import RowModel
+
+Row = tuple[str, str, str]
+HARMONICS = 12
+LETTERS = "r rotation of sun, ring and carrier, t translation, b both, p neither"
+
+
+def set_rows(row: RowModel) -> list[Row]:
+    """Teeth, ratio, mesh frequency, steps, phase law, assembly and room."""
+    carrier = row.shafts.carrier
+    assert carrier is not None
+    own = carrier.set
+    sun, ring = row.meshes[:2]
+    distance = abs(sun.pair.centre_distance)
+    one, other, clear = min(own.clearances(distance, 2.0 * sun.pair.wheel.tip_radius), key=lambda each: each[2])
+    steps = row.models[0].resolution.steps_per_mesh_cycle
+    spacing = "equally spaced" if own.equally_spaced else "not equally spaced"
+    rows = [
+        ("teeth of sun, planet, ring", " / ".join(map(str, own.teeth)), ""),
+        ("planets", f"{own.planets}, {spacing}", ""),
+        ("centre distance", f"{distance:.6g}", "mm"),
+        ("turns of the input in one of the output", f"{float(own.ratio):.6g}", _sense(own)),
+        ("steps in a mesh cycle", f"{steps}", f"a multiple of {own.denominator}: all phases are whole steps"),
+        (f"harmonics 1 to {HARMONICS} of equal planets", own.phase_law(HARMONICS), LETTERS),
+        ("assembly", "fits", f"planets stand at multiples of 360 deg/{own.turn} = {360.0 / own.turn:.6g} deg"),
+        (f"least room between tips, planets {one + 1} and {other + 1}", f"{clear:.4g}", "mm"),
+    ]
+    if sun.scene.motion.speed_given:
+        rows.insert(4, ("mesh frequency of all meshes", f"{sun.scene.motion.mesh_frequency:.6g}", "Hz"))
+    if not own.sun_drives:
+        words = "run with the sun driving; without friction forces are the same, in the reverse order of time"
+        rows.append(("as the carrier sees it, the ring drives", "", words))
+    support = "held at its outer circle" if ring.pair.wheel.foundation is None else "on an elastic foundation"
+    rows.append(("ring", support, ""))
+    if carrier.floating:
+        rows.append(("floating", ", ".join(carrier.floating), ""))
+    return rows
+
+
+def _sense(own: PlanetarySet) -> str:
+    return "in the same sense" if own.ratio > 0 else "against each other"
+
+
+def member_rows(carrier: Carrier) -> list[Row]:
+    """Speeds and torques of all members, and power in and out."""
+    own = carrier.set
+    torques = own.torques(carrier.torque)
+    rows = []
+    for member in MEMBERS:
+        part = {own.fixed: "fixed", own.input: "input", own.output: "output"}[member]
+        speed = own.speeds[member]
+        turning = f"{float(speed):.6g} turns in one of the input"
+        said = f"{1e-3 * torques[member]:.6g} N m from outside, {turning}"
+        if carrier.speed is not None:
+            rate = 60.0 * carrier.speed / (2.0 * pi) * float(speed)
+            power = 1e-6 * torques[member] * carrier.speed * float(speed)
+            said += f", {rate:.6g} rpm, {power:.5g} kW"
+        rows.append((f"{member}, {part}", said, ""))
+    return rows
+
+
+def planet_rows(row: RowModel) -> list[Row]:
+    """Where planets stand, at which phases their meshes are as the run begins, and pins beside their places."""
+    carrier = row.shafts.carrier
+    assert carrier is not None
+    own = carrier.set
+    of_sun, of_ring = (row.layout.phases[kind::2] for kind in range(2))
+    rows = []
+    for number, (angle, one, other) in enumerate(zip(own.angles, of_sun, of_ring)):
+        said = f"at {180.0 / pi * angle:.6g} deg, mesh phases {one:.6g} with the {SUN}, {other:.6g} with the {RING}"
+        if carrier.pin_errors:
+            tangential, radial = (1e3 * each for each in carrier.pin_errors[number])
+            said += f", pin {tangential:.4g} um against its force, {radial:.4g} um out"
+        rows.append((f"planet {number + 1}", said, ""))
+    stiffness = "rigid" if carrier.pin_stiffness is None else f"{carrier.pin_stiffness:.4g}"
+    return [*rows, ("pins", stiffness, "" if carrier.pin_stiffness is None else "N/mm")]

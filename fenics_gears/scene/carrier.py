@@ -1,0 +1,94 @@
+"""The carrier of a planetary set as the train in its frame has it: which gears its pins carry, how stiffly, where."""
+
+from __future__ import annotations
+
+from cmath import rect
+from dataclasses import dataclass
+from math import inf
+from re import sub
+
+from fenics_gears.geometry.planetary import RING, SUN, PlanetarySet
+
+# Names of the gears of a mesh in the scene of its pair.
+OF_A_PAIR = ("pinion", "wheel")
+
+
+@dataclass(frozen=True)
+class Carrier:
+    """The carrier of the set in a `stage`. `pin_stiffness`, N/mm: None where pins do not give way; `pin_errors`: of
+    each planet tangential, against its force, and radial, outwards, mm; none where pins are in their places.
+    `floating`: members that no bearing holds. `speed`, rad/s, and `torque`, N mm: of the input."""
+
+    stage: str
+    set: PlanetarySet
+    pin_stiffness: float | None = None
+    pin_errors: tuple[tuple[float, float], ...] = ()
+    floating: tuple[str, ...] = ()
+    speed: float | None = None
+    torque: float = 0.0
+
+    @property
+    def sun(self) -> str:
+        """Name of the sun among the gears of the train."""
+        return f"{self.stage}.{SUN}"
+
+    @property
+    def ring(self) -> str:
+        """Name of the ring among the gears of the train."""
+        return f"{self.stage}.{RING}"
+
+    @property
+    def planets(self) -> list[str]:
+        """Names of the planets among the gears of the train."""
+        return [f"{self.stage}.planet {number}" for number in range(1, self.set.planets + 1)]
+
+    @property
+    def gears(self) -> list[str]:
+        """Names of all gears, shaft by shaft from the sun to the ring."""
+        return [self.sun, *self.planets, self.ring]
+
+    def support(self, gear: str) -> tuple[float, float] | None:
+        """Stiffness (N/mm) along and off any line that holds the centre of a gear: infinite where it is held beside its
+        place, None where in it."""
+        if gear in self.planets:
+            stiffness = self.pin_stiffness or (inf if self.pin_errors else None)
+            return None if stiffness is None else (stiffness, stiffness)
+        member = SUN if gear == self.sun else RING
+        return (0.0, 0.0) if member in self.floating else None
+
+    def displaced(self, gear: str) -> complex:
+        """Where (mm) the centre of a gear stands beside its place, in space."""
+        if not self.pin_errors or gear not in self.planets:
+            return 0j
+        number = self.planets.index(gear)
+        tangential, radial = self.pin_errors[number]
+        # The sun turns counter-clockwise, and so its teeth and the ring's push the planets.
+        return (radial - 1j * tangential) * rect(1.0, self.set.angles[number])
+
+
+@dataclass(frozen=True)
+class OfSet:
+    """A mesh of a set: the `stage`, what it calls the gears of the pair, and how often its effects are named:
+    `sun_mesh` or `ring_mesh`."""
+
+    stage: str
+    gears: tuple[str, str]
+    mesh: str
+
+    def words(self, said: str) -> str:
+        """What is said of the pair, in words of the set."""
+        for one, other in zip(OF_A_PAIR, self.gears):
+            said = sub(rf"\bgears\.{one}\b", f"stages.{self.stage}.{other}", said)
+            said = sub(rf"\b{one}\b", other, said)
+        return said.replace("[gears", f"[stages.{self.stage}").replace("gears.", f"stages.{self.stage}.")
+
+    def place(self, path: tuple[str, ...]) -> tuple[str, ...]:
+        """Where a scene has what the scene of the pair has at a path."""
+        if path[:1] != ("gears",):
+            return path if path[:1] in (("friction",), ("accuracy",), ("load",)) else (
+                "stages", self.stage, self.mesh, *path
+            )  # fmt: skip
+        inner = path[1:]
+        if inner and inner[0] in OF_A_PAIR:
+            inner = (self.gears[OF_A_PAIR.index(inner[0])], *inner[1:])
+        return ("stages", self.stage, *inner)

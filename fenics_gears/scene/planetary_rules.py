@@ -1,0 +1,145 @@
+"""What a planetary set may have beside its gears, and mistakes in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from fenics_gears.geometry.planetary import MEMBERS
+from fenics_gears.inputs.problem import Problem, did_you_mean
+from fenics_gears.inputs.section import names_in, read
+from fenics_gears.inputs.written import as_written
+
+from .gear_schema import Gears
+from .planetary_schema import (
+    GEARS_OF_SET,
+    MESHES,
+    MOST_PLANETS,
+    OF_A_MESH,
+    PLANETARY,
+    RING_MESH,
+    SUN_MESH,
+    PlanetaryText,
+)
+from .train_pair import STAGES
+from .train_rules import ENDS
+from .train_shafts import explained
+
+# Sections of a train with a set.
+OF_THE_TRAIN = ("title", STAGES, *ENDS, "friction", "accuracy")
+OF_THE_PLANE = ("helix_angle", "pinion_hand", "lead_modifications", "misalignment")
+# Of a pair; what a set has in its place.
+NOT_HERE = {
+    "direction": "is of a pair. Allowed: planets or planet_angles.",
+    "directions": "is of a row. Allowed: planets or planet_angles.",
+    "gears": "is of a row. A set has the gears sun, planet and ring.",
+    "pinion": "is of a pair. A set has the gears sun, planet and ring.",
+    "wheel": "is of a pair. A set has the gears sun, planet and ring.",
+    "backlash": "would thin the teeth of the planet differently in its meshes. Allowed: profile_shift of each gear.",
+    **dict.fromkeys(OF_THE_PLANE, "is over the face, where planetary sets are not computed yet. Leave it out."),
+    **dict.fromkeys(OF_A_MESH, f"is of one mesh: write it in [stages.NAME.{SUN_MESH}] or [stages.NAME.{RING_MESH}]."),
+    **{name: f"is of the whole train: write it as [{name}]." for name in ("friction", "accuracy")},
+}  # fmt: skip
+DYNAMICS = "is not computed with a planetary set yet, which is quasi-static. Leave it out."
+NOT_WITH_A_SET = {
+    **dict.fromkeys(("inertia", "damping", "shafts"), DYNAMICS),
+    "bearings": "is not computed with a planetary set yet. Allowed: floating, and carrier.pin_stiffness of the set.",
+}
+Tree = Mapping[str, Any]
+
+
+def has_planets(tree: Tree) -> bool:
+    """Whether a parsed train has a planetary set."""
+    stages = tree["stages"]
+    return isinstance(stages, Mapping) and any(
+        isinstance(each, Mapping) and each.get("kind") == PLANETARY for each in stages.values()
+    )
+
+
+def wrong_sections(tree: Tree) -> Iterator[Problem]:
+    """Sections that a train with a set does not have."""
+    if len(tree[STAGES]) > 1:
+        said = "stands beside other stages, which is not computed yet. Allowed: a planetary set as the only stage."
+        name = next(each for each in tree[STAGES] if has_planets({STAGES: {each: tree[STAGES][each]}}))
+        yield Problem((STAGES, name), "", said)
+    for name in tree:
+        if name in NOT_WITH_A_SET:
+            yield Problem((name,), as_written(tree[name]), NOT_WITH_A_SET[name])
+        elif name not in OF_THE_TRAIN:
+            said = f"is not of a train.{did_you_mean(name, OF_THE_TRAIN)} Known: {', '.join(OF_THE_TRAIN)}."
+            yield Problem((name,), as_written(tree[name]), said)
+    title = tree.get("title", "")
+    if not isinstance(title, str):
+        yield Problem(("title",), as_written(title), "is no text. Allowed: a text between quotes.")
+
+
+def text_of_set(stage: str, content: Tree) -> tuple[PlanetaryText | None, list[Problem]]:
+    """What a set has beside its gears, None where it is wrong, and all that is wrong with it."""
+    path = (STAGES, stage)
+    own = names_in(PlanetaryText)
+    text, problems = read(PlanetaryText, {name: content[name] for name in own if name in content}, path)
+    problems = [explained(each, PlanetaryText) for each in problems]
+    shared = [name for name in names_in(Gears) if name not in ("pinion", "wheel", "backlash", *OF_THE_PLANE)]
+    known = ["kind", *own, *shared, *GEARS_OF_SET, *MESHES]
+    for name in content:
+        if name in NOT_HERE:
+            problems.append(Problem((*path, name), as_written(content[name]), NOT_HERE[name].replace("NAME", stage)))
+        elif name not in known:
+            said = f"is not known here.{did_you_mean(name, known)} Known: {', '.join(known)}."
+            problems.append(Problem((*path, name), as_written(content[name]), said))
+    for gear in GEARS_OF_SET:
+        if not isinstance(content.get(gear), Mapping):
+            written = None if gear not in content else as_written(content[gear])
+            said = f"is missing. Add the section [{'.'.join((*path, gear))}] with teeth and the other fields of a gear."
+            problems.append(Problem((*path, gear), written, said if written is None else "is not a section."))
+    for mesh in MESHES:
+        problems += _wrong_effects((*path, mesh), content.get(mesh, {}))
+    if text is not None:
+        problems += _wrong_members(path, text)
+    return (None if problems else text), problems
+
+
+def _wrong_effects(path: tuple[str, ...], content: Any) -> Iterator[Problem]:
+    """What the section of a mesh has that no mesh has."""
+    if not isinstance(content, Mapping):
+        yield Problem(path, as_written(content), f"is not a section. Allowed in it: {', '.join(OF_A_MESH)}.")
+        return
+    for name in content:
+        if name not in OF_A_MESH:
+            said = (
+                f"is not computed in a mesh of a set.{did_you_mean(name, OF_A_MESH)} Allowed: {', '.join(OF_A_MESH)}."
+            )
+            yield Problem((*path, name), as_written(content[name]), said)
+
+
+def _wrong_members(path: tuple[str, ...], text: PlanetaryText) -> Iterator[Problem]:
+    """Members that are named wrongly: of the three one is fixed, one driven, one drives the load."""
+    listed = ", ".join(f'"{each}"' for each in MEMBERS)
+    if text.planets is None and text.planet_angles is None:
+        said = "is missing. Allowed: a number of planets, equally spaced; or planet_angles, a list of their directions."
+        yield Problem((*path, "planets"), None, said)
+    if text.planet_angles is not None and not 2 <= len(text.planet_angles) <= MOST_PLANETS:
+        yield Problem((*path, "planet_angles"), "a list", f"has not 2 to {MOST_PLANETS} angles, one for each planet.")
+    if text.fixed is None:
+        yield Problem((*path, "fixed"), None, f"is missing: no member is held. Allowed: one of {listed}.")
+    if text.input is None:
+        yield Problem((*path, "input"), None, f"is missing: no member is driven. Allowed: one of {listed}.")
+    named = {name: getattr(text, name) for name in ("fixed", "input", "output")}
+    for name, other in (("input", "fixed"), ("output", "fixed"), ("output", "input")):
+        if named[name] is not None and named[name] == named[other]:
+            left = [each for each in MEMBERS if each not in {*named.values()}]
+            said = (
+                f"is the member that is {'fixed' if other == 'fixed' else 'the input'} too. Allowed: another one; of"
+                f" {listed} one is fixed, one driven, and one has the load. Left: {', '.join(left)}."
+            )
+            yield Problem((*path, name), f'"{named[name]}"', said)
+            return
+    count = text.planets or len(text.planet_angles or ())
+    if text.floating and count < 3:
+        said = "needs three planets: two do not centre a member that nothing else holds. Leave it out."
+        yield Problem((*path, "floating"), "a list", said)
+    for name in ("pin_errors", "radial_pin_errors") if text.carrier is not None else ():
+        errors = getattr(text.carrier, name)
+        if errors is not None and len(errors) != count:
+            said = f"has {len(errors)} entries for {count} planets. Allowed: one for each."
+            yield Problem((*path, "carrier", name), "a list", said)

@@ -1,0 +1,163 @@
+"""Pictures of a planetary set: the set drawn to scale, load shares and pin forces over the mesh cycle, orbits of
+floating members."""
+
+from __future__ import annotations
+
+from cmath import rect
+from math import degrees
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.elasticity.ring import rotation
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.outline import centreline_angle
+from fenics_gears.geometry.planetary import MEMBERS
+from fenics_gears.results.mesh_of_train import mesh_run
+from fenics_gears.scene.carrier import Carrier
+from fenics_gears.scene.train import TrainScene
+from fenics_gears.scene.train_layout import centres
+from fenics_gears.scene.train_mesh import gear_names
+
+from .chart import LEAST_SHARE, MARKERS, WORDS, Chart, Curve
+from .panels import DARK, PALETTE
+from .pressure import has_pressure, largest_pressures
+from .report.pair_drawing import FILLS, tooth_points
+from .run import ShownRun
+
+CIRCLE_POINTS = 361
+KILO = 1e-3
+MICRO = 1e3
+
+
+def carrier_of(scene: TrainScene) -> Carrier:
+    """The carrier of a train that is a planetary set."""
+    assert scene.shafts.carrier is not None
+    return scene.shafts.carrier
+
+
+def set_drawing(scene: TrainScene) -> Chart:
+    """All teeth of the set to scale, as the run begins, and the names of the planets."""
+    carrier = carrier_of(scene)
+    layout = scene.layout
+    at = centres(layout)
+    names = gear_names(scene.meshes)
+    curves = []
+    # From the ring inwards: what lies within is drawn over it.
+    for number in sorted(range(len(names)), key=lambda each: layout.gear(each).sign):
+        gear = layout.gear(number)
+        centre = at[layout.graph.shafts[number]]
+        teeth = _outline(gear, layout.tooth_angle(number), centre)
+        around = _circle(gear.bore_radius, centre)
+        first, second = (around, teeth) if gear.internal else (teeth, around)
+        words = f"{names[number].rpartition('.')[2]}, {gear.tooth_count} teeth"
+        curves.append(_closed(words, first, FILLS[int(names[number] in carrier.planets)]))
+        curves.append(_closed(words, second, "white", listed=False))
+    middles = np.array([at[layout.graph.shafts[names.index(each)]] for each in carrier.planets])
+    said = [each.rpartition(" ")[2] for each in carrier.planets]
+    curves.append(Curve("planets", middles.real, middles.imag, DARK, mode=WORDS, listed=False, words=said))
+    own = carrier.set
+    caption = (
+        f"To scale, as the run begins; {own.fixed} fixed, {own.input} drives, {own.output} loaded,"
+        f" {scene.ratio:.5g} turns of the input in one of the output"
+    )
+    return Chart(caption, curves, "x (mm)", "y (mm)", height=620, equal=True)
+
+
+def _outline(gear: Gear, angle: float, centre: complex) -> np.ndarray:
+    """Outline (n, 2), mm, of a gear of which a tooth's centreline stands at an angle (rad), closed."""
+    tooth = tooth_points(gear)
+    turned = angle - centreline_angle(gear) - gear.angular_pitch * np.arange(gear.tooth_count + 1)
+    return np.vstack([tooth @ rotation(each).T for each in turned]) + [centre.real, centre.imag]
+
+
+def _circle(radius: float, centre: complex) -> np.ndarray:
+    points = np.array([centre + rect(abs(radius), each) for each in np.linspace(0.0, 2.0 * np.pi, CIRCLE_POINTS)])
+    return np.column_stack([points.real, points.imag])
+
+
+def _closed(name: str, points: np.ndarray, fill: str, listed: bool = True) -> Curve:
+    return Curve(name, points[:, 0], points[:, 1], DARK, width=0.8, fill=fill, listed=listed)
+
+
+def shares(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
+    """Load share and pin force of each planet over the run's last mesh cycle; nothing of other trains."""
+    if scene.shafts.carrier is None:
+        return []
+    phase, last = _last_cycle(dataset)
+    axis = "Time (mesh cycles)"
+    charts = []
+    for name, words, factor in (
+        ("planet_load_share", "sun", "load_sharing_factor"),
+        ("planet_load_share_ring", "ring", "load_sharing_factor_ring"),
+    ):
+        curves = _of_planets(scene, phase, np.asarray(dataset[name])[last])
+        caption = f"Forces between {words} and planets over their mean: largest {dataset.attrs[factor]:.5g} (K_gamma)"
+        charts.append(Chart(caption, curves, axis, "Load share", least=LEAST_SHARE, height=300))
+    forces = KILO * np.linalg.norm(np.asarray(dataset["pin_force"])[last], axis=-1)
+    caption = f"Forces of the planets on their pins: largest {KILO * dataset.attrs['largest_pin_force']:.5g} kN"
+    least = LEAST_SHARE * float(forces.max())
+    charts.append(Chart(caption, _of_planets(scene, phase, forces), axis, "Pin force (kN)", least=least, height=300))
+    return charts
+
+
+def _of_planets(scene: TrainScene, phase: np.ndarray, values: np.ndarray) -> list[Curve]:
+    angles = carrier_of(scene).set.angles
+    return [
+        Curve(f"planet {number + 1}, at {degrees(angle):.5g}°", phase, own, PALETTE[number % len(PALETTE)])
+        for number, (angle, own) in enumerate(zip(angles, values.T))
+    ]
+
+
+def _last_cycle(dataset: xr.Dataset) -> tuple[np.ndarray, slice]:
+    """Phases of the last mesh cycle, with both of its ends, and where it is among the steps."""
+    steps = int(dataset["steps_per_mesh_cycle"][0])
+    last = slice(-1 - steps, None)
+    return np.asarray(dataset["mesh_phase"])[last, 0], last
+
+
+def orbits(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
+    """The paths of the centres of floating members over a mesh cycle; nothing where none floats."""
+    if scene.shafts.carrier is None:
+        return []
+    _, last = _last_cycle(dataset)
+    charts = []
+    for number, member in enumerate(scene.shafts.carrier.floating):
+        place = MEMBERS.index(member)
+        x, y = (MICRO * np.asarray(dataset[f"member_{axis}"])[last, place] for axis in "xy")
+        colour = PALETTE[number % len(PALETTE)]
+        curves = [
+            Curve(f"centre of the {member}", x, y, colour),
+            Curve("as the cycle begins", x[:1], y[:1], colour, mode=MARKERS),
+        ]
+        caption = f"Orbit of the {member} over a mesh cycle, {np.hypot(x, y).max():.4g} µm at most from its place"
+        charts.append(Chart(caption, curves, "x (µm)", "y (µm)", height=460, equal=True))
+    return charts
+
+
+def pressures(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
+    """The largest contact pressure of the meshes of the first planet."""
+    charts = []
+    for number in range(2):
+        run = ShownRun(mesh_run(dataset, scene, number))
+        charts += largest_pressures(run) if has_pressure(run) else []
+    return charts
+
+
+def member_table(scene: TrainScene, dataset: xr.Dataset) -> list[tuple[str, ...]]:
+    """Rows of the members: name, part, speed over the input's, rpm and kW where there is a speed, mean torque."""
+    carrier = carrier_of(scene)
+    own = carrier.set
+    rows: list[tuple[str, ...]] = []
+    for place, member in enumerate(MEMBERS):
+        torque = float(dataset["member_torque"][:-1, place].mean())
+        part = {own.fixed: "fixed", own.input: "input", own.output: "output"}[member]
+        speed = float(own.speeds[member])
+        row: tuple[str, ...] = (member, part, f"{KILO * torque:.6g}", f"{speed:.6g}")
+        if carrier.speed is not None:
+            row += (
+                f"{60.0 * carrier.speed * speed / (2.0 * np.pi):.6g}",
+                f"{1e-6 * torque * carrier.speed * speed:.5g}",
+            )
+        rows.append(row)
+    return rows

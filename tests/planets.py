@@ -1,0 +1,71 @@
+"""Planets between a sun and a ring for tests, with coarse elements."""
+
+from fenics_gears import train_from_text
+from fenics_gears.scene.train import TrainScene
+
+SHARED = """
+    module = "4 mm"
+    pressure_angle = "20 deg"
+    face_width = "40 mm"
+    material = "steel"
+    """
+RELIEF = '{ depth = "20 um", start = "HPSTC", shape = "parabolic" }'
+COARSE = 'steps_per_mesh_cycle = 12\nflank_element_size = "0.3 mm"'
+
+
+def written_out(teeth: tuple[int, int, int], angles: list[float], accuracy: str = COARSE) -> TrainScene:
+    """Sun, planets at these angles (degrees) and ring as a train of pairs, under a torque on the ring."""
+    sun, planet, ring = (f"teeth = {each}, profile_shift = 0" for each in teeth)
+    stages = ""
+    for number, angle in enumerate(angles):
+        gears = {
+            f"sun{number}": (f'{{ {sun}, bore_diameter = "20 mm" }}' if number == 0 else '"sun0.pinion"'),
+            f"ring{number}": f'"sun{number}.wheel"',
+        }
+        wheels = (
+            f'{{ {planet}, bore_diameter = "30 mm" }}',
+            f'{{ {ring}, internal = true, outer_diameter = "{4 * teeth[2] + 60} mm", support = "held" }}'
+            if number == 0
+            else '"ring0.wheel"',
+        )
+        for (name, pinion), wheel in zip(gears.items(), wheels):
+            own = f'pinion = {pinion}\nwheel = {wheel}\ndirection = "{angle!r} deg"'
+            stages += f"[stages.{name}]\n{SHARED}\n{own}\n"
+    return train_from_text(f'{stages}\n[load]\noutput_torque = "2 kN m"\n[accuracy]\n{accuracy}\n')
+
+
+def planetary_text(
+    teeth: tuple[int, int, int] = (17, 18, 53),
+    planets: str = "planets = 2",
+    parts: tuple[str, str, str] = ("ring", "sun", "carrier"),
+    more: str = "",
+    load: str = 'input_torque = "600 N m"',
+    accuracy: str = COARSE,
+    sections: str = "",
+) -> str:
+    """The scene of a planetary set; `parts`: what is fixed, input and output; `more` of the stage."""
+    sun, planet, ring = teeth
+    fixed, driven, loaded = parts
+    return f"""
+[stages.set]
+kind = "planetary"
+{SHARED}
+{planets}
+sun = {{ teeth = {sun}, profile_shift = 0, bore_diameter = "20 mm" }}
+planet = {{ teeth = {planet}, profile_shift = 0, bore_diameter = "30 mm" }}
+ring = {{ teeth = {ring}, profile_shift = 0, outer_diameter = "{4 * ring + 60} mm", support = "held" }}
+fixed = "{fixed}"
+input = "{driven}"
+output = "{loaded}"
+{more}
+[load]
+{load}
+[accuracy]
+{accuracy}
+{sections}
+"""
+
+
+def planetary(**options) -> TrainScene:
+    """A planetary set; options are those of `planetary_text`."""
+    return train_from_text(planetary_text(**options))
