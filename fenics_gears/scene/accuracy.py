@@ -46,7 +46,7 @@ MOST_STEPS_PER_MESH_CYCLE = 1000
 # mean transmission error by 0.04 %, K_Hbeta and line loads away from edges by 0.5 %. Layers change them by less than
 # 0.05 %.
 SECTION_SIZE = 0.5
-LAYER_THICKNESS = 1.75
+LAYER_THICKNESS = 2.5
 FEWEST_LAYERS = 4
 LARGEST_LAYER_TURN = 0.3
 # Widest slices, in normal modules and by how far the line of contact of a helical pair moves along the path of contact

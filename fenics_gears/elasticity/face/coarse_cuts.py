@@ -19,7 +19,7 @@ from .layers import Sweep, interpolation_along
 # times as large.
 DEEP = 2 / 3
 # Pitches that two layers together may be thick: those measured are 1.1.
-THICKEST = 1.25
+THICKEST = 1.8
 # Of fewer layers all are kept: there is little to save.
 FEWEST = 4
 
