@@ -63,7 +63,7 @@ def test_steeper_helices_have_more_slices():
 
 @pytest.mark.parametrize(
     ("asked", "slices", "layers"),
-    [(Accuracy(slices=40, layers=12), 40, 12), (Accuracy(slices=40), 40, 5), (Accuracy(layers=8), 13, 8)],
+    [(Accuracy(slices=40, layers=12), 40, 12), (Accuracy(slices=40), 40, 4), (Accuracy(layers=8), 13, 8)],
 )
 def test_what_the_scene_asks_for_is_taken(asked, slices, layers):
     """Of one alone the other is what it is by default."""
