@@ -81,9 +81,7 @@ RUNS = (
 
 
 # Slices and layers of the first pair, by which the others are not divisible.
-ODD = tuple(
-    Finer(slices=slices / 38, layers=layers / 8) for slices, layers in ((36, 12), (40, 12), (60, 12), (60, 20))
-)
+ODD = tuple(Finer(slices=slices / 38, layers=layers / 8) for slices, layers in ((36, 12), (40, 12), (60, 12), (60, 20)))
 
 
 def pair(module: float, width: float, helix: float, teeth: int, mate: int, torque: float) -> Scene:
