@@ -36,10 +36,10 @@ PRESSURE = "peak pressure"
 # By size the relative error at that of the defaults, and the power of the size that it goes with. K_Hbeta is averaged
 # over half a module.
 MEASURED = {
-    MEAN: {RISE: (0.0025, 1.3), FLANK: (0.0001, 2.0), LAYERS: (0.0005, 2.0)},
+    MEAN: {RISE: (0.0025, 1.3), FLANK: (0.0001, 2.0), LAYERS: (0.0012, 2.0)},
     SPAN: {SLICES: (0.003, 2.5), FLANK: (0.0002, 2.0), LAYERS: (0.0002, 2.0)},
-    FACE_LOAD: {WIDTH: (0.0013, 1.0), FLANK: (0.001, 2.0), LAYERS: (0.001, 2.0)},
-    LINE_LOAD: {SLICES: (0.01, 3.3), FLANK: (0.006, 2.0), LAYERS: (0.004, 2.0)},
+    FACE_LOAD: {WIDTH: (0.0013, 1.0), FLANK: (0.001, 2.0), LAYERS: (0.0013, 2.0)},
+    LINE_LOAD: {SLICES: (0.01, 3.3), FLANK: (0.006, 2.0), LAYERS: (0.0055, 2.0)},
     PRESSURE: {SLICES: (0.026, 1.6), FLANK: (0.02, 2.0), LAYERS: (0.004, 2.0)},
 }
 LEAST_IN_STEP = 0.5

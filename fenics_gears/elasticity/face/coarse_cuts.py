@@ -18,8 +18,8 @@ from .layers import Sweep, interpolation_along
 # How far below the root circle a cut has fewer nodes, in pitches along that circle. Half as far the error is three
 # times as large.
 DEEP = 2 / 3
-# Pitches that two layers together may be thick: those measured are 1.1.
-THICKEST = 1.25
+# Pitches that two layers together may be thick: those measured are 1.1 to 1.75.
+THICKEST = 1.8
 # Of fewer layers all are kept: there is little to save.
 FEWEST = 4
 

@@ -21,10 +21,11 @@ import numpy as np
 from scipy import sparse
 
 # Modules: thickness of the thin layers.
-THIN = 0.3
-# Modules, on either side of a layer, of layers whose loads it feels: two layers of the default thickness. An even load
+THIN = 0.45
+# Layers on either side whose loads a layer feels: so many, and as many as are so many modules together. An even load
 # then leaves 0.002 of the plane displacement, which differs from layer to layer; 0.018 with one layer, which made
-# K_Hbeta 0.6 % too large.
+# K_Hbeta 0.6 % too large, of thick layers and 28 degrees 1.0 %.
+FEWEST_FELT = 2
 FELT = 2.7
 # Of a face whose layers differ: how many times as many layers one held tooth may have.
 LARGEST_WHOLE = 2
@@ -89,8 +90,10 @@ def neighbours(thick: Sequence[float]) -> list[slice]:
     does, unless that is much larger."""
     ends = np.concatenate([[0.0], np.cumsum(thick)])
     layers = len(thick)
-    # The fewest layers that are FELT together wherever they begin.
-    beside = next((many for many in range(1, layers) if (ends[many:] - ends[:-many]).min() >= FELT - 1e-9), layers)
+    # The fewest layers that are FELT together wherever they begin, but FEWEST_FELT.
+    beside = next(
+        (many for many in range(FEWEST_FELT, layers) if (ends[many:] - ends[:-many]).min() >= FELT - 1e-9), layers
+    )
     most = min(2 * beside + 1, layers)
     first = np.clip(np.arange(layers) - beside, 0, layers - most)
     found = [slice(low, low + most) for low in first.tolist()]

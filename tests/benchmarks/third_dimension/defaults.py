@@ -81,9 +81,7 @@ RUNS = (
 
 
 # Slices and layers of the first pair, by which the others are not divisible.
-ODD = tuple(
-    Finer(slices=slices / 38, layers=layers / 12) for slices, layers in ((36, 12), (40, 12), (60, 12), (60, 20))
-)
+ODD = tuple(Finer(slices=slices / 38, layers=layers / 8) for slices, layers in ((36, 12), (40, 12), (60, 12), (60, 20)))
 
 
 def pair(module: float, width: float, helix: float, teeth: int, mate: int, torque: float) -> Scene:
@@ -197,11 +195,13 @@ def alone(row: Row, size: str) -> bool:
 
 
 def section() -> str:
-    """Errors of each pair, and by size the largest of all pairs."""
-    of_pairs = [[row for row in read_rows(NAME) if row["pair"] == number] for number in range(len(PAIRS))]
+    """Errors of each pair that was measured, and by size the largest of all of them."""
+    kept = read_rows(NAME)
+    numbers = sorted({int(row["pair"]) for row in kept})
+    of_pairs = [[row for row in kept if row["pair"] == number] for number in numbers]
     found = [{size: {name: part(rows, size, name) for name in NUMBERS} for size in SIZES} for rows in of_pairs]
     lines = []
-    for (module, width, helix, teeth, mate, _), rows, errors in zip(PAIRS, of_pairs, found):
+    for (module, width, helix, teeth, mate, _), rows, errors in zip([PAIRS[each] for each in numbers], of_pairs, found):
         own = next(row for row in rows if all(row[each] == 1 for each in SIZES) and row["steps"] == STEPS)
         total = {
             name: sum(each for each in (errors[size][name] for size in SIZES) if not isnan(each)) for name in NUMBERS
