@@ -80,8 +80,8 @@ def test_a_run_loads_what_its_scene_and_its_call_name(loaded):
     assert not [name for name in loaded if re.search("spring|stiffness_table|flank_gaps", name)]
     # Shafts that bend, faces, root stress, measured thicknesses, formulas of friction, and words for mistakes.
     unnamed = (
-        r"elastic_shaft|shaft_|bent_shafts|over_face|line_load|face_rules|face_cost|face_resolution|lead_|"
-        r"load_factors|root_stress|thickness|formulas|remedies|mistakes|elasticity\.face"
+        r"elastic_shaft|shaft_|bent_shafts|over_face|line_load|face_rules|face_cost|face_resolution|solids|lead_|"
+        r"load_factors|root_stress|second_process|thickness|formulas|remedies|mistakes|elasticity\.face"
     )
     assert not [name for name in loaded if re.search(unnamed, name)]
     effects = {name.removeprefix("effects.") for name in loaded if name.startswith("effects.")}
@@ -92,7 +92,13 @@ def test_a_run_loads_what_its_scene_and_its_call_name(loaded):
 def test_a_run_over_the_face_with_kept_gears_loads_no_finite_elements():
     """`elasticity.face.compliance`: gears from the cache need neither gmsh nor DOLFINx, which take 0.4 s to load; nor
     does the expected cost, which every run asks for."""
-    modules = ("commands.work.kept_run", "simulation.elastic_route", "contact.face_mesh", "show.over_face")
+    modules = (
+        "commands.work.kept_run",
+        "simulation.solids",
+        "simulation.elastic_route",
+        "contact.face_mesh",
+        "show.over_face",
+    )
     asked = "\n".join(f"import fenics_gears.{name}" for name in modules)
     done = python("-P", "-c", f"{asked}\nimport sys; print(*sys.modules)")
     loaded = {name.partition(".")[0] for name in done.stdout.split()}

@@ -5,6 +5,7 @@ from dataclasses import replace
 from fenics_gears.contact.operator import SHARE_FORMED
 from fenics_gears.elasticity.face.cost import BYTES_OF_AN_UNKNOWN, expected_condensing, expected_size, near_unknowns
 from fenics_gears.inputs.tree import GEARS
+from fenics_gears.system.memory import allowed_memory
 
 from .cost_parts import (
     BYTES_OF_A_NUMBER,
@@ -55,6 +56,15 @@ def _condensing(model: Model, number: int):
     division = face_discretisation(model, number)
     both = model.scene.coast_flanks is not None
     return expected_condensing(gear, division, model.touching.reach.farthest, both)
+
+
+def both_at_once(model: Model) -> bool:
+    """Whether the bodies of both gears differ, and can be condensed at the same time in the memory that the run may
+    take."""
+    gears = zip((model.pair.pinion, model.pair.wheel), model.scene.gears.materials)
+    if len({(gear, material, face_discretisation(model, number)) for number, (gear, material) in enumerate(gears)}) < 2:
+        return False
+    return 2 * CONDENSING_PROGRAM + sum(_condensing(model, number).memory for number in range(2)) <= allowed_memory()
 
 
 def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -> ExpectedCost:

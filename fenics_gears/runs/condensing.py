@@ -16,6 +16,8 @@ from fenics_gears.simulation.bodies import body_key
 from fenics_gears.simulation.root_stress import rows_of
 from fenics_gears.simulation.routes import route_of
 from fenics_gears.simulation.train import condense_shared
+from fenics_gears.system.progress import SilentProgress
+from fenics_gears.system.second_process import threads
 
 from .gear_store import own_gear_store
 from .run import Run
@@ -99,5 +101,8 @@ def condense(task: GearTask | SharedGearTask, tick: Callable[[], None] | None = 
     model = model_of(task.scene)
     if task.part == ROOT_STRESS:
         rows_of(model, task.name, user_cache())
+    elif threads() > 1:
+        # Both at once; the store then has the other one when it is asked for.
+        own_gear_store().bodies(model, SilentProgress(), user_cache())
     else:
         own_gear_store().body(model, task.name, user_cache())

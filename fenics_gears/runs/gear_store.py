@@ -16,7 +16,7 @@ from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.model.shared_gears import couplings
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.bodies import body_key, gear_body
+from fenics_gears.simulation.bodies import body_key, gear_bodies, gear_body
 from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_of_gaps
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
@@ -122,12 +122,11 @@ class GearStore:
         return body
 
     def bodies(self, model: Model, progress: Progress, cache: Cache | None) -> Bodies:
-        """Pinion and wheel, each as of `body`."""
-        bodies = []
-        for name in GEARS:
-            progress.stage(f"condense {name}")
-            bodies.append(self.body(model, name, cache))
-        pinion, wheel = bodies
+        """Pinion and wheel; where neither is kept, both are condensed at once where that pays."""
+        keys = [body_key(model, name) for name in GEARS]
+        if keys[0] != keys[1] and not self._gears.keys() & set(keys):
+            self._gears.update(zip(keys, gear_bodies(model, progress, cache)))
+        pinion, wheel = (self.body(model, name, cache) for name in GEARS)
         return pinion, wheel
 
     def _give_up_oldest(self) -> None:

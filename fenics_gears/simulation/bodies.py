@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from fenics_gears.effects import effects_on, from_effects
@@ -15,23 +17,31 @@ from fenics_gears.system.progress import Progress
 
 if TYPE_CHECKING:
     from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-    from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
 
 def gear_bodies(model: Model, progress: Progress, cache: Cache | None) -> Bodies:
     """Pinion and wheel, from the cache or condensed."""
-    bodies = []
-    for name in GEARS:
-        progress.stage(f"condense {name}")
-        bodies.append(gear_body(model, name, cache))
-    pinion, wheel = bodies
-    return pinion, wheel
+    over_face = model.scene.three_dimensional
+    with _solids().begun(model, progress, cache) if over_face else nullcontext(lambda: (None, None)) as solids:
+        sections = []
+        for name in GEARS:
+            progress.stage(f"condense {name}")
+            sections.append(_section(model, name, cache))
+        pinion, wheel = map(Body.of, sections, solids())
+        return pinion, wheel
 
 
 def gear_body(model: Model, name: str, cache: Cache | None) -> Body:
     """The "pinion" or the "wheel" over the teeth that interact, from the cache or condensed."""
-    section = _section(model, name, cache)
-    return Body.of(section, _solid(model, name, cache) if model.scene.three_dimensional else None)
+    solid = _solids().solid_of(model, name, cache) if model.scene.three_dimensional else None
+    return Body.of(_section(model, name, cache), solid)
+
+
+def _solids() -> ModuleType:
+    """Bodies in three dimensions; of scenes over the face alone."""
+    from . import solids
+
+    return solids
 
 
 def body_key(model: Model, name: str) -> tuple:
@@ -66,15 +76,3 @@ def _section(model: Model, name: str, cache: Cache | None):
         # The web is in the body; here it would be in both sections of which one corrects the other.
         gear = replace(gear, web=None)
     return flank_compliance(gear, material, division, reach, cache)
-
-
-def _solid(model: Model, name: str, cache: Cache | None) -> FaceCompliance:
-    """The body in three dimensions."""
-    # Plane runs need none of it.
-    from fenics_gears.elasticity.face.compliance import face_compliance
-    from fenics_gears.model.face_resolution import face_discretisation
-
-    gear = getattr(model.pair, name)
-    material = model.scene.gears.material_of(name)
-    division = face_discretisation(model, GEARS.index(name))
-    return face_compliance(gear, material, division, model.touching.reach, cache)

@@ -131,7 +131,8 @@ class Job:
 
 
 def together(job: Any, work: Callable[..., Any], *arguments: Any, **here: Any) -> list[Any]:
-    """As `Job.together`; `work` has None as its communicator where this process is alone."""
+    """As `Job.together`, or that of a `second_process.SecondProcess`; `work` has None as its communicator where this
+    process is alone."""
     return [work(*arguments, None, **here)] if job is None else job.together(work, *arguments, **here)
 
 

@@ -8,6 +8,8 @@ import numpy as np
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
+from fenics_gears.system.job import together
+from fenics_gears.system.second_process import SecondProcess
 
 from ..cache import Cache, kept
 from ..compliance import FlankCompliance, Reach
@@ -21,14 +23,20 @@ ORDER = 2
 
 
 def face_compliance(
-    gear: Gear, material: Material, discretisation: FaceDiscretisation, reach: Reach, cache: Cache | None = None
+    gear: Gear,
+    material: Material,
+    discretisation: FaceDiscretisation,
+    reach: Reach,
+    cache: Cache | None = None,
+    process: SecondProcess | None = None,
 ) -> FaceCompliance:
     """Flank compliance of a gear over its face, from the cache or by condensing one swept tooth sector, hub held, end
     faces free.
 
     gear: its transverse section. With `reach.across` the coast flank's dofs follow the drive flank's. They are in the
     tooth's frame mirrored at its centreline at that height: x and y of the mirrored section, heights and z unchanged.
-    Raises SceneError for an impossible size, ComputationError when a stage fails.
+    process: that does the work, this one unless given. Raises SceneError for an impossible size, ComputationError when
+    a stage fails.
     """
     check_inputs(gear, material, reach)
     discretisation.check()
@@ -41,7 +49,7 @@ def face_compliance(
         # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
         from .computed import computed_body
 
-        return computed_body(similar, scaled, material.poissons_ratio, farthest, both)
+        return together(process, computed_body, similar, scaled, material.poissons_ratio, farthest, both)[0]
 
     arrays, timings = kept(cache, inputs, compute)
     # In place: the arrays are large, and nothing else refers to them.
@@ -64,7 +72,7 @@ def idler_compliance(
     def compute() -> tuple[dict, dict]:
         from .computed import computed_idler
 
-        return computed_idler(similar, scaled, material.poissons_ratio, reach)
+        return computed_idler(similar, scaled, material.poissons_ratio, reach, None)
 
     arrays, timings = kept(cache, inputs, compute)
     for name in ("blocks", "coast", "across"):

@@ -24,7 +24,7 @@ from .web import webbed_section
 
 
 def computed_body(
-    gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool
+    gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, _communicator: None
 ) -> tuple[dict, dict]:
     """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
 
@@ -34,7 +34,9 @@ def computed_body(
     return _computed(gear, face, poissons_ratio, farthest, both, blocks)
 
 
-def computed_idler(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, reach: Reach) -> tuple[dict, dict]:
+def computed_idler(
+    gear: Gear, face: FaceDiscretisation, poissons_ratio: float, reach: Reach, _communicator: None
+) -> tuple[dict, dict]:
     """The same of a gear that one mate loads on the drive flanks and another one on the coast flanks."""
 
     def blocks(sector: SweptSector) -> dict[str, np.ndarray]:

@@ -29,7 +29,7 @@ def test_flanks_of_an_idler_feel_each_other_as_in_the_whole_gear(monkeypatch):
     of its neighbours and far round the gear."""
     both = mesh(both_flanks=True)
     monkeypatch.setattr(computed, "swept_section", lambda gear, sizes: both)
-    found, _ = computed.computed_idler(GEAR, Coarse(1.0, 2, 3.0), 0.3, REACH)
+    found, _ = computed.computed_idler(GEAR, Coarse(1.0, 2, 3.0), 0.3, REACH, None)
     pitch = GEAR.angular_pitch
     turns = {ahead: rotation(ahead * pitch) for ahead in range(-3, 2)}
     flank, coast = (by_radius(both.edge_nodes(side, ELEMENT.order)) for side in ("flank", "coast"))
