@@ -51,11 +51,11 @@ def add_ends(found, rows, fine, group, nodes):
             for row, node in enumerate(nodes):
                 for other in range(begin, end_of(rows, group)):
                     apart = rows.offsets[node] - rows.offsets[other]
-                    found[0, other, row] += fine.shares[number] * _more(end, apart)
+                    found[0, other, row] += fine.shares[number] * displacement_beside(end, apart)
 
 
 @njit(cache=True)
-def _more(end, apart):
+def displacement_beside(end, apart):
     """Displacement (mm per N/mm), averaged over a slice, at an offset `apart` (mm) from a line load."""
     own, coarse = apart**2, apart**2 + end[REACH] ** 2
     added = 0.0

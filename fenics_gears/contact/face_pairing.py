@@ -133,12 +133,7 @@ class FacePairing:
         return Response(compliance, earlier, dependent)
 
     def _rows(
-        self,
-        rows: SectionNodes,
-        columns: SectionNodes,
-        layers: np.ndarray,
-        ends: np.ndarray,
-        by_columns: bool = False,
+        self, rows: SectionNodes, columns: SectionNodes, layers: np.ndarray, ends: np.ndarray, by_columns: bool = False
     ) -> FormedRows:
         same = rows.groups[SLICE][:, None] == columns.groups[SLICE]
         for fine, own, other in zip(self._fine, rows.on_gears, columns.on_gears):
@@ -169,8 +164,8 @@ class FacePairing:
         fine = together([pair.interpolation for pair in pairs], padded=False)
         offsets = np.concatenate([np.empty(0), *(pair.offsets for pair in pairs)])
         return SectionNodes(
-            np.repeat(np.arange(len(pairs)), counts), offsets, first, groups_of(begins, counts, slices), on_gears, near, axes,
-            flanks, *fine[:2], *fine[2],
+            np.repeat(np.arange(len(pairs)), counts), offsets, first, groups_of(begins, counts, slices), on_gears, near,
+            axes, flanks, *fine[:2], *fine[2],
         )  # fmt: skip
 
     def _dependent(self, compliance: FormedRows, layers: np.ndarray) -> int:

@@ -25,10 +25,10 @@ TOOTH, WIDTH, PLACE, SECTION, NODE, PLANE_NODE = range(6)
 class SectionNodes(NamedTuple):
     """Contact nodes (n,) as rows or columns, in groups (P,).
 
-    `group` (n,) of each node, `offsets` (n,), mm, from the line of action; `first` (2, n): the first flank node of either gear that a node sees, among those under
-    all groups, and `near` (2, n, w): weights from that one on. `groups` (4, P) and `on_gears` (2, 6, P): numbers
-    of each group, as above. `axes` (2, P, d, 5): directions of contact in the tooth's frame, in the body (3) and in the
-    section (2).
+    `group` (n,) of each node, and its offset (n,), mm, from the line of action; `first` (2, n): the first flank node of
+    either gear that a node sees, among those under all groups, and `near` (2, n, w): weights from that one on. `groups`
+    (4, P) and `on_gears` (2, 6, P): numbers of each group, as above. `axes` (2, P, d, 5): directions of contact in the
+    tooth's frame, in the body (3) and in the section (2).
 
     On the fine sections: `flanks` (P,) of the teeth; `fine_first` (2, n) and `fine_near` of the FlankInterpolation, the
     weights of all groups one after the other, of each from its place in `fine_begins` (2, P) on, so many
@@ -51,7 +51,8 @@ class SectionNodes(NamedTuple):
 
 class Fine(NamedTuple):
     """Fine sections, mm per N/mm: `first` and `second`, of pinion and wheel, as `stacked`; `shares` (S,), 1/mm: what a
-    section counts in its slice; `layers` (S,): of an own layer of each node; `ends` (S, F, E, 4): `face_ends.ends_of`."""
+    section counts in its slice; `layers` (S,): of an own layer of each node; `ends` (S, F, E, 4): as of
+    `face_ends.ends_of`."""
 
     first: np.ndarray
     second: np.ndarray
