@@ -65,7 +65,7 @@ def wedge_softening(angle: float, poissons_ratio: float) -> float:
     """kappa of a wedge whose angle is `angle` degrees more than a right one.
 
     >>> round(wedge_softening(0.0, 0.3), 3), round(wedge_softening(-20.0, 0.3), 2)
-    (0.234, 1.85)
+    (0.235, 1.85)
     """
     of_angles = [np.interp(angle, ANGLES, row) for row in LOGARITHMS]
     return exp(float(np.interp(poissons_ratio, POISSON, of_angles))) - 1.0
