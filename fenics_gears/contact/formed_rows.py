@@ -165,30 +165,19 @@ def _form_rows(address, nodes, count):
 @njit(cache=True)
 def _side(table):
     return SectionNodes(
-        integer_vector(table[0]),
-        number_vector(table[1]),
-        integer_matrix(table[2]),
-        integer_matrix(table[3]),
-        carray(to_integer(table[4, 0]), (2, 6, table[4, 3])),
-        number_array_3(table[5]),
-        carray(to_number(table[6, 0]), (2, table[6, 2], table[6, 3], 5)),
-        integer_vector(table[7]),
-        integer_matrix(table[8]),
-        number_vector(table[9]),
-        integer_matrix(table[10]),
-        integer_matrix(table[11]),
-    )
+        integer_vector(table[0]), number_vector(table[1]), integer_matrix(table[2]), integer_matrix(table[3]),
+        carray(to_integer(table[4, 0]), (2, 6, table[4, 3])), number_array_3(table[5]),
+        carray(to_number(table[6, 0]), (2, table[6, 2], table[6, 3], 5)), integer_vector(table[7]),
+        integer_matrix(table[8]), number_vector(table[9]), integer_matrix(table[10]), integer_matrix(table[11]),
+    )  # fmt: skip
 
 
 @njit(cache=True)
 def _source(table):
     fine = Fine(
-        number_array_6(table[24]),
-        number_array_6(table[25]),
-        number_vector(table[26]),
-        number_vector(table[27]),
+        number_array_6(table[24]), number_array_6(table[25]), number_vector(table[26]), number_vector(table[27]),
         number_array_4(table[28]),
-    )
+    )  # fmt: skip
     blocks, sections = (
         (number_array_6(table[29]), number_array_6(table[30])),
         (number_array_4(table[31]), number_array_4(table[32])),
