@@ -11,6 +11,7 @@ from pathlib import Path
 
 # The page of the Python interface is made from the checkout's own docstrings.
 sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parent))
 
 project = "fenics_gears"
 project_copyright = "the fenics_gears authors"
@@ -24,6 +25,7 @@ include_patterns = [
     "docs/*.md",
     "docs/evidence/*.md",
     "demos/*/README.md",
+    "demos/notebooks/*.ipynb",
 ]
 # Folders that need not be searched for pages.
 exclude_patterns = [
@@ -138,6 +140,10 @@ def as_lists(app, what, name, thing, options, lines):
 
 def setup(app):
     """Called by Sphinx."""
+    from notebook_pages import SUFFIX, NotebookParser
+
+    app.add_source_suffix(SUFFIX, "notebook")
+    app.add_source_parser(NotebookParser)
     app.connect("source-read", list_names)
     app.connect("autodoc-process-docstring", as_lists)
     app.connect("build-finished", copy_mathjax)

@@ -19,6 +19,7 @@ from fenics_gears.geometry.flank_tolerance import flank_tolerance as flank_toler
 from fenics_gears.geometry.flank_tolerance import helix_tolerance as helix_tolerance
 from fenics_gears.geometry.gear import Gear as Gear
 from fenics_gears.geometry.gear_data import RACKS as RACKS
+from fenics_gears.geometry.gear_data import USUAL_BORE as USUAL_BORE
 from fenics_gears.geometry.gear_data import Material as Material
 from fenics_gears.geometry.involute import inverse_involute as inverse_involute
 from fenics_gears.geometry.involute import involute_function as involute_function

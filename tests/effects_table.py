@@ -41,7 +41,8 @@ def _row(each: Effect) -> str:
     needs, excludes = (
         ", ".join(f"`[{effect_named(name).written}]`" for name in names) for names in (each.needs, each.excludes)
     )
-    return f"| `[{each.written}]` | {each.description} | {each.absent} | {'; '.join(added)} | {needs} | {excludes} |"
+    anchor = "gearsmaterial" if "." in each.written else each.written
+    return f"| [`[{each.written}]`](scene.md#{anchor}) | {each.description} | {each.absent} | {'; '.join(added)} | {needs} | {excludes} |"
 
 
 def _names(variables) -> str:

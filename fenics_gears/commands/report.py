@@ -24,5 +24,11 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--no-stress", action="store_true", help="leave out the stress picture, which takes some seconds"
     )
+    command.add_argument(
+        "--layout",
+        type=Path,
+        metavar="FILE.toml",
+        help="title, author, date, logo, order of sections and limits of a report for a customer",
+    )
     command.add_argument("--effects", action="store_true", help="measure its effects first, as `gears effects` does")
     command.set_defaults(command=later("fenics_gears.commands.work.report:report"))

@@ -19,6 +19,8 @@ RACKS = {
 ROUNDING = 1e-6
 # Thinnest rim between bore or outer circle and root circle, in modules, that leaves room for a mesh.
 LEAST_RIM = 0.2
+# Bore of a gear whose bore is not known, over its root diameter: the rim is thick enough not to matter.
+USUAL_BORE = 0.4
 
 
 @dataclass(frozen=True)

@@ -52,11 +52,16 @@ def effect_states(scene: Scene) -> list[EffectState]:
     return states
 
 
+def derived_rows(scene: Scene) -> Rows:
+    """The figures that a scene leaves out."""
+    return [(each.name, each.value, f"{each.unit}, {each.formula}".lstrip(", ")) for each in scene.derived]
+
+
 def describe(scene: Scene) -> list[tuple[str, Rows]]:
     """Geometry, model, accuracy, natural frequencies and cost of a scene: headings, each with rows (label, value,
     unit). Raises GeometryError for impossible gears."""
     model = model_of(scene)
-    derived: Rows = [(each.name, each.value, f"{each.unit}, {each.formula}".lstrip(", ")) for each in scene.derived]
+    derived = derived_rows(scene)
     sections: list[tuple[str, Rows]] = [("Derived, since the scene leaves it out", derived)] if derived else []
     sections += [
         ("Gear pair", [*characteristics(model.pair, scene.measured_over)]),

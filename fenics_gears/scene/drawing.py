@@ -17,7 +17,7 @@ from typing import Any
 from fenics_gears.effects.tooth_elasticity import material_of
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES
 from fenics_gears.geometry.gear_checks import refuse, tip_radius_with_room
-from fenics_gears.geometry.gear_data import RACKS, ROUNDING, GearData, GearPairData
+from fenics_gears.geometry.gear_data import RACKS, ROUNDING, USUAL_BORE, GearData, GearPairData
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, MODULES, PRESSURE_ANGLES, in_normal_section
 
@@ -33,6 +33,7 @@ SIGNED = ", an internal gear's diameters and teeth being negative"
 def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
     """The pair, and what was derived. Raises GeometryError for a figure that cannot be."""
     gears, of_section = _in_normal_section(gears)
+    gears, of_shifts = _with_profile_shifts(gears)
     both = (gears.pinion, gears.wheel)
     distance, drawn, derived = completed(gears)
     widths = [own.face_width or gears.face_width for own in both]
@@ -41,15 +42,16 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
     apart = abs(offsets[0] - offsets[1])
     common = min(*widths, 0.5 * (widths[0] + widths[1]) - apart) if apart else min(widths)
     alike = widths[0] == widths[1] == common
+    bores, of_bores = zip(*(_inner_diameter(*each) for each in zip(GEARS, both, drawn)))
     pinion, wheel = (
         replace(
             gear,
-            bore_diameter=float(own.bore_diameter) if own.teeth > 0 else -float(own.outer_diameter),
+            bore_diameter=bore,
             face_width=None if alike else width,
             material=material_of(own.material, gears.material),
-            web=own.web and own.web.data(own.bore_diameter, width),
+            web=own.web and own.web.data(bore, width),
         )
-        for gear, own, width in zip(drawn, both, widths)
+        for gear, own, width, bore in zip(drawn, both, widths, bores)
     )
     data = GearPairData(
         module=gears.module,
@@ -63,7 +65,32 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
         pinion_hand=gears.pinion_hand or "right",
         axial_offsets=offsets,
     )
-    return data, of_section + derived
+    return data, [*of_section, *of_shifts, *derived, *chain(*of_bores)]
+
+
+def _with_profile_shifts(gears: Gears) -> tuple[Gears, list[Derived]]:
+    """The section with a profile shift, or a measure, of both gears, and what was derived."""
+    if any(gear.profile_shift is None and gear.measure is None for gear in (gears.pinion, gears.wheel)):
+        return _unstated_shift().with_profile_shifts(gears)
+    return gears, []
+
+
+def _unstated_shift() -> ModuleType:
+    """Profile shifts that are left out."""
+    from . import unstated_shift
+
+    return unstated_shift
+
+
+def _inner_diameter(name: str, own: GearText, drawn: GearData) -> tuple[float, list[Derived]]:
+    """Where the body of a gear ends: at its bore, or at the outer circle of an internal one, whose diameters are
+    negative."""
+    if own.teeth < 0:
+        return -float(own.outer_diameter), []
+    if own.bore_diameter is not None:
+        return float(own.bore_diameter), []
+    bore = USUAL_BORE * drawn.root_diameter
+    return bore, [Derived(f"{name} bore diameter", bore, "mm", f"{USUAL_BORE} d_f; the bore is a rigid ring")]
 
 
 def _in_normal_section(gears: Gears) -> tuple[Gears, list[Derived]]:

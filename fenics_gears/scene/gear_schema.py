@@ -40,7 +40,8 @@ class GearText(Section):
         meaning="profile shift coefficient x, in modules",
         lowest=-5,
         highest=5,
-        otherwise="that of the measured tooth thickness; one of both is required",
+        otherwise="that of the measured tooth thickness; what `centre_distance` and the mate's `profile_shift` leave;"
+        " else 0",
     )
     tip_diameter: float | None = diameter(
         "82.64 mm", "tip diameter", "d_a = d + 2 m_n (x + h_aP + k), with k of `tip_shortening`"
@@ -62,7 +63,7 @@ class GearText(Section):
     bore_diameter: float | None = diameter(
         "30 mm",
         "bore diameter; the bore is a rigid ring on the shaft, which makes thin rims too stiff",
-        "required of an external gear",
+        "0.4 of the root diameter; none of an internal gear",
     )
     outer_diameter: float | None = diameter(
         "280 mm", "outer diameter of the rim of an internal gear", "required of an internal gear"

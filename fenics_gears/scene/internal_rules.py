@@ -44,15 +44,15 @@ NOT_COMPUTED = (
 
 
 def gears_have_their_bodies(tree: Tree) -> Broken:
-    """A bore of an external gear, the outer circle of an internal one; and what else belongs to either kind."""
+    """The outer circle of an internal gear, and what else belongs to either kind."""
     for gear in GEARS:
         own = table(table(tree, "gears") or {}, gear)
         if own is None:
             continue
         internal = is_internal(tree, gear)
-        field = "outer_diameter" if internal else "bore_diameter"
-        if field not in own:
-            yield ("gears", gear, field), f"is missing. Allowed: {allowed_in(GearText, field).description}."
+        if internal and "outer_diameter" not in own:
+            allowed = allowed_in(GearText, "outer_diameter").description
+            yield ("gears", gear, "outer_diameter"), f"is missing. Allowed: {allowed}."
         if gear == "pinion" and internal:
             message = "is an internal gear (ISO 21771). Allowed: an external pinion that drives an internal wheel."
             yield ("gears", gear, "teeth"), f"{message} Call the internal gear the wheel."

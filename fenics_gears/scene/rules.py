@@ -167,9 +167,9 @@ def _teeth_have_a_size(tree: Tree) -> Broken:
 
 
 def _gears_have_their_bodies(tree: Tree) -> Broken:
-    """A bore of an external gear; what an internal one has in its place is told by rules of its own."""
+    """What an internal gear has is told by rules of its own."""
     both, *gears = with_gears(tree, "gears").values()
-    external = all("bore_diameter" in own and not is_internal(tree, gear) for own, gear in zip(gears, GEARS))
+    external = not any(is_internal(tree, gear) for gear in GEARS)
     if external and not {*both, *gears[0], *gears[1]} & {*OF_INTERNAL, *INTERNAL}:
         return
     from .internal_rules import gears_have_their_bodies, internal_gears_have_negative_teeth
@@ -185,9 +185,6 @@ def _thickness_is_given_once(tree: Tree) -> Broken:
         if own is None:
             continue
         measures = [name for name in MEASURES if name in own]
-        if not measures and "profile_shift" not in own:
-            allowed = allowed_in(GearText, "profile_shift").description
-            yield ("gears", gear, "profile_shift"), f"is missing. Allowed: {allowed}; or one of {', '.join(MEASURES)}."
         for name in measures:
             beside = MEASURES[name]
             if beside is not None and beside not in own:

@@ -252,6 +252,8 @@ def _lives_elsewhere(name: str) -> str:
     homes = [f"[{'.'.join(path[:-1])}]" for path in fields if path[-1] == name]
     if homes:
         return f' "{name}" belongs to {" or ".join(homes)}.'
+    if any(path[0] == name for path in known_paths()):
+        return f" It is a section of the scene: [{name}]."
     # A symbol stands for something else in every section.
     named = [
         f'"{path[-1]}" of [{".".join(path[:-1])}]'

@@ -21,7 +21,8 @@ from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.geometry.train_graph import turns_of_shafts
-from fenics_gears.inputs.problem import NOTHING_DONE, line_numbers, listed
+from fenics_gears.inputs.problem import NOTHING_DONE, Problem, line_numbers, listed
+from fenics_gears.inputs.problem import Path as Field
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.units import QuantityError, of_kind
 from fenics_gears.inputs.written import as_written
@@ -155,7 +156,7 @@ def _meshes_of(tree: Mapping[str, Any], sections: TrainSections, source: str, fo
     graph = graph_of(named, sections.shafts.carried)
     bent = sections.shafts.bent
     place = source, folder
-    scenes = [_scene_of(mesh, gears, tree, place, bent) for mesh in named]
+    scenes = _scenes_of(named, gears, tree, place, bent)
     together = [number for own in graph.members if len(own) > 1 for number in own]
     for number in range(len(named)) if sections.shafts.moving else together:
         check_together(scenes[number], f"{source}, {named[number].name}")
@@ -181,6 +182,24 @@ def _meshes_of(tree: Mapping[str, Any], sections: TrainSections, source: str, fo
         own = MeshOfScene(mesh.name, scene, pair, direction, mesh.gears, both, graph.sense(number))
         found.append(replace(own, scene=in_train(scene), bent=of_pair(mesh.gears, bent)) if bent else own)
     return found
+
+
+def _scenes_of(
+    named: Sequence[NamedMesh], gears: Mapping[str, Any], tree: Mapping[str, Any], place: tuple[str, Path],
+    bent: Sequence[BentShaft],
+) -> list[Scene]:  # fmt: skip
+    """The scenes of all meshes. Raises MistakesOfStage for all that is wrong with any, each field once."""
+    scenes = []
+    problems: dict[Field, Problem] = {}
+    for mesh in named:
+        try:
+            scenes.append(_scene_of(mesh, gears, tree, place, bent))
+        except MistakesOfStage as error:
+            for each in error.problems:
+                problems.setdefault(each.path, each)
+    if problems:
+        raise MistakesOfStage(list(problems.values()))
+    return scenes
 
 
 def _scene_of(

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem
 from fenics_gears.inputs.problem import Path as Field
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_toml
 
 from .data import Scene
@@ -51,8 +52,9 @@ class Placed(NamedTuple):
 
     def of(self, problem: Problem) -> Problem:
         """A mistake in a pair's scene at its place in the train."""
-        home = f"[{'.'.join(self.field(('gears',)))}"
-        message = self.words(problem.message).replace("[gears", home)
+        message = self.words(problem.message)
+        for place in (*(("gears", gear) for gear in GEARS), ("gears",)):
+            message = message.replace(f"[{'.'.join(place)}", f"[{'.'.join(self.field(place))}")
         return replace(problem, path=self.field(problem.path), message=message)
 
 

@@ -1,4 +1,4 @@
-"""The paper's gallery, and a fast part of its claims (model.md, section 6)."""
+"""The paper's gallery, and a fast part of its claims (docs/evidence/paper.md)."""
 
 import re
 from pathlib import Path
@@ -36,7 +36,7 @@ def _reduced(file: Path, field: str, values: str, directory: Path) -> Path:
 
 @pytest.mark.nightly
 def test_claim_5_shape_is_kept_at_200_hz_and_the_frictionless_curve_lags(measured):
-    """Fig. 5; with J as we read it (model.md, section 5)."""
+    """Fig. 5; with J as we read it (docs/evidence/paper.md)."""
     static = measured.study("figure02")
     assert claims.claim_5(static, measured.study("figure05")).verdict == claims.HELD
     assert claims.claim_5(static, measured.study(f"{PRINTED}figure05")).verdict != claims.HELD

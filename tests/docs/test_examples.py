@@ -18,6 +18,7 @@ from tests.paper_text import PAPER as DEMO
 from fenics_gears import as_toml, results, scene_from_text, simulate, train_from_text
 from fenics_gears.extensions.optimization.design_file import load_design
 from fenics_gears.results.summary import summary_rows
+from fenics_gears.show.report.layout import load_layout
 from fenics_gears.studies.study_file import load_study
 
 matplotlib.use("Agg")
@@ -30,7 +31,7 @@ PROMPT = ">>> "
 # What stands for a number or a word in the pages' commands.
 STAND_FOR = {"N": "2", "SECONDS": "2", "PHASE": "0.25", "TORQUE": "437 N m", "SPEED": "750 rpm"}
 STARTERS = ("mpirun", "srun")
-README = ROOT / "README.md"
+START = ROOT / "docs" / "start.md"
 
 
 def holding(language):
@@ -91,6 +92,10 @@ def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
             (tmp_path / tree["scene"]).write_text(DEMO, encoding="utf-8")
             (tmp_path / "design.toml").write_text(block.code, encoding="utf-8")
             assert load_design(tmp_path / "design.toml").variables
+        elif "limits" in tree:
+            (tmp_path / tree["logo"]).write_text("<svg/>", encoding="utf-8")
+            (tmp_path / "layout.toml").write_text(block.code, encoding="utf-8")
+            assert load_layout(tmp_path / "layout.toml").limits
         else:
             whole = {"gears", "load"} <= set(tree)
             scene_from_text(
@@ -200,8 +205,8 @@ def micrometres(result):
 
 
 def test_the_summary_is_as_shown(first_run):
-    """The README, with numbers as meshes of other gmsh versions give them."""
-    shown = next(block.code for block in blocks(README) if block.language == "text").splitlines()
+    """docs/start.md, with numbers as meshes of other gmsh versions give them."""
+    shown = next(block.code for block in blocks(START) if block.language == "text").splitlines()
     assert shown[0] == first_run.attrs["title"]
     rows = {label: value for label, value, _ in summary_rows(first_run)}
     lines = [re.split(r"\s{2,}", line.strip()) for line in shown[1:] if line.strip() != "..."]
@@ -211,11 +216,11 @@ def test_the_summary_is_as_shown(first_run):
         assert numbers[0] == pytest.approx(numbers[1], rel=5e-3)
 
 
-def test_tip_relief_does_what_the_readme_says(first_run):
-    """The README's two numbers."""
-    text = README.read_text(encoding="utf-8")
+def test_tip_relief_does_what_the_page_says(first_run):
+    """The two numbers of docs/start.md."""
+    text = START.read_text(encoding="utf-8")
     before, after = (float(number) for number in re.search(r"falls from ([\d.]+) to ([\d.]+) um", text).groups())
-    appended = next(block.code for block in blocks(README) if block.language == "toml")
+    appended = next(block.code for block in blocks(START) if block.language == "toml")
     relieved = simulate(scene_from_text(DEMO + "\n" + appended, "mine"))
     assert micrometres(first_run) == pytest.approx(before, rel=5e-3)
     assert micrometres(relieved) == pytest.approx(after, rel=1e-2)

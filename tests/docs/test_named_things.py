@@ -29,7 +29,10 @@ def test_files_that_a_page_names_are_there(page):
 
 
 # Pages to look something up in, and pages for those who change the program.
-REFERENCE = ("scene", "trains", "result", "commands", "effects", "rexs", "api", "promises", "hard_cases")
+REFERENCE = (
+    "scene", "trains", "result", "commands", "effects", "rexs", "api", "promises", "hard_cases", "troubleshooting",
+    "platforms",
+)  # fmt: skip
 FOR_AUTHORS = ("reading_the_code", "adding_an_effect", "adding_an_extension")
 GUIDE = [page for page in (ROOT / "docs").glob("*.md") if page.stem not in REFERENCE + FOR_AUTHORS]
 
@@ -37,7 +40,7 @@ GUIDE = [page for page in (ROOT / "docs").glob("*.md") if page.stem not in REFER
 def test_the_guide_is_short():
     """CONTRIBUTING.md."""
     pages = [ROOT / "README.md", *GUIDE]
-    assert sum(len(page.read_text(encoding="utf-8").split()) for page in pages) <= 20_000
+    assert sum(len(page.read_text(encoding="utf-8").split()) for page in pages) <= 17_000
 
 
 def reading_table(heading):
@@ -80,9 +83,9 @@ def test_names_are_in_the_files_that_the_page_gives_for_them():
 
 
 @pytest.mark.nightly
-def test_the_page_on_studies_names_all_that_a_studys_dataset_holds(readers_folder):
-    """A study of frequencies with friction and without."""
-    named = set(in_text(ROOT / "docs" / "studies.md"))
+def test_the_pages_name_all_that_a_studys_dataset_holds(readers_folder):
+    """A study of frequencies with friction and without; what it has of its own, and the numbers of each run."""
+    named = {name for page in ("studies", "result") for name in in_text(ROOT / "docs" / f"{page}.md")}
     with xarray.open_dataset(readers_folder / "results" / "frequencies" / "study.nc", engine="h5netcdf") as study:
         assert len(study.data_vars) > 8 and not [name for name in study.data_vars if name not in named]
 

@@ -185,8 +185,6 @@ def test_materials_go_by_name():
 
 MEASURED = {"tooth_thickness": "5.3 mm"}
 WRONG = {
-    "no thickness at all": ({}, {"profile_shift": None}, {},
-        "gears.pinion.profile_shift\n    is missing. Allowed: a number from -5 up to 5"),
     "two measures": ({}, {**MEASURED, "base_tangent_length": "32 mm", "spanned_teeth": 3}, {},
         'base_tangent_length = "32 mm"\n    is given together with tooth_thickness'),
     "no span": ({}, {"base_tangent_length": "23 mm"}, {}, "gears.pinion.spanned_teeth\n    is missing"),

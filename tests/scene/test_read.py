@@ -46,7 +46,7 @@ def numbers(section):
     ],
 )
 def test_the_demo_has_the_papers_numbers(section, by_hand):
-    """Lundvall et al. 2004, Tables 1 and 2; J and the bore as model.md, section 5, reads them."""
+    """Lundvall et al. 2004, Tables 1 and 2; J and the bore as docs/evidence/paper.md, reads them."""
     read = numbers(getattr(load_scene(DEMO_FILE), section))
     assert len(read) == len(by_hand)
     for value, expected in zip(read, by_hand):

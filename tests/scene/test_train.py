@@ -59,6 +59,20 @@ def test_mistakes_are_told(text, said):
         train_from_text(text)
 
 
+def test_mistakes_of_all_meshes_are_told_at_once():
+    """The list; a gear of two meshes is told once, by its own name."""
+    text = row([24, 31, 40], [0, 60], 100).text
+    wrong = text.replace("teeth = 24", "teeth = 3").replace("teeth = 31", "teeth = 31, face = 2")
+    with pytest.raises(SceneError) as caught:
+        train_from_text(wrong.replace("teeth = 40", "teeth = 4"))
+    assert [".".join(each.path) for each in caught.value.problems] == [
+        "stages.row.gears.1.teeth",
+        "stages.row.gears.2.face",
+        "stages.row.gears.3.teeth",
+    ]
+    assert "is not a known field of [stages.row.gears.2]" in str(caught.value)
+
+
 def test_an_idler_that_both_mates_would_thin_differently_is_refused():
     """Backlash is shared by both gears of a mesh; an idler has one tooth thickness in two meshes."""
     with pytest.raises(SceneError, match="would thin the teeth of a gear differently"):

@@ -47,6 +47,7 @@ def refusal(tmp_path, monkeypatch, capsys):
 MUTATIONS = [
     ("teeth = 16", "teeth = 16.5", "gears.pinion.teeth = 16.5", ["is not a whole number", "from 5 to 1000"]),
     ("teeth = 16", "module = 16", "gears.pinion.module = 16", ['"module" belongs to [gears]', "teeth, profile_shift"]),
+    ("teeth = 16", "friction = 0.1", "gears.pinion.friction = 0.1", ["It is a section of the scene: [friction]"]),
     ('module = "4.5 mm"', 'module = "4.5 Mm"', 'gears.module = "4.5 Mm"', ['unknown unit "Mm". Did you mean "mm"?']),
     ("teeth = 16", "teeth = -16", "gears.pinion.teeth = -16", ["internal gear (ISO 21771)", "internal gear the wheel"]),
     ("teeth = 24", "teeth = 24\ninternal = true", "gears.wheel.outer_diameter", ["is missing", "a length"]),

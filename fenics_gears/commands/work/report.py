@@ -1,12 +1,18 @@
 """What ``gears report`` does."""
 
 import argparse
+from collections.abc import Mapping
 from contextlib import closing
+from dataclasses import dataclass
+from math import nan
 from os.path import exists, isdir
 from pathlib import Path
+from types import ModuleType
+from typing import Any
 
 from fenics_gears.errors import SceneError
 from fenics_gears.show.effect_costs import effect_costs
+from fenics_gears.show.report.page import Page
 from fenics_gears.show.report.rendering import rendered
 from fenics_gears.show.report.run_page import run_page
 from fenics_gears.show.report.study_page import study_page
@@ -31,10 +37,35 @@ def report(options: argparse.Namespace) -> int:
     file, is_study = run_or_study_file(options.run)
     output = output_file(options.output, file, is_study)
     _check(options, file, output, is_study)
+    # Nothing is drawn for a layout that is wrong.
+    layout = None if options.layout is None else layouts().load_layout(options.layout)
+    if is_study and layout is not None and layout.limits:
+        raise SceneError(f"{options.layout}: [limits] are of a run; this is a study. Leave them out, or name a case.")
     with closing(shown_progress(options.quiet)) as progress:
-        written = (_study if is_study else _run)(options, file, output, progress)
+        written = (_study if is_study else _run)(options, file, _Writing(output, layout), progress)
     print_files(written, options.quiet)
     return 0
+
+
+def layouts() -> ModuleType:
+    """Layouts of reports, loaded where one is asked for."""
+    from fenics_gears.show.report import layout
+
+    return layout
+
+
+@dataclass(frozen=True)
+class _Writing:
+    """Where a page goes, and its layout, None for the usual one."""
+
+    output: Path
+    layout: Any
+
+    def write(self, page: Page, numbers: Mapping[str, Any], micrometres: float = nan) -> Path:
+        """Write the page; `numbers`: of its result, `micrometres`: of one radian of the wheel."""
+        laid_out = page if self.layout is None else layouts().laid_out(page, self.layout, numbers, micrometres)
+        text = rendered(laid_out)
+        return write_whole(self.output, lambda path: path.write_text(text, encoding="utf-8"))
 
 
 def run_or_study_file(path: Path) -> tuple[Path, bool]:
@@ -75,7 +106,7 @@ def _check(options: argparse.Namespace, file: Path, output: Path, is_study: bool
         raise SceneError("--effects and --at are for a run; this is a study. Leave them out, or name one of its cases.")
 
 
-def _run(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
+def _run(options: argparse.Namespace, file: Path, writing: _Writing, progress) -> list[Path]:
     dataset = loaded_run(file, trains=True)
     if of_train(dataset):
         if options.effects or options.at is not None:
@@ -83,18 +114,18 @@ def _run(options: argparse.Namespace, file: Path, output: Path, progress) -> lis
         # Pages on pairs need none of it.
         from fenics_gears.show.report.train_page import train_page
 
-        return [_write(train_page(dataset, file, progress), output)]
+        return [writing.write(train_page(dataset, file, progress), dataset.attrs)]
     run = ShownRun(dataset, file, at=options.at, stress=not options.no_stress)
     written = []
     if options.at is not None and run.steps:
         stored_index(run.dataset, options.at)
     if options.effects:
         written = _measure_effects(run, progress)
-    return [*written, _write(run_page(run, progress), output)]
+    return [*written, writing.write(run_page(run, progress), dataset.attrs, run.micrometres)]
 
 
-def _study(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
-    return [_write(study_page(loaded_run(file, load_combined), file, output, progress), output)]
+def _study(options: argparse.Namespace, file: Path, writing: _Writing, progress) -> list[Path]:
+    return [writing.write(study_page(loaded_run(file, load_combined), file, writing.output, progress), {})]
 
 
 def _measure_effects(run, progress) -> list[Path]:
@@ -103,8 +134,3 @@ def _measure_effects(run, progress) -> list[Path]:
     if communicator() is not None:
         raise SceneError(f"--effects {NO_TIMES}")
     return write_report(measure(run.scene, progress), run.file.parent, "effects", write_csv, effect_costs)
-
-
-def _write(page, output: Path) -> Path:
-    text = rendered(page)
-    return write_whole(output, lambda path: path.write_text(text, encoding="utf-8"))

@@ -11,6 +11,7 @@ from typing import Any
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
+from fenics_gears.model.description import derived_rows
 from fenics_gears.model.loop_rows import loop_rows
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of
@@ -88,6 +89,8 @@ def check_train(scene: TrainScene) -> int:
     for row in model.rows:
         for mesh, own, phase in zip(row.meshes, row.models, row.layout.phases):
             print_rows(f"Mesh {mesh.name}", _mesh_rows(mesh, own, phase))
+            if derived := derived_rows(mesh.scene):
+                print_rows(f"Mesh {mesh.name}: derived, since the scene leaves it out", derived)
     if scene.shafts.moving:
         from fenics_gears.model.train_motion_rows import frequency_rows, motion_rows
 

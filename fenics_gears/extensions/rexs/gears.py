@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import partial
 from math import acos, atan, cos, hypot, isclose, tan
 
-from fenics_gears import RACKS, inverse_involute, involute_function
+from fenics_gears import RACKS, USUAL_BORE, inverse_involute, involute_function
 
 from .attributes import Reading, every, first, given, missing, needed, places
 from .placing import distance_of_positions, offset_of_wheel
@@ -17,8 +17,6 @@ from .values import NUMBER, SAME, Value, ValueProblem, agreed, bare, computed, p
 Sections = dict[str, dict[str, Value | None]]
 STANDARD = "ISO 53 A"
 ADDENDUM, DEDENDUM, _ = RACKS[STANDARD]
-# A gear without a known bore: the rim is thick enough not to matter.
-BORE = 0.4
 MATERIAL = ("youngs_modulus", "poissons_ratio")
 # A shaft that is thicker, over the root diameter, is one piece with the gear.
 THICK_SHAFT = 0.7
@@ -252,7 +250,8 @@ def _bore_diameter(part: GearParts, root: Value) -> Value:
     shaft = diameter_at(part.gear, part.shafts[0], part.on_shafts) if part.shafts else None
     if shaft is not None and shaft.number <= THICK_SHAFT * root.number:
         return replace(shaft, origin=f"{why}; {shaft.origin}, the shaft there", assumed=True)
-    return computed(BORE * root.number, 1.0, "mm", f"{why}; {BORE} of the root diameter, held rigidly", assumed=True)
+    why = f"{why}; {USUAL_BORE} of the root diameter, held rigidly"
+    return computed(USUAL_BORE * root.number, 1.0, "mm", why, assumed=True)
 
 
 def _materials(stage: Stage) -> Sections:

@@ -120,9 +120,17 @@ def sentence(name: str, heading: str, text: str, warns: bool = False) -> PageSec
 
 
 @dataclass(frozen=True)
+class Letterhead:
+    """Whose report it is: rows of name and value, and a picture as a data address, empty where there is none."""
+
+    rows: Sequence[tuple[str, str]]
+    logo: str = ""
+
+
+@dataclass(frozen=True)
 class Page:
     """A whole report; `subject`: of what ("Run", "Study"); `subtitle`: its conditions; `alarm`: what must be known
-    first."""
+    first; `letterhead`: of a report with a layout of its own."""
 
     subject: str
     title: str
@@ -130,3 +138,4 @@ class Page:
     sections: Sequence[PageSection]
     origin: str = ""
     alarm: str = ""
+    letterhead: Letterhead | None = None
