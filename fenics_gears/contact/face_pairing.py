@@ -25,6 +25,7 @@ from fenics_gears.geometry.side import Side
 from .addresses import form_rows
 from .compliance_product import directions
 from .face import Face
+from .face_ends import ends_of
 from .fine_sections import SECTION, SLICE, TOOTH, Fine, SectionNodes, by_nodes, groups_of, stacked, together
 from .formed_rows import FormedRows, fine_section, uncertain_slices
 from .interpolation import FlankInterpolation
@@ -56,6 +57,7 @@ class FacePairing:
         self._largest = sum(section.between(0, 0).diagonal().max() for section in flanks.compliance)
         # The averages of a section are alike in slices of one width.
         self._widths, self._kinds = np.unique(face.widths, return_inverse=True)
+        self._ends = ends_of(self.face, bodies)
         self._bodies = tuple((self._on_slices(*each), self._plane(*each)) for each in zip(self._sides, bodies))
 
     def _plane(self, side: Side, body: FaceCompliance) -> np.ndarray:
@@ -115,14 +117,14 @@ class FacePairing:
     def _response(self, passage: Passage, now: SectionNodes, before: SectionNodes | None) -> Response:
         pairs: Sequence[FacePair] = passage.pairs
         layers = np.zeros(self.face.slices)
-        compliance = self._rows(now, now, layers)
+        compliance = self._rows(now, now, layers, self._ends)
         earlier = None
         if before is not None:
             # The tangents as they were before. Reciprocal, so that rows are those of nodes before, as the march reads
             # them.
             turned = [contact_axes(self.face, side, pairs, True, side.turn * passage.advance) for side in self._sides]
             tangents = now._replace(axes=np.stack(turned))
-            earlier = self._rows(before, tangents, np.zeros_like(layers), by_columns=True)
+            earlier = self._rows(before, tangents, np.zeros_like(layers), self._ends[:, :, :0], by_columns=True)
         if not len(pairs):
             return Response(compliance, earlier)
         dependent = self._dependent(compliance, layers)
@@ -131,13 +133,13 @@ class FacePairing:
         return Response(compliance, earlier, dependent)
 
     def _rows(
-        self, rows: SectionNodes, columns: SectionNodes, layers: np.ndarray, by_columns: bool = False
+        self, rows: SectionNodes, columns: SectionNodes, layers: np.ndarray, ends: np.ndarray, by_columns: bool = False
     ) -> FormedRows:
         same = rows.groups[SLICE][:, None] == columns.groups[SLICE]
         for fine, own, other in zip(self._fine, rows.on_gears, columns.on_gears):
             _check_sections(fine, own[TOOTH][:, None] - other[TOOTH], (rows.flanks[:, None], columns.flanks), same)
         bodies = [(body.values, sections) for body, sections in self._bodies]
-        return FormedRows.of(bodies, rows, columns, Fine(*self._fine, self._shares, layers), by_columns)
+        return FormedRows.of(bodies, rows, columns, Fine(*self._fine, self._shares, layers, ends), by_columns)
 
     def _nodes_of(self, pairs: Sequence[FacePair], tangential: bool) -> SectionNodes:
         """The pairs' nodes, along normal and tangent."""
@@ -160,9 +162,10 @@ class FacePairing:
             on_gears[gear] = teeth, under, place, section, lowest, plane_node
         axes = np.stack([contact_axes(self.face, side, pairs, tangential) for side in self._sides])
         fine = together([pair.interpolation for pair in pairs], padded=False)
+        offsets = np.concatenate([np.empty(0), *(pair.offsets for pair in pairs)])
         return SectionNodes(
-            np.repeat(np.arange(len(pairs)), counts), first, groups_of(begins, counts, slices), on_gears, near, axes,
-            flanks, *fine[:2], *fine[2],
+            np.repeat(np.arange(len(pairs)), counts), offsets, first, groups_of(begins, counts, slices), on_gears, near,
+            axes, flanks, *fine[:2], *fine[2],
         )  # fmt: skip
 
     def _dependent(self, compliance: FormedRows, layers: np.ndarray) -> int:

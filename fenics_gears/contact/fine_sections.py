@@ -25,10 +25,10 @@ TOOTH, WIDTH, PLACE, SECTION, NODE, PLANE_NODE = range(6)
 class SectionNodes(NamedTuple):
     """Contact nodes (n,) as rows or columns, in groups (P,).
 
-    `group` (n,) of each node; `first` (2, n): the first flank node of either gear that a node sees, among those under
-    all groups, and `near` (2, n, w): weights from that one on. `groups` (4, P) and `on_gears` (2, 6, P): numbers
-    of each group, as above. `axes` (2, P, d, 5): directions of contact in the tooth's frame, in the body (3) and in the
-    section (2).
+    `group` (n,) of each node, and its offset (n,), mm, from the line of action; `first` (2, n): the first flank node of
+    either gear that a node sees, among those under all groups, and `near` (2, n, w): weights from that one on. `groups`
+    (4, P) and `on_gears` (2, 6, P): numbers of each group, as above. `axes` (2, P, d, 5): directions of contact in the
+    tooth's frame, in the body (3) and in the section (2).
 
     On the fine sections: `flanks` (P,) of the teeth; `fine_first` (2, n) and `fine_near` of the FlankInterpolation, the
     weights of all groups one after the other, of each from its place in `fine_begins` (2, P) on, so many
@@ -36,6 +36,7 @@ class SectionNodes(NamedTuple):
     """
 
     group: np.ndarray
+    offsets: np.ndarray
     first: np.ndarray
     groups: np.ndarray
     on_gears: np.ndarray
@@ -50,12 +51,14 @@ class SectionNodes(NamedTuple):
 
 class Fine(NamedTuple):
     """Fine sections, mm per N/mm: `first` and `second`, of pinion and wheel, as `stacked`; `shares` (S,), 1/mm: what a
-    section counts in its slice; `layers` (S,): of an own layer of each node."""
+    section counts in its slice; `layers` (S,): of an own layer of each node; `ends` (S, F, E, 4): as of
+    `face_ends.ends_of`."""
 
     first: np.ndarray
     second: np.ndarray
     shares: np.ndarray
     layers: np.ndarray
+    ends: np.ndarray
 
 
 def by_nodes(blocks: np.ndarray, components: int) -> np.ndarray:

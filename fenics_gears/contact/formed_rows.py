@@ -30,6 +30,7 @@ from .addresses import (
     to_integer,
     to_number,
 )
+from .face_ends import add_ends
 from .fine_sections import (
     BEGIN,
     IN_SLICE,
@@ -71,7 +72,7 @@ class _Source(NamedTuple):
 # In compiled code it is a table: first the addresses that `addresses.form_rows` and `addresses.solver_of` read, the
 # latter 0 between other nodes than those of one position; then address and shape of each array, the last being the
 # flags that say which rows are formed.
-ARRAYS = 32
+ARRAYS = 35
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,31 +165,25 @@ def _form_rows(address, nodes, count):
 @njit(cache=True)
 def _side(table):
     return SectionNodes(
-        integer_vector(table[0]),
-        integer_matrix(table[1]),
-        integer_matrix(table[2]),
-        carray(to_integer(table[3, 0]), (2, 6, table[3, 3])),
-        number_array_3(table[4]),
-        carray(to_number(table[5, 0]), (2, table[5, 2], table[5, 3], 5)),
-        integer_vector(table[6]),
-        integer_matrix(table[7]),
-        number_vector(table[8]),
-        integer_matrix(table[9]),
-        integer_matrix(table[10]),
-    )
+        integer_vector(table[0]), number_vector(table[1]), integer_matrix(table[2]), integer_matrix(table[3]),
+        carray(to_integer(table[4, 0]), (2, 6, table[4, 3])), number_array_3(table[5]),
+        carray(to_number(table[6, 0]), (2, table[6, 2], table[6, 3], 5)), integer_vector(table[7]),
+        integer_matrix(table[8]), number_vector(table[9]), integer_matrix(table[10]), integer_matrix(table[11]),
+    )  # fmt: skip
 
 
 @njit(cache=True)
 def _source(table):
     fine = Fine(
-        number_array_6(table[22]), number_array_6(table[23]), number_vector(table[24]), number_vector(table[25])
-    )
+        number_array_6(table[24]), number_array_6(table[25]), number_vector(table[26]), number_vector(table[27]),
+        number_array_4(table[28]),
+    )  # fmt: skip
     blocks, sections = (
-        (number_array_6(table[26]), number_array_6(table[27])),
-        (number_array_4(table[28]), number_array_4(table[29])),
+        (number_array_6(table[29]), number_array_6(table[30])),
+        (number_array_4(table[31]), number_array_4(table[32])),
     )
-    matrix = carray(to_number(table[30, 0]), (table[30, 1], table[30, 2]))
-    return _Source(_side(table), _side(table[11:]), fine, blocks, sections, matrix)
+    matrix = carray(to_number(table[33, 0]), (table[33, 1], table[33, 2]))
+    return _Source(_side(table), _side(table[12:]), fine, blocks, sections, matrix)
 
 
 @njit(cache=True)
@@ -236,6 +231,7 @@ def _form(source, group, nodes):
         for e in range(others):
             add_seen(found[e], columns.near[gear], columns.first[gear], along[e])
     add_fine(found, rows, columns, source.fine, group, nodes)
+    add_ends(found, rows, source.fine, group, nodes)
     layer = source.fine.layers[rows.groups[SLICE, group]] * source.fine.shares[rows.groups[SLICE, group]]
     # Written without being read: a page that is read first comes from the system twice.
     for e, j in np.ndindex((others, m)):

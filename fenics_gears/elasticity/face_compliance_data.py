@@ -10,6 +10,7 @@ import numpy as np
 from .compliance import FlankCompliance
 
 if TYPE_CHECKING:
+    from .face.free_end import FreeEnds
     from .face.near_field import NearField
 
 
@@ -23,7 +24,8 @@ class FaceCompliance:
     (counter-clockwise) of the loaded one. Dofs by height, then flank node, then component (x, y, z) in the tooth's own
     frame at that height. plane: the plane-strain compliance of the section's mesh. seat: (h, 6, h, 6), mm, rad, N,
     compliance of the axis of a gear that is cut into its shaft; None where the hub is rigid. Its motions are x, y, z,
-    tilts about x and y, and turn. near: what the layers leave out near a load; None where nothing is.
+    tilts about x and y, and turn. near: what the layers leave out near a load; None where nothing is. ends: how
+    flanks give way beside the ends of the face; None where they do as elsewhere.
     """
 
     roll_angle: np.ndarray
@@ -35,6 +37,7 @@ class FaceCompliance:
     flanks: int = 1
     seat: np.ndarray | None = field(default=None, compare=False)
     near: NearField | None = field(default=None, compare=False)
+    ends: FreeEnds | None = field(default=None, compare=False)
 
     @property
     def offsets(self) -> int:

@@ -6,6 +6,7 @@ from tests.stand_in import stand_in_compliance
 
 from fenics_gears import ComputationError
 from fenics_gears.contact.addresses import form_rows
+from fenics_gears.contact.face_ends import displacement_beside
 from fenics_gears.contact.fine_sections import Fine, SectionNodes, by_nodes, stacked
 from fenics_gears.contact.formed_rows import FormedRows, fine_section, uncertain_slices
 
@@ -33,7 +34,8 @@ def side(random, kinds):
     group, axes = np.repeat(np.arange(4), 3), random.standard_normal((2, 4, kinds, 5))
     begins, flanks = 9 * np.arange(8).reshape(2, 4), np.zeros(4, dtype=int)
     seen = flanks, fine_first, fine_near.ravel(), begins, np.full((2, 4), 3)
-    return SectionNodes(group, first, GROUPS, np.array(on_gears), near, axes, *seen), weights, fine
+    offsets = 0.1 * np.arange(12.0)
+    return SectionNodes(group, offsets, first, GROUPS, np.array(on_gears), near, axes, *seen), weights, fine
 
 
 def views(random, count, width):
@@ -86,10 +88,17 @@ def test_rows_are_those_of_whole_matrices(kinds):
     ]
     sections = [symmetric(random, 2 * FINE_NODES)[:, None, None] for _ in range(2)]
     layers, shares = random.random(SLICES) if kinds[0] == kinds[1] else np.zeros(SLICES), random.random(SLICES)
-    expected = by_whole_matrices(bodies, Fine(*sections, shares, layers), rows, columns)
-    fine = Fine(*(by_nodes(each, 2) for each in sections), shares, layers)
+    # An end of the first slice.
+    ends = np.zeros((SLICES, 1, 1, 4)) if kinds[0] == kinds[1] else np.zeros((SLICES, 1, 0, 4))
+    ends[0, :, :] = 3.0, 0.0, 0.5, 0.2
+    expected = by_whole_matrices(bodies, Fine(*sections, shares, layers, ends), rows, columns)
+    fine = Fine(*(by_nodes(each, 2) for each in sections), shares, layers, ends)
     if kinds[0] == kinds[1]:
         expected += np.diag(np.tile(np.repeat((fine.shares * layers)[IN_SLICES], 3), kinds[0]))
+        apart = rows[0].offsets[:3, None] - rows[0].offsets[:3]
+        expected[:3, :3] += shares[0] * np.vectorize(lambda each: displacement_beside.py_func(ends[0, 0, 0], each))(
+            apart
+        )
     found = FormedRows.of(by_section, rows[0], columns[0], fine)
     asked = np.array([1, 4, 5])
     form_rows(found.address, asked)
@@ -112,7 +121,9 @@ def test_slices_that_are_taken_as_independent_are(paper_pair):
     blocks = [np.zeros((2 * OFFSETS + 1, 1, 1, *own.shape)) for _ in range(2)]
     for block in blocks:
         block[OFFSETS, 0, 0] = own
-    fine = Fine(*(by_nodes(block, 2) for block in blocks), np.ones(SLICES), np.zeros(SLICES))
+    fine = Fine(
+        *(by_nodes(block, 2) for block in blocks), np.ones(SLICES), np.zeros(SLICES), np.zeros((SLICES, 1, 0, 4))
+    )
     by_section = [(np.zeros((2 * OFFSETS + 1, SLICES, SLICES, 1, 1, 9)), np.zeros((2 * OFFSETS + 1, 1, 1, 4)))] * 2
     softest = np.full(2, np.linalg.eigvalsh(own)[0])
 

@@ -16,6 +16,7 @@ from ..compliance import FlankCompliance, Reach
 from ..face_compliance_data import AcrossFlanks, FaceCompliance, IdlerCompliance
 from ..gear_compliance import check_inputs, similar_inputs
 from .discretisation import FaceDiscretisation
+from .free_end import FreeEnds, free_ends
 from .near_field import NearField
 
 # Not a choice: heights of the nodes, here and in FaceCompliance, follow from it.
@@ -56,7 +57,8 @@ def face_compliance(
     arrays["blocks"] *= 1.0 / (material.youngs_modulus * gear.module)
     arrays["plane"] *= 1.0 / material.youngs_modulus
     near = NearField.of_arrays(arrays).scaled(gear.module, material.youngs_modulus)
-    return _body(gear, arrays, (arrays["blocks"], arrays["plane"], near), 2 if both else 1, timings)
+    ends = free_ends(discretisation.twist * gear.base_radius, material, _element(gear, arrays["roll_angle"]))
+    return _body(gear, arrays, (arrays["blocks"], arrays["plane"], near, ends), 2 if both else 1, timings)
 
 
 def idler_compliance(
@@ -82,8 +84,11 @@ def idler_compliance(
     near = NearField.of_arrays(arrays).scaled(gear.module, material.youngs_modulus)
     half = 2 * len(arrays["roll_angle"])
     plane = arrays["plane"][:, :half, :half], arrays["plane"][:, half:, half:].swapaxes(1, 2)
+    slope, element = discretisation.twist * gear.base_radius, _element(gear, arrays["roll_angle"])
+    # A mirror image leans the other way.
+    ends = [free_ends(each, material, element) for each in (slope, -slope)]
     drive, coast = (
-        _body(gear, arrays, (arrays[name], plane[number], near.of_flank(number)), 1, timings)
+        _body(gear, arrays, (arrays[name], plane[number], near.of_flank(number), ends[number]), 1, timings)
         for number, name in enumerate(("blocks", "coast"))
     )
     motions = arrays["drive_motions"], arrays["coast_motions"]
@@ -91,10 +96,10 @@ def idler_compliance(
 
 
 def _body(
-    gear: Gear, arrays: dict, parts: tuple[np.ndarray, np.ndarray, NearField], flanks: int, timings: dict
+    gear: Gear, arrays: dict, parts: tuple[np.ndarray, np.ndarray, NearField, FreeEnds], flanks: int, timings: dict
 ) -> FaceCompliance:
-    """The body of these blocks, blocks of its section and near field."""
-    blocks, plane, near = parts
+    """The body of these blocks, blocks of its section, near field and ends."""
+    blocks, plane, near, ends = parts
     rolls = arrays["roll_angle"]
     return FaceCompliance(
         roll_angle=rolls,
@@ -105,4 +110,10 @@ def _body(
         timings=timings,
         flanks=flanks,
         near=near,
+        ends=ends,
     )
+
+
+def _element(gear: Gear, rolls: np.ndarray) -> float:
+    """Mean length (mm) of the elements along a flank with nodes at `rolls` (n,), rad."""
+    return 0.5 * gear.base_radius * float(rolls[-1] ** 2 - rolls[0] ** 2) * ORDER / (len(rolls) - 1)
