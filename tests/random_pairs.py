@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from fenics_gears import Gear, GearPair, GeometryError
 from fenics_gears.geometry.gear_checks import check_gear
-from fenics_gears.geometry.helix import Helix
+from fenics_gears.geometry.gear_data import Helix
 from fenics_gears.geometry.pair_checks import check_pair
 
 

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from fenics_gears.inputs.fields import quantity
-from fenics_gears.inputs.per_gear import PerGear
 from fenics_gears.inputs.section import Section
+from fenics_gears.inputs.tree import PerGear
 
 
 def _angle(of: str, field: str):

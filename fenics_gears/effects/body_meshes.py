@@ -10,10 +10,9 @@ from fenics_gears.dynamics.crack_openings import closed_cracks, crack_openings
 from fenics_gears.elasticity.element_nodes import element_nodes
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.inputs.fields import file_name
-from fenics_gears.inputs.per_gear import PerGear
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
-from fenics_gears.inputs.tree import GEARS, Tree, table, value_at
+from fenics_gears.inputs.tree import GEARS, PerGear, Tree, table, value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.system import user_file
 

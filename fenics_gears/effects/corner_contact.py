@@ -3,10 +3,9 @@
 from dataclasses import dataclass
 
 from fenics_gears.inputs.fields import quantity
-from fenics_gears.inputs.per_gear import PerGear
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
-from fenics_gears.inputs.tree import Tree, value_at
+from fenics_gears.inputs.tree import PerGear, Tree, value_at
 
 from .effect import Effect, own_or_shared
 

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from fenics_gears.inputs.fields import choice, file_name, quantities, quantity, whole_number
-from fenics_gears.inputs.per_gear import PerGear
 from fenics_gears.inputs.section import Section
+from fenics_gears.inputs.tree import PerGear
 
 # Where a measured curve is zero.
 REFERENCE_POINT = "reference point"

@@ -4,8 +4,7 @@ rad."""
 from dataclasses import dataclass, field
 
 from fenics_gears.inputs.fields import choice, number, quantity
-from fenics_gears.inputs.per_gear import PerGear
-from fenics_gears.inputs.tree import GEARS
+from fenics_gears.inputs.tree import GEARS, PerGear
 
 # ISO 53:1998, Annex A, in modules: addendum, dedendum, tip radius of the rack. The same as types A to D of GOST
 # 13755-2015; A is also the rack of DIN 867.
@@ -23,6 +22,19 @@ ROUNDING = 1e-6
 LEAST_RIM = 0.2
 # Bore of a gear whose bore is not known, over its root diameter: the rim is thick enough not to matter.
 USUAL_BORE = 0.4
+
+
+@dataclass(frozen=True)
+class Helix:
+    """`angle`, rad, at the reference cylinders, positive; `pinion_hand`: "right" or "left", the wheel has the other."""
+
+    angle: float
+    pinion_hand: str = "right"
+
+    @property
+    def sign(self) -> float:
+        """1 for a right-hand pinion, -1 for a left-hand one."""
+        return 1.0 if self.pinion_hand == "right" else -1.0
 
 
 @dataclass(frozen=True)

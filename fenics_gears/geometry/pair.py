@@ -14,8 +14,7 @@ from fenics_gears.inputs.tree import GEARS
 
 from .gear import Gear, transverse_gear
 from .gear_checks import Impossible, check_gear
-from .gear_data import GearPairData
-from .helix import Helix
+from .gear_data import GearPairData, Helix
 from .involute import inverse_involute, involute_function
 from .pair_checks import check_pair
 from .side import Side

@@ -10,8 +10,8 @@ from typing import ClassVar
 import numpy as np
 
 from fenics_gears.inputs.fields import quantity
-from fenics_gears.inputs.per_gear import PerGear
 from fenics_gears.inputs.section import Section
+from fenics_gears.inputs.tree import PerGear
 
 from .pair import GearPair
 

@@ -12,9 +12,8 @@ import numpy as np
 from fenics_gears.errors import GeometryError
 from fenics_gears.inputs.allowed import Measured
 from fenics_gears.inputs.fields import choice, either, number, quantity
-from fenics_gears.inputs.per_gear import PerGear
 from fenics_gears.inputs.section import Section
-from fenics_gears.inputs.tree import GEARS
+from fenics_gears.inputs.tree import GEARS, PerGear
 
 from .gear import Gear
 from .involute import arc_length

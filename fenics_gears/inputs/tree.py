@@ -1,8 +1,9 @@
 """Values of a parsed scene file, of which some may be wrong."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from math import atan, cos, pi, tan
-from typing import Any
+from typing import Any, Self
 
 from . import units
 from .problem import LISTED, Path, nearest
@@ -208,3 +209,18 @@ def material_sections(tree: Tree) -> list[Path]:
     """Paths of the sections, misspelt ones too, that say what gears are made of; none of rigid gears."""
     homes = with_gears(tree, "gears").items()
     return [(*path, name) for path, home in homes for name in home if nearest(name, ["material"])]
+
+
+class PerGear:
+    """A dataclass with the fields `pinion` and `wheel`: a part for each of the two gears of a pair."""
+
+    @property
+    def of_gears(self) -> tuple[Any, Any]:
+        """The parts of both, in the order of a pair's sides."""
+        first, second = (getattr(self, gear) for gear in GEARS)
+        return first, second
+
+    def changed(self, change: Callable[[Any], Any], **others: Any) -> Self:
+        """The same with both parts changed alike, and `others` of its fields replaced."""
+        parts = {gear: change(own) for gear, own in zip(GEARS, self.of_gears)}
+        return replace(self, **parts, **others)  # type: ignore[type-var]

@@ -16,7 +16,7 @@ from fenics_gears.contact.run_out import RunOut
 from fenics_gears.contact.tooth_pair import node_slices
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.flank_errors import FlankErrors, GearErrors, Waviness
-from fenics_gears.geometry.helix import Helix
+from fenics_gears.geometry.gear_data import Helix
 
 SLICES, STEPS = 4, 10
 WOBBLE, PHASE = 0.02, 0.6

@@ -15,7 +15,7 @@ from fenics_gears.contact.relief_gaps import profile_of
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.geometry.helix import Helix
+from fenics_gears.geometry.gear_data import Helix
 from fenics_gears.model.model import model_of
 
 STEPS, WIDTH = 24, 15.0

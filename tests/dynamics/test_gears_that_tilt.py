@@ -13,7 +13,7 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.bearings import BearingPlaces, Bearings, Support
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
-from fenics_gears.geometry.helix import Helix
+from fenics_gears.geometry.gear_data import Helix
 from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.results.side_by_side import _reaction_rows
 

@@ -13,8 +13,7 @@ from fenics_gears.dynamics.frequencies import Vibration, natural_frequencies, vi
 from fenics_gears.dynamics.guidance import time_step_warnings
 from fenics_gears.dynamics.inertia import GearInertia, Inertia, LoadInertia
 from fenics_gears.dynamics.tilting import gyroscopic_warnings, moved
-from fenics_gears.geometry.gear_data import LumpedGear
-from fenics_gears.geometry.helix import Helix
+from fenics_gears.geometry.gear_data import Helix, LumpedGear
 from fenics_gears.model.drivetrain import drivetrain
 
 # Places and stiffnesses that no mistake of sign, axis or gear leaves alone.

@@ -10,7 +10,7 @@ from tests.benchmarks.against_exudyn.pair import BEARINGS, MESH, SHAFTS, scene
 from fenics_gears import gear_pair, lumped_gears
 from fenics_gears.dynamics.bearings import BearingPlaces
 from fenics_gears.dynamics.frequencies import natural_frequencies
-from fenics_gears.geometry.helix import Helix
+from fenics_gears.geometry.gear_data import Helix
 from fenics_gears.model.drivetrain import drivetrain
 
 # N mm: small, the program being of small displacements.
