@@ -37,7 +37,7 @@ from fenics_gears.scene.train_mesh import MeshOfScene
 from fenics_gears.system.memory import allowed_memory
 from fenics_gears.system.progress import Progress
 
-from .bodies import gear_bodies, gear_body
+from .bodies import body_key, gear_bodies, gear_body
 from .elastic_route import cycle_of, flanks_of, mesh_cycle
 from .routes import Preparation
 from .simulate import MARCH, solved
@@ -193,11 +193,18 @@ def _row_in_plane(
 
 
 def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body]:
-    """The gears of a row, one after the other."""
+    """The gears of a row, one after the other; those that are alike, as planets are, are one body."""
+    known: list[tuple[tuple, Body]] = []
     for gear, sides in enumerate(row.graph.sides):
         progress.stage(f"condense gear {gear + 1}")
         mesh, side = sides[0]
-        yield gear_body(row.models[mesh], GEARS[side], cache) if len(sides) == 1 else shared_body(row, gear, cache)
+        key = row.key_of_shared(gear) if len(sides) > 1 else (body_key(row.models[mesh], GEARS[side]),)
+        body = next((body for other, body in known if other == key), None)
+        if body is None:
+            alone = len(sides) == 1
+            body = gear_body(row.models[mesh], GEARS[side], cache) if alone else shared_body(row, gear, cache)
+            known.append((key, body))
+        yield body
 
 
 def condense_shared(row: RowModel, gear: int, cache: Cache) -> None:
