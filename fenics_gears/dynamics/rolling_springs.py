@@ -130,7 +130,7 @@ class RollingSprings:
         for _ in range(MOST_ITERATIONS):
             beyond = self.departure(balanced)
             slope = (stiffness @ balanced - load + beyond.forces)[own]
-            step = -np.linalg.solve(stiffness[own, own] + beyond.stiffness[own, own], slope)
+            step = -_solved(stiffness[own, own] + beyond.stiffness[own, own], slope)
             change = _change(step, balanced)
             if change <= SAME:
                 balanced[own] += step
@@ -182,6 +182,16 @@ class RollingSprings:
             place = place + part * (coordinates - place)
             last = change
         raise NoBalance(change)
+
+
+def _solved(tangent: np.ndarray, slope: np.ndarray) -> np.ndarray:
+    """Motions (m,) that a tangent stiffness (m, m) answers a slope of the energy (m,) with. Where no element of a
+    bearing touches it is singular; a weak spring then leads back to where one does."""
+    try:
+        return np.linalg.solve(tangent, slope)
+    except np.linalg.LinAlgError:
+        weak = FREE * np.abs(tangent).max() if tangent.any() else 1.0
+        return np.linalg.solve(tangent + weak * np.eye(len(tangent)), slope)
 
 
 def _change(step: np.ndarray, coordinates: np.ndarray) -> float:

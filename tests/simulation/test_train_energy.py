@@ -19,7 +19,8 @@ from fenics_gears.scene.train import TrainScene
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 
-MOVING = f"{INERTIA}{BEARINGS}[damping]\nratio = 0.04\n{motion(2000, 2)}"
+WITHOUT_BEARINGS = f"{INERTIA}[damping]\nratio = 0.04\n{motion(2000, 2)}"
+MOVING = f"{WITHOUT_BEARINGS}{BEARINGS}"
 
 
 def helical_idler() -> TrainScene:
@@ -40,7 +41,7 @@ def clocked_paths(more: str = "") -> TrainScene:
 
 
 def bent_clocked_paths() -> TrainScene:
-    return train_from_text(all_bent(1.0, 'clocking = "1e-4 rad"\n', MOVING + FRICTION))
+    return train_from_text(all_bent(1.0, 'clocking = "1e-4 rad"\n', WITHOUT_BEARINGS + FRICTION))
 
 
 CASES = {
