@@ -178,7 +178,7 @@ def test_a_missing_field_is_named(outcome, measured, every):
         name for name, words in said.items() if words is None or f": {name}\n    is missing. Allowed: " not in words
     ]
     measured("missing fields named", f"{len(required) - len(wrong)} of {len(required)} fields", "all")
-    assert len(required) > 7 and wrong == []
+    assert len(required) > 6 and wrong == []
     for field in fields() if every else ():
         if not field.required:
             words = outcome(scene_with(field.path, None))
