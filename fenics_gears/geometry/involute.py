@@ -21,6 +21,18 @@ def involute_function(roll_angle):
     return roll_angle - np.arctan(roll_angle)
 
 
+def sum_of_profile_shifts(teeth: int, operating_angle: float, transverse_angle: float, normal_angle: float) -> float:
+    """Sum of both profile shifts, in normal modules, that leaves no backlash at an operating pressure angle, by
+    ISO 21771: (z1 + z2) (inv(alpha_wt) - inv(alpha_t)) / (2 tan(alpha_n)). `teeth`: of both gears together; angles in
+    rad.
+
+    >>> round(sum_of_profile_shifts(40, *np.radians([22.0, 20.0, 20.0])), 4)
+    0.283
+    """
+    swept = involute_function(np.tan(operating_angle)) - involute_function(np.tan(transverse_angle))
+    return float(0.5 * teeth * swept / np.tan(normal_angle))
+
+
 def inverse_involute(polar_angle: float) -> float:
     """Roll angle (rad) whose involute function is ``polar_angle`` (rad, not negative).
 

@@ -8,9 +8,7 @@ from math import inf
 from re import sub
 
 from fenics_gears.geometry.planetary import RING, SUN, PlanetarySet
-
-# Names of the gears of a mesh in the scene of its pair.
-OF_A_PAIR = ("pinion", "wheel")
+from fenics_gears.inputs.tree import GEARS
 
 
 @dataclass(frozen=True)
@@ -77,7 +75,7 @@ class OfSet:
 
     def words(self, said: str) -> str:
         """What is said of the pair, in words of the set."""
-        for one, other in zip(OF_A_PAIR, self.gears):
+        for one, other in zip(GEARS, self.gears):
             said = sub(rf"\bgears\.{one}\b", f"stages.{self.stage}.{other}", said)
             said = sub(rf"\b{one}\b", other, said)
         return said.replace("[gears", f"[stages.{self.stage}").replace("gears.", f"stages.{self.stage}.")
@@ -89,6 +87,6 @@ class OfSet:
                 "stages", self.stage, self.mesh, *path
             )  # fmt: skip
         inner = path[1:]
-        if inner and inner[0] in OF_A_PAIR:
-            inner = (self.gears[OF_A_PAIR.index(inner[0])], *inner[1:])
+        if inner and inner[0] in GEARS:
+            inner = (self.gears[GEARS.index(inner[0])], *inner[1:])
         return ("stages", self.stage, *inner)

@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.geometry.pair import GearPair, gear_pair
+from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.planetary import MEMBERS, RING, PlanetarySet, planets_that_assemble
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.section import names_in
+from fenics_gears.inputs.tree import GEARS
 
 from .carrier import Carrier, OfSet
 from .data import Scene
@@ -21,7 +22,7 @@ from .gear_schema import Gears
 from .planetary_rules import text_of_set, wrong_sections
 from .planetary_schema import GEARS_OF_SET, MESHES, RING_MESH, SUN_MESH, PlanetaryText
 from .train_mesh import MeshOfScene
-from .train_pair import STAGES, MistakesOfStage, Placed, check_together, pair_scene
+from .train_pair import STAGES, MistakesOfStage, Placed, check_together, pair_of, pair_scene
 from .train_rules import TrainLoad, TrainMotion, TrainSections, load_and_motion
 from .train_shafts import TrainShafts
 
@@ -44,7 +45,7 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
         raise MistakesOfStage(problems)
     load, motion = found
     scenes = _scenes(tree, stage, content, source, folder)
-    pairs = [_pair_of(scene, source, own) for scene, own in zip(scenes, _of_meshes(stage))]
+    pairs = [pair_of(scene, f"{source}, stage {stage}", own.words) for scene, own in zip(scenes, _of_meshes(stage))]
     place = f"{source}: stages.{stage}"
     _check_centres(pairs, place)
     own_set = _set_of(text, pairs, place)
@@ -89,9 +90,9 @@ def _scenes(tree: Tree, stage: str, content: Tree, source: str, folder: Path) ->
 
 def _scene(tree: Tree, own: OfSet, content: Tree, gears: Mapping[str, Any], source: str, folder: Path) -> Scene:
     """The scene of one pair of a set."""
-    shared = {name: content[name] for name in names_in(Gears) if name in content and name not in ("pinion", "wheel")}
+    shared = {name: content[name] for name in names_in(Gears) if name in content and name not in GEARS}
     sections = {
-        "gears": shared | {name: gears[called] for name, called in zip(("pinion", "wheel"), own.gears)},
+        "gears": shared | {name: gears[called] for name, called in zip(GEARS, own.gears)},
         **{name: tree[name] for name in ("friction", "accuracy") if name in tree},
         **content.get(own.mesh, {}),
         "load": {"wheel_torque": "1 N m"},
@@ -101,13 +102,6 @@ def _scene(tree: Tree, own: OfSet, content: Tree, gears: Mapping[str, Any], sour
         return pair_scene(sections, name, f"{source}, stage {own.stage}", folder, Placed(own.place, own.words))
     except GeometryError as error:
         raise GeometryError(own.words(str(error))) from error
-
-
-def _pair_of(scene: Scene, source: str, own: OfSet) -> GearPair:
-    try:
-        return gear_pair(scene.gears)
-    except GeometryError as error:
-        raise GeometryError(f"{source}, stage {own.stage}: {own.words(str(error))}") from error
 
 
 def _check_centres(pairs: Sequence[GearPair], place: str) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 from fenics_gears.geometry.planetary import MEMBERS
 from fenics_gears.inputs.problem import Problem, did_you_mean
 from fenics_gears.inputs.section import names_in, read
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_written
 
 from .gear_schema import Gears
@@ -22,7 +23,7 @@ from .planetary_schema import (
     PlanetaryText,
 )
 from .train_pair import STAGES
-from .train_rules import ENDS
+from .train_rules import ENDS, wrong_title
 from .train_shafts import explained
 
 # Sections of a train with a set.
@@ -68,9 +69,7 @@ def wrong_sections(tree: Tree) -> Iterator[Problem]:
         elif name not in OF_THE_TRAIN:
             said = f"is not of a train.{did_you_mean(name, OF_THE_TRAIN)} Known: {', '.join(OF_THE_TRAIN)}."
             yield Problem((name,), as_written(tree[name]), said)
-    title = tree.get("title", "")
-    if not isinstance(title, str):
-        yield Problem(("title",), as_written(title), "is no text. Allowed: a text between quotes.")
+    yield from wrong_title(tree)
 
 
 def text_of_set(stage: str, content: Tree) -> tuple[PlanetaryText | None, list[Problem]]:
@@ -79,7 +78,7 @@ def text_of_set(stage: str, content: Tree) -> tuple[PlanetaryText | None, list[P
     own = names_in(PlanetaryText)
     text, problems = read(PlanetaryText, {name: content[name] for name in own if name in content}, path)
     problems = [explained(each, PlanetaryText) for each in problems]
-    shared = [name for name in names_in(Gears) if name not in ("pinion", "wheel", "backlash", *OF_THE_PLANE)]
+    shared = [name for name in names_in(Gears) if name not in (*GEARS, "backlash", *OF_THE_PLANE)]
     known = ["kind", *own, *shared, *GEARS_OF_SET, *MESHES]
     for name in content:
         if name in NOT_HERE:

@@ -17,9 +17,8 @@ from math import pi
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.errors import GeometryError, SceneError
+from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear_train import Layout
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.geometry.train_graph import turns_of_shafts
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem, line_numbers, listed
 from fenics_gears.inputs.problem import Path as Field
@@ -34,7 +33,7 @@ from .planetary_rules import has_planets
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
 from .train_layout import check_cut_alike, check_layout
 from .train_mesh import MeshOfScene, OfMeshes, gear_names, layout_of, rows_of
-from .train_pair import MistakesOfStage, Placed, TrainMistakes, check_together, in_stage, pair_scene
+from .train_pair import MistakesOfStage, Placed, TrainMistakes, check_together, in_stage, pair_of, pair_scene
 from .train_pair_shafts import in_train, in_words_of_train, of_pair, place_of, sections_of_pair
 from .train_rules import OF_A_STAGE, SHARED, TrainSections, checked_train
 from .train_shaft import BentShaft
@@ -186,10 +185,7 @@ def _meshes_of(tree: Mapping[str, Any], sections: TrainSections, source: str, fo
     for number, (mesh, scene) in enumerate(zip(named, scenes)):
         both = shafts[mesh.gears[0]], shafts[mesh.gears[1]]
         direction = _direction(mesh, stages[mesh.stage], source)
-        try:
-            pair = gear_pair(scene.gears)
-        except GeometryError as error:
-            raise GeometryError(f"{source}, stage {mesh.stage}: {error}") from error
+        pair = pair_of(scene, f"{source}, stage {mesh.stage}")
         own = MeshOfScene(mesh.name, scene, pair, direction, mesh.gears, both, graph.sense(number))
         found.append(replace(own, scene=in_train(scene), bent=of_pair(mesh.gears, bent)) if bent else own)
     return found

@@ -9,6 +9,7 @@ from functools import cached_property
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.train_graph import TrainGraph
+from fenics_gears.inputs.tree import GEARS
 
 from .carrier import OfSet
 from .data import Scene
@@ -27,7 +28,7 @@ class MeshOfScene:
     scene: Scene
     pair: GearPair
     direction: float
-    gears: tuple[str, str] = ("pinion", "wheel")
+    gears: tuple[str, str] = GEARS
     shafts: tuple[int, int] = (0, 1)
     sense: int = 1
     bent: OfPair = ()

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from fenics_gears.errors import GeometryError, SceneError
+from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem
 from fenics_gears.inputs.problem import Path as Field
 from fenics_gears.inputs.tree import GEARS
@@ -70,6 +71,15 @@ def pair_scene(sections: Mapping[str, Any], name: str, source: str, folder: Path
     found = Scene(**values)
     found.__dict__["text"] = text
     return found
+
+
+def pair_of(scene: Scene, label: str, words: Callable[[str], str] = str) -> GearPair:
+    """The gears of a mesh; `label`: its file and stage, `words`: what is said of the pair, in those of the train.
+    Raises GeometryError."""
+    try:
+        return gear_pair(scene.gears)
+    except GeometryError as error:
+        raise GeometryError(f"{label}: {words(str(error))}") from error
 
 
 def check_together(scene: Scene, source: str) -> None:

@@ -12,6 +12,7 @@ from fenics_gears.inputs.problem import Problem, did_you_mean
 from fenics_gears.inputs.section import Section, allowed_in, fields_of, names_in, read
 from fenics_gears.inputs.written import as_written
 
+from .planetary_schema import PLANETARY
 from .train_shafts import TrainShafts, checked_shafts, explained
 from .train_topology import coupled_stages
 
@@ -102,9 +103,7 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[TrainSections | None, list[P
     if not isinstance(stages, Mapping) or not 0 < len(stages) <= MOST_STAGES:
         allowed = f"Allowed: 1 to {MOST_STAGES} sections [stages.NAME], each with the gears of a stage."
         return None, [*problems, Problem(("stages",), as_written(stages), f"has no stages. {allowed}")]
-    title = tree.get("title", "")
-    if not isinstance(title, str):
-        problems.append(Problem(("title",), as_written(title), "is no text. Allowed: a text between quotes."))
+    problems += wrong_title(tree)
     coupled = coupled_stages(stages)
     for stage, content in stages.items():
         if not fullmatch(NAMES, stage):
@@ -121,6 +120,13 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[TrainSections | None, list[P
     sections = TrainSections(load, motion, shafts)
     problems += _needed(tree, sections)
     return (None if problems else sections), problems
+
+
+def wrong_title(tree: Mapping[str, Any]) -> Iterator[Problem]:
+    """A title that is no text."""
+    title = tree.get("title", "")
+    if not isinstance(title, str):
+        yield Problem(("title",), as_written(title), "is no text. Allowed: a text between quotes.")
 
 
 def load_and_motion(tree: Mapping[str, Any]) -> tuple[list[Any], list[Problem]]:
@@ -171,7 +177,7 @@ def _of_stage(path: tuple[str, ...], content: Any, coupled: bool) -> Iterator[Pr
         return
     kind = content.get("kind", PAIR)
     if kind not in (PAIR, ROW):
-        said = f'is no kind of stage. Allowed: "{PAIR}", "{ROW}" or "planetary".'
+        said = f'is no kind of stage. Allowed: "{PAIR}", "{ROW}" or "{PLANETARY}".'
         yield Problem((*path, "kind"), as_written(kind), said)
     elif kind == ROW:
         yield from _of_row(path, content)

@@ -17,6 +17,7 @@ from fenics_gears.effects.elastic_shaft_housing import located_housing
 from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.problem import Problem, did_you_mean
 from fenics_gears.inputs.section import Section, names_in, read
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_written
 
 from .carrier import Carrier
@@ -218,7 +219,7 @@ def _damping(tree: Mapping[str, Any], problems: list[Problem]) -> Damping | None
     if not isinstance(written, Mapping):
         problems.append(Problem(("damping",), as_written(written), "is not a section, such as one with ratio = 0.05."))
         return None
-    for gear in ("pinion", "wheel"):
+    for gear in GEARS:
         if gear in written:
             said = "is of a pair. Allowed: one damping of the whole train."
             problems.append(Problem(("damping", gear), "", said))

@@ -12,6 +12,7 @@ from typing import Any
 
 from fenics_gears.geometry.train_graph import TrainGraph, groups
 from fenics_gears.inputs.problem import Problem, did_you_mean
+from fenics_gears.inputs.tree import GEARS
 
 Shafts = list[list[str]]
 
@@ -37,7 +38,7 @@ class NamedMesh:
     def places(self) -> list[tuple[str, ...]]:
         """Where the scene has its gears."""
         if self.count == 1:
-            return [("stages", self.stage, name) for name in ("pinion", "wheel")]
+            return [("stages", self.stage, name) for name in GEARS]
         return [("stages", self.stage, "gears", str(self.number + place)) for place in (1, 2)]
 
 
@@ -47,7 +48,7 @@ def gears_within(stage: str, content: Any) -> list[tuple[str, Any]]:
     gears = content.get("gears")
     if isinstance(gears, list):
         return [(f"{stage}.{number}", each) for number, each in enumerate(gears, 1)]
-    return [(f"{stage}.{name}", content.get(name)) for name in ("pinion", "wheel")]
+    return [(f"{stage}.{name}", content.get(name)) for name in GEARS]
 
 
 def named_meshes(stages: Mapping[str, Any]) -> tuple[list[NamedMesh], list[Problem]]:

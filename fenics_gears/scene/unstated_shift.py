@@ -5,11 +5,11 @@ x1 + x2 = (z1 + z2) (inv(alpha_wt) - inv(alpha_t)) / (2 tan(alpha_n)), without b
 """
 
 from dataclasses import replace
-from math import acos, tan
+from math import acos
 
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES
 from fenics_gears.geometry.gear_checks import refuse
-from fenics_gears.geometry.involute import involute_function
+from fenics_gears.geometry.involute import sum_of_profile_shifts
 from fenics_gears.inputs.tree import GEARS
 
 from .gear_schema import Gears
@@ -54,11 +54,8 @@ def _sum_of_shifts(pair: Gears) -> float:
     teeth = pair.pinion.teeth + pair.wheel.teeth
     sign = 1.0 if pair.wheel.teeth > 0 else -1.0
     without_shift = pair.rack_gear(pair.pinion.teeth, 0.0)
-    transverse = without_shift.pressure_angle
     bases = without_shift.base_radius / pair.pinion.teeth * teeth
     cosine = bases / (sign * pair.centre_distance)
     if not cosine < 1.0:
         return 0.0
-    operating = acos(cosine)
-    swept = involute_function(tan(operating)) - involute_function(tan(transverse))
-    return 0.5 * teeth * float(swept) / tan(pair.pressure_angle)
+    return sum_of_profile_shifts(teeth, acos(cosine), without_shift.pressure_angle, pair.pressure_angle)

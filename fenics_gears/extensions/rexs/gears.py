@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import partial
 from math import acos, atan, cos, hypot, isclose, tan
 
-from fenics_gears import RACKS, USUAL_BORE, inverse_involute, involute_function
+from fenics_gears import RACKS, USUAL_BORE, inverse_involute, involute_function, sum_of_profile_shifts
 
 from .attributes import Reading, every, first, given, missing, needed, places
 from .placing import distance_of_positions, offset_of_wheel
@@ -170,8 +170,7 @@ def _remaining_shift(
         raise ValueProblem(
             f"{name} = {distance.number:.6g} mm is too small for {count:g} teeth of module {module.number:g} mm."
         )
-    operating = acos(cosine)
-    total = 0.5 * count * (tan(operating) - operating - tan(transverse) + transverse) / tan(angle.number)
+    total = sum_of_profile_shifts(count, acos(cosine), transverse, angle.number)
     why = "no addendum_modification_coefficient; what that of the other gear and the centre distance leave it"
     return bare(round(total - known.number, 9), why, assumed=True)
 

@@ -46,7 +46,7 @@ def _tiles(run: ShownRun) -> Iterator[Tile]:
         note = ""
         # Both along the contact normal, which leans by the base helix angle from the transverse line of action.
         if run.pair is not None and run.scene.load.wheel_torque:
-            nominal = abs(run.scene.load.wheel_torque / run.pair.wheel.base_radius) / run.pair.cosine
+            nominal = run.pair.force_of(run.scene.load.wheel_torque) / run.pair.cosine
             note = f"{largest / nominal:.3f} times that of the torque without friction, {digits(nominal)} N"
         yield Tile("Largest mesh force", digits(largest), "N", note)
     if "peak_contact_pressure" in attributes:
