@@ -101,6 +101,8 @@ class Trial:
             self.call("command", *own, environment=AS_ROOT)
         elif self.call("set-up of the tests", "./gears", "--set-up-only", "--test"):
             self.call("tests", "./gears", "test", "-rfEs")
+            if self.call("environments", "apt-get", "install", "-y", "-qq", "python3-venv"):
+                self.call("wheel", "./gears", "python", "-m", "release.wheel")
             for ranks in (2, 3):
                 # Caches of their own, cold as on a cluster's first job.
                 environment = {**AS_ROOT, "XDG_CACHE_HOME": f"/tmp/cache_of_{ranks}"}

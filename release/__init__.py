@@ -1,0 +1,1 @@
+"""What makes a release: the wheel, the conda recipe, and the checks before both."""
