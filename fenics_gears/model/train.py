@@ -255,7 +255,7 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
     parts = parts_of(meshes, shafts)
     bent = bent_of(meshes, shafts)
     sizes = _flank_sizes(meshes, models)
-    wholes = whole_torques(parts.layout, parts.torque)
+    wholes = whole_torques(parts.layout, parts.torques)
     found = []
     for number, (mesh, own, size) in enumerate(zip(meshes, steps, sizes)):
         accuracy = replace(mesh.scene.accuracy, steps_per_mesh_cycle=own, flank_element_size=size)

@@ -14,7 +14,8 @@ from fenics_gears.inputs.section import AllowedTables, Section
 from .accuracy import Accuracy
 from .gear_schema import Gears, GearText
 from .planetary_schema import GEARS_OF_SET, MESHES, OF_A_MESH, PLANETARY, PlanetaryText
-from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED, TrainLoad, TrainMotion
+from .train_loads import TrainLoad, TrainMotion
+from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED
 
 ACCURACY = "accuracy"
 ANGLES = "-360 deg to 360 deg"

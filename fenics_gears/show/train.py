@@ -12,6 +12,7 @@ import xarray as xr
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.results.layout import OF_OUTPUTS
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
 from fenics_gears.results.overall_orders import overall_orders
 from fenics_gears.scene.train import TrainScene
@@ -111,6 +112,8 @@ def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
             height=320,
         )
     ]
+    if OF_OUTPUTS in dataset:
+        charts.append(_of_outputs(dataset, frequency))
     for number, mesh in enumerate(scene.meshes):
         if mesh.like is not None:
             continue
@@ -129,6 +132,17 @@ def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
             )
         )
     return charts
+
+
+def _of_outputs(dataset: xr.Dataset, frequency: float) -> Chart:
+    """Lags of all shafts that drive no gear, each without its mean."""
+    cycles = frequency * np.asarray(dataset["time"])
+    curves = []
+    for number, own in enumerate(dataset[OF_OUTPUTS].transpose("output", "time")):
+        values = MICRO * np.asarray(own)
+        curves.append(Curve(f"shaft of {own['output'].item()}", cycles, values - values.mean(), _colour(number)))
+    words = "Lag of each output without its mean (µrad)"
+    return Chart("Outputs", curves, "Time (cycles of the first mesh)", words, height=280)
 
 
 def orders(scene: TrainScene, dataset: xr.Dataset) -> Chart:

@@ -44,10 +44,24 @@ def bent_clocked_paths() -> TrainScene:
     return train_from_text(all_bent(1.0, 'clocking = "1e-4 rad"\n', WITHOUT_BEARINGS + FRICTION))
 
 
+def several_loads() -> TrainScene:
+    """On two outputs, one behind a shaft that twists, and on the shaft between two stages."""
+    side = stage("side", 2.0, (18, 25), 'direction = "120 deg"')
+    inner = ", ".join(
+        f'{{ on = "{gear}", torque = "{torque} N m", moment_of_inertia = "0.01 kg m^2" }}'
+        for gear, torque in (("first.wheel", 40), ("side.wheel", 50))
+    )
+    load = f'[load]\noutput_torque = "400 N m"\ntorques = [{inner}]\n[accuracy]\n{COARSE}\n'
+    more = MOVING + FRICTION + shaft("middle", '"first.wheel", "second.pinion", "side.pinion"', 1e8)
+    more = more.replace('torsional_stiffness = "100000000.0 N mm/rad"', "") + shaft("end", '"side.wheel"', 2e8)
+    return train_from_text(stage("first", 2.0, (20, 30)) + stage("second", 3.0, (20, 40)) + side + load + more)
+
+
 CASES = {
     "idler": (lambda: row([24, 31, 40], [0, 60], 300, more=FRICTION), 1e9),
     "helical idler": (helical_idler, 1e9),
     "stages behind an idler": (stages_behind_an_idler, 1e9),
+    "several loads": (several_loads, 1e9),
     "no positions kept": (stages_behind_an_idler, 0.0),
     "clocked paths": (clocked_paths, 1e9),
     "clocked paths that move": (lambda: clocked_paths(MOVING), 1e9),

@@ -146,7 +146,10 @@ def _shaft_rows(model: TrainModel) -> Iterator[Row]:
         rate = f"{60.0 * scene.input_speed * turns:.5g} rpm, " if scene.speed_given else ""
         driven = [scene.meshes[mesh].scene.load.wheel_torque for mesh in graph.into(shaft)]
         torque = sum(driven) if shaft else scene.input_torque
-        carried = f", carries {', '.join(scene.shafts.carried[shaft])}"
+        own = scene.loads[shaft]
+        beside = f", of which {1e-3 * own:.5g} N m are its load" if own and own != torque else ""
+        power = f", {2e-6 * pi * scene.input_speed * turns * torque:.5g} kW" if scene.speed_given else ""
+        carried = f"{beside}{power}, carries {', '.join(scene.shafts.carried[shaft])}"
         yield f"shaft {shaft + 1}", f"{rate}{turning}, {1e-3 * torque:.5g} N m{carried}", ""
 
 

@@ -148,6 +148,11 @@ def _power(dataset: xr.Dataset, train: TrainScene, flow: PowerFlow) -> PageSecti
         for number, (each, sense) in enumerate(zip(flow.shafts, train.graph.senses), 1)
     ]
     of_speed = ("Speed (rpm)", "Power (kW)") if flow.speed_given else ()
+    loads = [digits(load * factor("N mm", "N m")) if load else "" for load in train.loads]
+    several = len(loads) - loads.count("") > 1
+    if several:
+        rows = [(*row[:3], load, *row[3:]) for row, load in zip(rows, loads)]
+    of_speed = ("Its load (N m)", *of_speed) if several else of_speed
     headings = ("Shaft", "Turns", "Torque (N m)", *of_speed)
     blocks: list[Block] = [Table(headings, rows, "Shafts, the first one driven", numbers=2), *_shares(dataset)]
     if not flow.speed_given:
