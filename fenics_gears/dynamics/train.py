@@ -50,12 +50,14 @@ class TrainDrivetrain(Drivetrain):
     """Equations of motion of a train. `motions` (f, k): those of shafts that turn together, which without mass some
     meshes alone hold. `angle` (k,): rotation (rad) of the last shaft; `of_meshes`: of each mesh, how its own
     coordinates (l, k) follow; `ends`: by mesh, rotation (k,), rad, of the
-    load on the shaft that it drives."""
+    load on the shaft that it drives. `nominal`: how the coordinates (k,) of rigid and twisting shafts move, mm, as the
+    first shaft turns by 1 rad and all others with it."""
 
     motions: tuple[tuple[float, ...], ...] = ()
     angle: np.ndarray = field(default_factory=lambda: np.zeros(0))
     of_meshes: tuple[np.ndarray, ...] = ()
     ends: tuple[np.ndarray, ...] = ()
+    nominal: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
     @property
     def free_motion(self) -> np.ndarray:  # type: ignore[override]
@@ -190,6 +192,17 @@ class _Rows:
             rows.append(pair.base_radii[side] * self.rotation(gear, side))
         return np.array(rows)
 
+    def nominal(self, turns: Sequence[Fraction]) -> np.ndarray:
+        """The nominal motion (k,) in a rad of the first shaft: the shafts that are driven turn against the sense in
+        which their rotations are counted."""
+        motion = np.zeros(len(self.names))
+        for shaft, turn in enumerate(turns):
+            name = f"rotation_{shaft + 1}"
+            if name in self.names:
+                place = self.names.index(name)
+                motion[place] = -abs(self.radii[place]) * float(turn) if shaft else self.radii[place]
+        return motion
+
     def motion_of(self, shafts: Sequence[int], turns: Sequence[Fraction]) -> tuple[float, ...]:
         """The motion (k,) of shafts that turn together, of length 1; `turns` of each shaft in one of the first."""
         motion = np.zeros(len(self.names))
@@ -235,6 +248,7 @@ def train_drivetrain(
         angle=-rows.onwards(graph.last) * rows.of(f"rotation_{graph.last + 1}"),
         of_meshes=of_meshes,
         ends=tuple(rows.lag(driven) for _, driven in graph.between),
+        nominal=rows.nominal(turns),
     )
     return undamped if damping is None else damped(undamped, damping, mesh_stiffness)
 

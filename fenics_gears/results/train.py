@@ -86,6 +86,7 @@ def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
         overall,
         {"units": "rad", "long_name": "lag of the last shaft behind the nominal motion of the first"},
     )
+    variables |= _frequencies(model)
     variables |= of_outputs(model, meshes)
     variables |= _numbers_of_meshes([each.numbers for each in meshes])
     variables |= path_shares(model, meshes)
@@ -102,6 +103,17 @@ def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
     found = xr.Dataset(variables, coords=coordinates)
     found.attrs = _attributes(model, meshes, overall) | ({} if shafts is None else shafts.numbers)
     return found
+
+
+def _frequencies(model: TrainModel) -> dict[str, tuple]:
+    """Mesh frequencies over the steps of a speed ramp."""
+    ramp = model.rows[0].ramp
+    if ramp is None:
+        return {}
+    steps = range(model.rows[0].steps + 1)
+    speeds = np.array([ramp.mesh_frequency(step) for step in steps]) / ramp.start
+    values = np.outer(speeds, [each.scene.motion.mesh_frequency for each in model.models])
+    return {"mesh_frequency": (("step", MESH), values, {"units": "Hz", "long_name": "mesh frequency"})}
 
 
 def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.ndarray, np.ndarray]:

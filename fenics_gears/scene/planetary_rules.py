@@ -43,7 +43,7 @@ NOT_HERE = {
 }  # fmt: skip
 DYNAMICS = "is not computed with a planetary set yet, which is quasi-static. Leave it out."
 NOT_WITH_A_SET = {
-    **dict.fromkeys(("inertia", "damping", "shafts"), DYNAMICS),
+    **dict.fromkeys(("inertia", "damping", "shafts", "speed_ramp"), DYNAMICS),
     "bearings": "is not computed with a planetary set yet. Allowed: floating, and carrier.pin_stiffness of the set.",
 }
 Tree = Mapping[str, Any]

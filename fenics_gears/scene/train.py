@@ -295,7 +295,8 @@ def _completed(title: str, name: str, text: str, meshes: Sequence[MeshOfScene], 
         frequency = of_first * float(exact[graph.between[number][0]] * mesh.pair.pinion.teeth / first)
         moving = Motion(frequency, cycles, cycles, False, speed is not None)
         found.append(replace(mesh, scene=replace(mesh.scene, load=Load(torques[number]), motion=moving)))
-    recorded = min(motion.recorded_cycles or LAST_CYCLES, cycles)
+    usual = LAST_CYCLES if sections.shafts.ramp is None else cycles
+    recorded = min(motion.recorded_cycles or usual, cycles)
     of_ends = sum(own * turn for own, turn in zip(on_shafts, turns)), on_shafts[-1]
     if (carrier := sections.shafts.carrier) is not None:
         of_ends = carrier.torque, abs(carrier.set.torques(carrier.torque)[carrier.set.output])

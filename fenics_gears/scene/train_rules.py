@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from re import fullmatch
 from typing import Any
 
@@ -13,6 +13,7 @@ from fenics_gears.inputs.written import as_written
 
 from .planetary_schema import PLANETARY
 from .train_loads import TrainLoad, TrainMotion
+from .train_ramp import checked_ramp
 from .train_shafts import TrainShafts, checked_shafts, explained
 from .train_topology import coupled_stages
 
@@ -26,7 +27,7 @@ OVER_THE_FACE = ("lead_modifications", "misalignment")
 OF_A_ROW = (*SHARED, "tip_relief", "root_relief", "profile_modifications", "corner_contact", *OVER_THE_FACE)
 OF_A_STAGE = (*OF_A_ROW, "coast_flanks", "body_meshes")
 OF_A_PAIR = ("shafts", "damping", "torque_ripple", "speed_ramp", "flank_errors", "eccentricity")
-OF_A_TRAIN = ("title", "stages", "load", "motion", *SHARED, "shafts", "damping")
+OF_A_TRAIN = ("title", "stages", "load", "motion", *SHARED, "shafts", "damping", "speed_ramp")
 MOST_STAGES = 20
 NAMES = r"[A-Za-z0-9_-]{1,60}"
 
@@ -63,8 +64,11 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[TrainSections | None, list[P
     load, motion = found
     shafts, wrong = checked_shafts(tree, not problems, load, motion)
     problems += wrong
+    ramp, wrong = checked_ramp(tree, load, motion, shafts)
+    problems += wrong
     if problems:
         return None, problems
+    shafts = replace(shafts, ramp=ramp)
     sections = TrainSections(load, motion, shafts)
     problems += _needed(tree, sections)
     return (None if problems else sections), problems

@@ -31,6 +31,7 @@ from .train_loads import (
     misplaced_loads,
     shaft_with_speed,
 )
+from .train_ramp import TrainRamp
 from .train_shaft import BentShaft, TrainHousing, TrainShaft, wrong_sections
 from .train_topology import Shafts, declared_gears, graph_of, in_order, named_meshes, shafts_by_order
 
@@ -43,7 +44,7 @@ class TrainShafts:
     """What the shafts of a train carry, from the driven one on, by the names of gears; and of each its torsional
     stiffness (N mm/rad) and clocking (rad), None where they are not given. The moment of inertia (N mm s^2) of the
     load, and the damping, None where there is none. `loads`: on further shafts; `speed_of`: number of the shaft whose
-    speed is given. `moving`: whether stages move together. `bent`: the shafts that
+    speed is given. `ramp`: of the speed. `moving`: whether stages move together. `bent`: the shafts that
     also bend, and the `housing` of all of these. `carrier`: of a planetary set, in whose frame the train is."""
 
     carried: tuple[tuple[str, ...], ...] = ()
@@ -57,6 +58,7 @@ class TrainShafts:
     carrier: Carrier | None = None
     loads: tuple[LoadOfShaft, ...] = ()
     speed_of: int = 0
+    ramp: TrainRamp | None = None
 
     @property
     def inertias(self) -> dict[int, float]:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.simulation.test_train_motion import BEARINGS, FRICTION, INERTIA, motion, shaft
 from tests.simulation.test_train_shafts import all_bent, cut_in
-from tests.trains import COARSE, bent_two_stages, helical_row, row, row_section, split_text, stage
+from tests.trains import COARSE, bent_two_stages, helical_row, row, row_section, split_text, stage, two_stages
 
 from fenics_gears import train_from_text
 from fenics_gears.dynamics.energy_account import account, quadratic
@@ -20,6 +20,7 @@ from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 
 WITHOUT_BEARINGS = f"{INERTIA}[damping]\nratio = 0.04\n{motion(2000, 2)}"
+RAMP = '[speed_ramp]\nend_speed = "2600 rpm"\nhold_cycles = 1\n'
 MOVING = f"{WITHOUT_BEARINGS}{BEARINGS}"
 
 
@@ -61,6 +62,7 @@ CASES = {
     "idler": (lambda: row([24, 31, 40], [0, 60], 300, more=FRICTION), 1e9),
     "helical idler": (helical_idler, 1e9),
     "stages behind an idler": (stages_behind_an_idler, 1e9),
+    "a speed ramp": (lambda: train_from_text(two_stages(more=MOVING + FRICTION + RAMP).text), 1e9),
     "several loads": (several_loads, 1e9),
     "no positions kept": (stages_behind_an_idler, 0.0),
     "clocked paths": (clocked_paths, 1e9),
@@ -90,7 +92,8 @@ def test_the_account_closes(train: Callable[[], TrainScene], memory: float):
     energy = energy_of_teeth(steps) + 0.5 * quadratic(steps.states[:, 0], drivetrain.stiffness)
     if drivetrain.mass is not None:
         energy = energy + 0.5 * quadratic(steps.states[:, 1], drivetrain.mass)
-    work = account(drivetrain, model.equations_of_motion.clock, steps, energy)
+    equations = model.equations_of_motion
+    work = account(drivetrain, equations.clock, steps, energy, equations.loads)
     least = work.friction[-1] if drivetrain.mass is None else min(work.friction[-1], work.damping[-1])
     assert least > 1e-3 * np.ptp(energy)
     assert np.abs(work.defect).max() < 1e-9 * energy.max()

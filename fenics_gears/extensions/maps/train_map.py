@@ -24,8 +24,9 @@ LOADS_OF_TRAIN = {
     "power": ("kW", "power"),
 }
 SPEED = "motion.input_speed"
-# That of another shaft, in its place.
-OTHER_SPEED = ("motion.speed", "motion.speed_of")
+# A ramp, and the speed of another shaft in its place.
+RAMP = "speed_ramp"
+OTHER_SPEED = (RAMP, "motion.speed", "motion.speed_of")
 # Of an entry of load.torques, with [inertia] alone.
 INERT = "moment_of_inertia"
 # Of a start, when it has died down.
@@ -95,7 +96,7 @@ class TrainMap:
 
     def _quasi_static(self) -> dict[str, Any]:
         """Changes of the scene: without inertia, each mesh one cycle."""
-        without = self._present("inertia", "damping", "motion.mesh_cycles", "motion.recorded_cycles")
+        without = self._present("inertia", "damping", RAMP, "motion.mesh_cycles", "motion.recorded_cycles")
         without += [f"stages.{name}.inertia" for name, stage in self.tree["stages"].items() if "inertia" in stage]
         of_loads = enumerate(self.tree["load"].get("torques", ()), 1)
         without += [f"load.torques.{number}.{INERT}" for number, load in of_loads if INERT in load]
