@@ -39,7 +39,7 @@ def ramp_orders(result: xr.Dataset, train: TrainScene) -> list[RampOrder]:
             orders.setdefault(round(n * order, 9), (mesh, n))
     lag = result["overall_transmission_error"].values
     speed = result["mesh_frequency"].isel(mesh=0).values / turned[0]
-    width = WINDOW_CYCLES * steps.max()
+    width = min(WINDOW_CYCLES * steps.max(), len(lag) - 1)
     starts = range(0, len(lag) - width, width)
     # Mesh cycles of all harmonics at the steps of a window, from its start on.
     cycles = np.outer(np.arange(width), [n / steps[mesh] for mesh, n in orders.values()])
