@@ -76,6 +76,19 @@ class RampClock:
         return self.acceleration if ramping else 0.0
 
 
+def forces_of_train(
+    clock: RampClock, mass: np.ndarray, nominal: np.ndarray, turned_in_a_cycle: float
+) -> Callable[[float], np.ndarray]:
+    """Forces (k,), N, of the accelerating nominal motion of a train at a step: `nominal` (k,), mm, in a rad of the
+    first shaft, which turns by so many rad in a mesh cycle of the clock."""
+    unit = -turned_in_a_cycle * mass @ nominal
+
+    def load(step: float) -> np.ndarray:
+        return unit * clock.acceleration_at(step)
+
+    return load
+
+
 def inertia_forces(clock: RampClock, drivetrain: Drivetrain, wheel_teeth: int) -> Callable[[float], np.ndarray]:
     """Forces (k,), N, of the accelerating nominal motion at a step."""
     base_pitch = 2.0 * pi * drivetrain.radii[drivetrain.driven] / wheel_teeth

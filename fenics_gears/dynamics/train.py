@@ -10,7 +10,7 @@ its own rows of the coordinates.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import inf, isfinite
@@ -49,12 +49,15 @@ class MeshSprings:
 class TrainDrivetrain(Drivetrain):
     """Equations of motion of a train. `motions` (f, k): those of shafts that turn together, which without mass some
     meshes alone hold. `angle` (k,): rotation (rad) of the last shaft; `of_meshes`: of each mesh, how its own
-    coordinates (l, k) follow; `end` (k,): rotation (rad) of the load."""
+    coordinates (l, k) follow; `ends`: by mesh, rotation (k,), rad, of the
+    load on the shaft that it drives. `nominal`: how the coordinates (k,) of rigid and twisting shafts move, mm, as the
+    first shaft turns by 1 rad and all others with it."""
 
     motions: tuple[tuple[float, ...], ...] = ()
     angle: np.ndarray = field(default_factory=lambda: np.zeros(0))
     of_meshes: tuple[np.ndarray, ...] = ()
-    end: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    ends: tuple[np.ndarray, ...] = ()
+    nominal: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
     @property
     def free_motion(self) -> np.ndarray:  # type: ignore[override]
@@ -63,6 +66,8 @@ class TrainDrivetrain(Drivetrain):
 
     @property
     def free_words(self) -> str:
+        if not all(float(self.angle @ each) for each in self.motions):
+            return "the gears behind a mesh turn freely under their torque"
         motion = max(self.motions, key=lambda each: abs(float(self.angle @ each)))
         torque = 1e-3 * float(self.load @ motion) / float(self.angle @ motion)
         return f"the last gear turns freely under its torque of {torque:.4g} N m"
@@ -70,21 +75,22 @@ class TrainDrivetrain(Drivetrain):
 
 @dataclass(frozen=True)
 class TrainParts:
-    """What a train is put together of: the `layout` of its meshes, and the `torque` (N mm) on the last shaft.
+    """What a train is put together of: the `layout` of its meshes, and the `torques` (N mm) that resist the rotation of
+    each shaft, 0 where there are none.
 
-    `torsion`: stiffness (N mm/rad) of each shaft, of the first between drive and gears, of the last between gears and
+    `torsion`: stiffness (N mm/rad) of each shaft, of the first between drive and gears, of outputs between gears and
     load, of others between the gears that are driven and those that only drive, infinite where it is rigid. By gear:
     `masses`, none without inertia, and `supports` along and off the line of action of its first mesh (N/mm), None where
-    its centre is fixed, infinite where it is fixed beside its place. `load`: moment of inertia (N mm s^2) on the last
-    shaft. `turning`: numbers of gears that turn against their shaft, one that bends.
+    its centre is fixed, infinite where it is fixed beside its place. `loads`: moments of inertia (N mm s^2) of the
+    loads by the numbers of their shafts. `turning`: numbers of gears that turn against their shaft, one that bends.
     """
 
     layout: Layout
-    torque: float
+    torques: Sequence[float]
     torsion: Sequence[float]
     masses: Sequence[LumpedGear] = ()
     supports: Sequence[tuple[float, float] | None] = ()
-    load: float | None = None
+    loads: Mapping[int, float] = field(default_factory=dict)
     turning: Sequence[int] = ()
 
     @property
@@ -160,16 +166,14 @@ class _Rows:
         """1 where the gear that is driven on a shaft is internal, -1 where it turns against its mate."""
         return self.graph.onwards(self.graph.into(shaft)[0])
 
-    @property
-    def end(self) -> np.ndarray:
-        """Rotation of the load."""
-        number = self.graph.last + 1
-        return self.of(f"rotation_{number}") + self.of(f"twist_{number}")
+    def end(self, shaft: int) -> np.ndarray:
+        """Rotation of the load on a shaft: of an output behind what twists, else where it is driven."""
+        far = 0.0 if self.graph.out_of(shaft) else self.of(f"twist_{shaft + 1}")
+        return self.of(f"rotation_{shaft + 1}") + far
 
-    @property
-    def lag(self) -> np.ndarray:
+    def lag(self, shaft: int) -> np.ndarray:
         """The same against the nominal rotation: of an internal gear its frame counts it the other way."""
-        return -self.onwards(self.graph.last) * self.end
+        return -self.onwards(shaft) * self.end(shaft)
 
     def centre(self, gear: int) -> np.ndarray:
         """Displacements (2, k) of a gear's centre, along and off the line of action of its first mesh."""
@@ -187,6 +191,17 @@ class _Rows:
                 rows += list(self.centre(gear) if first == mesh else turned @ self.centre(gear))
             rows.append(pair.base_radii[side] * self.rotation(gear, side))
         return np.array(rows)
+
+    def nominal(self, turns: Sequence[Fraction]) -> np.ndarray:
+        """The nominal motion (k,) in a rad of the first shaft: the shafts that are driven turn against the sense in
+        which their rotations are counted."""
+        motion = np.zeros(len(self.names))
+        for shaft, turn in enumerate(turns):
+            name = f"rotation_{shaft + 1}"
+            if name in self.names:
+                place = self.names.index(name)
+                motion[place] = -abs(self.radii[place]) * float(turn) if shaft else self.radii[place]
+        return motion
 
     def motion_of(self, shafts: Sequence[int], turns: Sequence[Fraction]) -> tuple[float, ...]:
         """The motion (k,) of shafts that turn together, of length 1; `turns` of each shaft in one of the first."""
@@ -221,7 +236,10 @@ def train_drivetrain(
         rows.names,
         rows.radii,
         stiffness,
-        parts.torque * rows.lag,
+        sum(
+            (torque * rows.lag(shaft) for shaft, torque in enumerate(parts.torques) if torque),
+            np.zeros(len(rows.names)),
+        ),
         _mass(rows) if parts.masses else None,
         None,
         MeshSprings(cosines * flanks(MESH_DIRECTION), flanks(ACROSS_DIRECTION)),
@@ -229,7 +247,8 @@ def train_drivetrain(
         motions=tuple(rows.motion_of(shafts, turns) for shafts in graph.cuts),
         angle=-rows.onwards(graph.last) * rows.of(f"rotation_{graph.last + 1}"),
         of_meshes=of_meshes,
-        end=rows.lag,
+        ends=tuple(rows.lag(driven) for _, driven in graph.between),
+        nominal=rows.nominal(turns),
     )
     return undamped if damping is None else damped(undamped, damping, mesh_stiffness)
 
@@ -274,8 +293,9 @@ def _mass(rows: _Rows) -> np.ndarray:
         centre = rows.centre(gear)
         own = parts.masses[gear]
         found += own.moment_of_inertia * np.outer(angle, angle) + own.mass * centre.T @ centre
-    if parts.load is not None:
-        found += parts.load * np.outer(rows.end, rows.end)
+    for shaft, load in parts.loads.items():
+        end = rows.end(shaft)
+        found += load * np.outer(end, end)
     return found
 
 

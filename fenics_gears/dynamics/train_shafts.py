@@ -182,7 +182,7 @@ class _Coordinates:
                 if gear.side and shaft.torque_at is not None:
                     sense = self.bent.frames[gear.mesh].sense
                     for name in shaft.coupling(shaft.chain):
-                        moved[system.motions.index(name)] = sense * self.padded(self.base.end)
+                        moved[system.motions.index(name)] = sense * self.padded(self.base.ends[gear.mesh])
         return moved
 
     def of_mesh(self, mesh: int) -> np.ndarray:
@@ -240,7 +240,7 @@ def with_bent_shafts(
         motions=tuple(tuple(coordinates.padded(np.array(each)).tolist()) for each in base.motions),
         angle=coordinates.padded(base.angle),
         of_meshes=of_meshes,
-        end=coordinates.padded(base.end),
+        ends=tuple(coordinates.padded(each) for each in base.ends),
     )
     if any(system.in_rolling for system in bent.systems):
         loads = [even_loads(system, bent.gears, bent.frames) for system in bent.systems]

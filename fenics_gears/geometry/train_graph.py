@@ -29,7 +29,7 @@ class TrainGraph:
 
     @property
     def last(self) -> int:
-        """The shaft of the load."""
+        """The shaft of the load, of several the one that the others are beside."""
         return max(self.shafts)
 
     @cached_property
@@ -44,6 +44,11 @@ class TrainGraph:
     def out_of(self, shaft: int) -> list[int]:
         """Meshes that a shaft drives."""
         return [mesh for mesh, (driving, _) in enumerate(self.between) if driving == shaft]
+
+    @property
+    def outputs(self) -> list[int]:
+        """Shafts that drive no gear: each has a load. The last one is among them."""
+        return [shaft for shaft in range(self.last + 1) if not self.out_of(shaft)]
 
     def on(self, shaft: int) -> list[int]:
         """Gears of a shaft."""

@@ -37,7 +37,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Model:
     """A scene ready to be computed: its gear pair, its drivetrain, how finely, and the material removed from either
-    flank. `contact_cycles`: mesh cycles, the last, whose contact fields are stored."""
+    flank. `contact_cycles`: mesh cycles, the last, whose contact fields are stored. `own_clock`: of the train
+    that it is a mesh of, where that has a speed ramp."""
 
     scene: Scene
     pair: GearPair
@@ -45,6 +46,7 @@ class Model:
     resolution: Resolution
     removal: tuple
     contact_cycles: int = 0
+    own_clock: Clock | None = None
 
     @property
     def models(self) -> list[Model]:
@@ -58,6 +60,8 @@ class Model:
 
     @cached_property
     def clock(self) -> Clock:
+        if self.own_clock is not None:
+            return self.own_clock
         steady = SteadyClock(1.0 / (self.scene.motion.mesh_frequency * self.resolution.steps_per_mesh_cycle))
         return next(iter(from_effects(self.scene, "clock", self)), steady)
 

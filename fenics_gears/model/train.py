@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import ceil
+from math import ceil, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +18,7 @@ import numpy as np
 from fenics_gears.dynamics.clock import FOLLOWING, SteadyClock, TimeScales
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
 from fenics_gears.dynamics.guidance import time_step_warnings
+from fenics_gears.dynamics.speed_ramp import RampClock, forces_of_train
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.train import TrainDrivetrain, coordinates_of_mesh, drivetrain_of_mesh, train_drivetrain
 from fenics_gears.elasticity.compliance import Reach
@@ -96,14 +97,40 @@ class RowModel(OfMeshes):
     @property
     def equations_of_motion(self) -> EquationsOfMotion:
         first = self.models[0]
-        clock = SteadyClock(first.time_step)
-        return EquationsOfMotion(self.drivetrain, first.time_step, first.friction_coefficient, self.time_scales, clock)
+        common = self.drivetrain, first.time_step, first.friction_coefficient, self.time_scales
+        ramp = self.ramp
+        if ramp is None or self.drivetrain.mass is None:
+            return EquationsOfMotion(*common, SteadyClock(first.time_step))
+        turned = self.input_speed / ramp.start
+        load = forces_of_train(ramp, self.drivetrain.mass, self.drivetrain.nominal, turned)
+        return EquationsOfMotion(*common, ramp, (load,))
+
+    @property
+    def slowest(self) -> Model:
+        """The model of the slowest mesh."""
+        return max(self.models, key=lambda model: model.resolution.steps_per_mesh_cycle)
+
+    @property
+    def input_speed(self) -> float:
+        """Speed of the first shaft at the start, rad/s."""
+        first = self.models[self.graph.out_of(0)[0]]
+        return 2.0 * pi * first.scene.motion.mesh_frequency / first.pair.pinion.teeth
+
+    @property
+    def ramp(self) -> RampClock | None:
+        """The times of steps of a speed ramp, by the cycles of the slowest mesh; None without one."""
+        ramp = self.shafts.ramp
+        if ramp is None:
+            return None
+        start = self.slowest.scene.motion.mesh_frequency
+        steps = self.slowest.resolution.steps_per_mesh_cycle
+        end = start * ramp.end_speed / self.input_speed
+        return RampClock(start, end, ramp.hold_cycles * steps, self.steps, steps)
 
     @property
     def steps(self) -> int:
         """Steps of the run: whole cycles of the slowest mesh."""
-        slowest = max(self.models, key=lambda model: model.resolution.steps_per_mesh_cycle)
-        return slowest.steps
+        return self.slowest.steps
 
     @cached_property
     def vibrations(self) -> list[Vibration]:
@@ -118,12 +145,17 @@ class RowModel(OfMeshes):
         if not self.vibrations:
             return FOLLOWING
         elastic = [each.frequency for each in self.vibrations]
-        frequencies = [model.scene.motion.mesh_frequency for model in self.models]
+        frequencies = [model.scene.motion.mesh_frequency * part for model in self.models for part in self._speeds]
         return TimeScales(
             samples_vibration=2.0 * self.models[0].time_step * elastic[0] <= 1.0,
             follows_statics=max(frequencies) < elastic[0],
             outruns_vibration=min(frequencies) > elastic[-1],
         )
+
+    @property
+    def _speeds(self) -> tuple[float, float]:
+        """The speeds at the start and at the end, as parts of that at the start."""
+        return 1.0, 1.0 if self.shafts.ramp is None else self.shafts.ramp.end_speed / self.input_speed
 
     @property
     def warnings(self) -> list[str]:
@@ -135,7 +167,7 @@ class RowModel(OfMeshes):
             return []
         fastest = max(self.models, key=lambda model: model.scene.motion.mesh_frequency)
         steps = fastest.resolution.steps_per_mesh_cycle
-        frequency = fastest.scene.motion.mesh_frequency
+        frequency = fastest.scene.motion.mesh_frequency * max(self._speeds)
         return time_step_warnings(self.vibrations, frequency, steps, self.time_scales, fastest.time_step)
 
     @property
@@ -255,7 +287,7 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
     parts = parts_of(meshes, shafts)
     bent = bent_of(meshes, shafts)
     sizes = _flank_sizes(meshes, models)
-    wholes = whole_torques(parts.layout, parts.torque)
+    wholes = whole_torques(parts.layout, parts.torques)
     found = []
     for number, (mesh, own, size) in enumerate(zip(meshes, steps, sizes)):
         accuracy = replace(mesh.scene.accuracy, steps_per_mesh_cycle=own, flank_element_size=size)
@@ -283,7 +315,9 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
         found.append(replace(model, drivetrain=drivetrain))
     check_alike(meshes, found)
     recorded = recorded_cycles * max(steps) if shafts.moving else 0
-    return RowModel(tuple(meshes), tuple(found), shafts, recorded)
+    row = RowModel(tuple(meshes), tuple(found), shafts, recorded)
+    ramp = row.ramp
+    return row if ramp is None else replace(row, models=tuple(replace(each, own_clock=ramp) for each in found))
 
 
 def _flank_sizes(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> list[float]:

@@ -27,8 +27,10 @@ def motion_rows(row: RowModel) -> Rows:
     rows: Rows = []
     for name, lumped in zip(gears, parts.masses):
         rows.append((f"{name}: moment of inertia", 1e3 * lumped.moment_of_inertia, "kg mm^2"))
-    if parts.load is not None:
-        rows.append(("load: moment of inertia", 1e3 * parts.load, "kg mm^2, on the last shaft"))
+    for shaft, load in sorted(parts.loads.items(), reverse=True):
+        last = shaft == parts.graph.last
+        label = "load: moment of inertia" if last else f"load on shaft {shaft + 1}: moment of inertia"
+        rows.append((label, 1e3 * load, "kg mm^2, on the last shaft" if last else "kg mm^2"))
     for number, torsion in enumerate(parts.torsion, 1):
         if isfinite(torsion) and torsion:
             rows.append((f"shaft {number}: torsional stiffness", torsion, "N mm/rad"))

@@ -44,7 +44,13 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
             masses.append(lumped_gears(mesh.scene, mesh.pair)[GEARS[side]])
         name = mesh.gears[side]
         supports.append(_support(mesh.scene, GEARS[side]) if shafts.carrier is None else shafts.carrier.support(name))
-    torque = sum(meshes[mesh].scene.load.wheel_torque for mesh in graph.into(graph.last))
+    given = {each.shaft: each.torque for each in shafts.loads}
+    torques = [
+        given.get(shaft, 0.0)
+        if graph.out_of(shaft)
+        else sum(meshes[mesh].scene.load.wheel_torque for mesh in graph.into(shaft))
+        for shaft in range(graph.last + 1)
+    ]
     torsion = [inf if each is None else each for each in shafts.torsion or (None,) * (graph.last + 1)]
     turning: list[int] = []
     if shafts.bent:
@@ -54,7 +60,7 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
         twists, turning = turning_of(meshes, shafts, graph)
         for number, twist in twists.items():
             torsion[number] = twist
-    return TrainParts(layout, torque, torsion, masses, supports, shafts.load, turning)
+    return TrainParts(layout, torques, torsion, masses, supports, shafts.inertias, turning)
 
 
 def offsets_of(
@@ -88,10 +94,14 @@ def _pins_beside(carrier: Carrier, mesh: MeshOfScene, axes: np.ndarray, names: t
     return own
 
 
-def whole_torques(layout: Layout, output: float) -> list[float]:
-    """Torque (N mm) on the wheel of each mesh without losses, as if it alone drove its shaft."""
+def whole_torques(layout: Layout, of_shafts: Sequence[float]) -> list[float]:
+    """Torque (N mm) on the wheel of each mesh without losses, as if all power went through it; `of_shafts`: torque on
+    each shaft from outside."""
     turns = turns_of_shafts(layout.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in layout.pairs])
-    return [output * float(turns[-1] / turns[driven]) for _, driven in layout.graph.between]
+    return [
+        sum(torque * float(turns[shaft] / turns[driven]) for shaft, torque in enumerate(of_shafts) if torque)
+        for _, driven in layout.graph.between
+    ]
 
 
 def _support(scene: Scene, gear: str) -> tuple[float, float] | None:

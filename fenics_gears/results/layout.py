@@ -18,6 +18,7 @@ from .attributes import RESULT_ATTRIBUTES
 REQUIRED = ("time", "mesh_phase", "transmission_error")
 # Of trains: the lag of the last shaft; and what dimensions of meshes are in results of pairs.
 OVERALL = "overall_transmission_error"
+OF_OUTPUTS = "output_transmission_error"
 OF_PAIRS = {"step": "time", "contact_step": "contact_time"}
 # How the shafts of a train bend, on the average.
 OF_SHAFTS = {f"shaft_deflection_{axis}": ("shaft", "shaft_point") for axis in "xy"}

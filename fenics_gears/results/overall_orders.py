@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from fenics_gears.errors import SceneError
+from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.scene.train import TrainScene
 
 HARMONICS = 10
@@ -51,6 +53,11 @@ def cycles_of_meshes(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]
     >>> [round(each.order, 9) for each in cycles_of_meshes(simulate_train(train), train)]
     [24.0, 24.0]
     """
+    if train.shafts.ramp is not None:
+        raise SceneError(
+            "speed_ramp: orders of the whole run are of a steady speed. Allowed: without [speed_ramp], or the report,"
+            f" which has them over the speed. {NOTHING_DONE}"
+        )
     if train.shafts.moving:
         return _fitted(result, train)
     found = []

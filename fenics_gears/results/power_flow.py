@@ -46,17 +46,22 @@ class PowerFlow:
 
 
 def power_flow(result: xr.Dataset, train: TrainScene) -> PowerFlow:
-    """Of a train's run, backwards from the load on the last shaft: mean torques, each higher by what its mesh loses,
-    and of several paths by the mean share of each. Of meshes that are computed together the loss is told of all of
-    them, at the last one, and taken where they drive the last of their shafts."""
+    """Of a train's run, backwards from the loads: mean torques, each higher by what its mesh loses, and of several
+    paths by the mean share of each. Of meshes that are computed together the loss is told of all of them, at the last
+    one, and taken where they drive the last of their shafts, or of several loads where the first shaft drives."""
     graph = train.graph
+    loads = train.loads
     lost = np.nan_to_num(result["friction_loss"].values) if "friction_loss" in result else np.zeros(len(train.meshes))
     taken = lost.copy()
     if graph.loops:
         # All meshes are computed together then.
         taken[graph.into(graph.last)] = lost[-1]
+    if sum(load > 0.0 for load in loads) > 1:
+        # What all meshes together take is of the work that drives the first shaft.
+        taken[:] = 0.0
+        taken[graph.out_of(0)] = lost[-1]
     shares = result["mean_path_share"].values if "mean_path_share" in result else np.ones(len(train.meshes))
-    torques = [0.0] * graph.last + [train.output_torque]
+    torques = list(loads)
     for shaft in range(graph.last, 0, -1):
         driving = graph.into(shaft)
         for mesh in driving:

@@ -51,7 +51,8 @@ class RowResult:
             return
         together = solved if self._last is None else self._last.followed_by(solved)
         equations = self._row.equations_of_motion
-        work = account(equations.drivetrain, equations.clock, together, energy_of_teeth(together))
+        energy = energy_of_teeth(together)
+        work = account(equations.drivetrain, equations.clock, together, energy, equations.loads)
         self._lost.append(np.diff(work.friction))
         self._driven.append(np.diff(work.rotation))
         self._last = solved.between(len(solved) - 1, len(solved))

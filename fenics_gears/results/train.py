@@ -17,8 +17,9 @@ from fenics_gears.numbers_version import NUMBERS_VERSION
 from .attributes import RESULT_ATTRIBUTES
 from .carried_scene import scene_attributes
 from .dataset import RunResult
-from .layout import OVERALL
+from .layout import OF_OUTPUTS, OVERALL
 from .path_shares import path_shares
+from .train_outputs import lag_of_output, of_outputs
 
 if TYPE_CHECKING:
     from .train_shafts import ResultOfShafts
@@ -85,6 +86,8 @@ def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
         overall,
         {"units": "rad", "long_name": "lag of the last shaft behind the nominal motion of the first"},
     )
+    variables |= _frequencies(model)
+    variables |= of_outputs(model, meshes)
     variables |= _numbers_of_meshes([each.numbers for each in meshes])
     variables |= path_shares(model, meshes)
     most = {name: max((each for each in meshes), key=lambda each: _size(each, name)) for name in SHARED}
@@ -102,6 +105,17 @@ def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
     return found
 
 
+def _frequencies(model: TrainModel) -> dict[str, tuple]:
+    """Mesh frequencies over the steps of a speed ramp."""
+    ramp = model.rows[0].ramp
+    if ramp is None:
+        return {}
+    steps = range(model.rows[0].steps + 1)
+    speeds = np.array([ramp.mesh_frequency(step) for step in steps]) / ramp.start
+    values = np.outer(speeds, [each.scene.motion.mesh_frequency for each in model.models])
+    return {"mesh_frequency": (("step", MESH), values, {"units": "Hz", "long_name": "mesh frequency"})}
+
+
 def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.ndarray, np.ndarray]:
     """Times (s) over a cycle of the slowest mesh, at the steps of the fastest; and the lag (rad) of the last shaft
     there: of each row that of its last gear, through the ratios behind it. Between steps it is linear.
@@ -109,13 +123,8 @@ def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.n
     Where all meshes move together, at all steps: the rotation of the last gear, and of the first one through the
     ratios."""
     if model.scene.shafts.moving:
-        # The gears that their shafts' clocking does not turn.
-        carried = model.scene.shafts.carried
-        sides = [mesh.gears for mesh in model.scene.meshes]
-        ends = [[both[0] for both in sides].index(carried[0][0]), [both[1] for both in sides].index(carried[-1][0])]
-        first, last = (np.asarray(meshes[number].variables["rotation"][1])[:, side] for side, number in enumerate(ends))
-        lag = model.scene.meshes[ends[1]].pair.wheel.sign * last + first / model.scene.ratio
-        return np.asarray(meshes[0].variables["time"][1]), lag
+        last = model.scene.graph.last
+        return np.asarray(meshes[0].variables["time"][1]), lag_of_output(model, meshes, last)
     frequencies = [own.scene.motion.mesh_frequency for own in model.models]
     steps = [frequency * each.numbers["steps_per_mesh_cycle"] for frequency, each in zip(frequencies, meshes)]
     cycles = model.models[0].scene.motion.mesh_cycles
@@ -268,6 +277,8 @@ def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
         (f"overall transmission error, {label}", f"{attrs[f'{name}_overall_transmission_error']:.5g}", "rad")
         for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
     ]
+    for own in found[f"peak_to_peak_{OF_OUTPUTS}"] if OF_OUTPUTS in found else ():
+        rows.append((f"{own['output'].item()}: lag of its shaft, peak to peak", f"{float(own):.5g}", "rad"))
     for name, label in OF_SHAFTS:
         if name in attrs:
             rows.append((label, f"{attrs[name]:.5g}", "N"))

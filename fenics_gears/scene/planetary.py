@@ -21,9 +21,10 @@ from .data import Scene
 from .gear_schema import Gears
 from .planetary_rules import text_of_set, wrong_sections
 from .planetary_schema import GEARS_OF_SET, MESHES, RING_MESH, SUN_MESH, PlanetaryText
+from .train_loads import TrainLoad, TrainMotion
 from .train_mesh import MeshOfScene
 from .train_pair import STAGES, MistakesOfStage, Placed, check_together, pair_of, pair_scene
-from .train_rules import TrainLoad, TrainMotion, TrainSections, load_and_motion
+from .train_rules import TrainSections, load_and_motion
 from .train_shafts import TrainShafts
 
 # Planets may be so far from where they can be assembled, in pitches: angles are written with few digits.

@@ -43,7 +43,7 @@ NOT_HERE = {
 }  # fmt: skip
 DYNAMICS = "is not computed with a planetary set yet, which is quasi-static. Leave it out."
 NOT_WITH_A_SET = {
-    **dict.fromkeys(("inertia", "damping", "shafts"), DYNAMICS),
+    **dict.fromkeys(("inertia", "damping", "shafts", "speed_ramp"), DYNAMICS),
     "bearings": "is not computed with a planetary set yet. Allowed: floating, and carrier.pin_stiffness of the set.",
 }
 Tree = Mapping[str, Any]
@@ -69,6 +69,11 @@ def wrong_sections(tree: Tree) -> Iterator[Problem]:
         elif name not in OF_THE_TRAIN:
             said = f"is not of a train.{did_you_mean(name, OF_THE_TRAIN)} Known: {', '.join(OF_THE_TRAIN)}."
             yield Problem((name,), as_written(tree[name]), said)
+    for section, name in (("load", "torques"), ("motion", "speed"), ("motion", "speed_of")):
+        written = tree.get(section)
+        if isinstance(written, Mapping) and name in written:
+            said = "is not computed with a planetary set yet, which has one input and one output. Leave it out."
+            yield Problem((section, name), as_written(written[name]), said)
     yield from wrong_title(tree)
 
 

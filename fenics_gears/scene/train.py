@@ -39,6 +39,7 @@ from .train_rules import OF_A_STAGE, SHARED, TrainSections, checked_train
 from .train_shaft import BentShaft
 from .train_shafts import TrainShafts, located_shafts
 from .train_topology import NamedMesh, gears_within, graph_of, named_meshes
+from .train_torques import even_torques, torques_of_shafts
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,22 @@ class TrainScene(OfMeshes):
     text: str
     shafts: TrainShafts = TrainShafts()
     recorded_cycles: int = 1
+
+    @property
+    def loads(self) -> list[float]:
+        """Torque (N mm) that resists the rotation of each shaft from outside, 0 where there is none."""
+        found = [0.0] * self.graph.last + [self.output_torque]
+        for each in self.shafts.loads:
+            found[each.shaft] = each.torque
+        return found
+
+    @property
+    def path_of_output_torque(self) -> tuple[str, ...]:
+        """The field of the scene that gives the torque of the last shaft."""
+        entries = [each.shaft for each in self.shafts.loads]
+        if self.graph.last not in entries:
+            return "load", "output_torque"
+        return "load", "torques", str(entries.index(self.graph.last) + 1), "torque"
 
     @property
     def rows(self) -> list[list[int]]:
@@ -263,39 +280,24 @@ def _completed(title: str, name: str, text: str, meshes: Sequence[MeshOfScene], 
     turns = turns_of(layout)
     exact = exact_turns(layout)
     speed = motion.input_speed
+    if motion.speed is not None:
+        speed = motion.speed / turns[sections.shafts.speed_of]
     # Without a speed a cycle of the first mesh that the first shaft drives takes a second.
     first = meshes[graph.out_of(0)[0]].pair.pinion.teeth
     of_first = NOMINAL_FREQUENCY if speed is None else speed / (2.0 * pi) * first
     driving = 2.0 * pi * of_first / first
-    if load.output_torque is not None:
-        output = load.output_torque
-    elif load.input_torque is not None:
-        output = load.input_torque / turns[-1]
-    else:
-        output = load.power / driving / turns[-1]
+    on_shafts = torques_of_shafts(load, sections.shafts.loads, turns, driving)
     cycles = motion.mesh_cycles or 1
-    torques = even_torques(layout, output)
+    torques = even_torques(layout, on_shafts)
     found: list[MeshOfScene] = []
     for number, mesh in enumerate(meshes):
         # Meshes of one gear have one frequency to the last digit.
         frequency = of_first * float(exact[graph.between[number][0]] * mesh.pair.pinion.teeth / first)
         moving = Motion(frequency, cycles, cycles, False, speed is not None)
         found.append(replace(mesh, scene=replace(mesh.scene, load=Load(torques[number]), motion=moving)))
-    recorded = min(motion.recorded_cycles or LAST_CYCLES, cycles)
-    of_ends = output * turns[-1], output
+    usual = LAST_CYCLES if sections.shafts.ramp is None else cycles
+    recorded = min(motion.recorded_cycles or usual, cycles)
+    of_ends = sum(own * turn for own, turn in zip(on_shafts, turns)), on_shafts[-1]
     if (carrier := sections.shafts.carrier) is not None:
         of_ends = carrier.torque, abs(carrier.set.torques(carrier.torque)[carrier.set.output])
     return TrainScene(title, name, tuple(found), *of_ends, speed is not None, text, sections.shafts, recorded)
-
-
-def even_torques(layout: Layout, output: float) -> list[float]:
-    """Torque (N mm) on the wheel of each mesh without losses, where the meshes that drive a shaft share it evenly."""
-    graph = layout.graph
-    on_shafts = [0.0] * graph.last + [output]
-    found = [0.0] * len(layout.pairs)
-    for shaft in range(graph.last, 0, -1):
-        driving = graph.into(shaft)
-        for mesh in driving:
-            found[mesh] = on_shafts[shaft] / len(driving)
-            on_shafts[graph.between[mesh][0]] += found[mesh] * abs(layout.pairs[mesh].rotation_ratio)
-    return found

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from re import fullmatch
 from typing import Any
 
-from fenics_gears.inputs.fields import quantity, whole_number
 from fenics_gears.inputs.problem import Problem, did_you_mean
-from fenics_gears.inputs.section import Section, allowed_in, fields_of, names_in, read
+from fenics_gears.inputs.section import allowed_in, fields_of, names_in, read
 from fenics_gears.inputs.written import as_written
 
 from .planetary_schema import PLANETARY
+from .train_loads import TrainLoad, TrainMotion
+from .train_ramp import checked_ramp
 from .train_shafts import TrainShafts, checked_shafts, explained
 from .train_topology import coupled_stages
 
@@ -26,61 +27,9 @@ OVER_THE_FACE = ("lead_modifications", "misalignment")
 OF_A_ROW = (*SHARED, "tip_relief", "root_relief", "profile_modifications", "corner_contact", *OVER_THE_FACE)
 OF_A_STAGE = (*OF_A_ROW, "coast_flanks", "body_meshes")
 OF_A_PAIR = ("shafts", "damping", "torque_ripple", "speed_ramp", "flank_errors", "eccentricity")
-OF_A_TRAIN = ("title", "stages", "load", "motion", *SHARED, "shafts", "damping")
+OF_A_TRAIN = ("title", "stages", "load", "motion", *SHARED, "shafts", "damping", "speed_ramp")
 MOST_STAGES = 20
 NAMES = r"[A-Za-z0-9_-]{1,60}"
-
-
-@dataclass(frozen=True)
-class TrainLoad(Section):
-    """``[load]`` of a train: by exactly one of these fields; the gears pass it on without losses."""
-
-    alternatives = (("output_torque", "input_torque", "power"),)
-
-    output_torque: float | None = quantity(
-        "0 N m to 1e12 N m",
-        "2 kN m",
-        meaning="torque that resists the rotation of the last shaft",
-        otherwise="from `input_torque` or `power`",
-    )
-    input_torque: float | None = quantity(
-        "0 N m to 1e12 N m",
-        "100 N m",
-        meaning="torque that drives the first shaft",
-        otherwise="`output_torque` or `power` is given",
-    )
-    power: float | None = quantity(
-        "0 kW to 1e9 kW",
-        "20 kW",
-        meaning="power that goes through the train at the speed of `[motion]`, which is then required",
-        otherwise="`output_torque` or `input_torque` is given",
-    )
-
-
-@dataclass(frozen=True)
-class TrainMotion(Section):
-    """``[motion]`` of a train."""
-
-    input_speed: float | None = quantity(
-        "1e-9 rpm to 1e6 rpm",
-        "1500 rpm",
-        meaning="speed of the first shaft",
-        otherwise="a cycle of the first mesh takes 1 s",
-    )
-    mesh_cycles: int | None = whole_number(
-        1,
-        1000000,
-        2,
-        meaning="cycles that each mesh is run; where stages move together, cycles of the slowest mesh",
-        otherwise="required with `[inertia]`; else one",
-    )
-    recorded_cycles: int | None = whole_number(
-        1,
-        1000000,
-        2,
-        meaning="cycles at the end of a run with `[inertia]` that its numbers are taken from",
-        otherwise="two",
-    )
 
 
 @dataclass(frozen=True)
@@ -112,11 +61,14 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[TrainSections | None, list[P
         problems += _of_stage(("stages", stage), content, stage in coupled)
     found, wrong = load_and_motion(tree)
     problems += wrong
-    shafts, wrong = checked_shafts(tree, not problems)
+    load, motion = found
+    shafts, wrong = checked_shafts(tree, not problems, load, motion)
+    problems += wrong
+    ramp, wrong = checked_ramp(tree, load, motion, shafts)
     problems += wrong
     if problems:
         return None, problems
-    load, motion = found
+    shafts = replace(shafts, ramp=ramp)
     sections = TrainSections(load, motion, shafts)
     problems += _needed(tree, sections)
     return (None if problems else sections), problems
@@ -149,11 +101,11 @@ def load_and_motion(tree: Mapping[str, Any]) -> tuple[list[Any], list[Problem]]:
 def _needed(tree: Mapping[str, Any], sections: TrainSections) -> Iterator[Problem]:
     """What a train lacks that its other sections need."""
     motion = sections.motion
-    if sections.load.power is not None and motion.input_speed is None:
+    if sections.load.power is not None and not motion.given:
         said = "needs a speed. Allowed: with motion.input_speed."
         yield Problem(("load", "power"), as_written(tree["load"]["power"]), said)
     for name in ("input_speed", "mesh_cycles") if "inertia" in tree else ():
-        if getattr(motion, name) is None:
+        if getattr(motion, name) is None and not (name == "input_speed" and motion.given):
             allowed = allowed_in(TrainMotion, name).description
             yield Problem(("motion", name), None, f"is missing, which [inertia] needs. Allowed: {allowed}.")
     for stage, content in tree["stages"].items() if "inertia" not in tree else ():

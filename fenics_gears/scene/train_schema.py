@@ -14,7 +14,9 @@ from fenics_gears.inputs.section import AllowedTables, Section
 from .accuracy import Accuracy
 from .gear_schema import Gears, GearText
 from .planetary_schema import GEARS_OF_SET, MESHES, OF_A_MESH, PLANETARY, PlanetaryText
-from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED, TrainLoad, TrainMotion
+from .train_loads import TrainLoad, TrainMotion
+from .train_ramp import TrainRamp
+from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED
 
 ACCURACY = "accuracy"
 ANGLES = "-360 deg to 360 deg"
@@ -53,6 +55,7 @@ class _AlwaysThere(Section):
     title: str | None = text(500, meaning="title in summaries and pictures", otherwise="the name of the file")
     load: TrainLoad
     motion: TrainMotion = TrainMotion()
+    speed_ramp: TrainRamp | None = None
 
 
 @functools.cache

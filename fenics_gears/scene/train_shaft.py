@@ -60,8 +60,8 @@ class TrainShaft(Section):
     torsional_stiffness: float | None = quantity(
         "1e-6 N mm/rad to 1e24 N mm/rad",
         "0.2e9 N mm/rad",
-        meaning="torsional stiffness between the gears of the shaft; of the first shaft between drive and gear, of the"
-        " last between gear and load",
+        meaning="torsional stiffness between the gears of the shaft; of the first shaft between drive and gear, of"
+        " one that drives no gear between gear and load",
         otherwise="the shaft is rigid, or it follows from `sections`",
     )
     sections: tuple[ShaftSection, ...] | None = declared(
@@ -94,7 +94,8 @@ class TrainShaft(Section):
     torque_at: float | None = quantity(
         "0 mm to 100 m",
         "0 mm",
-        meaning="where the motor or the load is coupled, from the left end, of the first and the last shaft",
+        meaning="where the motor or the load is coupled, from the left end, of the first shaft and those that drive no"
+        " gear",
         otherwise="required there with `sections`",
     )
     material: ShaftMaterial = ShaftMaterial()
@@ -156,7 +157,7 @@ def wrong_sections(
                 said = "has no effect: it is of a shaft with sections. Add sections, or leave it out."
                 yield Problem((*place, name), "", said)
         return
-    at_an_end = number in (0, graph.last)
+    at_an_end = number == 0 or number in graph.outputs
     count = len(shaft.carries)
     if shaft.gears_at is None or len(shaft.gears_at) != count:
         allowed = (
@@ -185,5 +186,5 @@ def wrong_sections(
         said = 'is missing. Allowed: a length from the left end of the shaft, such as "0 mm".'
         yield Problem((*place, "torque_at"), None, said)
     elif not at_an_end and shaft.torque_at is not None:
-        said = "is of the first or the last shaft, where the drive or the load is coupled. Leave it out."
+        said = "is of the first shaft or one that drives no gear, where the drive or a load is coupled. Leave it out."
         yield Problem((*place, "torque_at"), "", said)

@@ -21,6 +21,17 @@ from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_written
 
 from .carrier import Carrier
+from .train_loads import (
+    LoadOfShaft,
+    NamedShafts,
+    TrainLoad,
+    TrainMotion,
+    loaded_gears,
+    loads_of_shafts,
+    misplaced_loads,
+    shaft_with_speed,
+)
+from .train_ramp import TrainRamp
 from .train_shaft import BentShaft, TrainHousing, TrainShaft, wrong_sections
 from .train_topology import Shafts, declared_gears, graph_of, in_order, named_meshes, shafts_by_order
 
@@ -32,7 +43,8 @@ COUPLING = ("shafts", "inertia", "bearings")
 class TrainShafts:
     """What the shafts of a train carry, from the driven one on, by the names of gears; and of each its torsional
     stiffness (N mm/rad) and clocking (rad), None where they are not given. The moment of inertia (N mm s^2) of the
-    load, and the damping, None where there is none. `moving`: whether stages move together. `bent`: the shafts that
+    load, and the damping, None where there is none. `loads`: on further shafts; `speed_of`: number of the shaft whose
+    speed is given. `ramp`: of the speed. `moving`: whether stages move together. `bent`: the shafts that
     also bend, and the `housing` of all of these. `carrier`: of a planetary set, in whose frame the train is."""
 
     carried: tuple[tuple[str, ...], ...] = ()
@@ -44,6 +56,15 @@ class TrainShafts:
     bent: tuple[BentShaft, ...] = ()
     housing: HousingFile | None = None
     carrier: Carrier | None = None
+    loads: tuple[LoadOfShaft, ...] = ()
+    speed_of: int = 0
+    ramp: TrainRamp | None = None
+
+    @property
+    def inertias(self) -> dict[int, float]:
+        """Moments of inertia (N mm s^2) of the loads by the numbers of their shafts."""
+        last = {} if self.load is None else {len(self.carried) - 1: self.load}
+        return {each.shaft: each.inertia for each in self.loads if each.inertia is not None} | last
 
     @property
     def housed(self) -> bool:
@@ -51,9 +72,11 @@ class TrainShafts:
         return self.housing is not None or any(each.own.housing is not None for each in self.bent)
 
 
-def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, list[Problem]]:
+def checked_shafts(
+    tree: Mapping[str, Any], sound: bool, on_shafts: TrainLoad | None = None, motion: TrainMotion | None = None
+) -> tuple[TrainShafts, list[Problem]]:
     """What couples the stages of a parsed train, and what is wrong with it; `sound`: nothing is wrong with its
-    stages."""
+    stages, nor with its load (`on_shafts`) and motion."""
     problems: list[Problem] = []
     housing, wrong = _housing(tree)
     problems += wrong
@@ -72,7 +95,8 @@ def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, l
     graph = None
     if sound and not problems:
         shafts = shafts_by_order(tree["stages"], [each.carries for each in sections.values()])
-        carried, wrong_shafts = in_order(meshes, shafts)
+        named = {name: each.carries for name, each in sections.items()}
+        carried, wrong_shafts = in_order(meshes, shafts, loaded_gears(on_shafts, named))
         place = ("shafts",) if sections else ("stages",)
         by_order = f" {_by_order(tree['stages'])}" if sections else ""
         problems += [Problem(place, "", f"{each}{by_order}") for each in wrong_shafts]
@@ -92,6 +116,14 @@ def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, l
                 said = "has no effect: all gears are on shafts with bearings of their own. Leave it out."
                 problems.append(Problem(("bearings",), "", said))
     load = _load(tree, problems)
+    loads: tuple[LoadOfShaft, ...] = ()
+    speed_of = 0
+    if graph is not None and on_shafts is not None and motion is not None:
+        by_name = NamedShafts(carried, named)
+        loads, wrong = loads_of_shafts(on_shafts, tree["load"], by_name, graph)
+        speed_of, wrong_speed = shaft_with_speed(motion, by_name)
+        soft = {number for number, each in enumerate(torsion) if each is not None} | {each.number for each in bent}
+        problems += [*wrong, *wrong_speed, *misplaced_loads(loads, tree, by_name, graph, soft)]
     damping = _damping(tree, problems)
     moving = any(name in tree for name in COUPLING) or any(
         name in content for content in _tables(tree["stages"]) for name in COUPLING
@@ -99,12 +131,11 @@ def checked_shafts(tree: Mapping[str, Any], sound: bool) -> tuple[TrainShafts, l
     moving = moving or graph is not None and not graph.is_chain
     if damping is not None and "inertia" not in tree:
         problems.append(Problem(("damping",), "", "needs the section [inertia], which is missing. Add it."))
-    at_load = graph is not None and (torsion[-1] is not None or any(each.number == graph.last for each in bent))
-    if "inertia" in tree and load is None and at_load:
-        said = "is missing. The far end of the last shaft needs a moment of inertia: add [inertia.load]."
-        problems.append(Problem(("inertia", "load"), None, said))
+    # A torque between meshes is one of the equations of motion of all.
+    moving = moving or graph is not None and any(each.shaft not in graph.outputs for each in loads)
     of_shafts = tuple(map(tuple, carried)), tuple(torsion), tuple(clocking)
-    return TrainShafts(*of_shafts, load, damping, moving, tuple(bent), housing), problems
+    found = TrainShafts(*of_shafts, load, damping, moving, tuple(bent), housing, loads=loads, speed_of=speed_of)
+    return found, problems
 
 
 def _sections(tree: Mapping[str, Any], name: str, problems: list[Problem]) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -187,7 +218,7 @@ def _put(
     name, shaft, number = section
     gears = graph.on(number)
     if shaft.torsional_stiffness is not None:
-        if 0 < number < graph.last and all(graph.driven(gear) for gear in gears):
+        if number and graph.out_of(number) and all(graph.driven(gear) for gear in gears):
             said = "is of an idler, between whose gears nothing twists. Leave it out."
             yield Problem(("shafts", name, "torsional_stiffness"), "", said)
         torsion[number] = shaft.torsional_stiffness

@@ -6,7 +6,7 @@ shaft with the pinion that the next stage declares, unless a shaft is said to ca
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -139,18 +139,24 @@ def shafts_by_order(stages: Mapping[str, Any], carried: Iterable[Sequence[str]] 
     return shafts
 
 
-def in_order(meshes: Sequence[NamedMesh], shafts: Shafts) -> tuple[Shafts, list[str]]:
-    """The shafts of a train from the driven one on, and what is wrong with them, in words."""
+def in_order(meshes: Sequence[NamedMesh], shafts: Shafts, loaded: Collection[str] = ()) -> tuple[Shafts, list[str]]:
+    """The shafts of a train from the driven one on, and what is wrong with them, in words. `loaded`: gears on shafts
+    with loads of their own, beside which there is one more; its shaft is the last one."""
     of_gear = {gear: number for number, each in enumerate(shafts) for gear in each}
     between = [(of_gear[mesh.gears[0]], of_gear[mesh.gears[1]]) for mesh in meshes]
     said = list(_wrong_shafts(meshes, shafts, between))
     if said:
         return shafts, said
+    driving = {one for one, _ in between}
+    behind = [number for number, own in enumerate(shafts) if number not in driving and not {*own} & {*loaded}]
     order: list[int] = []
     left = list(range(len(shafts)))
     while left:
         waiting = {other for one, other in between if one in left}
-        found = next((shaft for shaft in left if shaft not in waiting), None)
+        # The last shaft waits for all others.
+        free = [shaft for shaft in left if shaft not in waiting and (shaft not in behind or len(left) == 1)]
+        free = free or [shaft for shaft in left if shaft not in waiting]
+        found = free[0] if free else None
         if found is None:
             named = _quoted(gear for number in left for gear in shafts[number])
             return shafts, [f"power would go round in a circle through {named}: each is driven by another one."]
@@ -181,15 +187,10 @@ def _wrong_shafts(
         yield f"the train is in {len(parts)} parts that no mesh and no shaft joins: {named}."
         return
     driven = {other for _, other in between}
-    driving = {one for one, _ in between}
     first = [each for number, each in enumerate(shafts) if number not in driven]
-    last = [each for number, each in enumerate(shafts) if number not in driving]
     if len(first) > 1:
         named = " and ".join(_quoted(each) for each in first)
         yield f"no gear drives the shafts of {named}: two turns would be prescribed. Allowed: one driven shaft."
-    if len(last) > 1:
-        named = " and ".join(_quoted(each) for each in last)
-        yield f"the shafts of {named} drive no gear. Allowed: one such shaft, on which the load is; others turn freely."
 
 
 def _wrong_senses(meshes: Sequence[NamedMesh], graph: TrainGraph) -> Iterator[str]:

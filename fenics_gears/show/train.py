@@ -12,8 +12,11 @@ import xarray as xr
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.model.train import train_model_of
+from fenics_gears.results.layout import OF_OUTPUTS
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
 from fenics_gears.results.overall_orders import overall_orders
+from fenics_gears.results.ramp_orders import ramp_orders
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_layout import centres
 from fenics_gears.scene.train_mesh import gear_names
@@ -22,7 +25,7 @@ from . import TRAIN_PICTURE_FILES
 from .chart import BARS, LEAST_SHARE, Chart, Curve, Flag
 from .drawing import picture
 from .line_load import line_loads
-from .panels import PALETTE
+from .panels import GREY, PALETTE
 from .planetary import orbits, set_drawing, shares
 from .plots import heading, save_figures
 from .run import ShownRun
@@ -46,7 +49,7 @@ def draw_train(dataset: xr.Dataset, directory: Path) -> list[Path]:
     subjects = (
         ("Gear train" if scene.shafts.carrier is None else "Planetary set", [drawing_of(scene)]),
         ("Transmission error", errors(scene, dataset)),
-        ("Orders of the overall transmission error", [orders(scene, dataset)]),
+        ("Orders of the overall transmission error", orders(scene, dataset)),
         ("Line load along the face", loads_along_face(scene, dataset)),
         ("Shafts under load", bent_shafts_of(scene, dataset)),
         ("Load sharing of the planets", shares(scene, dataset)),
@@ -97,20 +100,22 @@ def _circles(centre: complex, gear: Gear, pair: GearPair, name: str, colour: str
 
 def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     """Of the whole over time, and of each mesh over its own mesh cycles; of a planetary set of the first planet."""
-    frequency = scene.meshes[0].scene.motion.mesh_frequency
+    times, words = _times(scene, dataset)
     overall = MICRO * np.asarray(dataset["overall_transmission_error"])
     # Of the last cycles where stages vibrate.
     span = dataset.attrs["peak_to_peak_overall_transmission_error"]
     charts = [
         Chart(
             f"Overall transmission error: peak to peak {MICRO * span:#.4g} µrad",
-            [Curve("overall transmission error", frequency * np.asarray(dataset["time"]), overall)],
-            "Time (cycles of the first mesh)",
+            [Curve("overall transmission error", times, overall)],
+            words,
             f"Lag of the {'last shaft' if scene.shafts.carrier is None else 'output'} (µrad)",
             least=LEAST_SHARE * float(np.abs(overall).max(initial=0.0)),
             height=320,
         )
     ]
+    if OF_OUTPUTS in dataset:
+        charts.append(_of_outputs(dataset, times, words))
     for number, mesh in enumerate(scene.meshes):
         if mesh.like is not None:
             continue
@@ -131,7 +136,58 @@ def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     return charts
 
 
-def orders(scene: TrainScene, dataset: xr.Dataset) -> Chart:
+def _times(scene: TrainScene, dataset: xr.Dataset) -> tuple[np.ndarray, str]:
+    """The times of the steps, and what they are: cycles of the first mesh, of a speed ramp seconds."""
+    times = np.asarray(dataset["time"])
+    if scene.shafts.ramp is not None:
+        return times, "Time (s)"
+    return scene.meshes[0].scene.motion.mesh_frequency * times, "Time (cycles of the first mesh)"
+
+
+def _of_outputs(dataset: xr.Dataset, times: np.ndarray, along: str) -> Chart:
+    """Lags of all shafts that drive no gear, each without its mean."""
+    curves = []
+    for number, own in enumerate(dataset[OF_OUTPUTS].transpose("output", "time")):
+        values = MICRO * np.asarray(own)
+        curves.append(Curve(f"shaft of {own['output'].item()}", times, values - values.mean(), _colour(number)))
+    words = "Lag of each output without its mean (µrad)"
+    return Chart("Outputs", curves, along, words, height=280)
+
+
+def orders(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
+    """Of a speed ramp the orders over the speed and a Campbell diagram, else the spectrum of the whole run."""
+    if scene.shafts.ramp is None:
+        return [_spectrum(scene, dataset)]
+    found = ramp_orders(dataset, scene)
+    rpm = 60.0 * found[0].speeds
+    names = [mesh.name for mesh in scene.meshes]
+    named = [(f"{each.mesh}, harmonic {each.harmonic}", _colour(names.index(each.mesh)), each) for each in found]
+    dashes = {1: "solid", 2: "dash", 3: "dot"}
+    amplitudes = [
+        Curve(words, rpm, MICRO * each.amplitudes, colour, dash=dashes[each.harmonic]) for words, colour, each in named
+    ]
+    excited = [
+        Curve(words, rpm, each.order * each.speeds, colour, dash=dashes[each.harmonic]) for words, colour, each in named
+    ]
+    (row,) = train_model_of(scene).rows
+    highest = max(float((each.order * each.speeds).max()) for each in found)
+    natural = [
+        Curve("natural frequencies", rpm, np.full(len(rpm), own.frequency), GREY, width=1.0, listed=not number)
+        for number, own in enumerate(row.vibrations)
+        if own.frequency <= highest
+    ]
+    speed = "Speed of the first shaft (rpm)"
+    note = "Amplitudes of the harmonics in windows of two cycles of the slowest mesh."
+    return [
+        Chart("Orders over the speed", amplitudes, speed, "Amplitude of the last shaft (µrad)", note, height=360),
+        Chart(
+            "Campbell diagram", [*natural, *excited], speed, "Frequency (Hz)",
+            "Natural frequencies are about those with one tooth pair in each mesh.", height=360,
+        ),
+    ]  # fmt: skip
+
+
+def _spectrum(scene: TrainScene, dataset: xr.Dataset) -> Chart:
     """Amplitudes of the overall transmission error over orders of the first shaft, by the meshes that make them."""
     first, last = ("first shaft", "last shaft") if scene.shafts.carrier is None else ("input", "output")
     found = overall_orders(dataset, scene)

@@ -11,8 +11,8 @@ from fenics_gears.inputs.problem import LISTED, did_you_mean
 from fenics_gears.inputs.section import AllowedTables, Section, allowed_in, names_in, section_within
 from fenics_gears.inputs.tree import GEARS, LOADS, value_at
 from fenics_gears.scene.schema import known_paths, paths_in, scene_text
+from fenics_gears.scene.train_loads import TrainLoad
 from fenics_gears.scene.train_pair import STAGES
-from fenics_gears.scene.train_rules import TrainLoad
 from fenics_gears.scene.train_schema import stage_text, train_text
 from fenics_gears.scene.train_shafts import TrainShaft
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.linalg import eigh
-from tests.trains import bent_two_stages, row, split_text, two_stages
+from tests.trains import bent_two_stages, row, split_text, stage, two_stages
 
 from fenics_gears import train_from_text
 from fenics_gears.dynamics.frequencies import natural_frequencies
@@ -41,6 +41,35 @@ def test_natural_frequencies_of_geared_shafts():
         (of_mesh[0], [first.wheel.base_radius, 0, 0, 0]),
         (1e8, [1, -1, 0, 0]),
         (of_mesh[1], [0, second.pinion.base_radius, second.wheel.base_radius, 0]),
+        (3e8, [0, 0, 1, -1]),
+    ]
+    stiffness = sum(spring * np.outer(along, along) for spring, along in rows)
+    squares = eigh(stiffness, np.diag(masses), eigvals_only=True)
+    assert found == pytest.approx(np.sqrt(squares) / (2.0 * np.pi), rel=1e-10)
+
+
+def test_natural_frequencies_of_two_outputs():
+    """The same of branches from one shaft, the end of one behind a shaft that twists with a load of its own."""
+    side = '{ on = "side.wheel", torque = "90 N m", moment_of_inertia = "0.02 kg m^2" }'
+    more = MORE[: MORE.index("[shafts.middle]")] + MORE[MORE.index("[motion]") :]
+    more += '[shafts.end]\ncarries = ["side.wheel"]\ntorsional_stiffness = "3e8 N mm/rad"\n'
+    more += '[shafts.middle]\ncarries = ["first.wheel", "second.pinion", "side.pinion"]\n'
+    stages = stage("side", 2.0, (18, 25), 'direction = "120 deg"') + two_stages(more=more.split("[shafts", 1)[0]).text
+    text = stages.replace('"400 N m"', f'"400 N m"\ntorques = [{side}]', 1) + "[shafts" + more.split("[shafts", 1)[1]
+    (model,) = train_model_of(train_from_text(text)).rows
+    pairs = {mesh.name: mesh.pair for mesh in model.meshes}
+    of_mesh = {"side": 2e5, "first": 3e5, "second": 5e5}
+    found = natural_frequencies(model.drivetrain, np.array([of_mesh[mesh.name] for mesh in model.meshes]))
+    said = {name: value for name, value, _ in motion_rows(model)}
+    gears = ("first.wheel", "second.pinion", "side.pinion", "second.wheel", "side.wheel")
+    one, two, three, last, end = (1e-3 * said[f"{name}: moment of inertia"] for name in gears)
+    (of_side,) = (value for name, value in said.items() if name.startswith("load on shaft"))
+    # The middle shaft, the second wheel with its load, the wheel at the side, its load.
+    masses = [one + two + three, last + 1e-3 * said["load: moment of inertia"], end, 1e-3 * of_side]
+    rows = [
+        (of_mesh["first"], [pairs["first"].wheel.base_radius, 0, 0, 0]),
+        (of_mesh["second"], [pairs["second"].pinion.base_radius, pairs["second"].wheel.base_radius, 0, 0]),
+        (of_mesh["side"], [pairs["side"].pinion.base_radius, 0, pairs["side"].wheel.base_radius, 0]),
         (3e8, [0, 0, 1, -1]),
     ]
     stiffness = sum(spring * np.outer(along, along) for spring, along in rows)

@@ -33,7 +33,7 @@ AGAIN = (
         ('diameter = "35.0 mm" }', 'diameter = "35.0 mm", bore = "36 mm" }', "shafts.middle.sections: the bore"),
         ('diameter = "35.0 mm"', 'diameter = "75 mm"', "75 mm thick under first.wheel's face, more than the root"),
         ("sections =", "#", "shafts.middle.gears_at.*has no effect: it is of a shaft with sections"),
-        ("gears_at =", 'torque_at = "0 mm"\ngears_at =', "is of the first or the last shaft"),
+        ("gears_at =", 'torque_at = "0 mm"\ngears_at =', "is of the first shaft or one that drives no gear"),
         ("gears_at =", 'seat = "integral"\ngears_at =', 'Did you mean "seats"'),
         ("gears_at =", 'seats = ["integral"]\ngears_at =', "shafts.middle.seats.*number of seats, 1, than"),
         ("gears_at =", 'seats = ["glued", "integral"]\ngears_at =', "shafts.middle.seats.*is no list of seats"),

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.simulation.test_train_motion import BEARINGS, FRICTION, INERTIA, motion, shaft
 from tests.simulation.test_train_shafts import all_bent, cut_in
-from tests.trains import COARSE, bent_two_stages, helical_row, row, row_section, split_text, stage
+from tests.trains import COARSE, bent_two_stages, helical_row, row, row_section, split_text, stage, two_stages
 
 from fenics_gears import train_from_text
 from fenics_gears.dynamics.energy_account import account, quadratic
@@ -20,6 +20,7 @@ from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 
 WITHOUT_BEARINGS = f"{INERTIA}[damping]\nratio = 0.04\n{motion(2000, 2)}"
+RAMP = '[speed_ramp]\nend_speed = "2600 rpm"\nhold_cycles = 1\n'
 MOVING = f"{WITHOUT_BEARINGS}{BEARINGS}"
 
 
@@ -44,10 +45,25 @@ def bent_clocked_paths() -> TrainScene:
     return train_from_text(all_bent(1.0, 'clocking = "1e-4 rad"\n', WITHOUT_BEARINGS + FRICTION))
 
 
+def several_loads() -> TrainScene:
+    """On two outputs, one behind a shaft that twists, and on the shaft between two stages."""
+    side = stage("side", 2.0, (18, 25), 'direction = "120 deg"')
+    inner = ", ".join(
+        f'{{ on = "{gear}", torque = "{torque} N m", moment_of_inertia = "0.01 kg m^2" }}'
+        for gear, torque in (("first.wheel", 40), ("side.wheel", 50))
+    )
+    load = f'[load]\noutput_torque = "400 N m"\ntorques = [{inner}]\n[accuracy]\n{COARSE}\n'
+    more = MOVING + FRICTION + shaft("middle", '"first.wheel", "second.pinion", "side.pinion"', 1e8)
+    more = more.replace('torsional_stiffness = "100000000.0 N mm/rad"', "") + shaft("end", '"side.wheel"', 2e8)
+    return train_from_text(stage("first", 2.0, (20, 30)) + stage("second", 3.0, (20, 40)) + side + load + more)
+
+
 CASES = {
     "idler": (lambda: row([24, 31, 40], [0, 60], 300, more=FRICTION), 1e9),
     "helical idler": (helical_idler, 1e9),
     "stages behind an idler": (stages_behind_an_idler, 1e9),
+    "a speed ramp": (lambda: train_from_text(two_stages(more=MOVING + FRICTION + RAMP).text), 1e9),
+    "several loads": (several_loads, 1e9),
     "no positions kept": (stages_behind_an_idler, 0.0),
     "clocked paths": (clocked_paths, 1e9),
     "clocked paths that move": (lambda: clocked_paths(MOVING), 1e9),
@@ -76,7 +92,8 @@ def test_the_account_closes(train: Callable[[], TrainScene], memory: float):
     energy = energy_of_teeth(steps) + 0.5 * quadratic(steps.states[:, 0], drivetrain.stiffness)
     if drivetrain.mass is not None:
         energy = energy + 0.5 * quadratic(steps.states[:, 1], drivetrain.mass)
-    work = account(drivetrain, model.equations_of_motion.clock, steps, energy)
+    equations = model.equations_of_motion
+    work = account(drivetrain, equations.clock, steps, energy, equations.loads)
     least = work.friction[-1] if drivetrain.mass is None else min(work.friction[-1], work.damping[-1])
     assert least > 1e-3 * np.ptp(energy)
     assert np.abs(work.defect).max() < 1e-9 * energy.max()

@@ -123,3 +123,23 @@ def test_a_row_behind_a_stage_is_its_mirror_image():
     alone = row([24, 31, 40], [-10, -75], 400).layout
     assert behind.phases[2] == pytest.approx(alone.phases[1], abs=1e-12)
     assert (behind.shared(3, 1, 2).tooth - alone.shared(1, 0, 1).tooth) % 31 == 0
+
+
+@pytest.mark.parametrize("ends", [(), ("input", "output")])
+def test_a_train_of_one_mesh_on_a_ramp_is_the_pair(ends):
+    """Identity: the same times of steps and inertia forces of the accelerating motion, also of shafts that twist."""
+    gears = stage("one", 3.0, (20, 40))
+    both = f"{INERTIA}[damping]\nratio = 0.05\n{FRICTION}[accuracy]\n{COARSE}\n"
+    of_train = of_pair = ""
+    for name, gear, stiffness in zip(ends, ("pinion", "wheel"), (1e8, 2e8)):
+        of_train += shaft(name, f'"one.{gear}"', stiffness)
+        of_pair += f'[shafts.{name}]\ntorsional_stiffness = "{stiffness} N mm/rad"\n'
+    ramp = '[speed_ramp]\nend_speed = "2400 rpm"\nhold_cycles = 1\n'
+    train = train_from_text(f'{gears}[load]\noutput_torque = "400 N m"{motion(1500, 4)}{both}{ramp}{of_train}')
+    load = '[load]\nwheel_torque = "400 N m"\n[motion]\nmesh_frequency = "500 Hz"\nmesh_cycles = 4\n'
+    ramp = '[speed_ramp]\nend_frequency = "800 Hz"\nhold_cycles = 1\n'
+    expected = simulate(scene_from_text(f"{gears.replace('stages.one', 'gears')}{load}{both}{ramp}{of_pair}"))
+    found = simulate_train(train)
+    assert found["time"].values == pytest.approx(expected["time"].values, rel=1e-12)
+    for name in ("transmission_error", "normal_force", "rotation", "mesh_frequency"):
+        assert found.isel(mesh=0)[name].values == pytest.approx(expected[name].values, rel=1e-9, abs=1e-15), name

@@ -123,6 +123,10 @@ def _train_rows(model: TrainModel) -> list[Row]:
         ("torque on the first shaft, without losses", f"{1e-3 * scene.input_torque:.5g}", "N m"),
         ("torque on the last shaft", f"{1e-3 * scene.output_torque:.5g}", "N m"),
     ]
+    if (ramp := scene.shafts.ramp) is not None:
+        held = f", after {ramp.hold_cycles} cycles of the slowest mesh" if ramp.hold_cycles else ""
+        speeds = f"{60.0 * scene.input_speed:.5g} to {30.0 / pi * ramp.end_speed:.5g}"
+        rows.append(("speed of the first shaft", speeds, f"rpm, linear in time{held}; below at the start"))
     if scene.speed_given:
         rows.append(("power", f"{1e-6 * 2.0 * pi * scene.input_speed * scene.input_torque:.5g}", "kW"))
     return rows
@@ -146,7 +150,10 @@ def _shaft_rows(model: TrainModel) -> Iterator[Row]:
         rate = f"{60.0 * scene.input_speed * turns:.5g} rpm, " if scene.speed_given else ""
         driven = [scene.meshes[mesh].scene.load.wheel_torque for mesh in graph.into(shaft)]
         torque = sum(driven) if shaft else scene.input_torque
-        carried = f", carries {', '.join(scene.shafts.carried[shaft])}"
+        own = scene.loads[shaft]
+        beside = f", of which {1e-3 * own:.5g} N m are its load" if own and own != torque else ""
+        power = f", {2e-6 * pi * scene.input_speed * turns * torque:.5g} kW" if scene.speed_given else ""
+        carried = f"{beside}{power}, carries {', '.join(scene.shafts.carried[shaft])}"
         yield f"shaft {shaft + 1}", f"{rate}{turning}, {1e-3 * torque:.5g} N m{carried}", ""
 
 

@@ -24,6 +24,11 @@ LOADS_OF_TRAIN = {
     "power": ("kW", "power"),
 }
 SPEED = "motion.input_speed"
+# A ramp, and the speed of another shaft in its place.
+RAMP = "speed_ramp"
+OTHER_SPEED = (RAMP, "motion.speed", "motion.speed_of")
+# Of an entry of load.torques, with [inertia] alone.
+INERT = "moment_of_inertia"
 # Of a start, when it has died down.
 QUIET = 1e-3
 
@@ -91,8 +96,10 @@ class TrainMap:
 
     def _quasi_static(self) -> dict[str, Any]:
         """Changes of the scene: without inertia, each mesh one cycle."""
-        without = self._present("inertia", "damping", "motion.mesh_cycles", "motion.recorded_cycles")
+        without = self._present("inertia", "damping", RAMP, "motion.mesh_cycles", "motion.recorded_cycles")
         without += [f"stages.{name}.inertia" for name, stage in self.tree["stages"].items() if "inertia" in stage]
+        of_loads = enumerate(self.tree["load"].get("torques", ()), 1)
+        without += [f"load.torques.{number}.{INERT}" for number, load in of_loads if INERT in load]
         return {"without": without, "set": self._shared(), "sweep": {f"load.{self.given}": list(self.loads)}}
 
     def _over_speed(self) -> dict[str, Any]:
@@ -100,7 +107,8 @@ class TrainMap:
         recorded."""
         own = self.scene.meshes[0].scene.motion.mesh_cycles
         sweep = {f"load.{self.given}": list(self.loads), SPEED: list(self.speeds)}
-        return {"set": {"motion.mesh_cycles": max(own, self._cycles()), **self._shared()}, "sweep": sweep}
+        of_run = {"motion.mesh_cycles": max(own, self._cycles()), **self._shared()}
+        return {"without": self._present(*OTHER_SPEED), "set": of_run, "sweep": sweep}
 
     def _cycles(self) -> int:
         """Cycles of the slowest mesh at the highest speed in which the start dies down, and the recorded ones; none
@@ -131,13 +139,20 @@ class TrainMap:
         """The model of the train at a load, at a speed where one is given."""
         speed = [speeds] if isinstance(speeds, str) else list(speeds)
         sweep = {f"load.{self.given}": [load], **({SPEED: speed} if speed else {})}
-        return study_of_map(self.file, self.scene.title, OVER_SPEED, {"sweep": sweep}).cases[0].model
+        without = self._present(*OTHER_SPEED) if speed else []
+        wanted = {"without": without, "sweep": sweep}
+        return study_of_map(self.file, self.scene.title, OVER_SPEED, wanted).cases[0].model
 
 
 def train_map(file: Path, scene: Any, loads: Sequence[str], speeds: Sequence[str], most: int) -> TrainMap:
     """The map of a train over loads (none: its own) and speeds as a user writes them, values and ranges. Raises
     SceneError for what cannot be computed, and for more runs than `most`."""
     tree = tomllib.loads(scene.text)
+    if not {*LOADS_OF_TRAIN} & {*tree["load"]}:
+        raise SceneError(
+            f"{file}: load.torques are of all shafts that drive no gear; a map is over one of"
+            f" {', '.join(LOADS_OF_TRAIN)}. Allowed: load.torques of all but the last shaft. {NOTHING_DONE}"
+        )
     planned = TrainMap(file, scene, tree, (), ())
     unit, words = LOADS_OF_TRAIN[planned.given]
     kind = "power" if unit == "kW" else "torque"

@@ -8,6 +8,7 @@ from fenics_gears.many_runs import NUMBERS, OF_TRAINS, OVER_FACE, RESULT_ATTRIBU
 
 ERROR = "peak_to_peak_transmission_error"
 # Of trains, in urad of the last shaft.
+STEADY = "a constant speed: leave [speed_ramp] out"
 OVERALL_ERROR = f"peak_to_peak_{OVERALL}"
 MICRORADIANS = 1e6
 # The sum of orders by the weights of [orders]; of a pair under this name.
@@ -60,7 +61,8 @@ def lacking(name: str, scene: Any) -> str:
     """What the scene, or one mesh of a train at least, lacks to have this number, completing "needs ..."; empty where
     it has it."""
     if name == WEIGHTED:
-        return ""
+        ramped = not isinstance(scene, Scene) and scene.shafts.ramp is not None
+        return STEADY if ramped else ""
     if isinstance(scene, Scene):
         return "a train of gears, [stages.NAME]" if name == OVERALL_ERROR else _lacking(name, scene)
     if name == OVERALL_ERROR:
@@ -71,7 +73,7 @@ def lacking(name: str, scene: Any) -> str:
 
 def _lacking(name: str, scene: Scene) -> str:
     if scene.speed_ramp is not None and name in HARMONIC_NAMES:
-        return "a constant speed: leave [speed_ramp] out"
+        return STEADY
     if name.startswith("dynamic_factor") and scene.inertia is None:
         return "[inertia]"
     if (name in ROOT or name == "dynamic_factor_by_stress") and not (

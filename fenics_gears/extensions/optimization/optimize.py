@@ -172,9 +172,16 @@ def _torque_of(design: Design, tree: Tree) -> float:
     return 1e-3 * (scene.output_torque if is_train(tree) else scene.load.wheel_torque)
 
 
+def _path_of_torque(design: Design) -> tuple[str, ...]:
+    """The field of that torque."""
+    if not is_train(design.tree):
+        return "load", "wheel_torque"
+    return model_of_tree(design.name, design.tree, design.directory).scene.path_of_output_torque
+
+
 def _harris(design: Design, evaluator: Evaluator, best: Evaluation) -> tuple[np.ndarray, list[list[np.ndarray | None]]]:
     """Quasi-static transmission errors over the torque of the scene before and of the chosen design."""
-    path = ("load", "output_torque" if is_train(design.tree) else "wheel_torque")
+    path = _path_of_torque(design)
     trees = [design.before, design.scene_tree(best.values)]
     torques = sorted({number_in(point[path], "N m") for point in design.loads.points if path in point})
     if len(torques) < 2:

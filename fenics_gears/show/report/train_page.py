@@ -65,6 +65,8 @@ def _numbers(dataset: xr.Dataset) -> list[tuple[str, str, str]]:
 
 def _conditions(train: TrainScene) -> str:
     speed = f", {digits(60.0 * train.input_speed)} rpm" if train.speed_given else ""
+    if train.shafts.ramp is not None:
+        speed = f"{speed.removesuffix(' rpm')} to {digits(30.0 / pi * train.shafts.ramp.end_speed)} rpm"
     torque = digits(train.input_torque * factor("N mm", "N m"))
     return f"{torque} N m on the first shaft{speed}, {len(train.meshes)} meshes, {_motion(train)}"
 
@@ -148,8 +150,15 @@ def _power(dataset: xr.Dataset, train: TrainScene, flow: PowerFlow) -> PageSecti
         for number, (each, sense) in enumerate(zip(flow.shafts, train.graph.senses), 1)
     ]
     of_speed = ("Speed (rpm)", "Power (kW)") if flow.speed_given else ()
+    loads = [digits(load * factor("N mm", "N m")) if load else "" for load in train.loads]
+    several = len(loads) - loads.count("") > 1
+    if several:
+        rows = [(*row[:3], load, *row[3:]) for row, load in zip(rows, loads)]
+    of_speed = ("Its load (N m)", *of_speed) if several else of_speed
     headings = ("Shaft", "Turns", "Torque (N m)", *of_speed)
     blocks: list[Block] = [Table(headings, rows, "Shafts, the first one driven", numbers=2), *_shares(dataset)]
+    if train.shafts.ramp is not None:
+        blocks.append(Words("Speeds and powers are those at the start of the speed ramp, without what accelerates it."))
     if not flow.speed_given:
         blocks.append(Words("The scene has no speed (`motion.input_speed`), and so no power."))
     lost = [(each.name, f"{100.0 * each.efficiency:.4g}") for each in flow.meshes]
@@ -183,6 +192,9 @@ def _shares(dataset: xr.Dataset) -> list[Block]:
 
 
 def _orders(dataset: xr.Dataset, train: TrainScene) -> PageSection:
+    charts = orders(train, dataset)
+    if train.shafts.ramp is not None:
+        return PageSection("orders", "Orders of the overall transmission error over the speed", charts)
     found = sorted(overall_orders(dataset, train), key=lambda each: -each.amplitude)[:LISTED_ORDERS]
     rows = [
         (
@@ -193,8 +205,7 @@ def _orders(dataset: xr.Dataset, train: TrainScene) -> PageSection:
     ]  # fmt: skip
     of_speed = ("Frequency (Hz)",) if train.speed_given else ()
     headings = ("Mesh", "Harmonic", "Order of the first shaft", "Amplitude (µrad)", *of_speed)
-    chart = orders(train, dataset)
-    return PageSection("orders", "Orders of the overall transmission error", [chart, Table(headings, rows)])
+    return PageSection("orders", "Orders of the overall transmission error", [*charts, Table(headings, rows)])
 
 
 def _mesh(dataset: xr.Dataset, train: TrainScene, number: int) -> PageSection:
