@@ -8,8 +8,12 @@ from scipy.stats import kstest
 from tests.planets import planetary_text
 from tests.studies.conftest import write_study
 
+from fenics_gears import simulate_train
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import SceneError
+from fenics_gears.runs.gear_store import GearStore
+from fenics_gears.runs.train import train_completed
+from fenics_gears.simulation import train as train_simulation
 from fenics_gears.studies.combine import load_combined
 from fenics_gears.studies.quantiles import QUANTILES
 from fenics_gears.studies.random_values import sampled
@@ -116,3 +120,25 @@ def test_quantiles_of_a_set(folder, monkeypatch, capsys):
 
 SETTLED = 'steps_per_mesh_cycle = 4\nflank_element_size = "0.5 mm"\ncontact_length = "3 mm"'
 TORQUES = 'load.input_torque = ["500 N m", "600 N m"]\n'
+
+
+@pytest.mark.parametrize("sections", ["", "[friction]\ncoefficient = 0.05"])
+def test_cases_whose_pins_differ_share_their_contact_equations(folder, monkeypatch, sections):
+    """Exact identity with runs by themselves, with and without friction; operators are built once."""
+    monkeypatch.chdir(folder)
+    made = []
+    built = train_simulation.row_cycle
+    monkeypatch.setattr(train_simulation, "row_cycle", lambda *given: made.append(1) or built(*given))
+    more = 'carrier = { pin_stiffness = "3e5 N/mm" }\nfloating = ["sun"]'
+    text = planetary_text((20, 16, 52), "planets = 3", more=more, accuracy=SETTLED, sections=sections)
+    Path("set.toml").write_text(text)
+    pins = '{ distribution = "uniform", start = "-9 um", stop = "9 um", count = 3, seed = 1, entries = 3 }'
+    Path("study.toml").write_text(f'scene = "set.toml"\n[sweep]\n{".".join(PINS)} = {pins}\n')
+    cases = load_study("study.toml").cases
+    store = GearStore()
+    found = [train_completed(case.model, store).dataset for case in cases]
+    assert len(made) == 1
+    for case, one in zip(cases, found):
+        alone = simulate_train(case.model.scene)
+        for name in ("overall_transmission_error", "pin_force", "normal_force"):
+            assert np.array_equal(one[name], alone[name])
