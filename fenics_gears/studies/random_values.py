@@ -35,7 +35,7 @@ def sampled(path: Path, table: Mapping[str, Any]) -> tuple[Any, ...]:
 
     >>> sampled(("load", "wheel_torque"), {
     ...     "distribution": "uniform", "start": "1 N m", "stop": "2 N m", "count": 2, "seed": 1})
-    ('1.61428101503 N m', '1.5646837283 N m')
+    ('1.8589061184 N m', '1.4276334012 N m')
     """
     kind = table["distribution"]
     if kind not in DISTRIBUTIONS:
