@@ -7,7 +7,8 @@ frame is the mirror image, in which the other flanks of the gear between them ar
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from math import floor, lcm
 
@@ -92,7 +93,7 @@ class RowCycle(Cycle):
         self.traits = replace(self.traits, repeats=all(each.cycle.traits.repeats for each in meshes) and alike)
         self._members = meshes
         self._compliance = compliance
-        self._joined: dict[float, Position] = {}
+        self._joined: dict[float, JoinedPosition] = {}
         # Of the steps that were built last, for which there may be no room.
         self._around: dict[int, Position] = {}
 
@@ -103,6 +104,25 @@ class RowCycle(Cycle):
         for each in self._members:
             found += each.cycle.meshes if isinstance(each.cycle, RowCycle) else [each]
         return found
+
+    def with_offsets(self, offsets: Sequence[np.ndarray | None]) -> RowCycle:
+        """The same operators, which both have in common, with other offsets of all meshes: their gaps alone differ."""
+        return self._with(iter(offsets))
+
+    def _with(self, offsets: Iterator[np.ndarray | None]) -> RowCycle:
+        other = copy(self)
+        other._members = [
+            replace(each, cycle=each.cycle._with(offsets))
+            if isinstance(each.cycle, RowCycle)
+            else replace(each, offset=next(offsets))
+            for each in self._members
+        ]
+        meshes = other.meshes
+        other._joined = {step: _with_gaps_of(position, meshes) for step, position in self._joined.items()}
+        other._around = {}
+        # What is shared has addresses of gaps.
+        other._shared = {}
+        return other
 
     def share(self, memory: float) -> None:
         """Let operators take so many bytes, those of single meshes among them."""
@@ -147,14 +167,14 @@ class RowCycle(Cycle):
     ) -> StepSolution:
         return solve_step(problem, status)
 
-    def _joined_at(self, step: int) -> Position:
+    def _joined_at(self, step: int) -> JoinedPosition:
         """All meshes at a step of the mesh cycle, kept if there is room."""
         position = self._at(step, step - 1)
         if self.kept.takes(position.bytes):
             self._joined[step] = position
         return position
 
-    def _at(self, step: float, before: float) -> Position:
+    def _at(self, step: float, before: float) -> JoinedPosition:
         """All meshes at a step, after the one before it."""
         parts = []
         first = 0
@@ -192,6 +212,12 @@ class RowCycle(Cycle):
         before_now = np.concatenate([_moved(part.position.node_before, part.first_before) for part in parts])
         of_meshes = tuple(each for part in parts for each in _of_meshes(part))
         return JoinedPosition(operator, before_now, step % self.steps, of_meshes=of_meshes)
+
+
+def _with_gaps_of(position: JoinedPosition, meshes: Sequence[MeshOfRow]) -> JoinedPosition:
+    """A position with the gaps of these meshes as nothing moves."""
+    gaps = [mesh.gap_of(own.operator) for mesh, (own, _) in zip(meshes, position.of_meshes)]
+    return replace(position, operator=position.with_gap(np.concatenate(gaps)).operator)
 
 
 def _of_meshes(part: Part) -> list[tuple[Position, int]]:

@@ -18,7 +18,7 @@ def scene_attributes(scene: Scene) -> dict[str, str]:
     """The text and the name of a scene; where the scene names files, also the folder to look for them from, and a hash
     of each file's content."""
     attributes = {"scene": scene.text, "scene_name": scene.name}
-    files = _files(scene)
+    files = files_of(scene)
     if files:
         attributes |= {
             "scene_folder": scene.folder,
@@ -47,7 +47,7 @@ def carried_scene(result: xr.Dataset) -> Scene:
 
 def changed_files(result: xr.Dataset, scene: Scene) -> list[str]:
     """Sentences on files that the scene of a result names and that are no longer what was read when it was run."""
-    now = _files(scene)
+    now = files_of(scene)
     then = (line.partition(" ")[::2] for line in str(result.attrs.get("scene_files", "")).splitlines())
     folder = result.attrs.get("scene_folder")
     return [
@@ -58,5 +58,6 @@ def changed_files(result: xr.Dataset, scene: Scene) -> list[str]:
     ]
 
 
-def _files(scene: Scene) -> dict[str, str]:
+def files_of(scene: Scene) -> dict[str, str]:
+    """The files that a scene names, each with a hash of its content."""
     return {name: digest for files in from_effects(scene, "files") for name, digest in files.items()}

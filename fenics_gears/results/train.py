@@ -15,7 +15,7 @@ from fenics_gears.model.train import RowModel, TrainModel
 from fenics_gears.numbers_version import NUMBERS_VERSION
 
 from .attributes import RESULT_ATTRIBUTES
-from .carried_scene import scene_attributes
+from .carried_scene import files_of
 from .dataset import RunResult
 from .layout import OF_OUTPUTS, OVERALL
 from .path_shares import path_shares
@@ -252,7 +252,7 @@ def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.nda
 
 def _folder(model: TrainModel) -> dict[str, str]:
     """The folder from which files are looked for, where the train names any."""
-    named = any("scene_folder" in scene_attributes(each.scene) for each in model.models)
+    named = any(files_of(each.scene) for each in model.models)
     return {"scene_folder": model.models[0].scene.folder} if named or model.scene.shafts.housed else {}
 
 

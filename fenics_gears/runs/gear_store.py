@@ -50,7 +50,7 @@ class GearStore:
         self._operators: dict[tuple, tuple[Bodies, Cycle]] = {}
         self._cycle_key: tuple | None = None
         self._cycle: Cycle | None = None
-        self._row: tuple[tuple, RowCycle] | None = None
+        self._row: tuple[tuple, list[bytes], RowCycle] | None = None
 
     def of_pairs(self, pairs: int) -> None:
         """Keep from now on the contact operators and gears of so many pairs of gears that come one after the other:
@@ -84,16 +84,20 @@ class GearStore:
         return bodies, self._cycle
 
     def row(self, row: RowModel, make: Callable[[], RowCycle]) -> RowCycle:
-        """The contact equations of meshes that move together: those of the last ones where they are the same, else
-        made."""
+        """The contact equations of meshes that move together: those of the last ones where they are the same, with
+        offsets of their own, as of pins beside their places; else made."""
         shared = [(tuple(couplings(row.layout, gear)), row.keys_of_shared(gear)) for gear in row.graph.shared]
-        of_meshes = [each.tobytes() for both in row.placed for each in both]
+        of_meshes = [coordinates.tobytes() for coordinates, _ in row.placed]
+        offsets = [offset for _, offset in row.placed]
+        said = [each.tobytes() for each in offsets]
         key = tuple(map(cycle_key, row.models)), tuple(row.layout.phases), tuple(shared), tuple(of_meshes)
         if self._row is None or self._row[0] != key:
             # Frees memory before the next is made.
             self._row = None
-            self._row = key, make()
-        return self._row[1]
+            self._row = key, said, make()
+        elif self._row[1] != said:
+            self._row = key, said, self._row[2].with_offsets(offsets)
+        return self._row[2]
 
     @property
     def _taken(self) -> float:

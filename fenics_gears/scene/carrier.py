@@ -10,12 +10,15 @@ from re import sub
 from fenics_gears.geometry.planetary import RING, SUN, PlanetarySet
 from fenics_gears.inputs.tree import GEARS
 
+from .planetary_schema import VibrationText
+
 
 @dataclass(frozen=True)
 class Carrier:
     """The carrier of the set in a `stage`. `pin_stiffness`, N/mm: None where pins do not give way; `pin_errors`: of
     each planet tangential, against its force, and radial, outwards, mm; none where pins are in their places.
-    `floating`: members that no bearing holds. `speed`, rad/s, and `torque`, N mm: of the input."""
+    `floating`: members that no bearing holds. `speed`, rad/s, and `torque`, N mm: of the input. `vibration`: lumped
+    members for natural frequencies, None where the scene has none."""
 
     stage: str
     set: PlanetarySet
@@ -24,6 +27,7 @@ class Carrier:
     floating: tuple[str, ...] = ()
     speed: float | None = None
     torque: float = 0.0
+    vibration: VibrationText | None = None
 
     @property
     def sun(self) -> str:

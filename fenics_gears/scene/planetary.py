@@ -172,7 +172,9 @@ def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet, load: TrainLoad
         torque = load.output_torque * abs(own.weights[own.input] / own.weights[own.output])
     else:
         torque = (load.power or 0.0) / (motion.input_speed or 1.0)
-    return Carrier(stage, own, stiffness, errors, tuple(text.floating or ()), motion.input_speed, torque)
+    return Carrier(
+        stage, own, stiffness, errors, tuple(text.floating or ()), motion.input_speed, torque, text.vibration
+    )
 
 
 def _check_motion(carrier: Carrier, load: TrainLoad, friction: bool, place: str) -> None:

@@ -142,8 +142,26 @@ def _wrong_members(path: tuple[str, ...], text: PlanetaryText) -> Iterator[Probl
     if text.floating and count < 3:
         said = "needs three planets: two do not centre a member that nothing else holds. Leave it out."
         yield Problem((*path, "floating"), "a list", said)
+    yield from _wrong_vibration(path, text)
     for name in ("pin_errors", "radial_pin_errors") if text.carrier is not None else ():
         errors = getattr(text.carrier, name)
         if errors is not None and len(errors) != count:
             said = f"has {len(errors)} entries for {count} planets. Allowed: one for each."
             yield Problem((*path, "carrier", name), "a list", said)
+
+
+def _wrong_vibration(path: tuple[str, ...], text: PlanetaryText) -> Iterator[Problem]:
+    """Lumped members whose springs are missing, or are of members that nothing holds."""
+    if text.vibration is None:
+        return
+    if text.carrier is None or text.carrier.pin_stiffness is None:
+        said = (
+            'is missing: natural frequencies need the spring of the pins. Add pin_stiffness, such as "3e5 N/mm", or'
+            f" leave [{'.'.join((*path, 'vibration'))}] out."
+        )
+        yield Problem((*path, "carrier", "pin_stiffness"), None, said)
+    for member in text.floating or ():
+        stiffness = getattr(text.vibration, member).support_stiffness
+        if stiffness:
+            said = f'holds a member that is floating. Leave it out, or take "{member}" out of floating.'
+            yield Problem((*path, "vibration", member, "support_stiffness"), f"{stiffness:g} N/mm", said)

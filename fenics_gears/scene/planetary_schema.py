@@ -62,6 +62,60 @@ class CarrierText(Section):
     )
 
 
+SUPPORTS = "0 N/mm to 1e15 N/mm"
+
+
+@dataclass(frozen=True, kw_only=True)
+class VibratingPlanet(Section):
+    """``[stages.NAME.vibration.planet]``: each planet as a lumped mass on its pin."""
+
+    mass: float = quantity("1e-9 kg to 1e9 kg", "0.66 kg", meaning="mass")
+    moment_of_inertia: float = quantity(
+        "1e-15 kg m^2 to 1e15 kg m^2", "1.5e-3 kg m^2", meaning="moment of inertia about its axis"
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class VibratingMember(VibratingPlanet):
+    """``[stages.NAME.vibration.sun]``, ``ring`` and ``carrier``: a member as a lumped mass on springs."""
+
+    support_stiffness: float | None = quantity(
+        SUPPORTS,
+        "1e5 N/mm",
+        meaning="stiffness that holds its centre, alike in all directions",
+        otherwise="its centre is held; 0 of a member that is `floating`",
+    )
+    torsional_stiffness: float | None = quantity(
+        "0 N mm/rad to 1e18 N mm/rad",
+        "1e9 N mm/rad",
+        meaning="stiffness that holds its rotation",
+        otherwise="the fixed member is held, others turn freely",
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class VibrationText(Section):
+    """``[stages.NAME.vibration]``: lumped members, for the natural frequencies that `gears check` prints; runs are
+    quasi-static. Pins have the `pin_stiffness` of the carrier."""
+
+    sun: VibratingMember
+    ring: VibratingMember
+    carrier: VibratingMember
+    planet: VibratingPlanet
+    sun_mesh_stiffness: float | None = quantity(
+        "1e-3 N/mm to 1e15 N/mm",
+        "5e5 N/mm",
+        meaning="stiffness of each mesh with the sun along the line of action",
+        otherwise="that of one tooth pair, about",
+    )
+    ring_mesh_stiffness: float | None = quantity(
+        "1e-3 N/mm to 1e15 N/mm",
+        "5e5 N/mm",
+        meaning="stiffness of each mesh with the ring along the line of action",
+        otherwise="that of one tooth pair, about",
+    )
+
+
 @dataclass(frozen=True, kw_only=True)
 class PlanetaryText(Section):
     """A planetary set, whose planets are alike: their places, which member is fixed, and between which the power
@@ -96,3 +150,4 @@ class PlanetaryText(Section):
         )
     )
     carrier: CarrierText | None = None
+    vibration: VibrationText | None = None

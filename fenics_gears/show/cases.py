@@ -15,6 +15,7 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.results.layout import OVERALL
 from fenics_gears.results.stored import stored
 from fenics_gears.results.validity import NO_MEANING
+from fenics_gears.studies.axis import SAMPLE
 from fenics_gears.system.output import unsealed
 
 from .panels import factor
@@ -28,6 +29,7 @@ OF_THE_WHOLE = f"peak_to_peak_{OVERALL}"
 # Between what a measure is and the mesh that it is of.
 OF_MESH = ", of mesh "
 MEAN_OF_THE_WHOLE = f"mean_{OVERALL}"
+K_GAMMA = "load_sharing_factor"
 # A value this many times the largest of the other cases would make them a line along the axis.
 FAR_OFF = 10.0
 LISTED_CASES = 12
@@ -94,13 +96,13 @@ class Cases:
         shape = self.dataset["failed"]
         swept = []
         for name, coordinate in self.dataset.coords.items():
-            if name in ("case", "mesh_phase", "gear", "mesh") or not set(coordinate.dims) <= set(shape.dims):
+            if name in ("case", SAMPLE, "mesh_phase", "gear", "mesh") or not set(coordinate.dims) <= set(shape.dims):
                 continue
             values = coordinate.broadcast_like(shape).transpose(*shape.dims).values.ravel()
             unit, path = (str(coordinate.attrs.get(*each)) for each in (("units", ""), ("long_name", name)))
             swept.append(SweptField(str(name), path, "" if unit == "1" else unit.replace("um", "µm"), values))
         order = {dimension: place for place, dimension in enumerate(shape.dims)}
-        return sorted(swept, key=lambda field: order.get(field.name, 0))
+        return sorted(swept, key=lambda field: order.get(field.name, len(order)))
 
     def numbers(self, name: str) -> np.ndarray:
         """A number of each case (n,), not a number where there is none; of trains the largest of their meshes."""
@@ -207,6 +209,12 @@ class Cases:
             OF_THE_WHOLE: (self.numbers(OF_THE_WHOLE) * scale, unit, "Overall transmission error, peak to peak"),
             MEAN_OF_THE_WHOLE: (self.numbers(MEAN_OF_THE_WHOLE) * scale, unit, "Overall transmission error, mean"),
         }
+        for factor_of_set, words in (
+            (K_GAMMA, "K_gamma of the sun's meshes"),
+            (f"{K_GAMMA}_ring", "K_gamma of the ring's"),
+        ):
+            if factor_of_set in self.dataset:
+                found[factor_of_set] = (self.numbers(factor_of_set), "", words)
         for mesh in self.dataset["mesh"].values:
             values = self.dataset[PEAK_TO_PEAK].sel(mesh=mesh).values.ravel() * scale
             name = f"{PEAK_TO_PEAK}_{re.sub(r'[^A-Za-z0-9-]+', '_', str(mesh))}"

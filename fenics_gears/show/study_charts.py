@@ -8,6 +8,7 @@ import numpy as np
 from .cases import OF_MESH, Cases, SweptField
 from .chart import LINES, MARKED_LINES, Chart, Curve, Field
 from .panels import LOW_TO_HIGH, PALETTE
+from .quantile_charts import has_samples, quantile_chart
 
 # What one plot's legend holds; dashes tell apart what has the same colour.
 MOST_LINES = 2 * len(PALETTE)
@@ -28,7 +29,8 @@ def result_charts(cases: Cases) -> dict[str, Chart]:
 
 def _result_chart(cases: Cases, values: np.ndarray, unit: str, name: str) -> Chart:
     far_off = cases.far_off(values)
-    return over_parameter(cases, np.where(far_off, np.nan, values), unit, name, cases.far_off_in_words(far_off))
+    drawn = quantile_chart if has_samples(cases) else over_parameter
+    return drawn(cases, np.where(far_off, np.nan, values), unit, name, cases.far_off_in_words(far_off))
 
 
 def effort_charts(cases: Cases) -> list[Chart]:

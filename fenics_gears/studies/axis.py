@@ -18,6 +18,8 @@ RANGE_KEYS = ("start", "stop", "count", "step", "spacing")
 SPACINGS = ("linear", "logarithmic")
 MOST_VALUES = 100_000
 LONGEST_LABEL = 60
+# The dimension of all random fields together.
+SAMPLE = "sample"
 # "50 .. 500 N m in 10", "... in 10, logarithmic", "50 .. 500 N m by 50 N m".
 RANGE_IN_WORDS = re.compile(
     r"(?P<start>.+?)\s*\.\.\s*(?P<stop>.+?)"
@@ -32,12 +34,14 @@ class AxisError(ValueError):
 @dataclass(frozen=True)
 class Axis:
     """A swept field: its path in the scene and its values as TOML has them. `name`: of the coordinate; `unit`: of its
-    numbers, the one that the first value is written in, empty for bare numbers or texts."""
+    numbers, the one that the first value is written in, empty for bare numbers or texts. `random`: whether its values
+    are samples of a distribution."""
 
     path: Path
     values: tuple[Any, ...]
     name: str
     unit: str = ""
+    random: bool = False
 
     @property
     def dotted(self) -> str:
@@ -154,7 +158,7 @@ def _range(table: Mapping[str, Any]) -> tuple[Any, ...]:
     if spacing not in SPACINGS:
         hint = did_you_mean(spacing, SPACINGS) if isinstance(spacing, str) else ""
         raise AxisError(f'has the spacing {as_written(spacing)}.{hint} Allowed: "linear", "logarithmic".')
-    (start, stop, *step), unit = _ends({name: table[name] for name in ("start", "stop", "step") if name in table})
+    (start, stop, *step), unit = ends({name: table[name] for name in ("start", "stop", "step") if name in table})
     if step:
         numbers = _stepped(start, stop, step[0], spacing)
     else:
@@ -165,8 +169,8 @@ def _range(table: Mapping[str, Any]) -> tuple[Any, ...]:
     return tuple(int(number) if whole else float(f"{number:.15g}") for number in numbers)
 
 
-def _ends(given: Mapping[str, Any]) -> tuple[list[float], str]:
-    """Start, stop and step, if any, as numbers in the unit of the start, and that unit."""
+def ends(given: Mapping[str, Any]) -> tuple[list[float], str]:
+    """Quantities, such as start and stop, as numbers in the unit of the first one, and that unit. Raises AxisError."""
     if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in given.values()):
         unit = ""
         bare = [number_in(value, "") for value in given.values()]
@@ -183,7 +187,7 @@ def _ends(given: Mapping[str, Any]) -> tuple[list[float], str]:
         kinds = dict.fromkeys(kind for _, kind in quantities)
         if len(kinds) > 1:
             raise AxisError(f"mixes {' and '.join(kinds)}.")
-        unit = units.unit_of(given["start"])
+        unit = units.unit_of(next(iter(given.values())))
         numbers = [number / factor_of(unit) for number, _ in quantities]
     if not all(map(math.isfinite, numbers)):
         raise AxisError("has an end that is not a finite number.")

@@ -14,10 +14,11 @@ from fenics_gears.results.files import read, save
 from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.path_shares import OF_SHARES
 from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.runs.record import CURVES, NUMBERS, OF_TRAINS, RunRecord
+from fenics_gears.runs.record import CURVES, NUMBERS, OF_SETS, OF_TRAINS, RunRecord
 from fenics_gears.system.output import write_whole
 
-from .axis import Axis
+from .axis import SAMPLE, Axis
+from .quantiles import quantiles_of
 from .study import Study
 
 STUDY_FILE = "study.nc"
@@ -35,13 +36,15 @@ def combined(study: Study, records: Mapping[int, RunRecord], failures: Mapping[i
     )
     if study.combine == "zip":
         result = result.assign_coords(case=("case", np.arange(len(study.cases)), {"long_name": "case"}))
+    if SAMPLE in study.dimensions:
+        result = result.assign_coords(sample=(SAMPLE, np.arange(study.samples), {"long_name": "sample"}))
     for name, (of_case, missing, attributes) in _variables(study, records, failures).items():
         kind = object if missing == "" else type(missing)
         values = np.array([of_case.get(i, missing) for i in range(len(study.cases))], dtype=kind)
         result[name] = (study.dimensions, values.reshape(study.shape), attributes)
     curves, why_not = _curves(study, records)
     result = result.assign(_of_meshes(study, records)).assign(curves)
-    return result.assign_attrs(
+    return result.assign(quantiles_of(result)).assign_attrs(
         title=study.title,
         study=study.text,
         scene=study.scene_text,
@@ -59,7 +62,9 @@ def _variables(
 ) -> dict[str, tuple[Mapping, Any, dict]]:
     """By name the values of the cases that have one, what stands for the others, and the attributes."""
     of_trains = any(record.meshes for record in records.values())
-    numbers = (OF_TRAINS if of_trains else NUMBERS) | _studied({n for each in records.values() for n in each.numbers})
+    known = {name for each in records.values() for name in each.numbers}
+    of_sets = {name: said for name, said in OF_SETS.items() if name in known}
+    numbers = (OF_TRAINS if of_trains else NUMBERS) | of_sets | _studied(known)
     variables: dict[str, tuple[Mapping, Any, dict]] = {
         name: (
             {i: each.numbers[name] for i, each in records.items() if name in each.numbers},
@@ -123,7 +128,7 @@ def _coordinate(axis: Axis, study: Study) -> tuple[str, tuple]:
     attributes = {"long_name": axis.dotted}
     if values.dtype != object:
         attributes["units"] = axis.unit or "1"
-    return axis.name, (axis.name if study.combine == "product" else "case", values, attributes)
+    return axis.name, (study.dimension(axis), values, attributes)
 
 
 def _curves(study: Study, records: Mapping[int, RunRecord]) -> tuple[dict[str, tuple], str]:

@@ -39,8 +39,12 @@ class SceneChanges:
     combine: str
 
     def points(self) -> Iterator[tuple[Any, ...]]:
-        values = [axis.values for axis in self.axes]
-        return itertools.product(*values) if self.combine == "product" else zip(*values)
+        """The values of each case in the order of the axes, of which random ones are last and vary together."""
+        if self.combine != "product":
+            return zip(*(axis.values for axis in self.axes))
+        samples = list(zip(*(axis.values for axis in self.axes if axis.random))) or [()]
+        listed = itertools.product(*(axis.values for axis in self.axes if not axis.random))
+        return ((*point, *sample) for point, sample in itertools.product(listed, samples))
 
     def apply(self, tree: Mapping[str, Any], point: tuple[Any, ...]) -> dict[str, Any]:
         """The scene of one case: first what is left out, then what is set, then what is swept."""

@@ -4,15 +4,16 @@ from dataclasses import dataclass
 
 from fenics_gears.runs.run import Run
 
-from .axis import Axis
+from .axis import SAMPLE, Axis
 
 
 @dataclass(frozen=True)
 class Study:
     """A validated study: all its scenes are right.
 
-    `combine`: "product" (one dimension for each axis) or "zip" (one dimension, `case`). `cases`: its runs, the last
-    swept field changes fastest. `text` and `scene_text`: the files it was read from. `base_key`: the base scene's hash.
+    `combine`: "product" (one dimension for each axis, and one, `sample`, for all that are random) or "zip" (one
+    dimension, `case`). `cases`: its runs, the last swept field changes fastest, samples before others. `text` and
+    `scene_text`: the files it was read from. `base_key`: the base scene's hash.
     """
 
     name: str
@@ -26,8 +27,24 @@ class Study:
 
     @property
     def dimensions(self) -> tuple[str, ...]:
-        return tuple(axis.name for axis in self.axes) if self.combine == "product" else ("case",)
+        if self.combine != "product":
+            return ("case",)
+        return (*(axis.name for axis in self.axes if not axis.random), *([SAMPLE] if self.samples else ()))
 
     @property
     def shape(self) -> tuple[int, ...]:
-        return tuple(len(axis.values) for axis in self.axes) if self.combine == "product" else (len(self.cases),)
+        if self.combine != "product":
+            return (len(self.cases),)
+        lengths = (len(axis.values) for axis in self.axes if not axis.random)
+        return (*lengths, *([self.samples] if self.samples else ()))
+
+    @property
+    def samples(self) -> int:
+        """Samples of the random fields, each with all values of the others; 0 where none is random."""
+        return max((len(axis.values) for axis in self.axes if axis.random), default=0)
+
+    def dimension(self, axis: Axis) -> str:
+        """The dimension over which the values of an axis are."""
+        if self.combine != "product":
+            return "case"
+        return SAMPLE if axis.random else axis.name

@@ -16,7 +16,8 @@ from fenics_gears.scene.read import load_scene_or_train
 from fenics_gears.scene.train_pair import STAGES
 
 from . import fields
-from .axis import Axis, AxisError, label, unit_of, values_of
+from .axis import SAMPLE, Axis, AxisError, label, unit_of, values_of
+from .random_values import is_random, sampled
 from .scenes import NoScene, SceneChanges, Scenes
 from .study import Study
 
@@ -24,7 +25,7 @@ KEYS = ("title", "scene", "combine", "without", "set", "sweep")
 COMBINATIONS = ("product", "zip")
 MOST_CASES = 100_000
 # Names of the combined dataset's own variables.
-TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear", "mesh"}
+TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear", "mesh", "quantile", SAMPLE}
 
 
 class Mistakes:
@@ -117,7 +118,8 @@ def _changes(tree: Mapping[str, Any], mistakes: Mistakes) -> SceneChanges:
     swept = []
     for path, written in entries(tree, "sweep", mistakes):
         try:
-            swept.append((path, values_of(path, written)))
+            values = sampled(path, written) if is_random(written) else values_of(path, written)
+            swept.append((path, values, is_random(written)))
         except AxisError as error:
             mistakes.add(("sweep", ".".join(path)), _shown(written), str(error))
     axes = _axes(swept)
@@ -166,11 +168,13 @@ def _shown(value: Any) -> str:
     return label(value) if isinstance(value, Mapping) else as_written(value)
 
 
-def _axes(swept: list[tuple[fields.Path, tuple[Any, ...]]]) -> tuple[Axis, ...]:
-    last = [path[-1] for path, _ in swept]
+def _axes(swept: list[tuple[fields.Path, tuple[Any, ...], bool]]) -> tuple[Axis, ...]:
+    """The swept fields, random ones last."""
+    last = [path[-1] for path, _, _ in swept]
     short = {name for name in last if last.count(name) == 1 and name not in TAKEN}
     return tuple(
-        Axis(path, values, path[-1] if path[-1] in short else "_".join(path), unit_of(values)) for path, values in swept
+        Axis(path, values, path[-1] if path[-1] in short else "_".join(path), unit_of(values), random)
+        for path, values, random in sorted(swept, key=lambda each: each[2])
     )
 
 
@@ -198,7 +202,11 @@ def _check_sizes(axes: tuple[Axis, ...], combine: str, mistakes: Mistakes) -> No
     if combine == "zip" and len(set(lengths.values())) > 1:
         listed = ", ".join(f"{name} has {length}" for name, length in lengths.items())
         mistakes.add(("combine",), '"zip"', f"needs as many values of each swept field: {listed}.")
-    cases = math.prod(lengths.values())
+    samples = {axis.dotted: len(axis.values) for axis in axes if axis.random}
+    if combine == "product" and len(set(samples.values())) > 1:
+        listed = ", ".join(f"{name} has {length}" for name, length in samples.items())
+        mistakes.add(("sweep",), "", f"needs as many samples of each random field: {listed}.")
+    cases = math.prod(len(axis.values) for axis in axes if not axis.random) * max(samples.values(), default=1)
     if combine == "product" and cases > MOST_CASES:
         mistakes.add(("sweep",), "", f"makes {cases} cases. Allowed: up to {MOST_CASES}.")
 

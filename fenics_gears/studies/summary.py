@@ -4,6 +4,7 @@ from fenics_gears.results.layout import OVERALL
 from fenics_gears.results.summary import MICROMETRES
 from fenics_gears.results.validity import NO_MEANING
 
+from .quantiles import quantile_rows
 from .run_study import Outcome
 
 MOST_FAILURES = 5
@@ -18,6 +19,7 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
         rows.append(("failed", f"{len(outcome.failures)}", ""))
     if records:
         rows.append(_transmission_errors(outcome))
+        rows += quantile_rows(outcome.study, outcome.records)
         warned = sum(bool(record.warnings) for record in records)
         if warned:
             rows.append(("cases with warnings", f"{warned}, see the variable warnings", ""))

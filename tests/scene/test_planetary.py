@@ -8,6 +8,13 @@ from fenics_gears.model.train import train_model_of
 
 THIN = planetary_text().replace('"272 mm", support = "held"', '"236 mm"')
 
+LUMPED = '{ mass = "2 kg", moment_of_inertia = "1e-3 kg m^2", support_stiffness = "1e5 N/mm" }'
+VIBRATION = f"""[stages.set.vibration]
+sun = {LUMPED}
+ring = {LUMPED}
+carrier = {LUMPED}
+planet = {{ mass = "2 kg", moment_of_inertia = "1e-3 kg m^2" }}"""
+
 
 @pytest.mark.parametrize(
     ("text", "said"),
@@ -36,6 +43,12 @@ THIN = planetary_text().replace('"272 mm", support = "held"', '"236 mm"')
         (planetary_text(more="sun_mesh = { coast_flanks = {} }"), "sun_mesh.coast_flanks.*is not computed in a mesh"),
         (planetary_text(more='helix_angle = "10 deg"'), "helix_angle.*\n.*over the face"),
         (planetary_text(sections='[inertia]\ndensity = "7.8 g/cm^3"'), "inertia.*\n.*quasi-static"),
+        (planetary_text(more=VIBRATION), r"set.carrier.pin_stiffness.*\n.*natural frequencies need the spring"),
+        (planetary_text(more=VIBRATION.replace("mass", "weight", 1)), r"vibration.sun.weight"),
+        (
+            planetary_text((20, 16, 52), "planets = 3", more=f'floating = ["sun"]\n{VIBRATION}'),
+            r"vibration.sun.support_stiffness.*\n.*is floating",
+        ),
         (planetary_text(sections="[bearings]\n"), r"bearings.*\n.*pin_stiffness"),
         (planetary_text(sections='[stages.other]\nkind = "row"'), "beside other stages"),
         (planetary_text(load='power = "1 kW"'), "load.power needs a speed"),

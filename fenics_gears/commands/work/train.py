@@ -90,6 +90,10 @@ def check_train(scene: TrainScene) -> int:
         print_rows("Planetary set", set_rows(model.rows[0]))
         print_rows("Members, without losses", member_rows(scene.shafts.carrier))
         print_rows("Planets", planet_rows(model.rows[0]))
+        if scene.shafts.carrier.vibration is not None:
+            from fenics_gears.model.planetary_frequencies import set_frequency_rows
+
+            print_rows("Natural frequencies of lumped members", set_frequency_rows(model.rows[0]))
     else:
         print_rows("Train", _train_rows(model))
         print_rows("Shafts", list(_shaft_rows(model)))
