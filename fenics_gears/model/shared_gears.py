@@ -43,10 +43,18 @@ def reach_of(models: Sequence[Model], layout: Layout, gear: int) -> Reach:
             # Round the gear no tooth is further than half of them.
             farthest = max(abs(least - round_about), abs(most - round_about))
             same = max(same, min(farthest, teeth // 2))
+    return joined([Reach(same, each) for each in across] or [Reach(same)], teeth)
+
+
+def joined(reaches: Sequence[Reach], teeth: int) -> Reach:
+    """One reach for several of gears of so many `teeth`."""
+    same = max(reach.same for reach in reaches)
+    across = [reach.across for reach in reaches if reach.across is not None]
     if not across:
         return Reach(same)
-    hull = min(each[0] for each in across), max(each[1] for each in across)
-    return Reach(same, (hull[0], min(hull[1], hull[0] + teeth - 1)))
+    least = min(each[0] for each in across)
+    most = max(each[1] for each in across)
+    return Reach(same, (least, min(most, least + teeth - 1)))
 
 
 def _between(models: Sequence[Model], shared: SharedGear) -> tuple[int, int]:
