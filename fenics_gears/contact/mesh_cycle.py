@@ -173,22 +173,6 @@ class Cycle:
             self._held = dict(zip(missing, self._build([(step, step - 1) for step in missing.values()])))
             self._keep(self._held)
 
-    def built(self, step: float, before: float) -> Position | None:
-        """The position at a step after one `before`, without gaps of its own, if it is kept."""
-        return self._built.get((self._mesh_at(step), step % self.steps)) if before == ceil(step) - 1 else None
-
-    def build_true(self, steps: Sequence[tuple[float, float]]) -> list[Position]:
-        """The positions at some steps, each after the one before it, without gaps of their own; kept where they are in
-        common and there is room."""
-        found = self._build(steps)
-        own = {
-            (self._mesh_at(step), step % self.steps): position
-            for (step, before), position in zip(steps, found)
-            if before == ceil(step) - 1 and in_common(step)
-        }
-        self._keep(own)
-        return found
-
     def between(self, step: float, before: float) -> Position:
         """The contact equations at `step`, with the step before at `before`; both may lie between whole steps. Kept
         only at places in common after the last whole step.

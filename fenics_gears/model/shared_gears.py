@@ -43,10 +43,22 @@ def reach_of(models: Sequence[Model], layout: Layout, gear: int) -> Reach:
             # Round the gear no tooth is further than half of them.
             farthest = max(abs(least - round_about), abs(most - round_about))
             same = max(same, min(farthest, teeth // 2))
-    return joined([Reach(same, each) for each in across] or [Reach(same)], teeth)
+    return _joined([Reach(same, each) for each in across] or [Reach(same)], teeth)
 
 
-def joined(reaches: Sequence[Reach], teeth: int) -> Reach:
+def reach_of_alike(models: Sequence[Model], layout: Layout, gear: int, likes: Sequence[int | None]) -> Reach:
+    """The same on any of the gears whose meshes are like those of this one, so that planets that are counted from other
+    teeth are one body all the same. `likes`: which mesh each is like, None one of its own."""
+
+    def kinds(of: int) -> list[int]:
+        meshes = [mesh for mesh, _ in layout.graph.sides[of]]
+        return [mesh if (like := likes[mesh]) is None else like for mesh in meshes]
+
+    alike = [other for other in layout.graph.shared if kinds(other) == kinds(gear)]
+    return _joined([reach_of(models, layout, other) for other in alike], layout.gear(gear).tooth_count)
+
+
+def _joined(reaches: Sequence[Reach], teeth: int) -> Reach:
     """One reach for several of gears of so many `teeth`."""
     same = max(reach.same for reach in reaches)
     across = [reach.across for reach in reaches if reach.across is not None]

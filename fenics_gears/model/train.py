@@ -35,7 +35,7 @@ from .drivetrain import mesh_stiffness
 from .face_resolution import face_discretisation
 from .model import Model, model_of
 from .planetary_windows import coarser, largest_torque, narrowed, with_own_nodes
-from .shared_gears import joined, reach_of
+from .shared_gears import reach_of_alike
 from .train_parts import (
     bent_of,
     check_alike,
@@ -187,18 +187,9 @@ class RowModel(OfMeshes):
         """What the section of a gear of several meshes depends on, gear and material first."""
         mesh, side = self.graph.sides[gear][0]
         material = self.models[mesh].scene.gears.material_of(GEARS[side])
-        return self.gear(gear), material, self._discretisation_of(gear), self._reach_of(gear)
-
-    def _reach_of(self, gear: int) -> Reach:
-        """Between which teeth compliance is needed, on any of the gears whose meshes are like those of this one:
-        planets that are counted from other teeth are one body all the same."""
-
-        def like(other: int) -> list[int]:
-            ways = [self.meshes[mesh].like for mesh, _ in self.graph.sides[other]]
-            return [mesh if way is None else way for way, (mesh, _) in zip(ways, self.graph.sides[other])]
-
-        alike = [other for other in self.graph.shared if like(other) == like(gear)]
-        return joined([reach_of(self.models, self.layout, other) for other in alike], self.gear(gear).tooth_count)
+        likes = [mesh.like for mesh in self.meshes]
+        reach = reach_of_alike(self.models, self.layout, gear, likes)
+        return self.gear(gear), material, self._discretisation_of(gear), reach
 
     def keys_of_shared(self, gear: int) -> tuple:
         """What the body of a gear of several meshes depends on, gear and material first."""
