@@ -10,7 +10,7 @@ import numpy as np
 
 from fenics_gears.geometry.gear_train import SharedGear
 
-from .mesh_cycle import Cycle
+from .mesh_cycle import Cycle, Kept
 from .operator import Position
 from .tooth_pair import PairNodes, count_of
 
@@ -56,19 +56,24 @@ class Part:
     def nodes_before(self) -> int:
         return count_of(self.before)
 
-    def rows(self, kinds: int, nodes: int) -> np.ndarray:
-        """Where its forces are among all, of which so many are normal."""
-        own = self.first + np.arange(self.nodes)
-        return np.concatenate([own + kind * nodes for kind in range(kinds)])
+    @property
+    def own(self) -> slice:
+        """Where its nodes are among all."""
+        return slice(self.first, self.first + self.nodes)
 
-    def rows_before(self, nodes: int) -> np.ndarray:
-        """The same a step before, with friction."""
-        own = self.first_before + np.arange(self.nodes_before)
-        return np.concatenate([own, own + nodes])
+    @property
+    def own_before(self) -> slice:
+        """The same a step before."""
+        return slice(self.first_before, self.first_before + self.nodes_before)
 
 
 class RowCompliance(Protocol):
-    """How the contact nodes of meshes yield that stand beside each other."""
+    """How the contact nodes of meshes yield that stand beside each other; `kept`: memory for what it keeps."""
+
+    kept: Kept
+
+    def give_up(self) -> None:
+        """Give up what is kept."""
 
     def of(
         self, cycles: Sequence[Cycle], parts: Sequence[Part], counts: tuple[int, int], steps: float

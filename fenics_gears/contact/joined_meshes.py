@@ -12,7 +12,7 @@ from .addresses import form_rows
 from .formed_rows import FormedRows
 from .idler import Part
 from .joined_rows import AllRows, Coupling, Joined, joined_rows
-from .mesh_cycle import Cycle
+from .mesh_cycle import Cycle, Kept
 
 
 class CouplingGear(Protocol):
@@ -29,6 +29,10 @@ class JoinedMeshes:
 
     def __init__(self, gears: Sequence[CouplingGear] = ()):
         self._gears = gears
+        self.kept = Kept()
+
+    def give_up(self) -> None:
+        """Nothing is kept."""
 
     def of(
         self, cycles: Sequence[Cycle], parts: Sequence[Part], counts: tuple[int, int], steps: float

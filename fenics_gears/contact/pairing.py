@@ -11,6 +11,7 @@ from scipy.linalg.lapack import dpstrf
 from fenics_gears.elasticity.compliance import BetweenFlanks
 
 from .compliance_product import NO_FLANK, OWN, compliance_products, directions
+from .interpolation import FlankInterpolation
 from .operator import Passage, Response
 from .tooth_pair import Flanks, ToothPair, count_of
 
@@ -166,6 +167,7 @@ class FlankTable:
     def __init__(self):
         self.near: list[np.ndarray] = []
         self.first: list[np.ndarray] = []
+        self._views: list[FlankInterpolation] = []
         self._numbers: dict[int, int] = {}
         self._known: dict[tuple[int, int], list[Numbered]] = {}
         self._sizes: list[tuple[int, int, float, float]] = []
@@ -184,10 +186,16 @@ class FlankTable:
                 number = self._numbers[id(view)] = len(self.near)
                 self.near.append(view.near.ravel())
                 self.first.append(view.first)
+                self._views.append(view)
                 self._sizes.append((*view.near.shape, place.contact_rolls[gear], place.turn))
             flanks.append(((place.teeth[gear], place.flank), number, start))
             start += len(view.near)
         return flanks
+
+    @property
+    def addresses(self) -> tuple[int, ...]:
+        """Of the interpolation of each flank, which this table holds."""
+        return tuple(self._numbers)
 
     @property
     def table(self) -> np.ndarray:

@@ -127,10 +127,12 @@ class RowCycle(Cycle):
     def share(self, memory: float) -> None:
         """Let operators take so many bytes, those of single meshes among them."""
         count = len(self._members)
-        # Operators grow with the square of their nodes, and those of all meshes have count times as many.
-        self.kept = Kept(memory * count / (count + 1))
+        # Operators grow with the square of their nodes, and those of all meshes have count times as many; how these
+        # feel each other takes as much as each by itself.
+        self.kept = Kept(memory * count / (count + 2))
+        self._compliance.kept = Kept(memory / (count + 2))
         for each in self._members:
-            own = memory / (count * (count + 1))
+            own = memory / (count * (count + 2))
             if isinstance(each.cycle, RowCycle):
                 each.cycle.share(own)
             else:
@@ -160,6 +162,7 @@ class RowCycle(Cycle):
         self._joined.clear()
         self._shared.clear()
         self._around = {}
+        self._compliance.give_up()
         return there
 
     def solve(

@@ -43,10 +43,30 @@ def reach_of(models: Sequence[Model], layout: Layout, gear: int) -> Reach:
             # Round the gear no tooth is further than half of them.
             farthest = max(abs(least - round_about), abs(most - round_about))
             same = max(same, min(farthest, teeth // 2))
+    return _joined([Reach(same, each) for each in across] or [Reach(same)], teeth)
+
+
+def reach_of_alike(models: Sequence[Model], layout: Layout, gear: int, likes: Sequence[int | None]) -> Reach:
+    """The same on any of the gears whose meshes are like those of this one, so that planets that are counted from other
+    teeth are one body all the same. `likes`: which mesh each is like, None one of its own."""
+
+    def kinds(of: int) -> list[int]:
+        meshes = [mesh for mesh, _ in layout.graph.sides[of]]
+        return [mesh if (like := likes[mesh]) is None else like for mesh in meshes]
+
+    alike = [other for other in layout.graph.shared if kinds(other) == kinds(gear)]
+    return _joined([reach_of(models, layout, other) for other in alike], layout.gear(gear).tooth_count)
+
+
+def _joined(reaches: Sequence[Reach], teeth: int) -> Reach:
+    """One reach for several of gears of so many `teeth`."""
+    same = max(reach.same for reach in reaches)
+    across = [reach.across for reach in reaches if reach.across is not None]
     if not across:
         return Reach(same)
-    hull = min(each[0] for each in across), max(each[1] for each in across)
-    return Reach(same, (hull[0], min(hull[1], hull[0] + teeth - 1)))
+    least = min(each[0] for each in across)
+    most = max(each[1] for each in across)
+    return Reach(same, (least, min(most, least + teeth - 1)))
 
 
 def _between(models: Sequence[Model], shared: SharedGear) -> tuple[int, int]:

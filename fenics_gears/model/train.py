@@ -36,7 +36,7 @@ from .drivetrain import mesh_stiffness
 from .face_resolution import face_discretisation
 from .model import Model, model_of
 from .planetary_windows import coarser, largest_torque, narrowed, with_own_nodes
-from .shared_gears import reach_of
+from .shared_gears import reach_of_alike
 from .train_parts import (
     bent_of,
     check_alike,
@@ -219,7 +219,9 @@ class RowModel(OfMeshes):
         """What the section of a gear of several meshes depends on, gear and material first."""
         mesh, side = self.graph.sides[gear][0]
         material = self.models[mesh].scene.gears.material_of(GEARS[side])
-        return self.gear(gear), material, self._discretisation_of(gear), reach_of(self.models, self.layout, gear)
+        likes = [mesh.like for mesh in self.meshes]
+        reach = reach_of_alike(self.models, self.layout, gear, likes)
+        return self.gear(gear), material, self._discretisation_of(gear), reach
 
     def keys_of_shared(self, gear: int) -> tuple:
         """What the body of a gear of several meshes depends on, gear and material first."""

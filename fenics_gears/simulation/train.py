@@ -10,6 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 import xarray as xr
 
+from fenics_gears.contact.cycle_alike import CycleAlike
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.joined_meshes import JoinedMeshes
 from fenics_gears.contact.mesh import elastic_mesh, step_by_step
@@ -38,7 +39,7 @@ from fenics_gears.system.memory import allowed_memory
 from fenics_gears.system.progress import Progress
 
 from .bodies import body_key, gear_bodies, gear_body
-from .elastic_route import cycle_of, flanks_of, mesh_cycle
+from .elastic_route import cycle_of, flanks_of, gaps_of, mesh_cycle
 from .routes import Preparation
 from .simulate import MARCH, solved
 from .warm_up import compile_kernels, compile_loops
@@ -185,10 +186,12 @@ def _row_in_plane(
         for gear in row.graph.shared
         for shared in couplings(row.layout, gear)
     ]
-    meshes = []
-    for own, gears, phase, (coordinates, offset) in zip(row.models, row.graph.gears, row.phases, placed):
-        cycle = _cycle(own, (bodies[gears[0]], bodies[gears[1]]), phase)
-        meshes.append(MeshOfRow(cycle, coordinates, offset))
+    meshes: list[MeshOfRow] = []
+    for number, (coordinates, offset) in enumerate(placed):
+        pinion, wheel = row.graph.gears[number]
+        like = _like(row, number, bodies)
+        same = None if like is None else meshes[like].cycle
+        meshes.append(MeshOfRow(_cycle(row, number, (bodies[pinion], bodies[wheel]), same), coordinates, offset))
     return RowCycle(meshes, RowInPlane(coupled))
 
 
@@ -222,10 +225,26 @@ def shared_body(row: RowModel, gear: int, cache: Cache) -> Body:
     return Body.of(flank_compliance(*row.key_of_shared(gear), cache))
 
 
-def _cycle(model: Model, bodies: tuple[Body, Body], phase: tuple[float, int]) -> Cycle:
-    """The contact equations of one mesh of a row; `phase` as of its model."""
+def _like(row: RowModel, number: int, bodies: Sequence[Body]) -> int | None:
+    """Number of the mesh whose operators a mesh of a row has too, whole steps later: that which it is like, on the same
+    bodies."""
+    like = row.meshes[number].like
+    if like is None:
+        return None
+    own, other = ([bodies[gear] for gear in row.graph.gears[each]] for each in (number, like))
+    return like if all(one is two for one, two in zip(own, other)) else None
+
+
+def _cycle(row: RowModel, number: int, bodies: tuple[Body, Body], like: Cycle | None) -> Cycle:
+    """The contact equations of one mesh of a row; `like`: the cycle of the mesh that it is like."""
+    model = row.models[number]
+    phase, ahead = row.phases[number]
     mesh = elastic_mesh(flanks_of(model, bodies), model.resolution.contact_grid, model.corner, coast=False)
-    return cycle_of(model, at_phase(mesh, *phase, model.resolution.steps_per_mesh_cycle))
+    mesh = at_phase(mesh, phase, ahead, model.resolution.steps_per_mesh_cycle)
+    if like is None:
+        return cycle_of(model, mesh)
+    cycle = CycleAlike(mesh, like, ahead)
+    return cycle.with_gaps(gaps_of(model, cycle))
 
 
 def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:

@@ -1,7 +1,10 @@
 """Contact of trains: meshes feel each other through the body of the gear between them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from tests.planets import planetary
 from tests.trains import row
 
 from fenics_gears.dynamics.stepping import Stepper
@@ -77,3 +80,19 @@ def test_uncoupled_teeth_leave_meshes_alone(cycle_of):
     compliance = cycle.position(4).operator.compliance
     first = cycle.meshes[0].cycle.position(4).operator.nodes
     assert not compliance[:first, first:].any()
+
+
+def test_operators_that_planets_share_are_those_of_each_by_itself(cycle_of, tmp_path):
+    """Meshes of planets pass the very same places; contact of all of them is the same where each mesh is built as if it
+    were like no other, at steps and between them, with friction and pins beside their places."""
+    pins = 'carrier = { pin_stiffness = "3e5 N/mm", pin_errors = ["15 um", "0 um", "-5 um"] }'
+    model, shared = cycle_of(planetary(teeth=(17, 19, 55), planets="planets = 3", more=pins, sections=FRICTION))
+    alone = replace(model, meshes=tuple(replace(mesh, like=None) for mesh in model.meshes))
+    one_by_one = row_cycle(alone, SilentProgress(), Cache(tmp_path))
+    shared.build(range(shared.steps))
+    for step, before in [(0, -1), (7, 6), (shared.steps - 1, shared.steps - 2), (3.25, 2), (5, 4.5)]:
+        found, expected = (cycle.between(step, before).operator for cycle in (shared, one_by_one))
+        for name in ("compliance", "previous_compliance", "jacobian", "previous_jacobian", "gap", "rigid_slip"):
+            values, of_each = (getattr(operator, name) for operator in (found, expected))
+            assert np.abs(values - of_each).max() < 1e-10 * np.abs(of_each).max(), name
+        assert [pair.place.index for pair in found.pairs] == [pair.place.index for pair in expected.pairs]
