@@ -45,7 +45,7 @@ class End(NamedTuple):
 
 class Shared(NamedTuple):
     """What both ends of a step have: `rows` of forces that are loaded at either, those before and the same ones now;
-    the `successor` (n_0,) of each node before and the `node_before` (n_1,) of each now, -1 for none.
+    the `successor` (n_then,) of each node before and the `node_before` (n_now,) of each now, -1 for none.
 
     Where two nodes come from one, as beside a moving edge, the later of them is that node and the other is new.
     """
@@ -77,80 +77,85 @@ def _end(steps, s):
 
 @njit(cache=True)
 def _shared(then, now, kinds):
-    node_before, forces_0, forces_1 = now.contact.node_before, then.forces, now.forces
-    n_0, n_1, count = len(then.contact.gap), len(node_before), 0
-    successor, own = np.full(n_0, -1), np.full(n_1, -1)
-    for node in range(n_1):
+    node_before, forces_then, forces_now = now.contact.node_before, then.forces, now.forces
+    n_then, n_now, count = len(then.contact.gap), len(node_before), 0
+    successor, own = np.full(n_then, -1), np.full(n_now, -1)
+    for node in range(n_now):
         if node_before[node] >= 0:
             successor[node_before[node]] = node
-    rows_0, rows_1 = np.empty(kinds * n_0, dtype=np.int64), np.empty(kinds * n_0, dtype=np.int64)
+    rows_then, rows_now = np.empty(kinds * n_then, dtype=np.int64), np.empty(kinds * n_then, dtype=np.int64)
     for kind in range(kinds):
-        for node in range(n_0):
+        for node in range(n_then):
             after = successor[node]
             if after >= 0:
                 own[after] = node
-                row_0, row_1 = kind * n_0 + node, kind * n_1 + after
-                if forces_0[row_0] != 0.0 or forces_1[row_1] != 0.0:
-                    rows_0[count], rows_1[count] = row_0, row_1
+                row_then, row_now = kind * n_then + node, kind * n_now + after
+                if forces_then[row_then] != 0.0 or forces_now[row_now] != 0.0:
+                    rows_then[count], rows_now[count] = row_then, row_now
                     count += 1
-    return Shared((rows_0[:count], rows_1[:count]), successor, own)
+    return Shared((rows_then[:count], rows_now[:count]), successor, own)
 
 
 @njit(cache=True)
 def _normal_work(then, now, shared):
     """What normal forces do on the rotation, and by closing and opening between steps."""
     # Taken out of the records once: in a loop that would cost more than the numbers.
-    gaps_0, forces_0, displaced_0 = then.contact.gap, then.forces, then.displacement
-    gaps_1, forces_1, displaced_1 = now.contact.gap, now.forces, now.displacement
-    (rows_0, rows_1), successor, node_before = shared
+    gaps_then, forces_then, displaced_then = then.contact.gap, then.forces, then.displacement
+    gaps_now, forces_now, displaced_now = now.contact.gap, now.forces, now.displacement
+    (rows_then, rows_now), successor, node_before = shared
     rotation, changes = 0.0, 0.0
-    for node in range(len(gaps_0)):
-        p_0, after = forces_0[node], successor[node]
+    for node in range(len(gaps_then)):
+        p_then, after = forces_then[node], successor[node]
         if after >= 0:
-            p_1 = forces_1[after]
-            if p_0 != 0.0 or p_1 != 0.0:
-                gap_0, gap_1 = gaps_0[node], gaps_1[after]
-                rotation -= 0.5 * (p_0 + p_1) * (gap_1 - gap_0)
-                changes += 0.5 * (p_0 * (gap_1 - displaced_1[after]) - p_1 * (gap_0 - displaced_0[node]))
-        elif p_0 != 0.0:
-            changes += 0.5 * p_0 * (gaps_0[node] - _at_other(node, then, rows_0, now, rows_1))
-    for node in range(len(gaps_1)):
-        p_1 = forces_1[node]
-        if node_before[node] < 0 and p_1 != 0.0:
-            changes -= 0.5 * p_1 * (gaps_1[node] - _at_other(node, now, rows_1, then, rows_0))
+            p_now = forces_now[after]
+            if p_then != 0.0 or p_now != 0.0:
+                gap_then, gap_now = gaps_then[node], gaps_now[after]
+                rotation -= 0.5 * (p_then + p_now) * (gap_now - gap_then)
+                changes += 0.5 * (p_then * (gap_now - displaced_now[after]) - p_now * (gap_then - displaced_then[node]))
+        elif p_then != 0.0:
+            changes += 0.5 * p_then * (gaps_then[node] - _at_other(node, then, rows_then, now, rows_now))
+    for node in range(len(gaps_now)):
+        p_now = forces_now[node]
+        if node_before[node] < 0 and p_now != 0.0:
+            changes -= 0.5 * p_now * (gaps_now[node] - _at_other(node, now, rows_now, then, rows_then))
     return rotation, changes
 
 
 @njit(cache=True)
 def _tangential_work(works, then, now, shared):
     """Add what friction does, with what is lost to it, to `works` (3,)."""
-    n_0, forces_0, displaced_0, x_0 = len(then.contact.gap), then.forces, then.displacement, then.coordinates
-    n_1, forces_1, displaced_1 = len(now.contact.gap), now.forces, now.displacement
-    (rows_0, rows_1), successor, node_before = shared
-    for node in range(n_0):
-        p_0 = forces_0[n_0 + node]
-        if successor[node] < 0 and p_0 != 0.0:
-            there = _at_other(n_0 + node, then, rows_0, now, rows_1)
-            works[CHANGES] -= 0.5 * p_0 * (there - displaced_0[n_0 + node])
+    n_then, forces_then, displaced_then, x_then = (
+        len(then.contact.gap),
+        then.forces,
+        then.displacement,
+        then.coordinates,
+    )
+    n_now, forces_now, displaced_now = len(now.contact.gap), now.forces, now.displacement
+    (rows_then, rows_now), successor, node_before = shared
+    for node in range(n_then):
+        p_then = forces_then[n_then + node]
+        if successor[node] < 0 and p_then != 0.0:
+            there = _at_other(n_then + node, then, rows_then, now, rows_now)
+            works[CHANGES] -= 0.5 * p_then * (there - displaced_then[n_then + node])
     # `slid`: slip of rigid flanks less the displacement that the same points had before; `moved`: displacement that the
     # node had then.
     slid = slip_at_start(
         now.contact.rigid_slip, now.contact.previous_jacobian, now.contact.previous_columns, now.contact.rows_before,
-        x_0, forces_0,
+        x_then, forces_then,
     )  # fmt: skip
-    for node in range(n_1):
+    for node in range(n_now):
         before = node_before[node]
-        p_1, p_0 = forces_1[n_1 + node], forces_0[n_0 + before] if before >= 0 else 0.0
-        if p_0 == 0.0 and p_1 == 0.0:
+        p_now, p_then = forces_now[n_now + node], forces_then[n_then + before] if before >= 0 else 0.0
+        if p_then == 0.0 and p_now == 0.0:
             continue
         if before >= 0:
-            moved = displaced_0[n_0 + before]
+            moved = displaced_then[n_then + before]
         else:
-            moved = _at_other(n_1 + node, now, rows_1, then, rows_0)
-        slip = displaced_1[n_1 + node] + slid[node]
-        works[ROTATION] += 0.5 * (p_0 + p_1) * (slid[node] + moved)
-        works[FRICTION] += p_1 * slip
-        works[CHANGES] += 0.5 * (p_1 - p_0) * slip
+            moved = _at_other(n_now + node, now, rows_now, then, rows_then)
+        slip = displaced_now[n_now + node] + slid[node]
+        works[ROTATION] += 0.5 * (p_then + p_now) * (slid[node] + moved)
+        works[FRICTION] += p_now * slip
+        works[CHANGES] += 0.5 * (p_now - p_then) * slip
 
 
 @njit(cache=True)
@@ -159,13 +164,15 @@ def _by_shape(then, now, shared):
 
     By C p = G x - u at either end: products with C are left for the few loaded nodes that only one end has.
     """
-    rows_0, rows_1 = shared.rows
-    work = _by_others(now, rows_1, then.forces, rows_0, shared.node_before)
-    work -= _by_others(then, rows_0, now.forces, rows_1, shared.successor)
-    for row in range(len(rows_0)):
-        i_0, i_1 = rows_0[row], rows_1[row]
-        work += then.forces[i_0] * (now.displacement[i_1] - product(then.contact.jacobian[i_0], now.coordinates))
-        work -= now.forces[i_1] * (then.displacement[i_0] - product(now.contact.jacobian[i_1], then.coordinates))
+    rows_then, rows_now = shared.rows
+    work = _by_others(now, rows_now, then.forces, rows_then, shared.node_before)
+    work -= _by_others(then, rows_then, now.forces, rows_now, shared.successor)
+    for row in range(len(rows_then)):
+        i_then, i_now = rows_then[row], rows_now[row]
+        work += then.forces[i_then] * (
+            now.displacement[i_now] - product(then.contact.jacobian[i_then], now.coordinates)
+        )
+        work -= now.forces[i_now] * (then.displacement[i_then] - product(now.contact.jacobian[i_now], then.coordinates))
     return 0.5 * work
 
 

@@ -13,7 +13,7 @@ from .flanks import loaded_flanks, note_what_is_left_out, relief_sections
 from .gears import Sections, gear_sections
 from .imported import by_call, check_complete
 from .lead import lead_sections
-from .loads import loaded_model, pinion_speed, wheel_torque
+from .loads import model_with_loads, pinion_speed, wheel_torque
 from .model import RexsModel
 from .placing import direction, turning_axis
 from .read import read_model
@@ -48,9 +48,7 @@ def imported_train(
     given = by_call(wheel_torque, pinion_speed)
     reading = Reading()
     model = read_model(path)
-    # A call that says all that a load case is asked for needs none.
-    unasked = load_case is None and None not in given
-    loaded = model if unasked else reading.attempt(lambda: loaded_model(model, load_case))
+    loaded = model_with_loads(reading, model, load_case, given)
     try:
         stages = stages_in_a_row(loaded or model)
     except ValueProblem as problem:

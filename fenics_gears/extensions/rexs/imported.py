@@ -10,7 +10,7 @@ from .attributes import Reading, first
 from .flanks import loaded_flanks, note_what_is_left_out, relief_sections, tolerance_class
 from .gears import Sections, gear_sections
 from .lead import lead_sections
-from .loads import loaded_model, pinion_speed, wheel_torque
+from .loads import model_with_loads, pinion_speed, wheel_torque
 from .model import RexsModel
 from .read import read_model
 from .scene_text import scene_text
@@ -44,11 +44,7 @@ def imported_scene(
     given = by_call(wheel_torque, pinion_speed)
     model = read_model(path)
     reading = Reading()
-    # A call that says all that a load case is asked for needs none.
-    if load_case is None and None not in given:
-        loaded: RexsModel | None = model
-    else:
-        loaded = reading.attempt(lambda: loaded_model(model, load_case))
+    loaded = model_with_loads(reading, model, load_case, given)
     try:
         chosen = chosen_stage(loaded or model, stage)
     except ValueProblem as problem:

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from .attributes import every, first
+from .attributes import Reading, every, first
 from .model import RexsModel
 from .stage import GearParts, Stage
 from .train import Train
@@ -24,6 +24,16 @@ def loaded_model(model: RexsModel, case: str | None) -> RexsModel:
     if case is not None and case not in model.load_cases:
         raise ValueProblem(f'has no load case "{case}". It has: {listed or "none"}.')
     return model.under_load(case or listed) if model.load_cases else model
+
+
+def model_with_loads(
+    reading: Reading, model: RexsModel, case: str | None, given: tuple[Value | None, Value | None]
+) -> RexsModel | None:
+    """`loaded_model`, None where it is not clear which, which `reading` then has. A call that gives torque and speed,
+    all that a load case is asked for, needs none."""
+    if case is None and None not in given:
+        return model
+    return reading.attempt(lambda: loaded_model(model, case))
 
 
 def wheel_torque(model: RexsModel, stage: Stage, ratio: float) -> Value:
