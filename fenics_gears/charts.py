@@ -22,17 +22,33 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from fenics_gears.geometry.pair import GearPair
+    from fenics_gears.scene.train import TrainScene
+    from fenics_gears.show.gears_of_train import DrawnGear
 
 __all__ = [
     "BAND", "BARS", "DARK", "GREY", "LINES", "MARKED_LINES", "MARKERS", "PALETTE", "WORDS", "Chart", "Curve",
-    "design", "draw_charts", "draw_run", "gear_outline", "harris_map", "pinion_in_space", "plotly_figure", "run_charts",
-    "shades", "span", "stems", "words_apart",
+    "design", "draw_charts", "draw_run", "gear_outline", "gears_of_train", "harris_map", "pinion_in_space",
+    "plotly_figure", "run_charts", "shades", "span", "stems", "train_charts", "words_apart",
 ]  # fmt: skip
 
 
 def run_charts(dataset: xr.Dataset) -> list[tuple[str, list[Chart]]]:
     """Subjects and charts of the pictures that a run has."""
     return list(plots().charts_of(ShownRun(dataset)).values())
+
+
+def train_charts(dataset: xr.Dataset, scene: TrainScene) -> list[tuple[str, list[Chart]]]:
+    """The same of a train's run: all but its drawing, which `gears_of_train` gives."""
+    _, *subjects = plots("train").subjects_of(scene, dataset)
+    return [(subject, charts) for subject, charts in subjects if charts]
+
+
+def gears_of_train(scene: TrainScene) -> tuple[list[DrawnGear], float]:
+    """Outlines of all gears of a train, those first that others are drawn over; and the angle (rad) by which the
+    carrier of a planetary set turns in a cycle of the first mesh, 0 of other trains."""
+    from fenics_gears.show.gears_of_train import gears_of_train
+
+    return gears_of_train(scene)
 
 
 def pinion_in_space(dataset: xr.Dataset) -> dict[str, Any] | None:
@@ -53,6 +69,8 @@ def gear_outline(pair: GearPair, gear: int, phase: float) -> np.ndarray:
 
 def draw_run(dataset: xr.Dataset, directory: Path) -> list[Path]:
     """Write the pictures of a run, as ``gears plot`` does. Raises ComputationError as that does."""
+    if "mesh" in dataset.dims:
+        return plots("train").draw_train(dataset, directory)
     return plots().draw_run(dataset, directory)
 
 

@@ -19,6 +19,7 @@ from fenics_gears.results.files import save
 from fenics_gears.results.settled import settling_time
 from fenics_gears.results.summary import result_rows
 from fenics_gears.results.together import OVER_FACE
+from fenics_gears.results.train import train_rows
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.runs.common_windows import CommonWindows
 from fenics_gears.runs.condensing import BODY, gear_tasks
@@ -44,5 +45,5 @@ __all__ = [
     "Spent", "Study", "Together", "common_period", "effects_on", "gear_tasks", "kept", "last_words",
     "load_combined", "most_together", "numbers_of", "operators_key", "quasi_static", "ranks", "record_of",
     "result_rows", "run_of", "run_with", "save", "seconds_of", "settling_time", "sole_writer", "solved_at_once",
-    "study_of", "summary_rows",
+    "study_of", "summary_rows", "train_rows",
 ]  # fmt: skip

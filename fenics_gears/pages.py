@@ -25,6 +25,10 @@ __all__ = [
 def run_report(dataset: xr.Dataset, file: Path) -> str:
     """The page of ``gears report`` on a run that is in a file."""
     # Pages of other kinds need none of it.
+    if "mesh" in dataset.dims:
+        from fenics_gears.show.report.train_page import train_page
+
+        return rendered(train_page(dataset, file))
     from fenics_gears.show.report.run_page import run_page
 
     return rendered(run_page(ShownRun(dataset, file)))

@@ -9,9 +9,6 @@ from math import degrees
 import numpy as np
 import xarray as xr
 
-from fenics_gears.elasticity.ring import rotation
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.outline import centreline_angle
 from fenics_gears.geometry.planetary import MEMBERS
 from fenics_gears.results.mesh_of_train import mesh_run
 from fenics_gears.scene.carrier import Carrier
@@ -20,9 +17,10 @@ from fenics_gears.scene.train_layout import centres
 from fenics_gears.scene.train_mesh import gear_names
 
 from .chart import LEAST_SHARE, MARKERS, WORDS, Chart, Curve
+from .gears_of_train import outline_of
 from .panels import DARK, PALETTE
 from .pressure import has_pressure, largest_pressures
-from .report.pair_drawing import FILLS, tooth_points
+from .report.pair_drawing import FILLS
 from .run import ShownRun
 
 CIRCLE_POINTS = 361
@@ -47,7 +45,7 @@ def set_drawing(scene: TrainScene) -> Chart:
     for number in sorted(range(len(names)), key=lambda each: layout.gear(each).sign):
         gear = layout.gear(number)
         centre = at[layout.graph.shafts[number]]
-        teeth = _outline(gear, layout.tooth_angle(number), centre)
+        teeth = outline_of(gear, layout.tooth_angle(number), centre)
         around = _circle(gear.bore_radius, centre)
         first, second = (around, teeth) if gear.internal else (teeth, around)
         words = f"{names[number].rpartition('.')[2]}, {gear.tooth_count} teeth"
@@ -62,13 +60,6 @@ def set_drawing(scene: TrainScene) -> Chart:
         f" {scene.ratio:.5g} turns of the input in one of the output"
     )
     return Chart(caption, curves, "x (mm)", "y (mm)", height=620, equal=True)
-
-
-def _outline(gear: Gear, angle: float, centre: complex) -> np.ndarray:
-    """Outline (n, 2), mm, of a gear of which a tooth's centreline stands at an angle (rad), closed."""
-    tooth = tooth_points(gear)
-    turned = angle - centreline_angle(gear) - gear.angular_pitch * np.arange(gear.tooth_count + 1)
-    return np.vstack([tooth @ rotation(each).T for each in turned]) + [centre.real, centre.imag]
 
 
 def _circle(radius: float, centre: complex) -> np.ndarray:

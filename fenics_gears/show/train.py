@@ -46,7 +46,17 @@ def draw_train(dataset: xr.Dataset, directory: Path) -> list[Path]:
     """Draw the pictures of a train's run, as PNG, and return the files. Raises SceneError where the train in it is none
     of this version."""
     scene = carried_train(dataset)
-    subjects = (
+    figures = {
+        name: picture(heading(subject, scene.title), charts)
+        for name, (subject, charts) in zip(TRAIN_PICTURE_FILES, subjects_of(scene, dataset))
+        if charts
+    }
+    return save_figures(figures, directory)
+
+
+def subjects_of(scene: TrainScene, dataset: xr.Dataset) -> list[tuple[str, list[Chart]]]:
+    """Subjects and charts of the pictures of a train, the drawing first; without charts where it has no such thing."""
+    return [
         ("Gear train" if scene.shafts.carrier is None else "Planetary set", [drawing_of(scene)]),
         ("Transmission error", errors(scene, dataset)),
         ("Orders of the overall transmission error", orders(scene, dataset)),
@@ -54,13 +64,7 @@ def draw_train(dataset: xr.Dataset, directory: Path) -> list[Path]:
         ("Shafts under load", bent_shafts_of(scene, dataset)),
         ("Load sharing of the planets", shares(scene, dataset)),
         ("Orbits of floating members", orbits(scene, dataset)),
-    )
-    figures = {
-        name: picture(heading(subject, scene.title), charts)
-        for name, (subject, charts) in zip(TRAIN_PICTURE_FILES, subjects)
-        if charts
-    }
-    return save_figures(figures, directory)
+    ]
 
 
 def drawing_of(scene: TrainScene) -> Chart:
@@ -122,7 +126,8 @@ def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
         own = dataset.isel(mesh=number)
         values = 1e3 * mesh.pair.wheel.base_radius * np.asarray(own["transmission_error"])
         known = np.isfinite(values)
-        span = 1e3 * mesh.pair.wheel.base_radius * float(own["peak_to_peak_transmission_error"])
+        # That of an internal gear is negative.
+        span = 1e3 * abs(mesh.pair.wheel.base_radius) * float(own["peak_to_peak_transmission_error"])
         charts.append(
             Chart(
                 f"{mesh.name}: peak to peak {span:#.4g} µm on the wheel's base circle",
@@ -217,6 +222,8 @@ def loads_along_face(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     """Line load along the face of each mesh over the face."""
     charts = []
     for number, mesh in enumerate(scene.meshes):
+        if not mesh.scene.three_dimensional:
+            continue
         run = ShownRun(mesh_run(dataset, scene, number))
         drawn = line_loads(run)[-1:] if run.over_face else []
         charts += [replace(each, caption=f"{mesh.name}: {each.caption.lower()}") for each in drawn]

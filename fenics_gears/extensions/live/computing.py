@@ -17,13 +17,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from fenics_gears import GearsError, simulate
+from fenics_gears import GearsError, simulate, simulate_train
 from fenics_gears.charts import draw_run
 from fenics_gears.many_runs import CommonWindows, GearStore, Progress, save
 from fenics_gears.pages import run_report
-from fenics_gears.scene_text import Models, NoScene
+from fenics_gears.scene_text import Models, NoScene, is_train
 
-from .shown import shown
+from .shown import shown, shown_train
 
 RUN = "run"
 PICTURES = "pictures"
@@ -125,6 +125,13 @@ class Computing:
         self._connection.send(own | answer)
 
     def _run(self, work: Work) -> dict[str, Any]:
+        told = Told(self._connection.send, work.number, self._newer)
+        if is_train(work.tree):
+            model = self._models.of(work.tree)
+            self._store.of_pairs(len(model.rows))
+            found = simulate_train(model, told, preparation=self._store.prepared, kept_row=self._store.row)
+            self._result = found
+            return {"kind": "result", "first_look": False} | shown_train(found, model.scene)
         models = [self._models.of(work.tree)]
         for tree in work.reach:
             # A slider may go where there is no scene.
@@ -133,7 +140,6 @@ class Computing:
         model = self._windows.of(models)[0]
         if work.steps is not None:
             model = replace(model, resolution=replace(model.resolution, steps_per_mesh_cycle=work.steps))
-        told = Told(self._connection.send, work.number, self._newer)
         result = simulate(model, progress=told, preparation=self._store.prepared)
         if not result.attrs["complete"]:
             raise KeyboardInterrupt

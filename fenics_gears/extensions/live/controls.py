@@ -61,9 +61,10 @@ class Control:
         """The scene with another value, as a scene has it or as a number of the slider's units."""
         if self._number(written) == 0.0 and self.absent is not None:
             return _without(tree, self.absent)
-        own = {**(value_at(tree, *self.path[:-2]) or {}), **(value_at(tree, *self.path[:-1]) or {})}
-        if self.start and not any(name in own for name in STARTS):
-            tree = fields.changed(tree, (*self.path[:-1], STARTS[0]), self.start)
+        if self.start:
+            own = {**(value_at(tree, *self.path[:-2]) or {}), **(value_at(tree, *self.path[:-1]) or {})}
+            if not any(name in own for name in STARTS):
+                tree = fields.changed(tree, (*self.path[:-1], STARTS[0]), self.start)
         value = f"{written:.10g} {self.unit}" if isinstance(written, (int, float)) and self.unit else written
         return fields.changed(tree, self.path, value)
 
@@ -87,7 +88,8 @@ class Control:
 
 def controls_of(tree: Tree, over_face: bool) -> list[Control]:
     """What the page shows from the start; `over_face`: whether the flanks are resolved over the face."""
-    return [*_load(tree), *_gears(tree), *_reliefs(tree), *(_over_the_face(tree) if over_face else ()), *_friction()]
+    along = _over_the_face(tree) if over_face else ()
+    return [*_load(tree), *_gears(tree), *reliefs(tree, (), GEARS, "Reliefs"), *along, *friction()]
 
 
 def reach(tree: Tree, controls: Sequence[Control]) -> list[Tree]:
@@ -116,33 +118,43 @@ def _load(tree: Tree) -> Iterator[Control]:
     words = {"wheel_torque": "torque on the wheel", "pinion_torque": "torque on the pinion", "power": "power"}
     for name, label in words.items():
         if value_at(tree, "load", name) is not None:
-            yield _twice(("load", name), label, "Load and speed", tree)
+            yield twice(("load", name), label, "Load and speed", tree)
     for name, label in (("pinion_speed", "speed of the pinion"), ("mesh_frequency", "mesh frequency")):
         if value_at(tree, "motion", name) is not None and "inertia" in tree:
-            yield _twice(("motion", name), label, "Load and speed", tree)
+            yield twice(("motion", name), label, "Load and speed", tree)
 
 
 def _gears(tree: Tree) -> Iterator[Control]:
     for gear in GEARS:
         path = ("gears", gear, "profile_shift")
         if value_at(tree, *path) is not None:
-            control = Control(path, f"profile shift, {gear}", "Gears")
-            value = control.value(tree)
-            yield replace(control, ends=(value - 0.5, value + 0.5))
+            yield profile_shift(path, gear, "Gears", tree)
     if value_at(tree, "gears", "centre_distance") is not None:
         control = Control(("gears", "centre_distance"), "centre distance", "Gears", "mm")
         value = control.value(tree)
         yield replace(control, ends=(0.98 * value, 1.02 * value))
 
 
-def _reliefs(tree: Tree) -> Iterator[Control]:
+def profile_shift(path: Path, gear: str, group: str, tree: Tree) -> Control:
+    """Of a gear by its name on the page."""
+    control = Control(path, f"profile shift, {gear}", group)
+    value = control.value(tree)
+    return replace(control, ends=(value - 0.5, value + 0.5))
+
+
+def reliefs(tree: Tree, place: Path, names: tuple[str, str], group: str) -> Iterator[Control]:
+    """Of the mesh whose sections are at a place of the scene; `names`: what its pinion and its wheel are called. A
+    depth of both gears is one field."""
     for section, words, start in (("tip_relief", "tip relief", "HPSTC"), ("root_relief", "root relief", "LPSTC")):
-        for gear in GEARS:
-            path = (section, gear, "depth")
-            own = Control(path, f"{words}, {gear}", "Reliefs", "um", (0.0, 50.0))
-            inherited = value_at(tree, section, "depth") is not None
-            absent = None if inherited else path[:-1]
-            yield replace(own, absent=absent, start=start)
+        own = (*place, section)
+        of_both = Control((*own, "depth"), f"{words}, {' and '.join(names)}", group, "um", (0.0, 50.0))
+        if value_at(tree, *of_both.path) is not None:
+            yield replace(of_both, absent=own)
+        for gear, name in zip(GEARS, names):
+            path = (*own, gear, "depth")
+            if value_at(tree, *of_both.path) is None or value_at(tree, *path) is not None:
+                control = Control(path, f"{words}, {name}", group, "um", (0.0, 50.0), start=start)
+                yield replace(control, absent=path[:-1] if value_at(tree, *of_both.path) is None else None)
 
 
 def _over_the_face(tree: Tree) -> Iterator[Control]:
@@ -156,12 +168,12 @@ def _over_the_face(tree: Tree) -> Iterator[Control]:
     yield Control(misaligned, "misalignment in the plane of action", group, "um", (-60.0, 60.0))
 
 
-def _friction() -> Iterator[Control]:
+def friction() -> Iterator[Control]:
     path = ("friction", "coefficient")
     yield Control(path, "coefficient of friction", "Friction", "", (0.0, 0.2), absent=("friction",))
 
 
-def _twice(path: Path, label: str, group: str, tree: Tree) -> Control:
+def twice(path: Path, label: str, group: str, tree: Tree) -> Control:
     """From nothing to twice the value, in the unit that the field usually has."""
     allowed, _, _ = fields.allowed_at(path)
     control = Control(path, label, group, "" if allowed is None else allowed.unit)

@@ -142,6 +142,7 @@ const draw = result => {
   }
   const there = new Set(result.charts.map(chart => chart.name));
   for (const [name, { figure }] of plots) figure.hidden = !there.has(name);
+  element("flank").hidden = !result.tooth;
   if (result.tooth) Plotly.react(element("tooth"), result.tooth.data, { ...result.tooth.layout, uirevision: "kept" }, QUIET);
   numbers(result, start);
   element("warnings").replaceChildren(...result.warnings.map(words => { const item = document.createElement("li"); item.textContent = words; return item; }));
@@ -167,7 +168,7 @@ const numbers = (result, start) => {
   }));
 };
 
-// The pair to scale, turning a mesh cycle in two seconds.
+// The gears to scale, turning a mesh cycle in two seconds.
 const turning = { on: true, phase: 0, pair: null, last: 0 };
 const FILLS = ["#DCE9F3", "#F3E6DA"];
 const paint = () => {
@@ -175,10 +176,11 @@ const paint = () => {
   if (!pair || !canvas.clientWidth) return;
   canvas.width = canvas.clientWidth * ratio;
   canvas.height = canvas.clientHeight * ratio;
-  const context = canvas.getContext("2d"), [pinion, wheel] = pair.gears;
-  const top = pair.tips[0], bottom = wheel.centre[1] - pair.tips[1], wide = 2 * Math.max(...pair.tips);
-  const scale = 0.96 * Math.min(canvas.height / (top - bottom), canvas.width / wide);
-  context.setTransform(scale, 0, 0, -scale, canvas.width / 2, canvas.height / 2 + scale * (top + bottom) / 2);
+  const context = canvas.getContext("2d"), [left, right, bottom, top] = pair.ends;
+  const scale = 0.96 * Math.min(canvas.height / (top - bottom), canvas.width / (right - left));
+  context.setTransform(scale, 0, 0, -scale, (canvas.width - scale * (left + right)) / 2, (canvas.height + scale * (top + bottom)) / 2);
+  // Of a planetary set all is seen from its carrier, which turns.
+  context.rotate(pair.turn * turning.phase);
   context.lineWidth = 1.1 * ratio / scale;
   context.strokeStyle = "#222222";
   pair.gears.forEach((gear, number) => {
@@ -188,7 +190,7 @@ const paint = () => {
     context.closePath();
     context.moveTo(x0 + gear.bore, y0);
     context.arc(x0, y0, gear.bore, 0, 2 * Math.PI);
-    context.fillStyle = FILLS[number];
+    context.fillStyle = FILLS[number % FILLS.length];
     context.fill("evenodd");
     context.stroke();
   });

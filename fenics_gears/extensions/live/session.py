@@ -9,10 +9,11 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from fenics_gears import SceneError, as_toml
-from fenics_gears.scene_text import fields, known_paths
+from fenics_gears.scene_text import fields, is_train, known_paths
 
 from .computing import RUN, Work
 from .controls import Control, Path, Tree, control_of, controls_of, reach
+from .train_controls import controls_of_train, names_in_train
 
 MOST_UNDONE = 500
 # Steps of a mesh cycle of a first look at a pair over the face, which takes a tenth of the time.
@@ -28,7 +29,8 @@ class Session:
         self.name = name
         self.start = dict(tree)
         self.tree = dict(tree)
-        self.controls: list[Control] = controls_of(tree, over_face)
+        self._train = is_train(tree)
+        self.controls: list[Control] = controls_of_train(tree) if self._train else controls_of(tree, over_face)
         self._over_face = over_face
         self._ask = ask
         self._tell = tell
@@ -65,7 +67,7 @@ class Session:
         self.number += 1
         self._problems = []
         steps = FIRST_LOOK if self._over_face else None
-        others = () if self.number > 1 else tuple(reach(self.tree, self.controls))
+        others = () if self.number > 1 or self._train else tuple(reach(self.tree, self.controls))
         self._ask(Work(RUN, self.number, self.tree, steps, others))
 
     def answered(self, answer: dict[str, Any]) -> None:
@@ -111,19 +113,26 @@ class Session:
     def messages(self) -> list[Any]:
         """What a browser that comes later has to be told."""
         of_start = [] if self.first is None else [{"kind": "start", "result": self.first}]
-        names = [".".join(path) for path, section in known_paths().items() if not section]
         return [
-            {"kind": "names", "names": names},
+            {"kind": "names", "names": self._names},
             self.state,
             *of_start,
             *([] if self.result is None else [self.result]),
         ]
 
     @property
+    def _names(self) -> list[str]:
+        """Fields that the page may be asked for."""
+        if self._train:
+            return names_in_train(self.tree)
+        return [".".join(path) for path, section in known_paths().items() if not section]
+
+    @property
     def python(self) -> str:
         """Lines of Python that give the present result."""
-        lines = ["from fenics_gears import scene_from_text, simulate", "", 'scene = scene_from_text("""']
-        return "\n".join([*lines, as_toml(self.tree).strip(), '""")', "result = simulate(scene)"])
+        read, run = ("train_from_text", "simulate_train") if self._train else ("scene_from_text", "simulate")
+        lines = [f"from fenics_gears import {read}, {run}", "", f'scene = {read}("""']
+        return "\n".join([*lines, as_toml(self.tree).strip(), '""")', f"result = {run}(scene)"])
 
     def _set(self, name: str, value: Any) -> None:
         control = next((each for each in self.controls if each.name == name), None)

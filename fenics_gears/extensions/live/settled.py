@@ -1,12 +1,14 @@
-"""Sizes that follow the load, settled at the start: else each torque would need new bodies and contact operators."""
+"""Sizes that follow the load, settled at the start: else each torque would need new bodies and contact operators. Of a
+planetary set, whose contact windows follow from its meshes, those of the elements alone."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from fenics_gears.scene_text import Models, NoScene, Tree, fields, value_at
+from fenics_gears.scene_text import STAGES, Models, NoScene, Tree, fields, is_train, value_at
 
 from .controls import controls_of, reach
+from .train_controls import has_planets, load_controls
 
 SIZE = ("accuracy", "flank_element_size")
 LENGTH = ("accuracy", "contact_length")
@@ -16,6 +18,8 @@ TARGET = ("accuracy", "target")
 def settled(tree: Tree, model: Any, models: Models) -> Tree:
     """The scene with the size of its flank elements and a contact window that does for all sliders, where it has none
     of its own and no target."""
+    if is_train(tree):
+        return _settled_train(tree, model, models)
     scene = model.scene
     if not scene.resolves_contact or value_at(tree, *TARGET) is not None:
         return tree
@@ -33,3 +37,22 @@ def _length(models: Models, tree: Tree) -> float:
         return models.of(tree).resolution.contact_grid.length
     except NoScene:
         return 0.0
+
+
+def _settled_train(tree: Tree, model: Any, models: Models) -> Tree:
+    """The same of each stage of a train, whose windows do for the largest load of the slider."""
+    places = {stage: () if has_planets(content) else (STAGES, stage) for stage, content in tree[STAGES].items()}
+    if any(value_at(tree, *place, *TARGET) is not None for place in [(), *places.values()]):
+        return tree
+    largest = models.of(next(each.changed(tree, each.ends[1]) for each in load_controls(tree)))
+    found = tree
+    for stage, place in places.items():
+        of_stage = [number for number, mesh in enumerate(model.scene.meshes) if mesh.name.split(":")[0] == stage]
+        own = {**tree.get("accuracy", {}), **(value_at(tree, *place, "accuracy") or {})}
+        sizes = min(model.models[number].resolution.flank_element_size for number in of_stage)
+        own.setdefault(SIZE[1], f"{sizes:.3g} mm")
+        if place:
+            longest = max(largest.models[number].resolution.contact_grid.length for number in of_stage)
+            own.setdefault(LENGTH[1], f"{longest:.3g} mm")
+        found = fields.changed(found, (*place, "accuracy"), own)
+    return found

@@ -1,4 +1,4 @@
-"""A run as the page shows it: numbers in words, charts and a tooth in space for plotly, both gears as outlines."""
+"""A run as the page shows it: numbers in words, charts and a tooth in space for plotly, all gears as outlines."""
 
 from __future__ import annotations
 
@@ -9,8 +9,18 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears import HARMONIC_NAMES, GearPair
-from fenics_gears.charts import BARS, Chart, Curve, gear_outline, pinion_in_space, plotly_figure, run_charts
-from fenics_gears.many_runs import result_rows
+from fenics_gears.charts import (
+    BARS,
+    Chart,
+    Curve,
+    gear_outline,
+    gears_of_train,
+    pinion_in_space,
+    plotly_figure,
+    run_charts,
+    train_charts,
+)  # fmt: skip
+from fenics_gears.many_runs import result_rows, train_rows
 
 # A hundredth of a micrometre.
 DIGITS = 5
@@ -25,14 +35,29 @@ def shown(result: xr.Dataset, pair: GearPair) -> dict[str, Any]:
     """What the page needs of a result."""
     subjects = [*run_charts(result), *_harmonics(result)]
     subjects.sort(key=lambda each: FIRST.index(each[0]) if each[0] in FIRST else len(FIRST))
-    charts = [_chart(subject, number, chart) for subject, own in subjects for number, chart in enumerate(own)]
     return {
-        "charts": charts,
+        "charts": _figures(subjects),
         "numbers": [[label, value] for label, value, _ in result_rows(result)],
         "warnings": str(result.attrs.get("warnings", "")).splitlines(),
         "drawing": _drawing(pair),
         "tooth": pinion_in_space(result),
     }
+
+
+def shown_train(result: xr.Dataset, scene: Any) -> dict[str, Any]:
+    """What the page needs of a train's result: its numbers and those of each mesh."""
+    numbers = [[label, f"{value} {unit}".strip()] for label, value, unit in train_rows(result)]
+    return {
+        "charts": _figures(train_charts(result, scene)),
+        "numbers": numbers,
+        "warnings": str(result.attrs.get("warnings", "")).splitlines(),
+        "drawing": _drawing_of_train(scene),
+        "tooth": None,
+    }
+
+
+def _figures(subjects: list[tuple[str, list[Chart]]]) -> list[dict[str, Any]]:
+    return [_chart(subject, number, chart) for subject, own in subjects for number, chart in enumerate(own)]
 
 
 def _chart(subject: str, number: int, chart: Chart) -> dict[str, Any]:
@@ -67,8 +92,35 @@ def _drawing(pair: GearPair) -> dict[str, Any]:
             {
                 "outline": np.round(outline, DIGITS).tolist(),
                 "centre": centre,
-                "bore": gear.bore_radius,
+                "bore": abs(gear.bore_radius),
                 "turn": float(turn) * 2.0 * np.pi / gear.teeth,
             }
         )
-    return {"gears": parts, "tips": [pair.pinion.tip_radius, pair.wheel.tip_radius]}
+    radii = [max(gear.tip_radius, abs(gear.bore_radius)) for gear, _ in gears]
+    centres = [[0.0, 0.0], wheel]
+    return {"gears": parts, "ends": _ends(centres, radii), "turn": 0.0}
+
+
+def _drawing_of_train(scene: Any) -> dict[str, Any]:
+    """The same of a train as its run begins: of a cycle of its first mesh; `turn`: of the carrier of a planetary set,
+    in which its gears are described."""
+    gears, turn = gears_of_train(scene)
+    parts = [
+        {
+            "outline": np.round(each.outline, DIGITS).tolist(), "centre": list(each.centre), "bore": each.around,
+            "turn": each.turn,
+        }
+        for each in gears
+    ]  # fmt: skip
+    return {
+        "gears": parts,
+        "ends": _ends([each.centre for each in gears], [each.radius for each in gears]),
+        "turn": turn,
+    }
+
+
+def _ends(centres: Any, radii: Any) -> list[float]:
+    """Left, right, lower and upper end (mm) of a drawing."""
+    x, y = np.transpose(centres)
+    size = np.array(radii)
+    return [float(end) for end in (np.min(x - size), np.max(x + size), np.min(y - size), np.max(y + size))]

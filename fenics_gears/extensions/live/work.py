@@ -6,9 +6,9 @@ import webbrowser
 from contextlib import suppress
 from pathlib import Path
 
-from fenics_gears import SceneError
+from fenics_gears import SceneError, load_train
 from fenics_gears.command_line import checked_model
-from fenics_gears.scene_text import Tree, is_train, name_of, parsed, text_of
+from fenics_gears.scene_text import Tree, is_train, model_of_tree, name_of, parsed, text_of
 
 MISSING = (
     "`gears live` needs the libraries {names}, which this Python lacks. Install them: apt install python3-aiohttp"
@@ -24,8 +24,12 @@ def live(options: argparse.Namespace) -> int:
     path: Path = options.scene
     tree: Tree = parsed(text_of(path, "scene"), str(path))
     if is_train(tree):
-        raise SceneError(f"{path}: is a train; `gears live` shows pairs so far. Its stages are pairs by themselves.")
-    server = LiveServer(tree, checked_model(path), name_of(path), path.parent)
+        # It tells mistakes with their lines.
+        load_train(path)
+        model = model_of_tree(name_of(path), tree, path.parent)
+    else:
+        model = checked_model(path)
+    server = LiveServer(tree, model, name_of(path), path.parent)
 
     def started(address: str) -> None:
         if not options.quiet:

@@ -22,6 +22,29 @@ flank_element_size = "0.15 mm"
 steps_per_mesh_cycle = 20
 """
 
+TRAIN = """
+[stages.idler]
+kind = "row"
+module = "3 mm"
+pressure_angle = "20 deg"
+face_width = "20 mm"
+gears = [
+    { teeth = 20, profile_shift = 0, bore_diameter = "20 mm" },
+    { teeth = 25, profile_shift = 0, bore_diameter = "30 mm" },
+    { teeth = 31, profile_shift = 0, bore_diameter = "30 mm" },
+]
+directions = ["0 deg", "60 deg"]
+material = "steel"
+
+[load]
+output_torque = "200 N m"
+
+[accuracy]
+element = "P1"
+flank_element_size = "0.15 mm"
+steps_per_mesh_cycle = 20
+"""
+
 
 @pytest.fixture
 def tree():
@@ -53,3 +76,8 @@ class Spoken:
 @pytest.fixture
 def spoken():
     return Spoken()
+
+
+@pytest.fixture
+def train():
+    return dict(parsed(TRAIN, "train.toml"))

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from fenics_gears import as_toml, model_of, scene_from_text, simulate
-from fenics_gears.extensions.live.computing import RESULT, RUN, Computing, Work
+from fenics_gears import as_toml, model_of, scene_from_text, simulate, simulate_train, train_from_text
+from fenics_gears.extensions.live.computing import REPORT, RESULT, RUN, Computing, Work
 from fenics_gears.extensions.live.controls import controls_of, reach
 from fenics_gears.extensions.live.settled import settled
 from fenics_gears.scene_text import Models, fields
@@ -37,6 +37,26 @@ def test_the_page_shows_what_gears_run_gives(computing, spoken, tree, tmp_path):
     assert answer["number"] == 2 and answer["kind"] == "result"
     assert np.abs(error_of(answer) - expected).max() < 1e-6 * np.abs(expected).max()
     assert answer["drawing"]["gears"][0]["turn"] * answer["drawing"]["gears"][1]["turn"] < 0.0
+
+
+def test_a_train_is_shown_as_it_is_run(computing, spoken, train, tmp_path):
+    """The other route: the scene that the page saves, run by itself. Gears that mesh turn against each other, each by
+    one of its teeth in a mesh cycle. A load has the very contact windows of the start."""
+    models = Models("train", tmp_path)
+    scene = settled(train, models.of(train), models)
+    changed = fields.changed(scene, ("load", "output_torque"), "320 N m")
+    answered(computing, spoken, Work(RUN, 1, scene), Work(REPORT, 1))
+    answer = answered(computing, spoken, Work(RUN, 2, changed))
+    alone = simulate_train(train_from_text(as_toml(changed)))
+    expected = 1e6 * alone["overall_transmission_error"].values
+    assert np.abs(error_of(answer) - expected).max() < 1e-6 * np.abs(expected).max()
+    turns = sorted(
+        gear["turn"] * teeth / (2.0 * np.pi) for gear, teeth in zip(answer["drawing"]["gears"], (31, 25, 20))
+    )
+    assert np.allclose(turns, [-1.0, 1.0, 1.0], atol=1e-12)
+    assert b"<html" in spoken.of("file")[0]["content"]
+    windows = [[each.resolution.contact_grid for each in models.of(tree).models] for tree in (scene, changed)]
+    assert windows[0] == windows[1]
 
 
 def test_only_the_newest_scene_is_run(computing, spoken, tree):

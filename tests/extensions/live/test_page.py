@@ -8,7 +8,7 @@ import urllib.error
 import urllib.request
 
 import pytest
-from tests.extensions.live.conftest import PAIR
+from tests.extensions.live.conftest import PAIR, TRAIN
 from tests.programs import command, environment
 from tests.show.report.browser import CHROMIUM, Browser
 
@@ -19,10 +19,10 @@ MEBIBYTE = 2**20
 
 
 @pytest.fixture
-def page(tmp_path):
+def page(tmp_path, request):
     """The address of a page that runs until the test ends, which Ctrl-C ends without a word; and its process."""
     file = tmp_path / "pair.toml"
-    file.write_text(PAIR)
+    file.write_text(getattr(request, "param", PAIR))
     call = command("live", file, "--no-browser")
     with subprocess.Popen(
         call, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment()
@@ -96,6 +96,24 @@ def test_sliders_curves_mistakes_and_two_browsers(page, tmp_path):
         assert peak(one) == before
         asked = {each.split("/")[2].split(":")[0] for each in one.requests if each.startswith("http")}
         assert asked == {"127.0.0.1"}
+
+
+@_needs_browser
+@pytest.mark.nightly
+@pytest.mark.parametrize("page", [TRAIN], indirect=True)
+def test_a_train_in_the_browser(page, tmp_path):
+    """Gears are drawn, a slider of a listed gear's mesh moves the curve of the whole, and undo brings it back."""
+    address, _ = page
+    with Browser(tmp_path / "profile", True) as browser:
+        opened(browser, address)
+        before = peak(browser)
+        assert browser.value("turning.pair.gears.length") == 3 and browser.value("element('flank').hidden")
+        moved(browser, "stages.idler.tip_relief.wheel.depth", 20)
+        browser.wait("live.state.changed && live.drawn === live.number")
+        assert peak(browser) != before
+        browser.value("document.getElementById('undo').click()")
+        browser.wait("!live.state.changed && live.drawn === live.number")
+        assert peak(browser) == before and not browser.console
 
 
 @_needs_browser

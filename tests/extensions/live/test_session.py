@@ -1,9 +1,9 @@
 """The scene as a page changes it."""
 
-from fenics_gears import as_toml, scene_from_text
+from fenics_gears import as_toml, scene_from_text, train_from_text
 from fenics_gears.extensions.live.computing import Work
 from fenics_gears.extensions.live.session import Session
-from fenics_gears.scene_text import value_at
+from fenics_gears.scene_text import fields, value_at
 
 DEPTH = "tip_relief.pinion.depth"
 
@@ -109,3 +109,25 @@ def test_a_browser_that_comes_later_sees_what_the_first_one_sees(tree):
     page.session.answered({"kind": "result", "number": 1, "first_look": False})
     kinds = [each["kind"] for each in page.session.messages]
     assert kinds == ["names", "state", "start", "result"]
+
+
+def test_fields_of_a_train_by_stage(train):
+    """Paths are those of studies of trains; the changed scene is one, and a listed gear keeps its place."""
+    page = Page(train)
+    page.do("set", name="stages.idler.gears.2.profile_shift", value=0.1)
+    page.do("set", name="stages.idler.tip_relief.wheel.depth", value=8.0)
+    first, second = train_from_text(as_toml(page.asked[-1].tree)).meshes
+    assert first.pair.wheel.profile_shift == second.pair.pinion.profile_shift == 0.1
+    assert [mesh.scene.tip_relief.wheel.depth for mesh in (first, second)] == [8e-3, 8e-3]
+    page.do("set", name="stages.idler.tip_relief.wheel.depth", value=0.0)
+    assert "tip_relief" not in page.session.tree["stages"]["idler"]
+    page.do("show", name="stages.idler.face_width")
+    assert page.field("stages.idler.face_width")["text"] == "20 mm"
+
+
+def test_a_relief_of_both_gears_is_one_slider(tree):
+    """It stands at the depth of the scene, and at zero the scene has none."""
+    page = Page(fields.changed(tree, ("tip_relief",), {"depth": "12 um", "start": "HPSTC"}))
+    assert page.field("tip_relief.depth")["number"] == 12.0
+    page.do("set", name="tip_relief.depth", value=0.0)
+    assert page.session.tree == tree
