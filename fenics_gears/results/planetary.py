@@ -153,7 +153,7 @@ def set_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
     """What is printed of a set: rows of label, value and unit; of both kinds of meshes the largest of all planets."""
     attrs = found.attrs
     rows = [
-        (f"overall transmission error, {label}", f"{attrs[f'{name}_{OVERALL}']:.5g}", "rad of the output")
+        (f"overall transmission error, {label}", f"{1e6 * attrs[f'{name}_{OVERALL}']:.4g}", "urad of the output")
         for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
     ]
     rows += [

@@ -30,6 +30,7 @@ STEPS = {"time": "step", "contact_time": "contact_step"}
 # Of a mesh of a row by itself they would leave out what it does through the bodies of its neighbours.
 OF_ENERGY = ("energy", "work_")
 MICROMETRE = 1e-3
+MICRORADIAN = 1e-6
 SHARED = ("gear", "path_point", "slot")
 # What a result tells in words of its whole run.
 OF_THE_WHOLE = (
@@ -274,11 +275,17 @@ def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
     """What is printed of a train: rows of label, value and unit."""
     attrs = found.attrs
     rows = [
-        (f"overall transmission error, {label}", f"{attrs[f'{name}_overall_transmission_error']:.5g}", "rad")
+        (
+            f"overall transmission error, {label}",
+            f"{attrs[f'{name}_overall_transmission_error'] / MICRORADIAN:.4g}",
+            "urad",
+        )
         for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
     ]
     for own in found[f"peak_to_peak_{OF_OUTPUTS}"] if OF_OUTPUTS in found else ():
-        rows.append((f"{own['output'].item()}: lag of its shaft, peak to peak", f"{float(own):.5g}", "rad"))
+        rows.append(
+            (f"{own['output'].item()}: lag of its shaft, peak to peak", f"{float(own) / MICRORADIAN:.4g}", "urad")
+        )
     for name, label in OF_SHAFTS:
         if name in attrs:
             rows.append((label, f"{attrs[name]:.5g}", "N"))

@@ -155,8 +155,8 @@ def _of_outputs(dataset: xr.Dataset, times: np.ndarray, along: str) -> Chart:
     for number, own in enumerate(dataset[OF_OUTPUTS].transpose("output", "time")):
         values = MICRO * np.asarray(own)
         curves.append(Curve(f"shaft of {own['output'].item()}", times, values - values.mean(), _colour(number)))
-    words = "Lag of each output without its mean (µrad)"
-    return Chart("Outputs", curves, along, words, height=280)
+    words = "Lag of the shaft (µrad)"
+    return Chart("Outputs, each without its mean", curves, along, words, height=280)
 
 
 def orders(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:

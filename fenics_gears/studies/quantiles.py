@@ -17,6 +17,7 @@ QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 OF = "quantiles_of_"
 # Of them those that people read first.
 SHOWN = (0.05, 0.5, 0.95)
+PARTS = f"quantiles {' / '.join(f'{100 * part:.0f}' for part in SHOWN)} %"
 # Of these the summary has a table.
 TABLED = ("load_sharing_factor", f"peak_to_peak_{OVERALL}", "peak_to_peak_transmission_error")
 MOST_ROWS = 20
@@ -51,6 +52,10 @@ def sorted_quantiles(values: np.ndarray) -> np.ndarray:
     return np.quantile(known, QUANTILES) if len(known) else np.full(len(QUANTILES), np.nan)
 
 
+def _printed(units: str) -> str:
+    return {"1": "", "rad": "urad"}.get(units, units)
+
+
 def quantile_rows(study: Study, records: Mapping[int, RunRecord]) -> list[tuple[str, str, str]]:
     """Quantiles of K_gamma and transmission error for each setting of what is not random, in rows for people."""
     if SAMPLE not in study.dimensions:
@@ -66,7 +71,8 @@ def quantile_rows(study: Study, records: Mapping[int, RunRecord]) -> list[tuple[
             values = np.array([records[case].numbers.get(name, np.nan) for case in cases if case in records])
             found = dict(zip(QUANTILES, sorted_quantiles(values)))
             setting = ", ".join(f"{axis.name} {label(value)}" for axis, value in zip(fixed, point))
-            said = ", ".join(f"{100.0 * part:.0f} % below {found[part]:.4g}" for part in SHOWN)
-            rows.append((", ".join(filter(None, (words, setting))), said, "" if units == "1" else units))
+            in_rad = units == "rad"
+            said = " / ".join(f"{found[part] * (1e6 if in_rad else 1.0):.4g}" for part in SHOWN)
+            rows.append((", ".join(filter(None, (words, setting, PARTS))), said, _printed(units)))
     more = len(rows) - MOST_ROWS
     return [*rows[:MOST_ROWS], *([("further quantiles", f"{more}, in study.nc", "")] if more > 0 else [])]

@@ -34,7 +34,8 @@ def _transmission_errors(outcome: Outcome) -> tuple[str, str, str]:
     as angles of the last shaft."""
     overall = [each.numbers[PEAK_TO_PEAK] for each in outcome.records.values() if each.meshes]
     if overall:
-        return "overall transmission error, peak to peak", f"{min(overall):.4g} to {max(overall):.4g}", "rad"
+        said = f"{1e6 * min(overall):.4g} to {1e6 * max(overall):.4g}"
+        return "overall transmission error, peak to peak", said, "urad"
     angles = {index: record.numbers["peak_to_peak_transmission_error"] for index, record in outcome.records.items()}
     lengths = [angle * outcome.records[index].base_radius * MICROMETRES for index, angle in angles.items()]
     least, most = min(angles.values()), max(angles.values())

@@ -115,7 +115,7 @@ def test_quantiles_of_a_set(folder, monkeypatch, capsys):
     )
     assert (sharing[1] < sharing[0]).all()
     assert (folder / "results" / "study" / "load_sharing_factor.png").is_file()
-    assert "50 % below" in capsys.readouterr().out
+    assert "quantiles 5 / 50 / 95 %" in capsys.readouterr().out
 
 
 SETTLED = 'steps_per_mesh_cycle = 4\nflank_element_size = "0.5 mm"\ncontact_length = "3 mm"'
