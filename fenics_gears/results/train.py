@@ -19,6 +19,7 @@ from .carried_scene import files_of
 from .dataset import RunResult
 from .layout import OF_OUTPUTS, OVERALL
 from .path_shares import path_shares
+from .planetary import has_set, set_rows
 from .train_outputs import lag_of_output, of_outputs
 
 if TYPE_CHECKING:
@@ -272,7 +273,11 @@ def _of_rows(model: TrainModel) -> list[str]:
 
 
 def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
-    """What is printed of a train: rows of label, value and unit."""
+    """What is printed of a train or a planetary set: rows of label, value and unit."""
+    return set_rows(found) if has_set(found) else _rows_of_meshes(found)
+
+
+def _rows_of_meshes(found: xr.Dataset) -> list[tuple[str, str, str]]:
     attrs = found.attrs
     rows = [
         (

@@ -37,7 +37,6 @@ def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
     directory = options.output or Path("results") / scene.name
     check_writable(directory, RUN_FILE, *TRAIN_PICTURE_FILES)
     model = train_model_of(scene)
-    from fenics_gears.results.planetary import has_set, set_rows
     from fenics_gears.results.train import train_rows
     from fenics_gears.runs.train import simulate_train
 
@@ -54,7 +53,7 @@ def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
                 after_result(own / RUN_FILE, "pictures", partial(plots().draw_run, of, own))
     if not options.quiet:
         said = [("WARNING", warning, "") for warning in found.attrs["warnings"].splitlines()]
-        print_rows(scene.title, [*(set_rows if has_set(found) else train_rows)(found), *said])
+        print_rows(scene.title, [*train_rows(found), *said])
         print_rows("Files", [("", str(each), "") for each in (file, *(pictures or []))])
         if stages:
             print_rows("Stages as pairs, for all other commands", [("", str(own), "") for own, _ in stages])

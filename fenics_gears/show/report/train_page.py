@@ -12,7 +12,6 @@ from fenics_gears.model.train_motion_rows import Rows, frequency_rows, motion_ro
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
 from fenics_gears.results.overall_orders import overall_orders
 from fenics_gears.results.path_shares import OF_SHARES, SHARE
-from fenics_gears.results.planetary import has_set, set_rows
 from fenics_gears.results.power_flow import PowerFlow, power_flow
 from fenics_gears.results.summary import result_rows
 from fenics_gears.results.train import train_rows
@@ -52,15 +51,11 @@ def train_page(dataset: xr.Dataset, file: Path, progress: Progress | None = None
     # Meshes of a planetary set that are like others are left out.
     sections += [_mesh(dataset, train, number) for number, mesh in enumerate(train.meshes) if mesh.like is None]
     sections += [
-        PageSection("numbers", "Numbers", [Facts(_numbers(dataset), "Of the whole and of each mesh")]),
+        PageSection("numbers", "Numbers", [Facts(train_rows(dataset), "Of the whole and of each mesh")]),
         version_section(dataset.attrs, file), scene_section(str(dataset.attrs.get("scene", ""))),
     ]  # fmt: skip
     title = " ".join(train.title.split()) or file.stem
     return Page("Gear train: report on a run", title, _conditions(train), sections, made_by())
-
-
-def _numbers(dataset: xr.Dataset) -> list[tuple[str, str, str]]:
-    return (set_rows if has_set(dataset) else train_rows)(dataset)
 
 
 def _conditions(train: TrainScene) -> str:
