@@ -14,9 +14,20 @@ from .planetary_schema import VibrationText
 
 
 @dataclass(frozen=True)
+class RunOut:
+    """A `gear` by its name, how far (mm) the centre of its base circle is off its axis, and at which `phase` (rad,
+    counter-clockwise in space) as the run begins."""
+
+    gear: str
+    distance: float
+    phase: float
+
+
+@dataclass(frozen=True)
 class Carrier:
     """The carrier of the set in a `stage`. `pin_stiffness`, N/mm: None where pins do not give way; `pin_errors`: of
     each planet tangential, against its force, and radial, outwards, mm; none where pins are in their places.
+    `run_outs`: of gears whose base circles are off their axes.
     `floating`: members that no bearing holds. `speed`, rad/s, and `torque`, N mm: of the input. `vibration`: lumped
     members for natural frequencies, None where the scene has none."""
 
@@ -25,6 +36,7 @@ class Carrier:
     pin_stiffness: float | None = None
     pin_errors: tuple[tuple[float, float], ...] = ()
     floating: tuple[str, ...] = ()
+    run_outs: tuple[RunOut, ...] = ()
     speed: float | None = None
     torque: float = 0.0
     vibration: VibrationText | None = None
