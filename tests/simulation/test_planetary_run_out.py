@@ -78,8 +78,9 @@ def test_a_ring_that_runs_out_is_one_beside_which_all_pins_stand():
 
 
 def test_a_planet_that_runs_out_shifts_load_once_a_turn_against_the_carrier():
-    """All members held, springs alone (soft pins, k): planet 1 carries 2 k e/3 more than a third of all, e being how far
-    its base circle stands against its force, a cosine over its z_p mesh cycles."""
+    """All members held, springs alone (soft pins, k): planet 1 carries 2 k e/3 more than a third of all.
+
+    e: how far its base circle stands against its force, a cosine over its z_p mesh cycles."""
     stiffness, teeth = 10.0, 18
     more = (
         f'carrier.pin_stiffness = "{stiffness} N/mm"\n'
