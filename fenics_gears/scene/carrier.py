@@ -11,6 +11,7 @@ from fenics_gears.geometry.planetary import RING, SUN, PlanetarySet
 from fenics_gears.inputs.tree import GEARS
 
 from .planetary_schema import VibrationText
+from .schema import HUNTING_TOOTH_PERIOD
 
 
 @dataclass(frozen=True)
@@ -91,6 +92,8 @@ class OfSet:
 
     def words(self, said: str) -> str:
         """What is said of the pair, in words of the set."""
+        # Sets name a number of mesh cycles.
+        said = said.replace(f' or "{HUNTING_TOOTH_PERIOD}"', "")
         for one, other in zip(GEARS, self.gears):
             said = sub(rf"\bgears\.{one}\b", f"stages.{self.stage}.{other}", said)
             said = sub(rf"\b{one}\b", other, said)

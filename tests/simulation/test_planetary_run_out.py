@@ -143,8 +143,14 @@ def test_a_run_out_of_nothing_is_none():
 
 
 def test_what_is_not_seen_is_told():
-    """A sun of 17 teeth takes 17 mesh cycles to turn against the carrier."""
+    """A sun of 17 teeth takes 17 mesh cycles to turn against the carrier, beside planets of 18 teeth 17 x 18, each mesh
+    by itself."""
     warnings = train_model_of(planetary(more=of_member("sun"))).warnings
     (said,) = (each for each in warnings if "common period" in each)
     assert "only 1 of the 17 mesh cycles" in said
     assert "pinion" not in said
+    planets = 'eccentricity.planets.distance = ["0 um", "5 um"]'
+    warnings = train_model_of(planetary(more=f"{of_member('sun')}\n{planets}")).warnings
+    periods = [each for each in warnings if "common period" in each]
+    assert [each.split(":")[1].strip() for each in periods] == ["sun, planet 1", "sun, planet 2", "planet 2, ring"]
+    assert periods[1].endswith("motion.mesh_cycles = 306 goes through all")
