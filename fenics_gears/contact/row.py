@@ -16,7 +16,7 @@ import numpy as np
 
 from .idler import Part, RowCompliance
 from .mesh import Mesh
-from .mesh_cycle import Cycle, Kept
+from .mesh_cycle import Cycle, Deviation, Kept
 from .operator import ContactOperator, Position
 from .places import counted_from
 from .step_solver import StepProblem, StepSolution, solve_step
@@ -53,12 +53,23 @@ STEP_ROUND_OFF = 1e-6
 class MeshOfRow:
     """A mesh of a train: its `cycle` over the coordinates (l,) of its own two gears, and how these follow (l, k) from
     those of the train; no contact moves the last `modes` of these. `offset` (l,), mm: where its own coordinates are as
-    nothing moves, none unless given."""
+    nothing moves, none unless given. `deviations`: gaps that differ from mesh cycle to mesh cycle; its cycle has none
+    of these."""
 
     cycle: Cycle
     coordinates: np.ndarray
     offset: np.ndarray | None = None
     modes: int = 0
+    deviations: tuple[Deviation, ...] = ()
+
+    def deviating(self, step: float, position: Position) -> Position:
+        """Its position at a step (any, also after whole cycles), with its deviations."""
+        if not self.deviations:
+            return position
+        opened = sum(deviation(step, position) for deviation in self.deviations)
+        # Openings are measured along the line of action, gaps along the normal.
+        gap = position.operator.gap + self.cycle.face.cosine * opened
+        return position.with_gap(np.ascontiguousarray(gap))
 
     @property
     def moving(self) -> np.ndarray:
@@ -95,7 +106,7 @@ class RowCycle(Cycle):
         self._compliance = compliance
         self._joined: dict[float, JoinedPosition] = {}
         # Of the steps that were built last, for which there may be no room.
-        self._around: dict[int, Position] = {}
+        self._around: dict[int, JoinedPosition] = {}
 
     @property
     def meshes(self) -> list[MeshOfRow]:
@@ -105,16 +116,19 @@ class RowCycle(Cycle):
             found += each.cycle.meshes if isinstance(each.cycle, RowCycle) else [each]
         return found
 
-    def with_offsets(self, offsets: Sequence[np.ndarray | None]) -> RowCycle:
-        """The same operators, which both have in common, with other offsets of all meshes: their gaps alone differ."""
-        return self._with(iter(offsets))
+    def with_gaps_of(
+        self, offsets: Sequence[np.ndarray | None], deviations: Sequence[tuple[Deviation, ...]]
+    ) -> RowCycle:
+        """The same operators, which both have in common, with other offsets and deviations of all meshes: their gaps
+        alone differ."""
+        return self._with(zip(offsets, deviations))
 
-    def _with(self, offsets: Iterator[np.ndarray | None]) -> RowCycle:
+    def _with(self, of_meshes: Iterator[tuple[np.ndarray | None, tuple[Deviation, ...]]]) -> RowCycle:
         other = copy(self)
         other._members = [
-            replace(each, cycle=each.cycle._with(offsets))
+            replace(each, cycle=each.cycle._with(of_meshes))
             if isinstance(each.cycle, RowCycle)
-            else replace(each, offset=next(offsets))
+            else replace(each, **dict(zip(("offset", "deviations"), next(of_meshes))))
             for each in self._members
         ]
         meshes = other.meshes
@@ -139,9 +153,7 @@ class RowCycle(Cycle):
                 each.cycle.kept = Kept(own)
 
     def position(self, step: int) -> Position:
-        key = step % self.steps
-        found = self._joined.get(key) or self._around.get(key)
-        return found or self._joined_at(key)
+        return self._deviating(step, self._alike(step))
 
     def build(self, steps: Sequence[int]) -> None:
         for each in self._members:
@@ -150,8 +162,12 @@ class RowCycle(Cycle):
         self._around = {step: self._joined_at(step) for step in missing}
 
     def between(self, step: float, before: float) -> Position:
+        return self._deviating(step, self.alike_between(step, before))
+
+    def alike_between(self, step: float, before: float) -> JoinedPosition:
+        """As `between`, without what differs from mesh cycle to mesh cycle."""
         if step == int(step) and before == step - 1:
-            return self.position(int(step))
+            return self._alike(int(step))
         return self._at(step, before)
 
     def give_up(self) -> bool:
@@ -170,6 +186,19 @@ class RowCycle(Cycle):
     ) -> StepSolution:
         return solve_step(problem, status)
 
+    def _alike(self, step: int) -> JoinedPosition:
+        """All meshes at a step, without what differs from mesh cycle to mesh cycle."""
+        key = step % self.steps
+        found = self._joined.get(key) or self._around.get(key)
+        return found or self._joined_at(key)
+
+    def _deviating(self, step: float, position: Position) -> Position:
+        meshes = self.meshes
+        if not isinstance(position, JoinedPosition) or not any(mesh.deviations for mesh in meshes):
+            return position
+        of_meshes = tuple((mesh.deviating(step, own), first) for mesh, (own, first) in zip(meshes, position.of_meshes))
+        return _with_gaps_of(replace(position, of_meshes=of_meshes), meshes)
+
     def _joined_at(self, step: int) -> JoinedPosition:
         """All meshes at a step of the mesh cycle, kept if there is room."""
         position = self._at(step, step - 1)
@@ -184,7 +213,8 @@ class RowCycle(Cycle):
         first_before = 0
         for each in self._members:
             earlier = _pairs_before(each.cycle, step, before)
-            parts.append(Part(each.cycle.between(step, before), earlier, first, first_before))
+            between = each.cycle.alike_between if isinstance(each.cycle, RowCycle) else each.cycle.between
+            parts.append(Part(between(step, before), earlier, first, first_before))
             first += parts[-1].nodes
             first_before += parts[-1].nodes_before
         cycles = [each.cycle for each in self._members]

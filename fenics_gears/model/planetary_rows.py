@@ -81,5 +81,8 @@ def planet_rows(row: RowModel) -> list[Row]:
             tangential, radial = (1e3 * each for each in carrier.pin_errors[number])
             said += f", pin {tangential:.4g} um against its force, {radial:.4g} um out"
         rows.append((f"planet {number + 1}", said, ""))
+    for each in carrier.run_outs:
+        said = f"{1e3 * each.distance:.4g} um, at {180.0 / pi * each.phase:.4g} deg as the run begins"
+        rows.append((f"run-out of {each.gear.removeprefix(f'{carrier.stage}.')}", said, ""))
     stiffness = "rigid" if carrier.pin_stiffness is None else f"{carrier.pin_stiffness:.4g}"
     return [*rows, ("pins", stiffness, "" if carrier.pin_stiffness is None else "N/mm")]

@@ -173,9 +173,12 @@ class RowModel(OfMeshes):
     @property
     def warnings_of_meshes(self) -> list[str]:
         """Sentences on each mesh, with its name."""
-        # Meshes that are like others have the same.
-        of_meshes = [(mesh, own) for mesh, own in zip(self.meshes, self.models) if mesh.like is None]
-        return [f"{mesh.name}: {mesh.words(said)}" for mesh, own in of_meshes for said in own.warnings]
+        found = []
+        for mesh, own in zip(self.meshes, self.models):
+            # Meshes that are like others have the same.
+            known = () if mesh.like is None else self.models[mesh.like].warnings
+            found += [f"{mesh.name}: {mesh.words(said)}" for said in own.warnings if said not in known]
+        return found
 
     @property
     def over_face(self) -> bool:

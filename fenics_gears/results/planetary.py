@@ -25,11 +25,10 @@ Curves = Mapping[str, np.ndarray]
 
 
 def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: Sequence[Curves]) -> ResultOfShafts:
-    """What the states (steps, k) of a march and the curves of all meshes say of a set. Numbers are of the last mesh
-    cycle."""
+    """What the states (steps, k) of a march and the curves of all meshes say of a set. Numbers are of the
+    recorded mesh cycles."""
     own = carrier.set
-    cycle = row.models[0].resolution.steps_per_mesh_cycle
-    last = slice(-1 - cycle, -1)
+    last = slice(-1 - row.recorded, -1)
     shares = {name: _shares(meshes[kind::2]) for kind, name in enumerate((SUN, RING))}
     torques = _member_torques(carrier, meshes)
     pins = _pin_forces(row.layout, carrier, meshes)

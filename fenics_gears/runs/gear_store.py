@@ -17,7 +17,7 @@ from fenics_gears.model.model import Model
 from fenics_gears.model.shared_gears import couplings
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.bodies import body_key, gear_bodies, gear_body
-from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_of_gaps
+from fenics_gears.simulation.elastic_route import deviations_of, gaps_of, mesh_cycle, sections_of_gaps
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 
@@ -85,18 +85,19 @@ class GearStore:
 
     def row(self, row: RowModel, make: Callable[[], RowCycle]) -> RowCycle:
         """The contact equations of meshes that move together: those of the last ones where they are the same, with
-        offsets of their own, as of pins beside their places; else made."""
+        offsets and deviations of their own, as of pins beside their places and gears that run out; else made."""
         shared = [(tuple(couplings(row.layout, gear)), row.keys_of_shared(gear)) for gear in row.graph.shared]
         of_meshes = [coordinates.tobytes() for coordinates, _ in row.placed]
         offsets = [offset for _, offset in row.placed]
-        said = [each.tobytes() for each in offsets]
-        key = tuple(map(cycle_key, row.models)), tuple(row.layout.phases), tuple(shared), tuple(of_meshes)
+        said = [(each.tobytes(), model.scene.eccentricity) for each, model in zip(offsets, row.models)]
+        key = tuple(map(_key_of_alike, row.models)), tuple(row.layout.phases), tuple(shared), tuple(of_meshes)
         if self._row is None or self._row[0] != key:
             # Frees memory before the next is made.
             self._row = None
             self._row = key, said, make()
         elif self._row[1] != said:
-            self._row = key, said, self._row[2].with_offsets(offsets)
+            deviations = [deviations_of(model) for model in row.models]
+            self._row = key, said, self._row[2].with_gaps_of(offsets, deviations)
         return self._row[2]
 
     @property
@@ -187,6 +188,11 @@ def cycle_key(model: Model, of_operators: tuple | None = None) -> tuple:
     known."""
     of_gaps = (getattr(model.scene, section) for section in sections_of_gaps(model))
     return *(of_operators or operators_key(model)), *of_gaps
+
+
+def _key_of_alike(model: Model) -> tuple:
+    """As `cycle_key`, without what differs from mesh cycle to mesh cycle in a row: run-out."""
+    return cycle_key(replace(model, scene=replace(model.scene, eccentricity=None)))
 
 
 def _shaping(scene: Scene) -> list[str]:

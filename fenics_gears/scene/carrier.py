@@ -11,12 +11,24 @@ from fenics_gears.geometry.planetary import RING, SUN, PlanetarySet
 from fenics_gears.inputs.tree import GEARS
 
 from .planetary_schema import VibrationText
+from .schema import HUNTING_TOOTH_PERIOD
+
+
+@dataclass(frozen=True)
+class RunOut:
+    """A `gear` by its name, how far (mm) the centre of its base circle is off its axis, and at which `phase` (rad,
+    counter-clockwise in space) as the run begins."""
+
+    gear: str
+    distance: float
+    phase: float
 
 
 @dataclass(frozen=True)
 class Carrier:
     """The carrier of the set in a `stage`. `pin_stiffness`, N/mm: None where pins do not give way; `pin_errors`: of
     each planet tangential, against its force, and radial, outwards, mm; none where pins are in their places.
+    `run_outs`: of gears whose base circles are off their axes.
     `floating`: members that no bearing holds. `speed`, rad/s, and `torque`, N mm: of the input. `vibration`: lumped
     members for natural frequencies, None where the scene has none."""
 
@@ -25,6 +37,7 @@ class Carrier:
     pin_stiffness: float | None = None
     pin_errors: tuple[tuple[float, float], ...] = ()
     floating: tuple[str, ...] = ()
+    run_outs: tuple[RunOut, ...] = ()
     speed: float | None = None
     torque: float = 0.0
     vibration: VibrationText | None = None
@@ -79,6 +92,8 @@ class OfSet:
 
     def words(self, said: str) -> str:
         """What is said of the pair, in words of the set."""
+        # Sets name a number of mesh cycles.
+        said = said.replace(f' or "{HUNTING_TOOTH_PERIOD}"', "")
         for one, other in zip(GEARS, self.gears):
             said = sub(rf"\bgears\.{one}\b", f"stages.{self.stage}.{other}", said)
             said = sub(rf"\b{one}\b", other, said)

@@ -20,6 +20,7 @@ from .carrier import Carrier, OfSet
 from .data import Scene
 from .gear_schema import Gears
 from .planetary_rules import text_of_set, wrong_sections
+from .planetary_run_out import run_outs_of, with_run_outs
 from .planetary_schema import GEARS_OF_SET, MESHES, RING_MESH, SUN_MESH, PlanetaryText
 from .train_loads import TrainLoad, TrainMotion
 from .train_mesh import MeshOfScene
@@ -172,9 +173,11 @@ def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet, load: TrainLoad
         torque = load.output_torque * abs(own.weights[own.input] / own.weights[own.output])
     else:
         torque = (load.power or 0.0) / (motion.input_speed or 1.0)
-    return Carrier(
-        stage, own, stiffness, errors, tuple(text.floating or ()), motion.input_speed, torque, text.vibration
-    )
+    carrier = Carrier(
+        stage, own, stiffness, errors, tuple(text.floating or ()),
+        speed=motion.input_speed, torque=torque, vibration=text.vibration,
+    )  # fmt: skip
+    return replace(carrier, run_outs=run_outs_of(text.eccentricity, carrier.sun, carrier.planets, carrier.ring))
 
 
 def _check_motion(carrier: Carrier, load: TrainLoad, friction: bool, place: str) -> None:
@@ -216,4 +219,4 @@ def _meshes(carrier: Carrier, scenes: Sequence[Scene], pairs: Sequence[GearPair]
                     of_set=of_set, like=kind if number else None, ahead=(phase.numerator, phase.denominator),
                 )
             )  # fmt: skip
-    return found
+    return with_run_outs(found, carrier.run_outs) if carrier.run_outs else found

@@ -143,11 +143,33 @@ def _wrong_members(path: tuple[str, ...], text: PlanetaryText) -> Iterator[Probl
         said = "needs three planets: two do not centre a member that nothing else holds. Leave it out."
         yield Problem((*path, "floating"), "a list", said)
     yield from _wrong_vibration(path, text)
+    yield from _wrong_run_outs((*path, "eccentricity"), text, count)
     for name in ("pin_errors", "radial_pin_errors") if text.carrier is not None else ():
         errors = getattr(text.carrier, name)
         if errors is not None and len(errors) != count:
             said = f"has {len(errors)} entries for {count} planets. Allowed: one for each."
             yield Problem((*path, "carrier", name), "a list", said)
+
+
+def _wrong_run_outs(path: tuple[str, ...], text: PlanetaryText, count: int) -> Iterator[Problem]:
+    """Gears that run out by nothing, or planets that are more or fewer than the set has."""
+    own = text.eccentricity
+    if own is None:
+        return
+    if own.sun is None and own.planets is None and own.ring is None:
+        name = ".".join(path)
+        said = f"says of no gear that it runs out. Add [{name}.sun], [{name}.planets] or [{name}.ring]."
+        yield Problem(path, "", said)
+    if own.planets is None:
+        return
+    if own.planets.distance is None:
+        said = f"is missing. Allowed: a list of {count} lengths, one for each planet."
+        yield Problem((*path, "planets", "distance"), None, said)
+    for name in ("distance", "phase"):
+        listed = getattr(own.planets, name)
+        if listed is not None and len(listed) != count:
+            said = f"has {len(listed)} entries for {count} planets. Allowed: one for each."
+            yield Problem((*path, "planets", name), "a list", said)
 
 
 def _wrong_vibration(path: tuple[str, ...], text: PlanetaryText) -> Iterator[Problem]:

@@ -62,6 +62,51 @@ class CarrierText(Section):
     )
 
 
+RUN_OUT = "0 mm to 10 mm"
+DIRECTIONS = "-360 deg to 360 deg"
+AT_THE_START = (
+    "at the start: angle counter-clockwise from the direction 0 of the set, as the carrier sees it; the gear then takes"
+    " it along"
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunOutOfMember(Section):
+    """``[stages.NAME.eccentricity.sun]`` and ``ring``: its base circle is off its axis."""
+
+    distance: float = quantity(
+        RUN_OUT, "10 um", meaning="eccentricity: distance of the base circle's centre from the axis of rotation"
+    )
+    phase: float = quantity(
+        DIRECTIONS, "90 deg", meaning=f"direction of the base circle's centre {AT_THE_START}", default="0 deg"
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunOutOfPlanets(Section):
+    """``[stages.NAME.eccentricity.planets]``: each planet's base circle is off its axis."""
+
+    distance: tuple[float, ...] | None = quantities(
+        RUN_OUT, "10 um", "0 um", meaning="eccentricity of each planet, in their order", otherwise="required"
+    )
+    phase: tuple[float, ...] | None = quantities(
+        DIRECTIONS,
+        "90 deg",
+        "0 deg",
+        meaning=f"direction of the base circle's centre of each planet {AT_THE_START}",
+        otherwise="0 deg",
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunOutsOfSet(Section):
+    """``[stages.NAME.eccentricity]``: gears of a set that run out."""
+
+    sun: RunOutOfMember | None = None
+    planets: RunOutOfPlanets | None = None
+    ring: RunOutOfMember | None = None
+
+
 SUPPORTS = "0 N/mm to 1e15 N/mm"
 
 
@@ -150,4 +195,5 @@ class PlanetaryText(Section):
         )
     )
     carrier: CarrierText | None = None
+    eccentricity: RunOutsOfSet | None = None
     vibration: VibrationText | None = None

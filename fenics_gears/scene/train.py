@@ -295,7 +295,8 @@ def _completed(title: str, name: str, text: str, meshes: Sequence[MeshOfScene], 
         frequency = of_first * float(exact[graph.between[number][0]] * mesh.pair.pinion.teeth / first)
         moving = Motion(frequency, cycles, cycles, False, speed is not None)
         found.append(replace(mesh, scene=replace(mesh.scene, load=Load(torques[number]), motion=moving)))
-    usual = LAST_CYCLES if sections.shafts.ramp is None else cycles
+    alike = sections.shafts.ramp is None and not any(mesh.scene.eccentricity for mesh in meshes)
+    usual = LAST_CYCLES if alike else cycles
     recorded = min(motion.recorded_cycles or usual, cycles)
     of_ends = sum(own * turn for own, turn in zip(on_shafts, turns)), on_shafts[-1]
     if (carrier := sections.shafts.carrier) is not None:

@@ -113,8 +113,8 @@ class TrainMotion(Section):
         1,
         1000000,
         2,
-        meaning="cycles at the end of a run with `[inertia]` that its numbers are taken from",
-        otherwise="two",
+        meaning="cycles at the end of a run with `[inertia]`, or of a planetary set, that its numbers are taken from",
+        otherwise="two; all of a set whose gears run out",
     )
 
     @property

@@ -8,7 +8,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from fenics_gears.contact.mesh import Mesh, elastic_mesh
-from fenics_gears.contact.mesh_cycle import Cycle, Gaps, Opening
+from fenics_gears.contact.mesh_cycle import Cycle, Deviation, Gaps, Opening
 from fenics_gears.contact.tooth_pair import Flanks, Removal
 from fenics_gears.effects import ALONG_THE_FACE, effects_on, from_effects
 from fenics_gears.elasticity.cache import Cache
@@ -136,7 +136,12 @@ def gaps_of(model: Model, cycle: Cycle) -> Gaps:
         from fenics_gears.contact.relief_gaps import profile_of
 
         profile, of_steps = profile_of(cycle, model.removal)
-    return Gaps(profile, openings_of(model, cycle), tuple(from_effects(model.scene, "gaps", model)), of_steps)
+    return Gaps(profile, openings_of(model, cycle), deviations_of(model), of_steps)
+
+
+def deviations_of(model: Model) -> tuple[Deviation, ...]:
+    """What opens the contact nodes otherwise in each mesh cycle."""
+    return tuple(from_effects(model.scene, "gaps", model))
 
 
 def openings_of(model: Model, cycle: Cycle) -> tuple[Opening, ...]:

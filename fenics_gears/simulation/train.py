@@ -4,6 +4,7 @@ alone, and all meshes together where they have several paths, masses, bearings o
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any, Protocol
 
@@ -39,7 +40,7 @@ from fenics_gears.system.memory import allowed_memory
 from fenics_gears.system.progress import Progress
 
 from .bodies import body_key, gear_bodies, gear_body
-from .elastic_route import cycle_of, flanks_of, gaps_of, mesh_cycle
+from .elastic_route import cycle_of, deviations_of, flanks_of, gaps_of, mesh_cycle
 from .routes import Preparation
 from .simulate import MARCH, solved
 from .warm_up import compile_kernels, compile_loops
@@ -191,7 +192,12 @@ def _row_in_plane(
         pinion, wheel = row.graph.gears[number]
         like = _like(row, number, bodies)
         same = None if like is None else meshes[like].cycle
-        meshes.append(MeshOfRow(_cycle(row, number, (bodies[pinion], bodies[wheel]), same), coordinates, offset))
+        cycle = _cycle(row, number, (bodies[pinion], bodies[wheel]), same)
+        deviations = deviations_of(row.models[number])
+        if deviations:
+            # Those of all meshes are added together.
+            cycle = cycle.with_gaps(replace(cycle.gaps, deviations=()))
+        meshes.append(MeshOfRow(cycle, coordinates, offset, deviations=deviations))
     return RowCycle(meshes, RowInPlane(coupled))
 
 

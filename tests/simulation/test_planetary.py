@@ -8,7 +8,7 @@ from tests.planets import COARSE, RELIEF, planetary, written_out
 from fenics_gears import simulate_train
 from fenics_gears.scene.train_layout import centres
 from fenics_gears.scene.train_mesh import gear_names
-from fenics_gears.show.planetary import _outline
+from fenics_gears.show.gears_of_train import outline_of
 
 FOUR = (20, 16, 52)
 FINER = 'steps_per_mesh_cycle = 40\nflank_element_size = "0.3 mm"'
@@ -168,7 +168,7 @@ def test_teeth_of_all_gears_stand_clear_of_each_other():
     at = centres(layout)
     names = gear_names(scene.meshes)
     outlines = {
-        name: _outline(layout.gear(each), layout.tooth_angle(each), at[layout.graph.shafts[each]])
+        name: outline_of(layout.gear(each), layout.tooth_angle(each), at[layout.graph.shafts[each]])
         for each, name in enumerate(names)
     }
     for number in range(1, 4):

@@ -122,8 +122,15 @@ SETTLED = 'steps_per_mesh_cycle = 4\nflank_element_size = "0.5 mm"\ncontact_leng
 TORQUES = 'load.input_torque = ["500 N m", "600 N m"]\n'
 
 
-@pytest.mark.parametrize("sections", ["", "[friction]\ncoefficient = 0.05"])
-def test_cases_whose_pins_differ_share_their_contact_equations(folder, monkeypatch, sections):
+@pytest.mark.parametrize(
+    ("field", "sections"),
+    [
+        (PINS, ""),
+        (PINS, "[friction]\ncoefficient = 0.05"),
+        (("stages", "set", "eccentricity", "planets", "distance"), ""),
+    ],
+)
+def test_cases_whose_gaps_differ_share_their_contact_equations(folder, monkeypatch, field, sections):
     """Exact identity with runs by themselves, with and without friction; operators are built once."""
     monkeypatch.chdir(folder)
     made = []
@@ -132,8 +139,8 @@ def test_cases_whose_pins_differ_share_their_contact_equations(folder, monkeypat
     more = 'carrier = { pin_stiffness = "3e5 N/mm" }\nfloating = ["sun"]'
     text = planetary_text((20, 16, 52), "planets = 3", more=more, accuracy=SETTLED, sections=sections)
     Path("set.toml").write_text(text)
-    pins = '{ distribution = "uniform", start = "-9 um", stop = "9 um", count = 3, seed = 1, entries = 3 }'
-    Path("study.toml").write_text(f'scene = "set.toml"\n[sweep]\n{".".join(PINS)} = {pins}\n')
+    own = '{ distribution = "uniform", start = "0 um", stop = "9 um", count = 3, seed = 1, entries = 3 }'
+    Path("study.toml").write_text(f'scene = "set.toml"\n[sweep]\n{".".join(field)} = {own}\n')
     cases = load_study("study.toml").cases
     store = GearStore()
     found = [train_completed(case.model, store).dataset for case in cases]
