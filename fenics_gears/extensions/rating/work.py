@@ -33,12 +33,14 @@ def rate(options: argparse.Namespace) -> int:
 
 @dataclass(frozen=True)
 class RatedMesh:
-    """A mesh with its result and its scene, as of a pair: a name in a train, and which of its gears are idlers."""
+    """A mesh with its result and its scene, as of a pair: a name in a train, which of its gears are idlers, and whether
+    it is a stage by itself, with a folder of its own."""
 
     name: str
     result: xr.Dataset
     scene: Scene
     idlers: tuple[str, ...] = ()
+    alone: bool = False
 
 
 def _meshes(result: xr.Dataset) -> list[RatedMesh]:
@@ -50,7 +52,8 @@ def _meshes(result: xr.Dataset) -> list[RatedMesh]:
     found = []
     for number, mesh in enumerate(train.meshes):
         idlers = tuple(name for name, gear in zip(("pinion", "wheel"), mesh.gears) if gear in driving & driven)
-        found.append(RatedMesh(mesh.name, mesh_run(result, train, number), mesh.scene, idlers))
+        own = mesh_run(result, train, number)
+        found.append(RatedMesh(mesh.name, own, mesh.scene, idlers, number in train.alone))
     return found
 
 
@@ -114,9 +117,12 @@ def _show(rows) -> None:
 def _explain(rows: list[rating.RatingRow], meshes: list[RatedMesh]) -> None:
     print("K_v of this run: largest force of a tooth pair over that without inertia. Safeties: by the same limits.")
     if meshes[0].name:
-        print(
-            "-: not in this run. Root stress and dynamic factor: run a stage's own scene.toml, which is in its folder,"
+        file = (
+            "a stage's own scene.toml, which is in its folder,"
+            if any(mesh.alone for mesh in meshes)
+            else "a scene of one of its pairs,"
         )
+        print(f"-: not in this run. Root stress and dynamic factor: run {file}")
         print(
             "   with [output] root_stress = true and [inertia]. Face and transverse factors: helical stages have them."
         )
