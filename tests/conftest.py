@@ -44,7 +44,7 @@ NIGHT = "nightly"
 DEMOS = Path(__file__).parents[1] / "demos"
 # The core's tests pass without extensions; pages, the evidence and demonstrations speak of these too.
 EXTENSIONS = DEMOS.parent / "fenics_gears" / "extensions"
-collect_ignore = [] if EXTENSIONS.is_dir() else ["extensions", "docs", "evidence", "demos"]
+collect_ignore = [] if EXTENSIONS.is_dir() else ["extensions", "docs", "evidence", "demos", "release"]
 
 
 def pytest_configure(config):

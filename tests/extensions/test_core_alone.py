@@ -11,7 +11,7 @@ from tests.docs.blocks import ROOT
 from tests.paper_text import coarse_text
 
 # Tests of the whole program, or of its installation.
-OF_THE_WHOLE = ("extensions", "docs", "demos", "setup", "benchmarks", "debians", "hard_cases", "evidence")
+OF_THE_WHOLE = ("extensions", "docs", "demos", "setup", "benchmarks", "debians", "hard_cases", "evidence", "release")
 MODULES_AND_COMMANDS = """
 import importlib, pkgutil, fenics_gears
 from fenics_gears.commands.cli import main
