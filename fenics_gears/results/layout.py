@@ -113,3 +113,12 @@ def _mistakes_of_places(result: xr.Dataset) -> Iterator[str]:
         wrong = (numbers.values != 0) & (numbers.values % max(slots, 1) != np.arange(slots)) | (numbers.values < 0)
         if wrong.any():
             yield f"{name} has a tooth pair in a slot that is not its own"
+
+
+def in_microradians(angle: float) -> str:
+    """An angle, rad, as it is printed beside the unit "urad".
+
+    >>> in_microradians(3.3892e-05)
+    '33.89'
+    """
+    return f"{1e6 * angle:.4g}"

@@ -15,7 +15,7 @@ from fenics_gears.model.train import RowModel
 from fenics_gears.scene.carrier import Carrier
 from fenics_gears.scene.train_mesh import gear_names
 
-from .layout import OVERALL
+from .layout import OVERALL, in_microradians
 from .train_shafts import ResultOfShafts
 
 MEMBER = "member"
@@ -152,7 +152,7 @@ def set_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
     """What is printed of a set: rows of label, value and unit; of both kinds of meshes the largest of all planets."""
     attrs = found.attrs
     rows = [
-        (f"overall transmission error, {label}", f"{1e6 * attrs[f'{name}_{OVERALL}']:.4g}", "urad of the output")
+        (f"overall transmission error, {label}", in_microradians(attrs[f"{name}_{OVERALL}"]), "urad of the output")
         for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
     ]
     rows += [

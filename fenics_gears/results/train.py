@@ -17,7 +17,7 @@ from fenics_gears.numbers_version import NUMBERS_VERSION
 from .attributes import RESULT_ATTRIBUTES
 from .carried_scene import files_of
 from .dataset import RunResult
-from .layout import OF_OUTPUTS, OVERALL
+from .layout import OF_OUTPUTS, OVERALL, in_microradians
 from .path_shares import path_shares
 from .planetary import has_set, set_rows
 from .train_outputs import lag_of_output, of_outputs
@@ -31,7 +31,6 @@ STEPS = {"time": "step", "contact_time": "contact_step"}
 # Of a mesh of a row by itself they would leave out what it does through the bodies of its neighbours.
 OF_ENERGY = ("energy", "work_")
 MICROMETRE = 1e-3
-MICRORADIAN = 1e-6
 SHARED = ("gear", "path_point", "slot")
 # What a result tells in words of its whole run.
 OF_THE_WHOLE = (
@@ -280,17 +279,11 @@ def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
 def _rows_of_meshes(found: xr.Dataset) -> list[tuple[str, str, str]]:
     attrs = found.attrs
     rows = [
-        (
-            f"overall transmission error, {label}",
-            f"{attrs[f'{name}_overall_transmission_error'] / MICRORADIAN:.4g}",
-            "urad",
-        )
+        (f"overall transmission error, {label}", in_microradians(attrs[f"{name}_overall_transmission_error"]), "urad")
         for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
     ]
     for own in found[f"peak_to_peak_{OF_OUTPUTS}"] if OF_OUTPUTS in found else ():
-        rows.append(
-            (f"{own['output'].item()}: lag of its shaft, peak to peak", f"{float(own) / MICRORADIAN:.4g}", "urad")
-        )
+        rows.append((f"{own['output'].item()}: lag of its shaft, peak to peak", in_microradians(float(own)), "urad"))
     for name, label in OF_SHAFTS:
         if name in attrs:
             rows.append((label, f"{attrs[name]:.5g}", "N"))

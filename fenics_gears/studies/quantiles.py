@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import xarray as xr
 
-from fenics_gears.results.layout import OVERALL
+from fenics_gears.results.layout import OVERALL, in_microradians
 from fenics_gears.runs.record import NUMBERS, OF_SETS, OF_TRAINS, RunRecord
 
 from .axis import SAMPLE, label
@@ -52,10 +52,6 @@ def sorted_quantiles(values: np.ndarray) -> np.ndarray:
     return np.quantile(known, QUANTILES) if len(known) else np.full(len(QUANTILES), np.nan)
 
 
-def _printed(units: str) -> str:
-    return {"1": "", "rad": "urad"}.get(units, units)
-
-
 def quantile_rows(study: Study, records: Mapping[int, RunRecord]) -> list[tuple[str, str, str]]:
     """Quantiles of K_gamma and transmission error for each setting of what is not random, in rows for people."""
     if SAMPLE not in study.dimensions:
@@ -66,13 +62,15 @@ def quantile_rows(study: Study, records: Mapping[int, RunRecord]) -> list[tuple[
         if not any(name in record.numbers for record in records.values()):
             continue
         units, words = (NUMBERS | OF_TRAINS | OF_SETS)[name]
+        printed, unit = (
+            (in_microradians, "urad") if units == "rad" else ("{:.4g}".format, "" if units == "1" else units)
+        )
         for group, point in enumerate(product(*(axis.values for axis in fixed))):
             cases = range(group * study.samples, (group + 1) * study.samples)
             values = np.array([records[case].numbers.get(name, np.nan) for case in cases if case in records])
             found = dict(zip(QUANTILES, sorted_quantiles(values)))
             setting = ", ".join(f"{axis.name} {label(value)}" for axis, value in zip(fixed, point))
-            in_rad = units == "rad"
-            said = " / ".join(f"{found[part] * (1e6 if in_rad else 1.0):.4g}" for part in SHOWN)
-            rows.append((", ".join(filter(None, (words, setting, PARTS))), said, _printed(units)))
+            said = " / ".join(printed(found[part]) for part in SHOWN)
+            rows.append((", ".join(filter(None, (words, setting, PARTS))), said, unit))
     more = len(rows) - MOST_ROWS
     return [*rows[:MOST_ROWS], *([("further quantiles", f"{more}, in study.nc", "")] if more > 0 else [])]

@@ -1,6 +1,6 @@
 """What `gears study` prints when a study ends."""
 
-from fenics_gears.results.layout import OVERALL
+from fenics_gears.results.layout import OVERALL, in_microradians
 from fenics_gears.results.summary import MICROMETRES
 from fenics_gears.results.validity import NO_MEANING
 
@@ -34,7 +34,7 @@ def _transmission_errors(outcome: Outcome) -> tuple[str, str, str]:
     as angles of the last shaft."""
     overall = [each.numbers[PEAK_TO_PEAK] for each in outcome.records.values() if each.meshes]
     if overall:
-        said = f"{1e6 * min(overall):.4g} to {1e6 * max(overall):.4g}"
+        said = f"{in_microradians(min(overall))} to {in_microradians(max(overall))}"
         return "overall transmission error, peak to peak", said, "urad"
     angles = {index: record.numbers["peak_to_peak_transmission_error"] for index, record in outcome.records.items()}
     lengths = [angle * outcome.records[index].base_radius * MICROMETRES for index, angle in angles.items()]
