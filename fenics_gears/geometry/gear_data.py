@@ -26,7 +26,8 @@ USUAL_BORE = 0.4
 
 @dataclass(frozen=True)
 class Helix:
-    """`angle`, rad, at the reference cylinders, positive; `pinion_hand`: "right" or "left", the wheel has the other."""
+    """`angle`, rad, at the reference cylinders, positive; `pinion_hand`: "right" or "left"; a wheel has the
+    other, an internal one the same."""
 
     angle: float
     pinion_hand: str = "right"
@@ -143,8 +144,8 @@ class GearPairData(PerGear):
     """The pair: module and centre distance in mm, pressure angle in rad; rigid without a material.
 
     `face_width`, mm: over which both gears meet. `helix_angle`, rad, at the reference cylinder, 0 for spur gears;
-    module, pressure angle and figures in modules are of the normal section. `pinion_hand`: "right" or "left", the wheel
-    has the other. `axial_offsets`, mm: of the mid-widths of pinion and wheel from a common place.
+    module, pressure angle and figures in modules are of the normal section. `pinion_hand`: "right" or "left", of
+    `Helix`. `axial_offsets`, mm: of the mid-widths of pinion and wheel from a common place.
     """
 
     module: float

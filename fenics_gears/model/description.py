@@ -122,8 +122,9 @@ def _face_rows(model: Model) -> Rows:
         ("flanks are resolved over the face", f"z from {low:g} mm to {high:g} mm", "from its middle, left to right"),
     ]
     if pair.helix is not None:
-        hands = (pair.helix.pinion_hand, "left" if pair.helix.pinion_hand == "right" else "right")
-        rows.append(("hand of the helix", f"pinion {hands[0]}, wheel {hands[1]}", ""))
+        hand = pair.helix.pinion_hand
+        of_wheel = hand if pair.wheel.internal else "left" if hand == "right" else "right"
+        rows.append(("hand of the helix", f"pinion {hand}, wheel {of_wheel}", ""))
     for name in GEARS if scene.lead_modifications is not None else ():
         own = getattr(scene.lead_modifications, name)
         relief = None if own is None else own.end_relief

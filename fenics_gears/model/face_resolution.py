@@ -76,7 +76,7 @@ def layers_of_common_face(scene: Scene, pair: GearPair) -> int:
     """How many layers of either body are on the common face."""
     if scene.accuracy.layers:
         return scene.accuracy.layers
-    turn = abs(pair.slope) / min(pair.pinion.base_radius, pair.wheel.base_radius)
+    turn = abs(pair.slope) / min(map(abs, pair.base_radii))
     turns = LARGEST_LAYER_TURN / turn if turn else np.inf
     return max(ceil(pair.face_width / min(LAYER_THICKNESS * scene.gears.module, turns) - 1e-9), FEWEST_LAYERS)
 
@@ -148,5 +148,5 @@ def loaded_part(model: Model) -> float:
     opening = np.sort(model.face_opening(places))
     stiffness = MESH_STIFFNESS * mean_youngs_modulus(model.scene.tooth_elasticity)
     carried = stiffness * (opening * np.arange(len(places)) - np.cumsum(np.insert(opening[:-1], 0, 0.0))) / len(places)
-    line_load = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius / model.pair.face_width
+    line_load = model.pair.force_of(model.scene.load.wheel_torque) / model.pair.face_width
     return float((carried <= line_load).mean())

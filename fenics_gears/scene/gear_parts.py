@@ -128,6 +128,6 @@ class SupportText(Section):
     tangential_stiffness: float | None = quantity(
         "1e-6 N/mm^3 to 1e12 N/mm^3",
         "200 N/mm^3",
-        meaning="its tangential stiffness per area",
+        meaning="its tangential stiffness per area, over the face along the axis too",
         otherwise="required of a foundation",
     )

@@ -170,7 +170,7 @@ class Gears(Section):
     pinion_hand: str | None = choice(
         "right",
         "left",
-        meaning="hand of the pinion's helix; the wheel has the other",
+        meaning="hand of the pinion's helix; the wheel has the other, an internal one the same",
         otherwise="`right`; has no meaning without `helix_angle`",
     )
     centre_distance: float | None = diameter(

@@ -15,7 +15,6 @@ from fenics_gears.inputs.tree import (
     Tree,
     dotted,
     is_internal,
-    over_the_face,
     table,
     value_at,
     with_gears,
@@ -34,12 +33,13 @@ OF_EXTERNAL = {
     "tip_chamfer": "is not computed for an internal gear. Leave it out.",
 }
 OF_A_RACK = ("protuberance", "protuberance_angle", "finishing_stock")
-# What a plane pair may have and a pair with an internal gear may not have yet.
+# What a pair may have and a pair with an internal gear may not have yet. A gear's shaft is in its bore.
 NOT_COMPUTED = (
     ("body_meshes", "wheel"),
     ("corner_contact",),
     ("flank_errors", "wheel", "measured_profile"),
     ("flank_errors", "wheel", "waviness"),
+    ("shafts", "output", "sections"),
 )
 
 
@@ -87,7 +87,6 @@ def _of_an_internal_gear(tree: Tree, gear: str) -> Broken:
 
 
 def _not_computed(tree: Tree) -> Iterator[Path]:
-    yield from over_the_face(tree)
     yield from (path for path in NOT_COMPUTED if value_at(tree, *path) is not None)
     if value_at(tree, "accuracy", "condensation") == EVERY_STEP:
         yield ("accuracy", "condensation")

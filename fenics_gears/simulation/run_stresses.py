@@ -190,7 +190,7 @@ class RunStresses:
         if self.model.face.slices == 1:
             return range(gear.tooth_count)
         loaded = [*forces] or [0]
-        return range(min(loaded) - ON_EITHER_SIDE, max(loaded) + ON_EITHER_SIDE + 1)[: gear.teeth]
+        return range(min(loaded) - ON_EITHER_SIDE, max(loaded) + ON_EITHER_SIDE + 1)[: gear.tooth_count]
 
     def _standing(self, gear: int, phase: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """A gear's centre (2,); how a section's frame stands (teeth, h, 3, 3), by sector and height, and its nodes'
@@ -279,7 +279,7 @@ def _on_flank(gear: Gear, points: np.ndarray, outline: np.ndarray, coast: bool) 
     def ahead(places: np.ndarray) -> np.ndarray:
         return np.sin(np.arctan2(places[..., 1], places[..., 0]) - tooth.centreline_angle)
 
-    radius = np.linalg.norm(points, axis=1)
+    radius = gear.sign * np.linalg.norm(points, axis=1)
     outer = np.zeros(len(points), dtype=bool)
     outer[np.unique(outline)] = True
     own_side = ahead(points) * ahead(middle) * (-1.0 if coast else 1.0) > 0.0

@@ -33,7 +33,7 @@ class CutNodes(NamedTuple):
 
 
 def is_deep(radius: np.ndarray, teeth: int) -> np.ndarray:
-    """Which nodes of a cut (k,) are deep, by their radii; the largest is the root circle's."""
+    """Which nodes of a cut (k,) are deep, by their radii, negative with `teeth`; the largest is the root circle's."""
     return radius < radius.max() * (1.0 - DEEP * 2.0 * np.pi / teeth)
 
 
@@ -51,7 +51,7 @@ def boundaries_where_deep(sweep: Sweep, pitch: float) -> np.ndarray:
 
 def cut_nodes(line: np.ndarray, sweep: Sweep, teeth: int) -> CutNodes:
     """Of a body without web, whose cut has nodes `line` (k, 2) in a section."""
-    radius = np.linalg.norm(line, axis=1)
+    radius = np.copysign(np.linalg.norm(line, axis=1), teeth)
     deep = is_deep(radius, teeth)
     nodes = sparse.eye(len(line), format="csc")
     heights = sweep.heights

@@ -116,4 +116,4 @@ def _body(
 
 def _element(gear: Gear, rolls: np.ndarray) -> float:
     """Mean length (mm) of the elements along a flank with nodes at `rolls` (n,), rad."""
-    return 0.5 * gear.base_radius * float(rolls[-1] ** 2 - rolls[0] ** 2) * ORDER / (len(rolls) - 1)
+    return 0.5 * abs(gear.base_radius) * float(rolls[-1] ** 2 - rolls[0] ** 2) * ORDER / (len(rolls) - 1)

@@ -21,7 +21,7 @@ from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 
 @dataclass(frozen=True)
 class SweptSector:
-    """A swept sector with its hub held, Young's modulus 1 MPa, condensed onto its flank (or its drive and coast flank),
+    """A swept sector with its hub held or on its foundation, Young's modulus 1 MPa, condensed onto its flank (or its drive and coast flank),
     its lower and its upper cut.
 
     stiffness: (f + 2 c, f + 2 c), N/mm; dofs by height, radius, then x, y, z in the section's frame that turns with it,
@@ -50,7 +50,8 @@ def condensed_swept_sector(
     there = section.material(sweep).ravel()
     numbers = [swept_nodes(nodes, line, len(sweep.heights)) for line in (*flanks, *cuts)]
     numbers = [own[there[own]] for own in numbers]
-    there[swept_nodes(nodes, mesh.edge_nodes("hub", ELEMENT.order), len(sweep.heights))] = False
+    if mesh.foundation is None:
+        there[swept_nodes(nodes, mesh.edge_nodes("hub", ELEMENT.order), len(sweep.heights))] = False
     free = dofs_of(np.flatnonzero(there), 3)
     stiffness = swept_stiffness(section, sweep)[free][:, free]
     placed = [(np.cumsum(there) - 1)[own] for own in numbers]

@@ -88,7 +88,7 @@ def _section(gear: Gear, sizes: ElementSizes) -> _Section:
 
 def _of_outline(gear: Gear, boundary: SectorBoundary, field: SizeField) -> _Section:
     flank, cut, hub = (2 * len(boundary.part(name)) - 1 for name in ("flank", "lower cut", "hub"))
-    radii = np.sort(np.linalg.norm(boundary.points[np.unique(boundary.part("lower cut"))], axis=1))
+    radii = np.sort(gear.sign * np.linalg.norm(boundary.points[np.unique(boundary.part("lower cut"))], axis=1))
     deep = is_deep(np.concatenate([radii[1:], 0.5 * (radii[1:] + radii[:-1])]), gear.teeth)
     low, high = boundary.points.min(axis=0), boundary.points.max(axis=0)
     steps = (np.arange(SAMPLES) + 0.5) / SAMPLES
@@ -98,10 +98,10 @@ def _of_outline(gear: Gear, boundary: SectorBoundary, field: SizeField) -> _Sect
     neck = gear.root_radius + NECK
 
     def nodes(least: float) -> float:
-        above = [np.linalg.norm(points, axis=1) > least for points in (boundary.points, places)]
+        above = [gear.sign * np.linalg.norm(points, axis=1) > least for points in (boundary.points, places)]
         return BY_OUTLINE * float(above[0].sum()) + BY_AREA * float(squares[above[1]].sum())
 
-    return _Section(nodes(0.0), nodes(neck), flank, cut, hub, int(deep.sum()))
+    return _Section(nodes(-np.inf), nodes(neck), flank, cut, hub, int(deep.sum()))
 
 
 def _within(places: np.ndarray, outline: np.ndarray) -> np.ndarray:
@@ -148,7 +148,7 @@ def expected_condensing(gear: Gear, face: FaceDiscretisation, farthest: int, bot
     condensing = BYTES_OF_AN_UNKNOWN * size.unknowns + BYTES_OF_AN_ENTRY * size.condensed**2
     # One after the other: where a scene has few layers, the held teeth take more.
     near = BYTES_OF_A_NEAR_UNKNOWN * max(near_unknowns(gear, face))
-    return BodyCost(max(condensing, near), CONDENSING * size.unknowns**2 + IN_RING * _ring(size, gear.teeth, farthest))
+    return BodyCost(max(condensing, near), CONDENSING * size.unknowns**2 + IN_RING * _ring(size, gear.tooth_count, farthest))
 
 
 def _ring(size: BodySize, teeth: int, farthest: int) -> float:

@@ -47,7 +47,7 @@ class _HeldTooth:
     def __init__(self, gear: Gear, mesh: BodyMesh, twist: float, poissons_ratio: float, rolls: np.ndarray):
         self._section, self._twist = SectionForms(mesh, poissons_ratio), twist
         points = self._section.nodes.points
-        free = np.linalg.norm(points, axis=1) > gear.root_radius - DEPTH
+        free = gear.sign * np.linalg.norm(points, axis=1) > gear.root_radius - DEPTH
         for held in ("lower cut", "upper cut", "hub"):
             free[numbers_at(points, mesh.edge_nodes(held, ELEMENT.order))] = False
         flank = numbers_at(points, by_radius(mesh.edge_nodes("flank", ELEMENT.order)))

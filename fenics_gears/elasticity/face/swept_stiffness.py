@@ -31,7 +31,8 @@ QUADRATURE_DEGREE = 4
 class SectionForms:
     """Bilinear forms of a section's displacements (n nodes of `nodes`, three components), Young's modulus 1 MPa.
 
-    outside_web: those of rim and hub alone, and its nodes' numbers (k,) in the whole section; None without a web.
+    springs: (3n, 3n), of the foundation, per height; None where the hub is held. outside_web: forms of rim and hub
+    alone, and its nodes' numbers (k,) in the whole section; None without a web.
     """
 
     def __init__(self, mesh: BodyMesh, poissons_ratio: float, web: SweptWeb | None = None):
@@ -41,6 +42,11 @@ class SectionForms:
         self._numbers = adapter.constant(space.mesh, (poissons_ratio, 1.0, 0.0, 0.0, 0.0))
         self._forms = _forms(space, *(self._numbers[i] for i in range(5)))
 
+        self.springs: sparse.csr_matrix | None = None
+        if mesh.foundation is not None:
+            from ..foundation import section_springs
+
+            self.springs = section_springs(mesh, self.nodes.points)
         self.outside_web: tuple[SectionForms, np.ndarray] | None = None
         if web is not None:
             # Imported here: gears without web have none of it.
@@ -172,6 +178,26 @@ def layer_stiffness(section: SectionForms, thickness: float, twist: float) -> Bl
         for data in np.transpose(factors) @ np.array(entries)
     )
     blocks = {divmod(number, 3): matrix for number, matrix in enumerate(added)}
-    nodes = len(section.nodes.points)
-    frames = [sparse.kron(sparse.eye(nodes), rotation(angle, 3), format="csr") for angle in angles]
+    if section.springs is not None:
+        for pair, springs in _springs_of_layer(section, thickness, angles).items():
+            blocks[pair] = blocks[pair] + springs
+    frames = [_turned(section, angle) for angle in angles]
     return {(i, j): (frames[i].T @ block @ frames[j]).tocsr() for (i, j), block in blocks.items()}
+
+
+def _turned(section: SectionForms, angle: float) -> sparse.csr_matrix:
+    """Rotation (3n, 3n) of the displacements of a section's nodes by an angle (rad)."""
+    return sparse.kron(sparse.eye(len(section.nodes.points)), rotation(angle, 3), format="csr")
+
+
+def _springs_of_layer(section: SectionForms, thickness: float, angles: np.ndarray) -> Blocks:
+    """What the foundation adds to a layer, in the frame of its middle; `angles` (3,), rad, of its nodes' frames."""
+    added: Blocks = {}
+    for place, weight in zip(POINTS, WEIGHTS):
+        values = shapes(place)[0]
+        turn = complex(values @ np.exp(1j * angles))
+        frame = _turned(section, float(np.angle(turn)))
+        springs = 0.5 * thickness * weight * abs(turn) * (frame @ section.springs @ frame.T)
+        for pair in np.ndindex(3, 3):
+            added[pair] = added.get(pair, 0.0) + values[pair[0]] * values[pair[1]] * springs
+    return added
