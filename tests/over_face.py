@@ -4,8 +4,9 @@ from dataclasses import replace
 from functools import lru_cache
 
 from tests.helical import wide_pair
+from tests.internal import internal_scene
 
-from fenics_gears import Load, simulate
+from fenics_gears import Load, scene_from_text, simulate
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.scene.data import Output
 
@@ -26,6 +27,12 @@ steps_per_mesh_cycle = 12
 @lru_cache
 def helical_run():
     return simulate(wide_pair(MORE))
+
+
+@lru_cache
+def ring_run():
+    """The planet of `tests.internal` in its ring, helical."""
+    return simulate(scene_from_text(internal_scene(gears='helix_angle = "12 deg"', more=MORE)))
 
 
 @lru_cache
