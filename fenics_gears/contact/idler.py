@@ -1,14 +1,12 @@
-"""Gears that stand in several meshes of a train, and its meshes at a position."""
+"""Meshes of a train at a position, and how those feel each other that have a gear in common."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
-
-from fenics_gears.geometry.gear_train import SharedGear
 
 from .mesh_cycle import Cycle, Kept
 from .operator import Position
@@ -16,27 +14,6 @@ from .tooth_pair import PairNodes, count_of
 
 if TYPE_CHECKING:
     from .formed_rows import FormedRows
-
-
-# One tooth or several, by their places.
-Teeth = TypeVar("Teeth", int, np.ndarray)
-
-
-@dataclass(frozen=True)
-class BetweenMeshes:
-    """A gear of so many `teeth` in two meshes, which feel each other through its body."""
-
-    teeth: int
-    gear: SharedGear
-
-    @property
-    def meshes(self) -> tuple[int, int]:
-        return self.gear.meshes
-
-    def ahead(self, drive: Teeth, coast: Teeth, first: int) -> Teeth:
-        """Pitches by which the tooth of one flank is ahead of that of another, of `first` and more: round the gear
-        either way."""
-        return first + (drive - coast - first) % self.teeth
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,5 @@
 """Compliance of meshes that move together: rows of all one after the other. Those that have no gear in common do not
-feel each other; a gear in two meshes gives how they do."""
+feel each other; a gear in several meshes gives how they do."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .mesh_cycle import Cycle, Kept
 
 
 class CouplingGear(Protocol):
-    """A gear in two meshes of a train."""
+    """A gear in several meshes of a train."""
 
     def couplings(
         self, cycles: Sequence[Cycle], parts: Sequence[Part], steps: float
@@ -25,7 +25,7 @@ class CouplingGear(Protocol):
 
 
 class JoinedMeshes:
-    """See `idler.RowCompliance`; `gears`: those in two meshes."""
+    """See `idler.RowCompliance`; `gears`: those in several meshes."""
 
     def __init__(self, gears: Sequence[CouplingGear] = ()):
         self._gears = gears

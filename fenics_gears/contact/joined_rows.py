@@ -1,5 +1,5 @@
 """The compliance between the contact nodes of meshes that move together: rows of single meshes side by side, and
-between two meshes of an idler over the face a product of few motions. Rows are formed when their node is first closed,
+between two meshes of one gear over the face a product of few motions. Rows are formed when their node is first closed,
 as those of a mesh over the face by itself (`contact.formed_rows`).
 """
 
@@ -23,9 +23,10 @@ PARTS, COUPLINGS, ROWS, COLUMNS, KINDS, KINDS_OF_COLUMNS, MATRIX, FORMED = range
 NUMBERS = 11
 # Of a part: address of its table, of its matrix, its first node among rows and columns, and how many it has.
 TABLE, OWN, FIRST, COUNT, FIRST_COLUMN, COUNT_OF_COLUMNS = range(6)
-# Of a coupling: the part that responds and the one that is loaded; addresses of what moves the nodes of one, of the
-# tooth of each, and of what the other's forces move; number of motions and of teeth.
-RESPONDING, LOADED, MOVED, TEETH, BY_FORCES, MOTIONS, COUNT_OF_TEETH = range(7)
+# Of a coupling: the part that responds and the one that is loaded; of the nodes of either addresses of what moves them
+# and of the tooth of each; address of what is between teeth; number of motions and of teeth of either.
+RESPONDING, LOADED, MOVED, TOOTH, MOVED_OF_LOADED, TOOTH_OF_LOADED, BETWEEN, MOTIONS, MOTIONS_OF_LOADED = range(9)
+TEETH, TEETH_OF_LOADED = range(9, 11)
 
 
 class AllRows(NamedTuple):
@@ -48,16 +49,25 @@ class Joined(NamedTuple):
     first_column: int
 
 
+class OnBody(NamedTuple):
+    """Contact nodes (n,) of a mesh on a gear: how motions of its body move them (d, n, r), along directions; its
+    `teeth` there, (T,), and the place among these of that on which each node is."""
+
+    moved: np.ndarray
+    teeth: np.ndarray
+    tooth: np.ndarray
+
+
 class Coupling(NamedTuple):
-    """How contact nodes (n,) of one mesh, by its number, are displaced by forces on those (m,) of another: `moved`
-    (d, n, r), along directions, by motions of the body; `tooth` (n,), a number of the tooth on which each is; and
-    `by_forces` (teeth, e, m, r), the motions there under forces, mm/N."""
+    """How contact nodes of one mesh, by its number, are displaced by forces on those of another one, through a gear of
+    both; `between` (T, U, r, r'), mm/N: motions on teeth of the one by those that forces on teeth of the other do work
+    on."""
 
     responding: int
     loaded: int
-    moved: np.ndarray
-    tooth: np.ndarray
-    by_forces: np.ndarray
+    nodes: OnBody
+    nodes_of_loaded: OnBody
+    between: np.ndarray
 
 
 def joined_rows(
@@ -88,12 +98,14 @@ def joined_rows(
         row[:6] = *own, part.first, counts[0], part.first_column, counts[1]
         arrays += [*part.rows.arrays, part.rows.table]
     for row, each in zip(table[1 + len(parts) :], couplings):
-        of_nodes = [np.ascontiguousarray(array) for array in each[2:]]
+        own = [each.nodes.moved, each.nodes.tooth, each.nodes_of_loaded.moved, each.nodes_of_loaded.tooth]
+        own = [np.ascontiguousarray(array) for array in (*own, each.between)]
         row[:2] = each[:2]
-        row[MOVED : BY_FORCES + 1] = [array.ctypes.data for array in of_nodes]
-        row[MOTIONS : COUNT_OF_TEETH + 1] = each.moved.shape[2], len(each.by_forces)
-        arrays += of_nodes
-    return FormedRows(matrix, formed, by_columns, table, arrays, factors)
+        row[MOVED : BETWEEN + 1] = [array.ctypes.data for array in own]
+        row[MOTIONS:] = *each.between.shape[2:], *each.between.shape[:2]
+        arrays += own
+    # Nodes of a mesh are in several couplings.
+    return FormedRows(matrix, formed, by_columns, table, list({id(each): each for each in arrays}.values()), factors)
 
 
 @cache
@@ -138,15 +150,32 @@ def _copy(head, part, nodes):
 def _put_coupled(head, part, other, coupling, nodes):
     """Put what forces of another mesh displace into rows of this one."""
     matrix, kinds, others = _matrix(head), head[KINDS], head[KINDS_OF_COLUMNS]
-    n, m, r, first = part[COUNT], other[COUNT_OF_COLUMNS], coupling[MOTIONS], other[FIRST_COLUMN]
+    n, m, first = part[COUNT], other[COUNT_OF_COLUMNS], other[FIRST_COLUMN]
+    r, s, teeth = coupling[MOTIONS], coupling[MOTIONS_OF_LOADED], coupling[TEETH_OF_LOADED]
     moved = carray(to_number(coupling[MOVED]), (kinds, n, r))
-    tooth = carray(to_integer(coupling[TEETH]), n)
-    by_forces = carray(to_number(coupling[BY_FORCES]), (coupling[COUNT_OF_TEETH], others, m, r))
-    for d, e in np.ndindex((kinds, others)):
+    tooth = carray(to_integer(coupling[TOOTH]), n)
+    moved_of_loaded = carray(to_number(coupling[MOVED_OF_LOADED]), (others, m, s))
+    tooth_of_loaded = carray(to_integer(coupling[TOOTH_OF_LOADED]), m)
+    between = carray(to_number(coupling[BETWEEN]), (coupling[TEETH], teeth, r, s))
+    of_teeth = np.empty((teeth, s))
+    for d in range(kinds):
         for node in nodes:
             own = node - part[FIRST]
-            found = np.dot(by_forces[tooth[own], e], moved[d, own])
-            matrix[d * head[ROWS] + node, e * head[COLUMNS] + first : e * head[COLUMNS] + first + m] = found
+            for there in range(teeth):
+                of_teeth[there] = np.dot(moved[d, own], between[tooth[own], there])
+            row = matrix[d * head[ROWS] + node]
+            for e in range(others):
+                _add_up(moved_of_loaded[e], tooth_of_loaded, of_teeth, row[e * head[COLUMNS] + first :])
+
+
+@njit(cache=True, fastmath={"reassoc"})
+def _add_up(moved, tooth, of_teeth, row):
+    """Displacements by forces on nodes that motions move (m, s), from what these do by teeth (U, s)."""
+    for node in range(len(moved)):
+        total = 0.0
+        for motion in range(moved.shape[1]):
+            total += moved[node, motion] * of_teeth[tooth[node], motion]
+        row[node] = total
 
 
 @njit(cache=True)

@@ -10,21 +10,34 @@ from typing import NamedTuple
 import numpy as np
 
 from fenics_gears.elasticity.compliance import BothFlanksCompliance, FlankCompliance
+from fenics_gears.geometry.gear_train import SharedGear
 
-from .idler import BetweenMeshes, Part
+from .idler import Part
 from .mesh_cycle import Cycle, Kept
 from .pairing import Blocks, FlankTable, Numbered, add_products
 
 
 @dataclass(frozen=True)
-class GearInPlane(BetweenMeshes):
-    """A gear whose `body` both meshes load over the same face width (mm).
+class GearInPlane:
+    """A gear of so many `teeth` in two meshes, which load its `body` over the same face width (mm) and feel each other
+    through it.
 
     It is `BetweenFlanks`: its teeth are counted as the first mesh counts them, and are the same after a turn.
     """
 
+    teeth: int
+    gear: SharedGear
     body: FlankCompliance
     face_width: float
+
+    @property
+    def meshes(self) -> tuple[int, int]:
+        return self.gear.meshes
+
+    def ahead(self, drive: int, coast: int, first: int) -> int:
+        """Pitches by which the tooth of one flank is ahead of that of another, of `first` and more: round the gear
+        either way."""
+        return first + (drive - coast - first) % self.teeth
 
     def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
         side, other = sides

@@ -22,16 +22,18 @@ class Reach:
 
     same: the largest between two drive flanks, or two coast flanks. across: least and largest between a drive and a
     coast flank, positive where the tooth of the drive flank is ahead, counter-clockwise; None where coast flanks are
-    not loaded.
+    not loaded. far: over the face least and largest between like flanks that different mates load, the shorter way
+    round the gear; None where no two mates load like flanks.
     """
 
     same: int
     across: tuple[int, int] | None = None
+    far: tuple[int, int] | None = None
 
     @property
     def farthest(self) -> int:
         """The largest, of any flanks."""
-        return max(self.same, *map(abs, self.across or (0,)))
+        return max(map(abs, (self.same, *(self.across or ()), *(self.far or ()))))
 
 
 class BetweenFlanks(Protocol):

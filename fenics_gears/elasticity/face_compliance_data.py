@@ -46,22 +46,20 @@ class FaceCompliance:
 
 
 @dataclass(frozen=True)
-class AcrossFlanks:
-    """How drive and coast flanks of a gear feel each other through its body: motions (f, r) of a drive flank's dofs and
-    (f, r') of a coast flank's, dofs as of a FaceCompliance; `between` (k, r, r'), mm/N: of a drive flank `first` and
-    more pitches ahead of a loaded coast flank."""
+class BetweenMates:
+    """How flanks of a gear that different mates load feel each other through its body: `motions` (f, r) of the dofs of
+    a drive flank and, where they are loaded, of a coast flank, dofs as of a FaceCompliance. `known`, by the kinds of
+    both flanks, 0 drive and 1 coast: a distance in pitches, and mm/N (k, r, r') of the one flank so many and more
+    pitches ahead of the loaded other one; of like flanks the shorter way round the gear."""
 
-    drive: np.ndarray
-    coast: np.ndarray
-    between: np.ndarray
-    first: int
+    motions: tuple[np.ndarray, ...]
+    known: dict[tuple[int, int], tuple[int, np.ndarray]]
 
 
 @dataclass(frozen=True)
-class IdlerCompliance:
-    """The body of a gear that one mate loads on its `drive` flanks and another one on its `coast` flanks: of the latter
-    as the drive flanks of its mirror image, in which heights stay; and what is `across`."""
+class SharedCompliance:
+    """The body of a gear that several mates load: of its drive `flanks` and, where they are loaded, of its coast flanks
+    as the drive flanks of its mirror image, in which heights stay; and what is `between` flanks of different mates."""
 
-    drive: FaceCompliance
-    coast: FaceCompliance
-    across: AcrossFlanks
+    flanks: tuple[FaceCompliance, ...]
+    between: BetweenMates

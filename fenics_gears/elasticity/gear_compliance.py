@@ -31,7 +31,7 @@ def flank_compliance(
     sizes = sizes.in_modules_of(gear)
     coupled = _coupled(reach, discretisation.elastic_teeth)
     inputs = similar_inputs("plane strain", gear, material, discretisation, reach.across is not None)
-    inputs["reach"] = asdict(coupled)
+    inputs["reach"] = {"same": coupled.same, "across": coupled.across}
     arrays, timings = kept(cache, inputs, lambda: _computed(similar, chosen, sizes, material.poissons_ratio, coupled))
     # In place: the arrays are large, and nothing else refers to them.
     for name in {"blocks", "across"} & arrays.keys():

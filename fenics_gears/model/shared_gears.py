@@ -3,7 +3,7 @@ meshes must have alike."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import combinations
 
 import numpy as np
@@ -11,7 +11,6 @@ import numpy as np
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear_train import Layout, SharedGear
-from fenics_gears.geometry.train_graph import PINION, WHEEL
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
 
@@ -32,18 +31,22 @@ def reach_of(models: Sequence[Model], layout: Layout, gear: int) -> Reach:
     another."""
     teeth = layout.gear(gear).tooth_count
     same = max(models[mesh].touching.reach.same for mesh, _ in layout.graph.sides[gear])
-    across: list[tuple[int, int]] = []
+    found: list[Reach] = []
     for shared in couplings(layout, gear):
         least, most = _between(models, shared)
         most = min(most, least + teeth - 1)
         round_about = teeth * round(0.5 * (least + most) / teeth)
+        least, most = least - round_about, most - round_about
         if shared.mirrored:
-            across.append((least - round_about, most - round_about))
+            found.append(Reach(same, (least, most)))
+            continue
+        # Round the gear no tooth is further than half of them.
+        farthest = min(max(abs(least), abs(most)), teeth // 2)
+        if models[0].scene.three_dimensional:
+            found.append(Reach(same, None, (max(least, -most, 0), farthest)))
         else:
-            # Round the gear no tooth is further than half of them.
-            farthest = max(abs(least - round_about), abs(most - round_about))
-            same = max(same, min(farthest, teeth // 2))
-    return _joined([Reach(same, each) for each in across] or [Reach(same)], teeth)
+            found.append(Reach(max(same, farthest)))
+    return _joined(found, teeth)
 
 
 def reach_of_alike(models: Sequence[Model], layout: Layout, gear: int, likes: Sequence[int | None]) -> Reach:
@@ -61,12 +64,16 @@ def reach_of_alike(models: Sequence[Model], layout: Layout, gear: int, likes: Se
 def _joined(reaches: Sequence[Reach], teeth: int) -> Reach:
     """One reach for several of gears of so many `teeth`."""
     same = max(reach.same for reach in reaches)
-    across = [reach.across for reach in reaches if reach.across is not None]
-    if not across:
-        return Reach(same)
-    least = min(each[0] for each in across)
-    most = max(each[1] for each in across)
-    return Reach(same, (least, min(most, least + teeth - 1)))
+    across = _hull(reach.across for reach in reaches)
+    if across is not None:
+        across = across[0], min(across[1], across[0] + teeth - 1)
+    return Reach(same, across, _hull(reach.far for reach in reaches))
+
+
+def _hull(ranges: Iterable[tuple[int, int] | None]) -> tuple[int, int] | None:
+    """Of ranges one of all that they have; None where there is none."""
+    known = [each for each in ranges if each is not None]
+    return (min(each[0] for each in known), max(each[1] for each in known)) if known else None
 
 
 def _between(models: Sequence[Model], shared: SharedGear) -> tuple[int, int]:
@@ -88,16 +95,10 @@ def _teeth_on(model: Model, side: int) -> tuple[int, int]:
 
 
 def check_shared(layout: Layout, models: Sequence[Model], gears: Sequence[str], meshes: Sequence[str]) -> None:
-    """Raise SceneError for gears in several meshes that these describe differently, or that are not computed yet; names
-    of all `gears` and `meshes`."""
+    """Raise SceneError for gears in several meshes that these describe differently; names of all `gears` and
+    `meshes`."""
     for gear in layout.graph.shared:
         sides = layout.graph.sides[gear]
-        if models[0].scene.three_dimensional and [side for _, side in sides] != [WHEEL, PINION]:
-            raise SceneError(
-                f"{gears[gear]}: over the face a gear is so far computed in one mesh, or as an idler, driven in one and"
-                " then driving in another. Allowed: several mates of spur gears in the plane, on shafts without"
-                f" sections. {NOTHING_DONE}"
-            )
         _check_alike(models, gears[gear], [(mesh, side, meshes[mesh]) for mesh, side in sides])
 
 
@@ -123,6 +124,17 @@ def _check_alike(models: Sequence[Model], gear: str, sides: Sequence[tuple[int, 
                 f" {1e3 * apart:.3g} um. Allowed: one shape in both, with starts that do not depend on the mate."
                 f" {NOTHING_DONE}"
             )
+        if side == other_side and _lead(one, side) != _lead(other, side):
+            raise SceneError(
+                f"{gear}: {name} and {other_name} load the same flanks of it, but have other lead modifications of it."
+                f" Allowed: the same lead_modifications.{GEARS[side]} in both. {NOTHING_DONE}"
+            )
+
+
+def _lead(model: Model, side: int) -> object:
+    """Lead modification of a mesh's pinion (0) or wheel (1)."""
+    leads = model.scene.lead_modifications
+    return None if leads is None else getattr(leads, GEARS[side])
 
 
 def _reliefs_apart(one: Model, other: Model, side: int) -> float:

@@ -15,7 +15,7 @@ from fenics_gears.scene.train_mesh import gear_names
 from fenics_gears.simulation.bodies import body_key
 from fenics_gears.simulation.root_stress import rows_of
 from fenics_gears.simulation.routes import route_of
-from fenics_gears.simulation.train import condense_shared
+from fenics_gears.simulation.train import shared_body
 from fenics_gears.system.progress import SilentProgress
 from fenics_gears.system.second_process import threads
 
@@ -96,7 +96,7 @@ def _keys(model: Model, name: str) -> Iterator[tuple[str, tuple]]:
 def condense(task: GearTask | SharedGearTask, tick: Callable[[], None] | None = None) -> None:
     """Condense a gear into the cache and into this process's store; one of several meshes into the cache."""
     if isinstance(task, SharedGearTask):
-        condense_shared(task.row, task.gear, user_cache())
+        shared_body(task.row, task.gear, user_cache())
         return
     model = model_of(task.scene)
     if task.part == ROOT_STRESS:

@@ -35,17 +35,22 @@ def elastic_route(
 
 def mesh_cycle(model: Model, bodies: Bodies) -> Cycle:
     """The contact operators of one mesh cycle, for the centre coordinates and the friction that the scene has."""
+    return cycle_of(model, mesh_of(model, bodies))
+
+
+def mesh_of(model: Model, bodies: Bodies) -> Mesh:
+    """Both gears in contact; coast flanks touch where the scene has them, also of a body that knows them."""
     flanks = flanks_of(model, bodies)
     grid = model.resolution.contact_grid
     corner = model.corner
     first, second = (body.solid for body in bodies)
     if first is not None and second is not None:
-        return cycle_of(model, _over_face().face_mesh(flanks, _seated(model, first, second), model.face, grid, corner))
+        return _over_face().face_mesh(flanks, _seated(model, first, second), model.face, grid, corner)
     if all(each.alike for each in flanks.compliance):
-        return cycle_of(model, elastic_mesh(flanks, grid, corner))
+        return elastic_mesh(flanks, grid, corner, coast=model.scene.coast_flanks is not None)
     from fenics_gears.contact.whole_body_mesh import whole_body_mesh
 
-    return cycle_of(model, whole_body_mesh(flanks, grid, model.resolution.steps_per_mesh_cycle, corner))
+    return whole_body_mesh(flanks, grid, model.resolution.steps_per_mesh_cycle, corner)
 
 
 def _over_face() -> ModuleType:

@@ -6,7 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any, Protocol
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 import xarray as xr
@@ -14,7 +15,7 @@ import xarray as xr
 from fenics_gears.contact.cycle_alike import CycleAlike
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.joined_meshes import JoinedMeshes
-from fenics_gears.contact.mesh import elastic_mesh, step_by_step
+from fenics_gears.contact.mesh import step_by_step
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.row import JoinedPosition, MeshOfRow, RowCycle, at_phase
 from fenics_gears.contact.row_in_plane import GearInPlane, RowInPlane
@@ -40,10 +41,13 @@ from fenics_gears.system.memory import allowed_memory
 from fenics_gears.system.progress import Progress
 
 from .bodies import body_key, gear_bodies, gear_body
-from .elastic_route import cycle_of, deviations_of, flanks_of, gaps_of, mesh_cycle
+from .elastic_route import cycle_of, deviations_of, gaps_of, mesh_cycle, mesh_of
 from .routes import Preparation
 from .simulate import MARCH, solved
 from .warm_up import compile_kernels, compile_loops
+
+if TYPE_CHECKING:
+    from .row_over_face import SharedBody
 
 Keep = Callable[[MeshOfScene, xr.Dataset], None]
 
@@ -164,22 +168,28 @@ def _member(
     if len(row.models) == 1:
         bodies = gear_bodies(row.models[0], progress, cache)
         return MeshOfRow(mesh_cycle(row.models[0], bodies), *placed[0], modes)
-    if row.over_face:
-        # Runs in the plane load none of it.
-        from .row_over_face import row_cycle_over_face
-
-        cycle = row_cycle_over_face(row, placed, modes, progress, cache)
-    else:
-        cycle = _row_in_plane(row, placed, progress, cache)
+    cycle = _row_of(row, placed, modes, progress, cache)
     count = placed[0][0].shape[1]
     # What its meshes have by themselves is in it.
     return MeshOfRow(cycle, np.eye(count)[: count - modes], modes=modes)
 
 
-def _row_in_plane(
-    row: RowModel, placed: Sequence[tuple[np.ndarray, np.ndarray]], progress: Progress, cache: Cache
+def _row_of(
+    row: RowModel, placed: Sequence[tuple[np.ndarray, np.ndarray]], modes: int, progress: Progress, cache: Cache
 ) -> RowCycle:
+    """Meshes that have gears in common; arguments as of `_member`."""
     bodies = list(_bodies(row, progress, cache))
+    meshes: list[MeshOfRow] = []
+    for number, (coordinates, offset) in enumerate(placed):
+        like = _like(row, number, bodies)
+        cycle = _cycle(row, number, bodies, None if like is None else meshes[like].cycle)
+        deviations = deviations_of(row.models[number])
+        if deviations:
+            # Those of all meshes are added together.
+            cycle = cycle.with_gaps(replace(cycle.gaps, deviations=()))
+        meshes.append(MeshOfRow(cycle, coordinates, offset, modes, deviations))
+    if row.over_face:
+        return RowCycle(meshes, _over_face().joined(row, bodies, [mesh.cycle for mesh in meshes]))
     coupled = [
         GearInPlane(
             row.gear(gear).tooth_count, shared, bodies[gear].section, row.models[shared.meshes[0]].pair.face_width
@@ -187,27 +197,23 @@ def _row_in_plane(
         for gear in row.graph.shared
         for shared in couplings(row.layout, gear)
     ]
-    meshes: list[MeshOfRow] = []
-    for number, (coordinates, offset) in enumerate(placed):
-        pinion, wheel = row.graph.gears[number]
-        like = _like(row, number, bodies)
-        same = None if like is None else meshes[like].cycle
-        cycle = _cycle(row, number, (bodies[pinion], bodies[wheel]), same)
-        deviations = deviations_of(row.models[number])
-        if deviations:
-            # Those of all meshes are added together.
-            cycle = cycle.with_gaps(replace(cycle.gaps, deviations=()))
-        meshes.append(MeshOfRow(cycle, coordinates, offset, deviations=deviations))
     return RowCycle(meshes, RowInPlane(coupled))
 
 
-def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body]:
+def _over_face() -> ModuleType:
+    """Rows over the face; runs in the plane load none of it."""
+    from . import row_over_face
+
+    return row_over_face
+
+
+def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body | SharedBody]:
     """The gears of a row, one after the other; those that are alike, as planets are, are one body."""
-    known: list[tuple[tuple, Body]] = []
+    known: list[tuple[tuple, Body | SharedBody]] = []
     for gear, sides in enumerate(row.graph.sides):
         progress.stage(f"condense gear {gear + 1}")
         mesh, side = sides[0]
-        key = row.key_of_shared(gear) if len(sides) > 1 else (body_key(row.models[mesh], GEARS[side]),)
+        key = row.keys_of_shared(gear) if len(sides) > 1 else (body_key(row.models[mesh], GEARS[side]),)
         body = next((body for other, body in known if other == key), None)
         if body is None:
             alone = len(sides) == 1
@@ -216,22 +222,14 @@ def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body]:
         yield body
 
 
-def condense_shared(row: RowModel, gear: int, cache: Cache) -> None:
-    """Condense a gear of several meshes into the cache."""
+def shared_body(row: RowModel, gear: int, cache: Cache) -> Body | SharedBody:
+    """A gear of several meshes, from the cache or condensed."""
     if row.over_face:
-        from .row_over_face import idler_bodies
-
-        idler_bodies(row, gear, cache)
-    else:
-        shared_body(row, gear, cache)
-
-
-def shared_body(row: RowModel, gear: int, cache: Cache) -> Body:
-    """A gear of several meshes."""
+        return _over_face().shared_body(row, gear, cache)
     return Body.of(flank_compliance(*row.key_of_shared(gear), cache))
 
 
-def _like(row: RowModel, number: int, bodies: Sequence[Body]) -> int | None:
+def _like(row: RowModel, number: int, bodies: Sequence[Body | SharedBody]) -> int | None:
     """Number of the mesh whose operators a mesh of a row has too, whole steps later: that which it is like, on the same
     bodies."""
     like = row.meshes[number].like
@@ -241,12 +239,15 @@ def _like(row: RowModel, number: int, bodies: Sequence[Body]) -> int | None:
     return like if all(one is two for one, two in zip(own, other)) else None
 
 
-def _cycle(row: RowModel, number: int, bodies: tuple[Body, Body], like: Cycle | None) -> Cycle:
+def _cycle(row: RowModel, number: int, bodies: Sequence[Body | SharedBody], like: Cycle | None) -> Cycle:
     """The contact equations of one mesh of a row; `like`: the cycle of the mesh that it is like."""
     model = row.models[number]
     phase, ahead = row.phases[number]
-    mesh = elastic_mesh(flanks_of(model, bodies), model.resolution.contact_grid, model.corner, coast=False)
-    mesh = at_phase(mesh, phase, ahead, model.resolution.steps_per_mesh_cycle)
+    pinion, wheel = (
+        body if isinstance(body := bodies[gear], Body) else body.in_mesh(row, gear, number)
+        for gear in row.graph.gears[number]
+    )
+    mesh = at_phase(mesh_of(model, (pinion, wheel)), phase, ahead, model.resolution.steps_per_mesh_cycle)
     if like is None:
         return cycle_of(model, mesh)
     cycle = CycleAlike(mesh, like, ahead)

@@ -8,12 +8,12 @@ from tests.contact.test_row import overall_errors
 from tests.trains import helical_row
 
 from fenics_gears import ComputationError, model_of, train_from_text
-from fenics_gears.contact.idler import BetweenMeshes
-from fenics_gears.contact.idler_over_face import IdlerOverFace
+from fenics_gears.contact.gear_over_face import GearOverFace, MeshOfGear
+from fenics_gears.contact.row_in_plane import GearInPlane
 from fenics_gears.dynamics.stepping import Stepper
 from fenics_gears.dynamics.train import drivetrain_of_mesh
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.elasticity.face_compliance_data import AcrossFlanks
+from fenics_gears.elasticity.face_compliance_data import BetweenMates
 from fenics_gears.geometry.gear_train import SharedGear
 from fenics_gears.model.train import RowModel, train_model_of
 from fenics_gears.model.train_cost import WITH_FACTORS, row_cost
@@ -144,18 +144,24 @@ def test_expected_memory_of_operators_is_that_of_their_arrays(cycle_of, more):
 
 def test_flanks_beyond_what_is_known_are_refused():
     """Compiled code would read beyond the body's numbers."""
-    nothing = np.zeros((3, 1))
-    idler = IdlerOverFace(
-        31, SharedGear((0, 1), (1, 0), 12), AcrossFlanks(nothing, nothing, np.zeros((5, 1, 1)), 8), ()
-    )
-    assert idler.between(np.array([0]), np.array([-9]), 1).shape == (1, 1, 1, 1)
-    with pytest.raises(ComputationError, match="further apart"):
-        idler.between(np.array([0]), np.array([0]), 1)
+    counted = SharedGear((0, 1), (1, 0), 12)
+    known = {(0, 1): (8, np.zeros((5, 1, 2))), (0, 0): (3, np.arange(8.0).reshape(2, 2, 2))}
+    gear = GearOverFace(31, (MeshOfGear(0, 1), MeshOfGear(1, 0, counted)), BetweenMates((), known), ())
+    one, other = np.array([0]), np.array([-9])
+    assert gear.response((0, 1), one, other).shape == (1, 1, 1, 2)
+    assert gear.response((1, 0), other, one).shape == (1, 1, 2, 1)
+    # Of like flanks one way round the gear is the other one's transpose.
+    ahead, behind = (gear.response((0, 0), np.array([each]), one)[0, 0] for each in (4, -4))
+    assert np.array_equal(ahead, behind.T)
+    assert np.array_equal(gear.response((0, 0), np.array([27]), one)[0, 0], behind)
+    for kinds in ((0, 1), (0, 0)):
+        with pytest.raises(ComputationError, match="further apart"):
+            gear.response(kinds, one, one)
 
 
 def test_an_idler_counts_the_teeth_of_both_meshes():
     """The mirror counts the other way; a tooth ahead round the gear is one behind the other way round."""
-    idler = BetweenMeshes(31, SharedGear((0, 1), (1, 0), 12))
+    idler = GearInPlane(31, SharedGear((0, 1), (1, 0), 12), None, 1.0)
     assert idler.gear.flank(0, (2, 0)) == (2, 0)
     assert idler.gear.flank(1, (2, 0)) == (10, 1)
     assert idler.ahead(2, 10, 5) == 23

@@ -13,8 +13,9 @@ from fenics_gears.system.second_process import SecondProcess
 
 from ..cache import Cache, kept
 from ..compliance import FlankCompliance, Reach
-from ..face_compliance_data import AcrossFlanks, FaceCompliance, IdlerCompliance
+from ..face_compliance_data import BetweenMates, FaceCompliance, SharedCompliance
 from ..gear_compliance import check_inputs, similar_inputs
+from .between_mates import BLOCKS, flanks_between_mates
 from .discretisation import FaceDiscretisation
 from .free_end import FreeEnds, free_ends
 from .near_field import NearField
@@ -61,38 +62,40 @@ def face_compliance(
     return _body(gear, arrays, (arrays["blocks"], arrays["plane"], near, ends), 2 if both else 1, timings)
 
 
-def idler_compliance(
+def shared_compliance(
     gear: Gear, material: Material, discretisation: FaceDiscretisation, reach: Reach, cache: Cache | None = None
-) -> IdlerCompliance:
-    """The body of a gear that drives with its coast flanks; `reach.across` is given. Arguments and errors are those of
-    `face_compliance`."""
+) -> SharedCompliance:
+    """The body of a gear that several mates load, with `reach.across` also its coast flanks. Arguments and errors are
+    those of `face_compliance`."""
     check_inputs(gear, material, reach)
     discretisation.check()
     similar, scaled = gear.of_module_one, discretisation.in_modules_of(gear)
-    inputs = similar_inputs("idler over the face", gear, material, discretisation) | {"reach": asdict(reach)}
+    inputs = similar_inputs("between mates over the face", gear, material, discretisation) | {"reach": asdict(reach)}
 
     def compute() -> tuple[dict, dict]:
-        from .computed import computed_idler
+        from .computed import computed_shared
 
-        return computed_idler(similar, scaled, material.poissons_ratio, reach, None)
+        return computed_shared(similar, scaled, material.poissons_ratio, reach)
 
     arrays, timings = kept(cache, inputs, compute)
-    for name in ("blocks", "coast", "across"):
+    found = flanks_between_mates(reach)
+    for name in {*BLOCKS, *(f"between_{kind}{other}" for kind, other in found)} & arrays.keys():
         arrays[name] *= 1.0 / (material.youngs_modulus * gear.module)
     arrays["plane"] *= 1.0 / material.youngs_modulus
-    # In the mirror a tooth ahead is one behind.
     near = NearField.of_arrays(arrays).scaled(gear.module, material.youngs_modulus)
-    half = 2 * len(arrays["roll_angle"])
-    plane = arrays["plane"][:, :half, :half], arrays["plane"][:, half:, half:].swapaxes(1, 2)
+    size = 2 * len(arrays["roll_angle"])
     slope, element = discretisation.twist * gear.base_radius, _element(gear, arrays["roll_angle"])
-    # A mirror image leans the other way.
-    ends = [free_ends(each, material, element) for each in (slope, -slope)]
-    drive, coast = (
-        _body(gear, arrays, (arrays[name], plane[number], near.of_flank(number), ends[number]), 1, timings)
-        for number, name in enumerate(("blocks", "coast"))
-    )
-    motions = arrays["drive_motions"], arrays["coast_motions"]
-    return IdlerCompliance(drive, coast, AcrossFlanks(*motions, arrays["across"], reach.across[0]))
+    flanks = []
+    for kind, name in enumerate(BLOCKS if reach.across is not None else BLOCKS[:1]):
+        dofs = slice(size * kind, size * (kind + 1))
+        plane = arrays["plane"][:, dofs, dofs]
+        # In the mirror a tooth ahead is one behind, and the image leans the other way.
+        plane, leaning = (plane.swapaxes(1, 2), -slope) if kind else (plane, slope)
+        ends = free_ends(leaning, material, element)
+        flanks.append(_body(gear, arrays, (arrays[name], plane, near.of_flank(kind), ends), 1, timings))
+    motions = tuple(arrays[f"motions_{kind}"] for kind in range(len(flanks)))
+    known = {kinds: (first, arrays["between_{}{}".format(*kinds)]) for kinds, (first, _) in found.items()}
+    return SharedCompliance(tuple(flanks), BetweenMates(motions, known))
 
 
 def _body(

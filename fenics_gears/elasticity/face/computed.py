@@ -15,10 +15,10 @@ from ..element_sizes import ElementSizes
 from ..mesh_data import BodyMesh
 from ..ring import condensed_sector, ring_compliance
 from ..sector_mesh import sector_mesh
+from .between_mates import blocks_between_mates
 from .condensed import SweptSector, condensed_swept_sector, parts_of_ring, ring_blocks
 from .discretisation import FaceDiscretisation
 from .held_tooth import near_field
-from .idler_ring import idler_blocks
 from .swept_stiffness import ELEMENT
 from .web import webbed_section
 
@@ -34,21 +34,21 @@ def computed_body(
     return _computed(gear, face, poissons_ratio, farthest, both, blocks)
 
 
-def computed_idler(
-    gear: Gear, face: FaceDiscretisation, poissons_ratio: float, reach: Reach, _communicator: None
-) -> tuple[dict, dict]:
-    """The same of a gear that one mate loads on the drive flanks and another one on the coast flanks."""
+def computed_shared(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, reach: Reach) -> tuple[dict, dict]:
+    """The same of a gear that several mates load, with `reach.across` also on its coast flanks."""
+    both = reach.across is not None
 
     def blocks(sector: SweptSector) -> dict[str, np.ndarray]:
         held, to_cuts, link = parts_of_ring(sector)
-        mirror = _mirror(gear, 3)
-        half = len(held) // 2
-        into_mirror(held[half:], mirror)
-        into_mirror(held[:, half:].T, mirror)
-        into_mirror(to_cuts[half:], mirror)
-        return idler_blocks(held, to_cuts, link, gear.teeth, reach)
+        if both:
+            mirror = _mirror(gear, 3)
+            half = len(held) // 2
+            into_mirror(held[half:], mirror)
+            into_mirror(held[:, half:].T, mirror)
+            into_mirror(to_cuts[half:], mirror)
+        return blocks_between_mates((held, to_cuts, link), gear.teeth, reach)
 
-    return _computed(gear, face, poissons_ratio, reach.same, True, blocks)
+    return _computed(gear, face, poissons_ratio, reach.same, both, blocks)
 
 
 def _computed(

@@ -1,0 +1,152 @@
+"""How meshes over the face in which one gear stands feel each other through its body.
+
+Flanks of it that different mates load, on one side of its teeth or on either, feel each other through its body alone,
+by few motions of theirs (`elasticity.face.between_mates`): averaged over slices as the body's compliance is, and seen
+by contact nodes along their directions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import permutations
+
+import numpy as np
+from scipy import sparse
+
+from fenics_gears.elasticity.face_compliance_data import BetweenMates, FaceCompliance, SharedCompliance
+from fenics_gears.elasticity.slice_averages import oblique_averages
+from fenics_gears.errors import ComputationError
+from fenics_gears.geometry.gear_train import SharedGear
+
+from .face import Face
+from .face_pairing import FacePair, contact_axes, rises_of
+from .fine_sections import together
+from .idler import Part
+from .joined_rows import Coupling, OnBody
+from .mesh_cycle import Cycle
+
+
+@dataclass(frozen=True)
+class MeshOfGear:
+    """A mesh of a gear: its number, what the gear is in it, the pinion (0) or the wheel (1), and how it counts the
+    gear's teeth, None as the gear's first mesh does."""
+
+    number: int
+    gear: int
+    counted: SharedGear | None = None
+
+    @property
+    def kind(self) -> int:
+        """Which flanks of the gear it loads: 0 as its first mesh does, 1 the opposite ones."""
+        return int(self.counted is not None and self.counted.mirrored)
+
+    def tooth(self, tooth: int) -> int:
+        """A tooth as the gear's first mesh counts them."""
+        return tooth if self.counted is None else self.counted.flank(1, (tooth, 0))[0]
+
+
+@dataclass(frozen=True, eq=False)
+class GearOverFace:
+    """A gear of so many `teeth` in several `meshes`, what is `between` its flanks, and in slices the `motions`
+    (S n, 3, r) of those that each mesh loads. It is a `joined_meshes.CouplingGear`."""
+
+    teeth: int
+    meshes: tuple[MeshOfGear, ...]
+    between: BetweenMates
+    motions: tuple[np.ndarray, ...]
+
+    def couplings(
+        self, cycles: Sequence[Cycle], parts: Sequence[Part], steps: float
+    ) -> tuple[list[Coupling], list[Coupling]]:
+        there = [(cycles[mesh.number], parts[mesh.number]) for mesh in self.meshes]
+        pairs = [part.position.operator.pairs for _, part in there]
+        now = self._seen([cycle for cycle, _ in there], pairs)
+        if not there[0][0].tangential:
+            return self._coupled(now, now), []
+        before = self._seen([cycle for cycle, _ in there], [part.before for _, part in there])
+        # The tangents of its nodes as they were a step before.
+        turned = self._seen([cycle for cycle, _ in there], pairs, steps)
+        return self._coupled(now, now), self._coupled(before, turned)
+
+    def response(self, kinds: tuple[int, int], teeth: np.ndarray, others: np.ndarray) -> np.ndarray:
+        """What displaces flanks of one kind, of teeth (T,), by motions of the body, of those of another kind, of other
+        teeth (U,): (T, U, r, r')."""
+        if kinds not in self.between.known:
+            return self.response(kinds[::-1], others, teeth).transpose(1, 0, 3, 2)
+        first, known = self.between.known[kinds]
+        ahead = teeth[:, None] - others
+        behind = np.zeros(ahead.shape, dtype=bool)
+        if kinds[0] == kinds[1]:
+            ahead = ahead % self.teeth
+            behind = 2 * ahead > self.teeth
+            ahead = np.where(behind, self.teeth - ahead, ahead) - first
+        else:
+            ahead = (ahead - first) % self.teeth
+        if ahead.size and not 0 <= ahead.min() <= ahead.max() < len(known):
+            raise ComputationError(
+                "compliance over the face: flanks of a gear in several meshes touch that are further apart than its"
+                " body's compliance is known; ask shared_compliance for a larger reach"
+            )
+        found = known[ahead]
+        return np.where(behind[:, :, None, None], found.swapaxes(2, 3), found) if behind.any() else found
+
+    def _seen(
+        self, cycles: Sequence[Cycle], pairs_of: Sequence[Sequence[FacePair]], steps: float | None = None
+    ) -> list[OnBody]:
+        """Contact nodes of each mesh on the gear; `steps`: their tangents as they were so many steps before."""
+        found = []
+        for mesh, motions, cycle, pairs in zip(self.meshes, self.motions, cycles, pairs_of):
+            turned = None if steps is None else cycle.pair.sides[mesh.gear].turn * steps / cycle.steps
+            teeth = np.array([mesh.tooth(pair.place.teeth[mesh.gear]) for pair in pairs], dtype=np.int64)
+            counts = [len(pair.offsets) for pair in pairs]
+            moved = _moved(motions, mesh.gear, cycle, pairs, turned)
+            found.append(OnBody(moved, *np.unique(np.repeat(teeth, counts), return_inverse=True)))
+        return found
+
+    def _coupled(self, rows: list[OnBody], columns: list[OnBody]) -> list[Coupling]:
+        """Each two meshes of the gear, one by forces on the other."""
+        found = []
+        for (mesh, own), (loaded, _) in permutations(zip(self.meshes, rows), 2):
+            other = columns[self.meshes.index(loaded)]
+            between = self.response((mesh.kind, loaded.kind), own.teeth, other.teeth)
+            found.append(Coupling(mesh.number, loaded.number, own, other, between))
+        return found
+
+
+def gear_over_face(
+    teeth: int, meshes: tuple[MeshOfGear, ...], body: SharedCompliance, cycles: Sequence[Cycle]
+) -> GearOverFace:
+    """A gear with its body; `cycles` of all meshes of the train."""
+    motions = tuple(
+        _in_slices(body.flanks[mesh.kind], body.between.motions[mesh.kind], mesh.gear, cycles[mesh.number])
+        for mesh in meshes
+    )
+    return GearOverFace(teeth, meshes, body.between, motions)
+
+
+def _in_slices(body: FaceCompliance, motions: np.ndarray, gear: int, cycle: Cycle) -> np.ndarray:
+    """Motions (f, r) of a flank's nodes, averaged over slices along lines of contact: (S n, 3, r)."""
+    face: Face = cycle.face
+    positions = face.positions - face.middles[gear]
+    rise = rises_of(face, cycle.pair.sides[gear])[0]
+    along = oblique_averages(body.heights, positions, face.widths, body.roll_angle, rise)
+    averaged = along @ motions.reshape(along.shape[1], -1)
+    return averaged.reshape(along.shape[0], 3, -1)
+
+
+def _moved(motions: np.ndarray, gear: int, cycle: Cycle, pairs: Sequence[FacePair], turned: float | None) -> np.ndarray:
+    """How contact nodes of a mesh move (d, n, r), along their directions, by motions of its pinion's (0) or its wheel's
+    (1) body in slices; with `turned` as of `contact_axes`."""
+    counts = [len(pair.offsets) for pair in pairs]
+    first, near, _ = together([pair.coarse for pair in pairs])
+    in_slice = len(motions) // cycle.face.slices
+    begins = np.repeat([in_slice * pair.place.slice for pair in pairs], counts).astype(np.int64)
+    weights = near[gear]
+    # Narrow interpolations are as wide as the others, with weights of zero.
+    columns = np.minimum(begins[:, None] + first[gear][:, None] + np.arange(weights.shape[1]), len(motions) - 1)
+    ends = weights.shape[1] * np.arange(len(weights) + 1)
+    seen = sparse.csr_matrix((weights.ravel(), columns.ravel(), ends), shape=(len(weights), len(motions)))
+    along = (seen @ motions.reshape(len(motions), -1)).reshape(len(weights), 3, -1)
+    axes = contact_axes(cycle.face, cycle.pair.sides[gear], pairs, cycle.tangential, turned)
+    return np.einsum("ndc,ncr->dnr", np.repeat(axes[:, :, :3], counts, axis=0), along)
