@@ -22,6 +22,21 @@ MEMBER = "member"
 PLANET = "planet"
 PIN_DIRECTIONS = ("tangential", "radial")
 Curves = Mapping[str, np.ndarray]
+# Numbers of each set, of which those of a train with several are the largest; and further ones that a set may have.
+LARGEST_OF_SETS = {
+    "load_sharing_factor": ("1", "K_gamma of the sun's meshes"),
+    "load_sharing_factor_ring": ("1", "K_gamma of the ring's meshes"),
+    "largest_pin_force": ("N", "largest force of a planet on its pin"),
+}
+NUMBERS_OF_SETS = {
+    **LARGEST_OF_SETS,
+    f"mean_{OVERALL}": ("rad", "lag of the output behind the input, mean"),
+    f"peak_to_peak_{OVERALL}": ("rad", "lag of the output behind the input, peak to peak"),
+    "efficiency": ("1", "power out over power in"),
+    "basic_efficiency": ("1", "efficiency with the carrier at rest"),
+    "friction_loss": ("1", "part of the power in that friction takes"),
+    "floating": ("", "members whose centre nothing holds but their meshes"),
+}
 
 
 def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: Sequence[Curves]) -> ResultOfShafts:

@@ -43,8 +43,8 @@ Part = tuple[list[MeshOfScene], TrainSections]
 @dataclass(frozen=True)
 class Link:
     """A mesh of a train, or a planetary set (`of_set`): its name, the number of its first `mesh`, the `turns` of its
-    output in one of its input, how often in a second its lag repeats (Hz), and by how much (rad) a shaft behind it
-    twists."""
+    output in one of its input, how often in a second its lag repeats (`frequency`, Hz), and in how many mesh `cycles`.
+    `twist`: of a shaft behind it, rad."""
 
     name: str
     mesh: int
@@ -52,6 +52,7 @@ class Link:
     frequency: float
     twist: float = 0.0
     of_set: bool = False
+    cycles: int = 1
 
 
 @dataclass(frozen=True)
@@ -125,8 +126,9 @@ class TrainScene(OfMeshes):
         for (first, part), joint in zip(self._numbered, (*self.joints, None)):
             twist = 0.0 if joint is None or joint.stiffness is None else part.output_torque / joint.stiffness
             if (carrier := part.shafts.carrier) is not None:
-                frequency = part.meshes[0].scene.motion.mesh_frequency / part.recorded_cycles
-                found.append(Link(carrier.stage, first, 1.0 / part.ratio, frequency, twist, True))
+                cycles = part.recorded_cycles
+                frequency = part.meshes[0].scene.motion.mesh_frequency / cycles
+                found.append(Link(carrier.stage, first, 1.0 / part.ratio, frequency, twist, True, cycles))
                 continue
             last = len(part.meshes) - 1
             for number, mesh in enumerate(part.meshes):
@@ -147,15 +149,13 @@ class TrainScene(OfMeshes):
     @property
     def ratio(self) -> float:
         """Turns of the first shaft in one turn of the last; of a planetary set of its input and its output."""
-        if self.joined:
-            return prod(part.ratio for part in self.joined)
         carrier = self.shafts.carrier
         return 1.0 / self.turns_of_last if carrier is None else abs(float(carrier.set.ratio))
 
     @property
     def turns_of_last(self) -> float:
         """Turns of the last shaft in one turn of the first."""
-        return self.turns[-1]
+        return prod(1.0 / part.ratio for part in self.joined) if self.joined else self.turns[-1]
 
     @cached_property
     def turns(self) -> list[float]:
