@@ -103,17 +103,17 @@ class TrainScene(OfMeshes):
         """Numbers of its meshes, those together that are computed together."""
         if not self.joined:
             return rows_of(self.meshes, self.shafts.moving)
-        return [[first + each for each in row] for first, part in self._numbered for row in part.rows]
+        return [[first + each for each in row] for first, part in self.numbered for row in part.rows]
 
     @property
     def alone(self) -> list[int]:
         """Numbers of the meshes that are pairs by themselves."""
         if self.joined:
-            return [first + each for first, part in self._numbered for each in part.alone]
+            return [first + each for first, part in self.numbered for each in part.alone]
         return [row[0] for row in self.rows if len(row) == 1 and not self.shafts.moving]
 
     @property
-    def _numbered(self) -> list[tuple[int, TrainScene]]:
+    def numbered(self) -> list[tuple[int, TrainScene]]:
         """Its parts, and the number of the first mesh of each."""
         counts = [len(part.meshes) for part in self.parts]
         return [(sum(counts[:place]), part) for place, part in enumerate(self.parts)]
@@ -123,7 +123,7 @@ class TrainScene(OfMeshes):
         """What hands on rotation one after the other: meshes, and planetary sets as a whole; not of stages that move
         together otherwise."""
         found = []
-        for (first, part), joint in zip(self._numbered, (*self.joints, None)):
+        for (first, part), joint in zip(self.numbered, (*self.joints, None)):
             twist = 0.0 if joint is None or joint.stiffness is None else part.output_torque / joint.stiffness
             if (carrier := part.shafts.carrier) is not None:
                 cycles = part.recorded_cycles
