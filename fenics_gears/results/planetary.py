@@ -34,7 +34,6 @@ NUMBERS_OF_SETS = {
     f"peak_to_peak_{OVERALL}": ("rad", "lag of the output behind the input, peak to peak"),
     "efficiency": ("1", "power out over power in"),
     "basic_efficiency": ("1", "efficiency with the carrier at rest"),
-    "friction_loss": ("1", "part of the power in that friction takes"),
     "floating": ("", "members whose centre nothing holds but their meshes"),
 }
 

@@ -34,15 +34,16 @@ def side_by_side(sets: Sequence[tuple[str, ResultOfShafts]]) -> ResultOfShafts:
         steps = max(len(values) for _, values, _ in of_each)
         values = np.concatenate([_longer(each, steps) for _, each, _ in of_each], axis=1)
         variables[LAG_OF_SET if known == OVERALL else known] = ((STEP, *dims[1:]), values, labels)
-    for known in dict.fromkeys(each for _, own in sets for each in own.numbers):
+    # Of a set the loss is what its efficiency leaves; over meshes it has the name.
+    for known in dict.fromkeys(each for _, own in sets for each in own.numbers if each in NUMBERS_OF_SETS):
         units, words = NUMBERS_OF_SETS[known]
         values = [own.numbers.get(known, np.nan if units else "") for _, own in sets]
         labels = {"units": units, "long_name": words} if units else {"long_name": words}
         variables[known] = (SET, np.array(values, float if units else object), labels)
     coordinates = sets[0][1].coordinates | {SET: (SET, names, {"long_name": "planetary set"})}
     for dimension, word in ((PLANET, f"{PLANET} "), (MEMBER, "")):
-        labels = [f"{name}.{word}{each}" for name, own in sets for each in own.coordinates[dimension][1]]
-        coordinates[dimension] = (dimension, labels, {"long_name": f"{dimension} of a planetary set"})
+        members = [f"{name}.{word}{each}" for name, own in sets for each in own.coordinates[dimension][1]]
+        coordinates[dimension] = (dimension, members, {"long_name": f"{dimension} of a planetary set"})
     return ResultOfShafts(variables, coordinates, {name: float(np.max(variables[name][1])) for name in LARGEST_OF_SETS})
 
 
@@ -74,15 +75,17 @@ def set_runs(found: xr.Dataset) -> list[xr.Dataset]:
 def set_run(found: xr.Dataset, name: str) -> xr.Dataset:
     """A planetary set of a train, by its name, as the result of the set alone."""
     places: dict[str, Any] = {
-        dimension: [place for place, each in enumerate(found[dimension].values) if str(each).startswith(f"{name}{sign}")]
+        dimension: [at for at, each in enumerate(found[dimension].values) if str(each).startswith(f"{name}{sign}")]
         for dimension, sign in ((PLANET, "."), (MEMBER, "."), (MESH, ":"))
     }
-    number = [str(each) for each in found[SET].values].index(name)
-    steps = int(np.isfinite(found[LAG_OF_SET].isel({SET: number})).sum())
-    own = found.isel({**places, SET: number, STEP: slice(steps)}).drop_dims("time").drop_vars([SET, OVERALL], errors="ignore")
+    places[SET] = [str(each) for each in found[SET].values].index(name)
+    steps = int(np.isfinite(found[LAG_OF_SET].isel({SET: places[SET]})).sum())
+    own = found.isel({**places, STEP: slice(steps)}).drop_dims("time").drop_vars(SET)
     variables = dict(_as_alone(found, own))
     attributes = {each: variables.pop(each).item() for each in _numbers(found)}
     attributes = {each: value for each, value in attributes.items() if value and value == value}
+    if "efficiency" in attributes:
+        attributes["friction_loss"] = 1.0 - attributes["efficiency"]
     coordinates = {PLANET: np.arange(1, own.sizes[PLANET] + 1), MEMBER: list(MEMBERS)}
     return xr.Dataset(variables, attrs=attributes).assign_coords(coordinates)
 

@@ -13,7 +13,7 @@ import xarray as xr
 import fenics_gears
 from fenics_gears.model.train import RowModel, TrainModel
 from fenics_gears.numbers_version import NUMBERS_VERSION
-from fenics_gears.scene.train import Link
+from fenics_gears.scene.train_scene import Link
 
 from .attributes import RESULT_ATTRIBUTES
 from .carried_scene import files_of

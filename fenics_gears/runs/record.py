@@ -88,7 +88,24 @@ def _of_train(run: xr.Dataset | StoredResult) -> RunRecord:
 def train_numbers_of(run: xr.Dataset | StoredResult) -> dict[str, float]:
     """The numbers of a train's complete run, of the whole."""
     said = ChainMap({"newton_iterations": run.attrs["newton_iterations_total"]}, run.attrs)
-    return {name: float(said[name]) for name in (*OF_TRAINS, *(name for name in (*OF_LOSS, *LARGEST_OF_SETS) if name in said))}
+    return {
+        name: float(said[name])
+        for name in (*OF_TRAINS, *(name for name in (*OF_LOSS, *LARGEST_OF_SETS) if name in said))
+    }
+
+
+def numbers_of(run: RunResult | xr.Dataset | StoredResult) -> dict[str, float]:
+    """The numbers of a complete run; the wall time is the attribute `wall_time`, s."""
+    said = ChainMap(
+        {
+            "max_normal_force": largest_normal_force(run, settled_steps(run)),
+            "newton_iterations": run.attrs["newton_iterations_total"],
+        },
+        run.attrs,
+    )
+    names = (*NUMBERS, *(name for name in STUDIED if name in said))
+    further = [name for name in (*OF_LOSS, *LARGEST_OF_SETS) if name in said]
+    return {name: float(said[name]) for name in (*OF_TRAINS, *further)}
 
 
 def numbers_of(run: RunResult | xr.Dataset | StoredResult) -> dict[str, float]:

@@ -10,16 +10,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from fractions import Fraction
-from functools import cached_property
+from dataclasses import replace
 from math import pi, prod
 from pathlib import Path
 from typing import Any
 
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.gear_train import Layout
-from fenics_gears.geometry.train_graph import turns_of_shafts
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem, line_numbers, listed
 
 from .data import Load, Motion
@@ -27,140 +23,18 @@ from .parsing import is_train, name_of, parsed, text_of
 from .planetary import planetary_parts, seen_by_carrier
 from .planetary_rules import has_planets
 from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
-from .train_joints import Ends, Joint, JoinedText, in_series
+from .train_joints import Ends, JoinedText, in_series
 from .train_layout import check_layout
 from .train_loads import TrainLoad
-from .train_mesh import MeshOfScene, OfMeshes, gear_names, layout_of, rows_of
+from .train_mesh import MeshOfScene, gear_names, layout_of
 from .train_pair import MistakesOfStage, TrainMistakes
 from .train_rules import TrainSections, checked_train
-from .train_shafts import TrainShafts, located_shafts
+from .train_scene import TrainScene, exact_turns, turns_of
+from .train_shafts import located_shafts
 from .train_stages import meshes_of_stages
 from .train_torques import even_torques, torques_of_shafts
 
 Part = tuple[list[MeshOfScene], TrainSections]
-
-
-@dataclass(frozen=True)
-class Link:
-    """A mesh of a train, or a planetary set (`of_set`): its name, the number of its first `mesh`, the `turns` of its
-    output in one of its input, how often in a second its lag repeats (`frequency`, Hz), and in how many mesh `cycles`.
-    `twist`: of a shaft behind it, rad."""
-
-    name: str
-    mesh: int
-    turns: float
-    frequency: float
-    twist: float = 0.0
-    of_set: bool = False
-    cycles: int = 1
-
-
-@dataclass(frozen=True)
-class TrainScene(OfMeshes):
-    """A train of gears: its meshes from the driven shaft on, torques (N mm) on the first and the last shaft, of a
-    planetary set on its input and its output, what its shafts are, and the text that it was read from.
-    `recorded_cycles`: of the slowest mesh, whose steps numbers are taken from where stages move together.
-
-    A planetary set beside other stages is `joined` with them, in the order of the power: each part is a train by
-    itself, of which the next one's input is on one shaft with the output, by `joints`. Layout, shafts and loads are
-    those of each part then."""
-
-    title: str
-    name: str
-    meshes: tuple[MeshOfScene, ...]
-    input_torque: float
-    output_torque: float
-    speed_given: bool
-    text: str
-    shafts: TrainShafts = TrainShafts()
-    recorded_cycles: int = 1
-    joined: tuple[TrainScene, ...] = ()
-    joints: tuple[Joint, ...] = ()
-
-    @property
-    def parts(self) -> tuple[TrainScene, ...]:
-        """The trains in series that it is made of; itself, where no set stands beside other stages."""
-        return self.joined or (self,)
-
-    @property
-    def loads(self) -> list[float]:
-        """Torque (N mm) that resists the rotation of each shaft from outside, 0 where there is none."""
-        found = [0.0] * self.graph.last + [self.output_torque]
-        for each in self.shafts.loads:
-            found[each.shaft] = each.torque
-        return found
-
-    @property
-    def path_of_output_torque(self) -> tuple[str, ...]:
-        """The field of the scene that gives the torque of the last shaft."""
-        entries = [each.shaft for each in self.shafts.loads]
-        if self.graph.last not in entries:
-            return "load", "output_torque"
-        return "load", "torques", str(entries.index(self.graph.last) + 1), "torque"
-
-    @property
-    def rows(self) -> list[list[int]]:
-        """Numbers of its meshes, those together that are computed together."""
-        if not self.joined:
-            return rows_of(self.meshes, self.shafts.moving)
-        return [[first + each for each in row] for first, part in self.numbered for row in part.rows]
-
-    @property
-    def alone(self) -> list[int]:
-        """Numbers of the meshes that are pairs by themselves."""
-        if self.joined:
-            return [first + each for first, part in self.numbered for each in part.alone]
-        return [row[0] for row in self.rows if len(row) == 1 and not self.shafts.moving]
-
-    @property
-    def numbered(self) -> list[tuple[int, TrainScene]]:
-        """Its parts, and the number of the first mesh of each."""
-        counts = [len(part.meshes) for part in self.parts]
-        return [(sum(counts[:place]), part) for place, part in enumerate(self.parts)]
-
-    @property
-    def links(self) -> list[Link]:
-        """What hands on rotation one after the other: meshes, and planetary sets as a whole; not of stages that move
-        together otherwise."""
-        found = []
-        for (first, part), joint in zip(self.numbered, (*self.joints, None)):
-            twist = 0.0 if joint is None or joint.stiffness is None else part.output_torque / joint.stiffness
-            if (carrier := part.shafts.carrier) is not None:
-                cycles = part.recorded_cycles
-                frequency = part.meshes[0].scene.motion.mesh_frequency / cycles
-                found.append(Link(carrier.stage, first, 1.0 / part.ratio, frequency, twist, True, cycles))
-                continue
-            last = len(part.meshes) - 1
-            for number, mesh in enumerate(part.meshes):
-                own = abs(mesh.pair.rotation_ratio), mesh.scene.motion.mesh_frequency
-                found.append(Link(mesh.name, first + number, *own, twist if number == last else 0.0))
-        return found
-
-    @property
-    def input_speed(self) -> float:
-        """Turns of the first shaft in a second."""
-        if self.joined:
-            return self.joined[0].input_speed
-        first = self.meshes[self.graph.out_of(0)[0]]
-        own = first.scene.motion.mesh_frequency / first.pair.pinion.teeth
-        carrier = self.shafts.carrier
-        return own if carrier is None else own / abs(float(carrier.set.sun_by_carrier))
-
-    @property
-    def ratio(self) -> float:
-        """Turns of the first shaft in one turn of the last; of a planetary set of its input and its output."""
-        carrier = self.shafts.carrier
-        return 1.0 / self.turns_of_last if carrier is None else abs(float(carrier.set.ratio))
-
-    @property
-    def turns_of_last(self) -> float:
-        """Turns of the last shaft in one turn of the first."""
-        return prod(1.0 / part.ratio for part in self.joined) if self.joined else self.turns[-1]
-
-    @cached_property
-    def turns(self) -> list[float]:
-        """Turns of each shaft in one turn of the first, in either sense."""
-        return turns_of(self.layout)
 
 
 def load_train(path: str | os.PathLike) -> TrainScene:
@@ -194,15 +68,6 @@ def train_from_text(
     if not is_train(tree):
         raise SceneError(f"{source}: has no [stages.NAME]: it is the scene of a pair, or none. {NOTHING_DONE}")
     return train_of(tree, text, name, source, directory)
-
-
-def turns_of(layout: Layout) -> list[float]:
-    """Turns of each shaft in one turn of the first, in either sense."""
-    return list(map(float, exact_turns(layout)))
-
-
-def exact_turns(layout: Layout) -> list[Fraction]:
-    return turns_of_shafts(layout.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in layout.pairs])
 
 
 def train_of(tree: Mapping[str, Any], text: str, name: str, source: str, folder: Path) -> TrainScene:
@@ -242,7 +107,9 @@ def _in_series(tree: Mapping[str, Any], text: str, name: str, source: str, folde
             found.append(_part(each, source, folder))
         except MistakesOfStage as error:
             problems += error.problems
-    problems += [_together(meshes) for meshes, sections in found if not sections.shafts.carrier and sections.shafts.moving]
+    problems += [
+        _together(meshes) for meshes, sections in found if not sections.shafts.carrier and sections.shafts.moving
+    ]
     if problems:
         raise MistakesOfStage(problems)
     order, joints = in_series(whole, [_ends(*part) for part in found])
@@ -267,7 +134,8 @@ def _in_series(tree: Mapping[str, Any], text: str, name: str, source: str, folde
 def _together(meshes: Sequence[MeshOfScene]) -> Problem:
     said = (
         "has stages that move together or share the power, which is not computed beside planetary sets yet. Allowed:"
-        " stages one after the other on rigid shafts, without inertia and bearings; shafts that twist join them to sets."
+        " stages one after the other on rigid shafts, without inertia and bearings; a shaft that twists may join them"
+        " to a set."
     )
     return Problem(("stages", meshes[0].name.split(":")[0]), "", said)
 

@@ -173,7 +173,8 @@ def in_series(whole: JoinedText, ends: Sequence[Ends]) -> tuple[list[int], list[
         behind[before] = after, joint
     for before in range(len(ends) - 1):
         after = before + 1
-        if before not in behind and after not in [number for number, _ in behind.values()]:
+        driven = [number for number, _ in behind.values()]
+        if len(behind) < len(ends) - 1 and before not in behind and after not in driven:
             behind[before] = after, Joint((*ends[before].output, *ends[after].input))
     driven = [number for number, _ in behind.values()]
     order = [number for number in range(len(ends)) if number not in driven]

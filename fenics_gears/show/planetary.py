@@ -94,7 +94,8 @@ def _shares(name: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
         ("planet_load_share_ring", "ring", "load_sharing_factor_ring"),
     ):
         curves = _of_planets(scene, phase, np.asarray(dataset[name])[last])
-        caption = f"{name}Forces between {words} and planets over their mean: largest {dataset.attrs[factor]:.5g} (K_gamma)"
+        largest = f"largest {dataset.attrs[factor]:.5g} (K_gamma)"
+        caption = f"{name}Forces between {words} and planets over their mean: {largest}"
         charts.append(Chart(caption, curves, axis, "Load share", least=LEAST_SHARE, height=300))
     forces = KILO * np.linalg.norm(np.asarray(dataset["pin_force"])[last], axis=-1)
     caption = f"{name}Forces of the planets on their pins: largest {KILO * dataset.attrs['largest_pin_force']:.5g} kN"

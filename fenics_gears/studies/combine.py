@@ -13,8 +13,8 @@ from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.files import read, save
 from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.path_shares import OF_SHARES
-from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.results.planetary import LARGEST_OF_SETS
+from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.runs.record import CURVES, NUMBERS, OF_TRAINS, RunRecord
 from fenics_gears.system.output import write_whole
 
