@@ -157,11 +157,6 @@ def _efficiencies(carrier: Carrier, torques: np.ndarray) -> dict[str, float]:
     return {"efficiency": whole, "basic_efficiency": abs(basic), "friction_loss": 1.0 - whole}
 
 
-def has_set(found: xr.Dataset) -> bool:
-    """Whether the result of a train is that of a planetary set."""
-    return PLANET in found.dims
-
-
 def set_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
     """What is printed of a set: rows of label, value and unit; of both kinds of meshes the largest of all planets."""
     attrs = found.attrs

@@ -20,7 +20,7 @@ from .carried_scene import files_of
 from .dataset import RunResult
 from .layout import OF_OUTPUTS, OVERALL, in_microradians
 from .path_shares import path_shares
-from .planetary import has_set, set_rows
+from .planetary import PLANET, set_rows
 from .sets_in_train import MESH, SET, set_runs, side_by_side
 from .train_outputs import lag_of_output, of_outputs
 
@@ -298,7 +298,7 @@ def _of_rows(model: TrainModel) -> list[str]:
 def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
     """What is printed of a train or a planetary set: rows of label, value and unit."""
     if SET not in found.dims:
-        return set_rows(found) if has_set(found) else _rows_of_meshes(found)
+        return set_rows(found) if PLANET in found.dims else _rows_of_meshes(found)
     meshes = [str(each) for each in found[MESH].values]
     of_sets = {str(name): own for name, own in zip(found[SET].values, set_runs(found))}
     others = [place for place, mesh in enumerate(meshes) if mesh.split(":")[0] not in of_sets]

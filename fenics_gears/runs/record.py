@@ -104,20 +104,6 @@ def numbers_of(run: RunResult | xr.Dataset | StoredResult) -> dict[str, float]:
         run.attrs,
     )
     names = (*NUMBERS, *(name for name in STUDIED if name in said))
-    further = [name for name in (*OF_LOSS, *LARGEST_OF_SETS) if name in said]
-    return {name: float(said[name]) for name in (*OF_TRAINS, *further)}
-
-
-def numbers_of(run: RunResult | xr.Dataset | StoredResult) -> dict[str, float]:
-    """The numbers of a complete run; the wall time is the attribute `wall_time`, s."""
-    said = ChainMap(
-        {
-            "max_normal_force": largest_normal_force(run, settled_steps(run)),
-            "newton_iterations": run.attrs["newton_iterations_total"],
-        },
-        run.attrs,
-    )
-    names = (*NUMBERS, *(name for name in STUDIED if name in said))
     return {name: float(said[name]) for name in names}
 
 

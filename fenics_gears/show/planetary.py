@@ -82,10 +82,10 @@ def _closed(name: str, points: np.ndarray, fill: str, listed: bool = True) -> Cu
 
 def shares(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     """Load share and pin force of each planet over the run's last mesh cycle; nothing of other trains."""
-    return [chart for of_set in sets_of(scene, dataset) for chart in _shares(*of_set)]
+    return [chart for own in sets_of(scene, dataset) for chart in _shares(*own)]
 
 
-def _shares(name: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
+def _shares(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     phase, last = _last_cycle(dataset)
     axis = "Time (mesh cycles)"
     charts = []
@@ -95,10 +95,10 @@ def _shares(name: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     ):
         curves = _of_planets(scene, phase, np.asarray(dataset[name])[last])
         largest = f"largest {dataset.attrs[factor]:.5g} (K_gamma)"
-        caption = f"{name}Forces between {words} and planets over their mean: {largest}"
+        caption = f"{of_set}Forces between {words} and planets over their mean: {largest}"
         charts.append(Chart(caption, curves, axis, "Load share", least=LEAST_SHARE, height=300))
     forces = KILO * np.linalg.norm(np.asarray(dataset["pin_force"])[last], axis=-1)
-    caption = f"{name}Forces of the planets on their pins: largest {KILO * dataset.attrs['largest_pin_force']:.5g} kN"
+    caption = f"{of_set}Forces of the planets on their pins: largest {KILO * dataset.attrs['largest_pin_force']:.5g} kN"
     least = LEAST_SHARE * float(forces.max())
     charts.append(Chart(caption, _of_planets(scene, phase, forces), axis, "Pin force (kN)", least=least, height=300))
     return charts
@@ -121,10 +121,10 @@ def _last_cycle(dataset: xr.Dataset) -> tuple[np.ndarray, slice]:
 
 def orbits(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     """The paths of the centres of floating members over a mesh cycle; nothing where none floats."""
-    return [chart for of_set in sets_of(scene, dataset) for chart in _orbits(*of_set)]
+    return [chart for own in sets_of(scene, dataset) for chart in _orbits(*own)]
 
 
-def _orbits(name: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
+def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     _, last = _last_cycle(dataset)
     charts = []
     for number, member in enumerate(carrier_of(scene).floating):
@@ -135,7 +135,7 @@ def _orbits(name: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
             Curve(f"centre of the {member}", x, y, colour),
             Curve("as the cycle begins", x[:1], y[:1], colour, mode=MARKERS),
         ]
-        caption = f"{name}Orbit of the {member} over a mesh cycle, {np.hypot(x, y).max():.4g} µm at most from its place"
+        caption = f"{of_set}Orbit of the {member} over a mesh cycle, {np.hypot(x, y).max():.4g} µm at most from its place"
         charts.append(Chart(caption, curves, "x (µm)", "y (µm)", height=460, equal=True))
     return charts
 
