@@ -256,6 +256,12 @@ class TrainModel:
         return [model for row in self.rows for model in row.models]
 
     @property
+    def parts(self) -> list[TrainModel]:
+        """The parts of its scene, in series."""
+        rows = iter(self.rows)
+        return [TrainModel(part, tuple(next(rows) for _ in part.rows)) for part in self.scene.parts]
+
+    @property
     def bare(self) -> TrainModel:
         """The same without what its models have computed of themselves."""
         rows = (replace(row, models=tuple(each.bare for each in row.models)) for row in self.rows)
@@ -270,14 +276,15 @@ class TrainModel:
 
 def train_model_of(scene: TrainScene) -> TrainModel:
     """The model of a train. Raises SceneError for what trains do not have yet, and as `model_of` of each mesh."""
-    rows = []
-    for numbers in rows_of(scene.meshes, scene.shafts.moving):
-        meshes = tuple(scene.meshes[number] for number in numbers)
-        if len(meshes) == 1 and not scene.shafts.moving:
-            rows.append(RowModel(meshes, (model_of(meshes[0].scene),)))
-        else:
-            rows.append(together(meshes, scene.shafts, scene.recorded_cycles))
-    return TrainModel(scene, tuple(rows))
+    return TrainModel(scene, tuple(_row_of(part, numbers) for part in scene.parts for numbers in part.rows))
+
+
+def _row_of(scene: TrainScene, numbers: Sequence[int]) -> RowModel:
+    """The row of these meshes of a train."""
+    meshes = tuple(scene.meshes[number] for number in numbers)
+    if len(meshes) == 1 and not scene.shafts.moving:
+        return RowModel(meshes, (model_of(meshes[0].scene),))
+    return together(meshes, scene.shafts, scene.recorded_cycles)
 
 
 def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles: int = 1) -> RowModel:

@@ -15,8 +15,8 @@ from fenics_gears.scene.train import TrainScene, train_from_text
 from .attributes import RESULT_ATTRIBUTES
 from .carried_scene import scene_attributes
 from .layout import OF_PAIRS
+from .sets_in_train import MESH, OF_SETS
 
-MESH = "mesh"
 OF_MESH = "_of_mesh"
 COORDINATES_OF_PAIRS = (
     *COORDINATES, *CONTACT_COORDINATES, "face_position", "face_slice_width", "gear", "path_point", "slot",
@@ -51,7 +51,7 @@ def mesh_run(result: xr.Dataset, train: TrainScene, number: int) -> xr.Dataset:
     own = {
         str(name): (tuple(each for each in variable.dims if each != MESH), _of_mesh(variable, number), variable.attrs)
         for name, variable in result.variables.items()
-        if not {"time", "shaft", "bearing"} & {*variable.dims} and name != MESH
+        if not {"time", "shaft", "bearing", *OF_SETS} & {*variable.dims} and name not in (MESH, "pin_direction")
     }
     sizes = _sizes(own)
     numbers = {each.name: each for each in RESULT_ATTRIBUTES}

@@ -15,6 +15,8 @@ from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.scene.train import TrainScene
 
+from .sets_in_train import LAG_OF_SET, SET
+
 HARMONICS = 10
 
 
@@ -62,13 +64,13 @@ def cycles_of_meshes(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]
         return _fitted(result, train)
     found = []
     behind = train.turns_of_last
-    for number, mesh in enumerate(train.meshes):
-        behind /= abs(mesh.pair.rotation_ratio)
-        frequency = mesh.scene.motion.mesh_frequency
-        steps = int(result["steps_per_mesh_cycle"][number])
-        error = result["transmission_error"].isel(mesh=number).values
-        error = error[np.isfinite(error)]
-        found.append(CycleOfMesh(mesh.name, behind * error[-1 - steps : -1], frequency, frequency / train.input_speed))
+    for link in train.links:
+        behind /= link.turns
+        steps = link.cycles * int(result["steps_per_mesh_cycle"][link.mesh])
+        lags = result[LAG_OF_SET].sel({SET: link.name}) if link.of_set else result["transmission_error"][:, link.mesh]
+        error = lags.values[np.isfinite(lags.values)]
+        values = behind * error[-1 - steps : -1]
+        found.append(CycleOfMesh(link.name, values, link.frequency, link.frequency / train.input_speed))
     return found
 
 

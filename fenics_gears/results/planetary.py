@@ -22,6 +22,20 @@ MEMBER = "member"
 PLANET = "planet"
 PIN_DIRECTIONS = ("tangential", "radial")
 Curves = Mapping[str, np.ndarray]
+# Numbers of each set, of which those of a train with several are the largest; and further ones that a set may have.
+LARGEST_OF_SETS = {
+    "load_sharing_factor": ("1", "K_gamma of the sun's meshes"),
+    "load_sharing_factor_ring": ("1", "K_gamma of the ring's meshes"),
+    "largest_pin_force": ("N", "largest force of a planet on its pin"),
+}
+NUMBERS_OF_SETS = {
+    **LARGEST_OF_SETS,
+    f"mean_{OVERALL}": ("rad", "lag of the output behind the input, mean"),
+    f"peak_to_peak_{OVERALL}": ("rad", "lag of the output behind the input, peak to peak"),
+    "efficiency": ("1", "power out over power in"),
+    "basic_efficiency": ("1", "efficiency with the carrier at rest"),
+    "floating": ("", "members whose centre nothing holds but their meshes"),
+}
 
 
 def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: Sequence[Curves]) -> ResultOfShafts:
@@ -141,11 +155,6 @@ def _efficiencies(carrier: Carrier, torques: np.ndarray) -> dict[str, float]:
     whole = -on[own.output] * float(own.speeds[own.output]) / on[own.input]
     basic = on[RING] * own.teeth[0] / (on[SUN] * own.teeth[2])
     return {"efficiency": whole, "basic_efficiency": abs(basic), "friction_loss": 1.0 - whole}
-
-
-def has_set(found: xr.Dataset) -> bool:
-    """Whether the result of a train is that of a planetary set."""
-    return PLANET in found.dims
 
 
 def set_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:

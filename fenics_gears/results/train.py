@@ -13,19 +13,20 @@ import xarray as xr
 import fenics_gears
 from fenics_gears.model.train import RowModel, TrainModel
 from fenics_gears.numbers_version import NUMBERS_VERSION
+from fenics_gears.scene.train_scene import Link
 
 from .attributes import RESULT_ATTRIBUTES
 from .carried_scene import files_of
 from .dataset import RunResult
 from .layout import OF_OUTPUTS, OVERALL, in_microradians
 from .path_shares import path_shares
-from .planetary import has_set, set_rows
+from .planetary import PLANET, set_rows
+from .sets_in_train import MESH, SET, set_runs, side_by_side
 from .train_outputs import lag_of_output, of_outputs
 
 if TYPE_CHECKING:
     from .train_shafts import ResultOfShafts
 
-MESH = "mesh"
 # Each mesh has its own steps, in place of the times of a pair.
 STEPS = {"time": "step", "contact_time": "contact_step"}
 # Of a mesh of a row by itself they would leave out what it does through the bodies of its neighbours.
@@ -52,11 +53,13 @@ class MeshResult:
     seconds: tuple[float, float] = (0.0, 0.0)
     shafts: ResultOfShafts | None = None
 
-    @property
-    def cycle(self) -> np.ndarray:
-        """Transmission error (rad) at the steps of its last mesh cycle."""
-        steps = int(self.numbers["steps_per_mesh_cycle"])
-        return np.asarray(self.variables["transmission_error"][1])[-1 - steps : -1]
+    def lag(self, link: Link) -> np.ndarray:
+        """Transmission error (rad) at the steps of its last mesh cycle, or that of its set until it repeats."""
+        steps = link.cycles * int(self.numbers["steps_per_mesh_cycle"])
+        known = self.variables["transmission_error"]
+        if link.of_set and self.shafts is not None:
+            known = self.shafts.variables[OVERALL]
+        return np.asarray(known[1])[-1 - steps : -1]
 
 
 def mesh_result(name: str, result: RunResult) -> MeshResult:
@@ -88,22 +91,31 @@ def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
         {"units": "rad", "long_name": "lag of the last shaft behind the nominal motion of the first"},
     )
     variables |= _frequencies(model)
-    variables |= of_outputs(model, meshes)
     variables |= _numbers_of_meshes([each.numbers for each in meshes])
-    variables |= path_shares(model, meshes)
+    if not model.scene.joined:
+        variables |= of_outputs(model, meshes)
+        variables |= path_shares(model, meshes)
     most = {name: max((each for each in meshes), key=lambda each: _size(each, name)) for name in SHARED}
     coordinates = {name: widest.variables[name] for name, widest in most.items() if name in widest.variables}
     coordinates |= {
         "time": ("time", times, {"units": "s", "long_name": "time"}),
         MESH: (MESH, [each.name for each in meshes], {"long_name": "mesh"}),
     }
-    shafts = meshes[0].shafts
+    shafts = _of_shafts(model, meshes)
     if shafts is not None:
         variables |= shafts.variables
         coordinates |= shafts.coordinates
     found = xr.Dataset(variables, coords=coordinates)
     found.attrs = _attributes(model, meshes, overall) | ({} if shafts is None else shafts.numbers)
     return found
+
+
+def _of_shafts(model: TrainModel, meshes: Sequence[MeshResult]) -> ResultOfShafts | None:
+    """What the shafts that bend say, or the planetary sets."""
+    if not model.scene.joined:
+        return meshes[0].shafts
+    firsts = [(link.name, meshes[link.mesh].shafts) for link in model.scene.links if link.of_set]
+    return side_by_side([(name, shafts) for name, shafts in firsts if shafts is not None])
 
 
 def _frequencies(model: TrainModel) -> dict[str, tuple]:
@@ -126,12 +138,13 @@ def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.n
     if model.scene.shafts.moving:
         last = model.scene.graph.last
         return np.asarray(meshes[0].variables["time"][1]), lag_of_output(model, meshes, last)
-    frequencies = [own.scene.motion.mesh_frequency for own in model.models]
-    steps = [frequency * each.numbers["steps_per_mesh_cycle"] for frequency, each in zip(frequencies, meshes)]
-    cycles = model.models[0].scene.motion.mesh_cycles
+    links = model.scene.links
+    curves = [meshes[link.mesh].lag(link) for link in links]
+    steps = [link.frequency * len(curve) for link, curve in zip(links, curves)]
+    cycles = 1 if model.scene.joined else model.models[0].scene.motion.mesh_cycles
     # Of a whole number round-off makes no step more.
-    times = np.arange(int(np.ceil(cycles * max(steps) / min(frequencies) - 1e-9)) + 1) / max(steps)
-    cycles_of = [(times * frequency, each.cycle) for frequency, each in zip(frequencies, meshes)]
+    times = np.arange(int(np.ceil(cycles * max(steps) / min(link.frequency for link in links) - 1e-9)) + 1) / max(steps)
+    cycles_of = [(times * link.frequency, curve) for link, curve in zip(links, curves)]
     lags = (
         np.interp(phase * len(curve), np.arange(len(curve)), curve, period=len(curve)) for phase, curve in cycles_of
     )
@@ -139,10 +152,11 @@ def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.n
 
 
 def of_last_shaft(model: TrainModel, lags: Iterable[Any]) -> Any:
-    """Lag (rad) of the last shaft, of what the wheel of each mesh lags: each through the ratios behind it."""
+    """Lag (rad) of the last shaft, of what the output of each link lags: each through the ratios behind it, and the
+    shafts between parts that twist."""
     whole: Any = 0.0
-    for own, lag in zip(model.models, lags):
-        whole = whole * abs(own.pair.rotation_ratio) + lag
+    for link, lag in zip(model.scene.links, lags):
+        whole = whole * link.turns + lag + link.twist
     return whole
 
 
@@ -224,11 +238,15 @@ def _numbers_of_meshes(numbers: Sequence[Mapping[str, Any]]) -> dict[str, tuple]
 def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.ndarray) -> dict[str, Any]:
     scene = model.scene
     said = [f"{each.name}: {warning}" for each in meshes for warning in each.warnings]
+    numbers = [_numbers_of(link, meshes) for link in scene.links] if scene.joined else [each.numbers for each in meshes]
     left = 1.0
-    for each in meshes:
-        left *= 1.0 - each.numbers.get("friction_loss", 0.0)
+    for each in numbers:
+        left *= 1.0 - each.get("friction_loss", 0.0)
     losses = {"friction_loss": 1.0 - left} if left != 1.0 else {}
-    mean = of_last_shaft(model, (each.numbers["mean_transmission_error"] for each in meshes))
+    if losses and scene.joined:
+        losses["efficiency"] = left
+    name = "mean_transmission_error"
+    mean = of_last_shaft(model, (each.get(f"mean_{OVERALL}", each.get(name)) for each in numbers))
     if scene.shafts.moving:
         # Shafts twist too.
         overall = overall[-1 - model.rows[0].recorded :]
@@ -249,6 +267,12 @@ def _attributes(model: TrainModel, meshes: Sequence[MeshResult], overall: np.nda
         "time_numbers": sum(each.seconds[1] for each in meshes),
         **losses,
     }
+
+
+def _numbers_of(link: Link, meshes: Sequence[MeshResult]) -> Mapping[str, Any]:
+    """Numbers of a mesh, or of a set as a whole."""
+    shafts = meshes[link.mesh].shafts
+    return shafts.numbers if shafts is not None and link.of_set else meshes[link.mesh].numbers
 
 
 def _folder(model: TrainModel) -> dict[str, str]:
@@ -273,7 +297,13 @@ def _of_rows(model: TrainModel) -> list[str]:
 
 def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
     """What is printed of a train or a planetary set: rows of label, value and unit."""
-    return set_rows(found) if has_set(found) else _rows_of_meshes(found)
+    if SET not in found.dims:
+        return set_rows(found) if PLANET in found.dims else _rows_of_meshes(found)
+    meshes = [str(each) for each in found[MESH].values]
+    of_sets = {str(name): own for name, own in zip(found[SET].values, set_runs(found))}
+    others = [place for place, mesh in enumerate(meshes) if mesh.split(":")[0] not in of_sets]
+    rows = _rows_of_meshes(found.isel({MESH: others}))
+    return rows + [(f"{name}: {row[0]}", *row[1:]) for name, own in of_sets.items() for row in set_rows(own)]
 
 
 def _rows_of_meshes(found: xr.Dataset) -> list[tuple[str, str, str]]:

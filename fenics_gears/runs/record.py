@@ -12,6 +12,7 @@ from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.layout import OVERALL
 from fenics_gears.results.pairs import shown_steps
 from fenics_gears.results.path_shares import OF_SHARES
+from fenics_gears.results.planetary import LARGEST_OF_SETS
 from fenics_gears.results.settled import settled_steps
 from fenics_gears.results.stored import StoredResult
 
@@ -35,12 +36,6 @@ OF_TRAINS = {
 }
 # Of trains with friction.
 OF_LOSS = ("friction_loss",)
-# Of planetary sets.
-OF_SETS = {
-    "load_sharing_factor": ("1", "K_gamma of the sun's meshes"),
-    "load_sharing_factor_ring": ("1", "K_gamma of the ring's meshes"),
-    "largest_pin_force": ("N", "largest force of a planet on its pin"),
-}
 # Curves of the last cycles, taken where a run has them.
 CURVES = (
     "transmission_error", "centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "shaft_end_rotation",
@@ -93,7 +88,10 @@ def _of_train(run: xr.Dataset | StoredResult) -> RunRecord:
 def train_numbers_of(run: xr.Dataset | StoredResult) -> dict[str, float]:
     """The numbers of a train's complete run, of the whole."""
     said = ChainMap({"newton_iterations": run.attrs["newton_iterations_total"]}, run.attrs)
-    return {name: float(said[name]) for name in (*OF_TRAINS, *(name for name in (*OF_LOSS, *OF_SETS) if name in said))}
+    return {
+        name: float(said[name])
+        for name in (*OF_TRAINS, *(name for name in (*OF_LOSS, *LARGEST_OF_SETS) if name in said))
+    }
 
 
 def numbers_of(run: RunResult | xr.Dataset | StoredResult) -> dict[str, float]:

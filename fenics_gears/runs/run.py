@@ -86,6 +86,8 @@ def scene_key(scene: Scene | TrainScene) -> str:
 def _train_key(train: TrainScene) -> str:
     """That of the scene of each mesh, and all else that the train says but for words."""
     said = {each.name: getattr(train, each.name) for each in fields(train) if each.name not in (*WORDS, *OF_A_TRAIN)}
+    if train.joined:
+        said |= {"parts": [*map(_train_key, train.joined)], "joints": [each.stiffness for each in train.joints]}
     meshes = [
         (scene_key(mesh.scene), {each.name: getattr(mesh, each.name) for each in fields(mesh) if each.name not in READ})
         for mesh in train.meshes
@@ -94,6 +96,6 @@ def _train_key(train: TrainScene) -> str:
 
 
 # Of a train, what is said mesh by mesh, and of a mesh, what its scene says.
-OF_A_TRAIN = ("meshes", "text")
+OF_A_TRAIN = ("meshes", "text", "joined", "joints")
 READ = ("scene", "pair")
 _SAID = sorted({each.name for each in fields(Scene)} - {*WORDS})

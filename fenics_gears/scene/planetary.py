@@ -34,7 +34,7 @@ Tree = Mapping[str, Any]
 
 
 def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfScene], TrainSections]:
-    """The meshes of a parsed set in the frame of its carrier, and its load and motion there. Raises MistakesOfStage,
+    """The meshes of a parsed set in the frame of its carrier, and its load and motion. Raises MistakesOfStage,
     SceneError and GeometryError for what is wrong."""
     problems = list(wrong_sections(tree))
     found, wrong = load_and_motion(tree)
@@ -54,8 +54,8 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
     _check_clear(own_set, pairs, place)
     for scene, mesh in zip(scenes, MESHES):
         check_together(scene, f"{place}.{mesh}")
-    carrier = _carrier(stage, text, own_set, load, motion)
-    _check_motion(carrier, load, scenes[0].friction is not None, place)
+    carrier = _carrier(stage, text, own_set)
+    _check_motion(own_set, load, motion, scenes[0].friction is not None, place)
     shafts = TrainShafts(
         tuple((gear,) for gear in carrier.gears),
         (None,) * len(carrier.gears),
@@ -63,7 +63,7 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
         moving=True,
         carrier=carrier,
     )
-    return _meshes(carrier, scenes, pairs), TrainSections(*_in_its_frame(carrier, load, motion), shafts)
+    return _meshes(carrier, scenes, pairs), TrainSections(load, motion, shafts)
 
 
 def _of_meshes(stage: str) -> tuple[OfSet, OfSet]:
@@ -158,8 +158,8 @@ def _check_clear(own: PlanetarySet, pairs: Sequence[GearPair], place: str) -> No
             )
 
 
-def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet, load: TrainLoad, motion: TrainMotion) -> Carrier:
-    """The carrier, with speed and torque of the input."""
+def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet) -> Carrier:
+    """The carrier, without speed and torque."""
     pins = text.carrier
     errors: tuple[tuple[float, float], ...] = ()
     if pins is not None and (pins.pin_errors or pins.radial_pin_errors):
@@ -167,24 +167,15 @@ def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet, load: TrainLoad
         both = zip(pins.pin_errors or none, pins.radial_pin_errors or none)
         errors = tuple((float(tangential), float(radial)) for tangential, radial in both)
     stiffness = None if pins is None else pins.pin_stiffness
-    if load.input_torque is not None:
-        torque = load.input_torque
-    elif load.output_torque is not None:
-        torque = load.output_torque * abs(own.weights[own.input] / own.weights[own.output])
-    else:
-        torque = (load.power or 0.0) / (motion.input_speed or 1.0)
-    carrier = Carrier(
-        stage, own, stiffness, errors, tuple(text.floating or ()),
-        speed=motion.input_speed, torque=torque, vibration=text.vibration,
-    )  # fmt: skip
+    carrier = Carrier(stage, own, stiffness, errors, tuple(text.floating or ()), vibration=text.vibration)
     return replace(carrier, run_outs=run_outs_of(text.eccentricity, carrier.sun, carrier.planets, carrier.ring))
 
 
-def _check_motion(carrier: Carrier, load: TrainLoad, friction: bool, place: str) -> None:
+def _check_motion(own: PlanetarySet, load: TrainLoad, motion: TrainMotion, friction: bool, place: str) -> None:
     """Raise SceneError for a power without a speed, and for friction where the ring drives."""
-    if load.power is not None and carrier.speed is None:
+    if load.power is not None and motion.input_speed is None:
         raise SceneError(f"{place}: load.power needs a speed. Allowed: with motion.input_speed. {NOTHING_DONE}")
-    if friction and not carrier.set.sun_drives:
+    if friction and not own.sun_drives:
         raise SceneError(
             f"{place}: friction where the ring drives the planets, as the carrier sees it, is not computed yet."
             " Allowed: without [friction], or with input and output exchanged, where the sun drives."
@@ -192,12 +183,29 @@ def _check_motion(carrier: Carrier, load: TrainLoad, friction: bool, place: str)
         )
 
 
-def _in_its_frame(carrier: Carrier, load: TrainLoad, motion: TrainMotion) -> tuple[TrainLoad, TrainMotion]:
-    """Load and motion as the carrier sees them: the torque of the ring, the speed of the sun."""
+def seen_by_carrier(sections: TrainSections, given: bool) -> TrainSections:
+    """Load and motion of a set as its carrier sees them, the torque of the ring and the speed of the sun; the carrier
+    has those of the input, the speed where it is `given`. Other trains as they are."""
+    load = sections.load
+    motion = sections.motion
+    carrier = sections.shafts.carrier
+    if carrier is None:
+        return sections
     own = carrier.set
-    ring = abs(own.torques(carrier.torque)[RING])
-    speed = None if carrier.speed is None else carrier.speed * abs(float(own.sun_by_carrier))
-    return (replace(load, output_torque=ring, input_torque=None, power=None), replace(motion, input_speed=speed))
+    if load.input_torque is not None:
+        torque = load.input_torque
+    elif load.output_torque is not None:
+        torque = load.output_torque * abs(own.weights[own.input] / own.weights[own.output])
+    else:
+        torque = (load.power or 0.0) / (motion.input_speed or 1.0)
+    ring = abs(own.torques(torque)[RING])
+    speed = None if motion.input_speed is None else motion.input_speed * abs(float(own.sun_by_carrier))
+    carrier = replace(carrier, torque=torque, speed=motion.input_speed if given else None)
+    return TrainSections(
+        replace(load, output_torque=ring, input_torque=None, power=None),
+        replace(motion, input_speed=speed),
+        replace(sections.shafts, carrier=carrier),
+    )
 
 
 def _meshes(carrier: Carrier, scenes: Sequence[Scene], pairs: Sequence[GearPair]) -> list[MeshOfScene]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from fenics_gears.geometry.planetary import MEMBERS
@@ -57,18 +57,13 @@ def has_planets(tree: Tree) -> bool:
     )
 
 
-def wrong_sections(tree: Tree) -> Iterator[Problem]:
-    """Sections that a train with a set does not have."""
-    if len(tree[STAGES]) > 1:
-        said = "stands beside other stages, which is not computed yet. Allowed: a planetary set as the only stage."
-        name = next(each for each in tree[STAGES] if has_planets({STAGES: {each: tree[STAGES][each]}}))
-        yield Problem((STAGES, name), "", said)
+def wrong_sections(tree: Tree, known: Sequence[str] = OF_THE_TRAIN) -> Iterator[Problem]:
+    """Sections that a train with a set does not have, and those that it has in another form."""
     for name in tree:
-        if name in NOT_WITH_A_SET:
-            yield Problem((name,), as_written(tree[name]), NOT_WITH_A_SET[name])
-        elif name not in OF_THE_TRAIN:
-            said = f"is not of a train.{did_you_mean(name, OF_THE_TRAIN)} Known: {', '.join(OF_THE_TRAIN)}."
-            yield Problem((name,), as_written(tree[name]), said)
+        if name in known:
+            continue
+        said = f"is not of a train.{did_you_mean(name, known)} Known: {', '.join(known)}."
+        yield Problem((name,), as_written(tree[name]), NOT_WITH_A_SET.get(name, said))
     for section, name in (("load", "torques"), ("motion", "speed"), ("motion", "speed_of")):
         written = tree.get(section)
         if isinstance(written, Mapping) and name in written:

@@ -14,6 +14,7 @@ from fenics_gears.inputs.section import AllowedTables, Section
 from .accuracy import Accuracy
 from .gear_schema import Gears, GearText
 from .planetary_schema import GEARS_OF_SET, MESHES, OF_A_MESH, PLANETARY, PlanetaryText
+from .train_joints import JoinsText
 from .train_loads import TrainLoad, TrainMotion
 from .train_ramp import TrainRamp
 from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED
@@ -51,7 +52,7 @@ class _Stage(Gears):
 
 
 @dataclass(frozen=True, kw_only=True)
-class _AlwaysThere(Section):
+class _AlwaysThere(JoinsText):
     title: str | None = text(500, meaning="title in summaries and pictures", otherwise="the name of the file")
     load: TrainLoad
     motion: TrainMotion = TrainMotion()

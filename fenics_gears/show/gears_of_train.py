@@ -8,6 +8,7 @@ from math import pi
 import numpy as np
 
 from fenics_gears.elasticity.ring import rotation
+from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import centreline_angle
 from fenics_gears.geometry.planetary import CARRIER
@@ -33,6 +34,11 @@ class DrawnGear:
 def gears_of_train(scene: TrainScene) -> tuple[list[DrawnGear], float]:
     """All gears, those first that others are drawn over; and the angle (rad) by which the carrier of a planetary set
     turns in a cycle of the first mesh, 0 of other trains: a set's gears turn as its carrier sees them."""
+    if scene.joined:
+        raise SceneError(
+            "stages: planetary sets beside other stages turn in frames of their own, and are not shown in motion yet."
+            " Allowed: a set as the only stage, or gears plot, which draws all parts."
+        )
     layout = scene.layout
     graph = layout.graph
     at = centres(layout)

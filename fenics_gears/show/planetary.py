@@ -4,6 +4,7 @@ floating members."""
 from __future__ import annotations
 
 from cmath import rect
+from collections.abc import Iterator
 from math import degrees
 
 import numpy as np
@@ -11,6 +12,7 @@ import xarray as xr
 
 from fenics_gears.geometry.planetary import MEMBERS
 from fenics_gears.results.mesh_of_train import mesh_run
+from fenics_gears.results.sets_in_train import set_runs
 from fenics_gears.scene.carrier import Carrier
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_layout import centres
@@ -32,6 +34,13 @@ def carrier_of(scene: TrainScene) -> Carrier:
     """The carrier of a train that is a planetary set."""
     assert scene.shafts.carrier is not None
     return scene.shafts.carrier
+
+
+def sets_of(scene: TrainScene, dataset: xr.Dataset) -> Iterator[tuple[str, TrainScene, xr.Dataset]]:
+    """The planetary sets of a train, each with words that stand before captions, and with its result."""
+    parts = [part for part in scene.parts if part.shafts.carrier is not None]
+    for part, own in zip(parts, set_runs(dataset)):
+        yield f"{part.title}: " if scene.joined else "", part, own
 
 
 def set_drawing(scene: TrainScene) -> Chart:
@@ -73,8 +82,10 @@ def _closed(name: str, points: np.ndarray, fill: str, listed: bool = True) -> Cu
 
 def shares(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     """Load share and pin force of each planet over the run's last mesh cycle; nothing of other trains."""
-    if scene.shafts.carrier is None:
-        return []
+    return [chart for own in sets_of(scene, dataset) for chart in _shares(*own)]
+
+
+def _shares(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     phase, last = _last_cycle(dataset)
     axis = "Time (mesh cycles)"
     charts = []
@@ -83,10 +94,11 @@ def shares(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
         ("planet_load_share_ring", "ring", "load_sharing_factor_ring"),
     ):
         curves = _of_planets(scene, phase, np.asarray(dataset[name])[last])
-        caption = f"Forces between {words} and planets over their mean: largest {dataset.attrs[factor]:.5g} (K_gamma)"
+        largest = f"largest {dataset.attrs[factor]:.5g} (K_gamma)"
+        caption = f"{of_set}Forces between {words} and planets over their mean: {largest}"
         charts.append(Chart(caption, curves, axis, "Load share", least=LEAST_SHARE, height=300))
     forces = KILO * np.linalg.norm(np.asarray(dataset["pin_force"])[last], axis=-1)
-    caption = f"Forces of the planets on their pins: largest {KILO * dataset.attrs['largest_pin_force']:.5g} kN"
+    caption = f"{of_set}Forces of the planets on their pins: largest {KILO * dataset.attrs['largest_pin_force']:.5g} kN"
     least = LEAST_SHARE * float(forces.max())
     charts.append(Chart(caption, _of_planets(scene, phase, forces), axis, "Pin force (kN)", least=least, height=300))
     return charts
@@ -109,11 +121,13 @@ def _last_cycle(dataset: xr.Dataset) -> tuple[np.ndarray, slice]:
 
 def orbits(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     """The paths of the centres of floating members over a mesh cycle; nothing where none floats."""
-    if scene.shafts.carrier is None:
-        return []
+    return [chart for own in sets_of(scene, dataset) for chart in _orbits(*own)]
+
+
+def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     _, last = _last_cycle(dataset)
     charts = []
-    for number, member in enumerate(scene.shafts.carrier.floating):
+    for number, member in enumerate(carrier_of(scene).floating):
         place = MEMBERS.index(member)
         x, y = (MICRO * np.asarray(dataset[f"member_{axis}"])[last, place] for axis in "xy")
         colour = PALETTE[number % len(PALETTE)]
@@ -121,7 +135,7 @@ def orbits(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
             Curve(f"centre of the {member}", x, y, colour),
             Curve("as the cycle begins", x[:1], y[:1], colour, mode=MARKERS),
         ]
-        caption = f"Orbit of the {member} over a mesh cycle, {np.hypot(x, y).max():.4g} µm at most from its place"
+        caption = f"{of_set}Orbit of the {member} over a mesh cycle, {np.hypot(x, y).max():.4g} µm at most from its place"
         charts.append(Chart(caption, curves, "x (µm)", "y (µm)", height=460, equal=True))
     return charts
 

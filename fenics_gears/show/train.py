@@ -32,6 +32,8 @@ from .run import ShownRun
 from .train_shafts import deflections
 
 POINTS_OF_A_CIRCLE = 181
+# Between drawings beside each other, as part of the next one.
+GAP = 0.08
 MICRO = 1e6
 HARMONICS_SHOWN = 4
 # Part of the largest amplitude below which a bar has no words.
@@ -69,7 +71,9 @@ def subjects_of(scene: TrainScene, dataset: xr.Dataset) -> list[tuple[str, list[
 
 def drawing_of(scene: TrainScene) -> Chart:
     """All gears seen along their axes: tip circles, and dashed pitch circles. Gears on one shaft have one centre. A
-    planetary set has its teeth."""
+    planetary set has its teeth. Parts in series stand beside each other."""
+    if scene.joined:
+        return _beside_each_other(scene)
     if scene.shafts.carrier is not None:
         return set_drawing(scene)
     at = centres(scene.layout)
@@ -85,6 +89,24 @@ def drawing_of(scene: TrainScene) -> Chart:
         curves += _circles(at[graph.shafts[number]], gear, pair, words, _colour(number))
     speeds = "turns of the first shaft in one of the last"
     caption = f"Tip and pitch circles (dashed), to scale; {scene.ratio:.5g} {speeds}"
+    return Chart(caption, curves, "x (mm)", "y (mm)", height=520, equal=True)
+
+
+def _beside_each_other(scene: TrainScene) -> Chart:
+    """The drawings of all parts from left to right, in the order of the power."""
+    curves: list[Curve] = []
+    end = 0.0
+    for part in scene.parts:
+        own = drawing_of(part).curves
+        around = [each.x for each in own if len(each.x)]
+        left, right = (float(limit([limit(x) for x in around])) for limit in (np.min, np.max))
+        gap = GAP * (right - left) if curves else 0.0
+        known = f"{part.title}: "
+        for each in own:
+            name = each.name if each.name.startswith(known) else known + each.name
+            curves.append(replace(each, name=name, x=np.asarray(each.x) + end + gap - left))
+        end += gap + right - left
+    caption = f"Parts in the order of the power, to scale; {scene.ratio:.6g} turns of the input in one of the output"
     return Chart(caption, curves, "x (mm)", "y (mm)", height=520, equal=True)
 
 

@@ -13,8 +13,9 @@ from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.files import read, save
 from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.path_shares import OF_SHARES
+from fenics_gears.results.planetary import LARGEST_OF_SETS
 from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.runs.record import CURVES, NUMBERS, OF_SETS, OF_TRAINS, RunRecord
+from fenics_gears.runs.record import CURVES, NUMBERS, OF_TRAINS, RunRecord
 from fenics_gears.system.output import write_whole
 
 from .axis import SAMPLE, Axis
@@ -63,7 +64,7 @@ def _variables(
     """By name the values of the cases that have one, what stands for the others, and the attributes."""
     of_trains = any(record.meshes for record in records.values())
     known = {name for each in records.values() for name in each.numbers}
-    of_sets = {name: said for name, said in OF_SETS.items() if name in known}
+    of_sets = {name: said for name, said in LARGEST_OF_SETS.items() if name in known}
     numbers = (OF_TRAINS if of_trains else NUMBERS) | of_sets | _studied(known)
     variables: dict[str, tuple[Mapping, Any, dict]] = {
         name: (

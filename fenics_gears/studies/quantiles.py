@@ -7,7 +7,8 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.results.layout import OVERALL, in_microradians
-from fenics_gears.runs.record import NUMBERS, OF_SETS, OF_TRAINS, RunRecord
+from fenics_gears.results.planetary import LARGEST_OF_SETS
+from fenics_gears.runs.record import NUMBERS, OF_TRAINS, RunRecord
 
 from .axis import SAMPLE, label
 from .study import Study
@@ -61,7 +62,7 @@ def quantile_rows(study: Study, records: Mapping[int, RunRecord]) -> list[tuple[
     for name in TABLED:
         if not any(name in record.numbers for record in records.values()):
             continue
-        units, words = (NUMBERS | OF_TRAINS | OF_SETS)[name]
+        units, words = (NUMBERS | OF_TRAINS | LARGEST_OF_SETS)[name]
         printed, unit = (
             (in_microradians, "urad") if units == "rad" else ("{:.4g}".format, "" if units == "1" else units)
         )

@@ -83,21 +83,11 @@ def check_train(scene: TrainScene) -> int:
     would, where memory does not hold it."""
     model = train_model_of(scene)
     print(f"{scene.title}\n")
-    if scene.shafts.carrier is not None:
-        from fenics_gears.model.planetary_rows import member_rows, planet_rows, set_rows
-
-        print_rows("Planetary set", set_rows(model.rows[0]))
-        print_rows("Members, without losses", member_rows(scene.shafts.carrier))
-        print_rows("Planets", planet_rows(model.rows[0]))
-        if scene.shafts.carrier.vibration is not None:
-            from fenics_gears.model.planetary_frequencies import set_frequency_rows
-
-            print_rows("Natural frequencies of lumped members", set_frequency_rows(model.rows[0]))
-    else:
+    if scene.joined:
         print_rows("Train", _train_rows(model))
-        print_rows("Shafts", list(_shaft_rows(model)))
-        if scene.graph.loops:
-            print_rows("Loops of meshes", loop_rows(scene))
+        print_rows("Shafts between its parts", list(_joint_rows(scene)))
+    for part in model.parts:
+        _print_part(part, f"{part.scene.title}: " if scene.joined else "")
     for row in model.rows:
         for mesh, own, phase in zip(row.meshes, row.models, row.layout.phases):
             if mesh.like is not None:
@@ -116,6 +106,38 @@ def check_train(scene: TrainScene) -> int:
         if said := row_too_large(row, allowed_memory()):
             raise ComputationError(f"CANNOT FIT: {said}")
     return 0
+
+
+def _print_part(model: TrainModel, name: str) -> None:
+    """Speeds, torques and assembly of a train, or of a part of one with this `name` before its headings."""
+    scene = model.scene
+    if (carrier := scene.shafts.carrier) is not None:
+        from fenics_gears.model.planetary_rows import member_rows, planet_rows, set_rows
+
+        print_rows(f"{name}Planetary set", set_rows(model.rows[0]))
+        print_rows(f"{name}Members, without losses", member_rows(carrier))
+        print_rows(f"{name}Planets", planet_rows(model.rows[0]))
+        if carrier.vibration is not None:
+            from fenics_gears.model.planetary_frequencies import set_frequency_rows
+
+            print_rows(f"{name}Natural frequencies of lumped members", set_frequency_rows(model.rows[0]))
+        return
+    print_rows(f"{name}Train", _train_rows(model))
+    print_rows(f"{name}Shafts", list(_shaft_rows(model)))
+    if scene.graph.loops:
+        print_rows(f"{name}Loops of meshes", loop_rows(scene))
+
+
+def _joint_rows(scene: TrainScene) -> Iterator[Row]:
+    """Speed, torque and twist of the shafts between the parts of a train."""
+    for joint, before, behind in zip(scene.joints, scene.parts, scene.parts[1:]):
+        said = f"{1e-3 * before.output_torque:.6g} N m"
+        if scene.speed_given:
+            power = 2e-6 * pi * behind.input_speed * before.output_torque
+            said += f", {60.0 * behind.input_speed:.6g} rpm, {power:.5g} kW"
+        if joint.stiffness is not None:
+            said += f", twists by {1e6 * before.output_torque / joint.stiffness:.5g} urad"
+        yield ", ".join(joint.carries), said, ""
 
 
 def _train_rows(model: TrainModel) -> list[Row]:

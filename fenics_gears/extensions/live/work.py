@@ -7,6 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from fenics_gears import SceneError, load_train
+from fenics_gears.charts import gears_of_train
 from fenics_gears.command_line import checked_model
 from fenics_gears.scene_text import Tree, is_train, model_of_tree, name_of, parsed, text_of
 
@@ -24,8 +25,8 @@ def live(options: argparse.Namespace) -> int:
     path: Path = options.scene
     tree: Tree = parsed(text_of(path, "scene"), str(path))
     if is_train(tree):
-        # It tells mistakes with their lines.
-        load_train(path)
+        # They tell mistakes with their lines, and trains that are not shown in motion.
+        gears_of_train(load_train(path))
         model = model_of_tree(name_of(path), tree, path.parent)
     else:
         model = checked_model(path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi
 from pathlib import Path
 
@@ -12,7 +13,8 @@ from fenics_gears.model.train_motion_rows import Rows, frequency_rows, motion_ro
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
 from fenics_gears.results.overall_orders import overall_orders
 from fenics_gears.results.path_shares import OF_SHARES, SHARE
-from fenics_gears.results.power_flow import PowerFlow, power_flow
+from fenics_gears.results.power_flow import power_flow
+from fenics_gears.results.sets_in_train import set_runs
 from fenics_gears.results.summary import result_rows
 from fenics_gears.results.train import train_rows
 from fenics_gears.scene.train import TrainScene
@@ -42,9 +44,8 @@ def train_page(dataset: xr.Dataset, file: Path, progress: Progress | None = None
     progress = progress or SilentProgress()
     progress.stage("sections")
     train = carried_train(dataset)
-    flow = power_flow(dataset, train)
     sections = [
-        _summary(dataset, train, flow), warnings(ShownRun(dataset)), _geometry(train), _power(dataset, train, flow),
+        _summary(dataset, train), warnings(ShownRun(dataset)), _geometry(train), *_powers(dataset, train),
         PageSection("motion", "Transmission error", errors(train, dataset)), _orders(dataset, train),
         *_shafts(dataset, train), *_frequencies(train),
     ]  # fmt: skip
@@ -97,7 +98,7 @@ def _said(rows: Rows) -> list[tuple[str, str, str]]:
     return [(label, value if isinstance(value, str) else digits(value), unit) for label, value, unit in rows]
 
 
-def _summary(dataset: xr.Dataset, train: TrainScene, flow: PowerFlow) -> PageSection:
+def _summary(dataset: xr.Dataset, train: TrainScene) -> PageSection:
     said = dataset.attrs
     tiles = [
         Tile(f"Overall transmission error, {words}", digits(MICRO * said[f"{name}_overall_transmission_error"]), "µrad")
@@ -108,7 +109,7 @@ def _summary(dataset: xr.Dataset, train: TrainScene, flow: PowerFlow) -> PageSec
         value = digits(torque * factor("N mm", "N m"))
         tiles.append(Tile(f"Torque on the {words} shaft", value, "N m", "without losses" if words == "first" else ""))
     if "friction_loss" in said:
-        efficiency = said.get("efficiency", flow.efficiency)
+        efficiency = said["efficiency"] if "efficiency" in said else power_flow(dataset, train).efficiency
         tiles.append(Tile("Efficiency", f"{100.0 * efficiency:.4g}", "%", "of all meshes, by their friction"))
     return PageSection("summary", "Summary", [Tiles(tiles)])
 
@@ -132,9 +133,23 @@ def _of_mesh(mesh: MeshOfScene) -> tuple[str, ...]:
     )  # fmt: skip
 
 
-def _power(dataset: xr.Dataset, train: TrainScene, flow: PowerFlow) -> PageSection:
+def _powers(dataset: xr.Dataset, train: TrainScene) -> list[PageSection]:
+    """The power flow of each part of a train."""
+    if not train.joined:
+        return [_power(dataset, train)]
+    sets = iter(set_runs(dataset))
+    found = []
+    for number, (first, part) in enumerate(train.numbered, 1):
+        of_meshes = dataset.isel(mesh=slice(first, first + len(part.meshes)))
+        own = _power(of_meshes if part.shafts.carrier is None else next(sets), part)
+        found.append(replace(own, name=f"power-{number}", heading=f"Power flow: {part.title}"))
+    return found
+
+
+def _power(dataset: xr.Dataset, train: TrainScene) -> PageSection:
     if train.shafts.carrier is not None:
         return _members(dataset, train)
+    flow = power_flow(dataset, train)
     rows = [
         (
             f"shaft {number}",
