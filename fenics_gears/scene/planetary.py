@@ -21,7 +21,7 @@ from .data import Scene
 from .gear_schema import Gears
 from .planetary_rules import text_of_set, wrong_sections
 from .planetary_run_out import run_outs_of, with_run_outs
-from .planetary_schema import GEARS_OF_SET, MESHES, RING_MESH, SUN_MESH, PlanetaryText
+from .planetary_schema import GEARS_OF_SET, HANDS, MESHES, OF_THE_FACE, RING_MESH, SUN_MESH, PlanetaryText
 from .train_loads import TrainLoad, TrainMotion
 from .train_mesh import MeshOfScene
 from .train_pair import STAGES, MistakesOfStage, Placed, check_together, pair_of, pair_scene
@@ -93,7 +93,13 @@ def _scenes(tree: Tree, stage: str, content: Tree, source: str, folder: Path) ->
 def _scene(tree: Tree, own: OfSet, content: Tree, gears: Mapping[str, Any], source: str, folder: Path) -> Scene:
     """The scene of one pair of a set."""
     shared = {name: content[name] for name in names_in(Gears) if name in content and name not in GEARS}
+    if "helix_angle" in content:
+        sun = content.get("sun_hand", HANDS[0])
+        shared["pinion_hand"] = sun if own.mesh == SUN_MESH else next(hand for hand in HANDS if hand != sun)
+    over_face = {name for mesh in MESHES for name in content.get(mesh, {})} & {*OF_THE_FACE}
     sections = {
+        # Both meshes are resolved over the face where one is.
+        **({"misalignment": {"in_plane": "0 um"}} if over_face else {}),
         "gears": shared | {name: gears[called] for name, called in zip(GEARS, own.gears)},
         **{name: tree[name] for name in ("friction", "accuracy") if name in tree},
         **content.get(own.mesh, {}),

@@ -28,7 +28,6 @@ from .train_shafts import explained
 
 # Sections of a train with a set.
 OF_THE_TRAIN = ("title", STAGES, *ENDS, "friction", "accuracy")
-OF_THE_PLANE = ("helix_angle", "pinion_hand", "lead_modifications", "misalignment")
 # Of a pair; what a set has in its place.
 NOT_HERE = {
     "direction": "is of a pair. Allowed: planets or planet_angles.",
@@ -37,7 +36,7 @@ NOT_HERE = {
     "pinion": "is of a pair. A set has the gears sun, planet and ring.",
     "wheel": "is of a pair. A set has the gears sun, planet and ring.",
     "backlash": "would thin the teeth of the planet differently in its meshes. Allowed: profile_shift of each gear.",
-    **dict.fromkeys(OF_THE_PLANE, "is over the face, where planetary sets are not computed yet. Leave it out."),
+    "pinion_hand": "is of a pair. Allowed: sun_hand.",
     **dict.fromkeys(OF_A_MESH, f"is of one mesh: write it in [stages.NAME.{SUN_MESH}] or [stages.NAME.{RING_MESH}]."),
     **{name: f"is of the whole train: write it as [{name}]." for name in ("friction", "accuracy")},
 }  # fmt: skip
@@ -78,7 +77,7 @@ def text_of_set(stage: str, content: Tree) -> tuple[PlanetaryText | None, list[P
     own = names_in(PlanetaryText)
     text, problems = read(PlanetaryText, {name: content[name] for name in own if name in content}, path)
     problems = [explained(each, PlanetaryText) for each in problems]
-    shared = [name for name in names_in(Gears) if name not in (*GEARS, "backlash", *OF_THE_PLANE)]
+    shared = [name for name in names_in(Gears) if name not in (*GEARS, "backlash", "pinion_hand")]
     known = ["kind", *own, *shared, *GEARS_OF_SET, *MESHES]
     for name in content:
         if name in NOT_HERE:
@@ -95,6 +94,9 @@ def text_of_set(stage: str, content: Tree) -> tuple[PlanetaryText | None, list[P
         problems += _wrong_effects((*path, mesh), content.get(mesh, {}))
     if text is not None:
         problems += _wrong_members(path, text)
+        if text.sun_hand is not None and "helix_angle" not in content:
+            said = "has no meaning without helix_angle. Leave it out, or give helix_angle."
+            problems.append(Problem((*path, "sun_hand"), f'"{text.sun_hand}"', said))
     return (None if problems else text), problems
 
 

@@ -18,7 +18,9 @@ MESHES = (SUN_MESH, RING_MESH)
 GEARS_OF_SET = ("sun", "planet", "ring")
 MOST_PLANETS = 10
 # Effects of a pair that the meshes of a set may have of their own.
-OF_A_MESH = ("tip_relief", "root_relief", "profile_modifications", "corner_contact")
+OF_THE_FACE = ("lead_modifications", "misalignment")
+OF_A_MESH = ("tip_relief", "root_relief", "profile_modifications", "corner_contact", *OF_THE_FACE)
+HANDS = ("right", "left")
 PIN_ERRORS = "-10 mm to 10 mm"
 
 
@@ -186,6 +188,11 @@ class PlanetaryText(Section):
     fixed: str | None = choice(*MEMBERS, meaning="the member that does not turn", otherwise="required")
     input: str | None = choice(*MEMBERS, meaning="the member that is driven", otherwise="required")
     output: str | None = choice(*MEMBERS, meaning="the member with the load", otherwise="the third one")
+    sun_hand: str | None = choice(
+        *HANDS,
+        meaning="hand of the sun's helix; planets and ring have the other",
+        otherwise="`right`; has no meaning without `helix_angle`",
+    )
     floating: tuple[str, ...] | None = declared(
         AllowedMembers(
             description='a list of "sun" and "ring", such as ["sun"]',
