@@ -13,8 +13,11 @@ RELIEF = '{ depth = "20 um", start = "HPSTC", shape = "parabolic" }'
 COARSE = 'steps_per_mesh_cycle = 12\nflank_element_size = "0.3 mm"'
 
 
-def written_out(teeth: tuple[int, int, int], angles: list[float], accuracy: str = COARSE) -> TrainScene:
-    """Sun, planets at these angles (degrees) and ring as a train of pairs, under a torque on the ring."""
+def written_out(
+    teeth: tuple[int, int, int], angles: list[float], accuracy: str = COARSE, helix: str | None = None
+) -> TrainScene:
+    """Sun, planets at these angles (degrees) and ring as a train of pairs, under a torque on the ring; `helix`: the
+    angle of their teeth, the sun's right-handed."""
     sun, planet, ring = (f"teeth = {each}, profile_shift = 0" for each in teeth)
     stages = ""
     for number, angle in enumerate(angles):
@@ -30,6 +33,9 @@ def written_out(teeth: tuple[int, int, int], angles: list[float], accuracy: str 
         )
         for (name, pinion), wheel in zip(gears.items(), wheels):
             own = f'pinion = {pinion}\nwheel = {wheel}\ndirection = "{angle!r} deg"'
+            if helix is not None:
+                hand = "right" if name.startswith("sun") else "left"
+                own += f'\nhelix_angle = "{helix}"\npinion_hand = "{hand}"'
             stages += f"[stages.{name}]\n{SHARED}\n{own}\n"
     return train_from_text(f'{stages}\n[load]\noutput_torque = "2 kN m"\n[accuracy]\n{accuracy}\n')
 

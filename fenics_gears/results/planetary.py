@@ -189,6 +189,7 @@ def set_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
 
 OF_MESHES = (
     ("mean_mesh_stiffness", "mesh stiffness, mean", "N/(mm um)"),
+    ("face_load_factor", "face load factor K_Hbeta", ""),
     ("largest_pair_force", "largest force of a tooth pair", "N"),
     ("peak_contact_pressure", "peak contact pressure", "MPa"),
 )

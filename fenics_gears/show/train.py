@@ -146,10 +146,11 @@ def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
         if mesh.like is not None:
             continue
         own = dataset.isel(mesh=number)
-        values = 1e3 * mesh.pair.wheel.base_radius * np.asarray(own["transmission_error"])
-        known = np.isfinite(values)
         # That of an internal gear is negative.
-        span = 1e3 * abs(mesh.pair.wheel.base_radius) * float(own["peak_to_peak_transmission_error"])
+        radius = 1e3 * abs(mesh.pair.wheel.base_radius)
+        values = radius * np.asarray(own["transmission_error"])
+        known = np.isfinite(values)
+        span = radius * float(own["peak_to_peak_transmission_error"])
         charts.append(
             Chart(
                 f"{mesh.name}: peak to peak {span:#.4g} µm on the wheel's base circle",
@@ -241,10 +242,10 @@ def _spectrum(scene: TrainScene, dataset: xr.Dataset) -> Chart:
 
 
 def loads_along_face(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
-    """Line load along the face of each mesh over the face."""
+    """Line load along the face of each mesh over the face; of a planetary set of the first planet."""
     charts = []
     for number, mesh in enumerate(scene.meshes):
-        if not mesh.scene.three_dimensional:
+        if not mesh.scene.three_dimensional or mesh.like is not None:
             continue
         run = ShownRun(mesh_run(dataset, scene, number))
         drawn = line_loads(run)[-1:] if run.over_face else []
