@@ -138,17 +138,18 @@ class RowCycle(Cycle):
         other._shared = {}
         return other
 
-    def share(self, memory: float) -> None:
-        """Let operators take so many bytes, those of single meshes among them."""
+    def share(self, memory: float, once: bool = False) -> None:
+        """Let operators take so many bytes, those of single meshes among them; those of all meshes none where each
+        position is passed `once`. Meshes that are like others pass the positions of these once more."""
         count = len(self._members)
         # Operators grow with the square of their nodes, and those of all meshes have count times as many; how these
         # feel each other takes as much as each by itself.
-        self.kept = Kept(memory * count / (count + 2))
+        self.kept = Kept(0.0 if once else memory * count / (count + 2))
         self._compliance.kept = Kept(memory / (count + 2))
         for each in self._members:
             own = memory / (count * (count + 2))
             if isinstance(each.cycle, RowCycle):
-                each.cycle.share(own)
+                each.cycle.share(own, once)
             else:
                 each.cycle.kept = Kept(own)
 

@@ -132,6 +132,11 @@ class RowModel(OfMeshes):
         """Steps of the run: whole cycles of the slowest mesh."""
         return self.slowest.steps
 
+    @property
+    def passes_once(self) -> bool:
+        """Whether the run passes each position of all meshes once."""
+        return all(model.steps <= model.resolution.steps_per_mesh_cycle for model in self.models)
+
     @cached_property
     def vibrations(self) -> list[Vibration]:
         """The elastic modes with one tooth pair in each mesh, about; empty without inertia."""

@@ -32,7 +32,9 @@ def row_cost(row: RowModel) -> ExpectedCost:
     if row.single:
         return costs[0]
     together = WITH_FACTORS * sum(each.operators**0.5 for each in costs) ** 2
-    operators = sum(each.operators for each in costs) + together
+    # Meshes that are like others share their operators.
+    own = sum(each.operators for each, mesh in zip(costs, row.meshes) if mesh.like is None)
+    operators = own + (0.0 if row.passes_once else together)
     # Gears are condensed one after the other.
     passing = max(each.passing for each in costs)
     held = CONDENSING_PROGRAM + passing + sum(each.held - each.passing - CONDENSING_PROGRAM for each in costs)

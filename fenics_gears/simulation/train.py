@@ -117,7 +117,8 @@ def _coupled(row: RowModel, progress: Progress, cache: Cache | None, kept_row: K
     for_operators = _memory_for_operators(row)
     compile_loops(progress)
     with writing_meanwhile(cache or user_cache()) as kept:
-        make = partial(_cycle_with_room, row, for_operators, progress, kept)
+        once = kept_row is None and row.passes_once
+        make = partial(_cycle_with_room, row, (for_operators, once), progress, kept)
         cycle = make() if kept_row is None else kept_row(row, make)
     progress.stage("compile")
     compile_kernels(cycle.tangential, False)
@@ -133,9 +134,10 @@ def _coupled(row: RowModel, progress: Progress, cache: Cache | None, kept_row: K
     return result.of_meshes(march)
 
 
-def _cycle_with_room(row: RowModel, for_operators: float, progress: Progress, cache: Cache) -> RowCycle:
+def _cycle_with_room(row: RowModel, room: tuple[float, bool], progress: Progress, cache: Cache) -> RowCycle:
+    """`room`: as of `RowCycle.share`."""
     cycle = row_cycle(row, progress, cache)
-    cycle.share(for_operators)
+    cycle.share(*room)
     return cycle
 
 
