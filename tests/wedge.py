@@ -2,6 +2,8 @@
 program but its call of MUMPS. Coordinates: along the edge, along the end face (material below 0), and along the axis,
 sheared by the wedge's angle; symmetric about the line of the load."""
 
+from contextlib import closing
+
 import numpy as np
 from scipy import sparse
 
@@ -92,7 +94,8 @@ def line_displacement(
     load[line] = -0.5 / cosine * np.asarray(_along(axis)[0, 0].sum(axis=1)).ravel()
     reduced = (turned.T @ stiffness @ turned).tocsr()[free][:, free]
     found = np.zeros(3 * nodes)
-    found[free] = Factor(reduced.tocsr(), "the wedge").solve(load[free][:, None]).ravel()
+    with closing(Factor(reduced.tocsr(), "the wedge")) as factor:
+        found[free] = factor.solve(load[free][:, None]).ravel()
     return with_middles(axis) / cosine, -found[line]
 
 

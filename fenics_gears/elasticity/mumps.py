@@ -5,6 +5,7 @@ loaded.
 """
 
 import ctypes
+from contextlib import closing
 
 import numpy as np
 from scipy import sparse
@@ -113,11 +114,8 @@ def _petsc_matrix(matrix: sparse.csr_matrix) -> PETSc.Mat:
 
 def schur_complement(matrix: sparse.csr_matrix | PETSc.Mat, dofs: np.ndarray) -> np.ndarray:
     """`Factor.schur` of a matrix on dofs (k,)."""
-    factor = Factor(matrix, "the body's stiffness", dofs)
-    try:
+    with closing(Factor(matrix, "the body's stiffness", dofs)) as factor:
         return factor.schur()
-    finally:
-        factor.close()
 
 
 def _handle(petsc_object):

@@ -75,12 +75,12 @@ def meshes(
     )
 
 
-def by_calculix(scene: Scene, pair: GearPair, phase: float, guess: float, both=None) -> float:
-    """Rotation of the wheel (rad); of `meshes`, those of the defaults unless given."""
+def by_calculix(scene: Scene, pair: GearPair, phase: float, guess: float, both=None, slave: int = 0) -> float:
+    """Rotation of the wheel (rad); of `meshes`, those of the defaults unless given. slave: as of `couples`."""
     both = both or meshes(pair, phase)
     rotations = guess * np.array([1.0 - APART, 1.0 + APART])
     with tempfile.TemporaryDirectory() as folder:
-        torques = couples(pair, scene.gears.material, both, phase, rotations, Path(folder))[:, 1]
+        torques = couples(pair, scene.gears.material, both, phase, rotations, Path(folder), slave)[:, 1]
     return rotations[0] + (scene.load.wheel_torque - torques[0]) * np.diff(rotations)[0] / np.diff(torques)[0]
 
 

@@ -28,7 +28,7 @@ from fenics_gears.show.panels import GREY, PALETTE, styled
 NAME = "convergence"
 # By number of the pair: slices and layers.
 OLD = {0: ((16, 8), (24, 12), (36, 12)), 9: ((10, 5), (14, 7), (20, 10), (28, 14), (42, 21))}
-NEW = {0: ((10, 4), (19, 8), (38, 12), (76, 12)), 9: ((8, 4), (12, 5), (16, 7), (24, 7), (32, 7))}
+NEW = {0: ((10, 4), (19, 8), (38, 8)), 9: ((8, 4), (12, 5), (18, 5), (24, 7))}
 
 SECONDS = (10, 20, 50, 100)
 
