@@ -19,6 +19,7 @@ from fenics_gears.inputs.tree import GEARS
 from .damping import Damping
 from .drivetrain import ROTATIONS, SIDE, Drivetrain, forces_of_torque, gear_of, kind_of
 from .inertia import Inertia
+from .modal_damping import damping_of
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
@@ -98,7 +99,10 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
         from .rolling_springs import springs_of
 
         undamped = replace(undamped, rolling=springs_of(undamped, supports.even_loads))
-    return replace(undamped, damping=None if mass is None else _damping(supports, undamped, mesh_stiffness, scale))
+    if mass is None:
+        return undamped
+    of_elements = sum(scale * each.over(each.motions_of_pair(names), "damping") for each in supports.systems)
+    return replace(undamped, damping=damping_of(undamped, supports.damping, mesh_stiffness, of_elements))
 
 
 def _stiffness(names: tuple[str, ...], supports: Supports) -> tuple[np.ndarray, np.ndarray]:
@@ -190,22 +194,3 @@ def _check_load(end: float, wheel: float) -> None:
             f" {MOST_OF_WHEEL:g} times, beyond which the far end of the output shaft stands still all the same. Lower"
             " inertia.load.moment_of_inertia, or raise that of [inertia.wheel]"
         )
-
-
-def _damping(supports: Supports, undamped: Drivetrain, mesh_stiffness: float, scale: np.ndarray) -> np.ndarray | None:
-    """D (k, k): alpha K + beta M of either shaft, or by the ratios of the modes with one tooth pair in mesh, and what
-    elements of shafts have of their own."""
-    damping_of_shafts = sum(
-        scale * each.over(each.motions_of_pair(undamped.coordinates), "damping") for each in supports.systems
-    )
-    damping = supports.damping
-    if damping is None:
-        return damping_of_shafts if np.any(damping_of_shafts) else None
-    if damping.modal:
-        from .modal_damping import modal_damping
-
-        return damping_of_shafts + modal_damping(undamped, mesh_stiffness, damping.modal)
-    # A row and its column have the same factors, but for springs of a housing that joins both sides of the mesh.
-    factors = np.array([damping.rayleigh(gear_of(name)) for name in undamped.coordinates]).T
-    alpha, beta = 0.5 * (factors[:, :, None] + factors[:, None, :])
-    return damping_of_shafts + alpha * undamped.stiffness_at_work + beta * undamped.mass

@@ -62,6 +62,6 @@ class Damping(Rayleigh):
         return (self.ratio,) if self.ratio is not None else self.ratios or ()
 
     def rayleigh(self, gear: str) -> tuple[float, float]:
-        """alpha (s) and beta (1/s) of the shaft of the "pinion" or of the "wheel"."""
-        alpha, beta = (own_or_shared(getattr(self, gear), self, name) for name in RAYLEIGH)
+        """alpha (s) and beta (1/s) of the shaft of the "pinion" or of the "wheel"; of others those that all share."""
+        alpha, beta = (own_or_shared(getattr(self, gear, None), self, name) or 0.0 for name in RAYLEIGH)
         return alpha, beta

@@ -20,13 +20,25 @@ if TYPE_CHECKING:
     from .rolling_springs import RollingSprings
     from .seat_of_mesh import SeatOfMesh
     from .shaft_system import ShaftSystem
-    from .tilting import MeshOverFace
 
 # Of the driving and of the driven gear.
 ROTATIONS = ("rotation_1", "rotation_2")
 FREE = {name: f"the {gear}" for name, gear in zip(ROTATIONS, GEARS)}
 # Each coordinate's gear, with the shaft and the bearings that are on its side of the mesh.
 SIDE = {name: GEARS[0 if name.endswith("1") else 1] for name in COORDINATES}
+
+
+@dataclass(frozen=True)
+class MeshSprings:
+    """Displacement of flanks per coordinate: along the contact normal, `normals` (r, k), of each mesh or, over a face,
+    at two heights in each, and off the line of action, `across` (f, k).
+
+    The heights are those of two springs that together act as a mesh stiffness spread evenly over the face, in force and
+    in moment.
+    """
+
+    normals: np.ndarray
+    across: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -48,7 +60,7 @@ class Drivetrain:
     load: np.ndarray
     mass: np.ndarray | None
     damping: np.ndarray | None
-    mesh: MeshOverFace | None = None
+    mesh: MeshSprings | None = None
     systems: tuple[ShaftSystem, ...] = ()
     bearing_stiffness: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
     of_the_coupling: np.ndarray | float = 0.0

@@ -18,13 +18,15 @@ from scipy.linalg import block_diag
 from fenics_gears.geometry.pair import GearPair
 
 from .damping import Damping
+from .drivetrain import MeshSprings
 from .elastic_shaft import FIVE, MOTIONS, SeatedGear
+from .modal_damping import damping_of
 from .rolling_springs import springs_of
 from .seat_of_mesh import SeatOfMesh
 from .shaft_at_work import even_load
 from .shaft_system import ShaftSystem
 from .tilting import mesh_over_face
-from .train import MeshSprings, TrainDrivetrain, damped
+from .train import TrainDrivetrain
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
@@ -248,8 +250,7 @@ def with_bent_shafts(
     if whole.mass is None:
         return whole
     dampers = with_shafts(np.zeros_like(base.stiffness), "damping")
-    whole = replace(whole, damping=dampers if np.any(dampers) else None)
-    return whole if damping is None else damped(whole, damping, mesh_stiffness)
+    return replace(whole, damping=damping_of(whole, damping, np.array(mesh_stiffness), dampers))
 
 
 def _mass_of_gears(coordinates: _Coordinates) -> np.ndarray:

@@ -15,7 +15,7 @@ from fenics_gears.model.description import derived_rows
 from fenics_gears.model.loop_rows import loop_rows
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of
-from fenics_gears.model.train_cost import row_too_large, train_cost
+from fenics_gears.model.train_cost import row_cost, row_too_large, train_cost
 from fenics_gears.model.train_motion_rows import frequency_rows, motion_rows
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_mesh import MeshOfScene
@@ -113,7 +113,7 @@ def check_train(scene: TrainScene) -> int:
     if model.warnings:
         print_rows("Warnings", [("", said, "") for said in model.warnings])
     for row in model.rows:
-        if said := row_too_large(row, allowed_memory()):
+        if said := row_too_large(row, row_cost(row), allowed_memory()):
             raise ComputationError(f"CANNOT FIT: {said}")
     return 0
 
