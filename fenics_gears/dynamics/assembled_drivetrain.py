@@ -16,10 +16,9 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS
 
-from .damping import Damping
+from .damping import Damping, damping_of
 from .drivetrain import ROTATIONS, SIDE, Drivetrain, forces_of_torque, gear_of, kind_of
 from .inertia import Inertia
-from .modal_damping import damping_of
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear

@@ -5,6 +5,7 @@ Rotations are carried as arc lengths rb phi (mm), so that all coordinates are le
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf
@@ -84,6 +85,12 @@ class Drivetrain:
         return sum(len(shaft.bearings) for shaft in self.elastic)
 
     @property
+    def of_gears(self) -> list[str]:
+        """Names of the coordinates but modes of shafts and motions in bearings and faces."""
+        others = "bearing_", "face_"
+        return [name for name in self.coordinates if "_mode_" not in name and not name.startswith(others)]
+
+    @property
     def modes(self) -> int:
         """How many of the coordinates, the last ones, are motions in rolling bearings and modes of shafts, which no
         contact moves."""
@@ -161,6 +168,17 @@ class Drivetrain:
             return np.zeros(states.shape[:-1])
         position = self.coordinates.index(name)
         return states[..., position] / self.radii[position]
+
+    def values(self, states: np.ndarray, names: Iterable[str]) -> np.ndarray:
+        """Several coordinates (..., n) of states, as `value` gives each."""
+        return np.stack([self.value(states, name) for name in names], axis=-1)
+
+    def bearing_loads(self, states: np.ndarray, of_teeth: np.ndarray | float = 0.0) -> np.ndarray:
+        """Loads (steps, bearings, 5), N and N mm, of shafts that bend on their bearings, of states (steps, k); what
+        teeth add to them where seats give way, before bearings roll (steps, 5 bearings)."""
+        springs = [self.values(states, system.coordinates) @ system.bearing_loads.T for system in self.systems]
+        loads = (np.concatenate(springs, axis=1) + of_teeth).reshape(len(states), self.bearings, -1)
+        return loads if self.rolling is None else self.rolling.loads(states, loads)
 
 
 def forces_of_torque(names: tuple[str, ...], radii: np.ndarray, torque: float) -> np.ndarray:

@@ -22,10 +22,9 @@ from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.train_graph import PINION, TrainGraph, turns_of_shafts
 
-from .damping import Damping
+from .damping import Damping, damping_of
 from .drivetrain import Drivetrain, MeshSprings
 from .frequencies import ACROSS_DIRECTION, MESH_DIRECTION
-from .modal_damping import damping_of
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear

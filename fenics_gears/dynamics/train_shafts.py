@@ -17,10 +17,9 @@ from scipy.linalg import block_diag
 
 from fenics_gears.geometry.pair import GearPair
 
-from .damping import Damping
+from .damping import Damping, damping_of
 from .drivetrain import MeshSprings
 from .elastic_shaft import FIVE, MOTIONS, SeatedGear
-from .modal_damping import damping_of
 from .rolling_springs import springs_of
 from .seat_of_mesh import SeatOfMesh
 from .shaft_at_work import even_load
