@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import inf
+from math import inf, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -131,6 +131,11 @@ class Drivetrain:
         """How the coordinates (k,) move, mm, as both gears turn by arcs of 1 mm, the driven one backwards."""
         arcs = dict(zip(ROTATIONS, (1.0, -1.0)))
         return np.array([arcs.get(name, 0.0) for name in self.coordinates])
+
+    def momentum(self, wheel_teeth: int) -> np.ndarray:
+        """Momentum (k,), N s^2, of the nominal motion per Hz of mesh frequency."""
+        base_pitch = 2.0 * pi * self.radii[self.driven] / wheel_teeth
+        return self.mass @ (base_pitch * self.nominal_motion) + base_pitch * self.of_the_coupling
 
     @property
     def driven_backwards(self) -> bool:

@@ -16,7 +16,7 @@ from fenics_gears.dynamics.shafts import HousingFile
 from fenics_gears.effects.elastic_shaft_housing import located_housing
 from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.problem import Problem, did_you_mean
-from fenics_gears.inputs.section import Section, names_in, read
+from fenics_gears.inputs.section import names_in, read, read_by_itself
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_written
 
@@ -82,8 +82,8 @@ def checked_shafts(
     problems += wrong
     sections: dict[str, TrainShaft] = {}
     for name, content in _sections(tree, "shafts", problems):
-        shaft, wrong = read(TrainShaft, content, ("shafts", name))
-        problems += [explained(each, TrainShaft) for each in wrong]
+        shaft, wrong = read_by_itself(TrainShaft, content, ("shafts", name))
+        problems += wrong
         sections |= {} if shaft is None else {name: shaft}
     meshes, wrong = named_meshes(tree["stages"])
     problems += wrong
@@ -241,8 +241,8 @@ def _load(tree: Mapping[str, Any], problems: list[Problem]) -> float | None:
     if not isinstance(inertia["load"], Mapping):
         problems.append(Problem(place, as_written(inertia["load"]), "is not a section with moment_of_inertia."))
         return None
-    load, wrong = read(LoadInertia, inertia["load"], place)
-    problems += [explained(each, LoadInertia) for each in wrong]
+    load, wrong = read_by_itself(LoadInertia, inertia["load"], place)
+    problems += wrong
     return None if load is None else load.moment_of_inertia
 
 
@@ -257,15 +257,6 @@ def _damping(tree: Mapping[str, Any], problems: list[Problem]) -> Damping | None
         if gear in written:
             said = "is of a pair. Allowed: one damping of the whole train."
             problems.append(Problem(("damping", gear), "", said))
-    damping, wrong = read(Damping, written, ("damping",))
-    problems += [explained(each, Damping) for each in wrong]
+    damping, wrong = read_by_itself(Damping, written, ("damping",))
+    problems += wrong
     return damping
-
-
-def explained(problem: Problem, section: type[Section]) -> Problem:
-    """A problem with an unknown name told with those of its section."""
-    if not problem.unknown:
-        return problem
-    names = names_in(section)
-    said = f"is not known here.{did_you_mean(problem.path[-1], names)} Known: {', '.join(names)}."
-    return replace(problem, message=said)
