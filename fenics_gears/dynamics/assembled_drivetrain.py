@@ -46,8 +46,7 @@ ARCS = ("rotation", "shaft", "tilt", "face_tilt", "face_turn")
 @dataclass(frozen=True)
 class Supports:
     """Shafts, bearings, masses and damping of a drivetrain, None where a scene has none; `gears`: "pinion" and "wheel"
-    as lumped masses; `systems`: those of shafts that also bend, `even_loads` (5,): of their gears, where bearings
-    roll."""
+    as lumped masses; `systems`: those of shafts that also bend."""
 
     shafts: Shafts | None = None
     bearings: Bearings | None = None
@@ -55,7 +54,6 @@ class Supports:
     gears: Mapping[str, LumpedGear] = field(default_factory=dict)
     damping: Damping | None = None
     systems: tuple[ShaftSystem, ...] = ()
-    even_loads: tuple[np.ndarray, ...] = ()
 
 
 def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stiffness: float) -> Drivetrain:
@@ -94,10 +92,10 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
         coupling,
         seats=seats,
     )
-    if supports.even_loads:
+    if supports.systems:
         from .rolling_springs import springs_of
 
-        undamped = replace(undamped, rolling=springs_of(undamped, supports.even_loads))
+        undamped = replace(undamped, rolling=springs_of(undamped))
     if mass is None:
         return undamped
     of_elements = sum(scale * each.over(each.motions_of_pair(names), "damping") for each in supports.systems)

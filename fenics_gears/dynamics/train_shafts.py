@@ -131,14 +131,14 @@ def turned_motions(of: np.ndarray, to: np.ndarray) -> np.ndarray:
 
 
 def even_loads(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequence[MeshFrame]) -> np.ndarray:
-    """Loads (g, 5) of the gears of a system of shafts, in the frames of these, by an even line load in each mesh."""
+    """Loads (5 g,) of the gears of a system of shafts, in the frames of these, by an even line load in each mesh."""
     loads = np.zeros((len(system.seated), FIVE))
     for own, (_, seat) in zip(loads, system.seated):
         for gear in gears:
             if gear.seat.gear == seat.gear:
                 frame = frames[gear.mesh]
                 own += gear.turned[:FIVE, :FIVE].T @ even_load(SIDES[gear.side], frame.pair, frame.torque)
-    return loads
+    return loads.ravel()
 
 
 class _Coordinates:
@@ -243,9 +243,7 @@ def with_bent_shafts(
         of_meshes=of_meshes,
         ends=tuple(coordinates.padded(each) for each in base.ends),
     )
-    if any(system.in_rolling for system in bent.systems):
-        loads = [even_loads(system, bent.gears, bent.frames) for system in bent.systems]
-        whole = replace(whole, rolling=springs_of(whole, [each for of_system in loads for each in of_system]))
+    whole = replace(whole, rolling=springs_of(whole))
     if whole.mass is None:
         return whole
     dampers = with_shafts(np.zeros_like(base.stiffness), "damping")
