@@ -3,11 +3,9 @@ planets with the sun do: it has the operators of that one, with its own numbers 
 
 from __future__ import annotations
 
-from math import ceil
-
 from .mesh import Mesh
-from .mesh_cycle import Cycle, in_common
-from .operator import ContactOperator, Position
+from .mesh_cycle import Cycle
+from .operator import Position
 from .places import counted_from
 from .tooth_pair import PairNodes
 
@@ -29,28 +27,11 @@ class CycleAlike(Cycle):
 
     def _built_of(self, mesh: Mesh, steps: list[tuple[float, float]]) -> list[Position]:
         ahead = [(step + self._ahead, before + self._ahead) for step, before in steps]
-        true = _true_positions(self._like, ahead)
+        true = self._like.true_positions(ahead)
         return [self._counted(step % self.steps, position) for (step, _), position in zip(steps, true)]
 
     def _counted(self, index: float, true: Position) -> Position:
         """A position of the other mesh as this one has it."""
-        # As `replace`, which would find again what is known of it.
-        operator = ContactOperator.__new__(ContactOperator)
         cycles = int((index + self._ahead) // self.steps)
-        operator.__dict__.update(true.operator.__dict__)
-        operator.__dict__.update(pairs=counted_from(-cycles, true.operator.pairs))
+        operator = true.operator.changed(pairs=counted_from(-cycles, true.operator.pairs))
         return Position(operator, true.node_before, index, self.mesh.nodes)
-
-
-def _true_positions(cycle: Cycle, steps: list[tuple[float, float]]) -> list[Position]:
-    """The positions of a cycle at some steps, each after the one before it, without gaps of its own; those in common
-    are kept where there is room."""
-
-    def key(step: float, before: float) -> tuple[Mesh, float] | None:
-        return (cycle.mesh, step % cycle.steps) if before == ceil(step) - 1 and in_common(step) else None
-
-    missing = [each for each in steps if key(*each) not in cycle._built]
-    made = dict(zip(missing, cycle._build(missing)))
-    found = [made.get(each) or cycle._built[cycle.mesh, each[0] % cycle.steps] for each in steps]
-    cycle._keep({kept: made[each] for each in missing if (kept := key(*each)) is not None})
-    return found

@@ -260,6 +260,20 @@ class Cycle:
             for operator, passage in zip(operators, passages)
         ]
 
+    def true_positions(self, steps: Sequence[tuple[float, float]]) -> list[Position]:
+        """The positions at some steps, each after the one before it, without gaps of their own; those in common are
+        kept where there is room."""
+        keys = {
+            (step, before): (self._mesh_at(step), step % self.steps)
+            for step, before in steps
+            if before == ceil(step) - 1 and in_common(step)
+        }
+        known = {each: found for each, key in keys.items() if (found := self._built.get(key) or self._held.get(key))}
+        missing = [each for each in steps if each not in known]
+        made = dict(zip(missing, self._build(missing)))
+        self._keep({keys[each]: position for each, position in made.items() if each in keys})
+        return [known.get(each) or made[each] for each in steps]
+
     def _keep(self, built: dict[tuple[Mesh, float], Position]) -> None:
         """Keep positions as far as there is room."""
         # The first ones stay: marches go round and round, and would find none of the last ones again.
@@ -267,13 +281,10 @@ class Cycle:
 
     def _found(self, step: float) -> Position:
         """The position at a place in common, with the whole step before it as the one before: kept, or built."""
-        key = (self.mesh if self.alike else self._mesh_at(step)), step % self.steps
+        key = self._mesh_at(step), step % self.steps
         found = self._positions.get(key)
         if found is None:
-            built = self._built.get(key) or self._held.get(key)
-            if built is None:
-                (built,) = self._build([(step, ceil(step) - 1)])
-                self._keep({key: built})
+            (built,) = self.true_positions([(step, ceil(step) - 1)])
             found = self._opened(built)
             if key in self._built:
                 self._positions[key] = found

@@ -99,6 +99,14 @@ class ContactOperator:
     sliding: np.ndarray | None = None
     coordinates: int = 0
 
+    def changed(self, **fields: Any) -> ContactOperator:
+        """The same with other fields; what is known of it is not found again, and no rows are formed."""
+        # A tenth of the time that `copy` takes.
+        other = ContactOperator.__new__(ContactOperator)
+        other.__dict__.update(self.__dict__)
+        other.__dict__.update(fields)
+        return other
+
     @property
     def nodes(self) -> int:
         """Number of contact nodes."""
@@ -243,11 +251,7 @@ class _Opened(Position):
     def operator(self) -> ContactOperator:  # type: ignore[override]
         """That of the position with these gaps."""
         true = self.true.operator
-        # As `replace`, which would form all rows, and in a tenth of the time that `copy` takes.
-        operator = ContactOperator.__new__(ContactOperator)
-        operator.__dict__.update(true.__dict__)
-        operator.__dict__.update(gap=self.gap, node_pair=true.node_pair, on_drive_flanks=true.on_drive_flanks)
-        return operator
+        return true.changed(gap=self.gap, node_pair=true.node_pair, on_drive_flanks=true.on_drive_flanks)
 
     @cached_property
     def in_memory(self) -> tuple[np.ndarray, list[np.ndarray]]:

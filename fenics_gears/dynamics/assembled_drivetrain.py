@@ -16,7 +16,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS
 
-from .damping import Damping
+from .damping import Damping, damping_of
 from .drivetrain import ROTATIONS, SIDE, Drivetrain, forces_of_torque, gear_of, kind_of
 from .inertia import Inertia
 
@@ -46,8 +46,7 @@ ARCS = ("rotation", "shaft", "tilt", "face_tilt", "face_turn")
 @dataclass(frozen=True)
 class Supports:
     """Shafts, bearings, masses and damping of a drivetrain, None where a scene has none; `gears`: "pinion" and "wheel"
-    as lumped masses; `systems`: those of shafts that also bend, `even_loads` (5,): of their gears, where bearings
-    roll."""
+    as lumped masses; `systems`: those of shafts that also bend."""
 
     shafts: Shafts | None = None
     bearings: Bearings | None = None
@@ -55,7 +54,6 @@ class Supports:
     gears: Mapping[str, LumpedGear] = field(default_factory=dict)
     damping: Damping | None = None
     systems: tuple[ShaftSystem, ...] = ()
-    even_loads: tuple[np.ndarray, ...] = ()
 
 
 def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stiffness: float) -> Drivetrain:
@@ -94,11 +92,14 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
         coupling,
         seats=seats,
     )
-    if supports.even_loads:
+    if supports.systems:
         from .rolling_springs import springs_of
 
-        undamped = replace(undamped, rolling=springs_of(undamped, supports.even_loads))
-    return replace(undamped, damping=None if mass is None else _damping(supports, undamped, mesh_stiffness, scale))
+        undamped = replace(undamped, rolling=springs_of(undamped))
+    if mass is None:
+        return undamped
+    of_elements = sum(scale * each.over(each.motions_of_pair(names), "damping") for each in supports.systems)
+    return replace(undamped, damping=damping_of(undamped, supports.damping, mesh_stiffness, of_elements))
 
 
 def _stiffness(names: tuple[str, ...], supports: Supports) -> tuple[np.ndarray, np.ndarray]:
@@ -190,22 +191,3 @@ def _check_load(end: float, wheel: float) -> None:
             f" {MOST_OF_WHEEL:g} times, beyond which the far end of the output shaft stands still all the same. Lower"
             " inertia.load.moment_of_inertia, or raise that of [inertia.wheel]"
         )
-
-
-def _damping(supports: Supports, undamped: Drivetrain, mesh_stiffness: float, scale: np.ndarray) -> np.ndarray | None:
-    """D (k, k): alpha K + beta M of either shaft, or by the ratios of the modes with one tooth pair in mesh, and what
-    elements of shafts have of their own."""
-    damping_of_shafts = sum(
-        scale * each.over(each.motions_of_pair(undamped.coordinates), "damping") for each in supports.systems
-    )
-    damping = supports.damping
-    if damping is None:
-        return damping_of_shafts if np.any(damping_of_shafts) else None
-    if damping.modal:
-        from .modal_damping import modal_damping
-
-        return damping_of_shafts + modal_damping(undamped, mesh_stiffness, damping.modal)
-    # A row and its column have the same factors, but for springs of a housing that joins both sides of the mesh.
-    factors = np.array([damping.rayleigh(gear_of(name)) for name in undamped.coordinates]).T
-    alpha, beta = 0.5 * (factors[:, :, None] + factors[:, None, :])
-    return damping_of_shafts + alpha * undamped.stiffness_at_work + beta * undamped.mass

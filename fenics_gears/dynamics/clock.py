@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 
 class Clock(Protocol):
@@ -73,11 +74,11 @@ class TimeScales:
 FOLLOWING = TimeScales()
 
 
-def time_scales(elastic_frequencies: np.ndarray, mesh_frequency: float, time_step: float) -> TimeScales:
-    """The time scales of a mesh frequency (Hz) and a step (s) among a drivetrain's elastic natural frequencies (Hz),
+def time_scales(elastic_frequencies: np.ndarray, mesh_frequencies: ArrayLike, time_step: float) -> TimeScales:
+    """The time scales of mesh frequencies (Hz) and a step (s) among a drivetrain's elastic natural frequencies (Hz),
     ascending."""
     return TimeScales(
         samples_vibration=2.0 * time_step * elastic_frequencies[0] <= 1.0,
-        follows_statics=mesh_frequency < elastic_frequencies[0],
-        outruns_vibration=mesh_frequency > elastic_frequencies[-1],
+        follows_statics=bool(np.max(mesh_frequencies) < elastic_frequencies[0]),
+        outruns_vibration=bool(np.min(mesh_frequencies) > elastic_frequencies[-1]),
     )

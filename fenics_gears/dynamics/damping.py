@@ -1,9 +1,19 @@
 """How strongly a drivetrain is damped: by Rayleigh's factors of each shaft or by ratios of the modes."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from fenics_gears.inputs.fields import number, numbers, quantity
 from fenics_gears.inputs.section import Section, own_or_shared
+
+from .drivetrain import gear_of
+
+if TYPE_CHECKING:
+    from .drivetrain import Drivetrain
 
 RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ratios")
 
@@ -62,6 +72,28 @@ class Damping(Rayleigh):
         return (self.ratio,) if self.ratio is not None else self.ratios or ()
 
     def rayleigh(self, gear: str) -> tuple[float, float]:
-        """alpha (s) and beta (1/s) of the shaft of the "pinion" or of the "wheel"."""
-        alpha, beta = (own_or_shared(getattr(self, gear), self, name) for name in RAYLEIGH)
+        """alpha (s) and beta (1/s) of the shaft of the "pinion" or of the "wheel"; of others those that all share."""
+        alpha, beta = (own_or_shared(getattr(self, gear, None), self, name) or 0.0 for name in RAYLEIGH)
         return alpha, beta
+
+
+def damping_of(
+    undamped: Drivetrain,
+    damping: Damping | None,
+    mesh_stiffness: float | np.ndarray,
+    of_elements: np.ndarray | float = 0.0,
+) -> np.ndarray | None:
+    """D (k, k), N s/mm, of a drivetrain with inertia and a mesh stiffness as of `frequencies.modes`; None without any.
+
+    alpha K + beta M of either shaft, or by the ratios of the modes; and what elements of shafts have of their own.
+    """
+    if damping is None:
+        return of_elements if isinstance(of_elements, np.ndarray) and of_elements.any() else None
+    if damping.modal:
+        from .modal_damping import modal_damping
+
+        return of_elements + modal_damping(undamped, mesh_stiffness, damping.modal)
+    # A row and its column have the same factors, but for springs of a housing that joins both sides of the mesh.
+    factors = np.array([damping.rayleigh(gear_of(name)) for name in undamped.coordinates]).T
+    alpha, beta = 0.5 * (factors[:, :, None] + factors[:, None, :])
+    return of_elements + alpha * undamped.stiffness_at_work + beta * undamped.mass

@@ -5,9 +5,10 @@ Rotations are carried as arc lengths rb phi (mm), so that all coordinates are le
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import inf
+from math import inf, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,13 +21,25 @@ if TYPE_CHECKING:
     from .rolling_springs import RollingSprings
     from .seat_of_mesh import SeatOfMesh
     from .shaft_system import ShaftSystem
-    from .tilting import MeshOverFace
 
 # Of the driving and of the driven gear.
 ROTATIONS = ("rotation_1", "rotation_2")
 FREE = {name: f"the {gear}" for name, gear in zip(ROTATIONS, GEARS)}
 # Each coordinate's gear, with the shaft and the bearings that are on its side of the mesh.
 SIDE = {name: GEARS[0 if name.endswith("1") else 1] for name in COORDINATES}
+
+
+@dataclass(frozen=True)
+class MeshSprings:
+    """Displacement of flanks per coordinate: along the contact normal, `normals` (r, k), of each mesh or, over a face,
+    at two heights in each, and off the line of action, `across` (f, k).
+
+    The heights are those of two springs that together act as a mesh stiffness spread evenly over the face, in force and
+    in moment.
+    """
+
+    normals: np.ndarray
+    across: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -48,7 +61,7 @@ class Drivetrain:
     load: np.ndarray
     mass: np.ndarray | None
     damping: np.ndarray | None
-    mesh: MeshOverFace | None = None
+    mesh: MeshSprings | None = None
     systems: tuple[ShaftSystem, ...] = ()
     bearing_stiffness: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
     of_the_coupling: np.ndarray | float = 0.0
@@ -70,6 +83,12 @@ class Drivetrain:
     def bearings(self) -> int:
         """Number of the bearings of shafts that also bend."""
         return sum(len(shaft.bearings) for shaft in self.elastic)
+
+    @property
+    def of_gears(self) -> list[str]:
+        """Names of the coordinates but modes of shafts and motions in bearings and faces."""
+        others = "bearing_", "face_"
+        return [name for name in self.coordinates if "_mode_" not in name and not name.startswith(others)]
 
     @property
     def modes(self) -> int:
@@ -113,6 +132,11 @@ class Drivetrain:
         arcs = dict(zip(ROTATIONS, (1.0, -1.0)))
         return np.array([arcs.get(name, 0.0) for name in self.coordinates])
 
+    def momentum(self, wheel_teeth: int) -> np.ndarray:
+        """Momentum (k,), N s^2, of the nominal motion per Hz of mesh frequency."""
+        base_pitch = 2.0 * pi * self.radii[self.driven] / wheel_teeth
+        return self.mass @ (base_pitch * self.nominal_motion) + base_pitch * self.of_the_coupling
+
     @property
     def driven_backwards(self) -> bool:
         """Whether the load drives the pair from the wheel."""
@@ -149,6 +173,17 @@ class Drivetrain:
             return np.zeros(states.shape[:-1])
         position = self.coordinates.index(name)
         return states[..., position] / self.radii[position]
+
+    def values(self, states: np.ndarray, names: Iterable[str]) -> np.ndarray:
+        """Several coordinates (..., n) of states, as `value` gives each."""
+        return np.stack([self.value(states, name) for name in names], axis=-1)
+
+    def bearing_loads(self, states: np.ndarray, of_teeth: np.ndarray | float = 0.0) -> np.ndarray:
+        """Loads (steps, bearings, 5), N and N mm, of shafts that bend on their bearings, of states (steps, k); what
+        teeth add to them where seats give way, before bearings roll (steps, 5 bearings)."""
+        springs = [self.values(states, system.coordinates) @ system.bearing_loads.T for system in self.systems]
+        loads = (np.concatenate(springs, axis=1) + of_teeth).reshape(len(states), self.bearings, -1)
+        return loads if self.rolling is None else self.rolling.loads(states, loads)
 
 
 def forces_of_torque(names: tuple[str, ...], radii: np.ndarray, torque: float) -> np.ndarray:

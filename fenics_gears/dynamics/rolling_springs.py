@@ -8,7 +8,7 @@ around that of contact.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -198,16 +198,15 @@ def _change(step: np.ndarray, coordinates: np.ndarray) -> float:
     return float(np.abs(step).max() / max(np.abs(coordinates).max(), np.finfo(float).tiny))
 
 
-def springs_of(drivetrain: Drivetrain, loads: Sequence[np.ndarray]) -> RollingSprings | None:
-    """The rolling bearings of a drivetrain whose gears have loads (5,) on their elastic shafts; None where it has
-    none."""
+def springs_of(drivetrain: Drivetrain) -> RollingSprings | None:
+    """The rolling bearings of a drivetrain whose elastic shafts are at work; None where it has none."""
+    if not any(system.in_rolling for system in drivetrain.systems):
+        return None
     springs = []
     first = 0
     reference = np.zeros(len(drivetrain.coordinates))
-    left = list(loads)
     for system in drivetrain.systems:
-        own = np.concatenate([left.pop(0) for _ in system.seated])
-        gears = np.linalg.solve(system.gear_stiffness, own)
+        gears = np.linalg.solve(system.gear_stiffness, system.load)
         motions = (system.bearings_at_rest @ gears).reshape(-1, MOTIONS)
         rolling = [number for number, each in enumerate(system.bearings) if each.rolling is not None]
         names = (*system.moved[: len(gears)], *system.in_rolling)
@@ -220,4 +219,4 @@ def springs_of(drivetrain: Drivetrain, loads: Sequence[np.ndarray]) -> RollingSp
             secant = np.array(bearing.matrix) - np.diag([0.0, 0.0, axial, 0.0, 0.0])
             springs.append(RollingSpring(own, bearing.rolling, secant, first + number, axial))
         first += len(system.bearings)
-    return RollingSprings(tuple(springs), reference, drivetrain.modes) if springs else None
+    return RollingSprings(tuple(springs), reference, drivetrain.modes)

@@ -13,6 +13,7 @@ import numpy as np
 from fenics_gears.contact.face import even_slices
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.inputs.problem import NOTHING_DONE
 
 from .elastic_shaft import FIVE, NUMBERS, ElasticShaft, SeatedGear
 from .rolling_bearing import MOTIONS, reaction, secant_stiffness
@@ -97,9 +98,10 @@ def at_work(system: ShaftSystem, load: np.ndarray) -> ShaftSystem:
 
     Raises SceneError where no place of the shafts is found that balances the load.
     """
+    system = replace(system, load=tuple(load.tolist()))
     if not system.in_rolling or not np.any(load):
         return system
-    bearings = list(_at_work(system.shafts, system.housing, tuple(load.tolist())))
+    bearings = list(_at_work(system.shafts, system.housing, system.load))
     shafts = [replace(each, bearings=tuple(bearings.pop(0) for _ in each.bearings)) for each in system.shafts]
     return replace(system, shafts=tuple(shafts))
 
@@ -175,7 +177,7 @@ def _balanced(system: ShaftSystem, load: np.ndarray) -> np.ndarray:
     gears = " and ".join(f"bearings.{shaft.name}" for shaft in system.shafts)
     raise SceneError(
         f"{gears}: no place of the shaft was found in which its rolling bearings balance the load. Check numbers,"
-        " diameters, contact_angle and clearance of their rolling elements"
+        f" diameters, contact_angle and clearance of their rolling elements. {NOTHING_DONE}"
     )
 
 

@@ -34,11 +34,13 @@ TILTING = (1.0, 1.0, 1.0, ARM**2, ARM**2)
 @dataclass(frozen=True, eq=False)
 class ShaftsAtRest:
     """`shafts` with the stiffness of one `housing` between the seats of all of their bearings (5 b, 5 b), N, mm and
-    rad, None where it is rigid; `more`: elements that hold or join their nodes otherwise."""
+    rad, None where it is rigid; `more`: elements that hold or join their nodes otherwise; `load` (5 g,): of their
+    gears, under which rolling bearings are as stiff as they are, none at rest."""
 
     shafts: tuple[ElasticShaft, ...]
     housing: Matrix | None = None
     more: tuple[Element, ...] = ()
+    load: tuple[float, ...] = ()
 
     @property
     def key(self) -> tuple:

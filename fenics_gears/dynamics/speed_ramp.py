@@ -12,11 +12,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import pi, sqrt
+from math import sqrt
 
 import numpy as np
-
-from .drivetrain import Drivetrain
 
 
 @dataclass(frozen=True)
@@ -76,25 +74,11 @@ class RampClock:
         return self.acceleration if ramping else 0.0
 
 
-def forces_of_train(
-    clock: RampClock, mass: np.ndarray, nominal: np.ndarray, turned_in_a_cycle: float
-) -> Callable[[float], np.ndarray]:
-    """Forces (k,), N, of the accelerating nominal motion of a train at a step: `nominal` (k,), mm, in a rad of the
-    first shaft, which turns by so many rad in a mesh cycle of the clock."""
-    unit = -turned_in_a_cycle * mass @ nominal
+def inertia_forces(clock: RampClock, momentum: np.ndarray) -> Callable[[float], np.ndarray]:
+    """Forces (k,), N, of the accelerating nominal motion at a step; `momentum` (k,), N s^2: of this motion per Hz of
+    the clock's mesh frequency."""
 
     def load(step: float) -> np.ndarray:
-        return unit * clock.acceleration_at(step)
-
-    return load
-
-
-def inertia_forces(clock: RampClock, drivetrain: Drivetrain, wheel_teeth: int) -> Callable[[float], np.ndarray]:
-    """Forces (k,), N, of the accelerating nominal motion at a step."""
-    base_pitch = 2.0 * pi * drivetrain.radii[drivetrain.driven] / wheel_teeth
-    unit = -drivetrain.mass @ (base_pitch * drivetrain.nominal_motion) - base_pitch * drivetrain.of_the_coupling
-
-    def load(step: float) -> np.ndarray:
-        return unit * clock.acceleration_at(step)
+        return -momentum * clock.acceleration_at(step)
 
     return load

@@ -9,7 +9,6 @@ the speed of rotation (1/s), J_t being the moment of inertia about a diameter. J
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from math import sqrt
 from typing import TYPE_CHECKING
 
@@ -19,6 +18,8 @@ from fenics_gears.contact.kinematics import COORDINATES, approach
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS
 
+from .drivetrain import MeshSprings
+
 if TYPE_CHECKING:
     from .bearings import Bearings
     from .frequencies import Vibration
@@ -27,19 +28,6 @@ if TYPE_CHECKING:
 GYROSCOPIC = 0.05
 # The tilt that moves the shaft in a direction, and how.
 TILTS = {"x": ("tilt_y", 1.0), "y": ("tilt_x", -1.0)}
-
-
-@dataclass(frozen=True)
-class MeshOverFace:
-    """Displacement of the flanks' contact per coordinate: along the contact normal at two heights, `normals` (2, k),
-    and off the line of action, `across` (1, k).
-
-    The heights are those of two springs that together act as a mesh stiffness spread evenly over the face, in force and
-    in moment.
-    """
-
-    normals: np.ndarray
-    across: np.ndarray
 
 
 def gyroscopic_warnings(vibrations: Iterable[Vibration], speeds: Mapping[str, float]) -> list[str]:
@@ -80,14 +68,14 @@ def add_bearings(stiffness: np.ndarray, names: tuple[str, ...], bearings: Bearin
             stiffness[axial, axial] += bearings.axial(gear)
 
 
-def mesh_over_face(pair: GearPair, names: tuple[str, ...]) -> MeshOverFace:
+def mesh_over_face(pair: GearPair, names: tuple[str, ...]) -> MeshSprings:
     """How coordinates move the contact of flanks that touch at the pitch point in the middle of the common face;
     coordinates as arc lengths (mm)."""
     # Gauss points: two springs at +- b/(2 sqrt 3) have the second moment of an even one over b.
     heights = np.array([-1.0, 1.0]) * pair.face_width / (2.0 * sqrt(3.0))
     normal = contact_normal(pair)
     normals = [moved(pair, names, (pair.pitch_point + pair.slope * height, height), normal) for height in heights]
-    return MeshOverFace(
+    return MeshSprings(
         np.array(normals), moved(pair, names, (pair.pitch_point, 0.0), np.array([0.0, 1.0, 0.0]))[None, :]
     )
 

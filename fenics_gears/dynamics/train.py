@@ -22,10 +22,9 @@ from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.train_graph import PINION, TrainGraph, turns_of_shafts
 
-from .damping import Damping
-from .drivetrain import Drivetrain
+from .damping import Damping, damping_of
+from .drivetrain import Drivetrain, MeshSprings
 from .frequencies import ACROSS_DIRECTION, MESH_DIRECTION
-from .modal_damping import modal_damping
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
@@ -35,14 +34,6 @@ if TYPE_CHECKING:
 # Coordinates of one mesh in their order: of the centre along and off the line of action, and the rotation, of either
 # gear.
 OF_A_GEAR = ("centre_x{}", "centre_y{}", "rotation_{}")
-
-
-@dataclass(frozen=True)
-class MeshSprings:
-    """How the coordinates move the flanks of all meshes (f, k), along their normals and across."""
-
-    normals: np.ndarray
-    across: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -250,21 +241,9 @@ def train_drivetrain(
         ends=tuple(rows.lag(driven) for _, driven in graph.between),
         nominal=rows.nominal(turns),
     )
-    return undamped if damping is None else damped(undamped, damping, mesh_stiffness)
-
-
-def damped(undamped: TrainDrivetrain, damping: Damping, mesh_stiffness: Sequence[float]) -> TrainDrivetrain:
-    """A drivetrain with damping beside what it has; `mesh_stiffness`, N/mm: of each of its mesh springs, roughly."""
     if undamped.mass is None:
         return undamped
-    before = 0.0 if undamped.damping is None else undamped.damping
-    if damping.modal:
-        own = modal_damping(undamped, np.array(mesh_stiffness), damping.modal)
-    else:
-        alpha = damping.stiffness_proportional or 0.0
-        beta = damping.mass_proportional or 0.0
-        own = alpha * undamped.stiffness_at_work + beta * undamped.mass
-    return replace(undamped, damping=before + own)
+    return replace(undamped, damping=damping_of(undamped, damping, np.array(mesh_stiffness)))
 
 
 def _stiffness(rows: _Rows) -> tuple[np.ndarray, np.ndarray]:

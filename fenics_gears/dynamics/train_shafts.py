@@ -17,14 +17,15 @@ from scipy.linalg import block_diag
 
 from fenics_gears.geometry.pair import GearPair
 
-from .damping import Damping
+from .damping import Damping, damping_of
+from .drivetrain import MeshSprings
 from .elastic_shaft import FIVE, MOTIONS, SeatedGear
 from .rolling_springs import springs_of
 from .seat_of_mesh import SeatOfMesh
 from .shaft_at_work import even_load
 from .shaft_system import ShaftSystem
 from .tilting import mesh_over_face
-from .train import MeshSprings, TrainDrivetrain, damped
+from .train import TrainDrivetrain
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
@@ -130,14 +131,14 @@ def turned_motions(of: np.ndarray, to: np.ndarray) -> np.ndarray:
 
 
 def even_loads(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequence[MeshFrame]) -> np.ndarray:
-    """Loads (g, 5) of the gears of a system of shafts, in the frames of these, by an even line load in each mesh."""
+    """Loads (5 g,) of the gears of a system of shafts, in the frames of these, by an even line load in each mesh."""
     loads = np.zeros((len(system.seated), FIVE))
     for own, (_, seat) in zip(loads, system.seated):
         for gear in gears:
             if gear.seat.gear == seat.gear:
                 frame = frames[gear.mesh]
                 own += gear.turned[:FIVE, :FIVE].T @ even_load(SIDES[gear.side], frame.pair, frame.torque)
-    return loads
+    return loads.ravel()
 
 
 class _Coordinates:
@@ -242,14 +243,11 @@ def with_bent_shafts(
         of_meshes=of_meshes,
         ends=tuple(coordinates.padded(each) for each in base.ends),
     )
-    if any(system.in_rolling for system in bent.systems):
-        loads = [even_loads(system, bent.gears, bent.frames) for system in bent.systems]
-        whole = replace(whole, rolling=springs_of(whole, [each for of_system in loads for each in of_system]))
+    whole = replace(whole, rolling=springs_of(whole))
     if whole.mass is None:
         return whole
     dampers = with_shafts(np.zeros_like(base.stiffness), "damping")
-    whole = replace(whole, damping=dampers if np.any(dampers) else None)
-    return whole if damping is None else damped(whole, damping, mesh_stiffness)
+    return replace(whole, damping=damping_of(whole, damping, np.array(mesh_stiffness), dampers))
 
 
 def _mass_of_gears(coordinates: _Coordinates) -> np.ndarray:

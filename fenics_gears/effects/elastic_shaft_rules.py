@@ -113,23 +113,22 @@ def systems_at_work(scene: Any, pair: Any) -> tuple[ShaftSystem, ...]:
     """The shafts of a scene that have sections, with rolling bearings as stiff as they are under an even line load."""
     systems = []
     for system in shaft_systems(scene, pair):
-        if system.in_rolling:
-            loads = [even_load(seat.gear, pair, scene.load.wheel_torque) for _, seat in system.seated]
-            system = at_work(system, np.concatenate(loads))
-            check_held_at_work(system, "bearings.{}")
-        systems.append(system)
+        loads = [even_load(seat.gear, pair, scene.load.wheel_torque) for _, seat in system.seated]
+        systems.append(held_at_work(system, np.concatenate(loads), "bearings.{}"))
     return tuple(systems)
 
 
-def check_held_at_work(system: ShaftSystem, field: str) -> None:
-    """Raise SceneError where rolling elements that carry the load leave a shaft free, as one alone does across it;
-    `field`: where bearings are in the scene."""
-    for gear, free in free_motions(system.shafts, system.springs).items():
+def held_at_work(system: ShaftSystem, load: np.ndarray, field: str) -> ShaftSystem:
+    """Shafts under a load (5 g,) of their gears (`at_work`). Raises SceneError where rolling elements that carry the
+    load leave a shaft free, as one alone does across it; `field`: where bearings are in the scene."""
+    system = at_work(system, load)
+    for gear, free in free_motions(system.shafts, system.springs).items() if system.in_rolling else ():
         if free:
             raise SceneError(
                 f"{field.format(gear)}: under the load of the teeth so few rolling elements carry that the shaft freely"
                 f" {' and '.join(free)}. Allowed: more rolling elements, less clearance or a preload. {NOTHING_DONE}"
             )
+    return system
 
 
 def shaft_systems(scene: Any, pair: Any) -> tuple[ShaftSystem, ...]:

@@ -1,5 +1,7 @@
-"""Reading, rules and findings that ``[tip_relief]`` and ``[root_relief]`` share. Not an effect by itself."""
+"""What ``[tip_relief]`` and ``[root_relief]`` share, which is all but their ends. Not an effect by itself."""
 
+from collections.abc import Callable
+from functools import partial
 from math import degrees
 from typing import Any
 
@@ -10,7 +12,7 @@ from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import tree_of
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, with_gears
 
-from .effect import ResultVariable
+from .effect import Effect, ResultVariable
 
 AT_KINK = ResultVariable(
     "largest_kink_pressure",
@@ -20,7 +22,26 @@ AT_KINK = ResultVariable(
 )
 
 
-def starts_without_single_contact(section: str, word: str, reliefs: Reliefs, model) -> list[str]:
+def relief_effect(end: str, usual: str, fields: type[Relief], kind: type[Reliefs], curves: Callable) -> Effect:
+    """The effect of relief towards an `end`, "tip" or "root", which starts at the `usual` place; `curves(pair, data)`:
+    material removed."""
+    section = f"{end}_relief"
+    return Effect(
+        section=section,
+        description=f"{end} relief, linear or parabolic in the roll angle",
+        absent=f"involutes without {end} relief",
+        fields=fields,
+        terms=("gaps between the flanks",),
+        read=partial(_read, kind),
+        write=partial(_write, usual),
+        rules=partial(_rules, section, usual),
+        removal=lambda reliefs, pair: curves(pair, reliefs),
+        warnings=partial(_starts_without_single_contact, section, usual),
+        variables=(AT_KINK,),
+    )
+
+
+def _starts_without_single_contact(section: str, word: str, reliefs: Reliefs, model) -> list[str]:
     """A sentence where a relief starts at a point of single tooth contact and the pair has none."""
     pair = model.pair
     if pair.fewest_pairs < 2:
@@ -39,7 +60,7 @@ def starts_without_single_contact(section: str, word: str, reliefs: Reliefs, mod
     ]
 
 
-def read(kind: type[Reliefs], section: Any) -> Reliefs:
+def _read(kind: type[Reliefs], section: Any) -> Reliefs:
     return kind(*(_of_gear(section, getattr(section, gear)) for gear in GEARS))
 
 
@@ -54,13 +75,13 @@ def _of_gear(both: Relief, own: Relief | None) -> Relief | None:
     return None if values["depth"] is None else Relief(**values)
 
 
-def write(usual: str, reliefs: Any) -> dict[str, Any]:
+def _write(usual: str, reliefs: Any) -> dict[str, Any]:
     """The section of both gears' reliefs, each by itself; one without a start begins at the ``usual`` place."""
     own = {gear: tree_of(getattr(reliefs, gear)) for gear in GEARS if getattr(reliefs, gear) is not None}
     return {gear: tree if {*STARTS} & {*tree} else tree | {"start": usual} for gear, tree in own.items()}
 
 
-def rules(section: str, word: str, tree: Tree) -> Broken:
+def _rules(section: str, word: str, tree: Tree) -> Broken:
     """A relief has a depth and a start, which means the same for all gears that it is given for."""
     both = table(tree, section)
     if both is None:

@@ -50,7 +50,7 @@ def clock(ramp: SpeedRamp, model):
 
 
 def load(ramp: SpeedRamp, model):
-    return inertia_forces(clock(ramp, model), model.drivetrain, model.scene.gears.wheel.teeth)
+    return inertia_forces(clock(ramp, model), model.drivetrain.momentum(model.scene.gears.wheel.teeth))
 
 
 def results(ramp: SpeedRamp, scene, cycle, steps) -> dict:

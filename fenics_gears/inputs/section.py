@@ -5,7 +5,7 @@
 
 import functools
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import MISSING, Field, dataclass, fields
+from dataclasses import MISSING, Field, dataclass, fields, replace
 from typing import Any, ClassVar, get_args, get_type_hints
 
 from .allowed import Allowed, Refused
@@ -64,6 +64,18 @@ def _section_of(hint: Any) -> type[Section] | None:
 
 class PartRefused(Refused):
     """A part of the value is not allowed; the message says what is allowed of that part too."""
+
+
+def read_by_itself(section: type[Section], tree: Mapping[str, Any], path: Path) -> tuple[Any, list[Problem]]:
+    """As `read`; unknown names are told with those of the section."""
+    found, problems = read(section, tree, path)
+    known = names_in(section)
+    return found, [
+        replace(each, message=f"is not known here.{did_you_mean(each.path[-1], known)} Known: {', '.join(known)}.")
+        if each.unknown
+        else each
+        for each in problems
+    ]
 
 
 def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tuple[Any, list[Problem]]:

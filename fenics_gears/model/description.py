@@ -70,7 +70,8 @@ def describe(scene: Scene) -> list[tuple[str, Rows]]:
     ]
     if model.drivetrain.mass is not None:
         sections.append(("Inertia", inertia_rows(model)))
-        sections.append(("Natural frequencies with one tooth pair in mesh (about)", frequency_rows(model)))
+        frequencies = frequency_rows(model.vibrations, model.time_step)
+        sections.append(("Natural frequencies with one tooth pair in mesh (about)", frequencies))
     sections.append(("Expected cost (about, alone on an idle machine)", _cost_rows(model)))
     if model.warnings:
         sections.append(("Warnings", [("", warning, "") for warning in model.warnings]))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from math import inf, isfinite, pi, sqrt
 from typing import TYPE_CHECKING
@@ -18,8 +18,6 @@ from fenics_gears.scene.data import ISO_6336, Scene
 from .bore_twist import bore_twist_stiffness
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from fenics_gears.dynamics.elastic_shaft import ElasticShaft
     from fenics_gears.dynamics.shaft_system import ShaftSystem
     from fenics_gears.geometry.section import CrossSection
@@ -35,19 +33,8 @@ def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
     """
     gears = {} if scene.inertia is None else lumped_gears(scene, pair)
     systems = _shaft_systems(scene, pair, gears)
-    loads = even_loads(scene, pair, systems)
-    supports = Supports(scene.shafts, scene.bearings, scene.inertia, gears, scene.damping, systems, loads)
+    supports = Supports(scene.shafts, scene.bearings, scene.inertia, gears, scene.damping, systems)
     return assembled(pair, scene.load.wheel_torque, supports, mesh_stiffness(scene, pair))
-
-
-def even_loads(scene: Scene, pair: GearPair, systems: Sequence[ShaftSystem]) -> tuple[np.ndarray, ...]:
-    """Loads (5,) of gears on elastic shafts by an even line load; none where no bearing rolls."""
-    if not any(system.in_rolling for system in systems):
-        return ()
-    from fenics_gears.dynamics.shaft_at_work import even_load
-
-    gears = (seat.gear for system in systems for _, seat in system.seated)
-    return tuple(even_load(gear, pair, scene.load.wheel_torque) for gear in gears)
 
 
 def _shaft_systems(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]) -> tuple[ShaftSystem, ...]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import inf, lcm
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.dynamics.drivetrain import gear_of
-from fenics_gears.dynamics.frequencies import PERIOD_ERROR
+from fenics_gears.dynamics.frequencies import PERIOD_ERROR, Vibration
 from fenics_gears.dynamics.guidance import resolved_frequency
 from fenics_gears.effects import common_period
 from fenics_gears.geometry.sliding import sliding_speed
@@ -98,11 +99,7 @@ def unknown_rows(model: Model) -> Rows:
         elif seat.hub is not None:
             words = "mm, the bore, where hub and shaft hold each other without slip and give way together"
             rows.append((f"press fit of the {seat.gear}", 2.0 * seat.hub.shaft.outer, words))
-    names = [
-        name
-        for name in model.drivetrain.coordinates
-        if "_mode_" not in name and not name.startswith(("bearing_", "face_"))
-    ]
+    names = model.drivetrain.of_gears
     motions = ", ".join(map(motion_in_words, names))
     return [*rows, ("motions of the gears that are unknown", f"{len(names)}:", motions)]
 
@@ -119,20 +116,20 @@ def period_rows(model: Model) -> Rows:
     return [("mesh cycles of the common period", period, words)]
 
 
-def frequency_rows(model: Model) -> Rows:
-    """Each natural frequency with the steps that a period has, and the limits of what a step resolves and samples."""
+def frequency_rows(found: Sequence[Vibration], time_step: float) -> Rows:
+    """Each natural frequency with the steps that a period has, and the limits of what a step (s) resolves and
+    samples."""
     rows: Rows = []
-    for number, vibration in enumerate(model.vibrations, 1):
-        steps = vibration.steps_per_period(model.time_step)
-        unmoved = "" if vibration.excited else ", not excited by the mesh"
+    for number, vibration in enumerate(found, 1):
+        steps = vibration.steps_per_period(time_step)
+        unmoved = "" if vibration.excited else ", not excited by contact"
         motion = vibration.motion and f", {vibration.motion}"
         damped = f", damping ratio {vibration.damping_ratio:.2g}" if vibration.damping_ratio > 0.0 else ", undamped"
         words = f"Hz: {steps:.3g} steps per period{damped}{motion}{unmoved}"
         rows.append((f"mode {number}", vibration.frequency, words))
     words = f"Hz: by the time step, periods exact within {PERIOD_ERROR:.0%}"
-    rows.append(("highest frequency that is resolved", resolved_frequency(model.time_step), words))
-    rows.append(("highest frequency that is sampled", 0.5 / model.time_step, "Hz: two steps per period"))
-    return rows
+    rows.append(("highest frequency that is resolved", resolved_frequency(time_step), words))
+    return [*rows, ("highest frequency that is sampled", 0.5 / time_step, "Hz: two steps per period")]
 
 
 # Coordinates of a drivetrain in words, without the number of the gear.

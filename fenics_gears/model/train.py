@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.dynamics.clock import FOLLOWING, SteadyClock, TimeScales
+from fenics_gears.dynamics.clock import FOLLOWING, SteadyClock, TimeScales, time_scales
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
 from fenics_gears.dynamics.guidance import time_step_warnings
-from fenics_gears.dynamics.speed_ramp import RampClock, forces_of_train
+from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.train import TrainDrivetrain, coordinates_of_mesh, drivetrain_of_mesh, train_drivetrain
 from fenics_gears.elasticity.compliance import Reach
@@ -102,7 +102,7 @@ class RowModel(OfMeshes):
         if ramp is None or self.drivetrain.mass is None:
             return EquationsOfMotion(*common, SteadyClock(first.time_step))
         turned = self.input_speed / ramp.start
-        load = forces_of_train(ramp, self.drivetrain.mass, self.drivetrain.nominal, turned)
+        load = inertia_forces(ramp, turned * self.drivetrain.mass @ self.drivetrain.nominal)
         return EquationsOfMotion(*common, ramp, (load,))
 
     @property
@@ -149,13 +149,9 @@ class RowModel(OfMeshes):
         """How mesh frequencies and time step compare with the vibrations."""
         if not self.vibrations:
             return FOLLOWING
-        elastic = [each.frequency for each in self.vibrations]
+        elastic = np.array([each.frequency for each in self.vibrations])
         frequencies = [model.scene.motion.mesh_frequency * part for model in self.models for part in self._speeds]
-        return TimeScales(
-            samples_vibration=2.0 * self.models[0].time_step * elastic[0] <= 1.0,
-            follows_statics=max(frequencies) < elastic[0],
-            outruns_vibration=min(frequencies) > elastic[-1],
-        )
+        return time_scales(elastic, frequencies, self.models[0].time_step)
 
     @property
     def _speeds(self) -> tuple[float, float]:

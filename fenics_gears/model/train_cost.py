@@ -48,9 +48,8 @@ def row_cost(row: RowModel) -> ExpectedCost:
     )
 
 
-def row_too_large(row: RowModel, allowed: float) -> str:
+def row_too_large(row: RowModel, cost: ExpectedCost, allowed: float) -> str:
     """As `cost.too_large`, of a row."""
-    cost = row_cost(row)
     if row.single or cost.held <= allowed:
         return too_large(row.models[0], cost, allowed)
 

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import isfinite
 
 import numpy as np
 
-from fenics_gears.dynamics.frequencies import PERIOD_ERROR, modes
-from fenics_gears.dynamics.guidance import resolved_frequency
+from fenics_gears.dynamics.frequencies import modes
 from fenics_gears.scene.train_mesh import gear_names
 
+from .motion_rows import Rows, frequency_rows
 from .train import RowModel
 from .train_parts import parts_of
 
-Rows = list[tuple[str, float | str, str]]
 # Of the kinetic energy of a mode, at least, for a motion to be named.
 NOTABLE_SHARE = 0.2
 # What a shaft that bends does by a coordinate, by the first word of its name; otherwise it bends.
@@ -38,12 +38,7 @@ def motion_rows(row: RowModel) -> Rows:
     on_bent = [] if row.bent is None else list(row.bent.once)
     said = [motion_in_words(name, gears) for name in row.drivetrain.coordinates if _on_rigid(name)]
     said += [f"displacements and tilts of {', '.join(on_bent)}"] if on_bent else []
-    unknown = [
-        name
-        for name in row.drivetrain.coordinates
-        if "_mode_" not in name and not name.startswith(("bearing_", "face_"))
-    ]
-    return [*rows, ("motions that are unknown", len(unknown), ", ".join(said))]
+    return [*rows, ("motions that are unknown", len(row.drivetrain.of_gears), ", ".join(said))]
 
 
 def _bent_rows(row: RowModel) -> Rows:
@@ -79,21 +74,12 @@ def _on_rigid(name: str) -> bool:
     return name.startswith(("rotation_", "twist_")) or " of gear " in name
 
 
-def frequency_rows(row: RowModel) -> Rows:
-    """Each natural frequency with the steps that a period has, and what moves most; none without inertia."""
+def frequencies_of_train(row: RowModel) -> Rows:
+    """As `motion_rows.frequency_rows`, with what moves most in each mode; none without inertia."""
     if not row.vibrations:
         return []
-    rows: Rows = []
-    time_step = row.models[0].time_step
-    for number, (vibration, moving) in enumerate(zip(row.vibrations, _moving_most(row)), 1):
-        damping = vibration.damping_ratio
-        damped = f"damping ratio {damping:.2g}" if damping > 0.0 else "undamped"
-        unmoved = "" if vibration.excited else ", not excited by a mesh"
-        steps = vibration.steps_per_period(time_step)
-        words = f"Hz: {steps:.3g} steps per period, {damped}, mostly {moving}{unmoved}"
-        rows.append((f"mode {number}", vibration.frequency, words))
-    words = f"Hz: by the time step, periods exact within {PERIOD_ERROR:.0%}"
-    return [*rows, ("highest frequency that is resolved", resolved_frequency(time_step), words)]
+    moving = [replace(each, motion=f"mostly {motion}") for each, motion in zip(row.vibrations, _moving_most(row))]
+    return frequency_rows(moving, row.models[0].time_step)
 
 
 def _moving_most(row: RowModel) -> list[str]:

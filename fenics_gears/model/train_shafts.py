@@ -12,7 +12,6 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from fenics_gears.dynamics.elastic_shaft import FIVE, ElasticShaft, SeatedGear
-from fenics_gears.dynamics.shaft_at_work import at_work
 from fenics_gears.dynamics.shaft_system import ShaftSystem
 from fenics_gears.dynamics.shafts import RIGID_SEAT
 from fenics_gears.dynamics.train_shafts import (
@@ -27,7 +26,7 @@ from fenics_gears.dynamics.train_shafts import (
     turned_motions,
 )
 from fenics_gears.effects.elastic_shaft_housing import check_housing, stiffness_of_seats
-from fenics_gears.effects.elastic_shaft_rules import bearings_hold, check_held_at_work
+from fenics_gears.effects.elastic_shaft_rules import bearings_hold, held_at_work
 from fenics_gears.effects.elastic_shaft_seats import seated
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.train_graph import TrainGraph
@@ -176,14 +175,10 @@ def _shaft(bent: BentShaft, meshes: Sequence[MeshOfScene], up_to: float) -> Elas
 
 
 def _at_work(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequence[MeshFrame]) -> ShaftSystem:
-    if not system.in_rolling:
-        return system
     try:
-        system = at_work(system, even_loads(system, gears, frames).ravel())
+        return held_at_work(system, even_loads(system, gears, frames), "shafts.{}.bearings")
     except SceneError as error:
-        raise SceneError(f"{_in_words(str(error), system)}. {NOTHING_DONE}") from error
-    check_held_at_work(system, "shafts.{}.bearings")
-    return system
+        raise SceneError(_in_words(str(error), system)) from error
 
 
 def _in_words(said: str, system: ShaftSystem) -> str:

@@ -63,8 +63,8 @@ class MovedAxes(AlongTheFace):
         for gear, of_teeth in self._teeth.items():
             motions[:, GEARS.index(gear)] += np.tensordot(self._loads(nodes, gear), of_teeth, ((1, 2), (1, 2)))
         for seat, of_face in self._apart:
-            apart = [self.drivetrain.value(nodes.steps.states[:, 0], name) for name in seat.of_face]
-            motions[:, GEARS.index(seat.gear)] += np.stack(apart, axis=-1) @ of_face.T
+            apart = self.drivetrain.values(nodes.steps.states[:, 0], seat.of_face)
+            motions[:, GEARS.index(seat.gear)] += apart @ of_face.T
         return super().curves(curves, nodes) | self._departures(motions)
 
     def numbers(self, counted: xr.Dataset, known: Mapping[str, Any]) -> dict[str, float | str]:
@@ -87,8 +87,8 @@ class MovedAxes(AlongTheFace):
 
     def _motions(self, states: np.ndarray) -> np.ndarray:
         """Motions (steps, gears, 5) of the middles of pinion and wheel."""
-        both = [[self.drivetrain.value(states, f"{name}{number}") for name in MOTIONS] for number in NUMBERS.values()]
-        return np.moveaxis(np.array(both), 2, 0)
+        both = [self.drivetrain.values(states, [f"{name}{each}" for name in MOTIONS]) for each in NUMBERS.values()]
+        return np.stack(both, axis=1)
 
     def _heights(self, gear: str) -> np.ndarray:
         """Heights (2 S,) from the gear's middle of which two stand for a load that is even over a slice."""
@@ -150,16 +150,14 @@ class BentShafts(MovedAxes):
     def curves(self, curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
         """The same, and loads of the bearings (steps, bearings)."""
         states = nodes.steps.states[:, 0]
-        loads = []
+        of_teeth = []
         for system in self.drivetrain.systems:
-            loads.append(self._values(system, states) @ system.bearing_loads.T)
+            of_teeth.append(np.zeros((len(states), len(system.bearing_loads))))
             for _, each in system.seated:
                 if each.gear in self._seats:
                     by_teeth = self._seats[each.gear].bearings
-                    loads[-1] += np.tensordot(self._loads(nodes, each.gear), by_teeth, ((1, 2), (1, 2)))
-        on_bearings = np.concatenate(loads, axis=1).reshape(len(states), -1, len(MOTIONS))
-        if self.drivetrain.rolling is not None:
-            on_bearings = self.drivetrain.rolling.loads(states, on_bearings)
+                    of_teeth[-1] += np.tensordot(self._loads(nodes, each.gear), by_teeth, ((1, 2), (1, 2)))
+        on_bearings = self.drivetrain.bearing_loads(states, np.concatenate(of_teeth, axis=1))
         loads_of_bearings = dict(zip(LOADS, np.moveaxis(on_bearings, -1, 0)))
         return super().curves(curves, nodes) | loads_of_bearings
 
@@ -168,7 +166,7 @@ class BentShafts(MovedAxes):
         states = nodes.steps.states[:, 0]
         deflection = np.full((2, len(states), len(NUMBERS), SHAFT_POINTS), np.nan)
         for system in self.drivetrain.systems:
-            values = self._values(system, states)
+            values = self.drivetrain.values(states, system.coordinates)
             for _, each in system.seated:
                 lines = np.einsum("pmn,sn->msp", self._lines[each.gear][:, :2], values)
                 if each.gear in self._seats:
@@ -234,7 +232,3 @@ class BentShafts(MovedAxes):
                     coordinates[place] = counted[of].sel(gear=gear).mean() * drivetrain.radii[place]
         settled = rolling.settled(drivetrain.stiffness, np.zeros(len(coordinates)), coordinates)
         return {"largest_rolling_element_force": rolling.largest_force(settled)}
-
-    def _values(self, system: ShaftSystem, states: np.ndarray) -> np.ndarray:
-        """Coordinates (steps, k) of a system of shafts, mm and rad."""
-        return np.stack([self.drivetrain.value(states, name) for name in system.coordinates], axis=-1)

@@ -192,7 +192,7 @@ class Recorder:
         states = block.states[:, 0]
 
         def of_gears(motion: str) -> np.ndarray:
-            return np.stack([drivetrain.value(states, f"{motion}{number}") for number in (1, 2)], axis=1)
+            return drivetrain.values(states, (f"{motion}1", f"{motion}2"))
 
         values = {"transmission_error": self.model.transmission_error(states), "rotation": of_gears("rotation_")}
         if scene.bearings is not None:

@@ -95,15 +95,9 @@ class ShaftsOfTrain:
         """Places (p,), mm, on each shaft at which its deflection is given."""
         return [np.linspace(0.0, shaft.length, SHAFT_POINTS) for _, shaft in self._shafts]
 
-    def _values(self, system: ShaftSystem, states: np.ndarray) -> np.ndarray:
-        return np.stack([self._drivetrain.value(states, name) for name in system.coordinates], axis=-1)
-
     def _bearing_loads(self, states: np.ndarray) -> np.ndarray:
         """Loads (steps, bearings, 5), in space."""
-        of_systems = [self._values(system, states) @ system.bearing_loads.T for system in self._bent.systems]
-        loads = np.concatenate(of_systems, axis=1).reshape(len(states), -1, FIVE)
-        if self._drivetrain.rolling is not None:
-            loads = self._drivetrain.rolling.loads(states, loads)
+        loads = self._drivetrain.bearing_loads(states)
         first = 0
         found = []
         for _, shaft in self._shafts:
@@ -119,5 +113,6 @@ class ShaftsOfTrain:
         lines = []
         for (system, shaft), points in zip(self._shafts, self._points):
             turn = turned_motions(self._bent.axes[shaft.name], SPACE)[:2, :FIVE]
-            lines.append(turn @ (system.deflection(shaft, points) @ self._values(system, state)).T)
+            moved = self._drivetrain.values(state, system.coordinates)
+            lines.append(turn @ (system.deflection(shaft, points) @ moved).T)
         return np.stack(lines, axis=1)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.effects import ALONG_THE_FACE, effects_on
+from fenics_gears.effects import ALONG_THE_FACE, effects_on, without
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies, Body
 from fenics_gears.inputs.tree import GEARS
@@ -89,7 +89,7 @@ class GearStore:
         shared = [(tuple(couplings(row.layout, gear)), row.keys_of_shared(gear)) for gear in row.graph.shared]
         of_meshes = [coordinates.tobytes() for coordinates, _ in row.placed]
         offsets = [offset for _, offset in row.placed]
-        said = [(each.tobytes(), model.scene.eccentricity) for each, model in zip(offsets, row.models)]
+        said = [(each.tobytes(), _deviating(model.scene)) for each, model in zip(offsets, row.models)]
         key = tuple(map(_key_of_alike, row.models)), tuple(row.layout.phases), tuple(shared), tuple(of_meshes)
         if self._row is None or self._row[0] != key:
             # Frees memory before the next is made.
@@ -191,8 +191,13 @@ def cycle_key(model: Model, of_operators: tuple | None = None) -> tuple:
 
 
 def _key_of_alike(model: Model) -> tuple:
-    """As `cycle_key`, without what differs from mesh cycle to mesh cycle in a row: run-out."""
-    return cycle_key(replace(model, scene=replace(model.scene, eccentricity=None)))
+    """As `cycle_key`, without what differs from mesh cycle to mesh cycle, as run-out does."""
+    return cycle_key(replace(model, scene=without(model.scene, *_deviating(model.scene))))
+
+
+def _deviating(scene: Scene) -> dict[str, Any]:
+    """What opens nodes otherwise in each mesh cycle, by its section."""
+    return {each.section: getattr(scene, each.section) for each in effects_on(scene) if each.gaps is not None}
 
 
 def _shaping(scene: Scene) -> list[str]:

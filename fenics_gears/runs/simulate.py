@@ -78,6 +78,14 @@ def simulate(
     0.16 mm along the line of action at most
     """
     progress = progress or SilentProgress()
+    result = settled_run(
+        scene, progress, keep, cache=cache, preparation=preparation, job=job, journal=journal
+    )  # fmt: skip
+    return with_lead_correction(result, progress)
+
+
+def settled_run(scene: Scene | Model, progress: Progress, keep: Keep | None = None, **options: Any) -> RunResult:
+    """As `simulate`, without proposed lead modifications; `options` are those of `solved`."""
     chosen = settled(scene, progress)
 
     def ended(result: RunResult) -> None:
@@ -85,10 +93,7 @@ def simulate(
         if keep is not None:
             keep(result.dataset)
 
-    result = solved(
-        chosen.scene, progress=progress, cache=cache, preparation=preparation, job=job, journal=journal, ended=ended
-    )
-    return with_lead_correction(result, progress)
+    return solved(chosen.scene, progress=progress, ended=ended, **options)
 
 
 @dataclass(frozen=True)

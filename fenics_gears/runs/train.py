@@ -3,25 +3,31 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import xarray as xr
 
+from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.inputs.section import tree_of
 from fenics_gears.inputs.written import as_toml
-from fenics_gears.model.model import Model
-from fenics_gears.model.train import TrainModel
+from fenics_gears.model.train import TrainModel, train_model_of
+from fenics_gears.results.train import MeshResult, dataset_of, mesh_result
+from fenics_gears.scene.accuracy import Accuracy
 from fenics_gears.scene.parsing import parsed
 from fenics_gears.scene.train import TrainScene
+from fenics_gears.scene.train_mesh import MeshOfScene
 from fenics_gears.scene.train_pair import STAGES
 from fenics_gears.simulation.routes import Preparation
-from fenics_gears.simulation.train import Keep, KeptRow, solved_train
+from fenics_gears.simulation.train import KeptRow, solved_row
 from fenics_gears.system.progress import Progress, SilentProgress
 
 from .gear_store import GearStore
-from .simulate import SettledScene, settled
+from .simulate import settled_run
+
+Keep = Callable[[MeshOfScene, xr.Dataset], None]
 
 
 def simulate_train(
@@ -48,27 +54,39 @@ def simulate_train(
     >>> found["mesh"].values.tolist()
     ['idler: gears 1 and 2', 'idler: gears 2 and 3']
     """
-    chosen: dict[str, SettledScene] = {}
+    progress = progress or SilentProgress()
+    model = scene if isinstance(scene, TrainModel) else train_model_of(scene)
+    chosen: dict[str, Accuracy] = {}
+    found: list[MeshResult] = []
+    for row in model.rows:
+        mesh = row.meshes[0]
+        try:
+            if not row.single:
+                found += solved_row(row, progress, cache, kept_row)
+                continue
+            result = settled_run(row.models[0], progress, cache=cache, preparation=preparation)
+        except ContactNotConverged as failure:
+            failure.reason = f"{mesh.name}: {failure.reason}"
+            failure.partial = None
+            raise
+        if not result.attrs["complete"]:
+            raise KeyboardInterrupt
+        if keep is not None:
+            keep(mesh, result.dataset)
+        if row.models[0].scene.accuracy.target is not None:
+            chosen[row.models[0].scene.name] = result.recorder.model.scene.accuracy
+        found.append(mesh_result(mesh.name, result))
+    dataset = dataset_of(model, found)
+    if chosen:
+        dataset.attrs["scene"] = _with_settings(str(dataset.attrs["scene"]), chosen)
+    return dataset
 
-    def settle(model: Model, progress: Progress) -> SettledScene:
-        chosen[model.scene.name] = found = settled(model, progress)
-        return found
 
-    result = solved_train(scene, progress or SilentProgress(), cache, keep, preparation, settle, kept_row)
-    with_settings = {name: each for name, each in chosen.items() if each.chosen}
-    if with_settings:
-        result.attrs["scene"] = _with_settings(str(result.attrs["scene"]), with_settings)
-    return result
-
-
-def _with_settings(text: str, chosen: dict[str, SettledScene]) -> str:
+def _with_settings(text: str, chosen: dict[str, Accuracy]) -> str:
     """The text of a train with the settings of its stages in place of their targets."""
     tree = parsed(text, "the train")
-    stages = dict(tree[STAGES])
-    for name, each in chosen.items():
-        scene = each.scene.scene if isinstance(each.scene, Model) else each.scene
-        stages[name] = {**stages[name], "accuracy": tree_of(scene.accuracy)}
-    return as_toml({**tree, STAGES: stages})
+    stages = {name: {**tree[STAGES][name], "accuracy": tree_of(accuracy)} for name, accuracy in chosen.items()}
+    return as_toml({**tree, STAGES: {**tree[STAGES], **stages}})
 
 
 @dataclass

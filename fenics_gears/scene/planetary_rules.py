@@ -7,7 +7,7 @@ from typing import Any
 
 from fenics_gears.geometry.planetary import MEMBERS
 from fenics_gears.inputs.problem import Problem, did_you_mean
-from fenics_gears.inputs.section import names_in, read
+from fenics_gears.inputs.section import names_in, read_by_itself
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_written
 
@@ -24,7 +24,6 @@ from .planetary_schema import (
 )
 from .train_pair import STAGES
 from .train_rules import ENDS, wrong_title
-from .train_shafts import explained
 
 # Sections of a train with a set.
 OF_THE_TRAIN = ("title", STAGES, *ENDS, "friction", "accuracy")
@@ -75,8 +74,7 @@ def text_of_set(stage: str, content: Tree) -> tuple[PlanetaryText | None, list[P
     """What a set has beside its gears, None where it is wrong, and all that is wrong with it."""
     path = (STAGES, stage)
     own = names_in(PlanetaryText)
-    text, problems = read(PlanetaryText, {name: content[name] for name in own if name in content}, path)
-    problems = [explained(each, PlanetaryText) for each in problems]
+    text, problems = read_by_itself(PlanetaryText, {name: content[name] for name in own if name in content}, path)
     shared = [name for name in names_in(Gears) if name not in (*GEARS, "backlash", "pinion_hand")]
     known = ["kind", *own, *shared, *GEARS_OF_SET, *MESHES]
     for name in content:

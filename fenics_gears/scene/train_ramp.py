@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from fenics_gears.inputs.fields import quantity, whole_number
-from fenics_gears.inputs.problem import Problem, did_you_mean
-from fenics_gears.inputs.section import Section, fields_of, names_in, read
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.section import Section, fields_of, read_by_itself
 from fenics_gears.inputs.written import as_written
 
 from .train_loads import TrainLoad, TrainMotion
@@ -41,20 +41,10 @@ def checked_ramp(
     if not isinstance(written, Mapping):
         said = f"is not a section with {fields_of(TrainRamp)}."
         return None, [Problem((SPEED_RAMP,), as_written(written), said)]
-    ramp, wrong = read(TrainRamp, written, (SPEED_RAMP,))
-    problems = [_explained(each) for each in wrong]
+    ramp, problems = read_by_itself(TrainRamp, written, (SPEED_RAMP,))
     if not problems and load is not None and motion is not None:
         problems = list(_wrong_ramp(tree, ramp, load, motion, shafts))
     return (None if problems else ramp), problems
-
-
-def _explained(problem: Problem) -> Problem:
-    if not problem.unknown:
-        return problem
-    name = problem.path[-1]
-    names = names_in(TrainRamp)
-    said = f"is not known here.{did_you_mean(name, names)} Known: {', '.join(names)}, of trains."
-    return Problem(problem.path, problem.written, said)
 
 
 def _wrong_ramp(

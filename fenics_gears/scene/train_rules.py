@@ -8,13 +8,13 @@ from re import fullmatch
 from typing import Any
 
 from fenics_gears.inputs.problem import Problem, did_you_mean
-from fenics_gears.inputs.section import allowed_in, fields_of, names_in, read
+from fenics_gears.inputs.section import allowed_in, fields_of, names_in, read_by_itself
 from fenics_gears.inputs.written import as_written
 
 from .planetary_schema import PLANETARY
 from .train_loads import TrainLoad, TrainMotion
 from .train_ramp import checked_ramp
-from .train_shafts import TrainShafts, checked_shafts, explained
+from .train_shafts import TrainShafts, checked_shafts
 from .train_topology import coupled_stages
 
 PAIR = "pair"
@@ -90,9 +90,9 @@ def load_and_motion(tree: Mapping[str, Any]) -> tuple[list[Any], list[Problem]]:
         if not isinstance(written, Mapping):
             problems.append(Problem((name,), as_written(written), f"is not a section with {fields_of(section)}."))
             continue
-        values, wrong = read(section, written, (name,))
+        values, wrong = read_by_itself(section, written, (name,))
         found.append(values)
-        problems += [explained(each, section) for each in wrong]
+        problems += wrong
     if isinstance(tree.get("load", {}), Mapping) and not {*names_in(TrainLoad)} & {*tree.get("load", {})}:
         problems.append(Problem(("load",), None, f"is missing. Add the section [load] with {fields_of(TrainLoad)}."))
     return found, problems

@@ -139,7 +139,7 @@ class TrainHousing(Section):
 
 @dataclass(frozen=True)
 class BentShaft:
-    """A shaft with sections, its `name` and its `number` in the train."""
+    """A shaft with a section of its own, its `name` and its `number` in the train; it bends where it has sections."""
 
     name: str
     number: int

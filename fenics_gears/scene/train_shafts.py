@@ -16,7 +16,7 @@ from fenics_gears.dynamics.shafts import HousingFile
 from fenics_gears.effects.elastic_shaft_housing import located_housing
 from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.problem import Problem, did_you_mean
-from fenics_gears.inputs.section import Section, names_in, read
+from fenics_gears.inputs.section import names_in, read, read_by_itself
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_written
 
@@ -33,7 +33,7 @@ from .train_loads import (
 )
 from .train_ramp import TrainRamp
 from .train_shaft import BentShaft, TrainHousing, TrainShaft, wrong_sections
-from .train_topology import Shafts, declared_gears, graph_of, in_order, named_meshes, shafts_by_order
+from .train_topology import NamedMesh, Shafts, declared_gears, graph_of, in_order, named_meshes, shafts_by_order
 
 # Sections of a train of which each makes its stages move together.
 COUPLING = ("shafts", "inertia", "bearings")
@@ -82,60 +82,69 @@ def checked_shafts(
     problems += wrong
     sections: dict[str, TrainShaft] = {}
     for name, content in _sections(tree, "shafts", problems):
-        shaft, wrong = read(TrainShaft, content, ("shafts", name))
-        problems += [explained(each, TrainShaft) for each in wrong]
+        shaft, wrong = read_by_itself(TrainShaft, content, ("shafts", name))
+        problems += wrong
         sections |= {} if shaft is None else {name: shaft}
     meshes, wrong = named_meshes(tree["stages"])
     problems += wrong
     problems += _wrong_carries(sections, tree["stages"])
-    carried: Shafts = []
-    torsion: list[float | None] = []
-    clocking: list[float | None] = []
-    bent: list[BentShaft] = []
+    found = TrainShafts(housing=housing)
     graph = None
     if sound and not problems:
-        shafts = shafts_by_order(tree["stages"], [each.carries for each in sections.values()])
         named = {name: each.carries for name, each in sections.items()}
+        shafts = shafts_by_order(tree["stages"], list(named.values()))
         carried, wrong_shafts = in_order(meshes, shafts, loaded_gears(on_shafts, named))
-        place = ("shafts",) if sections else ("stages",)
-        by_order = f" {_by_order(tree['stages'])}" if sections else ""
+        place, by_order = (("shafts",), f" {_by_order(tree['stages'])}") if sections else (("stages",), "")
         problems += [Problem(place, "", f"{each}{by_order}") for each in wrong_shafts]
         if not wrong_shafts:
             graph = graph_of(meshes, carried)
-            torsion = [None] * len(carried)
-            clocking = [None] * len(carried)
-            gears = [gear for mesh in meshes for gear in mesh.gears]
-            shared = {gear for gear in gears if gears.count(gear) > 1}
-            for name, shaft in sections.items():
-                number = next(place for place, each in enumerate(carried) if shaft.carries[0] in each)
-                problems += _put(torsion, clocking, (name, shaft, number), graph)
-                problems += wrong_sections(shaft, ("shafts", name), graph, number, shared)
-                bent += [] if shaft.sections is None else [BentShaft(name, number, shaft)]
-            problems += _misplaced_housings(housing, bent)
-            if "bearings" in tree and {each.number for each in bent} == {*range(len(carried))}:
-                said = "has no effect: all gears are on shafts with bearings of their own. Leave it out."
-                problems.append(Problem(("bearings",), "", said))
+            number_of = {gear: number for number, gears in enumerate(carried) for gear in gears}
+            numbered = [BentShaft(name, number_of[own.carries[0]], own) for name, own in sections.items()]
+            found = _of_sections(numbered, carried, housing)
+            problems += _misplaced(tree, meshes, numbered, found)
     load = _load(tree, problems)
-    loads: tuple[LoadOfShaft, ...] = ()
-    speed_of = 0
     if graph is not None and on_shafts is not None and motion is not None:
         by_name = NamedShafts(carried, named)
         loads, wrong = loads_of_shafts(on_shafts, tree["load"], by_name, graph)
         speed_of, wrong_speed = shaft_with_speed(motion, by_name)
-        soft = {number for number, each in enumerate(torsion) if each is not None} | {each.number for each in bent}
+        soft = {number for number, each in enumerate(found.torsion) if each is not None}
+        soft |= {each.number for each in found.bent}
         problems += [*wrong, *wrong_speed, *misplaced_loads(loads, tree, by_name, graph, soft)]
+        found = replace(found, loads=loads, speed_of=speed_of)
     damping = _damping(tree, problems)
-    moving = any(name in tree for name in COUPLING) or any(
-        name in content for content in _tables(tree["stages"]) for name in COUPLING
-    )
-    moving = moving or graph is not None and not graph.is_chain
     if damping is not None and "inertia" not in tree:
         problems.append(Problem(("damping",), "", "needs the section [inertia], which is missing. Add it."))
+    moving = any(name in each for each in (tree, *_tables(tree["stages"])) for name in COUPLING)
     # A torque between meshes is one of the equations of motion of all.
-    moving = moving or graph is not None and any(each.shaft not in graph.outputs for each in loads)
-    of_shafts = tuple(map(tuple, carried)), tuple(torsion), tuple(clocking)
-    found = TrainShafts(*of_shafts, load, damping, moving, tuple(bent), housing, loads=loads, speed_of=speed_of)
-    return found, problems
+    moving |= graph is not None and not (graph.is_chain and {each.shaft for each in found.loads} <= {*graph.outputs})
+    return replace(found, load=load, damping=damping, moving=moving), problems
+
+
+def _of_sections(numbered: Sequence[BentShaft], carried: Shafts, housing: HousingFile | None) -> TrainShafts:
+    """What sections say of the shafts that carry such gears."""
+    own = {each.number: each.own for each in numbered}
+    said = (
+        tuple(getattr(own.get(number), name, None) for number in range(len(carried)))
+        for name in ("torsional_stiffness", "clocking")
+    )
+    bent = tuple(each for each in numbered if each.own.sections is not None)
+    return TrainShafts(tuple(map(tuple, carried)), *said, bent=bent, housing=housing)
+
+
+def _misplaced(
+    tree: Mapping[str, Any], meshes: Sequence[NamedMesh], numbered: Sequence[BentShaft], found: TrainShafts
+) -> Iterator[Problem]:
+    """What sections say that their shafts cannot have."""
+    graph = graph_of(meshes, found.carried)
+    gears = [gear for mesh in meshes for gear in mesh.gears]
+    shared = {gear for gear in gears if gears.count(gear) > 1}
+    for each in numbered:
+        yield from _wrong_twist(each, graph)
+        yield from wrong_sections(each.own, ("shafts", each.name), graph, each.number, shared)
+    yield from _misplaced_housings(found.housing, found.bent)
+    if "bearings" in tree and {each.number for each in found.bent} == {*range(len(found.carried))}:
+        said = "has no effect: all gears are on shafts with bearings of their own. Leave it out."
+        yield Problem(("bearings",), "", said)
 
 
 def _sections(tree: Mapping[str, Any], name: str, problems: list[Problem]) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -211,23 +220,17 @@ def _by_order(stages: Mapping[str, Any]) -> str:
     return f"By the order of the stages alone, shafts carry: {known}."
 
 
-def _put(
-    torsion: list[float | None], clocking: list[float | None], section: tuple[str, TrainShaft, int], graph: TrainGraph
-) -> Iterator[Problem]:
-    """Enter what a section says of a shaft, by its name and number."""
-    name, shaft, number = section
-    gears = graph.on(number)
-    if shaft.torsional_stiffness is not None:
-        if number and graph.out_of(number) and all(graph.driven(gear) for gear in gears):
-            said = "is of an idler, between whose gears nothing twists. Leave it out."
-            yield Problem(("shafts", name, "torsional_stiffness"), "", said)
-        torsion[number] = shaft.torsional_stiffness
-    if shaft.clocking is not None:
-        looped = [gear for gear in gears if any(graph.in_loop(mesh) for mesh, _ in graph.sides[gear])]
-        if len(gears) != 2 or looped != gears:
-            said = "is not of a shaft with two gears in a loop of meshes, where it moves load. Leave it out."
-            yield Problem(("shafts", name, "clocking"), f'"{shaft.clocking:g} rad"', said)
-        clocking[number] = shaft.clocking
+def _wrong_twist(shaft: BentShaft, graph: TrainGraph) -> Iterator[Problem]:
+    """Stiffness and clocking of a shaft that cannot have them."""
+    gears = graph.on(shaft.number)
+    idler = shaft.number and graph.out_of(shaft.number) and all(graph.driven(gear) for gear in gears)
+    if shaft.own.torsional_stiffness is not None and idler:
+        said = "is of an idler, between whose gears nothing twists. Leave it out."
+        yield Problem(("shafts", shaft.name, "torsional_stiffness"), "", said)
+    looped = [gear for gear in gears if any(graph.in_loop(mesh) for mesh, _ in graph.sides[gear])]
+    if shaft.own.clocking is not None and (len(gears) != 2 or looped != gears):
+        said = "is not of a shaft with two gears in a loop of meshes, where it moves load. Leave it out."
+        yield Problem(("shafts", shaft.name, "clocking"), f'"{shaft.own.clocking:g} rad"', said)
 
 
 def _load(tree: Mapping[str, Any], problems: list[Problem]) -> float | None:
@@ -238,8 +241,8 @@ def _load(tree: Mapping[str, Any], problems: list[Problem]) -> float | None:
     if not isinstance(inertia["load"], Mapping):
         problems.append(Problem(place, as_written(inertia["load"]), "is not a section with moment_of_inertia."))
         return None
-    load, wrong = read(LoadInertia, inertia["load"], place)
-    problems += [explained(each, LoadInertia) for each in wrong]
+    load, wrong = read_by_itself(LoadInertia, inertia["load"], place)
+    problems += wrong
     return None if load is None else load.moment_of_inertia
 
 
@@ -254,15 +257,6 @@ def _damping(tree: Mapping[str, Any], problems: list[Problem]) -> Damping | None
         if gear in written:
             said = "is of a pair. Allowed: one damping of the whole train."
             problems.append(Problem(("damping", gear), "", said))
-    damping, wrong = read(Damping, written, ("damping",))
-    problems += [explained(each, Damping) for each in wrong]
+    damping, wrong = read_by_itself(Damping, written, ("damping",))
+    problems += wrong
     return damping
-
-
-def explained(problem: Problem, section: type[Section]) -> Problem:
-    """A problem with an unknown name told with those of its section."""
-    if not problem.unknown:
-        return problem
-    names = names_in(section)
-    said = f"is not known here.{did_you_mean(problem.path[-1], names)} Known: {', '.join(names)}."
-    return replace(problem, message=said)

@@ -19,6 +19,7 @@ from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.errors import ComputationError, MemoryEnded, attempted
 from fenics_gears.model.bore_twist import bore_twist_stiffness
 from fenics_gears.model.cost import expected_cost, too_large
+from fenics_gears.model.cost_parts import ExpectedCost
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.extrema import repeating_steps
@@ -79,7 +80,7 @@ def solved(
 def _simulated(
     model: Model, progress: Progress, cache: Cache, prepare: Preparation, journal: JournalPlace | None
 ) -> RunResult:
-    for_operators = memory_for_operators(model)
+    for_operators = memory_for_operators(expected_cost(model), functools.partial(too_large, model))
     gears, cycle = prepare(model, progress, cache)
     cycle.kept.most = for_operators
     progress.stage("compile")
@@ -92,13 +93,12 @@ def _simulated(
     return result_of(recorder, march, gears, compiled, "interrupted" if march.interrupted else "")
 
 
-def memory_for_operators(model: Model) -> float:
-    """Bytes that contact operators may take beside all else; raises ComputationError where a run does not fit without
-    any."""
+def memory_for_operators(cost: ExpectedCost, refusal: Callable[[ExpectedCost, float], str]) -> float:
+    """Bytes that contact operators may take beside all else; raises ComputationError where a run of this cost does not
+    fit without any, with the `refusal` of it in the allowed memory (bytes)."""
     allowed = allowed_memory()
-    cost = expected_cost(model)
     if cost.held > allowed:
-        raise ComputationError(too_large(model, cost, allowed))
+        raise ComputationError(refusal(cost, allowed))
     return allowed - cost.held
 
 

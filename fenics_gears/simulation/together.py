@@ -1,11 +1,13 @@
 """Runs of a search whose numbers alone are asked for: those that share contact operators are solved together."""
 
 from collections.abc import Collection, Sequence
+from functools import partial
 
 from fenics_gears.contact.mesh_cycle import SHARE_KEPT, SHARE_OF_A_BLOCK, Cycle, Gaps
 from fenics_gears.contact.relief_gaps import Profiles
 from fenics_gears.effects import ALONG_THE_FACE, common_period, effects_on
 from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.model import RELIEFS, Model, differ_only
 from fenics_gears.results.extrema import repeating_steps
 from fenics_gears.results.together import OFFERED, NumbersOfRun, numbers_together
@@ -46,7 +48,7 @@ def solved_together(
     itself. Raises GearsError as `simulate` does."""
     model = models[0]
     try:
-        most = memory_for_operators(model)
+        most = memory_for_operators(expected_cost(model), partial(too_large, model))
         _, cycle = preparation(model, SilentProgress(), user_cache())
         cycle.kept.most = most
         compile_kernels(model.scene.friction is not None)

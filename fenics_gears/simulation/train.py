@@ -1,5 +1,5 @@
-"""A train of gears from its model to its result: row by row where rigid shafts between them hand on torque and rotation
-alone, and all meshes together where they have several paths, masses, bearings or shafts that twist."""
+"""Meshes that move together from their model to their result: those of a row with idlers, or all of a train whose
+shafts have several paths, masses, bearings or twist."""
 
 from __future__ import annotations
 
@@ -7,13 +7,11 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from fenics_gears.contact.cycle_alike import CycleAlike
-from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.joined_meshes import JoinedMeshes
 from fenics_gears.contact.mesh import step_by_step
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -25,96 +23,32 @@ from fenics_gears.dynamics.steps import Steps
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.elasticity.compliance import Body
 from fenics_gears.elasticity.gear_compliance import flank_compliance
-from fenics_gears.errors import ComputationError
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.model.model import Model
 from fenics_gears.model.shared_gears import couplings
-from fenics_gears.model.train import RowModel, TrainModel, train_model_of
+from fenics_gears.model.train import RowModel
 from fenics_gears.model.train_cost import row_cost, row_too_large
-from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.row import RowResult
-from fenics_gears.results.train import MeshResult, dataset_of, mesh_result
-from fenics_gears.scene.train import TrainScene
-from fenics_gears.scene.train_mesh import MeshOfScene
-from fenics_gears.system.memory import allowed_memory
+from fenics_gears.results.train import MeshResult
 from fenics_gears.system.progress import Progress
 
 from .bodies import body_key, gear_bodies, gear_body
 from .elastic_route import cycle_of, deviations_of, gaps_of, mesh_cycle, mesh_of
-from .routes import Preparation
-from .simulate import MARCH, solved
+from .simulate import MARCH, memory_for_operators
 from .warm_up import compile_kernels, compile_loops
 
 if TYPE_CHECKING:
     from .row_over_face import SharedBody
 
-Keep = Callable[[MeshOfScene, xr.Dataset], None]
-
-
-class Settled(Protocol):
-    """A scene, or its model, with settled settings, which describes them in its result."""
-
-    scene: Any
-
-    def describe(self, result: RunResult) -> None: ...
-
-
-Settle = Callable[[Model, Progress], Settled]
 KeptRow = Callable[[RowModel, Callable[[], RowCycle]], RowCycle]
 
 
-def solved_train(
-    scene: TrainScene | TrainModel,
-    progress: Progress,
-    cache: Cache | None = None,
-    keep: Keep | None = None,
-    preparation: Preparation | None = None,
-    settle: Settle | None = None,
-    kept_row: KeptRow | None = None,
-) -> xr.Dataset:
-    """The result of a train; arguments and errors are those of `runs.train.simulate_train`. `settle`: settles the
-    settings of a stage of two gears. `kept_row`: keeps the contact equations of rows, or makes them."""
-    model = scene if isinstance(scene, TrainModel) else train_model_of(scene)
-    found: list[MeshResult] = []
-    for row in model.rows:
-        try:
-            if row.single:
-                found.append(_single(row, progress, cache, keep, preparation, settle))
-            else:
-                found += _coupled(row, progress, cache, kept_row)
-        except ContactNotConverged as failure:
-            failure.reason = f"{row.meshes[0].name}: {failure.reason}"
-            failure.partial = None
-            raise
-    return dataset_of(model, found)
-
-
-def _single(
-    row: RowModel,
-    progress: Progress,
-    cache: Cache | None,
-    keep: Keep | None,
-    preparation: Preparation | None,
-    settle: Settle | None,
-) -> MeshResult:
-    """A stage of two gears, as a pair by itself."""
-    model = row.models[0]
-    chosen = None if settle is None else settle(model, progress)
-    result = solved(
-        model if chosen is None else chosen.scene, progress=progress, cache=cache, preparation=preparation,
-        ended=None if chosen is None else chosen.describe,
-    )  # fmt: skip
-    if not result.attrs["complete"]:
-        raise KeyboardInterrupt
-    if keep is not None:
-        keep(row.meshes[0], result.dataset)
-    return mesh_result(row.meshes[0].name, result)
-
-
-def _coupled(row: RowModel, progress: Progress, cache: Cache | None, kept_row: KeptRow | None) -> list[MeshResult]:
-    """All meshes of a row together."""
-    for_operators = _memory_for_operators(row)
+def solved_row(
+    row: RowModel, progress: Progress, cache: Cache | None = None, kept_row: KeptRow | None = None
+) -> list[MeshResult]:
+    """All meshes of a row together. `kept_row`: keeps its contact equations, or makes them. Errors are those of
+    `runs.train.simulate_train`."""
+    for_operators = memory_for_operators(row_cost(row), partial(row_too_large, row))
     compile_loops(progress)
     with writing_meanwhile(cache or user_cache()) as kept:
         once = kept_row is None and row.passes_once
@@ -139,14 +73,6 @@ def _cycle_with_room(row: RowModel, room: tuple[float, bool], progress: Progress
     cycle = row_cycle(row, progress, cache)
     cycle.share(*room)
     return cycle
-
-
-def _memory_for_operators(row: RowModel) -> float:
-    """As `simulate.memory_for_operators`, of a row."""
-    allowed = allowed_memory()
-    if said := row_too_large(row, allowed):
-        raise ComputationError(said)
-    return allowed - row_cost(row).held
 
 
 def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:

@@ -8,7 +8,7 @@ from tests.trains import bent_two_stages, row, split_text, stage, two_stages
 from fenics_gears import train_from_text
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.model.train import train_model_of
-from fenics_gears.model.train_motion_rows import frequency_rows, motion_rows
+from fenics_gears.model.train_motion_rows import frequencies_of_train, motion_rows
 from fenics_gears.model.train_parts import whole_steps
 
 MORE = """
@@ -159,6 +159,6 @@ def test_what_bends_is_told():
     assert {"its stiffness at first.wheel", "its stiffness at second.pinion"} < set(said)
     steel = 7.85e-6 * np.pi / 4.0 * 35.0**2 * 150.0
     assert said["mass of shaft middle"][0] == pytest.approx(steel, rel=1e-6)
-    assert any("bending of shaft middle" in words for _, _, words in frequency_rows(row))
+    assert any("bending of shaft middle" in words for _, _, words in frequencies_of_train(row))
     (at_rest,) = train_model_of(bent_two_stages()).rows
-    assert not frequency_rows(at_rest)
+    assert not frequencies_of_train(at_rest)

@@ -15,8 +15,8 @@ from fenics_gears.model.description import derived_rows
 from fenics_gears.model.loop_rows import loop_rows
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of
-from fenics_gears.model.train_cost import row_too_large, train_cost
-from fenics_gears.model.train_motion_rows import frequency_rows, motion_rows
+from fenics_gears.model.train_cost import row_cost, row_too_large, train_cost
+from fenics_gears.model.train_motion_rows import frequencies_of_train, motion_rows
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_mesh import MeshOfScene
 from fenics_gears.show import TRAIN_PICTURE_FILES
@@ -97,13 +97,13 @@ def check_train(scene: TrainScene) -> int:
                 print_rows(f"Mesh {mesh.name}: derived, since the scene leaves it out", derived)
     if scene.shafts.moving and scene.shafts.carrier is None:
         print_rows("Motion of all stages together", motion_rows(model.rows[0]))
-        if frequencies := frequency_rows(model.rows[0]):
+        if frequencies := frequencies_of_train(model.rows[0]):
             print_rows("Natural frequencies, about, with one tooth pair in each mesh", frequencies)
     print_rows("Expected cost", _cost_rows(model))
     if model.warnings:
         print_rows("Warnings", [("", said, "") for said in model.warnings])
     for row in model.rows:
-        if said := row_too_large(row, allowed_memory()):
+        if said := row_too_large(row, row_cost(row), allowed_memory()):
             raise ComputationError(f"CANNOT FIT: {said}")
     return 0
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import xarray as xr
 
 from fenics_gears.model.train import train_model_of
-from fenics_gears.model.train_motion_rows import Rows, frequency_rows, motion_rows
+from fenics_gears.model.train_motion_rows import Rows, frequencies_of_train, motion_rows
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
 from fenics_gears.results.overall_orders import overall_orders
 from fenics_gears.results.path_shares import OF_SHARES, SHARE
@@ -89,7 +89,7 @@ def _frequencies(train: TrainScene) -> list[PageSection]:
     (row,) = train_model_of(train).rows
     facts = [
         Facts(_said(motion_rows(row)), "Masses and shafts"),
-        Facts(_said(frequency_rows(row)), "About, with one tooth pair in each mesh"),
+        Facts(_said(frequencies_of_train(row)), "About, with one tooth pair in each mesh"),
     ]
     return [PageSection("frequencies", "Natural frequencies", facts)]
 
