@@ -48,7 +48,7 @@ def wind_turbine(accuracy: str = "") -> tuple[list[tuple[str, ...]], Figure]:
 def picture(scene: TrainScene, results: dict) -> Figure:
     """The gearbox to scale; how its planets share the load on held suns, a pin beside its place; how far the generator
     lags."""
-    figure = Figure(figsize=(13.0, 8.4), layout="constrained")
+    figure = Figure(figsize=(12.0, 7.6), layout="constrained")
     parts = figure.subplot_mosaic([["train"] * 3, ["first", "second", "whole"]], height_ratios=(1.5, 1.0))
     figure.suptitle(scene.title, x=0.012, ha="left", fontsize=14)
     for curve in drawing_of(scene).curves:
@@ -72,7 +72,7 @@ def picture(scene: TrainScene, results: dict) -> Figure:
     found = results[FLOATING, 0]
     lag = 1e6 * found["overall_transmission_error"].values
     parts["whole"].plot(found["time"], lag - lag.mean(), color=DARK, linewidth=0.8)
-    parts["whole"].set_title("Overall transmission error, suns floating", loc="left", fontsize=10)
+    parts["whole"].set_title("Generator: overall transmission error, suns floating", loc="left", fontsize=10)
     parts["whole"].set_xlabel("Time (s)")
-    parts["whole"].set_ylabel("Lag of the generator, less its mean (µrad)")
+    parts["whole"].set_ylabel("Lag, less its mean (µrad)")
     return figure
