@@ -72,7 +72,7 @@ def picture(scene: TrainScene, results: dict) -> Figure:
     found = results[FLOATING, 0]
     lag = 1e6 * found["overall_transmission_error"].values
     parts["whole"].plot(found["time"], lag - lag.mean(), color=DARK, linewidth=0.8)
-    parts["whole"].set_title("Generator: overall transmission error, suns floating", loc="left", fontsize=10)
+    parts["whole"].set_title("The lag of the generator, suns floating", loc="left", fontsize=10)
     parts["whole"].set_xlabel("Time (s)")
     parts["whole"].set_ylabel("Lag, less its mean (µrad)")
     return figure
