@@ -43,8 +43,9 @@ def row(case: Case, result) -> tuple[str, ...]:
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Run all; write `table.md` and `planetary_sets.png`."""
+    """Run all; write `table.md`, `planetary_sets.png`, `wind_turbine.md` and `wind_turbine.png`."""
     directory = output_directory("planetary_sets", __doc__.splitlines()[0], arguments)
+    from demos.planetary_sets import wind_turbine
     from demos.planetary_sets.picture import picture
     from fenics_gears import simulate_train, train_from_text
     from fenics_gears.show.plots import save_figure
@@ -54,9 +55,17 @@ def main(arguments: list[str] | None = None) -> None:
     scenes = {case: train_from_text(scene_text(*case), "planets") for case in cases}
     results = {case: simulate_train(scene) for case, scene in scenes.items()}
     rows = [row(case, result) for case, result in results.items()]
-    text = "\n".join("| " + " | ".join(cells) + " |" for cells in (COLUMNS, ["---"] * len(COLUMNS), *rows))
-    (directory / "table.md").write_text(text + "\n", encoding="utf-8")
+    _write(directory / "table.md", COLUMNS, rows)
     save_figure(picture(scenes, results), directory / "planetary_sets.png")
+    rows, figure = wind_turbine.wind_turbine()
+    _write(directory / "wind_turbine.md", wind_turbine.COLUMNS, rows)
+    save_figure(figure, directory / "wind_turbine.png")
+
+
+def _write(file: Path, columns: tuple[str, ...], rows: list[tuple[str, ...]]) -> None:
+    """Write a table, and print it."""
+    text = "\n".join("| " + " | ".join(cells) + " |" for cells in (columns, ["---"] * len(columns), *rows))
+    file.write_text(text + "\n", encoding="utf-8")
     print(text)
 
 

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from fenics_gears.scene.train_mesh import MeshOfScene
 
 # Where a scene does not say: steps of a mesh cycle in the plane, and flank elements in a Hertz half-width. FVA's set
-# is then within
-# 0.01 % in the mean transmission error, 0.8 % in its span and 0.6 % in peak pressures of elements half as wide.
+# is then within 0.01 % in the mean transmission error, 0.8 % in its span and 0.6 % in peak pressures of elements half
+# as wide.
 STEPS = 100
 ELEMENTS_PER_HALF_WIDTH = 1.5
 # Of an even share, what one planet may carry: of four planets two opposite ones may carry all.

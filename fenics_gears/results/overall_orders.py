@@ -69,8 +69,10 @@ def cycles_of_meshes(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]
         steps = link.cycles * int(result["steps_per_mesh_cycle"][link.mesh])
         lags = result[LAG_OF_SET].sel({SET: link.name}) if link.of_set else result["transmission_error"][:, link.mesh]
         error = lags.values[np.isfinite(lags.values)]
-        values = behind * error[-1 - steps : -1]
-        found.append(CycleOfMesh(link.name, values, link.frequency, link.frequency / train.input_speed))
+        # Of run-outs within sets the mean is left: orders are harmonics of mesh frequencies.
+        values = behind * error[-1 - steps : -1].reshape(link.cycles, -1).mean(axis=0)
+        frequency = link.cycles * link.frequency
+        found.append(CycleOfMesh(link.name, values, frequency, frequency / train.input_speed))
     return found
 
 

@@ -112,12 +112,12 @@ def _in_series(tree: Mapping[str, Any], text: str, name: str, source: str, folde
     ]
     if problems:
         raise MistakesOfStage(problems)
-    order, joints = in_series(whole, [_ends(*part) for part in found])
+    order, joints = in_series(whole, [_ends(sections) for _, sections in found])
     found = [found[number] for number in order]
     ratios = [_ratio(*part) for part in found]
     given = whole.motion.input_speed
     speed = 2.0 * pi * NOMINAL_FREQUENCY / _cycles_in_a_turn(*found[0]) if given is None else given
-    torque = _torque_of_last(whole.load, speed, prod(ratios))
+    *_, torque = torques_of_shafts(whole.load, (), [1.0, 1.0 / prod(ratios)], speed)
     parts: list[TrainScene] = []
     for number, (meshes, sections) in enumerate(found):
         behind = prod(ratios[number + 1 :])
@@ -140,7 +140,7 @@ def _together(meshes: Sequence[MeshOfScene]) -> Problem:
     return Problem(("stages", meshes[0].name.split(":")[0]), "", said)
 
 
-def _ends(meshes: Sequence[MeshOfScene], sections: TrainSections) -> Ends:
+def _ends(sections: TrainSections) -> Ends:
     """What stands on the first and on the last shaft of a part."""
     carrier = sections.shafts.carrier
     if carrier is None:
@@ -161,13 +161,6 @@ def _cycles_in_a_turn(meshes: Sequence[MeshOfScene], sections: TrainSections) ->
     carrier = sections.shafts.carrier
     first = meshes[layout_of(meshes).graph.out_of(0)[0]].pair.pinion.teeth
     return first if carrier is None else first * abs(float(carrier.set.sun_by_carrier))
-
-
-def _torque_of_last(load: TrainLoad, speed: float, ratio: float) -> float:
-    """Torque (N mm) on the output of a train without losses, whose input turns by `speed`, rad/s."""
-    if load.output_torque is not None:
-        return load.output_torque
-    return (load.input_torque if load.input_torque is not None else (load.power or 0.0) / speed) * ratio
 
 
 def _completed(

@@ -135,7 +135,8 @@ def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
             Curve(f"centre of the {member}", x, y, colour),
             Curve("as the cycle begins", x[:1], y[:1], colour, mode=MARKERS),
         ]
-        caption = f"{of_set}Orbit of the {member} over a mesh cycle, {np.hypot(x, y).max():.4g} µm at most from its place"
+        farthest = f"{np.hypot(x, y).max():.4g} µm at most from its place"
+        caption = f"{of_set}Orbit of the {member} over a mesh cycle, {farthest}"
         charts.append(Chart(caption, curves, "x (µm)", "y (µm)", height=460, equal=True))
     return charts
 

@@ -2,8 +2,9 @@
 
 from itertools import product
 
+import numpy as np
 import pytest
-from demos.planetary_sets import sets
+from demos.planetary_sets import sets, wind_turbine
 from demos.planetary_sets.picture import picture
 
 from fenics_gears import load_train, simulate_train, train_from_text
@@ -36,3 +37,28 @@ def test_both_scenes_are_sets_of_fva():
         scene = load_train(sets.HERE / f"{name}.toml")
         assert scene.meshes[0].pair.centre_distance == pytest.approx(78.0)
         assert scene.ratio == pytest.approx(1.0 + 61.0 / 17.0)
+
+
+def test_the_gearbox_of_nrel_has_its_ratio_and_torques():
+    """Nejad et al. 2016, table V: 1:3.947, 1:6.167 and 1:3.958, in all 1:96.354; 5 MW at 12.1 rpm; the torque of each
+    shaft by Willis, with the ring fixed: the sun has z_s/(z_s + z_r) of the carrier's."""
+    train = load_train(wind_turbine.SCENE)
+    assert [round(1.0 / part.ratio, 3) for part in train.parts] == [3.947, 6.167, 3.958]
+    assert 1.0 / train.ratio == pytest.approx(96.354, abs=1e-3)
+    rotor = 5e9 / (12.1 * 2.0 * np.pi / 60.0)
+    by_hand = rotor * np.cumprod([1.0, 19 / 75, 18 / 111, 24 / 95])
+    assert [train.input_torque, *(part.output_torque for part in train.parts)] == pytest.approx(by_hand)
+    generator = 12.1 / 60.0 * 75 / 19 * 111 / 18 * 95 / 24
+    assert train.meshes[-1].scene.motion.mesh_frequency == pytest.approx(24 * generator)
+
+
+@pytest.mark.nightly
+def test_a_pin_error_in_the_wind_turbine_loads_its_planet_on_held_suns_alone():
+    """Three planets share evenly on a floating sun, whatever the errors (Singh): 1.000 in its rows of the table."""
+    rows, figure = wind_turbine.wind_turbine(
+        "[accuracy]\nsteps_per_mesh_cycle = 15\n[stages.third.accuracy]\nsteps_per_mesh_cycle = 15\nslices = 5\n"
+    )
+    factors = {(own[0], own[1]): [float(each) for each in own[2:4]] for own in rows}
+    assert factors["floating", "0"] == factors["floating", "50"] == [1.0, 1.0]
+    assert min(factors["held", "50"]) > 1.03
+    assert [len(axes.get_lines()) for axes in figure.axes] == [4, 3, 3, 1]

@@ -56,7 +56,7 @@ planet = {{ mass = "2 kg", moment_of_inertia = "1e-3 kg m^2" }}"""
             r"vibration.sun.support_stiffness.*\n.*is floating",
         ),
         (planetary_text(sections="[bearings]\n"), r"bearings.*\n.*pin_stiffness"),
-        (planetary_text(sections='joins = []'), "joins.*\n.*is not of a train"),
+        ("joins = []" + planetary_text(), "joins.*\n.*is not of a train"),
         (planetary_text(sections='[stages.other]\nkind = "row"'), r"other.gears.*\n.*not the gears of a row"),
         (planetary_text(load='power = "1 kW"'), "load.power needs a speed"),
         (planetary_text(load='torque = "1 N m"'), "load"),

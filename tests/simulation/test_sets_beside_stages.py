@@ -89,6 +89,16 @@ def test_the_whole_lags_by_the_sum_of_its_parts(beside, found):
     assert orders[round(23 / RATIO, 6)].meshes == "last"
 
 
+def test_several_cycles_are_one_repeated(beside, found):
+    """Without run-out and friction a mesh cycle is like the next: spans and orders are those of one."""
+    longer = train_from_text(SET + PAIR + LOAD.replace('900 rpm"', '900 rpm"\nmesh_cycles = 3'))
+    several = simulate_train(longer)
+    name = "peak_to_peak_overall_transmission_error"
+    assert several.attrs[name] == pytest.approx(found.attrs[name], rel=1e-9)
+    amplitudes = [each.amplitude for each in overall_orders(several, longer)]
+    assert amplitudes == pytest.approx([each.amplitude for each in overall_orders(found, beside)], abs=1e-12)
+
+
 def test_a_shaft_between_parts_twists(found):
     """By torque over stiffness, over the ratio behind it: a constant."""
     twisted = simulate_train(train_from_text(SET + PAIR + STIFF + LOAD))
