@@ -98,12 +98,12 @@ def joined_rows(
         row[:6] = *own, part.first, counts[0], part.first_column, counts[1]
         arrays += [*part.rows.arrays, part.rows.table]
     for row, each in zip(table[1 + len(parts) :], couplings):
-        own = [each.nodes.moved, each.nodes.tooth, each.nodes_of_loaded.moved, each.nodes_of_loaded.tooth]
-        own = [np.ascontiguousarray(array) for array in (*own, each.between)]
+        of_nodes = each.nodes.moved, each.nodes.tooth, each.nodes_of_loaded.moved, each.nodes_of_loaded.tooth
+        of_both = [np.ascontiguousarray(array) for array in (*of_nodes, each.between)]
         row[:2] = each[:2]
-        row[MOVED : BETWEEN + 1] = [array.ctypes.data for array in own]
+        row[MOVED : BETWEEN + 1] = [array.ctypes.data for array in of_both]
         row[MOTIONS:] = *each.between.shape[2:], *each.between.shape[:2]
-        arrays += own
+        arrays += of_both
     # Nodes of a mesh are in several couplings.
     return FormedRows(matrix, formed, by_columns, table, list({id(each): each for each in arrays}.values()), factors)
 

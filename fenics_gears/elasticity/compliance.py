@@ -35,6 +35,13 @@ class Reach:
         """The largest, of any flanks."""
         return max(map(abs, (self.same, *(self.across or ()), *(self.far or ()))))
 
+    @property
+    def between_mates(self) -> dict[tuple[int, int], tuple[int, int]]:
+        """Least and largest distance between flanks that different mates load, by their kinds, 0 drive and 1 coast."""
+        kinds = 1 if self.across is None else 2
+        found = {} if self.far is None else {(kind, kind): self.far for kind in range(kinds)}
+        return found if self.across is None else {**found, (0, 1): self.across}
+
 
 class BetweenFlanks(Protocol):
     """What line forces on one flank of a gear displace on another, in plane strain; teeth are counted counter-clockwise

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import combinations
+from math import isclose
 
 import numpy as np
 
@@ -118,6 +119,11 @@ def _check_alike(models: Sequence[Model], gear: str, sides: Sequence[tuple[int, 
         materials = [each.scene.gears.material_of(GEARS[at]) for each, at in ((one, side), (other, other_side))]
         if materials[0] != materials[1]:
             raise SceneError(f"{gear}: has another material in {other_name} than in {name}. {NOTHING_DONE}")
+        if not isclose(one.face.slope, other.face.slope):
+            raise SceneError(
+                f"{gear}: {name} and {other_name} have it in common, but would have it of either hand. Allowed: one"
+                f" pinion_hand in both, that of the pinion of the first; the hands of the others follow. {NOTHING_DONE}"
+            )
         if side == other_side and (apart := _reliefs_apart(one, other, side)) > ROUND_OFF:
             raise SceneError(
                 f"{gear}: {name} and {other_name} load the same flanks of it, but their reliefs differ by up to"

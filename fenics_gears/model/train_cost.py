@@ -26,8 +26,8 @@ def train_cost(model: TrainModel) -> ExpectedCost:
 
 
 def row_cost(row: RowModel) -> ExpectedCost:
-    """Of a row: the operators of each mesh are those of its pair, and those of all meshes stand beside them. An idler,
-    condensed once with both of its flanks, takes what its two meshes would as pairs."""
+    """Of a row: the operators of each mesh are those of its pair, and those of all meshes stand beside them. Equal
+    gears are condensed once; an idler, with both of its flanks, takes what its two meshes would as pairs."""
     costs = [expected_cost(each) for each in row.models]
     if row.single:
         return costs[0]
@@ -38,8 +38,9 @@ def row_cost(row: RowModel) -> ExpectedCost:
     # Gears are condensed one after the other.
     passing = max(each.passing for each in costs)
     held = CONDENSING_PROGRAM + passing + sum(each.held - each.passing - CONDENSING_PROGRAM for each in costs)
+    of_gears = {(each.pair.gears, each.scene.gears.materials): cost.condensing for each, cost in zip(row.models, costs)}
     return ExpectedCost(
-        sum(each.condensing or 0.0 for each in costs),
+        sum(each or 0.0 for each in of_gears.values()),
         # A step of all meshes takes as many times longer as there are.
         len(costs) * sum(each.marching for each in costs),
         held + operators,

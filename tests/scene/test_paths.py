@@ -46,7 +46,6 @@ LOAD = '[load]\noutput_torque = "400 N m"'
         (TWO.replace('"20 mm"', '"25 mm"', 1), "equally wide are not yet computed in in1 and in2"),
         (TWO.replace('"steel"', '"POM"', 1), "in1.pinion: has another material in in2 than in in1"),
         (TWO.replace("direction", 'tip_relief = { depth = "9 um", start = "HPSTC" }\ndirection', 1), "by up to 9 um"),
-        (TWO.replace("face_width", 'helix_angle = "15 deg"\nface_width'), "over the face a gear is so far computed"),
     ],
 )
 def test_mistakes_are_told(text, said):

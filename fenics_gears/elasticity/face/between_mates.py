@@ -17,25 +17,15 @@ from ..ring import cut_response, sector_response
 # Motions are left out that move flanks by less than this part of the largest: the compliance of a flank itself, ten
 # times as large, is not known better from its finite elements.
 LEAST_MOTION = 1e-6
-# Arrays of a body's blocks, of the drive flank and of the coast flank.
-BLOCKS = ("blocks", "coast")
-
-
-def flanks_between_mates(reach: Reach) -> dict[tuple[int, int], tuple[int, int]]:
-    """Least and largest distance between flanks that different mates load, by their kinds, 0 drive and 1 coast: of like
-    flanks the shorter way round the gear."""
-    kinds = 1 if reach.across is None else 2
-    found = {} if reach.far is None else {(kind, kind): reach.far for kind in range(kinds)}
-    return found if reach.across is None else {**found, (0, 1): reach.across}
 
 
 def blocks_between_mates(parts: tuple[np.ndarray, np.ndarray, np.ndarray], teeth: int, reach: Reach) -> dict:
     """Arrays of the body, from the `parts` that `ring.between_cuts` gives of its drive flank (f dofs), or with
     `reach.across` of both flanks, the coast flank's in the mirrored frame.
 
-    "blocks" and "coast" (same + 1, f, f): of the drive flank and, seen in the mirror, of the coast flank of teeth
+    "blocks_0" and "blocks_1" (same + 1, f, f): of the drive flank and, seen in the mirror, of the coast flank of teeth
     ahead. "motions_0", "motions_1" (f, r) of drive and coast flanks, and "between_01" and the like (k, r, r') of drive
-    flanks by coast flanks, from the least distance of `flanks_between_mates` on.
+    flanks by coast flanks, from the least distance of `reach.between_mates` on.
     """
     held, to_cuts, link = parts
     kinds = 1 if reach.across is None else 2
@@ -52,9 +42,9 @@ def blocks_between_mates(parts: tuple[np.ndarray, np.ndarray, np.ndarray], teeth
         # In the mirror a tooth ahead is one behind.
         own = np.stack([block(kind, kind, -ahead if kind else ahead) for ahead in range(reach.same + 1)])
         own[0] = 0.5 * (own[0] + own[0].T)
-        arrays[BLOCKS[kind]] = own
-    wanted = flanks_between_mates(reach)
-    squares = np.zeros((kinds, *arrays["blocks"].shape[1:]))
+        arrays[f"blocks_{kind}"] = own
+    wanted = reach.between_mates
+    squares = np.zeros((kinds, *arrays["blocks_0"].shape[1:]))
     for (kind, other), (first, last) in wanted.items():
         for ahead in range(first, last + 1):
             found = block(kind, other, ahead)

@@ -15,7 +15,6 @@ from ..cache import Cache, kept
 from ..compliance import FlankCompliance, Reach
 from ..face_compliance_data import BetweenMates, FaceCompliance, SharedCompliance
 from ..gear_compliance import check_inputs, similar_inputs
-from .between_mates import BLOCKS, flanks_between_mates
 from .discretisation import FaceDiscretisation
 from .free_end import FreeEnds, free_ends
 from .near_field import NearField
@@ -78,23 +77,23 @@ def shared_compliance(
         return computed_shared(similar, scaled, material.poissons_ratio, reach)
 
     arrays, timings = kept(cache, inputs, compute)
-    found = flanks_between_mates(reach)
-    for name in {*BLOCKS, *(f"between_{kind}{other}" for kind, other in found)} & arrays.keys():
-        arrays[name] *= 1.0 / (material.youngs_modulus * gear.module)
+    for name in arrays:
+        if name.startswith(("blocks", "between")):
+            arrays[name] *= 1.0 / (material.youngs_modulus * gear.module)
     arrays["plane"] *= 1.0 / material.youngs_modulus
     near = NearField.of_arrays(arrays).scaled(gear.module, material.youngs_modulus)
     size = 2 * len(arrays["roll_angle"])
     slope, element = discretisation.twist * gear.base_radius, _element(gear, arrays["roll_angle"])
     flanks = []
-    for kind, name in enumerate(BLOCKS if reach.across is not None else BLOCKS[:1]):
+    for kind in range(1 if reach.across is None else 2):
         dofs = slice(size * kind, size * (kind + 1))
         plane = arrays["plane"][:, dofs, dofs]
         # In the mirror a tooth ahead is one behind, and the image leans the other way.
         plane, leaning = (plane.swapaxes(1, 2), -slope) if kind else (plane, slope)
         ends = free_ends(leaning, material, element)
-        flanks.append(_body(gear, arrays, (arrays[name], plane, near.of_flank(kind), ends), 1, timings))
+        flanks.append(_body(gear, arrays, (arrays[f"blocks_{kind}"], plane, near.of_flank(kind), ends), 1, timings))
     motions = tuple(arrays[f"motions_{kind}"] for kind in range(len(flanks)))
-    known = {kinds: (first, arrays["between_{}{}".format(*kinds)]) for kinds, (first, _) in found.items()}
+    known = {kinds: (first, arrays["between_{}{}".format(*kinds)]) for kinds, (first, _) in reach.between_mates.items()}
     return SharedCompliance(tuple(flanks), BetweenMates(motions, known))
 
 

@@ -52,10 +52,10 @@ def test_flanks_of_several_mates_feel_each_other_as_in_the_whole_gear(monkeypatc
         return frames[0].T @ block @ frames[1]
 
     for ahead in (0, 1):
-        assert difference(found["blocks"][ahead], expected(f"drive {ahead}", "drive 0")) < 1e-9
+        assert difference(found["blocks_0"][ahead], expected(f"drive {ahead}", "drive 0")) < 1e-9
         # In the mirror image the tooth ahead is the one behind.
-        assert difference(found["coast"][ahead], expected("coast 0", f"coast {ahead}")) < 1e-9
-    largest = np.abs(found["blocks"][0]).max()
+        assert difference(found["blocks_1"][ahead], expected("coast 0", f"coast {ahead}")) < 1e-9
+    largest = np.abs(found["blocks_0"][0]).max()
     for number, ahead in enumerate(range(-3, 2)):
         across = found["motions_0"] @ found["between_01"][number] @ found["motions_1"].T
         assert np.abs(across - expected(f"drive {ahead}", "coast 0")).max() < 1e-6 * largest
@@ -66,4 +66,4 @@ def test_flanks_of_several_mates_feel_each_other_as_in_the_whole_gear(monkeypatc
             far = motions @ found[f"between_{kind}{kind}"][number] @ motions.T
             assert np.abs(far - expected(f"{name} {ahead}", f"{name} 0")).max() < 1e-6 * largest
             assert np.abs(far).max() > 1e-3 * largest
-    assert found["between_01"].shape[1] < 0.7 * len(found["blocks"][0])
+    assert found["between_01"].shape[1] < 0.7 * len(found["blocks_0"][0])
