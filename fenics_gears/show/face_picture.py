@@ -84,7 +84,8 @@ def sights(mesh: GearsInMesh) -> tuple[Sight, Sight, Sight]:
     # line of action.
     low, high = -pair.centre_distance - pair.wheel.tip_radius, pair.pinion.tip_radius
     if pair.wheel.internal:
-        low, high = (-pair.centre_distance + side * pair.wheel.bore_radius for side in (1.0, -1.0))
+        # As wide as it is high, in a panel that is not.
+        low, high = (-pair.centre_distance + side * pair.wheel.bore_radius for side in (1.2, -1.2))
     middle = 0.5 * (low + high) * along
     half = 0.5 * (high - low) + 0.15 * pair.face_width
     side = (-1.0 if mesh.coast else 1.0) * across
