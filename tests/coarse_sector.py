@@ -6,11 +6,11 @@ from math import radians
 import numpy as np
 
 from fenics_gears import Gear
-from fenics_gears.contact.flank_forces import centreline_mirror
 from fenics_gears.elasticity.element_sizes import ElementSizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.ring import condensed_sector
 from fenics_gears.elasticity.sector_mesh import sector_mesh
+from fenics_gears.geometry.outline import centreline_mirror
 from fenics_gears.scene.data import Material
 
 # Pinion of Lundvall, Stroemberg, Klarbring (2004), Table 2.

@@ -233,14 +233,6 @@ def _check_known(offsets: int, responding: np.ndarray, loaded: np.ndarray) -> No
         )
 
 
-def directions_on_face(place: Place, face: Face, side: Side, tangential: bool) -> np.ndarray:
-    """Unit vectors (1 or 2, 3) of the contact normal and of the tangent, in the tooth's frame at the slice's height."""
-    axes = np.pad(directions(place.contact_rolls[side.number], tangential), ((0, 0), (0, 1)))
-    axes[0] *= face.cosine
-    axes[0, 2] = face.axial_share(side, place.turn)
-    return axes
-
-
 def rises_of(face: Face, side: Side) -> list[float]:
     """By how much (rad/mm) the lines of contact of drive and coast flanks of a gear rise along the face; a coast
     flank's goes the other way along the profile."""

@@ -9,7 +9,7 @@ from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.slice_compliance import Addition
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import canonical_point
-from fenics_gears.geometry.outline import centreline_angle
+from fenics_gears.geometry.outline import centreline_mirror
 
 from .kinematics import rigid_motions
 
@@ -38,12 +38,8 @@ def seat_motions(weights: np.ndarray, body: FaceCompliance, gear: Gear, twist: f
 def _of_nodes(body: FaceCompliance, gear: Gear) -> np.ndarray:
     """Displacements (F, 3 n, 6) of the flank nodes of a section, in the tooth's frame, per motion of the gear's axis as
     of `rigid_motions`."""
-    angle = centreline_angle(gear)
-    axis = np.array([np.cos(angle), np.sin(angle)])
-    mirror = np.eye(3)
-    mirror[:2, :2] = 2.0 * np.outer(axis, axis) - np.eye(2)
     points = np.array([[*canonical_point(gear.base_radius, roll), 0.0] for roll in body.roll_angle])
-    frames = [np.eye(3), mirror][: body.flanks]
+    frames = [np.eye(3), centreline_mirror(gear, 3)][: body.flanks]
     moved = [rigid_motions((points @ frame)[:, None], frame) for frame in frames]
     return np.array(moved).reshape(len(frames), -1, 6)
 

@@ -9,7 +9,7 @@ from typing import cast
 import numpy as np
 from scipy import sparse
 
-from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.outline import centreline_mirror
 from fenics_gears.geometry.side import Side
 
 from .compliance_product import directions
@@ -48,10 +48,10 @@ def rows_in_slice(side: Side, face: Face, pair: ToothPair, tangential: bool) -> 
         axes = directions(pair.place.contact_rolls[side.number], tangential) / face.widths[0]
     else:
         # Imported here: plane scenes have none.
-        from .face_pairing import FacePair, directions_on_face
+        from .face_pairing import FacePair, contact_axes
 
         nodes = cast(FacePair, pair).coarse[side.number]
-        axes = directions_on_face(pair.place, face, side, tangential)
+        axes = contact_axes(face, side, [pair], tangential)[0, :, :3]
     if pair.place.flank == COAST:
         axes[:, :2] = axes[:, :2] @ centreline_mirror(side.gear).T
     return _pushed(nodes, axes)
@@ -77,9 +77,3 @@ def flank_forces(
         total = result.setdefault(tooth, np.zeros((2 if both else 1, averages.shape[1], len(section))))
         total[pair.place.flank if both else 0] += averages[pair.place.slice][:, None] * section
     return result
-
-
-def centreline_mirror(gear: Gear) -> np.ndarray:
-    """Reflection (2, 2) at the tooth's centreline in its body frame."""
-    angle = 2.0 * (-0.5 * np.pi - gear.tooth_half_angle_at_base)
-    return np.array([[np.cos(angle), np.sin(angle)], [np.sin(angle), -np.cos(angle)]])

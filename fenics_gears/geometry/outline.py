@@ -58,6 +58,15 @@ def centreline_angle(gear: Gear) -> float:
     return -0.5 * pi - gear.tooth_half_angle_at_base
 
 
+def centreline_mirror(gear: Gear, components: int = 2) -> np.ndarray:
+    """Reflection (c, c) of x, y and perhaps z at the tooth's centreline in its body frame."""
+    angle = centreline_angle(gear)
+    axis = np.array([cos(angle), sin(angle)])
+    mirror = np.eye(components)
+    mirror[:2, :2] = 2.0 * np.outer(axis, axis) - np.eye(2)
+    return mirror
+
+
 def tip_corner(gear: Gear) -> np.ndarray:
     """Point (2,), mm, where the tip circle begins on the drive side, beyond the chamfer if there is one."""
     if not gear.tip_chamfer:

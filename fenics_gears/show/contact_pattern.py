@@ -62,11 +62,15 @@ def _pattern(run: ShownRun, gear: int, side: str, pressure, rolls, limit: float,
     pair = run.pair
     name = GEARS[gear]
     data = getattr(pair, name)
-    ends = data.form_roll_angle, data.tip_roll_angle
+    ends = data.roll_ends
     numbers = run.last_fields["contact_pair_number"].values
-    field = pattern(pressure, rolls, numbers, ends, data.radius, slice_ends(run.dataset), limit)
-    pitch = 2.0 * data.radius(contact_roll_angles(pair, pair.pitch_point)[gear])
-    active = 2.0 * data.radius(pair.sap_roll_angles[gear])
+
+    def radius(roll):
+        return np.abs(data.radius(roll))
+
+    field = pattern(pressure, rolls, numbers, ends, radius, slice_ends(run.dataset), limit)
+    pitch = 2.0 * radius(contact_roll_angles(pair, pair.pitch_point)[gear])
+    active = 2.0 * radius(pair.sap_roll_angles[gear])
     face = np.array(pair.common_face)
     lines = [("pitch cylinder", pitch, DARK, "dash"), ("start of the active profile", active, GREY, "dot")]
     flank = " (coast flank)" if side else ""
@@ -74,7 +78,7 @@ def _pattern(run: ShownRun, gear: int, side: str, pressure, rolls, limit: float,
         f"Largest contact pressure on the {name}'s flank{flank}{above}",
         [Curve(words, face, np.full(2, d), colour, dash, 1.0) for words, d, colour, dash in lines],
         ACROSS, f"Diameter on the {name} (mm)", x_range=pair.common_face,
-        y_range=(2.0 * data.radius(ends[0]), 2.0 * data.radius(ends[1])),
+        y_range=(2.0 * radius(ends[0]), 2.0 * radius(ends[1])),
         field=field, height=380, note=NOTE,
     )  # fmt: skip
 

@@ -82,18 +82,24 @@ def sights(mesh: GearsInMesh) -> tuple[Sight, Sight, Sight]:
     pitch = np.array([pair.pitch_point, -pair.pinion.base_radius, 0.0])
     # From the middle of both gears; and from before the flank that carries: the pinion's drive flank looks along the
     # line of action.
-    middle = -0.5 * (pair.centre_distance - pair.pinion.tip_radius + pair.wheel.tip_radius) * along
-    half = 0.5 * (pair.centre_distance + pair.pinion.tip_radius + pair.wheel.tip_radius) + 0.15 * pair.face_width
+    low, high = -pair.centre_distance - pair.wheel.tip_radius, pair.pinion.tip_radius
+    if pair.wheel.internal:
+        # As wide as it is high, in a panel that is not.
+        low, high = (-pair.centre_distance + side * pair.wheel.bore_radius for side in (1.2, -1.2))
+    middle = 0.5 * (low + high) * along
+    half = 0.5 * (high - low) + 0.15 * pair.face_width
     side = (-1.0 if mesh.coast else 1.0) * across
     axis = np.array([0.0, 0.0, 1.0])
     close = 0.45 * pair.face_width + 2.6 * pair.pinion.module
     deep = 0.9 * pair.pinion.module * along
     from_above = 0.45 * across + 0.25 * along + 0.9 * axis
+    # Over the opposite teeth of an internal gear.
+    over = (1.4 if pair.wheel.internal else 0.45) * axis
     places = [(left, 0.12, 0.265, 0.74) for left in (0.385, 0.66)]
     return (
         Sight("The pair in mesh", (0.015, 0.12, 0.36, 0.74), (0, 1), middle, from_above, 1.01 * half),
         Sight("Pinion alone", places[0], (0,), pitch + deep, 0.7 * side - 0.7 * along + 0.45 * axis, close),
-        Sight("Wheel alone", places[1], (1,), pitch - deep, -0.7 * side + 0.7 * along + 0.45 * axis, close),
+        Sight("Wheel alone", places[1], (1,), pitch - deep, -0.7 * side + 0.7 * along + over, close),
     )
 
 
@@ -112,10 +118,10 @@ def root_tension(mesh: GearsInMesh) -> Chart:
 
 
 def _upright(pair) -> tuple[np.ndarray, np.ndarray]:
-    """Unit vectors (3,) across the line of centres, in the sense of the line of action, and along it from the wheel's
-    to the pinion's centre."""
+    """Unit vectors (3,) across the line of centres, in the sense of the line of action, and along it from the pitch
+    point to the pinion's centre."""
     centre = np.array([pair.line_of_action_length, -(pair.pinion.base_radius + pair.wheel.base_radius)])
-    along = -centre / np.linalg.norm(centre)
+    along = -centre / pair.centre_distance
     return np.array([along[1], -along[0], 0.0]), np.append(along, 0.0)
 
 

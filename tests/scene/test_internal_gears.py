@@ -12,6 +12,16 @@ from fenics_gears.scene.write import text_of
 
 FOUNDATION = 'support = { kind = "foundation", radial_stiffness = "500 N/mm^3", tangential_stiffness = "200 N/mm^3" }'
 
+SHAFT = """
+[shafts.output]
+gear_at = "50 mm"
+torque_at = "100 mm"
+sections = [{ length = "100 mm", diameter = "40 mm" }]
+[[bearings.wheel]]
+at = "10 mm"
+radial_stiffness = "100 kN/mm"
+"""
+
 
 def scene_of(**changes):
     return scene_from_text(internal_scene(**changes))
@@ -57,8 +67,7 @@ def test_what_a_drawing_leaves_out_gives_a_pair_that_runs():
         ('outer_diameter = "280 mm", ', "", "outer_diameter"),
         ("teeth = -61,", 'teeth = -61, bore_diameter = "70 mm",', "no meaning for an internal"),
         ("pinion = { teeth = 22", "pinion = { teeth = 22, cutter = { teeth = 20 }", "no meaning for an external gear"),
-        ("[load]", "[lead_modifications.pinion]\ncrowning = \"4 um\"\n[load]", "not computed with an internal gear"),
-        ('face_width = "50 mm"', 'face_width = "50 mm"\nhelix_angle = "8 deg"', "not computed with an internal gear"),
+        ("[load]", SHAFT + "[load]", "shafts.output.sections"),
         ("[load]", '[corner_contact]\nedge_radius = "20 um"\n[load]', "not computed with an internal gear"),
         ("[accuracy]", '[accuracy]\ncondensation = "every step"', "not computed with an internal gear"),
         ('support = "held"', 'support = "foundation"', "radial_stiffness"),

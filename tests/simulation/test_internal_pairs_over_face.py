@@ -137,10 +137,7 @@ def test_a_ring_that_leans_away_is_a_helix_slope(helical):
     line of action."""
     leaning, slope = (
         simulate(scene_of(COARSE + more, helix=0.0))
-        for more in (
-            '[misalignment]\nin_plane = "20 um"\n',
-            '[lead_modifications.wheel]\nhelix_slope = "20 um"\n',
-        )
+        for more in ('[misalignment]\nin_plane = "20 um"\n', '[lead_modifications.wheel]\nhelix_slope = "20 um"\n')
     )
     radius = leaning.attrs["base_radius_wheel"]
     apart = (slope.transmission_error - leaning.transmission_error).values * radius

@@ -6,7 +6,7 @@ from time import perf_counter
 import numpy as np
 
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.outline import centreline_angle
+from fenics_gears.geometry.outline import centreline_mirror
 
 from ..compliance import Reach
 from ..condensation import by_radius
@@ -41,7 +41,7 @@ def computed_shared(gear: Gear, face: FaceDiscretisation, poissons_ratio: float,
     def blocks(sector: SweptSector) -> dict[str, np.ndarray]:
         held, to_cuts, link = parts_of_ring(sector)
         if both:
-            mirror = _mirror(gear, 3)
+            mirror = centreline_mirror(gear, 3)
             half = len(held) // 2
             into_mirror(held[half:], mirror)
             into_mirror(held[:, half:].T, mirror)
@@ -88,21 +88,13 @@ def _in_mirrored_frame(blocks: np.ndarray, gear: Gear, both: bool, components: i
     centreline."""
     if not both:
         return blocks
-    mirror = _mirror(gear, components)
+    mirror = centreline_mirror(gear, components)
     half = blocks.shape[1] // 2
     for block in blocks:
         into_mirror(block[half:], mirror)
         into_mirror(block[:, half:].T, mirror)
     blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
     return blocks
-
-
-def _mirror(gear: Gear, components: int) -> np.ndarray:
-    """Reflection (c, c) at the centreline of a tooth."""
-    angle = centreline_angle(gear)
-    axis, mirror = np.array([np.cos(angle), np.sin(angle)]), np.eye(components)
-    mirror[:2, :2] = 2.0 * np.outer(axis, axis) - np.eye(2)
-    return mirror
 
 
 def into_mirror(rows: np.ndarray, mirror: np.ndarray) -> None:

@@ -21,8 +21,8 @@ from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 
 @dataclass(frozen=True)
 class SweptSector:
-    """A swept sector with its hub held or on its foundation, Young's modulus 1 MPa, condensed onto its flank (or its drive and coast flank),
-    its lower and its upper cut.
+    """A swept sector with its hub held or on its foundation, Young's modulus 1 MPa, condensed onto its flank (or its
+    drive and coast flank), its lower and its upper cut.
 
     stiffness: (f + 2 c, f + 2 c), N/mm; dofs by height, radius, then x, y, z in the section's frame that turns with it,
     of cuts as of `coarse_cuts.CutNodes`. Dofs of the upper cut are in the next sector's frame. lower: (c / 3, 3), X, Y,

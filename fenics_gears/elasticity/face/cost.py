@@ -148,7 +148,9 @@ def expected_condensing(gear: Gear, face: FaceDiscretisation, farthest: int, bot
     condensing = BYTES_OF_AN_UNKNOWN * size.unknowns + BYTES_OF_AN_ENTRY * size.condensed**2
     # One after the other: where a scene has few layers, the held teeth take more.
     near = BYTES_OF_A_NEAR_UNKNOWN * max(near_unknowns(gear, face))
-    return BodyCost(max(condensing, near), CONDENSING * size.unknowns**2 + IN_RING * _ring(size, gear.tooth_count, farthest))
+    return BodyCost(
+        max(condensing, near), CONDENSING * size.unknowns**2 + IN_RING * _ring(size, gear.tooth_count, farthest)
+    )
 
 
 def _ring(size: BodySize, teeth: int, farthest: int) -> float:

@@ -30,7 +30,7 @@ def fine_over_swept(gear: Gear, swept: ElementSizes, poissons_ratio: float, curv
         with GearRecovery(gear, Material(1.0, poissons_ratio), sector) as recovery:
             flank = sector.flank_nodes("flank")
             forces = np.zeros((len(flank), 2))
-            tip = np.linalg.norm(sector.section.points[flank], axis=1).argmax()
+            tip = (gear.sign * np.linalg.norm(sector.section.points[flank], axis=1)).argmax()
             forces[tip] = -np.sin(angle), np.cos(angle)
             stresses.append(fillet_rows(recovery, curve) @ recovery.recovered({0: forces}, [0]).displacement.ravel())
     return np.divide(*stresses, out=np.ones(len(stresses[0])), where=stresses[1] != 0.0)
