@@ -154,7 +154,8 @@ def _unpacked(numbers, k):
     )
 
 
-@njit(cache=True)
+# Meanwhile another thread may be at work in Python.
+@njit(cache=True, nogil=True)
 def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest, solver):
     steps, motion = in_block(block), _unpacked(packed, loads.shape[1])
     starts, kinds, states, status = steps.starts, steps.kinds, steps.states, steps.status
