@@ -45,15 +45,12 @@ class Kept:
     taken: float = 0.0
     others: float = 0.0
 
-    def has(self, size: float) -> bool:
-        """Whether there is room for this many bytes more."""
-        return self.others + self.taken + size <= SHARE_KEPT * self.most
-
     def takes(self, size: float) -> bool:
-        """The same; these are then counted."""
-        there_is = self.has(size)
-        self.taken += size if there_is else 0.0
-        return there_is
+        """Whether there is room for this many bytes more, which are then counted."""
+        if self.others + self.taken + size > SHARE_KEPT * self.most:
+            return False
+        self.taken += size
+        return True
 
 
 Value = TypeVar("Value")
@@ -164,14 +161,6 @@ class Cycle:
     def position(self, step: int) -> Position:
         """The contact equations at `step` (any integer)."""
         return self._deviating(step, self._found(step))
-
-    def has(self, step: int) -> bool:
-        """Whether the position at a step is built and kept."""
-        return (self._mesh_at(step), step % self.steps) in self._built
-
-    def has_room(self, count: int) -> bool:
-        """Whether there is room to keep so many positions more, each as large as that at step 0."""
-        return self.kept.has(count * self.position(0).bytes)
 
     def build(self, steps: Sequence[int]) -> None:
         """Build the positions at consecutive steps together, in half the time that each takes by itself; those that are

@@ -155,9 +155,6 @@ class RowCycle(Cycle):
     def position(self, step: int) -> Position:
         return self._deviating(step, self._alike(step))
 
-    def has(self, step: int) -> bool:
-        return step % self.steps in self._joined
-
     def build(self, steps: Sequence[int]) -> None:
         for each in self._members:
             each.cycle.build(steps)

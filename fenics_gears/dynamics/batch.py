@@ -3,9 +3,7 @@ code solves a block without leaving it. A single run is a batch of one."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import ceil
 from typing import Protocol
@@ -210,26 +208,6 @@ class Block:
         self.course = course
         self.length = len(steps) // len(runs)
         self.done = [1] * len(runs)
-
-    @property
-    def independent(self) -> bool:
-        """Whether no step depends on the one before it, and compiled code solves them of a single run."""
-        return self.course.at_rest and self._batch.opened is None and not self._batch.plain
-
-    @contextmanager
-    def solving_from(self, number: int, middle: int, end: int) -> Iterator[None]:
-        """Meanwhile have a thread solve the steps of a course from its place `middle` to before `end`."""
-        first = number * self.length
-        stepper = self._batch.common
-        place = first + middle
-        sets = self.course.cycle_before[self.steps.starts[place] : self.steps.starts[place + 1]]
-        if sets.min(initial=0) < 0:
-            self.begin(number, middle, stepper.sets.near(self.steps.numbers[place], self.steps.positions[place]))
-        with ThreadPoolExecutor(1) as thread:
-            solved = thread.submit(solve_steps, self.steps, place, first + end, stepper.static_motion, self.course)
-            yield
-        if self.done[number] == middle:
-            self.done[number] = solved.result() - first
 
     def solve(self, number: int, end: int) -> None:
         """Solve the steps of a course to before its place `end`: by Newton's method in compiled code, and by itself

@@ -154,8 +154,7 @@ def _unpacked(numbers, k):
     )
 
 
-# Meanwhile another thread may be at work in Python.
-@njit(cache=True, nogil=True)
+@njit(cache=True)
 def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest, solver):
     steps, motion = in_block(block), _unpacked(packed, loads.shape[1])
     starts, kinds, states, status = steps.starts, steps.kinds, steps.states, steps.status

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager, nullcontext, suppress
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from functools import cache
 from math import ceil
 from typing import TypeVar
@@ -26,11 +25,6 @@ from .steps import Record, Steps
 SECONDS_BETWEEN_REPORTS = 0.1
 # Steps are handed on in blocks of at most so many; those of a cycle's own solver can take a tenth of a second each.
 LONGEST_BLOCK, LONGEST_BLOCK_OF_OWN_SOLVER = 512, 32
-# Over a face, blocks of a mesh cycle whose positions are not built yet: those of a block are built while the one before
-# it is solved.
-BLOCKS_OF_FIRST_CYCLE = 4
-# Fewer steps that do not depend on each other are not divided between two threads.
-LEAST_DIVIDED = 8
 
 Solved = TypeVar("Solved")
 Report = Callable[[int], None]
@@ -141,8 +135,7 @@ class Marcher:
 
         def block() -> tuple[dict[int, Record], int]:
             end = self._end_of_block(first, steps)
-            ahead = range(end, self._end_of_block(end, steps)) if end <= steps else range(0)
-            return self._block(lasts, range(first, end), ahead, take, report), end
+            return self._block(lasts, range(first, end), take, report), end
 
         while lasts and first <= steps:
             lasts, first = self._with_room(block, marches)
@@ -193,42 +186,25 @@ class Marcher:
         most = LONGEST_BLOCK_OF_OWN_SOLVER if self.cycle.traits.own_solver else LONGEST_BLOCK
         if self.cycle.traits.repeats:
             # The sets of the mesh cycle before are known when a block begins.
-            most = min(most, cycle if self.cycle.has(-1) else ceil(cycle / BLOCKS_OF_FIRST_CYCLE))
+            most = min(most, cycle)
         longest = int(min(most, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self.cycle.position(0).bytes, 1.0)))
         length = cycle * (longest // cycle) or ceil(cycle / ceil(cycle / longest))
         left_of_cycle = cycle - (first - 1) % cycle
         return min(first + (length if length >= cycle else min(length, left_of_cycle)), steps + 1)
 
-    def _block(
-        self, lasts: dict[int, Record], numbers: range, ahead: range, take: Take, report: Report
-    ) -> dict[int, Record]:
+    def _block(self, lasts: dict[int, Record], numbers: range, take: Take, report: Report) -> dict[int, Record]:
         """Solve the steps `numbers` of each run from its last one; those before a failure or Ctrl-C are taken too. With
-        the first of all the start is taken. `ahead`: steps of the next block."""
+        the first of all the start is taken."""
         block = self.batch.after(lasts, numbers)
         taken = 0 if numbers[0] == 1 else 1
         try:
-            with self._building(ahead):
-                self._solve(block, list(lasts), report)
+            self._solve(block, list(lasts), report)
         finally:
             for number, run in enumerate(lasts):
                 if block.done[number] > taken:
                     take(run, block.of(number, taken))
         ends = {run: block.record(number, block.length - 1) for number, run in enumerate(lasts)}
         return {run: end for run, end in ends.items() if run not in self.failures}
-
-    @contextmanager
-    def _building(self, steps: range) -> Iterator[None]:
-        """Meanwhile have a thread build the positions at steps over a face, as far as they can be kept."""
-        cycle = self.cycle
-        if not len(steps) or not cycle.traits.repeats or cycle.has(steps[0]) or not cycle.has_room(len(steps)):
-            yield
-            return
-        with ThreadPoolExecutor(1) as thread:
-            built = thread.submit(cycle.build, steps)
-            yield
-        # What failed fails once more where it is needed.
-        with suppress(Exception):
-            built.result()
 
     def _solve(self, block: Block, runs: Sequence[int], report: Report) -> None:
         """Solve a block, whose courses are those of runs, as far as there are solutions."""
@@ -258,13 +234,6 @@ class Marcher:
             block.begin(number, at, block.sets(last, at))
 
     def _solve_course(self, block: Block, number: int, end: int, report: Report) -> None:
-        middle = (block.done[number] + end) // 2
-        if block.independent and end - block.done[number] >= LEAST_DIVIDED:
-            with block.solving_from(number, middle, end):
-                self._solve_until(block, number, middle, report)
-        self._solve_until(block, number, end, report)
-
-    def _solve_until(self, block: Block, number: int, end: int, report: Report) -> None:
         while block.done[number] < end:
             begun = time.perf_counter()
             first = block.done[number]

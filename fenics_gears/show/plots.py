@@ -4,7 +4,6 @@ import struct
 import textwrap
 import zlib
 from collections.abc import Callable, Iterable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from typing import BinaryIO
@@ -117,28 +116,21 @@ def _check_steps(run: ShownRun) -> None:
 def save_figures(figures: dict[str, Figure], directory: Path) -> list[Path]:
     """Save figures by their file names, all or none."""
     written: list[Path] = []
-    # One picture is packed while the next one is drawn.
-    with written_aside(directory, written) as aside, ThreadPoolExecutor(1) as thread:
-        packed = {name: thread.submit(png, pixels_of(figure), figure.dpi) for name, figure in figures.items()}
-        for name, content in packed.items():
-            (aside / name).write_bytes(content.result())
+    with written_aside(directory, written) as aside:
+        for name, figure in figures.items():
+            save_figure(figure, aside / name)
     return written
 
 
+@styled
 def save_figure(figure: Figure, path: Path | BinaryIO) -> None:
     """Save a figure as PNG."""
-    content = png(pixels_of(figure), figure.dpi)
-    path.write_bytes(content) if isinstance(path, Path) else path.write(content)
-
-
-@styled
-def pixels_of(figure: Figure) -> np.ndarray:
-    """The pixels (height, width, 4) of a figure."""
     # `savefig` draws twice, once only for the layout.
     figure.set_dpi(DOTS_PER_INCH)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
-    return np.asarray(canvas.buffer_rgba())
+    content = png(np.asarray(canvas.buffer_rgba()), figure.dpi)
+    path.write_bytes(content) if isinstance(path, Path) else path.write(content)
 
 
 def png(pixels: np.ndarray, dots_per_inch: float) -> bytes:
