@@ -36,8 +36,8 @@ from fenics_gears.system.output import check_writable, write_whole
 from fenics_gears.system.progress import seconds_in_words
 
 # Loaded when first asked for: to read scenes and runs takes libraries that `--help` shall not wait for.
-_READERS = {"checked_model": "scenes", "loaded_run": "runs", "run_file": "runs"}
-_READERS |= {"run_or_journal": "runs", "stages_beside": "runs"}
+_READERS = {"checked_model": "scenes"}
+_READERS |= dict.fromkeys(("loaded_run", "run_file", "run_or_journal", "stages_beside"), "runs")
 
 __all__ = [
     "CASES", "INTERRUPTED", "JOURNAL", "REPORT_FILE", "RUN_FILE", "STUDY_FILE", "WITHOUT_SOMETHING",

@@ -10,7 +10,7 @@ of them and give `charts.Chart`. Rows are (label, value, unit).
 '437 N m on the wheel'
 >>> label, value, unit = characteristics(gear_pair(scene.gears), scene.measured_over)[0]
 >>> label
-'transverse contact ratio'
+'operating pressure angle'
 """
 
 from __future__ import annotations

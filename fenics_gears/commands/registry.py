@@ -39,7 +39,7 @@ def add(commands, shared: argparse.ArgumentParser, called: str) -> None:
     An extension that fails is left out, which the standard error says: no other command needs it.
     """
     # One module may add an option to a command of another, which is added first.
-    extensions = sorted([*_of_the_folder(), *_of_installed_packages()], key=lambda each: len(each.commands))
+    extensions = sorted([*_of_the_folder(), *_of_installed_packages()], key=lambda each: len(each.commands) > 1)
     modules = [*_of_the_core(), *extensions]
     needed = {called}.union(*(each.commands for each in modules if called in each.commands))
     for label, load, own in modules:

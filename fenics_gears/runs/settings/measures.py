@@ -140,6 +140,7 @@ def _least_scale(reference: Answer, name: str, count: int) -> float:
 
 
 def distances(one: Answer, other: Answer) -> dict[str, float]:
+    """The relative distance of one answer from the other, by measure."""
     return {name: distance(one, other, name) for name in measures_of(other)}
 
 

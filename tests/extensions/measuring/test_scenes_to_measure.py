@@ -1,7 +1,7 @@
 """`gears accuracy` and `gears effects` of trains, and of scenes with a target."""
 
 import pytest
-from tests.effects.examples import text_of
+from tests.paper_text import coarse_text
 from tests.trains import COARSE, gearbox_file
 
 from fenics_gears.commands.cli import main
@@ -30,8 +30,8 @@ def test_rows_with_idlers_are_not_measured(tmp_path, capsys):
 
 def test_settings_are_wanted_as_they_stand(tmp_path, capsys):
     """`gears accuracy` and `gears effects` turn settings themselves."""
-    text = text_of("tooth_elasticity").partition("[accuracy]")[0]
-    (tmp_path / "scene.toml").write_text(f'{text}[accuracy]\ntarget = "10 %"\n')
+    text = coarse_text(accuracy='[accuracy]\ntarget = "10 %"\n')
+    (tmp_path / "scene.toml").write_text(text)
     for command in ("accuracy", "effects"):
         assert main([command, str(tmp_path / "scene.toml"), "--output", str(tmp_path)]) == 2
         assert "leave accuracy.target out" in capsys.readouterr().err
