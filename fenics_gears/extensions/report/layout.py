@@ -1,6 +1,6 @@
 """The layout of a customer's report: whose it is, its logo, its sections in order, and limits of its numbers.
 
-``gears report RUN --layout FILE.toml``. Loaded where a layout is asked for.
+``gears report RUN --layout FILE.toml``.
 """
 
 from __future__ import annotations

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from math import nan
 from os.path import exists, isdir
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 from fenics_gears import OVERALL, SceneError
@@ -29,6 +28,7 @@ from fenics_gears.many_runs import load_combined
 from fenics_gears.pages import Page, rendered
 from fenics_gears.shown import ShownRun, stored_index
 
+from .layout import laid_out, load_layout
 from .run_page import run_page
 from .study_page import study_page
 from .train_page import train_page
@@ -42,20 +42,13 @@ def report(options: argparse.Namespace) -> int:
     output = output_file(options.output, file, is_study)
     _check(options, file, output, is_study)
     # Nothing is drawn for a layout that is wrong.
-    layout = None if options.layout is None else layouts().load_layout(options.layout)
+    layout = None if options.layout is None else load_layout(options.layout)
     if is_study and layout is not None and layout.limits:
         raise SceneError(f"{options.layout}: [limits] are of a run; this is a study. Leave them out, or name a case.")
     with closing(shown_progress(options.quiet)) as progress:
         written = (_study if is_study else _run)(options, file, _Writing(output, layout), progress)
     print_files(written, options.quiet)
     return 0
-
-
-def layouts() -> ModuleType:
-    """Layouts of reports, loaded where one is asked for."""
-    from . import layout
-
-    return layout
 
 
 @dataclass(frozen=True)
@@ -67,7 +60,7 @@ class _Writing:
 
     def write(self, page: Page, numbers: Mapping[str, Any], micrometres: float = nan) -> Path:
         """Write the page; `numbers`: of its result, `micrometres`: of one radian of the wheel."""
-        laid_out = page if self.layout is None else layouts().laid_out(page, self.layout, numbers, micrometres)
+        laid_out = page if self.layout is None else laid_out(page, self.layout, numbers, micrometres)
         text = rendered(laid_out)
         return write_whole(self.output, lambda path: path.write_text(text, encoding="utf-8"))
 
