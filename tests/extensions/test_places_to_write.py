@@ -26,7 +26,8 @@ def test_a_folder_under_the_results_name(tmp_path, monkeypatch, capsys, name):
 
 NOWHERE = {
     "map pair.toml --loads '100 N m'": "", "optimize design.toml": "", "plot run.nc --spectrum": "",
-    "effects pair.toml": "", "accuracy pair.toml": "", "report run.nc": ".html", "import pair.rexs": ".toml", "rate run.nc": ".csv", "listen run.nc": ".wav",
+    "effects pair.toml": "", "accuracy pair.toml": "", "report run.nc": ".html", "import pair.rexs": ".toml",
+    "rate run.nc": ".csv", "listen run.nc": ".wav",
 }  # fmt: skip
 
 

@@ -60,8 +60,8 @@ class _Writing:
 
     def write(self, page: Page, numbers: Mapping[str, Any], micrometres: float = nan) -> Path:
         """Write the page; `numbers`: of its result, `micrometres`: of one radian of the wheel."""
-        laid_out = page if self.layout is None else laid_out(page, self.layout, numbers, micrometres)
-        text = rendered(laid_out)
+        shown = page if self.layout is None else laid_out(page, self.layout, numbers, micrometres)
+        text = rendered(shown)
         return write_whole(self.output, lambda path: path.write_text(text, encoding="utf-8"))
 
 
