@@ -4,8 +4,10 @@ list when they are first asked for."""
 from fenics_gears import charts as charts
 from fenics_gears import command_line as command_line
 from fenics_gears import many_runs as many_runs
+from fenics_gears import measuring as measuring
 from fenics_gears import pages as pages
 from fenics_gears import scene_text as scene_text
+from fenics_gears import shown as shown
 from fenics_gears.dynamics.frequencies import Vibration as Vibration
 from fenics_gears.dynamics.frequencies import vibrations as vibrations
 from fenics_gears.dynamics.shaft_at_work import face_compliance_of_shafts as face_compliance_of_shafts

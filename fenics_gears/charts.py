@@ -13,13 +13,14 @@ from typing import TYPE_CHECKING, Any
 from fenics_gears.commands.work.shared import plots
 from fenics_gears.show.chart import BAND, BARS, LINES, MARKED_LINES, MARKERS, WORDS, Chart, Curve, span, stems
 from fenics_gears.show.harris_map import harris_map, words_apart
-from fenics_gears.show.panels import DARK, GREY, PALETTE, shades
-from fenics_gears.show.report.interactive import figure as plotly_figure
-from fenics_gears.show.run import ShownRun, design
+from fenics_gears.show.interactive import figure as plotly_figure
+from fenics_gears.show.panels import DARK, GREY, PALETTE, shades, styled
+from fenics_gears.show.run import ShownRun, conditions, design
 
 if TYPE_CHECKING:
     import numpy as np
     import xarray as xr
+    from matplotlib.figure import Figure
 
     from fenics_gears.geometry.pair import GearPair
     from fenics_gears.scene.train import TrainScene
@@ -27,8 +28,9 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BAND", "BARS", "DARK", "GREY", "LINES", "MARKED_LINES", "MARKERS", "PALETTE", "WORDS", "Chart", "Curve",
-    "design", "draw_charts", "draw_run", "gear_outline", "gears_of_train", "harris_map", "pinion_in_space",
-    "plotly_figure", "run_charts", "shades", "span", "stems", "train_charts", "words_apart",
+    "conditions", "design", "draw_charts", "draw_run", "gear_outline", "gears_of_train", "harris_map",
+    "pinion_in_space", "plotly_figure", "run_charts", "save_figures", "shades", "span", "stems", "styled",
+    "train_charts", "words_apart",
 ]  # fmt: skip
 
 
@@ -54,7 +56,7 @@ def gears_of_train(scene: TrainScene) -> tuple[list[DrawnGear], float]:
 def pinion_in_space(dataset: xr.Dataset) -> dict[str, Any] | None:
     """Some teeth of the pinion as plotly's browser library draws them, the largest pressure while it is in mesh on the
     flank of one; None of a run without contact fields."""
-    from fenics_gears.show.report.flank_in_space import pinion_in_space
+    from fenics_gears.show.flank_in_space import pinion_in_space
 
     return pinion_in_space(ShownRun(dataset))
 
@@ -62,7 +64,7 @@ def pinion_in_space(dataset: xr.Dataset) -> dict[str, Any] | None:
 def gear_outline(pair: GearPair, gear: int, phase: float) -> np.ndarray:
     """Outline (n, 2), mm, of the pinion (0) or the wheel (1) at a phase of the mesh cycle; line of centres upright."""
     # Stands on bodies of finite elements, which other charts do not load.
-    from fenics_gears.show.report.pair_drawing import gear_outline
+    from fenics_gears.show.pair_drawing import gear_outline
 
     return gear_outline(pair, gear, phase)
 
@@ -88,3 +90,8 @@ def draw_charts(
         name: picture(drawing.heading(subject, title, *more), charts) for name, (subject, charts) in pictures.items()
     }
     return drawing.save_figures(figures, directory)
+
+
+def save_figures(figures: dict[str, Figure], directory: Path) -> list[Path]:
+    """Save matplotlib's figures as PNG by their file names, all or none. Raises ComputationError as `draw_charts`."""
+    return plots().save_figures(figures, directory)

@@ -6,8 +6,14 @@ docs/adding_an_extension.md shows a command.
 
 from importlib import import_module
 
+from fenics_gears.commands.cli import main
 from fenics_gears.commands.shared import (
+    CASES,
     INTERRUPTED,
+    JOURNAL,
+    REPORT_FILE,
+    RUN_FILE,
+    STUDY_FILE,
     WITHOUT_SOMETHING,
     add_memory_argument,
     add_output_argument,
@@ -25,18 +31,20 @@ from fenics_gears.commands.work.shared import (
     shown_progress,
     under_mpirun,
 )
-from fenics_gears.system.console import print_rows
+from fenics_gears.system.console import print_rows, print_table
 from fenics_gears.system.output import check_writable, write_whole
 from fenics_gears.system.progress import seconds_in_words
 
 # Loaded when first asked for: to read scenes and runs takes libraries that `--help` shall not wait for.
-_READERS = {"checked_model": "scenes", "loaded_run": "runs", "run_file": "runs"}
+_READERS = {"checked_model": "scenes"}
+_READERS |= dict.fromkeys(("loaded_run", "run_file", "run_or_journal", "stages_beside"), "runs")
 
 __all__ = [
-    "INTERRUPTED", "WITHOUT_SOMETHING", "add_memory_argument", "add_output_argument", "add_processes_argument",
-    "add_run_argument", "add_scene_argument", "after_result", "check_writable", "file_to_write", "later",
-    "number_of_option", "positive_count", "print_files", "print_rows", "seconds_in_words", "shown_progress",
-    "under_mpirun", "write_whole", *_READERS,
+    "CASES", "INTERRUPTED", "JOURNAL", "REPORT_FILE", "RUN_FILE", "STUDY_FILE", "WITHOUT_SOMETHING",
+    "add_memory_argument", "add_output_argument", "add_processes_argument", "add_run_argument", "add_scene_argument",
+    "after_result", "check_writable", "file_to_write", "later", "main", "number_of_option", "positive_count",
+    "print_files", "print_rows", "print_table", "seconds_in_words", "shown_progress", "under_mpirun", "write_whole",
+    *_READERS,
 ]  # fmt: skip
 
 

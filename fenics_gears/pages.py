@@ -1,4 +1,4 @@
-"""Pages like the report of ``gears report``: blocks of words, numbers, tables and pictures, written as one HTML file.
+"""Pages like that of ``gears report``: blocks of words, numbers, tables and pictures, written as one HTML file.
 
 >>> from fenics_gears.pages import Page, PageSection, Words, rendered
 >>> sections = [PageSection("pairs", "What was compared", [Words("A pair with relief and one without.")])]
@@ -6,29 +6,29 @@
 True
 """
 
-from pathlib import Path
-
-import xarray as xr
-
-from fenics_gears.show.report.origin import made_by, scene_section
-from fenics_gears.show.report.overview import counted
-from fenics_gears.show.report.page import Block, Cell, Facts, Page, PageSection, Table, Tile, Tiles, Words
-from fenics_gears.show.report.rendering import colours, rendered
-from fenics_gears.show.run import ShownRun
+from fenics_gears.show.pages.origin import made_by, scene_section, version_section
+from fenics_gears.show.pages.page import (
+    Beside,
+    Block,
+    Cell,
+    Facts,
+    Fold,
+    Letterhead,
+    Listing,
+    Page,
+    PageSection,
+    Picture,
+    Table,
+    Tile,
+    Tiles,
+    Words,
+    counted,
+    sentence,
+)
+from fenics_gears.show.pages.rendering import colours, rendered
 
 __all__ = [
-    "Block", "Cell", "Facts", "Page", "PageSection", "Table", "Tile", "Tiles", "Words", "colours", "counted", "made_by",
-    "rendered", "run_report", "scene_section",
+    "Beside", "Block", "Cell", "Facts", "Fold", "Letterhead", "Listing", "Page", "PageSection", "Picture", "Table",
+    "Tile", "Tiles", "Words", "colours", "counted", "made_by", "rendered", "scene_section", "sentence",
+    "version_section",
 ]  # fmt: skip
-
-
-def run_report(dataset: xr.Dataset, file: Path) -> str:
-    """The page of ``gears report`` on a run that is in a file."""
-    # Pages of other kinds need none of it.
-    if "mesh" in dataset.dims:
-        from fenics_gears.show.report.train_page import train_page
-
-        return rendered(train_page(dataset, file))
-    from fenics_gears.show.report.run_page import run_page
-
-    return rendered(run_page(ShownRun(dataset, file)))

@@ -12,10 +12,10 @@ True
 """
 
 from fenics_gears.inputs.allowed import AllowedFile, AllowedNumber
-from fenics_gears.inputs.fields import choice, declared, whole_number
-from fenics_gears.inputs.problem import NOTHING_DONE, did_you_mean, line_numbers
+from fenics_gears.inputs.fields import choice, declared, text, whole_number
+from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean, line_numbers, listed
 from fenics_gears.inputs.section import Section, names_in, read
-from fenics_gears.inputs.tree import GEARS, Tree, value_at, wheel_torque
+from fenics_gears.inputs.tree import GEARS, Tree, over_the_face, value_at, wheel_torque
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import LOAD_WORDS
 from fenics_gears.scene.parsing import is_train, name_of, parsed, text_of
@@ -29,8 +29,8 @@ from fenics_gears.studies.study_file import Mistakes, entries, left_out
 
 __all__ = [
     "GEARS", "LOAD_WORDS", "NOTHING_DONE", "STAGES", "AllowedFile", "AllowedNumber", "AxisError", "Mistakes", "Models",
-    "NoScene", "SceneChanges", "Section", "Tree", "as_written", "choice", "declared", "did_you_mean", "entries",
-    "factor_of", "fields", "is_train", "known_paths", "left_out", "line_numbers", "load_scene_or_train",
-    "model_of_tree", "name_of", "names_in", "number_in", "parsed", "read", "text_of", "value_at", "values_in_words",
-    "values_of", "wheel_torque", "whole_number",
+    "NoScene", "Problem", "SceneChanges", "Section", "Tree", "as_written", "choice", "declared", "did_you_mean",
+    "entries", "factor_of", "fields", "is_train", "known_paths", "left_out", "line_numbers", "listed",
+    "load_scene_or_train", "model_of_tree", "name_of", "names_in", "number_in", "over_the_face", "parsed", "read",
+    "text", "text_of", "value_at", "values_in_words", "values_of", "wheel_torque", "whole_number",
 ]  # fmt: skip

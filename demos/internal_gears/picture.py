@@ -11,7 +11,7 @@ from demos.internal_gears.planet_in_ring import words_of
 from fenics_gears import gear_pair
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.show.panels import DARK, PALETTE, styled
-from fenics_gears.show.report.pair_drawing import FILLS, gear_outline
+from fenics_gears.show.pair_drawing import FILLS, gear_outline
 from fenics_gears.show.stress_grid import upright
 
 

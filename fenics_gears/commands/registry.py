@@ -3,7 +3,7 @@ in installed packages that name themselves in the entry point group of the same 
 
 Each is a module with a function ``add(commands, shared)``: `commands` takes parsers of commands by
 `commands.add_parser`, `shared` is the parser of -v and -q (docs/adding_an_extension.md). Its docstring begins with
-"``gears NAME ...``: summary." and names all commands that the module adds or changes, its own first. So a call imports
+"``gears NAME ...``: summary.", once for each command that the module adds or changes, its own first. So a call imports
 only the modules that have its command, and those whose docstrings name none.
 """
 
@@ -22,16 +22,15 @@ HERE = Path(__file__).parent
 # Their options belong to Python and pytest.
 UNPARSED = ("python", "test")
 # In the order of their use.
-CORE = ("check", "run", "study", "effects", "accuracy", "plot", "picture", "report", "export", "cache", *UNPARSED)
+CORE = ("check", "run", "study", "plot", "picture", "export", "cache", *UNPARSED)
 
 
 class CommandModule(NamedTuple):
-    """A module of commands: what messages call it, what imports it, its commands, and its summary."""
+    """A module of commands: what messages call it, what imports it, and its commands with their summaries."""
 
     label: str
     load: Callable
-    names: list[str]
-    summary: str
+    commands: dict[str, str]
 
 
 def add(commands, shared: argparse.ArgumentParser, called: str) -> None:
@@ -39,13 +38,15 @@ def add(commands, shared: argparse.ArgumentParser, called: str) -> None:
 
     An extension that fails is left out, which the standard error says: no other command needs it.
     """
-    modules = [*_of_the_core(), *_of_the_folder(), *_of_installed_packages()]
-    # One module may add an option to a command of another.
-    needed = {called}.union(*(each.names for each in modules if called in each.names))
-    for label, load, names, summary in modules:
+    # One module may add an option to a command of another, which is added first.
+    extensions = sorted([*_of_the_folder(), *_of_installed_packages()], key=lambda each: len(each.commands) > 1)
+    modules = [*_of_the_core(), *extensions]
+    needed = {called}.union(*(each.commands for each in modules if called in each.commands))
+    for label, load, own in modules:
         try:
-            if names and (needed.isdisjoint(names) or label in UNPARSED):
-                commands.add_parser(names[0], help=summary, add_help=False)
+            if own and (needed.isdisjoint(own) or label in UNPARSED):
+                for name in [each for each in own if each not in commands.choices]:
+                    commands.add_parser(name, help=own[name], add_help=False)
             else:
                 load().add(commands, shared)
         except Exception as error:
@@ -79,9 +80,8 @@ def _module(label: str, load: Callable, file: str | Path) -> CommandModule:
     """The module by its docstring, which is read, not imported."""
     docstring = re.match(rb'"""(.*?)"""', _content(file), re.DOTALL)
     words = " ".join(docstring[1].decode(errors="replace").split()) if docstring else ""
-    first = re.match(r"``gears [^`]+``: (.+?)\.(?: |$)", words)
-    names = re.findall(r"``gears ([\w-]+)", words) if first else []
-    return CommandModule(label, load, names, first[1] if first else "")
+    told = re.findall(r"``gears ([\w-]+)[^`]*``: (.+?)\.(?: |$)", words)
+    return CommandModule(label, load, dict(told) if words.startswith("``gears ") else {})
 
 
 def _file(module: str) -> str:

@@ -108,6 +108,7 @@ def effect_named(section: str) -> Effect:
 
 
 def every_effect() -> tuple[Effect, ...]:
+    """All effects that a scene may have, in their order."""
     return tuple(map(effect_named, SECTIONS))
 
 

@@ -45,6 +45,7 @@ NOTHING_DONE = "Nothing was computed or written."
 
 
 def listed(problems: Sequence[Problem], lines: Mapping[Path, int], source: str) -> str:
+    """The message on the problems of a file: how many there are, and the first of them with their lines."""
     first = sorted(problems, key=lambda each: each.line(lines))[:MOST_TOLD]
     return counted([problem.describe(source, lines) for problem in first], len(problems), source)
 

@@ -35,6 +35,7 @@ class EffectState:
 
 
 def effect_states(scene: Scene) -> list[EffectState]:
+    """Each effect that a scene may have, on or off, in words."""
     states = []
     there = {variable.name for variable in result_variables(scene)}
     for effect in every_effect():

@@ -262,4 +262,5 @@ def solver_rows(dataset) -> list[Row]:
 
 
 def stage_rows(dataset) -> list[Row]:
+    """Wall time of each stage of a run."""
     return [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]

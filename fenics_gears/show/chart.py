@@ -1,6 +1,6 @@
 """Charts as data: curves, bars, bands and a coloured field over two axes, with units, captions and colours.
 
-``show.drawing`` draws them by matplotlib, for files and paper, ``show.report.interactive`` by plotly, for zooming. Room
+``show.drawing`` draws them by matplotlib, for files and paper, ``show.interactive`` by plotly, for zooming. Room
 in a picture is in inches.
 """
 

@@ -15,7 +15,7 @@ from fenics_gears.geometry.planetary import CARRIER
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_layout import centres
 
-from .report.pair_drawing import tooth_points
+from .pair_drawing import tooth_points
 
 
 @dataclass(frozen=True)

@@ -20,9 +20,9 @@ from fenics_gears.scene.train_mesh import gear_names
 
 from .chart import LEAST_SHARE, MARKERS, WORDS, Chart, Curve
 from .gears_of_train import outline_of
+from .pair_drawing import FILLS
 from .panels import DARK, PALETTE
 from .pressure import has_pressure, largest_pressures
-from .report.pair_drawing import FILLS
 from .run import ShownRun
 
 CIRCLE_POINTS = 361

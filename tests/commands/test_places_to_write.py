@@ -13,13 +13,7 @@ from fenics_gears.commands.cli import main
 
 SCENE = GREEK + "[friction]\ncoefficient = 0.1\n"
 STUDY = 'scene = "pair.toml"\n[sweep]\nfriction.coefficient = [0.1, 0.2]\n'
-CALLS = {
-    "run pair.toml": "run.nc",
-    "run pair.toml ": "load_sharing.png",
-    "accuracy pair.toml": "accuracy.csv",
-    "effects pair.toml": "effects.png",
-    "study study.toml": "study.nc",
-}
+CALLS = {"run pair.toml": "run.nc", "run pair.toml ": "load_sharing.png", "study study.toml": "study.nc"}
 
 
 @pytest.mark.parametrize("call", CALLS)
@@ -32,8 +26,8 @@ def test_a_folder_under_the_results_name(tmp_path, monkeypatch, capsys, call):
 
 # A run is looked at after the place. By the name of what is asked for, where that is a file.
 NOWHERE = {
-    "run pair.toml": "", "study study.toml": "", "effects pair.toml": "", "accuracy pair.toml": "", "plot run.nc": "",
-    "picture run.nc": ".png", "report run.nc": ".html", "export run.nc": ".csv",
+    "run pair.toml": "", "study study.toml": "", "plot run.nc": "",
+    "picture run.nc": ".png", "export run.nc": ".csv",
 }  # fmt: skip
 
 

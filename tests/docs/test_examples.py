@@ -17,8 +17,8 @@ from tests.paper_text import PAPER as DEMO
 
 from fenics_gears import as_toml, results, scene_from_text, simulate, train_from_text
 from fenics_gears.extensions.optimization.design_file import load_design
+from fenics_gears.extensions.report.layout import load_layout
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.show.report.layout import load_layout
 from fenics_gears.studies.study_file import load_study
 
 matplotlib.use("Agg")

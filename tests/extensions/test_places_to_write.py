@@ -11,7 +11,10 @@ set.tip_relief.start = "HPSTC"
 variables.tip_relief.depth = ["5 um", "60 um"]
 goals.peak_to_peak_transmission_error = 1
 """
-CALLS = {"map.nc": ["map", "pair.toml", "--loads", "100 N m"], "best.toml": ["optimize", "design.toml"]}
+CALLS = {
+    "map.nc": ["map", "pair.toml", "--loads", "100 N m"], "best.toml": ["optimize", "design.toml"],
+    "accuracy.csv": ["accuracy", "pair.toml"], "effects.png": ["effects", "pair.toml"],
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", CALLS)
@@ -23,7 +26,8 @@ def test_a_folder_under_the_results_name(tmp_path, monkeypatch, capsys, name):
 
 NOWHERE = {
     "map pair.toml --loads '100 N m'": "", "optimize design.toml": "", "plot run.nc --spectrum": "",
-    "import pair.rexs": ".toml", "rate run.nc": ".csv", "listen run.nc": ".wav",
+    "effects pair.toml": "", "accuracy pair.toml": "", "report run.nc": ".html", "import pair.rexs": ".toml",
+    "rate run.nc": ".csv", "listen run.nc": ".wav",
 }  # fmt: skip
 
 

@@ -1,19 +1,32 @@
-"""Orders, limits, fronts and charged errors of `gears accuracy` on numbers known exactly."""
+"""Orders, limits and distances of `runs.settings` on numbers known exactly."""
 
-import itertools
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
+from tests.helical import wide_pair
 
+from fenics_gears import model_of
+from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.runs.settings import measures
-from fenics_gears.runs.settings.convergence import largest_part, last_of, observed_order, richardson, together
-from fenics_gears.runs.settings.measures import CURVE, PEAK, PRESSURE, SPAN, STIFFNESS
-from fenics_gears.runs.settings.setting import Setting
-from fenics_gears.studies.accuracy import whole
-from fenics_gears.studies.accuracy.refinement import Level, Refinement
+from fenics_gears.runs.settings.convergence import last_of, observed_order, richardson, together
+from fenics_gears.runs.settings.measures import (
+    CURVE,
+    DEFECT,
+    FACE_LOAD,
+    LARGEST_LOAD,
+    LINE_LOAD,
+    PEAK,
+    PRESSURE,
+    SPAN,
+    STIFFNESS,
+    distances,
+    judged,
+)
+from fenics_gears.runs.settings.setting import Setting, own_setting
 
+TILTING = '[bearings]\nstiffness = "1e6 N/mm"\naxial_stiffness = "1e5 N/mm"\nplaces = { wheel = ["-40 mm", "40 mm"] }\n'
 SHAPE = np.sin(np.linspace(0.0, 6.0, 50)) + 2.0
 ERROR = np.cos(np.linspace(0.0, 2.0, 50))
 BASE = Setting("P2", 0.04, 0.04, 3.2, 0.5, 80)
@@ -75,69 +88,6 @@ def test_limits_of_several_settings_add_and_so_do_their_uncertainties():
     assert found.value[0] == pytest.approx(5.0)
     assert found.uncertainty / 5.0 == pytest.approx(sum(limit.uncertainty / limit.value[0] for limit in limits))
     assert together(base, [(last_of([base]), base)], SPAN).value[0] == base[0]
-
-
-def brute_front(points):
-    def beaten(mine, other):
-        return other[0] <= mine[0] and other[1] <= mine[1] and other != mine
-
-    return {mine for mine in points if not any(beaten(mine, other) for other in points)}
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_the_front_is_that_of_comparing_each_with_each(seed):
-    """Definition, with ties and equal points."""
-    random = np.random.default_rng(seed)
-    points = [tuple(map(float, point)) for point in random.integers(1, 9, size=(25, 2))]
-    front = whole.pareto_front(points)
-    assert {points[place] for place in front} == brute_front(points)
-    assert len({points[place] for place in front}) == len(front)
-    assert [points[place][0] for place in front] == sorted(points[place][0] for place in front)
-
-
-def test_errors_that_cancel_are_no_accuracy():
-    """+5 % and -5 % give the right answer and are charged 10 %."""
-
-    def span(h, k):
-        return np.array([10.0 * (1.0 + 0.05 * h**2 - 0.05 * k**2)])
-
-    exact = {SPAN: span(0.0, 0.0)}
-    direct = measures.distance({SPAN: span(1.0, 1.0)}, exact, SPAN)
-    parts = {
-        "h": measures.distance({SPAN: span(1.0, 0.0)}, exact, SPAN),
-        "k": measures.distance({SPAN: span(0.0, 1.0)}, exact, SPAN),
-    }
-    assert direct == 0.0
-    assert whole.total_error(direct, parts) == pytest.approx(0.10)
-    honest = whole.total_error(
-        measures.distance({SPAN: span(0.5, 0.5)}, exact, SPAN), {name: 0.25 * part for name, part in parts.items()}
-    )
-    assert honest == pytest.approx(0.025)
-    assert whole.pareto_front([(1.0, whole.total_error(direct, parts)), (1.5, honest)]) == [0, 1]
-
-
-def refinement(name, field, values, expected=2.0):
-    levels = tuple(Level(str(value), replace(BASE, **{field: value}), float(value)) for value in values)
-    return Refinement(name, (field,), levels, expected, "made up", BASE)
-
-
-FLANK, STEPS = refinement("flank", "flank", (0.16, 0.08, 0.04)), refinement("steps", "steps", (20, 40, 80, 160))
-ERRORS = {("flank", 0): 0.08, ("flank", 1): 0.02, ("flank", 2): 0.005}
-ERRORS |= {("steps", place): error for place, error in enumerate((0.2, 0.05, 0.012, 0.003))}
-
-
-def test_the_path_refines_what_limits_it():
-    """By hand; 0.28, 0.13, 0.07, 0.032, 0.017 by turns of the larger error."""
-    found = [(setting.flank, setting.steps) for setting in whole.path(BASE, [FLANK, STEPS], ERRORS)]
-    assert found == [(0.16, 20), (0.16, 40), (0.08, 40), (0.08, 80), (0.04, 80), (0.04, 160)]
-
-
-def test_parts_are_those_of_the_settings_own_levels():
-    """Identity."""
-    for (i, flank), (j, steps) in itertools.product(enumerate((0.16, 0.08, 0.04)), enumerate((20, 40, 80, 160))):
-        parts = whole.parts_of(replace(BASE, flank=flank, steps=steps), [FLANK, STEPS], ERRORS)
-        assert parts == {"flank": ERRORS["flank", i], "steps": ERRORS["steps", j]}
-        assert ERRORS[largest_part(parts), {"flank": i, "steps": j}[largest_part(parts)]] == max(parts.values())
 
 
 def run(steps, amplitude=1.0, nodes=41, first_pair=0):
@@ -208,3 +158,41 @@ def test_a_kink_between_steps_adds_no_error_to_exact_values():
         return {CURVE: np.abs(np.arange(1, count + 1) / count - 0.51)}
 
     assert measures.distance(exact(20), exact(640), CURVE) < 1e-14
+
+
+def test_errors_over_the_face_are_judged_and_the_plane_is_not_charged_for_them():
+    """Definition: the worst of all counts; a run in the plane has no line load along the face."""
+    one = {
+        CURVE: np.ones(4),
+        SPAN: np.ones(1),
+        DEFECT: np.zeros(1),
+        LINE_LOAD: np.full(3, 100.0),
+        FACE_LOAD: np.array([1.2]),
+        LARGEST_LOAD: np.array([1.5]),
+    }
+    other = one | {
+        LINE_LOAD: np.array([100.0, 100.0, 103.0]),
+        FACE_LOAD: np.array([1.206]),
+        LARGEST_LOAD: np.array([1.53]),
+    }
+    errors = distances(other, one)
+    assert (
+        errors[FACE_LOAD] == pytest.approx(0.005)
+        and errors[LINE_LOAD] == pytest.approx(0.03 / np.sqrt(3.0))
+        and judged(errors) == pytest.approx(0.02)
+    )
+    assert judged(distances({CURVE: one[CURVE], SPAN: np.array([1.001]), DEFECT: np.zeros(1)}, one)) == pytest.approx(
+        0.001
+    )
+
+
+def test_a_setting_gives_the_face_that_it_says():
+    """Identity."""
+    scene = wide_pair(TILTING)
+    own, model = own_setting(scene), model_of(scene)
+    assert (own.slices, own.layers, own.body) == (model.face.evenly, face_discretisation(model, 0).layers, 1.0)
+    again = model_of(own.of(scene))
+    assert again.face.evenly == own.slices and face_discretisation(again, 1) == face_discretisation(model, 1)
+    other = model_of(replace(own, slices=9, layers=3, body=2.0).of(scene))
+    assert other.face.evenly == 9 and face_discretisation(other, 0).layers == 3
+    assert face_discretisation(other, 0).section_size == pytest.approx(2.0 * face_discretisation(model, 0).section_size)

@@ -1,7 +1,7 @@
 """What ``gears --version -v`` says of the libraries."""
 
-from fenics_gears.studies.machine import processor, versions
 from fenics_gears.system import blas
+from fenics_gears.system.versions import processor, versions
 
 
 def print_versions() -> int:

@@ -10,17 +10,17 @@ import signal
 import traceback
 import zipfile
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import redirect_stderr, suppress
 from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from fenics_gears import GearsError, simulate, simulate_train
+from fenics_gears import ComputationError, GearsError, simulate, simulate_train
 from fenics_gears.charts import draw_run
+from fenics_gears.command_line import REPORT_FILE, main
 from fenics_gears.many_runs import CommonWindows, GearStore, Progress, save
-from fenics_gears.pages import run_report
 from fenics_gears.scene_text import Models, NoScene, is_train
 
 from .shown import shown, shown_train
@@ -162,7 +162,17 @@ def _pictures(result: Any, name: str) -> bytes:
 
 
 def _report(result: Any, name: str) -> bytes:
-    return _of_saved(result, name, lambda file: run_report(result, file).encode())
+    return _of_saved(result, name, _page)
+
+
+def _page(file: Path) -> bytes:
+    """What ``gears report`` writes on a run. Raises ComputationError with what it says where it fails."""
+    page = file.with_name(REPORT_FILE)
+    with redirect_stderr(io.StringIO()) as said:
+        failed = main(["report", str(file), "-o", str(page), "-q"])
+    if failed:
+        raise ComputationError(said.getvalue().strip())
+    return page.read_bytes()
 
 
 def _result(result: Any, name: str) -> bytes:

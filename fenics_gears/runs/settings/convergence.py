@@ -110,6 +110,7 @@ def richardson(values: Sequence[np.ndarray], sizes: Sequence[float], expected: f
 
 
 def last_of(values: Sequence[np.ndarray]) -> Limit:
+    """The limit where no order is known: the last value, uncertain by the last change."""
     away = float(np.linalg.norm(values[-2] - values[-1])) if len(values) > 1 else 0.0
     return Limit(values[-1], None, away, away)
 
@@ -137,4 +138,5 @@ def together(base: np.ndarray, changes: Sequence[tuple[Limit, np.ndarray]], name
 
 
 def largest_part(parts: Mapping[str, float]) -> str:
+    """The name of the largest part."""
     return max(parts, key=parts.__getitem__)

@@ -52,7 +52,7 @@ Answer = dict[str, np.ndarray]
 
 def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> Answer:
     """All measures of a run. `window` (mm): length over which pressures are compared. `root_stress`: MPa, peak at a
-    material point (`root_point`), which is not in a result; None where it is not known."""
+    material point (`simulation.root_point`), which is not in a result; None where it is not known."""
     measures = {**judged_answer(run), DEFECT: np.array([_defect(run)])}
     if "energy_teeth" in run:
         measures[STIFFNESS] = np.array([stiffness_by_energy(run)])
@@ -140,6 +140,7 @@ def _least_scale(reference: Answer, name: str, count: int) -> float:
 
 
 def distances(one: Answer, other: Answer) -> dict[str, float]:
+    """The relative distance of one answer from the other, by measure."""
     return {name: distance(one, other, name) for name in measures_of(other)}
 
 

@@ -89,6 +89,7 @@ def half_width(scene: Scene) -> float:
 
 @lru_cache(maxsize=4)
 def default_setting(scene: Scene) -> Setting:
+    """The whole setting that the program chooses where a scene has none of its own."""
     return own_setting(without_settings(scene))
 
 
@@ -109,4 +110,5 @@ def own_setting(scene: Scene) -> Setting:
 
 
 def without_settings(scene: Scene) -> Scene:
+    """The scene with the settings that the program chooses."""
     return replace(scene, accuracy=Accuracy())

@@ -9,8 +9,8 @@ import urllib.request
 
 import pytest
 from tests.extensions.live.conftest import PAIR, TRAIN
+from tests.extensions.report.browser import CHROMIUM, Browser
 from tests.programs import command, environment
-from tests.show.report.browser import CHROMIUM, Browser
 
 _needs_browser = pytest.mark.skipif(CHROMIUM is None, reason="no chromium")
 DEPTH = "tip_relief.wheel.depth"

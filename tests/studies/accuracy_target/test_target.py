@@ -180,14 +180,6 @@ def test_no_load_and_rigid_teeth_have_no_target(text):
         scene_from_text(rigid[0] + "[load]" + rigid[2].partition("[load]")[2])
 
 
-def test_commands_that_measure_want_settings_as_they_stand(text, tmp_path, capsys):
-    """`gears accuracy` and `gears effects` turn settings themselves."""
-    (tmp_path / "scene.toml").write_text(text)
-    for command in ("accuracy", "effects"):
-        assert main([command, str(tmp_path / "scene.toml"), "--output", str(tmp_path)]) == 2
-        assert "leave accuracy.target out" in capsys.readouterr().err
-
-
 def test_check_says_that_settings_are_chosen_by_the_run(text, tmp_path, capsys):
     """`gears check` computes nothing."""
     (tmp_path / "scene.toml").write_text(text)

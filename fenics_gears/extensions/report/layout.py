@@ -1,0 +1,216 @@
+"""The layout of a customer's report: whose it is, its logo, its sections in order, and limits of its numbers.
+
+``gears report RUN --layout FILE.toml``.
+"""
+
+from __future__ import annotations
+
+import base64
+import datetime
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from fenics_gears import SceneError, units, user_file
+from fenics_gears.many_runs import RESULT_ATTRIBUTES
+from fenics_gears.pages import Cell, Letterhead, Page, PageSection, Table, Words
+from fenics_gears.scene_text import (
+    Problem,
+    Section,
+    as_written,
+    did_you_mean,
+    line_numbers,
+    listed,
+    names_in,
+    parsed,
+    read,
+    text,
+    text_of,
+)
+from fenics_gears.shown import digits
+
+PICTURES = {".png": "image/png", ".svg": "image/svg+xml", ".jpg": "image/jpeg", ".jpeg": "image/jpeg"}
+LARGEST_LOGO = 2_000_000
+LONGEST = 200
+LIMITS = "limits"
+SECTIONS = "sections"
+ENDS = ("at_most", "at_least")
+# Gear data stand on the first page, then what matters.
+FIRST = ("geometry", LIMITS, "summary", "warnings")
+# Numbers of a result that may have a limit, by name, with their unit there.
+LIMITED = {each.name: each.units for each in RESULT_ATTRIBUTES if each.units}
+
+
+def _words(meaning: str, otherwise: str = "none") -> Any:
+    return text(LONGEST, meaning=meaning, otherwise=otherwise)
+
+
+@dataclass(frozen=True)
+class LayoutText(Section):
+    """What stands at the head of a report."""
+
+    title: str | None = _words("title of the report", "that of the scene")
+    author: str | None = _words("who wrote it")
+    company: str | None = _words("for or from whom it is")
+    number: str | None = _words("number of the report or of the drawing")
+    date: str | None = _words("its date, as it is to be printed", "today")
+    logo: str | None = _words("a picture, .png, .svg or .jpg, looked for from the layout's folder")
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A limit of a number of a result: the end of the range, as it is written, and in the unit of `kind`."""
+
+    name: str
+    end: str
+    written: str
+    value: float
+    kind: str
+
+
+@dataclass(frozen=True)
+class ReportLayout:
+    """A layout that was read: its head, its sections in order (None: the usual ones), its limits."""
+
+    head: LayoutText
+    sections: tuple[str, ...] | None
+    limits: tuple[Limit, ...]
+    logo: str = ""
+    source: str = ""
+
+
+def load_layout(path: Path) -> ReportLayout:
+    """Read a layout. Raises SceneError, naming all mistakes at once."""
+    content = text_of(path, "layout")
+    tree = dict(parsed(content, str(path)))
+    sections = tree.pop(SECTIONS, None)
+    limits = tree.pop(LIMITS, {})
+    head, problems = read(LayoutText, tree)
+    known = (*names_in(LayoutText), SECTIONS, LIMITS)
+    problems = [_explained(each, known) for each in problems]
+    if sections is not None and not _is_list_of_texts(sections):
+        message = 'is no list of names. Allowed: such as ["geometry", "limits", "summary"].'
+        problems.append(Problem((SECTIONS,), as_written(sections), message))
+    read_limits = list(_limits(limits, problems))
+    if problems:
+        raise SceneError(listed(problems, line_numbers(content), str(path)))
+    order = None if sections is None else tuple(sections)
+    return ReportLayout(head, order, tuple(read_limits), _logo(path, head.logo), str(path))
+
+
+def _explained(problem: Problem, known: Sequence[str]) -> Problem:
+    if not problem.unknown:
+        return problem
+    hint = did_you_mean(problem.path[-1], known)
+    return replace(problem, message=f"is no field of a report's layout.{hint} Known: {', '.join(known)}.")
+
+
+def _is_list_of_texts(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and all(isinstance(each, str) for each in value)
+
+
+def _limits(table: Any, problems: list[Problem]) -> Iterator[Limit]:
+    """The limits of ``[limits]``; mistakes are added to the problems."""
+    if not isinstance(table, Mapping):
+        problems.append(Problem((LIMITS,), as_written(table), "is no section. Write [limits], and below it numbers."))
+        return
+    for name, ends in table.items():
+        place = (LIMITS, name)
+        if name not in LIMITED:
+            hint = did_you_mean(name, LIMITED)
+            message = f"is no number of a result that can have a limit.{hint} The page on results has them all."
+            problems.append(Problem(place, as_written(ends), message))
+            continue
+        unit = LIMITED[name]
+        example = "1.2" if unit == "1" else '"20 um"' if unit == "rad" else f'"20 {unit}"'
+        if not isinstance(ends, Mapping) or not ends or set(ends) - set(ENDS):
+            message = f"is no limit. Allowed: {{ at_most = {example} }}, and at_least likewise."
+            problems.append(Problem(place, as_written(ends), message))
+            continue
+        for end, written in ends.items():
+            limit = _limit(name, end, written, unit)
+            if limit is None:
+                message = f"is no limit of a number in {unit}. Allowed: {{ {end} = {example} }}."
+                problems.append(Problem((*place, end), as_written(written), message))
+            else:
+                yield limit
+
+
+def _limit(name: str, end: str, written: Any, unit: str) -> Limit | None:
+    if isinstance(written, int | float) and not isinstance(written, bool):
+        return Limit(name, end, f"{float(written):g}", float(written), "") if unit == "1" else None
+    try:
+        value, kind = units.quantity(str(written))
+    except units.QuantityError:
+        return None
+    if unit == "1" and kind == "a percentage":
+        return Limit(name, end, str(written), value, "")
+    own = "" if unit == "1" else units.quantity(f"1 {unit}")[1]
+    allowed = {own} | ({"a length"} if unit == "rad" else set())
+    return Limit(name, end, str(written), value, kind) if kind in allowed and math.isfinite(value) else None
+
+
+def _logo(layout: Path, name: str | None) -> str:
+    """The picture as a data address; empty where there is none."""
+    if name is None:
+        return ""
+    path = layout.parent / name
+    kind = PICTURES.get(path.suffix.lower())
+    if kind is None:
+        raise SceneError(f"{layout}: logo = {as_written(name)} is no picture. Allowed: {', '.join(PICTURES)}.")
+    try:
+        content = user_file.content_of(path, LARGEST_LOGO)
+    except user_file.Unreadable as problem:
+        raise SceneError(f"{layout}: logo: {path}: {problem}") from None
+    return f"data:{kind};base64,{base64.b64encode(content).decode()}"
+
+
+def laid_out(page: Page, layout: ReportLayout, numbers: Mapping[str, Any], micrometres: float) -> Page:
+    """The page with the head, the sections and the limits of a layout; `numbers`: of the result, `micrometres`: of one
+    radian of the wheel along the line of action. Raises SceneError for a section that the page has not."""
+    by_name = {each.name: each for each in page.sections}
+    if layout.limits:
+        by_name[LIMITS] = _limit_section(layout.limits, numbers, micrometres)
+    order = layout.sections
+    if order is None:
+        first = [name for name in FIRST if name in by_name]
+        order = (*first, *(name for name in by_name if name not in first))
+    unknown = [name for name in order if name not in by_name]
+    if unknown:
+        known = ", ".join(by_name)
+        hint = did_you_mean(unknown[0], by_name)
+        raise SceneError(f"{layout.source}: sections: {unknown[0]} is no section of this report.{hint} Known: {known}.")
+    head = layout.head
+    facts = {name: getattr(head, name) for name in ("author", "company", "number")}
+    facts["date"] = head.date or f"{datetime.datetime.now().astimezone():%Y-%m-%d}"
+    letterhead = Letterhead([(name, value) for name, value in facts.items() if value], layout.logo)
+    sections = [by_name[name] for name in order]
+    return replace(page, title=head.title or page.title, sections=sections, letterhead=letterhead)
+
+
+def _limit_section(limits: Sequence[Limit], numbers: Mapping[str, Any], micrometres: float) -> PageSection:
+    """A table of the limits: what was computed, and whether it is kept."""
+    rows = [_row(each, numbers, micrometres) for each in limits]
+    broken = sum(each[-1].warns for each in rows)
+    said = f"{broken} of {len(rows)} limits {'is' if broken == 1 else 'are'} not kept." if broken else "All are kept."
+    table = Table(("number", "limit", "computed", "result"), rows, numbers=1)
+    return PageSection(LIMITS, "Limits", [Words(said, warns=bool(broken)), table])
+
+
+def _row(limit: Limit, numbers: Mapping[str, Any], micrometres: float) -> list[Cell]:
+    unit = LIMITED[limit.name]
+    label = limit.name.replace("_", " ")
+    bound = f"{limit.end.replace('_', ' ')} {limit.written}"
+    value = float(numbers.get(limit.name, math.nan))
+    if limit.kind == "a length" and unit == "rad":
+        value *= micrometres
+        unit = "um"
+    if not math.isfinite(value):
+        return [Cell(label), Cell(bound), Cell("-"), Cell("not in this run", warns=True)]
+    largest = limit.value / (1.0 if unit == "1" else units.quantity(f"1 {unit}")[0])
+    over = value > largest if limit.end == "at_most" else value < largest
+    off = f"off by {100.0 * abs(value / largest - 1.0):.2g} %" if over and largest else "not kept" if over else "kept"
+    computed = f"{digits(value)} {'' if unit == '1' else unit}".strip()
+    return [Cell(label), Cell(bound), Cell(computed), Cell(off, warns=over)]

@@ -1,0 +1,1 @@
+"""Pages of HTML that need no network: their parts, and how they are written."""

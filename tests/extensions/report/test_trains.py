@@ -1,0 +1,67 @@
+"""Reports on runs and studies of trains."""
+
+import pytest
+from tests.trains import bent_two_stages, gearbox_file, split_text
+
+from fenics_gears import load
+from fenics_gears.commands.cli import main
+
+pytestmark = pytest.mark.usefixtures("without_stills")
+
+
+def page_of(scene, folder):
+    """The folder of a scene's run, and its page."""
+    out = folder / "out"
+    assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
+    assert main(["report", str(out), "-q"]) == 0
+    return out, (out / "report.html").read_text(encoding="utf-8")
+
+
+def test_paths_that_close_tell_their_shares(tmp_path):
+    """Those of the result."""
+    scene = tmp_path / "split.toml"
+    scene.write_text(split_text(of_shaft='clocking = "2 mrad"\ntorsional_stiffness = "1e8 N mm/rad"'))
+    out, page = page_of(scene, tmp_path)
+    assert f"{100.0 * load(out / 'run.nc')['mean_path_share'].values[1]:#.4g}" in page
+
+
+def test_each_mesh_has_a_section(tmp_path):
+    """And the whole its power flow and orders."""
+    scene = gearbox_file(tmp_path)
+    scene.write_text(scene.read_text() + '[motion]\ninput_speed = "3000 rpm"\n')
+    _, page = page_of(scene, tmp_path)
+    for heading in ("Power flow", "Orders of the overall transmission error", "Mesh: first", "Mesh: second"):
+        assert heading in page
+
+
+def test_stages_that_move_together_have_natural_frequencies(tmp_path):
+    """What `gears check` tells of them."""
+    scene = gearbox_file(tmp_path)
+    more = '[motion]\ninput_speed = "900 rpm"\nmesh_cycles = 2\n[inertia]\ndensity = "7.85 g/cm^3"\n'
+    scene.write_text(scene.read_text() + more)
+    _, page = page_of(scene, tmp_path)
+    assert "with inertia" in page
+    assert "Natural frequencies" in page
+
+
+def test_bearings_of_shafts_that_bend_are_listed(tmp_path):
+    """All of them, with the places of the gears."""
+    scene = tmp_path / "bent.toml"
+    scene.write_text(bent_two_stages().text)
+    _, page = page_of(scene, tmp_path)
+    assert "Shaft middle: first.wheel at 35 mm, second.pinion at 100 mm" in page
+    assert "middle 1" in page
+    assert "middle 2" in page
+
+
+@pytest.mark.nightly
+def test_a_study_has_one_page(tmp_path, monkeypatch):
+    """With the cases of a train."""
+    monkeypatch.chdir(tmp_path)
+    gearbox_file(tmp_path)
+    (tmp_path / "study.toml").write_text(
+        'scene = "gearbox.toml"\n[sweep]\nload.output_torque = ["300 N m", "400 N m"]\n'
+    )
+    assert main(["study", "study.toml", "--quiet", "-o", "out"]) == 0
+    assert main(["report", "out", "-q"]) == 0
+    assert "Gear train: report on a study" in (tmp_path / "out" / "report.html").read_text()
