@@ -63,8 +63,8 @@ __all__ = [
     "force_charts", "frequencies_of_train", "has_pressure", "in_unit", "largest_normal_force", "largest_pressures",
     "line_loads", "load_in_words", "member_table", "mesh_order_chart", "motion_charts", "motion_rows", "orbits",
     "order_spectrum", "orders_by_cycle", "over_time", "pair_forces", "planet_shares", "power_flow", "pressure_maps",
-    "result_charts", "run_spectrum", "set_runs", "signals_of", "solver_rows", "stage_rows", "stored_index", "stress_drawing",
-    "train_errors", "train_model_of", "train_orders", "transmitted",
+    "result_charts", "run_spectrum", "set_runs", "signals_of", "solver_rows", "stage_rows", "stored_index",
+    "stress_drawing", "train_errors", "train_model_of", "train_orders", "transmitted",
 ]  # fmt: skip
 
 
