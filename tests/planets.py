@@ -34,8 +34,7 @@ def written_out(
         for (name, pinion), wheel in zip(gears.items(), wheels):
             own = f'pinion = {pinion}\nwheel = {wheel}\ndirection = "{angle!r} deg"'
             if helix is not None:
-                hand = "right" if name.startswith("sun") else "left"
-                own += f'\nhelix_angle = "{helix}"\npinion_hand = "{hand}"'
+                own += f'\nhelix_angle = "{helix}"'
             stages += f"[stages.{name}]\n{SHARED}\n{own}\n"
     return train_from_text(f'{stages}\n[load]\noutput_torque = "2 kN m"\n[accuracy]\n{accuracy}\n')
 

@@ -90,10 +90,12 @@ def face_cost(model: Model, sections: ExpectedCost, fine: tuple[float, float]) -
         gear = model.pair.gears[number]
         division = face_discretisation(model, number)
         condensing += NEAR_UNKNOWN * sum(near_unknowns(gear, division, model.scene.coast_flanks is not None))
-        # The flanks' compliance by heights, and by slices for teeth ahead and behind.
+        # The flanks' compliance by heights, and by slices for teeth ahead and behind: of two slices some teeth of all
+        # touch at a time.
         on_slices = size.flanks * model.face.slices / len(face_discretisation(model, number).sweep.heights)
         reach = model.touching.reach.farthest
-        held += BYTES_OF_A_NUMBER * ((reach + 1) * size.flanks**2 + (2 * reach + 1) * on_slices**2)
+        teeth = min(2 * reach + 1, 2.0 * model.pair.contact_ratio + 2.0)
+        held += BYTES_OF_A_NUMBER * ((reach + 1) * size.flanks**2 + teeth * on_slices**2)
         largest = max(largest, own.memory)
         if model.scene.output.root_stress:
             seconds, kept, step = root_stress_cost(

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.contact.face import Face, even_slices, finer_ends
+from fenics_gears.elasticity.face.coarse_cuts import ENOUGH
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.layers import SweptWeb
 from fenics_gears.geometry.face import coast_face_opening as coast_face_opening
@@ -73,12 +74,13 @@ def lines_in_step(overlap_ratio: float, slices: float) -> float:
 
 
 def layers_of_common_face(scene: Scene, pair: GearPair) -> int:
-    """How many layers of either body are on the common face."""
+    """How many layers of either body are on the common face; an even number of many (`coarse_cuts.narrow_sweep`)."""
     if scene.accuracy.layers:
         return scene.accuracy.layers
     turn = abs(pair.slope) / min(map(abs, pair.base_radii))
     turns = LARGEST_LAYER_TURN / turn if turn else np.inf
-    return max(ceil(pair.face_width / min(LAYER_THICKNESS * scene.gears.module, turns) - 1e-9), FEWEST_LAYERS)
+    fewest = max(ceil(pair.face_width / min(LAYER_THICKNESS * scene.gears.module, turns) - 1e-9), FEWEST_LAYERS)
+    return fewest + fewest % 2 if fewest > ENOUGH else fewest
 
 
 # Length of the window of contact nodes where no edge is near, in half-widths of the contact; and mesh stiffness per

@@ -94,8 +94,8 @@ def _scene(tree: Tree, own: OfSet, content: Tree, gears: Mapping[str, Any], sour
     """The scene of one pair of a set."""
     shared = {name: content[name] for name in names_in(Gears) if name in content and name not in GEARS}
     if "helix_angle" in content:
-        sun = content.get("sun_hand", HANDS[0])
-        shared["pinion_hand"] = sun if own.mesh == SUN_MESH else next(hand for hand in HANDS if hand != sun)
+        # Planet and ring are seen in the mirror, where the planet has the hand of the sun.
+        shared["pinion_hand"] = content.get("sun_hand", HANDS[0])
     over_face = {name for mesh in MESHES for name in content.get(mesh, {})} & {*OF_THE_FACE}
     sections = {
         # Both meshes are resolved over the face where one is.

@@ -47,7 +47,6 @@ planet = {{ mass = "2 kg", moment_of_inertia = "1e-3 kg m^2" }}"""
         (planetary_text().replace("teeth = 18", "teet = 18"), r"set.planet.teet"),
         (planetary_text(more='tip_relief = { depth = "9 um", start = "HPSTC" }'), r"\[stages.set.sun_mesh\]"),
         (planetary_text(more="sun_mesh = { coast_flanks = {} }"), "sun_mesh.coast_flanks.*is not computed in a mesh"),
-        (planetary_text(more='helix_angle = "10 deg"'), "helix_angle.*\n.*over the face"),
         (planetary_text(sections='[inertia]\ndensity = "7.8 g/cm^3"'), "inertia.*\n.*quasi-static"),
         (planetary_text(more=VIBRATION), r"set.carrier.pin_stiffness.*\n.*natural frequencies need the spring"),
         (planetary_text(more=VIBRATION.replace("mass", "weight", 1)), r"vibration.sun.weight"),

@@ -76,11 +76,3 @@ def test_a_seat_of_an_idler_that_gives_way_is_refused():
     text += bearing_sections("idler", (10.0, 90.0), 3e5, 1e5)
     with pytest.raises(SceneError, match=r"shafts.idler.seats.*\n.* of row.2, which is in several meshes.*rigid"):
         train_model_of(train_from_text(text))
-
-
-def test_a_gear_with_two_mates_on_one_flank_is_refused_beside_a_shaft_that_bends():
-    """Not computed yet: where a shaft bends all flanks are resolved over the face."""
-    bent = 'sections = [{ length = "80 mm", diameter = "25 mm" }]\ngears_at = ["20 mm", "55 mm"]\n'
-    text = split_text(of_shaft=bent + bearing_sections("path2", (5.0, 75.0), 3e5, 1e5))
-    with pytest.raises(SceneError, match=r"in1.pinion: over the face .* in the plane, on shafts without sections"):
-        train_model_of(train_from_text(text))

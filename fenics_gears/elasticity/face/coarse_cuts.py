@@ -13,7 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from ..element_nodes import dofs_of
-from .layers import Sweep, interpolation_along
+from .layers import Sweep, interpolation_along, layers_of_face
 
 # How far below the root circle a cut has fewer nodes, in pitches along that circle. Half as far the error is three
 # times as large.
@@ -22,6 +22,8 @@ DEEP = 2 / 3
 THICKEST = 1.8
 # Of fewer layers all are kept: there is little to save.
 FEWEST = 4
+# Layers, an even number: with flanks and cuts held, nothing is felt further off than half of these.
+ENOUGH = 12
 
 
 class CutNodes(NamedTuple):
@@ -47,6 +49,16 @@ def boundaries_where_deep(sweep: Sweep, pitch: float) -> np.ndarray:
     half = np.arange(0, layers // 2 + 1, 2)
     middle = [layers // 2, layers // 2 + 1] if layers % 2 else []
     return sweep.boundaries[np.unique(np.concatenate([half, layers - half, middle]).astype(int))]
+
+
+def narrow_sweep(sweep: Sweep) -> Sweep:
+    """The fewest layers that hold all that a wide face's sector has between flanks and held cuts: its own, unless
+    they are alike, even in number and more than ENOUGH."""
+    layers = len(sweep.boundaries) - 1
+    thickness = sweep.thicknesses
+    if layers <= ENOUGH or layers % 2 or sweep.web is not None or np.ptp(thickness) > 0.0:
+        return sweep
+    return Sweep(layers_of_face(ENOUGH, ENOUGH * thickness[0]), sweep.twist)
 
 
 def cut_nodes(line: np.ndarray, sweep: Sweep, teeth: int) -> CutNodes:

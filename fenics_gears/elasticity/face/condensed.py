@@ -13,7 +13,7 @@ from ..mesh_data import BodyMesh
 from ..mirrored_ring import flank_free
 from ..mumps import schur_complement
 from ..ring import check_congruent, joined_blocks, rotation
-from .coarse_cuts import cut_nodes, on_cut_nodes
+from .coarse_cuts import cut_nodes, narrow_sweep, on_cut_nodes
 from .cut_motions import cut_motions, loads_on_flanks, over_motions
 from .layers import Sweep, SweptWeb, swept_nodes
 from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
@@ -39,7 +39,17 @@ class SweptSector:
 def condensed_swept_sector(
     mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, teeth: int, both: bool = False
 ) -> SweptSector:
-    """A sector of a gear of `teeth`; `both`: with its coast flank after its drive flank."""
+    """A sector of a gear of `teeth`; `both`: with its coast flank after its drive flank.
+
+    With flanks, cuts and hub held, motions decay along the face within a module. So a wide sector of equal layers is
+    condensed from a narrow one: stiffness between two heights is that of the same distance, as near to the same end.
+    """
+    narrow = narrow_sweep(sweep)
+    sector = _condensed(mesh, narrow, poissons_ratio, teeth, both)
+    return sector if narrow is sweep else _widened(sector, narrow, mesh, sweep, teeth)
+
+
+def _condensed(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, teeth: int, both: bool) -> SweptSector:
     clock = perf_counter()
     section = SectionForms(mesh, poissons_ratio, sweep.web)
     compiled = perf_counter()
@@ -65,6 +75,36 @@ def condensed_swept_sector(
     _turn(condensed, lower.size, rotation(2.0 * np.pi / teeth, 3))
     timings = {"time_compile": compiled - clock, "unknowns": len(free), "condensed_unknowns": len(kept)}
     return SweptSector(condensed, lower, len(flanks[0]), sweep.web, timings)
+
+
+def _widened(sector: SweptSector, narrow: Sweep, mesh: BodyMesh, sweep: Sweep, teeth: int) -> SweptSector:
+    """A sector of more layers, all like those of a narrow `sector`."""
+    lower = cut_nodes(line_of(mesh, "lower cut", ELEMENT.order), sweep, teeth).places
+    flanks = (len(sector.stiffness) - 2 * sector.lower.size) // (3 * sector.profile * len(narrow.heights))
+    own, wide = (_dofs_by_height(flanks, sector.profile, *each) for each in ((sector.lower, narrow), (lower, sweep)))
+    beyond = len(wide) - len(own)
+    stiffness = np.zeros((sum(map(len, wide)),) * 2)
+    for low, high in np.ndindex(len(wide), len(wide)):
+        # Deep nodes of cuts are alike from two layers to the next two, which have four heights more.
+        shift = min(max(4 * round((low + high - len(own) + 1) / 8), 0), beyond)
+        if 0 <= min(low, high) - shift and max(low, high) - shift < len(own):
+            stiffness[np.ix_(wide[low], wide[high])] = sector.stiffness[np.ix_(own[low - shift], own[high - shift])]
+    grown = len(wide) / len(own)
+    timings = {
+        **sector.timings,
+        "unknowns": round(grown * sector.timings["unknowns"]),
+        "condensed_unknowns": len(stiffness),
+    }
+    return SweptSector(stiffness, lower, sector.profile, None, timings)
+
+
+def _dofs_by_height(flanks: int, profile: int, lower: np.ndarray, sweep: Sweep) -> list[np.ndarray]:
+    """Dofs of a SweptSector at each height: of flanks with `profile` nodes there, and of both cuts."""
+    heights = sweep.heights
+    cut = np.abs(lower[:, 2:] - heights).argmin(axis=1)
+    of_flanks = np.tile(np.repeat(np.arange(len(heights)), profile), flanks)
+    of_nodes = np.concatenate([of_flanks, cut, cut])
+    return [dofs_of(np.flatnonzero(of_nodes == height), 3) for height in range(len(heights))]
 
 
 def _turn(stiffness: np.ndarray, last: int, turn: np.ndarray) -> None:

@@ -13,7 +13,7 @@ from fenics_gears.geometry.gear import Gear
 
 from ..element_sizes import ElementSizes, SizeField
 from ..sector_boundary import SectorBoundary, sector_boundary
-from .coarse_cuts import boundaries_where_deep, is_deep
+from .coarse_cuts import boundaries_where_deep, is_deep, narrow_sweep
 from .discretisation import FaceDiscretisation
 from .near_field import neighbours, thin_layers
 
@@ -145,12 +145,13 @@ def _heights_of_web(face: FaceDiscretisation) -> int:
 def expected_condensing(gear: Gear, face: FaceDiscretisation, farthest: int, both_flanks: bool = False) -> BodyCost:
     """What a process takes while it condenses a sector and joins the ring; teeth feel each other up to `farthest`."""
     size = expected_size(gear, face, both_flanks)
-    condensing = BYTES_OF_AN_UNKNOWN * size.unknowns + BYTES_OF_AN_ENTRY * size.condensed**2
+    sweep = face.sweep
+    factorised = size.unknowns * len(narrow_sweep(sweep).heights) / len(sweep.heights)
+    condensing = BYTES_OF_AN_UNKNOWN * factorised + BYTES_OF_AN_ENTRY * size.condensed**2
     # One after the other: where a scene has few layers, the held teeth take more.
     near = BYTES_OF_A_NEAR_UNKNOWN * max(near_unknowns(gear, face))
-    return BodyCost(
-        max(condensing, near), CONDENSING * size.unknowns**2 + IN_RING * _ring(size, gear.tooth_count, farthest)
-    )
+    multiplications = CONDENSING * factorised**2 + IN_RING * _ring(size, gear.tooth_count, farthest)
+    return BodyCost(max(condensing, near), multiplications)
 
 
 def _ring(size: BodySize, teeth: int, farthest: int) -> float:

@@ -26,11 +26,11 @@ PROFILE_SHAPES = 3
 # Degree of the polynomials along the radius, and the least along the face; their part of the nodes there. Beside a web
 # a rim bends sharply.
 DEGREE = 6
-OF_NODES = 1 / 3
+OF_NODES = 1 / 5
 OF_NODES_WITH_WEB = 1.0
 # Motions are told apart by this part of their length. All dofs are kept where fewer than so many of them would go.
 TOLD_APART = 1e-6
-WORTHWHILE = 0.6
+WORTHWHILE = 0.8
 # In the radius.
 ROUND_OFF = 1e-9
 

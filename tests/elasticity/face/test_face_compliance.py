@@ -18,7 +18,7 @@ from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.condensed import SweptSector, condensed_swept_sector
 from fenics_gears.elasticity.face.cost import expected_size
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-from fenics_gears.elasticity.face.layers import SweptWeb
+from fenics_gears.elasticity.face.layers import Sweep, SweptWeb, layers_of_face
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT
 from fenics_gears.elasticity.spanned import spanned
 from fenics_gears.geometry.gear_data import Web
@@ -74,6 +74,24 @@ def test_few_nodes_of_a_cut_deep_below_the_root_stand_for_all(monkeypatch):
     assert 0.0 < abs(few.blocks - whole.blocks).max() < 1e-4 * abs(whole.blocks).max()
     load = np.tile(whole.near.normals[0], (len(whole.heights), 1)).ravel()
     assert load @ few.blocks[0] @ load == pytest.approx(load @ whole.blocks[0] @ load, rel=3e-4)
+
+
+def test_a_narrow_sector_holds_all_that_a_wide_one_has(monkeypatch):
+    """Brute force: the same sector with all its layers condensed. Under an even load on its flanks, cuts held, they
+    differ by 1e-5 at most."""
+    section = mesh(both_flanks=True)
+    sweep = Sweep(layers_of_face(14, 35.0), 0.02)
+    found = condensed_swept_sector(section, sweep, 0.3, GEAR.teeth, both=True)
+    monkeypatch.setattr(coarse_cuts, "ENOUGH", 14)
+    whole = condensed_swept_sector(section, sweep, 0.3, GEAR.teeth, both=True)
+    assert found.timings["unknowns"] == whole.timings["unknowns"]
+    assert (found.lower == whole.lower).all()
+    assert difference(found.stiffness, found.stiffness.T) < 1e-14
+    assert 0.0 < difference(found.stiffness, whole.stiffness) < 1e-6
+    flanks = len(whole.stiffness) - 2 * whole.lower.size
+    even = np.ones(flanks)
+    moved, expected = (np.linalg.solve(each.stiffness[:flanks, :flanks], even) for each in (found, whole))
+    assert difference(moved, expected) < 1e-5
 
 
 @pytest.mark.nightly
