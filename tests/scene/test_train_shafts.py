@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from tests.trains import bearing_sections, bent_two_stages, helical_row, shaft_section, split_text
+from tests.trains import bearing_sections, bent_two_stages, helical_row, shaft_section
 
 from fenics_gears import SceneError, train_from_text
 from fenics_gears.model.train import train_model_of
