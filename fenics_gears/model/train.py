@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import ceil, pi
+from math import ceil, lcm, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -134,8 +134,8 @@ class RowModel(OfMeshes):
 
     @property
     def passes_once(self) -> bool:
-        """Whether the run passes each position of all meshes once."""
-        return all(model.steps <= model.resolution.steps_per_mesh_cycle for model in self.models)
+        """Whether the run passes each position of all meshes together once."""
+        return self.steps <= lcm(*(model.resolution.steps_per_mesh_cycle for model in self.models))
 
     @cached_property
     def vibrations(self) -> list[Vibration]:
