@@ -182,7 +182,7 @@ def set_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
     for kind, name in enumerate(("sun and planets", "planets and ring")):
         own = found.isel(mesh=slice(kind, None, 2))
         for number, label, unit in OF_MESHES:
-            if number in own:
+            if number in own and own[number].notnull().any():
                 rows.append((f"{name}: {label}", f"{float(own[number].max()):.4g}", unit))
     return rows
 

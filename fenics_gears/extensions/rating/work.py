@@ -1,8 +1,8 @@
 """What ``gears rate`` does."""
 
 import argparse
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from math import isnan
 from pathlib import Path
 
@@ -10,17 +10,20 @@ import xarray as xr
 
 from fenics_gears import OVERALL, Scene, SceneError, carried_scene, carried_train, gear_pair, mesh_run
 from fenics_gears.command_line import file_to_write, loaded_run, number_of_option, run_file, write_whole
+from fenics_gears.shown import TrainScene, set_runs
 
 from . import rating
 from .command import FILE, NUMBERS, QUANTITIES, option_of
 from .finish import Finish
+
+ROUND_OFF = 1e-9
 
 
 def rate(options: argparse.Namespace) -> int:
     file = run_file(options.run)
     output = file_to_write(options, file.parent / FILE, "the table")
     meshes = _meshes(loaded_run(file, trains=True))
-    finishes = [_finish(options, mesh.scene) for mesh in meshes]
+    finishes = [_finish(options, mesh) for mesh in meshes]
     tables = [rating.rate(mesh.result, mesh.scene, finish, mesh.idlers) for mesh, finish in zip(meshes, finishes)]
     write_whole(output, lambda path: _save({mesh.name: rows for mesh, rows in zip(meshes, tables)}, path))
     if not options.quiet:
@@ -34,13 +37,14 @@ def rate(options: argparse.Namespace) -> int:
 @dataclass(frozen=True)
 class RatedMesh:
     """A mesh with its result and its scene, as of a pair: a name in a train, which of its gears are idlers, and whether
-    it is a stage by itself, with a folder of its own."""
+    it is a stage by itself, with a folder of its own. `sharing`: K_gamma of a planetary set, by this run."""
 
     name: str
     result: xr.Dataset
     scene: Scene
     idlers: tuple[str, ...] = ()
     alone: bool = False
+    sharing: float | None = None
 
 
 def _meshes(result: xr.Dataset) -> list[RatedMesh]:
@@ -50,11 +54,26 @@ def _meshes(result: xr.Dataset) -> list[RatedMesh]:
     train = carried_train(result)
     driving, driven = ({mesh.gears[side] for mesh in train.meshes} for side in (0, 1))
     found = []
-    for number, mesh in enumerate(train.meshes):
+    for number, sharing in _rated(result, train):
+        mesh = train.meshes[number]
         idlers = tuple(name for name, gear in zip(("pinion", "wheel"), mesh.gears) if gear in driving & driven)
         own = mesh_run(result, train, number)
-        found.append(RatedMesh(mesh.name, own, mesh.scene, idlers, number in train.alone))
+        found.append(RatedMesh(mesh.name, own, mesh.scene, idlers, number in train.alone, sharing))
     return found
+
+
+def _rated(result: xr.Dataset, train: TrainScene) -> Iterator[tuple[int, float | None]]:
+    """Numbers of the meshes of a train that are rated: of a planetary set that of the sun and the planet that carries
+    most, with K_gamma."""
+    sets = iter(set_runs(result))
+    for first, part in train.numbered:
+        if part.shafts.carrier is None:
+            yield from ((first + number, None) for number in range(len(part.meshes)))
+            continue
+        forces = result["largest_pair_force"].values[first : first + len(part.meshes) : 2]
+        # Of planets that carry the same the first.
+        most = int((forces > forces.max() * (1.0 - ROUND_OFF)).argmax())
+        yield first + 2 * most, float(next(sets).attrs["load_sharing_factor"])
 
 
 def _tell(mesh: RatedMesh, finish: Finish, rows: list[rating.RatingRow]) -> None:
@@ -68,11 +87,16 @@ def _tell(mesh: RatedMesh, finish: Finish, rows: list[rating.RatingRow]) -> None
     if place := rating.of_place(mesh.result.attrs, gear_pair(mesh.scene.gears)):
         print(place)
     print(rating.of_misalignment(mesh.scene, finish))
+    if mesh.sharing is not None:
+        print(
+            f"K_gamma of this run, {mesh.sharing:.4g}, multiplies forces by the standard. Teeth of the ring: not rated."
+        )
     if mesh.name:
         print()
 
 
-def _finish(options: argparse.Namespace, scene):
+def _finish(options: argparse.Namespace, mesh: RatedMesh) -> Finish:
+    scene = mesh.scene
     given = {}
     if scene.flank_errors is not None and scene.flank_errors.tolerance_class is not None:
         given["tolerance_class"] = scene.flank_errors.tolerance_class
@@ -89,7 +113,9 @@ def _finish(options: argparse.Namespace, scene):
             kind = "a whole number " if whole else ""
             raise SceneError(f"{option_of(name)} {value:g}: allowed is {kind}from {low:g} to {high:g}.")
         given[name] = int(value) if whole else value
-    return Finish(**given)
+    finish = Finish(**given)
+    # Forces of the standard are multiplied by both alike.
+    return replace(finish, application_factor=finish.application_factor * (mesh.sharing or 1.0))
 
 
 def _save(tables: Mapping[str, list[rating.RatingRow]], path: Path) -> None:

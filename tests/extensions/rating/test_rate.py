@@ -9,6 +9,7 @@ from tests.coarse import COARSE, coarse_scene
 from tests.elastic_shaft_scenes import ELASTIC
 from tests.hard_cases.invariants import finished_helical_run
 from tests.helical import CROWNED, helical_scene
+from tests.planets import planetary_text
 
 from fenics_gears import results, simulate
 from fenics_gears.commands.cli import main
@@ -114,6 +115,30 @@ def test_the_inclination_of_shafts_that_bend_is_counted(tmp_path, capsys):
     stiffness = 1e3 * 0.85 * operation.mesh_stiffness * operation.face_width
     wanted = 1.0 + stiffness * 5e-3 * (1.0 - 1.0 / slices) / 2.0 / force
     assert iterated_face_factor(straight, 1.0) == pytest.approx(wanted, rel=1e-9)
+
+
+def test_a_planetary_set_is_rated_by_its_sun(tmp_path, capsys):
+    """ISO 6336-1: forces are K_gamma times the nominal ones, stresses of flanks its root, of the planet that carries
+    most; teeth of planets are bent both ways. With other errors of its pins nothing else of the standard changes."""
+    of_runs = []
+    for errors in ('["0 um", "0 um", "0 um"]', '["0 um", "40 um", "0 um"]'):
+        pins = f'carrier = {{ pin_stiffness = "3e5 N/mm", pin_errors = {errors} }}'
+        text = planetary_text((18, 18, 54), "planets = 3", more=pins, sections='[motion]\ninput_speed = "500 rpm"')
+        scene = tmp_path / "set.toml"
+        scene.write_text(text, encoding="utf-8")
+        assert main(["run", str(scene), "--output", str(tmp_path / "run"), "--quiet", "--no-pictures"]) == 0
+        assert main(["rate", str(tmp_path / "run")]) == 0
+        said = capsys.readouterr().out
+        sharing = float(said.split("K_gamma of this run, ")[1].split(",")[0])
+        stress = float(said.split("sigma_H, contact stress of the pinion, MPa")[1].split()[0])
+        dynamic = [float(said.split(f"{name} factor")[1].split()[0]) for name in ("K_v, dynamic", "K_Hbeta, face load")]
+        of_runs.append((sharing, stress / np.prod(dynamic) ** 0.5))
+        assert "idlers" in said
+    assert "Mesh set: sun, planet 2" in said
+    (even, alone), (uneven, raised) = of_runs
+    assert even == pytest.approx(1.0, rel=1e-3)
+    assert uneven > 1.1
+    assert raised / alone == pytest.approx(uneven**0.5, rel=2e-3)
 
 
 def test_a_scene_is_no_run(tmp_path, capsys):
