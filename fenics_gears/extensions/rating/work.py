@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import isnan
 from pathlib import Path
+from typing import Any
 
 import xarray as xr
 
@@ -97,7 +98,7 @@ def _tell(mesh: RatedMesh, finish: Finish, rows: list[rating.RatingRow]) -> None
 
 def _finish(options: argparse.Namespace, mesh: RatedMesh) -> Finish:
     scene = mesh.scene
-    given = {}
+    given: dict[str, Any] = {}
     if scene.flank_errors is not None and scene.flank_errors.tolerance_class is not None:
         given["tolerance_class"] = scene.flank_errors.tolerance_class
     for name, (unit, low, high, _) in QUANTITIES.items():
