@@ -23,9 +23,11 @@ def __getattr__(name: str):
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     # What BLAS, MPI and VTK read from the environment must be there before they are loaded.
     importlib.import_module("fenics_gears.system.environment").prepare()
-    resolve_name = importlib.import_module("pkgutil").resolve_name
-    value = globals()[name] = resolve_name(f"{_HOMES[name]}.{name}")
-    return value
+    home = importlib.import_module(_HOMES[name])
+    # Where a module fails to be imported, its own error is told.
+    known = vars(home)[name] if name in vars(home) else importlib.import_module(f"{home.__name__}.{name}")
+    globals()[name] = known
+    return known
 
 
 def __dir__() -> list[str]:

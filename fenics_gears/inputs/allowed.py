@@ -246,6 +246,8 @@ def _quantity(value: Any, unit: str, words: Any, *kinds: str) -> tuple[float, st
     if not isinstance(value, str):
         written = f"{as_written(value)} {unit}"
         in_unit = f' In {unit} it is written "{written}".' if written[0] in "0123456789" else ""
+        if in_unit and unit == "%" and value < 1.0:
+            in_unit = f'{in_unit[:-1]}, as a part of 1 "{100.0 * value:g} %".'
         raise Refused(f"is a number without its unit.{in_unit}")
     try:
         return units.of_kind(value, *kinds)
