@@ -121,7 +121,7 @@ def test_mates_at_mirrored_places_share_evenly():
 @pytest.mark.nightly
 def test_a_sun_of_five_mates_shares_evenly():
     """The same of five paths, a fifth of a turn apart."""
-    found = simulate_train(train_from_text(over_face(split_text(5, teeth=(25, 30, 20, 45)))))
+    found = simulate_train(train_from_text(over_face(split_text(5, teeth=(25, 30, 20, 35)))))
     assert found["path_share"].values == pytest.approx(np.full((len(found["step"]), 10), 0.2), abs=1e-10)
 
 
