@@ -7,6 +7,7 @@ of the largest compliance, 1e-4 of a sum over a flank; the wheel's sector and ri
 
 from __future__ import annotations
 
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +25,8 @@ THICKEST = 1.8
 FEWEST = 4
 # Layers, an even number: with flanks and cuts held, nothing is felt further off than half of these.
 ENOUGH = 12
+# Pitches along the root circle over which all of it is felt: of thin layers there are more.
+WIDE = 9.0
 
 
 class CutNodes(NamedTuple):
@@ -51,14 +54,21 @@ def boundaries_where_deep(sweep: Sweep, pitch: float) -> np.ndarray:
     return sweep.boundaries[np.unique(np.concatenate([half, layers - half, middle]).astype(int))]
 
 
-def narrow_sweep(sweep: Sweep) -> Sweep:
+def narrow_sweep(sweep: Sweep, pitch: float) -> Sweep:
     """The fewest layers that hold all that a wide face's sector has between flanks and held cuts: its own, unless
-    they are alike, even in number and more than ENOUGH."""
+    they are alike, even in number, more than ENOUGH and wider than some times the `pitch` (mm) along the root
+    circle."""
     layers = len(sweep.boundaries) - 1
     thickness = sweep.thicknesses
-    if layers <= ENOUGH or layers % 2 or sweep.web is not None or np.ptp(thickness) > 0.0:
+    enough = max(ENOUGH, 2 * ceil(0.5 * WIDE * pitch / thickness[0]))
+    if layers <= enough or layers % 2 or sweep.web is not None or np.ptp(thickness) > 0.0:
         return sweep
-    return Sweep(layers_of_face(ENOUGH, ENOUGH * thickness[0]), sweep.twist)
+    return Sweep(layers_of_face(enough, enough * thickness[0]), sweep.twist)
+
+
+def root_pitch(line: np.ndarray, teeth: int) -> float:
+    """Pitch along the root circle of a gear whose cut has nodes `line` (k, 2) in a section."""
+    return 2.0 * np.pi * float(np.copysign(np.linalg.norm(line, axis=1), teeth).max()) / teeth
 
 
 def cut_nodes(line: np.ndarray, sweep: Sweep, teeth: int) -> CutNodes:
@@ -67,7 +77,7 @@ def cut_nodes(line: np.ndarray, sweep: Sweep, teeth: int) -> CutNodes:
     deep = is_deep(radius, teeth)
     nodes = sparse.eye(len(line), format="csc")
     heights = sweep.heights
-    fewer = boundaries_where_deep(sweep, 2.0 * np.pi * radius.max() / teeth)
+    fewer = boundaries_where_deep(sweep, root_pitch(line, teeth))
     along = interpolation_along(fewer, heights)
     shallow = sparse.kron(sparse.eye(len(heights)), nodes[:, ~deep])
     weights = sparse.hstack([shallow, sparse.kron(along, nodes[:, deep])], format="csr")

@@ -13,7 +13,7 @@ from ..mesh_data import BodyMesh
 from ..mirrored_ring import flank_free
 from ..mumps import schur_complement
 from ..ring import check_congruent, joined_blocks, rotation
-from .coarse_cuts import cut_nodes, narrow_sweep, on_cut_nodes
+from .coarse_cuts import cut_nodes, narrow_sweep, on_cut_nodes, root_pitch
 from .cut_motions import cut_motions, loads_on_flanks, over_motions
 from .layers import Sweep, SweptWeb, swept_nodes
 from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
@@ -44,7 +44,7 @@ def condensed_swept_sector(
     With flanks, cuts and hub held, motions decay along the face within a module. So a wide sector of equal layers is
     condensed from a narrow one: stiffness between two heights is that of the same distance, as near to the same end.
     """
-    narrow = narrow_sweep(sweep)
+    narrow = narrow_sweep(sweep, root_pitch(line_of(mesh, "lower cut", ELEMENT.order), teeth))
     sector = _condensed(mesh, narrow, poissons_ratio, teeth, both)
     return sector if narrow is sweep else _widened(sector, narrow, mesh, sweep, teeth)
 

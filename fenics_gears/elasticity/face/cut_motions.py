@@ -18,6 +18,7 @@ from numpy.polynomial.legendre import legvander
 from scipy.linalg import cho_solve, svd
 
 from ..ring import definite_factor
+from .coarse_cuts import ENOUGH
 from .layers import SweptWeb
 
 # Local motions below this part of the largest are left out; shapes of a load along a profile.
@@ -26,11 +27,13 @@ PROFILE_SHAPES = 3
 # Degree of the polynomials along the radius, and the least along the face; their part of the nodes there. Beside a web
 # a rim bends sharply.
 DEGREE = 6
-OF_NODES = 1 / 5
+OF_NODES = 1 / 3
+OF_NODES_OF_MANY = 1 / 5
 OF_NODES_WITH_WEB = 1.0
 # Motions are told apart by this part of their length. All dofs are kept where fewer than so many of them would go.
 TOLD_APART = 1e-6
-WORTHWHILE = 0.8
+WORTHWHILE = 0.6
+WORTHWHILE_OF_MANY = 0.8
 # In the radius.
 ROUND_OFF = 1e-9
 
@@ -43,14 +46,20 @@ def cut_motions(stiffness: np.ndarray, loads: np.ndarray, places: np.ndarray, we
     """
     cut = 3 * len(places)
     smooth = smooth_motions(places, web)
-    if smooth.shape[1] > WORTHWHILE * cut:
+    most = (WORTHWHILE_OF_MANY if _many(places) else WORTHWHILE) * cut
+    if smooth.shape[1] > most:
         return np.eye(cut)
     local = np.hstack([_motions(stiffness, loads, cut, sign) for sign in (1.0, -1.0)])
     directions, sizes = _directions(local)
     local = directions[:, sizes > LEAST_MOTION * sizes[0]]
     motions, sizes = _directions(np.hstack([local, smooth]))
     motions = motions[:, sizes > TOLD_APART]
-    return motions if motions.shape[1] <= WORTHWHILE * cut else np.eye(cut)
+    return motions if motions.shape[1] <= most else np.eye(cut)
+
+
+def _many(places: np.ndarray) -> bool:
+    """Whether nodes stand at so many heights that their motions err by less than the cuts of wide faces do."""
+    return len(np.unique(places[:, 2].round(9))) > 2 * ENOUGH + 1
 
 
 def _directions(motions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -113,7 +122,8 @@ def smooth_motions(places: np.ndarray, web: SweptWeb | None) -> np.ndarray:
     # Nodes on the circles belong to hub and rim.
     circles = [] if web is None else [web.hub_radius * (1.0 + ROUND_OFF), web.rim_radius * (1.0 - ROUND_OFF)]
     part = np.searchsorted(circles, radius)
-    share = OF_NODES if web is None else OF_NODES_WITH_WEB
+    share = OF_NODES_OF_MANY if _many(places) else OF_NODES
+    share = share if web is None else OF_NODES_WITH_WEB
     parts = []
     for number in np.unique(part):
         own = np.flatnonzero(part == number)
