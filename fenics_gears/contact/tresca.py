@@ -149,6 +149,8 @@ def _of_nodes(problem, nodes: np.ndarray, rows: np.ndarray):
 
 def _programme(problem, bounds: np.ndarray) -> Frozen | None:
     n, soft = len(problem.gap), problem.compliance[0, 0]
+    if not np.isfinite(problem.compliance).all():
+        return None
     # Of the load, or of wedged flanks, which press each other by far more.
     force = max(np.abs(problem.load).max(initial=0.0), 1e3 * problem.tolerance.force, -problem.gap.min() / soft)
     # Tangents whose bounds are zero are left out.
