@@ -146,7 +146,8 @@ def expected_condensing(gear: Gear, face: FaceDiscretisation, farthest: int, bot
     """What a process takes while it condenses a sector and joins the ring; teeth feel each other up to `farthest`."""
     size = expected_size(gear, face, both_flanks)
     sweep = face.sweep
-    factorised = size.unknowns * len(narrow_sweep(sweep, 2.0 * np.pi * gear.root_radius / gear.teeth).heights) / len(sweep.heights)
+    narrow = narrow_sweep(sweep, 2.0 * np.pi * gear.root_radius / gear.teeth)
+    factorised = size.unknowns * len(narrow.heights) / len(sweep.heights)
     condensing = BYTES_OF_AN_UNKNOWN * factorised + BYTES_OF_AN_ENTRY * size.condensed**2
     # One after the other: where a scene has few layers, the held teeth take more.
     near = BYTES_OF_A_NEAR_UNKNOWN * max(near_unknowns(gear, face))
