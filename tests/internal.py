@@ -19,6 +19,25 @@ steps_per_mesh_cycle = 20
 """
 
 
+def moving(cycles: int, more_of_bearings: str = "") -> str:
+    """Sections of a pair with inertia and friction on bearings, over so many mesh cycles."""
+    return f"""
+[friction]
+coefficient = 0.08
+[motion]
+pinion_speed = "1500 rpm"
+mesh_cycles = {cycles}
+[inertia]
+pinion = {{ density = "7800 kg/m^3" }}
+wheel = {{ density = "7800 kg/m^3" }}
+[damping]
+ratio = 0.05
+[bearings]
+stiffness = "500 kN/mm"
+{more_of_bearings}
+"""
+
+
 def ring(cutter: int | None = 23, outer: float = 140.0, tip: float = 119.0, teeth: int = 61, **more) -> Gear:
     """Radii without sign, mm; `cutter`: its teeth, None for plain fillets."""
     root = 0.5 * teeth * MODULE + 1.25 * MODULE

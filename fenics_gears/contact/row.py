@@ -140,7 +140,7 @@ class RowCycle(Cycle):
 
     def share(self, memory: float, once: bool = False) -> None:
         """Let operators take so many bytes, those of single meshes among them; those of all meshes none where each
-        position is passed `once`. Meshes that are like others pass the positions of these once more."""
+        position of them is passed `once`. Meshes and rows within it pass theirs more often."""
         count = len(self._members)
         # Operators grow with the square of their nodes, and those of all meshes have count times as many; how these
         # feel each other takes as much as each by itself.
@@ -149,7 +149,7 @@ class RowCycle(Cycle):
         for each in self._members:
             own = memory / (count * (count + 2))
             if isinstance(each.cycle, RowCycle):
-                each.cycle.share(own, once)
+                each.cycle.share(own)
             else:
                 each.cycle.kept = Kept(own)
 

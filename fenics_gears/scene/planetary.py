@@ -21,7 +21,7 @@ from .data import Scene
 from .gear_schema import Gears
 from .planetary_rules import text_of_set, wrong_sections
 from .planetary_run_out import run_outs_of, with_run_outs
-from .planetary_schema import GEARS_OF_SET, HANDS, MESHES, OF_THE_FACE, RING_MESH, SUN_MESH, PlanetaryText
+from .planetary_schema import GEARS_OF_SET, MESHES, OF_THE_FACE, RING_MESH, SUN_MESH, PlanetaryText
 from .train_loads import TrainLoad, TrainMotion
 from .train_mesh import MeshOfScene
 from .train_pair import STAGES, MistakesOfStage, Placed, check_together, pair_of, pair_scene
@@ -93,9 +93,9 @@ def _scenes(tree: Tree, stage: str, content: Tree, source: str, folder: Path) ->
 def _scene(tree: Tree, own: OfSet, content: Tree, gears: Mapping[str, Any], source: str, folder: Path) -> Scene:
     """The scene of one pair of a set."""
     shared = {name: content[name] for name in names_in(Gears) if name in content and name not in GEARS}
-    if "helix_angle" in content:
+    if "sun_hand" in content:
         # Planet and ring are seen in the mirror, where the planet has the hand of the sun.
-        shared["pinion_hand"] = content.get("sun_hand", HANDS[0])
+        shared["pinion_hand"] = content["sun_hand"]
     over_face = {name for mesh in MESHES for name in content.get(mesh, {})} & {*OF_THE_FACE}
     sections = {
         # Both meshes are resolved over the face where one is.

@@ -20,7 +20,6 @@ MOST_PLANETS = 10
 # Effects of a pair that the meshes of a set may have of their own.
 OF_THE_FACE = ("lead_modifications", "misalignment")
 OF_A_MESH = ("tip_relief", "root_relief", "profile_modifications", "corner_contact", *OF_THE_FACE)
-HANDS = ("right", "left")
 PIN_ERRORS = "-10 mm to 10 mm"
 
 
@@ -189,7 +188,8 @@ class PlanetaryText(Section):
     input: str | None = choice(*MEMBERS, meaning="the member that is driven", otherwise="required")
     output: str | None = choice(*MEMBERS, meaning="the member with the load", otherwise="the third one")
     sun_hand: str | None = choice(
-        *HANDS,
+        "right",
+        "left",
         meaning="hand of the sun's helix; planets and ring have the other",
         otherwise="`right`; has no meaning without `helix_angle`",
     )

@@ -4,26 +4,12 @@ import numpy as np
 import pytest
 from tests.coarse import cycle_of
 from tests.hertz_contact import HertzContact
-from tests.internal import COARSE, internal_scene
+from tests.internal import COARSE, internal_scene, moving
 
 from fenics_gears import gear_pair, model_of, simulate
 from fenics_gears.dynamics.batch import Batch
 from fenics_gears.dynamics.marched import BetweenSteps
 from fenics_gears.scene.read import scene_from_text
-
-FRICTION = "[friction]\ncoefficient = 0.08\n"
-MOVING = """
-[motion]
-pinion_speed = "1500 rpm"
-mesh_cycles = 3
-[inertia]
-pinion = { density = "7800 kg/m^3" }
-wheel = { density = "7800 kg/m^3" }
-[damping]
-ratio = 0.05
-[bearings]
-stiffness = "500 kN/mm"
-"""
 
 
 def run(**changes):
@@ -48,7 +34,7 @@ def test_without_friction_the_torques_are_in_the_ratio_of_the_base_radii():
 def test_energy_and_momentum_balance_with_friction_and_inertia(support):
     """Energy: work in, out, damped and rubbed, and what is stored, add up to round-off; friction takes some, on a mesh
     whose efficiency an internal pair's small sliding makes high."""
-    result = run(wheel=support, more=COARSE + FRICTION + MOVING)
+    result = run(wheel=support, more=COARSE + moving(3))
     carried = float(np.abs(result.work_input.values).max())
     assert float(np.abs(result.energy_defect.values).max()) < 1e-9 * carried
     assert result.work_input.values[-1] > result.work_output.values[-1] > 0.0

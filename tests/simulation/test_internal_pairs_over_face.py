@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.benchmarks.third_dimension.pairs import in_plane
 from tests.geometry.test_internal_pairs import involute
-from tests.internal import internal_scene
+from tests.internal import internal_scene, moving
 
 from fenics_gears import gear_pair, model_of, simulate
 from fenics_gears.contact.places import face_places
@@ -25,22 +25,9 @@ contact_nodes = 21
 steps_per_mesh_cycle = 10
 """
 PARALLEL = '[misalignment]\nin_plane = "0 um"\n'
-TILTING = """
-[friction]
-coefficient = 0.08
-[motion]
-pinion_speed = "1500 rpm"
-mesh_cycles = 2
-[inertia]
-pinion = { density = "7800 kg/m^3" }
-wheel = { density = "7800 kg/m^3" }
-[damping]
-ratio = 0.05
-[bearings]
-stiffness = "500 kN/mm"
-axial_stiffness = "200 kN/mm"
-places = { pinion = ["-40 mm", "60 mm"], wheel = ["-45 mm", "50 mm"] }
-"""
+TILTING = moving(
+    2, 'axial_stiffness = "200 kN/mm"\nplaces = { pinion = ["-40 mm", "60 mm"], wheel = ["-45 mm", "50 mm"] }'
+)
 
 
 def scene_of(more: str = COARSE, *, hand: str = "right", helix: float = HELIX, **changes):

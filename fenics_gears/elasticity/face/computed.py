@@ -42,10 +42,8 @@ def computed_shared(gear: Gear, face: FaceDiscretisation, poissons_ratio: float,
         held, to_cuts, link = parts_of_ring(sector)
         if both:
             mirror = centreline_mirror(gear, 3)
-            half = len(held) // 2
-            into_mirror(held[half:], mirror)
-            into_mirror(held[:, half:].T, mirror)
-            into_mirror(to_cuts[half:], mirror)
+            _coast_into_mirror(held, mirror)
+            into_mirror(to_cuts[len(held) // 2 :], mirror)
         return blocks_between_mates((held, to_cuts, link), gear.teeth, reach)
 
     return _computed(gear, face, poissons_ratio, reach.same, both, blocks)
@@ -89,12 +87,17 @@ def _in_mirrored_frame(blocks: np.ndarray, gear: Gear, both: bool, components: i
     if not both:
         return blocks
     mirror = centreline_mirror(gear, components)
-    half = blocks.shape[1] // 2
     for block in blocks:
-        into_mirror(block[half:], mirror)
-        into_mirror(block[:, half:].T, mirror)
+        _coast_into_mirror(block, mirror)
     blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
     return blocks
+
+
+def _coast_into_mirror(block: np.ndarray, mirror: np.ndarray) -> None:
+    """In place, the coast flank's dofs of a block (d, d), their second half."""
+    half = len(block) // 2
+    into_mirror(block[half:], mirror)
+    into_mirror(block[:, half:].T, mirror)
 
 
 def into_mirror(rows: np.ndarray, mirror: np.ndarray) -> None:

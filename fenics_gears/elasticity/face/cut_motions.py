@@ -122,8 +122,7 @@ def smooth_motions(places: np.ndarray, web: SweptWeb | None) -> np.ndarray:
     # Nodes on the circles belong to hub and rim.
     circles = [] if web is None else [web.hub_radius * (1.0 + ROUND_OFF), web.rim_radius * (1.0 - ROUND_OFF)]
     part = np.searchsorted(circles, radius)
-    share = OF_NODES_OF_MANY if _many(places) else OF_NODES
-    share = share if web is None else OF_NODES_WITH_WEB
+    share = OF_NODES_WITH_WEB if web is not None else OF_NODES_OF_MANY if _many(places) else OF_NODES
     parts = []
     for number in np.unique(part):
         own = np.flatnonzero(part == number)

@@ -5,12 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.coarse_sector import relative
-from tests.elasticity.face.test_face_compliance import even_load
+from tests.elasticity.face.test_face_compliance import even_load, of_few_and_of_all_nodes
 from tests.internal import ring
 
 from fenics_gears import Material
 from fenics_gears.elasticity.compliance import Reach
-from fenics_gears.elasticity.face import coarse_cuts
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.cost import expected_size
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
@@ -85,11 +84,7 @@ def test_few_nodes_of_a_cut_near_the_rim_stand_for_all(monkeypatch):
     """Brute force: the same ring with all nodes of the cuts; as expected before, within a fifth."""
     gear = ring(teeth=24, tip=46.0, outer=70.0, cutter=None)
     face = FaceDiscretisation(3.6, 4, 24.0, 0.006)
-    few = face_compliance(gear, STEEL, face, Reach(1))
-    monkeypatch.setattr(coarse_cuts, "THICKEST", 0.0)
-    whole = face_compliance(gear, STEEL, face, Reach(1))
-    assert few.timings["condensed_unknowns"] < whole.timings["condensed_unknowns"]
-    assert 0.0 < abs(few.blocks - whole.blocks).max() < 1e-4 * abs(whole.blocks).max()
+    _, whole = of_few_and_of_all_nodes(gear, face, monkeypatch)
     size = expected_size(gear, face)
     assert size.condensed == whole.timings["condensed_unknowns"]
     assert size.unknowns == pytest.approx(whole.timings["unknowns"], rel=0.2)
