@@ -70,7 +70,8 @@ class CornerContact:
             gear, edge = beyond
             if abs(theoretical.contact_rolls[gear] - edge.flank_roll) * pair.base_radii[gear] > grid.length:
                 return False
-        return window(self.ends(pair, corner_place(pair, self, theoretical)), grid) is not None
+        place = corner_place(pair, self, theoretical)
+        return window(self.ends(pair, place), grid) is not None and presses_both(pair, grid, place)
 
     def pairs(self, flanks: Flanks, grid: ContactGrid, theoretical: Sequence[Place]) -> list[ToothPair]:
         """The contact nodes of the flanks at those theoretical places, tip edges included, whose window is not
@@ -79,7 +80,7 @@ class CornerContact:
         nodes = []
         for place in (corner_place(flanks.pair, self, each) for each in theoretical):
             offsets = node_offsets(self.ends(flanks.pair, place), grid)
-            if len(offsets):
+            if len(offsets) and presses_both(flanks.pair, grid, place):
                 at = view.places(offsets, np.array([0, len(offsets)]))
                 nodes.append((place, offsets, *_difference_and_gap(flanks, self, place, at)))
         if not nodes:
@@ -138,6 +139,15 @@ def corner_place(pair: GearPair, corner: CornerContact, place: Place) -> Place:
         axes=_turned(place.axes, cosine, sine),
         line=line,
     )
+
+
+def presses_both(pair: GearPair, grid: ContactGrid, place: Place) -> bool:
+    """Whether the lines of all contact nodes in a place's window pass the centres of both gears on the flanks' side.
+
+    A line beyond a centre, of a tip far from the path of contact, would turn that gear away from its mate; the
+    involute has no point there.
+    """
+    return min(place.line_in(pair).lever_arms) > 0.5 * grid.length
 
 
 def _turned(axes, cosine: float, sine: float):

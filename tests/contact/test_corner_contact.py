@@ -143,3 +143,18 @@ def test_coast_flanks_are_seen_in_the_mirror(paper_pair):
     assert drive_corner.line == coast_corner.line and drive_corner.contact_rolls == coast_corner.contact_rolls
     mirror = np.array(coast.axes)
     assert np.array(coast_corner.axes) == pytest.approx(np.array(drive_corner.axes) @ mirror, abs=1e-14)
+
+
+@pytest.mark.parametrize("place", [drive_place, coast_place])
+def test_tips_that_would_turn_a_gear_away_have_no_contact_nodes(place, stand_in_flanks, paper_pair):
+    """Exact: far beyond the path the tip's line passes the other side of a centre, where involutes have no points; all
+    nodes that remain are on involutes, between form and tip circle."""
+    wide = ContactGrid(length=16.0, nodes=41)
+    corner = corner_contact(paper_pair, 0.1)
+    ends = paper_pair.path_start - 40.0, paper_pair.path_end + 40.0
+    places = [place(paper_pair, 0, xi) for xi in np.linspace(*ends, 161)]
+    pairs = corner.pairs(stand_in_flanks, wide, places)
+    assert 20 < len(pairs) < len(places)
+    for nodes in pairs:
+        for gear, rolls in zip((paper_pair.pinion, paper_pair.wheel), nodes.rolls):
+            assert (gear.form_roll_angle - 1e-9 <= rolls).all() and (rolls <= gear.tip_roll_angle + 0.05).all()
