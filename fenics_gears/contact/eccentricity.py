@@ -22,22 +22,20 @@ class Offset(Section):
     both."""
 
     distance: float = quantity(
-        "1e-6 um to 100 mm",
+        "0 um to 100 mm",
         "10 um",
         meaning="eccentricity: distance of the base circle's centre from the axis of rotation, at mid-width",
         default="0 um",
         otherwise="no eccentricity, for `wobble` alone",
-        below="For a gear that runs true, leave its section out.",
         small=True,
     )
     phase: float = _angle("direction of the base circle's centre", "`distance`")
     wobble: float = quantity(
-        "1e-6 um to 100 mm",
+        "0 um to 100 mm",
         "10 um",
         meaning=("wobble: how far the axis of the teeth departs from the axis of rotation over the gear's face width"),
         default="0 um",
         otherwise="no wobble; not allowed in a plane scene",
-        below="For teeth that do not wobble, leave it out.",
         small=True,
         over_face=True,
     )

@@ -60,14 +60,13 @@ class Relief(Section):
     alternatives = (STARTS, GROWTH)
 
     depth: float | None = quantity(
-        "1e-6 um to 100 mm",
+        "0 um to 100 mm",
         "31 um",
         meaning=(
             "depth at the end of the relief, normal to the flank in the transverse section, which is along the line of"
             " action there"
         ),
         otherwise="no relief",
-        below="For a gear without relief, leave its depth out.",
     )
     start: float | Measured | str | None = start_field("HPSTC", "highest point of single tooth contact")
     _: KW_ONLY

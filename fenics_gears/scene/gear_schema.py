@@ -165,7 +165,7 @@ class Gears(Section):
         "15 deg",
         meaning=("helix angle at the reference cylinder, without sign; modules are then normal modules (ISO 21771)"),
         otherwise="spur gears",
-        below="For spur gears, leave it out.",
+        below="For spur gears, leave it out; pinion_hand is the hand of the helix.",
     )
     pinion_hand: str | None = choice(
         "right",

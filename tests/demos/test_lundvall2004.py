@@ -14,7 +14,7 @@ STUDIES = study_files()
 @pytest.fixture(scope="module")
 def measured(tmp_path_factory):
     directory = tmp_path_factory.mktemp("gallery")
-    depths = '"1e-6 um", "20 um", "28 um", "31 um", "36 um"'
+    depths = '"0 um", "20 um", "28 um", "31 um", "36 um"'
     files = {name: STUDIES[name] for name in ("figure02", "figure04", "figure05", "figure08", f"{PRINTED}figure05")}
     files |= {
         name: _reduced(STUDIES[name], "tip_relief.depth", depths, directory)

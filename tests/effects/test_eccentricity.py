@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.coarse import rigid_pair
 
-from fenics_gears import simulate
+from fenics_gears import scene_from_text, simulate
 from fenics_gears.contact.eccentricity import Eccentricity, Offset
 from fenics_gears.contact.kinematics import IN_THE_PLANE, lines_of
 from fenics_gears.contact.places import pair_places
@@ -75,3 +75,16 @@ def test_gaps_of_both_flanks_are_displacements_along_their_own_normals(paper_pai
         flanks = [pair.place.flank for pair in position.pairs]
         assert set(flanks) == {DRIVE, COAST}
         assert gaps == pytest.approx([expected[flank] for flank in flanks], abs=1e-15)
+
+
+def test_a_relief_and_a_run_out_of_nothing_change_nothing(quasi_static_scene):
+    """Identity, to the last digit: sweeps may begin at nothing."""
+    turn = replace(quasi_static_scene, motion=Motion(200.0, 2, 1), accuracy=Accuracy(steps_per_mesh_cycle=10))
+    text = turn.text + '\n[tip_relief]\ndepth = "0 um"\nstart = "HPSTC"\n[eccentricity.wheel]\ndistance = "0 um"\n'
+    read = scene_from_text(text)
+    nothing = replace(turn, tip_relief=read.tip_relief, eccentricity=read.eccentricity)
+    assert nothing.tip_relief.pinion.depth == 0.0
+    expected = simulate(turn)
+    got = simulate(nothing)
+    for name in ("transmission_error", "normal_force"):
+        assert (got[name].values == expected[name].values).all()

@@ -69,7 +69,7 @@ def test_a_settling_time_comes_before_the_recorded_cycles(frequency, time, recor
         ),
         ("[eccentricity]", ["says of neither gear that it runs out"]),
         ("[eccentricity.wheel]\ndistance = '1 mm'", ["eccentricity.wheel.distance", "up to 0.45 mm"]),
-        ("[eccentricity.wheel]\ndistance = '0 mm'", ["is zero. For a gear that runs true, leave its section out"]),
+        ("[eccentricity.wheel]\ndistance = '-1 mm'", ["is negative"]),
         (
             "[tip_relief]\ndepth = '3 um'\nstart = '3 kg'",
             ["is a mass, not an angle or a length", '"80.1 mm"', '"HPSTC"'],

@@ -102,8 +102,7 @@ class Sections:
             return []
         allowed, lowest, highest = fields.allowed_at(path)
         ends = f"goes from {as_written(written[0])} to {as_written(written[-1])}."
-        # A depth of exactly nothing is no relief; the least depth is as good.
-        low = lowest / factor_of(unit) if numbers[0] == 0.0 < lowest else numbers[0]
+        low = numbers[0]
         high = numbers[-1]
         if len(numbers) > 2 or not low < high:
             ends = ends if len(numbers) == 2 else f"has {len(numbers)} values."
