@@ -59,7 +59,7 @@ RIGID = "rigid"
 RIGID_WINDOW = 0.5
 RIGID_NODES = 81
 # Sizes that are given are rounded.
-ROUNDED = 1.01
+ROUNDED = 1.02
 # Of the peak pressure with one element in a half-width; with two a quarter of it (`scene.accuracy.RESOLVED`).
 ERROR_AT_ONE = 0.2
 # Curves of fewer see little of the change from one tooth pair to two.
@@ -73,7 +73,7 @@ class Resolution:
     `half_width`: the Hertz half-width (mm) that the defaults go by; zero without load. `body_element_size` (mm):
     largest in tooth and rim, None for the element's default. `elastic_teeth`: how far apart teeth feel each other (1:
     not at all), None for all. `mate_tips`: roll angles (rad) of pinion and wheel between which the mate's tip edge may
-    press.
+    press. `resolved`: elements in a half-width, of fewer of which the user is told.
     """
 
     element: str
@@ -85,6 +85,7 @@ class Resolution:
     body_element_size: float | None = None
     elastic_teeth: int | None = None
     mate_tips: tuple[tuple[float, float] | None, tuple[float, float] | None] = (None, None)
+    resolved: float = RESOLVED
 
     @property
     def order(self) -> int:
@@ -266,14 +267,14 @@ def _unresolved(resolution: Resolution) -> list[str]:
     half_width = resolution.half_width
     grid = resolution.contact_grid
     sentences = []
-    enough = half_width / RESOLVED
+    enough = half_width / resolution.resolved
     for name, size, remedy in (
         ("accuracy.flank_element_size", resolution.flank_element_size, f'flank_element_size = "{enough:.2g} mm"'),
         ("the spacing of accuracy.contact_nodes", grid.spacing, f"contact_nodes = {ceil(grid.length / enough) + 1}"),
     ):
         if size <= ROUNDED * enough:
             continue
-        of = "half "
+        of = "half " if resolution.resolved == 2.0 else f"{1.0 / resolution.resolved:.2g} of "
         harm = f"the peak contact pressure may be off by {100.0 * ERROR_AT_ONE * (size / half_width) ** 2:.0f} %"
         if size > half_width:
             of = ""

@@ -170,8 +170,8 @@ def set_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
         ("largest force of a planet on its pin", f"{attrs['largest_pin_force']:.5g}", "N"),
     ]
     for place, member in enumerate(MEMBERS):
-        torque = 1e-6 * float(found["member_torque"][:-1, place].mean())
-        rows.append((f"torque on the {member} from outside, mean", f"{torque:.6g}", "kN m"))
+        torque = 1e-3 * float(found["member_torque"][:-1, place].mean())
+        rows.append((f"torque on the {member} from outside, mean", f"{torque:.6g}", "N m"))
     for member in attrs.get("floating", "").split():
         place = MEMBERS.index(member)
         radius = np.hypot(found["member_x"][:, place], found["member_y"][:, place])

@@ -11,6 +11,7 @@ from typing import Any
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.description import derived_rows
 from fenics_gears.model.loop_rows import loop_rows
 from fenics_gears.model.model import Model
@@ -93,7 +94,7 @@ def check_train(scene: TrainScene) -> int:
             if mesh.like is not None:
                 continue
             print_rows(f"Mesh {mesh.name}", _mesh_rows(mesh, own, phase))
-            if derived := derived_rows(mesh.scene):
+            if derived := _derived_rows(mesh):
                 print_rows(f"Mesh {mesh.name}: derived, since the scene leaves it out", derived)
     if scene.shafts.moving and scene.shafts.carrier is None:
         print_rows("Motion of all stages together", motion_rows(model.rows[0]))
@@ -180,6 +181,18 @@ def _shaft_rows(model: TrainModel) -> Iterator[Row]:
         power = f", {2e-6 * pi * scene.input_speed * turns * torque:.5g} kW" if scene.speed_given else ""
         carried = f"{beside}{power}, carries {', '.join(scene.shafts.carried[shaft])}"
         yield f"shaft {shaft + 1}", f"{rate}{turning}, {1e-3 * torque:.5g} N m{carried}", ""
+
+
+def _derived_rows(mesh: MeshOfScene) -> list[Row]:
+    """What the scene leaves out of the gears of a mesh, by their own names: "sun", "gear 2"."""
+    own = [gear.partition(".")[2] for gear in mesh.gears]
+    names = [f"gear {name}" if name.isdigit() else name for name in own]
+    said = []
+    for label, value, unit in derived_rows(mesh.scene):
+        side, space, rest = label.partition(" ")
+        own_label = names[GEARS.index(side)] + space + rest if side in GEARS else label
+        said.append((own_label, value, unit))
+    return said
 
 
 def _mesh_rows(mesh: MeshOfScene, own: Model, phase: float) -> list[Row]:
