@@ -60,7 +60,8 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
         twists, turning = turning_of(meshes, shafts, graph)
         for number, twist in twists.items():
             torsion[number] = twist
-    return TrainParts(layout, torques, torsion, masses, supports, shafts.inertias, turning)
+    centred = {} if shafts.carrier is None else shafts.carrier.centred(gear_names(meshes))
+    return TrainParts(layout, torques, torsion, masses, supports, shafts.inertias, turning, centred)
 
 
 def offsets_of(

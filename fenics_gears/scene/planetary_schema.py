@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from fenics_gears.geometry.planetary import MEMBERS, RING, SUN
+from fenics_gears.geometry.planetary import MEMBERS, RING, SECOND_SUN, SUN
 from fenics_gears.inputs.allowed import Allowed, Refused
 from fenics_gears.inputs.fields import choice, declared, quantities, quantity, whole_number
 from fenics_gears.inputs.problem import did_you_mean
@@ -14,13 +15,31 @@ from fenics_gears.inputs.section import Section
 PLANETARY = "planetary"
 SUN_MESH = "sun_mesh"
 RING_MESH = "ring_mesh"
-MESHES = (SUN_MESH, RING_MESH)
-GEARS_OF_SET = ("sun", "planet", "ring")
+MESHES = (SUN_MESH, RING_MESH, f"{SECOND_SUN}_mesh")
+STEP = "step"
+GEARS_OF_SET = (SUN, "planet", STEP, RING, SECOND_SUN)
 MOST_PLANETS = 10
 # Effects of a pair that the meshes of a set may have of their own.
 OF_THE_FACE = ("lead_modifications", "misalignment")
 OF_A_MESH = ("tip_relief", "root_relief", "profile_modifications", "corner_contact", *OF_THE_FACE)
+# Of the gears of the second mesh of stepped planets, where they are not as those of the first.
+OF_THE_STEP = ("module", "pressure_angle", "face_width")
 PIN_ERRORS = "-10 mm to 10 mm"
+
+
+def second_in(content: Mapping[str, Any]) -> str:
+    """Which member the scene of a set has beside the sun."""
+    return SECOND_SUN if SECOND_SUN in content else RING
+
+
+def gears_in(content: Mapping[str, Any]) -> tuple[str, ...]:
+    """The gears that the scene of a set has."""
+    return (SUN, "planet", *((STEP,) if STEP in content else ()), second_in(content))
+
+
+def meshes_in(content: Mapping[str, Any]) -> tuple[str, str]:
+    """The sections of the meshes that the scene of a set has."""
+    return SUN_MESH, f"{second_in(content)}_mesh"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -193,12 +212,18 @@ class PlanetaryText(Section):
         meaning="hand of the sun's helix; planets and ring have the other",
         otherwise="`right`; has no meaning without `helix_angle`",
     )
+    step_angle: float | None = quantity(
+        "-360 deg to 360 deg",
+        "3 deg",
+        meaning="of stepped planets, how far a tooth of `step` stands from one of `planet`, counter-clockwise",
+        otherwise="0 deg: two of their teeth stand in line",
+    )
     floating: tuple[str, ...] | None = declared(
         AllowedMembers(
-            description='a list of "sun" and "ring", such as ["sun"]',
+            description='a list of "sun", "ring" and "second_sun", such as ["sun"]',
             meaning="members whose centre nothing holds but their meshes; three planets or more centre them",
             otherwise="centres are held",
-            names=(SUN, RING),
+            names=(SUN, RING, SECOND_SUN),
         )
     )
     carrier: CarrierText | None = None

@@ -52,6 +52,24 @@ class _Stage(Gears):
 
 
 @dataclass(frozen=True, kw_only=True)
+class _SecondMesh(Section):
+    """``[stages.NAME.ring_mesh]`` and ``second_sun_mesh``: of stepped planets what their second gears are cut by."""
+
+    module: float | None = quantity(
+        "1e-3 mm to 1 m",
+        "3 mm",
+        meaning="module of stepped planets' second gears, and of their mates",
+        otherwise="that of the set",
+    )
+    pressure_angle: float | None = quantity(
+        "5 deg to 45 deg", "20 deg", meaning="their pressure angle", otherwise="that of the set"
+    )
+    face_width: float | None = quantity(
+        "1e-3 mm to 10 m", "30 mm", meaning="their face width", otherwise="that of the set"
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
 class _AlwaysThere(JoinsText):
     title: str | None = text(500, meaning="title in summaries and pictures", otherwise="the name of the file")
     load: TrainLoad
@@ -72,9 +90,10 @@ def _of_planets() -> Iterator[tuple[str, Any, Any]]:
         yield each.name, hints[each.name], field(default=None, metadata=each.metadata)
     for gear in GEARS_OF_SET:
         yield gear, GearText | None, field(default=None)
-    effects = _with(Section, OF_A_MESH)
-    for mesh in MESHES:
-        yield mesh, effects | None, field(default=None)
+    of_sun, *of_others = MESHES
+    yield of_sun, _with(Section, OF_A_MESH) | None, field(default=None)
+    for mesh in of_others:
+        yield mesh, _with(_SecondMesh, OF_A_MESH) | None, field(default=None)
 
 
 @functools.cache

@@ -10,7 +10,6 @@ from math import degrees
 import numpy as np
 import xarray as xr
 
-from fenics_gears.geometry.planetary import MEMBERS
 from fenics_gears.results.mesh_of_train import mesh_run
 from fenics_gears.results.sets_in_train import set_runs
 from fenics_gears.scene.carrier import Carrier
@@ -51,14 +50,15 @@ def set_drawing(scene: TrainScene) -> Chart:
     names = gear_names(scene.meshes)
     curves = []
     # From the ring inwards: what lies within is drawn over it.
-    for number in sorted(range(len(names)), key=lambda each: layout.gear(each).sign):
+    inwards = sorted(range(len(names)), key=lambda each: (layout.gear(each).sign, -abs(layout.gear(each).tip_radius)))
+    for number in inwards:
         gear = layout.gear(number)
         centre = at[layout.graph.shafts[number]]
         teeth = outline_of(gear, layout.tooth_angle(number), centre)
         around = _circle(gear.bore_radius, centre)
         first, second = (around, teeth) if gear.internal else (teeth, around)
         words = f"{names[number].rpartition('.')[2]}, {gear.tooth_count} teeth"
-        curves.append(_closed(words, first, FILLS[int(names[number] in carrier.planets)]))
+        curves.append(_closed(words, first, FILLS[int(carrier.planet_of(names[number]) is not None)]))
         curves.append(_closed(words, second, "white", listed=False))
     middles = np.array([at[layout.graph.shafts[names.index(each)]] for each in carrier.planets])
     said = [each.rpartition(" ")[2] for each in carrier.planets]
@@ -128,7 +128,7 @@ def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     _, last = _last_cycle(dataset)
     charts = []
     for number, member in enumerate(carrier_of(scene).floating):
-        place = MEMBERS.index(member)
+        place = carrier_of(scene).set.members.index(member)
         x, y = (MICRO * np.asarray(dataset[f"member_{axis}"])[last, place] for axis in "xy")
         colour = PALETTE[number % len(PALETTE)]
         curves = [
@@ -144,7 +144,8 @@ def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
 def pressures(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     """The largest contact pressure of the meshes of the first planet."""
     charts = []
-    for number in range(2):
+    for kind in range(2):
+        number = range(len(scene.meshes))[carrier_of(scene).meshes(kind)][0]
         run = ShownRun(mesh_run(dataset, scene, number))
         charts += largest_pressures(run) if has_pressure(run) else []
     return charts
@@ -155,7 +156,7 @@ def member_table(scene: TrainScene, dataset: xr.Dataset) -> list[tuple[str, ...]
     carrier = carrier_of(scene)
     own = carrier.set
     rows: list[tuple[str, ...]] = []
-    for place, member in enumerate(MEMBERS):
+    for place, member in enumerate(own.members):
         torque = float(dataset["member_torque"][:-1, place].mean())
         part = {own.fixed: "fixed", own.input: "input", own.output: "output"}[member]
         speed = float(own.speeds[member])

@@ -1,0 +1,118 @@
+"""Sets of stepped planets, with a ring or with a second sun: laws that hold to round-off whatever the contact."""
+
+import numpy as np
+import pytest
+from tests.planets import planetary
+
+from fenics_gears import simulate_train
+from fenics_gears.contact.row_in_plane import RowInPlane
+
+RINGED = {"teeth": (17, 20, 53), "step": 16, "planets": "planets = 3", "parts": ("ring", "sun", "carrier")}
+TWO_SUNS = {
+    "teeth": (20, 24, 26), "step": 18, "second": "second_sun", "planets": "planets = 4",
+    "parts": ("second_sun", "sun", "carrier"),
+}  # fmt: skip
+ERRORS = '[stages.set.carrier]\npin_stiffness = "3e5 N/mm"\npin_errors = ["15 um", "0 um", "-5 um"'
+
+
+def forces(found) -> tuple[np.ndarray, np.ndarray]:
+    """Of the sun's and the second meshes (steps, planets)."""
+    every = found["normal_force"].values
+    half = every.shape[1] // 2
+    return every[:, :half], every[:, half:]
+
+
+@pytest.fixture(scope="module")
+def floating():
+    """Three planets of 20 and 16 teeth whose meshes are not in phase, on a floating sun, pins beside their places."""
+    scene = planetary(**RINGED, more='floating = ["sun"]', sections=f"{ERRORS}]")
+    return simulate_train(scene)
+
+
+def test_torques_follow_willis(floating):
+    """Without friction 1, (z_planet z_ring)/(z_sun z_step) and less than none of both, at every instant."""
+    torques = floating["member_torque"].values
+    ring = 20.0 * 53.0 / (17.0 * 16.0)
+    np.testing.assert_allclose(
+        torques, np.tile(600e3 * np.array([1.0, ring, -1.0 - ring]), (len(torques), 1)), rtol=1e-10
+    )
+
+
+def test_planets_hand_on_their_torque(floating):
+    """Base radii of both gears of each planet balance; three planets share evenly on a floating sun."""
+    sun, ring = forces(floating)
+    np.testing.assert_allclose(20.0 * sun, 16.0 * ring, rtol=1e-11)
+    assert np.ptp(sun, axis=1).max() < 1e-11 * sun.max()
+    assert np.hypot(floating["member_x"], floating["member_y"])[:, 0].min() > 1e-3
+
+
+def test_a_pin_carries_both_gears(floating):
+    """The pressure angle of both is 20 degrees: tangential parts add, radial parts oppose each other."""
+    sun, ring = forces(floating)
+    pins = floating["pin_force"].values
+    np.testing.assert_allclose(pins[..., 0], np.cos(np.radians(20.0)) * (sun + ring), rtol=1e-10)
+    np.testing.assert_allclose(pins[..., 1], np.sin(np.radians(20.0)) * (sun - ring), rtol=1e-10, atol=1e-9 * sun.max())
+
+
+def test_a_set_of_steps_repeats_turned_by_a_planet():
+    """Planets at 120 degrees: the state some steps later is that of now with the planets exchanged, over the period of
+    both meshes. So the lag repeats three times in it, and is not the same all the time (Parker 2000)."""
+    found = simulate_train(planetary(**RINGED))
+    # 5 cycles with the sun of 4 n steps are 4 with the ring of 5 n.
+    lag = found["overall_transmission_error"].values[:-1]
+    third = len(lag) // 3
+    np.testing.assert_allclose(np.roll(lag, third), lag, rtol=1e-12)
+    assert np.ptp(lag) > 0.01 * lag.mean()
+    sun, _ = forces(found)
+    exchanged = [np.abs(np.roll(sun[:-1, [1, 2, 0]], shift * third, axis=0) - sun[:-1]).max() for shift in (1, 2)]
+    assert min(exchanged) < 1e-11 * sun.max()
+
+
+def test_equal_steps_are_a_simple_set(monkeypatch):
+    """Steps as large as their planets, their teeth in line, are one gear, but for what its two flanks feel of each
+    other: without that in the simple set, forces, lag and pins are the same."""
+    through = RowInPlane._through
+    planets = 18
+
+    def without_planets(self, gear, *others):
+        found = through(self, gear, *others)
+        return found._replace(now=0.0 * found.now) if gear.teeth == planets else found
+
+    own = {
+        "teeth": (17, planets, 53),
+        "more": 'carrier = { pin_stiffness = "3e5 N/mm", pin_errors = ["9 um", "0 um"] }',
+    }
+    same = 'steps_per_mesh_cycle = 12\nflank_element_size = "0.3 mm"\ncontact_length = "4 mm"\ncontact_nodes = 20'
+    stepped = simulate_train(planetary(**own, step=planets, accuracy=same))
+    monkeypatch.setattr(RowInPlane, "_through", without_planets)
+    simple = simulate_train(planetary(**own, accuracy=same))
+    for name in ("overall_transmission_error", "pin_force", "planet_load_share"):
+        np.testing.assert_allclose(
+            stepped[name], simple[name], rtol=1e-10, atol=1e-10 * float(np.abs(simple[name]).max())
+        )
+    np.testing.assert_allclose(forces(stepped)[1], simple["normal_force"].values[:, 1::2], rtol=1e-10)
+
+
+def test_two_suns_balance():
+    """The planets push the second sun the way the first turns: torques 1, -z_planet z_second/(z_sun z_step), the rest;
+    floating, opposite planets of four carry the same."""
+    found = simulate_train(planetary(**TWO_SUNS, more='floating = ["sun"]', sections=f'{ERRORS}, "3 um"]'))
+    second = 24.0 * 26.0 / (20.0 * 18.0)
+    torques = found["member_torque"].values
+    expected = 600e3 * np.array([1.0, -second, second - 1.0])
+    np.testing.assert_allclose(torques, np.tile(expected, (len(torques), 1)), rtol=1e-10)
+    sun, _ = forces(found)
+    assert np.abs(sun[:, :2] - sun[:, 2:]).max() < 1e-11 * sun.max()
+    assert list(found["member"].values) == ["sun", "second_sun", "carrier"]
+
+
+def test_efficiency_of_steps_follows_willis():
+    """Ring fixed, sun driving: (1 + eta_0 i)/(1 + i), i = z_planet z_ring/(z_sun z_step), eta_0 of the same set with
+    the carrier at rest."""
+    own = RINGED | {"sections": "[friction]\ncoefficient = 0.05"}
+    moving = simulate_train(planetary(**own))
+    resting = simulate_train(planetary(**(own | {"parts": ("carrier", "sun", "ring")})))
+    ratio = 20.0 * 53.0 / (17.0 * 16.0)
+    basic = resting.attrs["efficiency"]
+    assert 0.9 < basic < 0.999
+    assert moving.attrs["efficiency"] == pytest.approx((1.0 + basic * ratio) / (1.0 + ratio), rel=1e-11)
