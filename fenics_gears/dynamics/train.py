@@ -74,7 +74,8 @@ class TrainParts:
     `masses`, none without inertia, and `supports` along and off the line of action of its first mesh (N/mm), None where
     its centre is fixed, infinite where it is fixed beside its place. `loads`: moments of inertia (N mm s^2) of the
     loads by the numbers of their shafts. `turning`: numbers of gears that turn against their shaft, one that bends.
-    `centred`: of gears that have the centre of another one on their shaft, that one.
+    `centred`: of gears that have the centre of another one on their shaft, that one. `together`: gears (n) that one
+    support holds, and its stiffness (2 n, 2 n), N/mm, in space, gear after gear.
     """
 
     layout: Layout
@@ -85,6 +86,7 @@ class TrainParts:
     loads: Mapping[int, float] = field(default_factory=dict)
     turning: Sequence[int] = ()
     centred: Mapping[int, int] = field(default_factory=dict)
+    together: tuple[Sequence[int], np.ndarray] | None = None
 
     @property
     def graph(self) -> TrainGraph:
@@ -262,6 +264,11 @@ def _stiffness(rows: _Rows) -> tuple[np.ndarray, np.ndarray]:
     for gear in parts.moving():
         centre = rows.centre(gear)
         in_bearings += centre.T @ np.diag(parts.support(gear) or ()) @ centre
+    if parts.together is not None:
+        gears, own = parts.together
+        first = [rows.graph.sides[gear][0][0] for gear in gears]
+        inside = np.vstack([parts.layout.axes(mesh).T @ rows.centre(gear) for mesh, gear in zip(first, gears)])
+        in_bearings += inside.T @ own @ inside
     stiffness = in_bearings.copy()
     for shaft, torsion in enumerate(parts.torsion):
         twist = rows.of("rotation_1" if shaft == 0 else f"twist_{shaft + 1}")

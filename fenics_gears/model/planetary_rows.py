@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import pi
+from pathlib import Path
 
 from fenics_gears.geometry.planetary import RING, SUN, PlanetarySet
 from fenics_gears.scene.carrier import Carrier
@@ -51,6 +52,10 @@ def set_rows(row: RowModel) -> list[Row]:
         rows.append((RING, support, ""))
     if carrier.floating:
         rows.append(("floating", ", ".join(carrier.floating), ""))
+    if carrier.file is not None:
+        rows.append(("carrier", "elastic between its pins", f"by {Path(carrier.file.path).name}"))
+    if carrier.bearing_stiffness is not None:
+        rows.append(("carrier's bearings", f"{carrier.bearing_stiffness:.4g}", "N/mm"))
     return rows
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.geometry.gear_train import Layout
-from fenics_gears.geometry.planetary import RING, SUN
+from fenics_gears.geometry.planetary import CARRIER, RING, SUN
 from fenics_gears.model.train import RowModel
 from fenics_gears.scene.carrier import Carrier
 from fenics_gears.scene.train_mesh import gear_names
@@ -34,7 +34,7 @@ NUMBERS_OF_SETS = {
     f"peak_to_peak_{OVERALL}": ("rad", "lag of the output behind the input, peak to peak"),
     "efficiency": ("1", "power out over power in"),
     "basic_efficiency": ("1", "efficiency with the carrier at rest"),
-    "floating": ("", "members whose centre nothing holds but their meshes"),
+    "floating": ("", "members whose centres move"),
 }
 
 
@@ -79,8 +79,8 @@ def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: S
         "mean_overall_transmission_error": float(lag[last].mean()),
         "peak_to_peak_overall_transmission_error": float(np.ptp(lag[last])),
     }
-    if carrier.floating:
-        numbers["floating"] = " ".join(carrier.floating)
+    if carrier.moving:
+        numbers["floating"] = " ".join(carrier.moving)
     if row.models[0].scene.friction is not None:
         numbers |= _efficiencies(carrier, torques[last].mean(axis=0))
     return ResultOfShafts(variables, coordinates, numbers)
@@ -134,20 +134,26 @@ def _output_lag(row: RowModel, carrier: Carrier, states: np.ndarray) -> np.ndarr
 
 
 def _centres(row: RowModel, carrier: Carrier, states: np.ndarray) -> dict[str, tuple]:
-    """Where the centres of the members stand (mm), to the right and upwards; only of what floats it is not zero."""
-    if not carrier.floating:
+    """Where the centres of the members stand (mm), to the right and upwards; only of what moves it is not zero."""
+    if not carrier.moving:
         return {}
     members = carrier.set.members
     centres = np.zeros((len(states), 2, len(members)))
     names = gear_names(row.meshes)
     coordinates = row.drivetrain.coordinates
-    for member, gear in zip(members, (carrier.sun, carrier.ring)):
-        if member not in carrier.floating:
-            continue
+
+    def centre(gear: str) -> np.ndarray:
         number = names.index(gear)
         first, _ = row.graph.sides[number][0]
         places = [coordinates.index(f"centre_{axis} of gear {number + 1}") for axis in "xy"]
-        centres[:, :, members.index(member)] = states[:, places] @ row.layout.axes(first)
+        return states[:, places] @ row.layout.axes(first)
+
+    for place, gear in enumerate((carrier.sun, carrier.ring)):
+        if members[place] in carrier.floating:
+            centres[:, :, place] = centre(gear)
+    if CARRIER in carrier.moving:
+        planets = np.hstack([centre(each) for each in carrier.planets])
+        centres[:, :, -1] = planets @ carrier.centre_by_planets.T
     return {
         f"member_{axis}": (("time", MEMBER), centres[:, place], _said("mm", f"place of a member's centre, {where}"))
         for place, (axis, where) in enumerate(zip("xy", ("in the direction 0", "90 degrees counter-clockwise of it")))

@@ -5,10 +5,14 @@ from __future__ import annotations
 from cmath import rect
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import inf
 from re import sub
 
-from fenics_gears.geometry.planetary import SUN, PlanetarySet
+import numpy as np
+
+from fenics_gears.dynamics.shafts import HousingFile
+from fenics_gears.geometry.planetary import CARRIER, SUN, PlanetarySet
 from fenics_gears.inputs.tree import GEARS
 
 from .planetary_schema import VibrationText
@@ -28,7 +32,9 @@ class RunOut:
 @dataclass(frozen=True)
 class Carrier:
     """The carrier of the set in a `stage`. `pin_stiffness`, N/mm: None where pins do not give way; `pin_errors`: of
-    each planet tangential, against its force, and radial, outwards, mm; none where pins are in their places.
+    each planet tangential, against its force, and radial, outwards, mm; none where pins are in their places. `file`:
+    stiffness of the carrier between its pins, None where it is rigid; `bearing_stiffness`, N/mm: None where its centre
+    is held.
     `run_outs`: of gears whose base circles are off their axes.
     `floating`: members that no bearing holds. `speed`, rad/s, and `torque`, N mm: of the input. `vibration`: lumped
     members for natural frequencies, None where the scene has none."""
@@ -42,6 +48,13 @@ class Carrier:
     speed: float | None = None
     torque: float = 0.0
     vibration: VibrationText | None = None
+    file: HousingFile | None = None
+    bearing_stiffness: float | None = None
+
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """Members whose centres move: what is floating, and a carrier on springs."""
+        return self.floating if self.bearing_stiffness is None else (*self.floating, CARRIER)
 
     @property
     def sun(self) -> str:
@@ -88,12 +101,48 @@ class Carrier:
 
     def support(self, gear: str) -> tuple[float, float] | None:
         """Stiffness (N/mm) along and off any line that holds the centre of a gear: infinite where it is held beside its
-        place, None where in it."""
+        place, None where in it; that of planets which are held `together` is there."""
         if self.planet_of(gear) is not None:
+            if self.together is not None:
+                return 0.0, 0.0
             stiffness = self.pin_stiffness or (inf if self.pin_errors else None)
             return None if stiffness is None else (stiffness, stiffness)
         member = SUN if gear == self.sun else self.set.second
         return (0.0, 0.0) if member in self.floating else None
+
+    @cached_property
+    def together(self) -> np.ndarray | None:
+        """Stiffness (2 n, 2 n), N/mm, that holds the centres of the planets in the direction 0 of the set and 90
+        degrees counter-clockwise of it, planet after planet: of pins, carrier and its bearings in series. None where
+        pins alone give way, each by itself."""
+        if self.file is None and self.bearing_stiffness is None:
+            return None
+        on_hub = self._on_hub
+        if self.bearing_stiffness is None:
+            return on_hub
+        return on_hub - on_hub @ self._rigid @ self.centre_by_planets
+
+    @property
+    def centre_by_planets(self) -> np.ndarray:
+        """Displacement (2, 2 n) of a carrier on bearings by those of the planets: forces on it balance."""
+        pushed = self._rigid.T @ self._on_hub
+        return np.linalg.solve(pushed @ self._rigid + (self.bearing_stiffness or 0.0) * np.eye(2), pushed)
+
+    @property
+    def _on_hub(self) -> np.ndarray:
+        """Stiffness (2 n, 2 n) of pins and carrier in series, its hub held."""
+        pin = self.pin_stiffness
+        one = np.eye(2 * self.set.planets)
+        if self.file is None or self.file.stiffness is None:
+            return one * (pin or 0.0)
+        own = np.array(self.file.stiffness)
+        found = own if pin is None else np.linalg.solve(own / pin + one, own)
+        return 0.5 * (found + found.T)
+
+    @property
+    def _rigid(self) -> np.ndarray:
+        """Displacements (2 n, 2) of the pins as the carrier moves aside."""
+        return np.tile(np.eye(2), (self.set.planets, 1))
 
     def displaced(self, gear: str) -> complex:
         """Where (mm) the centre of a gear stands beside its place, in space."""

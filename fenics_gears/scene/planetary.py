@@ -9,6 +9,8 @@ from math import pi
 from pathlib import Path
 from typing import Any
 
+from fenics_gears.dynamics.shafts import HousingFile
+from fenics_gears.effects.elastic_shaft_housing import located
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.planetary import RING, PlanetarySet, planets_that_assemble
@@ -55,7 +57,12 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
     _check_clear(own_set, pairs, place)
     for scene, own in zip(scenes, of_meshes):
         check_together(scene, f"{place}.{own.mesh}")
-    carrier = _carrier(stage, text, own_set)
+    carrier = _carrier(stage, text, own_set, place, folder)
+    if carrier.together is not None and scenes[0].three_dimensional:
+        raise SceneError(
+            f"{place}.carrier: stiffness and bearing_stiffness are not computed over the face yet. Allowed:"
+            f" pin_stiffness; or a set in the plane. {NOTHING_DONE}"
+        )
     _check_motion(own_set, load, motion, scenes[0].friction is not None, place)
     none = (None,) * len(carrier.shafts)
     shafts = TrainShafts(carrier.shafts, none, none, moving=True, carrier=carrier)
@@ -204,8 +211,8 @@ def _check_clear(own: PlanetarySet, pairs: Sequence[GearPair], place: str) -> No
             )
 
 
-def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet) -> Carrier:
-    """The carrier, without speed and torque."""
+def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet, place: str, folder: Path) -> Carrier:
+    """The carrier, without speed and torque; the file of its stiffness is looked for from a folder on."""
     pins = text.carrier
     errors: tuple[tuple[float, float], ...] = ()
     if pins is not None and (pins.pin_errors or pins.radial_pin_errors):
@@ -214,7 +221,24 @@ def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet) -> Carrier:
         errors = tuple((float(tangential), float(radial)) for tangential, radial in both)
     stiffness = None if pins is None else pins.pin_stiffness
     carrier = Carrier(stage, own, stiffness, errors, tuple(text.floating or ()), vibration=text.vibration)
+    if pins is not None:
+        file = None if pins.stiffness is None else located(pins.stiffness, folder)
+        _check_file(file, own, f"{place}.carrier.stiffness")
+        carrier = replace(carrier, file=file, bearing_stiffness=pins.bearing_stiffness)
     return replace(carrier, run_outs=run_outs_of(text.eccentricity, carrier.sun, carrier.planets, carrier.ring))
+
+
+def _check_file(file: HousingFile | None, own: PlanetarySet, field: str) -> None:
+    """Raise SceneError where a carrier's matrix cannot be read, or is not of so many pins."""
+    if file is None:
+        return
+    rows = len(file.stiffness or ())
+    size = 2 * own.planets
+    problem = file.problem
+    if not problem and rows != size:
+        problem = f"has {rows} rows for {own.planets} planets; allowed are {size}: two displacements of each pin."
+    if problem:
+        raise SceneError(f'{field} = "{file.path}": {problem} {NOTHING_DONE}')
 
 
 def _check_motion(own: PlanetarySet, load: TrainLoad, motion: TrainMotion, friction: bool, place: str) -> None:

@@ -175,13 +175,30 @@ def _wrong_members(path: tuple[str, ...], text: PlanetaryText, members: tuple[st
     if text.floating and count < 3:
         said = "needs three planets: two do not centre a member that nothing else holds. Leave it out."
         yield Problem((*path, "floating"), "a list", said)
+    yield from _wrong_carrier(path, text, count)
     yield from _wrong_vibration(path, text)
     yield from _wrong_run_outs((*path, "eccentricity"), text, count)
-    for name in ("pin_errors", "radial_pin_errors") if text.carrier is not None else ():
-        errors = getattr(text.carrier, name)
+
+
+def _wrong_carrier(path: tuple[str, ...], text: PlanetaryText, count: int) -> Iterator[Problem]:
+    """Errors of more or fewer pins than there are, and a carrier that moves aside and does not find its place."""
+    own = text.carrier
+    if own is None:
+        return
+    for name in ("pin_errors", "radial_pin_errors"):
+        errors = getattr(own, name)
         if errors is not None and len(errors) != count:
             said = f"has {len(errors)} entries for {count} planets. Allowed: one for each."
             yield Problem((*path, "carrier", name), "a list", said)
+    if own.bearing_stiffness is None:
+        return
+    said = ""
+    if own.pin_stiffness is None and own.stiffness is None:
+        said = "needs springs between carrier and planets. Add pin_stiffness or stiffness."
+    elif not own.bearing_stiffness and (text.floating or count < 3):
+        said = "leaves a carrier that too little centres: it takes three planets, sun and ring held. Allowed: above 0."
+    if said:
+        yield Problem((*path, "carrier", "bearing_stiffness"), f"{own.bearing_stiffness:g} N/mm", said)
 
 
 def _wrong_run_outs(path: tuple[str, ...], text: PlanetaryText, count: int) -> Iterator[Problem]:
@@ -209,6 +226,10 @@ def _wrong_vibration(path: tuple[str, ...], text: PlanetaryText) -> Iterator[Pro
     """Lumped members whose springs are missing, or are of members that nothing holds."""
     if text.vibration is None:
         return
+    for name in ("stiffness", "bearing_stiffness"):
+        if text.carrier is not None and getattr(text.carrier, name) is not None:
+            said = "is not in the natural frequencies. Leave it out, or vibration; support_stiffness holds the carrier."
+            yield Problem((*path, "carrier", name), "", said)
     if text.carrier is None or text.carrier.pin_stiffness is None:
         said = (
             'is missing: natural frequencies need the spring of the pins. Add pin_stiffness, such as "3e5 N/mm", or'

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from fenics_gears.dynamics.shafts import HousingFile
 from fenics_gears.geometry.planetary import MEMBERS, RING, SECOND_SUN, SUN
 from fenics_gears.inputs.allowed import Allowed, Refused
-from fenics_gears.inputs.fields import choice, declared, quantities, quantity, whole_number
+from fenics_gears.inputs.fields import choice, declared, file_name, quantities, quantity, whole_number
 from fenics_gears.inputs.problem import did_you_mean
 from fenics_gears.inputs.section import Section
 
@@ -61,13 +62,29 @@ class AllowedMembers(Allowed):
 
 @dataclass(frozen=True, kw_only=True)
 class CarrierText(Section):
-    """``[stages.NAME.carrier]``: the pins of the planets."""
+    """``[stages.NAME.carrier]``: the pins of the planets, and what gives way between them and the axis."""
 
     pin_stiffness: float | None = quantity(
         "1e-3 N/mm to 1e15 N/mm",
         "3e5 N/mm",
         meaning="stiffness of each pin and its bearing, alike in all directions",
         otherwise="pins do not give way",
+    )
+    stiffness: HousingFile | None = file_name(
+        ".txt",
+        "carrier.txt",
+        meaning="text file with the stiffness matrix of the carrier between its pins, in N/mm, its hub held: over the"
+        " displacements of each pin in the direction 0 of the set and 90 deg counter-clockwise of it, pin after pin; in"
+        " the plane",
+        otherwise="the carrier is rigid",
+        made=HousingFile,
+    )
+    bearing_stiffness: float | None = quantity(
+        "0 N/mm to 1e15 N/mm",
+        "1e5 N/mm",
+        meaning="stiffness that holds the carrier's centre, alike in all directions; 0 where its planets alone do; with"
+        " `pin_stiffness` or `stiffness`, in the plane",
+        otherwise="its centre is held",
     )
     pin_errors: tuple[float, ...] | None = quantities(
         PIN_ERRORS,

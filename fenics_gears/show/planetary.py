@@ -127,7 +127,7 @@ def orbits(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
 def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     _, last = _last_cycle(dataset)
     charts = []
-    for number, member in enumerate(carrier_of(scene).floating):
+    for number, member in enumerate(carrier_of(scene).moving):
         place = carrier_of(scene).set.members.index(member)
         x, y = (MICRO * np.asarray(dataset[f"member_{axis}"])[last, place] for axis in "xy")
         colour = PALETTE[number % len(PALETTE)]

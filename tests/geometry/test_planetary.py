@@ -83,3 +83,41 @@ def test_room_for_planets():
     assert planets_that_assemble(17 + 61, 78.0, 96.0) == [2, 3]
     clear = of_equal_planets(17, 22, 61, 3).clearances(78.0, 96.0)
     assert [each for *_, each in clear] == pytest.approx(3 * [156.0 * np.sin(pi / 3) - 96.0])
+
+
+def of_steps(sun: int, planet: int, step: int, second: int, kind: str = RING) -> PlanetarySet:
+    return PlanetarySet((sun, planet, second), (0, 111, 222), kind, SUN, CARRIER, step, kind)
+
+
+def test_steps_follow_willis():
+    """(w_s - w_c)/(w_r - w_c) = -z_planet z_ring/(z_sun z_step), with a second sun of the other sign; torques and power
+    add up to zero."""
+    for kind, sign in ((RING, -1), ("second_sun", 1)):
+        own = of_steps(17, 20, 16, 53, kind)
+        speeds = {each: own.speeds[each] - own.speeds[CARRIER] for each in own.members}
+        assert speeds[SUN] / speeds[kind] == sign * Fraction(20 * 53, 17 * 16)
+        torques = own.torques(100.0)
+        assert sum(torques.values()) == pytest.approx(0.0, abs=1e-12)
+        assert sum(torques[each] * float(own.speeds[each]) for each in own.members) == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(("second", "sign"), [(RING, -1), ("second_sun", 1)])
+def test_steps_assemble_where_teeth_of_both_gears_meet(second, sign):
+    """Brute force: a planet that rolls round the held sun by an angle turns by 1 + z_s/z_p of it, round a held ring by
+    1 - z_r/z_step, round a second sun by 1 + z_2/z_step. It fits where both turns differ by pitches of its gears."""
+    own = of_steps(17, 20, 16, 53, second)
+    for place in range(1, own.turn + 1):
+        for part, fits in ((place, True), (place - 0.5, False)):
+            swung = part / own.turn
+            between = swung * (17 / 20 - sign * 53 / 16)
+            apart = min(abs((between - tooth / 20) * 16 - round((between - tooth / 20) * 16)) for tooth in range(20))
+            assert (apart < 1e-9) == fits
+
+
+def test_equal_steps_are_the_simple_set():
+    """Weights, phases and places."""
+    simple = of_equal_planets(17, 18, 52, 3)
+    stepped = PlanetarySet((17, 18, 52), simple.places, "ring", "sun", "carrier", 18)
+    assert stepped.weights == simple.weights
+    assert stepped.turn == simple.turn
+    assert stepped.phases == stepped.phases_of_second == simple.phases

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from tests.planets import planetary
+from tests.planets import COARSE, planetary
 
 from fenics_gears import simulate_train
 from fenics_gears.contact.row_in_plane import RowInPlane
+from fenics_gears.simulation import train
 
 RINGED = {"teeth": (17, 20, 53), "step": 16, "planets": "planets = 3", "parts": ("ring", "sun", "carrier")}
 TWO_SUNS = {
@@ -70,26 +71,36 @@ def test_a_set_of_steps_repeats_turned_by_a_planet():
 
 def test_equal_steps_are_a_simple_set(monkeypatch):
     """Steps as large as their planets, their teeth in line, are one gear, but for what its two flanks feel of each
-    other: without that in the simple set, forces, lag and pins are the same."""
+    other: without that in the simple set, and of the very same elements, forces, lag and pins are the same."""
     through = RowInPlane._through
-    planets = 18
+    shared_body = train.shared_body
+    gear_body = train.gear_body
+    planets = []
 
     def without_planets(self, gear, *others):
         found = through(self, gear, *others)
-        return found._replace(now=0.0 * found.now) if gear.teeth == planets else found
+        return found._replace(now=0.0 * found.now) if gear.teeth == 18 else found
 
-    own = {
-        "teeth": (17, planets, 53),
-        "more": 'carrier = { pin_stiffness = "3e5 N/mm", pin_errors = ["9 um", "0 um"] }',
-    }
-    same = 'steps_per_mesh_cycle = 12\nflank_element_size = "0.3 mm"\ncontact_length = "4 mm"\ncontact_nodes = 20'
-    stepped = simulate_train(planetary(**own, step=planets, accuracy=same))
+    def kept(row, gear, cache):
+        body = shared_body(row, gear, cache)
+        planets.extend([body] if row.gear(gear).teeth == 18 else [])
+        return body
+
     monkeypatch.setattr(RowInPlane, "_through", without_planets)
-    simple = simulate_train(planetary(**own, accuracy=same))
+    monkeypatch.setattr(train, "shared_body", kept)
+    monkeypatch.setattr(
+        train,
+        "gear_body",
+        lambda model, gear, *of: planets[0] if getattr(model.pair, gear).teeth == 18 else gear_body(model, gear, *of),
+    )
+    pins = 'carrier = { pin_stiffness = "3e5 N/mm", pin_errors = ["9 um", "0 um"] }'
+    same = f'{COARSE}\ncontact_length = "4 mm"\ncontact_nodes = 20'
+    simple, stepped = (
+        simulate_train(planetary(teeth=(17, 18, 53), more=pins, accuracy=same, step=step)) for step in (None, 18)
+    )
     for name in ("overall_transmission_error", "pin_force", "planet_load_share"):
-        np.testing.assert_allclose(
-            stepped[name], simple[name], rtol=1e-10, atol=1e-10 * float(np.abs(simple[name]).max())
-        )
+        size = float(np.abs(simple[name]).max())
+        np.testing.assert_allclose(stepped[name], simple[name], rtol=1e-10, atol=1e-10 * size)
     np.testing.assert_allclose(forces(stepped)[1], simple["normal_force"].values[:, 1::2], rtol=1e-10)
 
 
