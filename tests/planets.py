@@ -10,6 +10,12 @@ SHARED = """
     material = "steel"
     """
 RELIEF = '{ depth = "20 um", start = "HPSTC", shape = "parabolic" }'
+# Stepped planets with a ring, and with a second sun.
+RINGED = {"teeth": (17, 20, 53), "step": 16, "planets": "planets = 3"}
+TWO_SUNS = {
+    "teeth": (20, 24, 26), "step": 18, "second": "second_sun", "planets": "planets = 4",
+    "parts": ("second_sun", "sun", "carrier"),
+}  # fmt: skip
 COARSE = 'steps_per_mesh_cycle = 12\nflank_element_size = "0.3 mm"'
 
 

@@ -86,7 +86,7 @@ def shares(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
 
 
 def _shares(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
-    phase, last = _last_cycle(dataset)
+    phase, last = _last_period(scene, dataset)
     axis = "Time (mesh cycles)"
     charts = []
     for name, words, factor in (
@@ -112,9 +112,10 @@ def _of_planets(scene: TrainScene, phase: np.ndarray, values: np.ndarray) -> lis
     ]
 
 
-def _last_cycle(dataset: xr.Dataset) -> tuple[np.ndarray, slice]:
-    """Phases of the last mesh cycle, with both of its ends, and where it is among the steps."""
-    steps = int(dataset["steps_per_mesh_cycle"][0])
+def _last_period(scene: TrainScene, dataset: xr.Dataset) -> tuple[np.ndarray, slice]:
+    """Phases of the last mesh cycle, or those after which all meshes of stepped planets are where they were, with both
+    ends, and where they are among the steps."""
+    steps = int(dataset["steps_per_mesh_cycle"][0]) * carrier_of(scene).set.cycles[0]
     last = slice(-1 - steps, None)
     return np.asarray(dataset["mesh_phase"])[last, 0], last
 
@@ -125,7 +126,9 @@ def orbits(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
 
 
 def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
-    _, last = _last_cycle(dataset)
+    cycles = carrier_of(scene).set.cycles[0]
+    over = "a mesh cycle" if cycles == 1 else f"{cycles} mesh cycles with the sun"
+    _, last = _last_period(scene, dataset)
     charts = []
     for number, member in enumerate(carrier_of(scene).moving):
         place = carrier_of(scene).set.members.index(member)
@@ -136,7 +139,7 @@ def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
             Curve("as the cycle begins", x[:1], y[:1], colour, mode=MARKERS),
         ]
         farthest = f"{np.hypot(x, y).max():.4g} µm at most from its place"
-        caption = f"{of_set}Orbit of the {member} over a mesh cycle, {farthest}"
+        caption = f"{of_set}Orbit of the {member} over {over}, {farthest}"
         charts.append(Chart(caption, curves, "x (µm)", "y (µm)", height=460, equal=True))
     return charts
 

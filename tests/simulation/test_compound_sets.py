@@ -2,17 +2,13 @@
 
 import numpy as np
 import pytest
-from tests.planets import COARSE, planetary
+from tests.planets import COARSE, RINGED, TWO_SUNS, planetary
 
 from fenics_gears import simulate_train
 from fenics_gears.contact.row_in_plane import RowInPlane
+from fenics_gears.scene.train_mesh import gear_names
 from fenics_gears.simulation import train
 
-RINGED = {"teeth": (17, 20, 53), "step": 16, "planets": "planets = 3", "parts": ("ring", "sun", "carrier")}
-TWO_SUNS = {
-    "teeth": (20, 24, 26), "step": 18, "second": "second_sun", "planets": "planets = 4",
-    "parts": ("second_sun", "sun", "carrier"),
-}  # fmt: skip
 ERRORS = '[stages.set.carrier]\npin_stiffness = "3e5 N/mm"\npin_errors = ["15 um", "0 um", "-5 um"'
 
 
@@ -127,3 +123,18 @@ def test_efficiency_of_steps_follows_willis():
     basic = resting.attrs["efficiency"]
     assert 0.9 < basic < 0.999
     assert moving.attrs["efficiency"] == pytest.approx((1.0 + basic * ratio) / (1.0 + ratio), rel=1e-11)
+
+
+@pytest.mark.parametrize("own", [RINGED, TWO_SUNS])
+def test_planets_are_alike(own):
+    """In all planets a tooth of the second gear stands by the angle asked for from one of the first, though each gear
+    stands where its own mates' teeth let it."""
+    scene = planetary(**own, more='step_angle = "1 deg"')
+    names = gear_names(scene.meshes)
+    carrier = scene.shafts.carrier
+    teeth = carrier.set.teeth[1], carrier.set.step
+    alike = 2.0 * np.pi / np.lcm(*teeth)
+    for one, other in zip(carrier.planets, carrier.steps):
+        stand = [scene.layout.tooth_angle(names.index(each)) for each in (one, other)]
+        apart = (stand[1] - stand[0] - np.radians(1.0)) / alike
+        assert apart == pytest.approx(round(apart), abs=1e-9)
