@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from tests.planets import COARSE, RINGED, TWO_SUNS, planetary
+from tests.planets import COARSE, RINGED, SHARED, TWO_SUNS, planetary, planetary_text
 
-from fenics_gears import simulate_train
+from fenics_gears import simulate_train, train_from_text
 from fenics_gears.contact.row_in_plane import RowInPlane
 from fenics_gears.scene.train_mesh import gear_names
 from fenics_gears.simulation import train
@@ -138,3 +138,20 @@ def test_planets_are_alike(own):
         stand = [scene.layout.tooth_angle(names.index(each)) for each in (one, other)]
         apart = (stand[1] - stand[0] - np.radians(1.0)) / alike
         assert apart == pytest.approx(round(apart), abs=1e-9)
+
+
+def test_a_set_of_steps_beside_a_pair_is_that_set():
+    """Rigid shafts hand on torque and rotation alone: the lag of the set is that of the set by itself over the period
+    of both its meshes, and the mean lag of the whole that of the set through the pair's ratio, and the pair's."""
+    alone = planetary_text(**RINGED)
+    pair = f"""[stages.pair]
+{SHARED}
+pinion = {{ teeth = 24, profile_shift = 0, bore_diameter = "30 mm" }}
+wheel = {{ teeth = 40, profile_shift = 0, bore_diameter = "40 mm" }}
+"""
+    of_set = simulate_train(train_from_text(alone))
+    both = simulate_train(train_from_text(alone.replace("[load]", f"{pair}\n[load]")))
+    lag = of_set["overall_transmission_error"]
+    np.testing.assert_allclose(both["overall_transmission_error_of_set"][:, 0], lag, rtol=1e-10)
+    mean = float(lag[:-1].mean()) * 24 / 40 + float(both["mean_transmission_error"][-1])
+    assert both.attrs["mean_overall_transmission_error"] == pytest.approx(mean, rel=1e-10)
