@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import pi
 from pathlib import Path
 
+from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.planetary import RING, SUN, PlanetarySet
 from fenics_gears.scene.carrier import Carrier
 from fenics_gears.scene.train_mesh import gear_names
@@ -45,10 +46,14 @@ def set_rows(row: RowModel) -> list[Row]:
     if not own.sun_drives:
         words = "run with the sun driving; without friction forces are the same, in the reverse order of time"
         rows.append((f"as the carrier sees it, the {own.second} drives", "", words))
-    if own.stepped:
-        rows += _of_steps(row, own)
-    if own.second == RING:
-        support = "held at its outer circle" if ring.pair.wheel.foundation is None else "on an elastic foundation"
+    return rows + (_of_steps(row, own) if own.stepped else []) + _supports(carrier, ring.pair)
+
+
+def _supports(carrier: Carrier, with_ring: GearPair) -> list[Row]:
+    """What holds the ring and the members, and where the carrier gives way."""
+    rows = []
+    if carrier.set.second == RING:
+        support = "held at its outer circle" if with_ring.wheel.foundation is None else "on an elastic foundation"
         rows.append((RING, support, ""))
     if carrier.floating:
         rows.append(("floating", ", ".join(carrier.floating), ""))

@@ -57,11 +57,7 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
     for scene, own in zip(scenes, of_meshes):
         check_together(scene, f"{place}.{own.mesh}")
     carrier = _carrier(stage, text, own_set, place, folder)
-    if carrier.together is not None and scenes[0].three_dimensional:
-        raise SceneError(
-            f"{place}.carrier: stiffness and bearing_stiffness are not computed over the face yet. Allowed:"
-            f" pin_stiffness; or a set in the plane. {NOTHING_DONE}"
-        )
+    _check_in_plane(carrier, scenes[0], place)
     _check_motion(own_set, load, motion, scenes[0].friction is not None, place)
     none = (None,) * len(carrier.shafts)
     shafts = TrainShafts(carrier.shafts, none, none, moving=True, carrier=carrier)
@@ -156,6 +152,15 @@ def _check_file(file: HousingFile | None, own: PlanetarySet, field: str) -> None
         raise SceneError(f'{field} = "{file.path}": {problem} {NOTHING_DONE}')
 
 
+def _check_in_plane(carrier: Carrier, scene: Scene, place: str) -> None:
+    """Raise SceneError for a carrier that gives way as a whole over the face."""
+    if carrier.together is not None and scene.three_dimensional:
+        raise SceneError(
+            f"{place}.carrier: stiffness and bearing_stiffness are not computed over the face yet. Allowed:"
+            f" pin_stiffness; or a set in the plane. {NOTHING_DONE}"
+        )
+
+
 def _check_motion(own: PlanetarySet, load: TrainLoad, motion: TrainMotion, friction: bool, place: str) -> None:
     """Raise SceneError for a power without a speed, and for friction where the ring drives."""
     if load.power is not None and motion.input_speed is None:
@@ -203,7 +208,7 @@ def _meshes(
     # A second sun is on the other side of its planet.
     angles = own.angles, own.angles if own.second == RING else [each + pi for each in own.angles]
     phases = own.phases, own.phases_of_second
-    found: list[MeshOfScene | None] = [None] * (2 * count)
+    found: dict[int, MeshOfScene] = {}
     for number, gear in enumerate(zip(carrier.planets, carrier.steps)):
         planet, step = (each.rpartition(".")[2] for each in gear)
         # The sun turns counter-clockwise, the planets clockwise.
@@ -218,7 +223,7 @@ def _meshes(
                 of_set=of_meshes[kind], like=firsts[kind] if number else None,
                 ahead=(phase.numerator, phase.denominator),
             )  # fmt: skip
-    known = [each for each in found if each is not None]
+    known = [found[number] for number in sorted(found)]
     return with_run_outs(known, carrier.run_outs) if carrier.run_outs else known
 
 

@@ -8,6 +8,7 @@ from fenics_gears.model.train import train_model_of
 
 THIN = planetary_text().replace('"272 mm", support = "held"', '"236 mm"')
 
+CARRIER = "[stages.set.carrier]\n"
 LUMPED = '{ mass = "2 kg", moment_of_inertia = "1e-3 kg m^2", support_stiffness = "1e5 N/mm" }'
 VIBRATION = f"""[stages.set.vibration]
 sun = {LUMPED}
@@ -40,6 +41,12 @@ planet = {{ mass = "2 kg", moment_of_inertia = "1e-3 kg m^2" }}"""
         (
             planetary_text(more='carrier = { pin_stiffness = "1e5 N/mm", bearing_stiffness = "0 N/mm" }'),
             "bearing_stiffness = 0 N/mm.*\n.*takes three planets, sun and ring held",
+        ),
+        (
+            planetary_text(
+                more='helix_angle = "9 deg"', sections=f'{CARRIER}pin_stiffness = "1 N/mm"\nbearing_stiffness = "1 N/mm"'
+            ),
+            "set.carrier: stiffness and bearing_stiffness are not computed over the face",
         ),
         (planetary_text(more='carrier = { stiffness = "none.txt" }'), "set.carrier.stiffness = .*none.txt"),
         (planetary_text(more="eccentricity = {}"), r"eccentricity.*\n.*says of no gear that it runs out"),
