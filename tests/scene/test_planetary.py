@@ -44,7 +44,8 @@ planet = {{ mass = "2 kg", moment_of_inertia = "1e-3 kg m^2" }}"""
         ),
         (
             planetary_text(
-                more='helix_angle = "9 deg"', sections=f'{CARRIER}pin_stiffness = "1 N/mm"\nbearing_stiffness = "1 N/mm"'
+                more='helix_angle = "9 deg"',
+                sections=f'{CARRIER}pin_stiffness = "1 N/mm"\nbearing_stiffness = "1 N/mm"',
             ),
             "set.carrier: stiffness and bearing_stiffness are not computed over the face",
         ),
