@@ -10,6 +10,12 @@ SHARED = """
     material = "steel"
     """
 RELIEF = '{ depth = "20 um", start = "HPSTC", shape = "parabolic" }'
+# Stepped planets with a ring, and with a second sun.
+RINGED = {"teeth": (17, 20, 53), "step": 16, "planets": "planets = 3"}
+TWO_SUNS = {
+    "teeth": (20, 24, 26), "step": 18, "second": "second_sun", "planets": "planets = 4",
+    "parts": ("second_sun", "sun", "carrier"),
+}  # fmt: skip
 COARSE = 'steps_per_mesh_cycle = 12\nflank_element_size = "0.3 mm"'
 
 
@@ -47,9 +53,16 @@ def planetary_text(
     load: str = 'input_torque = "600 N m"',
     accuracy: str = COARSE,
     sections: str = "",
+    step: int | None = None,
+    second: str = "ring",
 ) -> str:
-    """The scene of a planetary set; `parts`: what is fixed, input and output; `more` of the stage."""
+    """The scene of a planetary set; `parts`: what is fixed, input and output; `more` of the stage; `step`: teeth of the
+    second gear of stepped planets; `second`: ring, or second_sun in its place."""
     sun, planet, ring = teeth
+    of_ring = (
+        f'outer_diameter = "{4 * ring + 60} mm", support = "held"' if second == "ring" else 'bore_diameter = "20 mm"'
+    )
+    stepped = f'step = {{ teeth = {step}, profile_shift = 0, bore_diameter = "30 mm" }}' if step else ""
     fixed, driven, loaded = parts
     return f"""
 [stages.set]
@@ -58,7 +71,8 @@ kind = "planetary"
 {planets}
 sun = {{ teeth = {sun}, profile_shift = 0, bore_diameter = "20 mm" }}
 planet = {{ teeth = {planet}, profile_shift = 0, bore_diameter = "30 mm" }}
-ring = {{ teeth = {ring}, profile_shift = 0, outer_diameter = "{4 * ring + 60} mm", support = "held" }}
+{stepped}
+{second} = {{ teeth = {ring}, profile_shift = 0, {of_ring} }}
 fixed = "{fixed}"
 input = "{driven}"
 output = "{loaded}"

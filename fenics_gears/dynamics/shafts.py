@@ -82,7 +82,8 @@ class ShaftMaterial(Section):
 
 @dataclass(frozen=True)
 class HousingFile:
-    """A file with the stiffness of a housing, a hash of what it says, and the matrix, or the `problem` with it."""
+    """A file with the stiffness of a housing, or of a carrier, a hash of what it says, and the matrix, or the `problem`
+    with it."""
 
     path: str
     digest: str = ""

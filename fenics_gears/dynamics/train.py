@@ -74,6 +74,8 @@ class TrainParts:
     `masses`, none without inertia, and `supports` along and off the line of action of its first mesh (N/mm), None where
     its centre is fixed, infinite where it is fixed beside its place. `loads`: moments of inertia (N mm s^2) of the
     loads by the numbers of their shafts. `turning`: numbers of gears that turn against their shaft, one that bends.
+    `centred`: of gears that have the centre of another one on their shaft, that one. `together`: gears (n) that one
+    support holds, and its stiffness (2 n, 2 n), N/mm, in space, gear after gear.
     """
 
     layout: Layout
@@ -83,6 +85,8 @@ class TrainParts:
     supports: Sequence[tuple[float, float] | None] = ()
     loads: Mapping[int, float] = field(default_factory=dict)
     turning: Sequence[int] = ()
+    centred: Mapping[int, int] = field(default_factory=dict)
+    together: tuple[Sequence[int], np.ndarray] | None = None
 
     @property
     def graph(self) -> TrainGraph:
@@ -103,6 +107,10 @@ class TrainParts:
     def moves(self, gear: int) -> bool:
         """Whether the centre of a gear is free to move against its support."""
         return isfinite((self.support(gear) or (inf,))[0])
+
+    def moving(self) -> list[int]:
+        """Numbers of the gears whose centres move by themselves."""
+        return [gear for gear in range(len(self.graph.shafts)) if self.moves(gear) and gear not in self.centred]
 
 
 class _Rows:
@@ -128,10 +136,9 @@ class _Rows:
             mesh, side = self.graph.sides[gear][0]
             names.append(f"turn of gear {gear + 1}")
             radii.append(pairs[mesh].base_radii[side])
-        for gear in range(len(self.graph.shafts)):
-            if parts.moves(gear):
-                names += [f"centre_x of gear {gear + 1}", f"centre_y of gear {gear + 1}"]
-                radii += [1.0, 1.0]
+        for gear in parts.moving():
+            names += [f"centre_x of gear {gear + 1}", f"centre_y of gear {gear + 1}"]
+            radii += [1.0, 1.0]
         self.names = tuple(names)
         self.radii = np.array(radii)
 
@@ -167,8 +174,12 @@ class _Rows:
         return -self.onwards(shaft) * self.end(shaft)
 
     def centre(self, gear: int) -> np.ndarray:
-        """Displacements (2, k) of a gear's centre, along and off the line of action of its first mesh."""
-        return np.array([self.of(f"centre_{axis} of gear {gear + 1}") for axis in "xy"])
+        """Displacements (2, k) of a gear's centre, along and off the line of action of the first mesh of `owner`."""
+        return np.array([self.of(f"centre_{axis} of gear {self.owner(gear) + 1}") for axis in "xy"])
+
+    def owner(self, gear: int) -> int:
+        """The gear whose centre it has: itself, but for one that is `centred` by another."""
+        return self.parts.centred.get(gear, gear)
 
     def of_mesh(self, mesh: int) -> np.ndarray:
         """A mesh's own coordinates (l, k), in mm."""
@@ -177,7 +188,7 @@ class _Rows:
         rows = []
         for side, gear in enumerate(self.graph.gears[mesh]):
             if self.parts.support(gear) is not None:
-                first, _ = self.graph.sides[gear][0]
+                first, _ = self.graph.sides[self.owner(gear)][0]
                 turned = layout.axes(mesh) @ layout.axes(first).T
                 rows += list(self.centre(gear) if first == mesh else turned @ self.centre(gear))
             rows.append(pair.base_radii[side] * self.rotation(gear, side))
@@ -250,11 +261,14 @@ def _stiffness(rows: _Rows) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness (k, k) of shafts and bearings, N/mm, and the part of it in bearings."""
     parts = rows.parts
     in_bearings = np.zeros((len(rows.names), len(rows.names)))
-    for gear in range(len(rows.graph.shafts)):
-        support = parts.support(gear)
-        if support is not None and parts.moves(gear):
-            centre = rows.centre(gear)
-            in_bearings += centre.T @ np.diag(support) @ centre
+    for gear in parts.moving():
+        centre = rows.centre(gear)
+        in_bearings += centre.T @ np.diag(parts.support(gear) or ()) @ centre
+    if parts.together is not None:
+        gears, own = parts.together
+        first = [rows.graph.sides[gear][0][0] for gear in gears]
+        inside = np.vstack([parts.layout.axes(mesh).T @ rows.centre(gear) for mesh, gear in zip(first, gears)])
+        in_bearings += inside.T @ own @ inside
     stiffness = in_bearings.copy()
     for shaft, torsion in enumerate(parts.torsion):
         twist = rows.of("rotation_1" if shaft == 0 else f"twist_{shaft + 1}")

@@ -33,8 +33,13 @@ def located_housing(housed: Housed, directory: Path) -> Housed:
     """Shafts, or one, with the matrix of their `housing`, whose file is looked for from a directory on."""
     if housed.housing is None:
         return housed
-    # `check` says what is wrong; a scene that is only looked at needs no file.
-    path = os.path.realpath(directory / housed.housing.path)
+    return replace(housed, housing=located(housed.housing, directory))
+
+
+def located(named: HousingFile, directory: Path) -> HousingFile:
+    """A file with its matrix, or with the problem with it: `check` says what is wrong; a scene that is only looked at
+    needs no file."""
+    path = os.path.realpath(directory / named.path)
     try:
         text = user_file.text_of(Path(path), user_file.LARGEST_SCENE)
         stiffness = _matrix_in(text)
@@ -43,7 +48,7 @@ def located_housing(housed: Housed, directory: Path) -> Housed:
         text = ""
         stiffness = None
         problem = str(refused)
-    return replace(housed, housing=HousingFile(path, sha256(text.encode()).hexdigest(), stiffness, problem))
+    return HousingFile(path, sha256(text.encode()).hexdigest(), stiffness, problem)
 
 
 def _matrix_in(text: str) -> Matrix:

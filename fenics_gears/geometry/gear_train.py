@@ -52,19 +52,22 @@ class SharedGear:
 class Layout:
     """Where the meshes of a train stand: the `pairs` of its gears, and the `directions` (rad) of each wheel from its
     pinion, counter-clockwise, where the first shaft turns so. That of an internal gear is the direction in which its
-    teeth are, away from its centre: the distance of the centres is negative."""
+    teeth are, away from its centre: the distance of the centres is negative. `begun`: phase at which a mesh that has
+    no gear in common with those before it stands as the run begins, 0 unless given."""
 
     graph: TrainGraph
     pairs: Sequence[GearPair]
     directions: Sequence[float]
+    begun: Sequence[float] = ()
 
     @cached_property
     def phases(self) -> list[float]:
-        """Of each mesh the mesh cycles (0 to 1) by which it is past a start of contact as the run begins: 0 of the
-        first of those that have gears in common."""
+        """Of each mesh the mesh cycles (0 to 1) by which it is past a start of contact as the run begins; that of the
+        first of those that have gears in common is where they have `begun`."""
         found: dict[int, float] = {}
         while len(found) < len(self.pairs):
-            found[next(mesh for mesh in range(len(self.pairs)) if mesh not in found)] = 0.0
+            first = next(mesh for mesh in range(len(self.pairs)) if mesh not in found)
+            found[first] = self.begun[first] if self.begun else 0.0
             waiting = True
             while waiting:
                 known = {each[0]: each for each in self._links(found)}

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from math import pi
+from pathlib import Path
 
-from fenics_gears.geometry.planetary import MEMBERS, RING, SUN, PlanetarySet
+from fenics_gears.geometry.pair import GearPair
+from fenics_gears.geometry.planetary import RING, SUN, PlanetarySet
 from fenics_gears.scene.carrier import Carrier
+from fenics_gears.scene.train_mesh import gear_names
 
 from .train import RowModel
 
@@ -19,13 +22,16 @@ def set_rows(row: RowModel) -> list[Row]:
     carrier = row.shafts.carrier
     assert carrier is not None
     own = carrier.set
-    sun, ring = row.meshes[:2]
+    sun, ring = (row.meshes[carrier.meshes(kind)][0] for kind in range(2))
     distance = abs(sun.pair.centre_distance)
-    one, other, clear = min(own.clearances(distance, 2.0 * sun.pair.wheel.tip_radius), key=lambda each: each[2])
+    tip = 2.0 * max(sun.pair.wheel.tip_radius, ring.pair.pinion.tip_radius)
+    one, other, clear = min(own.clearances(distance, tip), key=lambda each: each[2])
+    gears = SUN, "planet", *(("step",) if own.stepped else ()), own.second
+    teeth = *own.teeth[:2], *(() if own.step is None else (own.step,)), own.teeth[2]
     steps = row.models[0].resolution.steps_per_mesh_cycle
     spacing = "equally spaced" if own.equally_spaced else "not equally spaced"
     rows = [
-        ("teeth of sun, planet, ring", " / ".join(map(str, own.teeth)), ""),
+        (f"teeth of {', '.join(gears)}", " / ".join(map(str, teeth)), ""),
         ("planets", f"{own.planets}, {spacing}", ""),
         ("centre distance", f"{distance:.6g}", "mm"),
         ("turns of the input in one of the output", f"{float(own.ratio):.6g}", _sense(own)),
@@ -35,15 +41,54 @@ def set_rows(row: RowModel) -> list[Row]:
         (f"least room between tips, planets {one + 1} and {other + 1}", f"{clear:.4g}", "mm"),
     ]
     if sun.scene.motion.speed_given:
-        rows.insert(4, ("mesh frequency of all meshes", f"{sun.scene.motion.mesh_frequency:.6g}", "Hz"))
+        frequency = f"mesh frequency {'with the sun' if own.stepped else 'of all meshes'}"
+        rows.insert(4, (frequency, f"{sun.scene.motion.mesh_frequency:.6g}", "Hz"))
     if not own.sun_drives:
         words = "run with the sun driving; without friction forces are the same, in the reverse order of time"
-        rows.append(("as the carrier sees it, the ring drives", "", words))
-    support = "held at its outer circle" if ring.pair.wheel.foundation is None else "on an elastic foundation"
-    rows.append(("ring", support, ""))
+        rows.append((f"as the carrier sees it, the {own.second} drives", "", words))
+    return rows + (_of_steps(row, own) if own.stepped else []) + _supports(carrier, ring.pair)
+
+
+def _supports(carrier: Carrier, with_ring: GearPair) -> list[Row]:
+    """What holds the ring and the members, and where the carrier gives way."""
+    rows = []
+    if carrier.set.second == RING:
+        support = "held at its outer circle" if with_ring.wheel.foundation is None else "on an elastic foundation"
+        rows.append((RING, support, ""))
     if carrier.floating:
         rows.append(("floating", ", ".join(carrier.floating), ""))
+    if carrier.file is not None:
+        rows.append(("carrier", "elastic between its pins", f"by {Path(carrier.file.path).name}"))
+    if carrier.bearing_stiffness is not None:
+        rows.append(("carrier's bearings", f"{carrier.bearing_stiffness:.4g}", "N/mm"))
     return rows
+
+
+def _of_steps(row: RowModel, own: PlanetarySet) -> list[Row]:
+    """How the second gears of stepped planets stand, and when all meshes are where they were."""
+    carrier = row.shafts.carrier
+    assert carrier is not None
+    planet, step = (gear_names(row.meshes).index(names[0]) for names in (carrier.planets, carrier.steps))
+    pitch = 360.0 / (own.teeth[1] * own.cycles[1])
+    angle = 180.0 / pi * (row.layout.tooth_angle(step) - row.layout.tooth_angle(planet)) % pitch
+    # Of nothing round-off makes no whole.
+    angle = 0.0 if pitch - angle < 1e-9 * pitch else angle
+    of_sun, of_second = own.cycles
+    steps = row.models[-1].resolution.steps_per_mesh_cycle
+    return [
+        (
+            "a tooth of each step from one of its planet",
+            f"{angle:.6g}",
+            f"deg counter-clockwise, modulo {pitch:.6g} deg",
+        ),
+        (f"steps in a mesh cycle with the {own.second}", f"{steps}", ""),
+        (f"harmonics 1 to {HARMONICS} with the {own.second}", own.phase_law(HARMONICS, True), LETTERS),
+        (
+            "all meshes are where they were",
+            f"{of_sun}",
+            f"mesh cycles with the sun later, {of_second} with the {own.second}",
+        ),
+    ]
 
 
 def _sense(own: PlanetarySet) -> str:
@@ -55,7 +100,7 @@ def member_rows(carrier: Carrier) -> list[Row]:
     own = carrier.set
     torques = own.torques(carrier.torque)
     rows = []
-    for member in MEMBERS:
+    for member in own.members:
         part = {own.fixed: "fixed", own.input: "input", own.output: "output"}[member]
         speed = own.speeds[member]
         turning = f"{float(speed):.6g} turns in one of the input"
@@ -73,10 +118,12 @@ def planet_rows(row: RowModel) -> list[Row]:
     carrier = row.shafts.carrier
     assert carrier is not None
     own = carrier.set
-    of_sun, of_ring = (row.layout.phases[kind::2] for kind in range(2))
+    of_sun, of_ring = (row.layout.phases[carrier.meshes(kind)] for kind in range(2))
     rows = []
     for number, (angle, one, other) in enumerate(zip(own.angles, of_sun, of_ring)):
-        said = f"at {180.0 / pi * angle:.6g} deg, mesh phases {one:.6g} with the {SUN}, {other:.6g} with the {RING}"
+        said = (
+            f"at {180.0 / pi * angle:.6g} deg, mesh phases {one:.6g} with the {SUN}, {other:.6g} with the {own.second}"
+        )
         if carrier.pin_errors:
             tangential, radial = (1e3 * each for each in carrier.pin_errors[number])
             said += f", pin {tangential:.4g} um against its force, {radial:.4g} um out"

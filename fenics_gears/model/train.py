@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 
 
 REVERSED = (
-    "{}: as the carrier sees it, the ring drives; the set is run with the sun driving: without friction its forces are"
+    "{}: as the carrier sees it, the {} drives; the set is run with the sun driving: without friction its forces are"
     " the same, in the reverse order of time"
 )
 
@@ -163,7 +163,7 @@ class RowModel(OfMeshes):
         """Sentences on the motion of all meshes together."""
         carrier = self.shafts.carrier
         if carrier is not None and not carrier.set.sun_drives:
-            return [REVERSED.format(carrier.stage)]
+            return [REVERSED.format(carrier.stage, carrier.set.second)]
         if not self.vibrations:
             return []
         fastest = max(self.models, key=lambda model: model.scene.motion.mesh_frequency)

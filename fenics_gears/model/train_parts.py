@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import ceil, gcd, inf, lcm
 from typing import TYPE_CHECKING
 
@@ -60,7 +61,14 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
         twists, turning = turning_of(meshes, shafts, graph)
         for number, twist in twists.items():
             torsion[number] = twist
-    return TrainParts(layout, torques, torsion, masses, supports, shafts.inertias, turning)
+    parts = TrainParts(layout, torques, torsion, masses, supports, shafts.inertias, turning)
+    carrier = shafts.carrier
+    if carrier is None:
+        return parts
+    names = gear_names(meshes)
+    planets = [names.index(each) for each in carrier.planets]
+    together = None if carrier.together is None else (planets, carrier.together)
+    return replace(parts, centred=carrier.centred(names), together=together)
 
 
 def offsets_of(

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.geometry.gear_train import Layout
-from fenics_gears.geometry.planetary import CARRIER, MEMBERS, RING, SUN
+from fenics_gears.geometry.planetary import CARRIER, RING, SUN
 from fenics_gears.model.train import RowModel
 from fenics_gears.scene.carrier import Carrier
 from fenics_gears.scene.train_mesh import gear_names
@@ -34,7 +34,7 @@ NUMBERS_OF_SETS = {
     f"peak_to_peak_{OVERALL}": ("rad", "lag of the output behind the input, peak to peak"),
     "efficiency": ("1", "power out over power in"),
     "basic_efficiency": ("1", "efficiency with the carrier at rest"),
-    "floating": ("", "members whose centre nothing holds but their meshes"),
+    "floating": ("", "members whose centres move"),
 }
 
 
@@ -43,14 +43,14 @@ def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: S
     recorded mesh cycles."""
     own = carrier.set
     last = slice(-1 - row.recorded, -1)
-    shares = {name: _shares(meshes[kind::2]) for kind, name in enumerate((SUN, RING))}
+    shares = {name: _shares(meshes[carrier.meshes(kind)]) for kind, name in enumerate((SUN, RING))}
     torques = _member_torques(carrier, meshes)
     pins = _pin_forces(row.layout, carrier, meshes)
     lag = _output_lag(row, carrier, states)
-    rotation = np.zeros((len(states), len(MEMBERS)))
+    rotation = np.zeros((len(states), len(own.members)))
     # It stays behind, whichever way it turns; the sun turns counter-clockwise as the carrier sees it.
     onwards = np.sign(float(own.speeds[own.output] * own.sun_by_carrier))
-    rotation[:, MEMBERS.index(own.output)] = -onwards * lag
+    rotation[:, own.members.index(own.output)] = -onwards * lag
     over = ("time", PLANET)
     variables = {
         "planet_load_share": (over, shares[SUN], _said("1", "force of the sun on a planet over their mean")),
@@ -67,7 +67,7 @@ def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: S
     }  # fmt: skip
     coordinates = {
         PLANET: (PLANET, np.arange(1, own.planets + 1), {"long_name": "planet"}),
-        MEMBER: (MEMBER, list(MEMBERS), {"long_name": "member of the planetary set"}),
+        MEMBER: (MEMBER, list(own.members), {"long_name": "member of the planetary set"}),
         "pin_direction": (
             "pin_direction", list(PIN_DIRECTIONS), {"long_name": "as the sun pushes its planet, and outwards"}
         ),
@@ -79,8 +79,8 @@ def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: S
         "mean_overall_transmission_error": float(lag[last].mean()),
         "peak_to_peak_overall_transmission_error": float(np.ptp(lag[last])),
     }
-    if carrier.floating:
-        numbers["floating"] = " ".join(carrier.floating)
+    if carrier.moving:
+        numbers["floating"] = " ".join(carrier.moving)
     if row.models[0].scene.friction is not None:
         numbers |= _efficiencies(carrier, torques[last].mean(axis=0))
     return ResultOfShafts(variables, coordinates, numbers)
@@ -99,11 +99,15 @@ def _shares(meshes: Sequence[Curves]) -> np.ndarray:
 
 def _member_torques(carrier: Carrier, meshes: Sequence[Curves]) -> np.ndarray:
     """Torques (steps, members), N mm, on the members from outside, without mass in balance with each other."""
-    sun = sum(np.abs(np.asarray(each["reaction_couple"])[:, 0]) for each in meshes[0::2])
-    ring = sum(np.abs(np.asarray(each["reaction_couple"])[:, 1]) for each in meshes[1::2])
-    by_member = {SUN: sun, RING: ring, CARRIER: -(sun + ring)}
-    sign = np.sign(carrier.set.weights[carrier.set.input])
-    return sign * np.stack([by_member[each] for each in MEMBERS], axis=1)
+    own = carrier.set
+    sun, ring = (
+        sum(np.abs(np.asarray(each["reaction_couple"])[:, kind]) for each in meshes[carrier.meshes(kind)])
+        for kind in range(2)
+    )
+    # Against a second sun the planets turn it as the first one turns.
+    ring = np.sign(own.weights[own.second]) * ring
+    sign = np.sign(own.weights[own.input])
+    return sign * np.stack([sun, ring, -(sun + ring)], axis=1)
 
 
 def _pin_forces(layout: Layout, carrier: Carrier, meshes: Sequence[Curves]) -> np.ndarray:
@@ -111,8 +115,9 @@ def _pin_forces(layout: Layout, carrier: Carrier, meshes: Sequence[Curves]) -> n
     found = []
     for number, angle in enumerate(carrier.set.angles):
         force = 0.0
+        with_sun, with_ring = (range(len(meshes))[carrier.meshes(kind)][number] for kind in range(2))
         # The planet is driven by the sun and drives the ring.
-        for mesh, side in ((2 * number, 1), (2 * number + 1, 0)):
+        for mesh, side in ((with_sun, 1), (with_ring, 0)):
             own = meshes[mesh]
             along = np.stack([np.asarray(own["reaction_x"])[:, side], np.asarray(own["reaction_y"])[:, side]], axis=1)
             force = force + along @ layout.axes(mesh)
@@ -124,24 +129,31 @@ def _pin_forces(layout: Layout, carrier: Carrier, meshes: Sequence[Curves]) -> n
 
 def _output_lag(row: RowModel, carrier: Carrier, states: np.ndarray) -> np.ndarray:
     """Lag (steps,), rad, of the output: the ring's, as the carrier sees it, by the teeth of ring and output."""
-    weights = carrier.set.weights
-    return (states @ row.drivetrain.angle) * abs(weights[RING] / weights[carrier.set.output])
+    own = carrier.set
+    return (states @ row.drivetrain.angle) * abs(own.weights[own.second] / own.weights[own.output])
 
 
 def _centres(row: RowModel, carrier: Carrier, states: np.ndarray) -> dict[str, tuple]:
-    """Where the centres of the members stand (mm), to the right and upwards; only of what floats it is not zero."""
-    if not carrier.floating:
+    """Where the centres of the members stand (mm), to the right and upwards; only of what moves it is not zero."""
+    if not carrier.moving:
         return {}
-    centres = np.zeros((len(states), 2, len(MEMBERS)))
+    members = carrier.set.members
+    centres = np.zeros((len(states), 2, len(members)))
     names = gear_names(row.meshes)
     coordinates = row.drivetrain.coordinates
-    for member, gear in ((SUN, carrier.sun), (RING, carrier.ring)):
-        if member not in carrier.floating:
-            continue
+
+    def centre(gear: str) -> np.ndarray:
         number = names.index(gear)
         first, _ = row.graph.sides[number][0]
         places = [coordinates.index(f"centre_{axis} of gear {number + 1}") for axis in "xy"]
-        centres[:, :, MEMBERS.index(member)] = states[:, places] @ row.layout.axes(first)
+        return states[:, places] @ row.layout.axes(first)
+
+    for place, gear in enumerate((carrier.sun, carrier.ring)):
+        if members[place] in carrier.floating:
+            centres[:, :, place] = centre(gear)
+    if CARRIER in carrier.moving:
+        planets = np.hstack([centre(each) for each in carrier.planets])
+        centres[:, :, -1] = planets @ carrier.centre_by_planets.T
     return {
         f"member_{axis}": (("time", MEMBER), centres[:, place], _said("mm", f"place of a member's centre, {where}"))
         for place, (axis, where) in enumerate(zip("xy", ("in the direction 0", "90 degrees counter-clockwise of it")))
@@ -151,9 +163,9 @@ def _centres(row: RowModel, carrier: Carrier, states: np.ndarray) -> dict[str, t
 def _efficiencies(carrier: Carrier, torques: np.ndarray) -> dict[str, float]:
     """Efficiency of the set by mean torques (members,), and that with the carrier at rest, of the same meshes."""
     own = carrier.set
-    on = dict(zip(MEMBERS, torques))
+    on = dict(zip(own.members, torques))
     whole = -on[own.output] * float(own.speeds[own.output]) / on[own.input]
-    basic = on[RING] * own.teeth[0] / (on[SUN] * own.teeth[2])
+    basic = on[own.second] * own.weights[SUN] / (on[SUN] * own.weights[own.second])
     return {"efficiency": whole, "basic_efficiency": abs(basic), "friction_loss": 1.0 - whole}
 
 
@@ -169,18 +181,20 @@ def set_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
         ("load sharing factor K_gamma, of the ring's meshes", f"{attrs['load_sharing_factor_ring']:.6g}", ""),
         ("largest force of a planet on its pin", f"{attrs['largest_pin_force']:.5g}", "N"),
     ]
-    for place, member in enumerate(MEMBERS):
+    members = [str(each) for each in found[MEMBER].values]
+    for place, member in enumerate(members):
         torque = 1e-3 * float(found["member_torque"][:-1, place].mean())
         rows.append((f"torque on the {member} from outside, mean", f"{torque:.6g}", "N m"))
     for member in attrs.get("floating", "").split():
-        place = MEMBERS.index(member)
+        place = members.index(member)
         radius = np.hypot(found["member_x"][:, place], found["member_y"][:, place])
         rows.append((f"centre of the {member}, farthest from its place", f"{1e3 * float(radius.max()):.4g}", "um"))
     for name, label in (("efficiency", "efficiency"), ("basic_efficiency", "efficiency with the carrier at rest")):
         if name in attrs:
             rows.append((label, f"{100.0 * attrs[name]:.5g}", "%"))
-    for kind, name in enumerate(("sun and planets", "planets and ring")):
-        own = found.isel(mesh=slice(kind, None, 2))
+    with_sun = np.array([": sun, " in str(each) for each in found["mesh"].values])
+    for name, which in (("sun and planets", with_sun), (f"planets and {members[1]}", ~with_sun)):
+        own = found.isel(mesh=which)
         for number, label, unit in OF_MESHES:
             if number in own and own[number].notnull().any():
                 rows.append((f"{name}: {label}", f"{float(own[number].max()):.4g}", unit))

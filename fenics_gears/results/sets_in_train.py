@@ -9,8 +9,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from fenics_gears.geometry.planetary import MEMBERS
-
 from .layout import OVERALL
 from .planetary import LARGEST_OF_SETS, MEMBER, NUMBERS_OF_SETS, PLANET
 from .train_shafts import ResultOfShafts
@@ -86,7 +84,10 @@ def set_run(found: xr.Dataset, name: str) -> xr.Dataset:
     attributes = {each: value for each, value in attributes.items() if value and value == value}
     if "efficiency" in attributes:
         attributes["friction_loss"] = 1.0 - attributes["efficiency"]
-    coordinates = {PLANET: np.arange(1, own.sizes[PLANET] + 1), MEMBER: list(MEMBERS)}
+    coordinates = {
+        PLANET: np.arange(1, own.sizes[PLANET] + 1),
+        MEMBER: [str(each).removeprefix(f"{name}.") for each in own[MEMBER].values],
+    }
     return xr.Dataset(variables, attrs=attributes).assign_coords(coordinates)
 
 

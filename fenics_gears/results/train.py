@@ -278,7 +278,8 @@ def _numbers_of(link: Link, meshes: Sequence[MeshResult]) -> Mapping[str, Any]:
 def _folder(model: TrainModel) -> dict[str, str]:
     """The folder from which files are looked for, where the train names any."""
     named = any(files_of(each.scene) for each in model.models)
-    return {"scene_folder": model.models[0].scene.folder} if named or model.scene.shafts.housed else {}
+    named = named or any(part.shafts.housed for part in model.scene.parts)
+    return {"scene_folder": model.models[0].scene.folder} if named else {}
 
 
 def _iterations(model: TrainModel, meshes: Sequence[MeshResult]) -> int:

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from cmath import rect
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import inf
 from re import sub
 
-from fenics_gears.geometry.planetary import RING, SUN, PlanetarySet
+import numpy as np
+
+from fenics_gears.dynamics.shafts import HousingFile
+from fenics_gears.geometry.planetary import CARRIER, SUN, PlanetarySet
 from fenics_gears.inputs.tree import GEARS
 
 from .planetary_schema import VibrationText
@@ -27,7 +32,9 @@ class RunOut:
 @dataclass(frozen=True)
 class Carrier:
     """The carrier of the set in a `stage`. `pin_stiffness`, N/mm: None where pins do not give way; `pin_errors`: of
-    each planet tangential, against its force, and radial, outwards, mm; none where pins are in their places.
+    each planet tangential, against its force, and radial, outwards, mm; none where pins are in their places. `file`:
+    stiffness of the carrier between its pins, None where it is rigid; `bearing_stiffness`, N/mm: None where its centre
+    is held.
     `run_outs`: of gears whose base circles are off their axes.
     `floating`: members that no bearing holds. `speed`, rad/s, and `torque`, N mm: of the input. `vibration`: lumped
     members for natural frequencies, None where the scene has none."""
@@ -41,6 +48,13 @@ class Carrier:
     speed: float | None = None
     torque: float = 0.0
     vibration: VibrationText | None = None
+    file: HousingFile | None = None
+    bearing_stiffness: float | None = None
+
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """Members whose centres move: what is floating, and a carrier on springs."""
+        return self.floating if self.bearing_stiffness is None else (*self.floating, CARRIER)
 
     @property
     def sun(self) -> str:
@@ -49,8 +63,8 @@ class Carrier:
 
     @property
     def ring(self) -> str:
-        """Name of the ring among the gears of the train."""
-        return f"{self.stage}.{RING}"
+        """Name of the ring, or the second sun, among the gears of the train."""
+        return f"{self.stage}.{self.set.second}"
 
     @property
     def planets(self) -> list[str]:
@@ -58,24 +72,83 @@ class Carrier:
         return [f"{self.stage}.planet {number}" for number in range(1, self.set.planets + 1)]
 
     @property
-    def gears(self) -> list[str]:
-        """Names of all gears, shaft by shaft from the sun to the ring."""
-        return [self.sun, *self.planets, self.ring]
+    def steps(self) -> list[str]:
+        """Names of the gears that mesh with the ring: the planets themselves unless they are stepped."""
+        if not self.set.stepped:
+            return self.planets
+        return [f"{self.stage}.step {number}" for number in range(1, self.set.planets + 1)]
+
+    @property
+    def shafts(self) -> tuple[tuple[str, ...], ...]:
+        """Names of the gears on each shaft, from the sun to the ring."""
+        planets = (tuple(dict.fromkeys(both)) for both in zip(self.planets, self.steps))
+        return ((self.sun,), *planets, (self.ring,))
+
+    def meshes(self, kind: int) -> slice:
+        """Which of the meshes are with the sun (0), or with the ring (1): in turns, but all of either one after the
+        other where planets are stepped, and no gear couples them."""
+        count = self.set.planets
+        return slice(kind * count, (kind + 1) * count) if self.set.stepped else slice(kind, None, 2)
+
+    def centred(self, gears: Sequence[str]) -> dict[int, int]:
+        """Of the second gears of stepped planets, by their numbers among all `gears`, the first one."""
+        known = [(gears.index(one), gears.index(other)) for one, other in zip(self.steps, self.planets)]
+        return {one: other for one, other in known if one != other}
+
+    def planet_of(self, gear: str) -> int | None:
+        """Number from 0 of the planet that has a gear; None of sun and ring."""
+        return next((names.index(gear) for names in (self.planets, self.steps) if gear in names), None)
 
     def support(self, gear: str) -> tuple[float, float] | None:
         """Stiffness (N/mm) along and off any line that holds the centre of a gear: infinite where it is held beside its
-        place, None where in it."""
-        if gear in self.planets:
+        place, None where in it; that of planets which are held `together` is there."""
+        if self.planet_of(gear) is not None:
+            if self.together is not None:
+                return 0.0, 0.0
             stiffness = self.pin_stiffness or (inf if self.pin_errors else None)
             return None if stiffness is None else (stiffness, stiffness)
-        member = SUN if gear == self.sun else RING
+        member = SUN if gear == self.sun else self.set.second
         return (0.0, 0.0) if member in self.floating else None
+
+    @cached_property
+    def together(self) -> np.ndarray | None:
+        """Stiffness (2 n, 2 n), N/mm, that holds the centres of the planets in the direction 0 of the set and 90
+        degrees counter-clockwise of it, planet after planet: of pins, carrier and its bearings in series. None where
+        pins alone give way, each by itself."""
+        if self.file is None and self.bearing_stiffness is None:
+            return None
+        on_hub = self._on_hub
+        if self.bearing_stiffness is None:
+            return on_hub
+        return on_hub - on_hub @ self._rigid @ self.centre_by_planets
+
+    @property
+    def centre_by_planets(self) -> np.ndarray:
+        """Displacement (2, 2 n) of a carrier on bearings by those of the planets: forces on it balance."""
+        pushed = self._rigid.T @ self._on_hub
+        return np.linalg.solve(pushed @ self._rigid + (self.bearing_stiffness or 0.0) * np.eye(2), pushed)
+
+    @property
+    def _on_hub(self) -> np.ndarray:
+        """Stiffness (2 n, 2 n) of pins and carrier in series, its hub held."""
+        pin = self.pin_stiffness
+        one = np.eye(2 * self.set.planets)
+        if self.file is None or self.file.stiffness is None:
+            return one * (pin or 0.0)
+        own = np.array(self.file.stiffness)
+        found = own if pin is None else np.linalg.solve(own / pin + one, own)
+        return 0.5 * (found + found.T)
+
+    @property
+    def _rigid(self) -> np.ndarray:
+        """Displacements (2 n, 2) of the pins as the carrier moves aside."""
+        return np.tile(np.eye(2), (self.set.planets, 1))
 
     def displaced(self, gear: str) -> complex:
         """Where (mm) the centre of a gear stands beside its place, in space."""
-        if not self.pin_errors or gear not in self.planets:
+        number = self.planet_of(gear)
+        if not self.pin_errors or number is None:
             return 0j
-        number = self.planets.index(gear)
         tangential, radial = self.pin_errors[number]
         # The sun turns counter-clockwise, and so its teeth and the ring's push the planets.
         return (radial - 1j * tangential) * rect(1.0, self.set.angles[number])
@@ -84,11 +157,12 @@ class Carrier:
 @dataclass(frozen=True)
 class OfSet:
     """A mesh of a set: the `stage`, what it calls the gears of the pair, and how often its effects are named:
-    `sun_mesh` or `ring_mesh`."""
+    `sun_mesh` or `ring_mesh`; and fields of gears that are its own (`cut`)."""
 
     stage: str
     gears: tuple[str, str]
     mesh: str
+    cut: tuple[str, ...] = ()
 
     def words(self, said: str) -> str:
         """What is said of the pair, in words of the set."""
@@ -108,4 +182,5 @@ class OfSet:
         inner = path[1:]
         if inner and inner[0] in GEARS:
             inner = (self.gears[GEARS.index(inner[0])], *inner[1:])
-        return ("stages", self.stage, *inner)
+        own = (self.mesh,) if inner[:1] and inner[0] in self.cut else ()
+        return ("stages", self.stage, *own, *inner)

@@ -9,9 +9,11 @@ from math import pi
 from pathlib import Path
 from typing import Any
 
+from fenics_gears.dynamics.shafts import HousingFile
+from fenics_gears.effects.elastic_shaft_housing import located
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.planetary import MEMBERS, RING, PlanetarySet, planets_that_assemble
+from fenics_gears.geometry.planetary import RING, PlanetarySet
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.section import names_in
 from fenics_gears.inputs.tree import GEARS
@@ -19,17 +21,16 @@ from fenics_gears.inputs.tree import GEARS
 from .carrier import Carrier, OfSet
 from .data import Scene
 from .gear_schema import Gears
+from .planetary_assembly import check_centres, check_clear, set_of
 from .planetary_rules import text_of_set, wrong_sections
 from .planetary_run_out import run_outs_of, with_run_outs
-from .planetary_schema import GEARS_OF_SET, MESHES, OF_THE_FACE, RING_MESH, SUN_MESH, PlanetaryText
+from .planetary_schema import OF_THE_FACE, OF_THE_STEP, PlanetaryText, gears_in, meshes_in
 from .train_loads import TrainLoad, TrainMotion
-from .train_mesh import MeshOfScene
+from .train_mesh import MeshOfScene, gear_names, layout_of
 from .train_pair import STAGES, MistakesOfStage, Placed, check_together, pair_of, pair_scene
 from .train_rules import TrainSections, load_and_motion
 from .train_shafts import TrainShafts
 
-# Planets may be so far from where they can be assembled, in pitches: angles are written with few digits.
-LEAST_BESIDE = 1e-3
 Tree = Mapping[str, Any]
 
 
@@ -46,45 +47,52 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
     if text is None:
         raise MistakesOfStage(problems)
     load, motion = found
-    scenes = _scenes(tree, stage, content, source, folder)
-    pairs = [pair_of(scene, f"{source}, stage {stage}", own.words) for scene, own in zip(scenes, _of_meshes(stage))]
+    of_meshes = _of_meshes(stage, content)
+    scenes = _scenes(tree, of_meshes, content, source, folder)
+    pairs = [pair_of(scene, f"{source}, stage {stage}", own.words) for scene, own in zip(scenes, of_meshes)]
     place = f"{source}: stages.{stage}"
-    _check_centres(pairs, place)
-    own_set = _set_of(text, pairs, place)
-    _check_clear(own_set, pairs, place)
-    for scene, mesh in zip(scenes, MESHES):
-        check_together(scene, f"{place}.{mesh}")
-    carrier = _carrier(stage, text, own_set)
+    check_centres(pairs, of_meshes[1].gears, place)
+    own_set = set_of(text, pairs, of_meshes[1].gears, place)
+    check_clear(own_set, pairs, place)
+    for scene, own in zip(scenes, of_meshes):
+        check_together(scene, f"{place}.{own.mesh}")
+    carrier = _carrier(stage, text, own_set, place, folder)
+    _check_in_plane(carrier, scenes[0], place)
     _check_motion(own_set, load, motion, scenes[0].friction is not None, place)
-    shafts = TrainShafts(
-        tuple((gear,) for gear in carrier.gears),
-        (None,) * len(carrier.gears),
-        (None,) * len(carrier.gears),
-        moving=True,
-        carrier=carrier,
-    )
-    return _meshes(carrier, scenes, pairs), TrainSections(load, motion, shafts)
+    none = (None,) * len(carrier.shafts)
+    shafts = TrainShafts(carrier.shafts, none, none, moving=True, carrier=carrier)
+    meshes = _meshes(carrier, of_meshes, scenes, pairs)
+    if own_set.stepped:
+        meshes = _clocked(meshes, carrier, text.step_angle or 0.0)
+        motion = replace(motion, mesh_cycles=motion.mesh_cycles or min(own_set.cycles))
+        motion = replace(motion, recorded_cycles=motion.recorded_cycles or motion.mesh_cycles)
+    return meshes, TrainSections(load, motion, shafts)
 
 
-def _of_meshes(stage: str) -> tuple[OfSet, OfSet]:
-    return OfSet(stage, ("sun", "planet"), SUN_MESH), OfSet(stage, ("planet", "ring"), RING_MESH)
+def _of_meshes(stage: str, content: Tree) -> tuple[OfSet, OfSet]:
+    """The meshes with the sun and with the ring, or the second sun in its place."""
+    sun, planet, *step, second = gears_in(content)
+    with_sun, with_second = meshes_in(content)
+    cut = tuple(name for name in OF_THE_STEP if name in content.get(with_second, {}))
+    return OfSet(stage, (sun, planet), with_sun), OfSet(stage, ((*step, planet)[0], second), with_second, cut)
 
 
-def _scenes(tree: Tree, stage: str, content: Tree, source: str, folder: Path) -> list[Scene]:
-    """The scenes of the pairs of sun and planet, and planet and ring; the planet has the lower of the tips that its
-    mates leave it."""
-    gears = {name: dict(content[name]) for name in GEARS_OF_SET}
-    teeth = gears["ring"].get("teeth")
-    if type(teeth) is int:
-        gears["ring"]["teeth"] = -abs(teeth)
-    gears["ring"].pop("internal", None)
+def _scenes(tree: Tree, of_meshes: Sequence[OfSet], content: Tree, source: str, folder: Path) -> list[Scene]:
+    """The scenes of the pairs of sun and planet, and planet and ring; a planet of one gear has the lower of the tips
+    that its mates leave it."""
+    gears = {name: dict(content[name]) for name in gears_in(content)}
+    if RING in gears:
+        teeth = gears[RING].get("teeth")
+        if type(teeth) is int:
+            gears[RING]["teeth"] = -abs(teeth)
+        gears[RING].pop("internal", None)
 
     def read_all() -> list[Scene]:
-        return [_scene(tree, own, content, gears, source, folder) for own in _of_meshes(stage)]
+        return [_scene(tree, own, content, gears, source, folder) for own in of_meshes]
 
     scenes = read_all()
     tips = [scenes[0].gears.wheel.tip_diameter, scenes[1].gears.pinion.tip_diameter]
-    if tips[0] != tips[1]:
+    if tips[0] != tips[1] and of_meshes[0].gears[1] == of_meshes[1].gears[0]:
         gears["planet"]["tip_diameter"] = f"{min(tips)!r} mm"
         scenes = read_all()
     return scenes
@@ -96,13 +104,15 @@ def _scene(tree: Tree, own: OfSet, content: Tree, gears: Mapping[str, Any], sour
     if "sun_hand" in content:
         # Planet and ring are seen in the mirror, where the planet has the hand of the sun.
         shared["pinion_hand"] = content["sun_hand"]
-    over_face = {name for mesh in MESHES for name in content.get(mesh, {})} & {*OF_THE_FACE}
+    over_face = {name for mesh in meshes_in(content) for name in content.get(mesh, {})} & {*OF_THE_FACE}
+    of_mesh = dict(content.get(own.mesh, {}))
+    shared |= {name: of_mesh.pop(name) for name in own.cut}
     sections = {
         # Both meshes are resolved over the face where one is.
         **({"misalignment": {"in_plane": "0 um"}} if over_face else {}),
         "gears": shared | {name: gears[called] for name, called in zip(GEARS, own.gears)},
         **{name: tree[name] for name in ("friction", "accuracy") if name in tree},
-        **content.get(own.mesh, {}),
+        **of_mesh,
         "load": {"wheel_torque": "1 N m"},
     }
     name = f"{own.stage} {own.mesh}"
@@ -112,60 +122,8 @@ def _scene(tree: Tree, own: OfSet, content: Tree, gears: Mapping[str, Any], sour
         raise GeometryError(own.words(str(error))) from error
 
 
-def _check_centres(pairs: Sequence[GearPair], place: str) -> None:
-    """Raise GeometryError where the planets would have two centre distances."""
-    sun, ring = (abs(pair.centre_distance) for pair in pairs)
-    if abs(sun - ring) > 1e-6 * pairs[0].pinion.module:
-        raise GeometryError(
-            f"{place}: the planets do not fit: their centres are {sun:.6g} mm from that of the sun and {ring:.6g} mm"
-            " from that of the ring. Give centre_distance, with profile shifts that leave backlash there, or change"
-            f" the profile shifts or the teeth: without shifts z_ring = z_sun + 2 z_planet. {NOTHING_DONE}"
-        )
-
-
-def _set_of(text: PlanetaryText, pairs: Sequence[GearPair], place: str) -> PlanetarySet:
-    """The set, its planets where they can be assembled. Raises GeometryError, with the nearest places that can."""
-    teeth = pairs[0].pinion.teeth, pairs[0].wheel.teeth, pairs[1].wheel.tooth_count
-    turn = teeth[0] + teeth[2]
-    if text.planets is not None:
-        wanted = [number * turn / text.planets for number in range(text.planets)]
-        sizes = abs(pairs[0].centre_distance), 2.0 * pairs[0].wheel.tip_radius
-        possible = ", ".join(map(str, planets_that_assemble(teeth, *sizes)[:8])) or "none"
-        more = f" Equally spaced, {possible} planets can."
-    else:
-        wanted = [float(angle) / (2.0 * pi) * turn for angle in text.planet_angles or ()]
-        more = ""
-    places = [round(each - wanted[0]) for each in wanted]
-    beside = [each - wanted[0] - found for each, found in zip(wanted, places)]
-    if max(map(abs, beside)) > LEAST_BESIDE:
-        worst = max(range(len(beside)), key=lambda each: abs(beside[each]))
-        nearest = ", ".join(f'"{360.0 * (each + wanted[0]) / turn:.8g} deg"' for each in places)
-        raise GeometryError(
-            f"{place}: the set cannot be assembled: planet {worst + 1} would stand {abs(beside[worst]):.4g} pitches"
-            f" beside the teeth of sun and ring. Planets fit at multiples of 360 deg/(z_sun + z_ring) ="
-            f" {360.0 / turn:.6g} deg.{more} The nearest that can: planet_angles = [{nearest}]. {NOTHING_DONE}"
-        )
-    output = text.output or next(each for each in MEMBERS if each not in (text.fixed, text.input))
-    assert text.fixed is not None and text.input is not None
-    return PlanetarySet(teeth, tuple(places), text.fixed, text.input, output)
-
-
-def _check_clear(own: PlanetarySet, pairs: Sequence[GearPair], place: str) -> None:
-    """Raise GeometryError for planets that touch each other."""
-    distance = abs(pairs[0].centre_distance)
-    tip = 2.0 * pairs[0].wheel.tip_radius
-    for one, other, clear in own.clearances(distance, tip):
-        if clear <= 0.0:
-            most = max((each for each in planets_that_assemble(own.teeth, distance, tip)), default=0)
-            allowed = f"Equally spaced, up to {most} planets have room." if most else "No two planets have room."
-            raise GeometryError(
-                f"{place}: planets {one + 1} and {other + 1} touch: their tip circles of {tip:.6g} mm overlap by"
-                f" {-clear:.4g} mm. {allowed} {NOTHING_DONE}"
-            )
-
-
-def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet) -> Carrier:
-    """The carrier, without speed and torque."""
+def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet, place: str, folder: Path) -> Carrier:
+    """The carrier, without speed and torque; the file of its stiffness is looked for from a folder on."""
     pins = text.carrier
     errors: tuple[tuple[float, float], ...] = ()
     if pins is not None and (pins.pin_errors or pins.radial_pin_errors):
@@ -174,7 +132,33 @@ def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet) -> Carrier:
         errors = tuple((float(tangential), float(radial)) for tangential, radial in both)
     stiffness = None if pins is None else pins.pin_stiffness
     carrier = Carrier(stage, own, stiffness, errors, tuple(text.floating or ()), vibration=text.vibration)
+    if pins is not None:
+        file = None if pins.stiffness is None else located(pins.stiffness, folder)
+        _check_file(file, own, f"{place}.carrier.stiffness")
+        carrier = replace(carrier, file=file, bearing_stiffness=pins.bearing_stiffness)
     return replace(carrier, run_outs=run_outs_of(text.eccentricity, carrier.sun, carrier.planets, carrier.ring))
+
+
+def _check_file(file: HousingFile | None, own: PlanetarySet, field: str) -> None:
+    """Raise SceneError where a carrier's matrix cannot be read, or is not of so many pins."""
+    if file is None:
+        return
+    rows = len(file.stiffness or ())
+    size = 2 * own.planets
+    problem = file.problem
+    if not problem and rows != size:
+        problem = f"has {rows} rows for {own.planets} planets; allowed are {size}: two displacements of each pin."
+    if problem:
+        raise SceneError(f'{field} = "{file.path}": {problem} {NOTHING_DONE}')
+
+
+def _check_in_plane(carrier: Carrier, scene: Scene, place: str) -> None:
+    """Raise SceneError for a carrier that gives way as a whole over the face."""
+    if carrier.together is not None and scene.three_dimensional:
+        raise SceneError(
+            f"{place}.carrier: stiffness and bearing_stiffness are not computed over the face yet. Allowed:"
+            f" pin_stiffness; or a set in the plane. {NOTHING_DONE}"
+        )
 
 
 def _check_motion(own: PlanetarySet, load: TrainLoad, motion: TrainMotion, friction: bool, place: str) -> None:
@@ -183,7 +167,7 @@ def _check_motion(own: PlanetarySet, load: TrainLoad, motion: TrainMotion, frict
         raise SceneError(f"{place}: load.power needs a speed. Allowed: with motion.input_speed. {NOTHING_DONE}")
     if friction and not own.sun_drives:
         raise SceneError(
-            f"{place}: friction where the ring drives the planets, as the carrier sees it, is not computed yet."
+            f"{place}: friction where the {own.second} drives the planets, as the carrier sees it, is not computed yet."
             " Allowed: without [friction], or with input and output exchanged, where the sun drives."
             f" {NOTHING_DONE}"
         )
@@ -204,7 +188,7 @@ def seen_by_carrier(sections: TrainSections, given: bool) -> TrainSections:
         torque = load.output_torque * abs(own.weights[own.input] / own.weights[own.output])
     else:
         torque = (load.power or 0.0) / (motion.input_speed or 1.0)
-    ring = abs(own.torques(torque)[RING])
+    ring = abs(own.torques(torque)[own.second])
     speed = None if motion.input_speed is None else motion.input_speed * abs(float(own.sun_by_carrier))
     carrier = replace(carrier, torque=torque, speed=motion.input_speed if given else None)
     return TrainSections(
@@ -214,23 +198,41 @@ def seen_by_carrier(sections: TrainSections, given: bool) -> TrainSections:
     )
 
 
-def _meshes(carrier: Carrier, scenes: Sequence[Scene], pairs: Sequence[GearPair]) -> list[MeshOfScene]:
-    """The meshes, planet by planet: with the sun, then with the ring."""
+def _meshes(
+    carrier: Carrier, of_meshes: Sequence[OfSet], scenes: Sequence[Scene], pairs: Sequence[GearPair]
+) -> list[MeshOfScene]:
+    """The meshes, planet by planet: with the sun, then with the ring; of stepped planets all of either."""
     own = carrier.set
-    found = []
-    sun, ring = _of_meshes(carrier.stage)
     count = own.planets
-    for number, (planet, angle, phase) in enumerate(zip(carrier.planets, own.angles, own.phases)):
+    firsts = [range(2 * count)[carrier.meshes(kind)][0] for kind in range(2)]
+    # A second sun is on the other side of its planet.
+    angles = own.angles, own.angles if own.second == RING else [each + pi for each in own.angles]
+    phases = own.phases, own.phases_of_second
+    found: dict[int, MeshOfScene] = {}
+    for number, gear in enumerate(zip(carrier.planets, carrier.steps)):
+        planet, step = (each.rpartition(".")[2] for each in gear)
         # The sun turns counter-clockwise, the planets clockwise.
         meshes = (
-            (f"sun, planet {number + 1}", sun, (carrier.sun, planet), (0, number + 1), 1),
-            (f"planet {number + 1}, ring", ring, (planet, carrier.ring), (number + 1, count + 1), -1),
+            (f"sun, {planet}", (carrier.sun, gear[0]), (0, number + 1), 1),
+            (f"{step}, {own.second}", (gear[1], carrier.ring), (number + 1, count + 1), -1),
         )
-        for kind, (name, of_set, gears, shafts, sense) in enumerate(meshes):
-            found.append(
-                MeshOfScene(
-                    f"{carrier.stage}: {name}", scenes[kind], pairs[kind], angle, gears, shafts, sense,
-                    of_set=of_set, like=kind if number else None, ahead=(phase.numerator, phase.denominator),
-                )
+        for kind, (name, gears, shafts, sense) in enumerate(meshes):
+            phase = phases[kind][number]
+            found[range(2 * count)[carrier.meshes(kind)][number]] = MeshOfScene(
+                f"{carrier.stage}: {name}", scenes[kind], pairs[kind], angles[kind][number], gears, shafts, sense,
+                of_set=of_meshes[kind], like=firsts[kind] if number else None,
+                ahead=(phase.numerator, phase.denominator),
             )  # fmt: skip
-    return with_run_outs(found, carrier.run_outs) if carrier.run_outs else found
+    known = [found[number] for number in sorted(found)]
+    return with_run_outs(known, carrier.run_outs) if carrier.run_outs else known
+
+
+def _clocked(meshes: list[MeshOfScene], carrier: Carrier, angle: float) -> list[MeshOfScene]:
+    """The meshes of stepped planets, in which a tooth of the second gear stands by an angle (rad) counter-clockwise
+    from one of the first: the phases of the second meshes follow."""
+    layout = layout_of(meshes)
+    planet, step = (gear_names(meshes).index(names[0]) for names in (carrier.planets, carrier.steps))
+    first, _ = layout.graph.sides[step][0]
+    turned = layout.tooth_angle(planet) + angle - layout.tooth_angle(step)
+    begins = layout.graph.sense(first) * turned / layout.gear(step).angular_pitch % 1.0
+    return [replace(mesh, begins=begins) if number == first else mesh for number, mesh in enumerate(meshes)]

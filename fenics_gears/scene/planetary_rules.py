@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from fenics_gears.geometry.planetary import MEMBERS
+from fenics_gears.geometry.planetary import CARRIER, RING, SECOND_SUN, SUN
 from fenics_gears.inputs.problem import Problem, did_you_mean
 from fenics_gears.inputs.section import names_in, read_by_itself
 from fenics_gears.inputs.tree import GEARS
@@ -13,14 +13,19 @@ from fenics_gears.inputs.written import as_written
 
 from .gear_schema import Gears
 from .planetary_schema import (
-    GEARS_OF_SET,
     MESHES,
     MOST_PLANETS,
     OF_A_MESH,
+    OF_THE_FACE,
+    OF_THE_STEP,
     PLANETARY,
     RING_MESH,
+    STEP,
     SUN_MESH,
     PlanetaryText,
+    gears_in,
+    meshes_in,
+    second_in,
 )
 from .train_pair import STAGES
 from .train_rules import ENDS, wrong_title
@@ -76,44 +81,71 @@ def text_of_set(stage: str, content: Tree) -> tuple[PlanetaryText | None, list[P
     own = names_in(PlanetaryText)
     text, problems = read_by_itself(PlanetaryText, {name: content[name] for name in own if name in content}, path)
     shared = [name for name in names_in(Gears) if name not in (*GEARS, "backlash", "pinion_hand")]
-    known = ["kind", *own, *shared, *GEARS_OF_SET, *MESHES]
+    gears = gears_in(content)
+    meshes = meshes_in(content)
+    known = ["kind", *own, *shared, *gears, STEP, RING, *meshes]
     for name in content:
         if name in NOT_HERE:
             problems.append(Problem((*path, name), as_written(content[name]), NOT_HERE[name].replace("NAME", stage)))
         elif name not in known:
             said = f"is not known here.{did_you_mean(name, known)} Known: {', '.join(known)}."
             problems.append(Problem((*path, name), as_written(content[name]), said))
-    for gear in GEARS_OF_SET:
+    for gear in gears:
         if not isinstance(content.get(gear), Mapping):
             written = None if gear not in content else as_written(content[gear])
             said = f"is missing. Add the section [{'.'.join((*path, gear))}] with teeth and the other fields of a gear."
             problems.append(Problem((*path, gear), written, said if written is None else "is not a section."))
-    for mesh in MESHES:
-        problems += _wrong_effects((*path, mesh), content.get(mesh, {}))
+    for mesh in meshes:
+        stepped = STEP in content and mesh != SUN_MESH
+        problems += _wrong_effects((*path, mesh), content.get(mesh, {}), OF_THE_STEP if stepped else ())
+    problems += _wrong_steps(path, content)
     if text is not None:
-        problems += _wrong_members(path, text)
+        problems += _wrong_members(path, text, (SUN, second_in(content), CARRIER))
         if text.sun_hand is not None and "helix_angle" not in content:
             said = "has no meaning without helix_angle. Leave it out, or give helix_angle."
             problems.append(Problem((*path, "sun_hand"), f'"{text.sun_hand}"', said))
     return (None if problems else text), problems
 
 
-def _wrong_effects(path: tuple[str, ...], content: Any) -> Iterator[Problem]:
-    """What the section of a mesh has that no mesh has."""
+def _wrong_effects(path: tuple[str, ...], content: Any, of_gears: tuple[str, ...]) -> Iterator[Problem]:
+    """What the section of a mesh has that no mesh has; `of_gears`: fields that it may have of its gears."""
+    allowed = (*OF_A_MESH, *of_gears)
     if not isinstance(content, Mapping):
-        yield Problem(path, as_written(content), f"is not a section. Allowed in it: {', '.join(OF_A_MESH)}.")
+        yield Problem(path, as_written(content), f"is not a section. Allowed in it: {', '.join(allowed)}.")
         return
     for name in content:
-        if name not in OF_A_MESH:
-            said = (
-                f"is not computed in a mesh of a set.{did_you_mean(name, OF_A_MESH)} Allowed: {', '.join(OF_A_MESH)}."
-            )
+        if name not in allowed:
+            said = f"is not computed in a mesh of a set.{did_you_mean(name, allowed)} Allowed: {', '.join(allowed)}."
             yield Problem((*path, name), as_written(content[name]), said)
 
 
-def _wrong_members(path: tuple[str, ...], text: PlanetaryText) -> Iterator[Problem]:
+def _wrong_steps(path: tuple[str, ...], content: Tree) -> Iterator[Problem]:
+    """What sets with stepped planets, or with a second sun, do not have."""
+    if SECOND_SUN in content and RING in content:
+        said = (
+            "stands beside a ring. Sets of three central gears, as with planets that mesh with each other (Ravigneaux),"
+            f" are not computed. Allowed: {RING} or {SECOND_SUN}; or two sets one after the other."
+        )
+        yield Problem((*path, SECOND_SUN), "", said)
+    if STEP not in content:
+        if SECOND_SUN in content:
+            said = (
+                f"is missing: a {SECOND_SUN} meshes with a second gear of each planet. Add [{'.'.join(path)}.{STEP}]."
+            )
+            yield Problem((*path, STEP), None, said)
+        if "step_angle" in content:
+            said = f"is of stepped planets. Leave it out, or add [{'.'.join(path)}.{STEP}]."
+            yield Problem((*path, "step_angle"), as_written(content["step_angle"]), said)
+        return
+    said = f"is not computed with stepped planets, which are spur and in the plane. Leave it out, or {STEP}."
+    of_meshes = [(mesh, name) for mesh in MESHES for name in OF_THE_FACE if name in content.get(mesh, ())]
+    for place in [*of_meshes, *((name,) for name in ("helix_angle", "vibration") if name in content)]:
+        yield Problem((*path, *place), "", said)
+
+
+def _wrong_members(path: tuple[str, ...], text: PlanetaryText, members: tuple[str, ...]) -> Iterator[Problem]:
     """Members that are named wrongly: of the three one is fixed, one driven, one drives the load."""
-    listed = ", ".join(f'"{each}"' for each in MEMBERS)
+    listed = ", ".join(f'"{each}"' for each in members)
     if text.planets is None and text.planet_angles is None:
         said = "is missing. Allowed: a number of planets, equally spaced; or planet_angles, a list of their directions."
         yield Problem((*path, "planets"), None, said)
@@ -124,9 +156,15 @@ def _wrong_members(path: tuple[str, ...], text: PlanetaryText) -> Iterator[Probl
     if text.input is None:
         yield Problem((*path, "input"), None, f"is missing: no member is driven. Allowed: one of {listed}.")
     named = {name: getattr(text, name) for name in ("fixed", "input", "output")}
+    floating = [(("floating",), each) for each in text.floating or ()]
+    run_out = [] if text.eccentricity is None or text.eccentricity.ring is None else [(("eccentricity", RING), RING)]
+    for place, member in (*(((name,), each) for name, each in named.items()), *floating, *run_out):
+        if member is not None and member not in members:
+            yield Problem((*path, *place), f'"{member}"', f"is no member of this set. Allowed: one of {listed}.")
+            return
     for name, other in (("input", "fixed"), ("output", "fixed"), ("output", "input")):
         if named[name] is not None and named[name] == named[other]:
-            left = [each for each in MEMBERS if each not in {*named.values()}]
+            left = [each for each in members if each not in {*named.values()}]
             said = (
                 f"is the member that is {'fixed' if other == 'fixed' else 'the input'} too. Allowed: another one; of"
                 f" {listed} one is fixed, one driven, and one has the load. Left: {', '.join(left)}."
@@ -137,13 +175,30 @@ def _wrong_members(path: tuple[str, ...], text: PlanetaryText) -> Iterator[Probl
     if text.floating and count < 3:
         said = "needs three planets: two do not centre a member that nothing else holds. Leave it out."
         yield Problem((*path, "floating"), "a list", said)
+    yield from _wrong_carrier(path, text, count)
     yield from _wrong_vibration(path, text)
     yield from _wrong_run_outs((*path, "eccentricity"), text, count)
-    for name in ("pin_errors", "radial_pin_errors") if text.carrier is not None else ():
-        errors = getattr(text.carrier, name)
+
+
+def _wrong_carrier(path: tuple[str, ...], text: PlanetaryText, count: int) -> Iterator[Problem]:
+    """Errors of more or fewer pins than there are, and a carrier that moves aside and does not find its place."""
+    own = text.carrier
+    if own is None:
+        return
+    for name in ("pin_errors", "radial_pin_errors"):
+        errors = getattr(own, name)
         if errors is not None and len(errors) != count:
             said = f"has {len(errors)} entries for {count} planets. Allowed: one for each."
             yield Problem((*path, "carrier", name), "a list", said)
+    if own.bearing_stiffness is None:
+        return
+    said = ""
+    if own.pin_stiffness is None and own.stiffness is None:
+        said = "needs springs between carrier and planets. Add pin_stiffness or stiffness."
+    elif not own.bearing_stiffness and (text.floating or count < 3):
+        said = "leaves a carrier that too little centres: it takes three planets, sun and ring held. Allowed: above 0."
+    if said:
+        yield Problem((*path, "carrier", "bearing_stiffness"), f"{own.bearing_stiffness:g} N/mm", said)
 
 
 def _wrong_run_outs(path: tuple[str, ...], text: PlanetaryText, count: int) -> Iterator[Problem]:
@@ -171,6 +226,10 @@ def _wrong_vibration(path: tuple[str, ...], text: PlanetaryText) -> Iterator[Pro
     """Lumped members whose springs are missing, or are of members that nothing holds."""
     if text.vibration is None:
         return
+    for name in ("stiffness", "bearing_stiffness"):
+        if text.carrier is not None and getattr(text.carrier, name) is not None:
+            said = "is not in the natural frequencies. Leave it out, or vibration; support_stiffness holds the carrier."
+            yield Problem((*path, "carrier", name), "", said)
     if text.carrier is None or text.carrier.pin_stiffness is None:
         said = (
             'is missing: natural frequencies need the spring of the pins. Add pin_stiffness, such as "3e5 N/mm", or'

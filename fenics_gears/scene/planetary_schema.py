@@ -2,25 +2,45 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from fenics_gears.geometry.planetary import MEMBERS, RING, SUN
+from fenics_gears.dynamics.shafts import HousingFile
+from fenics_gears.geometry.planetary import MEMBERS, RING, SECOND_SUN, SUN
 from fenics_gears.inputs.allowed import Allowed, Refused
-from fenics_gears.inputs.fields import choice, declared, quantities, quantity, whole_number
+from fenics_gears.inputs.fields import choice, declared, file_name, quantities, quantity, whole_number
 from fenics_gears.inputs.problem import did_you_mean
 from fenics_gears.inputs.section import Section
 
 PLANETARY = "planetary"
 SUN_MESH = "sun_mesh"
 RING_MESH = "ring_mesh"
-MESHES = (SUN_MESH, RING_MESH)
-GEARS_OF_SET = ("sun", "planet", "ring")
+MESHES = (SUN_MESH, RING_MESH, f"{SECOND_SUN}_mesh")
+STEP = "step"
+GEARS_OF_SET = (SUN, "planet", STEP, RING, SECOND_SUN)
 MOST_PLANETS = 10
 # Effects of a pair that the meshes of a set may have of their own.
 OF_THE_FACE = ("lead_modifications", "misalignment")
 OF_A_MESH = ("tip_relief", "root_relief", "profile_modifications", "corner_contact", *OF_THE_FACE)
+# Of the gears of the second mesh of stepped planets, where they are not as those of the first.
+OF_THE_STEP = ("module", "pressure_angle", "face_width")
 PIN_ERRORS = "-10 mm to 10 mm"
+
+
+def second_in(content: Mapping[str, Any]) -> str:
+    """Which member the scene of a set has beside the sun."""
+    return SECOND_SUN if SECOND_SUN in content else RING
+
+
+def gears_in(content: Mapping[str, Any]) -> tuple[str, ...]:
+    """The gears that the scene of a set has."""
+    return (SUN, "planet", *((STEP,) if STEP in content else ()), second_in(content))
+
+
+def meshes_in(content: Mapping[str, Any]) -> tuple[str, str]:
+    """The sections of the meshes that the scene of a set has."""
+    return SUN_MESH, f"{second_in(content)}_mesh"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,13 +62,29 @@ class AllowedMembers(Allowed):
 
 @dataclass(frozen=True, kw_only=True)
 class CarrierText(Section):
-    """``[stages.NAME.carrier]``: the pins of the planets."""
+    """``[stages.NAME.carrier]``: the pins of the planets, and what gives way between them and the axis."""
 
     pin_stiffness: float | None = quantity(
         "1e-3 N/mm to 1e15 N/mm",
         "3e5 N/mm",
         meaning="stiffness of each pin and its bearing, alike in all directions",
         otherwise="pins do not give way",
+    )
+    stiffness: HousingFile | None = file_name(
+        ".txt",
+        "carrier.txt",
+        meaning="text file with the stiffness matrix of the carrier between its pins, in N/mm, its hub held: over the"
+        " displacements of each pin in the direction 0 of the set and 90 deg counter-clockwise of it, pin after pin; in"
+        " the plane",
+        otherwise="the carrier is rigid",
+        made=HousingFile,
+    )
+    bearing_stiffness: float | None = quantity(
+        "0 N/mm to 1e15 N/mm",
+        "1e5 N/mm",
+        meaning="stiffness that holds the carrier's centre, alike in all directions; 0 where its planets alone do; with"
+        " `pin_stiffness` or `stiffness`, in the plane",
+        otherwise="its centre is held",
     )
     pin_errors: tuple[float, ...] | None = quantities(
         PIN_ERRORS,
@@ -193,12 +229,18 @@ class PlanetaryText(Section):
         meaning="hand of the sun's helix; planets and ring have the other",
         otherwise="`right`; has no meaning without `helix_angle`",
     )
+    step_angle: float | None = quantity(
+        "-360 deg to 360 deg",
+        "3 deg",
+        meaning="of stepped planets, how far a tooth of `step` stands from one of `planet`, counter-clockwise",
+        otherwise="0 deg: two of their teeth stand in line",
+    )
     floating: tuple[str, ...] | None = declared(
         AllowedMembers(
-            description='a list of "sun" and "ring", such as ["sun"]',
+            description='a list of "sun", "ring" and "second_sun", such as ["sun"]',
             meaning="members whose centre nothing holds but their meshes; three planets or more centre them",
             otherwise="centres are held",
-            names=(SUN, RING),
+            names=(SUN, RING, SECOND_SUN),
         )
     )
     carrier: CarrierText | None = None

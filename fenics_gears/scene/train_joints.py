@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from fenics_gears.geometry.planetary import MEMBERS
+from fenics_gears.geometry.planetary import CARRIER, SUN
 from fenics_gears.inputs.allowed import Allowed, Refused
 from fenics_gears.inputs.fields import declared
 from fenics_gears.inputs.problem import Path, Problem, did_you_mean
@@ -15,6 +15,7 @@ from fenics_gears.inputs.section import Section, read
 from fenics_gears.inputs.written import as_written
 
 from .planetary_rules import OF_THE_TRAIN, has_planets, wrong_sections
+from .planetary_schema import second_in
 from .train_loads import TrainLoad, TrainMotion
 from .train_pair import STAGES, MistakesOfStage
 from .train_rules import load_and_motion
@@ -129,7 +130,8 @@ def _held(stages: Tree, pairs: Sequence[Sequence[str]]) -> tuple[Tree, list[Prob
         name = next((each for each in pair if each != HOUSING), "")
         stage, _, member = name.rpartition(".")
         content = found.get(stage)
-        known = [f"{each}.{own}" for each in stages if has_planets({STAGES: {each: stages[each]}}) for own in MEMBERS]
+        sets = [each for each in stages if has_planets({STAGES: {each: stages[each]}})]
+        known = [f"{each}.{own}" for each in sets for own in (SUN, second_in(stages[each]), CARRIER)]
         if name not in known or not isinstance(content, Mapping):
             said = f"joins to the housing what is no member of a planetary set.{did_you_mean(name, known)}"
             problems.append(Problem((JOINS,), as_written(name), f"{said} Known: {', '.join(known)}."))

@@ -22,7 +22,8 @@ class MeshOfScene:
     `gears`: names of pinion and wheel; of a gear in several meshes it is the same in all. `shafts`: the numbers of
     those that it joins. `sense`: how its pinion turns, 1 counter-clockwise, -1 clockwise. `bent`: with shafts that
     bend, those that both are on. `of_set`: how a planetary set calls it; its meshes are `like` its first two, but for
-    the mesh cycles that they are `ahead`, numerator and denominator, of a planet at place 0."""
+    the mesh cycles that they are `ahead`, numerator and denominator, of a planet at place 0. `begins`: the phase at
+    which the first of meshes that have gears in common is as the run begins."""
 
     name: str
     scene: Scene
@@ -35,6 +36,7 @@ class MeshOfScene:
     of_set: OfSet | None = None
     like: int | None = None
     ahead: tuple[int, int] = (0, 1)
+    begins: float = 0.0
 
     def words(self, said: str) -> str:
         """What is said of its pair, in words of the train."""
@@ -63,7 +65,8 @@ def layout_of(meshes: Sequence[MeshOfScene]) -> Layout:
         tuple(turning[shaft] for shaft in shafts),
         internal,
     )
-    return Layout(graph, [mesh.pair for mesh in meshes], [mesh.direction for mesh in meshes])
+    begun = [mesh.begins for mesh in meshes]
+    return Layout(graph, [mesh.pair for mesh in meshes], [mesh.direction for mesh in meshes], begun)
 
 
 class OfMeshes:

@@ -101,7 +101,9 @@ class TrainScene(OfMeshes):
         for (first, part), joint in zip(self.numbered, (*self.joints, None)):
             twist = 0.0 if joint is None or joint.stiffness is None else part.output_torque / joint.stiffness
             if (carrier := part.shafts.carrier) is not None:
-                cycles = part.recorded_cycles
+                # Recorded are cycles of the slowest mesh; the lag is over those of the first.
+                of_first, of_ring = carrier.set.cycles
+                cycles = part.recorded_cycles * max(of_first, of_ring) // of_ring
                 frequency = part.meshes[0].scene.motion.mesh_frequency / cycles
                 found.append(Link(carrier.stage, first, 1.0 / part.ratio, frequency, twist, True, cycles))
                 continue

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, fields, make_dataclass
 from typing import Any, get_type_hints
 
@@ -13,7 +13,7 @@ from fenics_gears.inputs.section import AllowedTables, Section
 
 from .accuracy import Accuracy
 from .gear_schema import Gears, GearText
-from .planetary_schema import GEARS_OF_SET, MESHES, OF_A_MESH, PLANETARY, PlanetaryText
+from .planetary_schema import GEARS_OF_SET, MESHES, OF_A_MESH, OF_THE_STEP, PLANETARY, SUN_MESH, PlanetaryText
 from .train_joints import JoinsText
 from .train_loads import TrainLoad, TrainMotion
 from .train_ramp import TrainRamp
@@ -67,14 +67,23 @@ def stage_text() -> type[Section]:
 
 def _of_planets() -> Iterator[tuple[str, Any, Any]]:
     """Name, kind and field of what a planetary set has beside the fields of all stages."""
-    hints = get_type_hints(PlanetaryText)
-    for each in fields(PlanetaryText):
-        yield each.name, hints[each.name], field(default=None, metadata=each.metadata)
+    yield from _optional(PlanetaryText, [each.name for each in fields(PlanetaryText)])
     for gear in GEARS_OF_SET:
         yield gear, GearText | None, field(default=None)
     effects = _with(Section, OF_A_MESH)
+    of_steps = make_dataclass(
+        "SecondMesh", list(_optional(Gears, OF_THE_STEP)), bases=(effects,), frozen=True, kw_only=True
+    )
     for mesh in MESHES:
-        yield mesh, effects | None, field(default=None)
+        yield mesh, (effects if mesh == SUN_MESH else of_steps) | None, field(default=None)
+
+
+def _optional(section: type[Section], names: Sequence[str]) -> Iterator[tuple[str, Any, Any]]:
+    """Name, kind and field of some fields of a section, which may be left out."""
+    hints = get_type_hints(section)
+    for each in fields(section):
+        if each.name in names:
+            yield each.name, hints[each.name] | None, field(default=None, metadata=each.metadata)
 
 
 @functools.cache

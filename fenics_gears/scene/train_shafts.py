@@ -68,8 +68,9 @@ class TrainShafts:
 
     @property
     def housed(self) -> bool:
-        """Whether files have the stiffness of a housing."""
-        return self.housing is not None or any(each.own.housing is not None for each in self.bent)
+        """Whether files have the stiffness of a housing, or of a carrier."""
+        of_carrier = self.carrier is not None and self.carrier.file is not None
+        return of_carrier or self.housing is not None or any(each.own.housing is not None for each in self.bent)
 
 
 def checked_shafts(

@@ -10,7 +10,6 @@ from math import degrees
 import numpy as np
 import xarray as xr
 
-from fenics_gears.geometry.planetary import MEMBERS
 from fenics_gears.results.mesh_of_train import mesh_run
 from fenics_gears.results.sets_in_train import set_runs
 from fenics_gears.scene.carrier import Carrier
@@ -51,14 +50,15 @@ def set_drawing(scene: TrainScene) -> Chart:
     names = gear_names(scene.meshes)
     curves = []
     # From the ring inwards: what lies within is drawn over it.
-    for number in sorted(range(len(names)), key=lambda each: layout.gear(each).sign):
+    inwards = sorted(range(len(names)), key=lambda each: (layout.gear(each).sign, -abs(layout.gear(each).tip_radius)))
+    for number in inwards:
         gear = layout.gear(number)
         centre = at[layout.graph.shafts[number]]
         teeth = outline_of(gear, layout.tooth_angle(number), centre)
         around = _circle(gear.bore_radius, centre)
         first, second = (around, teeth) if gear.internal else (teeth, around)
         words = f"{names[number].rpartition('.')[2]}, {gear.tooth_count} teeth"
-        curves.append(_closed(words, first, FILLS[int(names[number] in carrier.planets)]))
+        curves.append(_closed(words, first, FILLS[int(carrier.planet_of(names[number]) is not None)]))
         curves.append(_closed(words, second, "white", listed=False))
     middles = np.array([at[layout.graph.shafts[names.index(each)]] for each in carrier.planets])
     said = [each.rpartition(" ")[2] for each in carrier.planets]
@@ -86,7 +86,7 @@ def shares(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
 
 
 def _shares(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
-    phase, last = _last_cycle(dataset)
+    phase, last = _last_period(scene, dataset)
     axis = "Time (mesh cycles)"
     charts = []
     for name, words, factor in (
@@ -112,9 +112,10 @@ def _of_planets(scene: TrainScene, phase: np.ndarray, values: np.ndarray) -> lis
     ]
 
 
-def _last_cycle(dataset: xr.Dataset) -> tuple[np.ndarray, slice]:
-    """Phases of the last mesh cycle, with both of its ends, and where it is among the steps."""
-    steps = int(dataset["steps_per_mesh_cycle"][0])
+def _last_period(scene: TrainScene, dataset: xr.Dataset) -> tuple[np.ndarray, slice]:
+    """Phases of the last mesh cycle, or those after which all meshes of stepped planets are where they were, with both
+    ends, and where they are among the steps."""
+    steps = int(dataset["steps_per_mesh_cycle"][0]) * carrier_of(scene).set.cycles[0]
     last = slice(-1 - steps, None)
     return np.asarray(dataset["mesh_phase"])[last, 0], last
 
@@ -125,10 +126,12 @@ def orbits(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
 
 
 def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
-    _, last = _last_cycle(dataset)
+    cycles = carrier_of(scene).set.cycles[0]
+    over = "a mesh cycle" if cycles == 1 else f"{cycles} mesh cycles with the sun"
+    _, last = _last_period(scene, dataset)
     charts = []
-    for number, member in enumerate(carrier_of(scene).floating):
-        place = MEMBERS.index(member)
+    for number, member in enumerate(carrier_of(scene).moving):
+        place = carrier_of(scene).set.members.index(member)
         x, y = (MICRO * np.asarray(dataset[f"member_{axis}"])[last, place] for axis in "xy")
         colour = PALETTE[number % len(PALETTE)]
         curves = [
@@ -136,7 +139,7 @@ def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
             Curve("as the cycle begins", x[:1], y[:1], colour, mode=MARKERS),
         ]
         farthest = f"{np.hypot(x, y).max():.4g} µm at most from its place"
-        caption = f"{of_set}Orbit of the {member} over a mesh cycle, {farthest}"
+        caption = f"{of_set}Orbit of the {member} over {over}, {farthest}"
         charts.append(Chart(caption, curves, "x (µm)", "y (µm)", height=460, equal=True))
     return charts
 
@@ -144,7 +147,8 @@ def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
 def pressures(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     """The largest contact pressure of the meshes of the first planet."""
     charts = []
-    for number in range(2):
+    for kind in range(2):
+        number = range(len(scene.meshes))[carrier_of(scene).meshes(kind)][0]
         run = ShownRun(mesh_run(dataset, scene, number))
         charts += largest_pressures(run) if has_pressure(run) else []
     return charts
@@ -155,7 +159,7 @@ def member_table(scene: TrainScene, dataset: xr.Dataset) -> list[tuple[str, ...]
     carrier = carrier_of(scene)
     own = carrier.set
     rows: list[tuple[str, ...]] = []
-    for place, member in enumerate(MEMBERS):
+    for place, member in enumerate(own.members):
         torque = float(dataset["member_torque"][:-1, place].mean())
         part = {own.fixed: "fixed", own.input: "input", own.output: "output"}[member]
         speed = float(own.speeds[member])

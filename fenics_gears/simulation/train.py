@@ -80,7 +80,9 @@ def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
     placed = row.placed
     members = []
     for numbers in row.members:
-        own = RowModel(*(tuple(each[number] for number in numbers) for each in (row.meshes, row.models)))
+        meshes = (row.meshes[number] for number in numbers)
+        counted = tuple(mesh if mesh.like is None else replace(mesh, like=numbers.index(mesh.like)) for mesh in meshes)
+        own = RowModel(counted, tuple(row.models[number] for number in numbers))
         of_own = [placed[number] for number in numbers]
         members.append(_member(own, of_own, row.drivetrain.modes, progress, cache))
     if len(members) == 1 and isinstance(members[0].cycle, RowCycle):

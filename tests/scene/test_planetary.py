@@ -8,6 +8,7 @@ from fenics_gears.model.train import train_model_of
 
 THIN = planetary_text().replace('"272 mm", support = "held"', '"236 mm"')
 
+CARRIER = "[stages.set.carrier]\n"
 LUMPED = '{ mass = "2 kg", moment_of_inertia = "1e-3 kg m^2", support_stiffness = "1e5 N/mm" }'
 VIBRATION = f"""[stages.set.vibration]
 sun = {LUMPED}
@@ -36,12 +37,40 @@ planet = {{ mass = "2 kg", moment_of_inertia = "1e-3 kg m^2" }}"""
         (planetary_text(more='floating = ["carrier"]'), '"carrier", which is none of them'),
         (planetary_text(more='carrier = { pin_errors = ["1 um"] }'), "has 1 entries for 2 planets"),
         (planetary_text(more='carrier = { pins = "1 um" }'), "carrier.pins.*\n.*not known here"),
+        (planetary_text(more='carrier = { bearing_stiffness = "1 N/mm" }'), "bearing_stiffness.*\n.*needs springs"),
+        (
+            planetary_text(more='carrier = { pin_stiffness = "1e5 N/mm", bearing_stiffness = "0 N/mm" }'),
+            "bearing_stiffness = 0 N/mm.*\n.*takes three planets, sun and ring held",
+        ),
+        (
+            planetary_text(
+                more='helix_angle = "9 deg"',
+                sections=f'{CARRIER}pin_stiffness = "1 N/mm"\nbearing_stiffness = "1 N/mm"',
+            ),
+            "set.carrier: stiffness and bearing_stiffness are not computed over the face",
+        ),
+        (planetary_text(more='carrier = { stiffness = "none.txt" }'), "set.carrier.stiffness = .*none.txt"),
         (planetary_text(more="eccentricity = {}"), r"eccentricity.*\n.*says of no gear that it runs out"),
         (planetary_text(more='eccentricity = { planets = { distance = ["1 um"] } }'), "has 1 entries for 2 planets"),
         (planetary_text(more='eccentricity = { planets = { phase = ["1 deg"] } }'), "planets.distance.*\n.*is missing"),
         (planetary_text(more='eccentricity = { sun = { distance = "-1 um" } }'), "sun.distance.*\n.*0 mm to 10 mm"),
         (planetary_text(more='eccentricity = { sun = { phase = "9 deg" } }'), "sun.distance.*\n.*is missing"),
         (planetary_text(more='eccentricity = { carrier = {} }'), "eccentricity.carrier.*\n.*not known here"),
+        (
+            planetary_text((17, 20, 52), "planets = 3", step=15),
+            "planet 3 would need its gears turned against each other by 2 deg more",
+        ),
+        (planetary_text((17, 20, 53), step=15), "centres are 74 mm .* 76 mm .* z_ring - z_step"),
+        (
+            planetary_text((20, 20, 20), step=20, second="second_sun", parts=("second_sun", "sun", "carrier")),
+            "both suns turn alike, whatever the carrier does: z_sun z_step = z_second_sun z_planet = 400",
+        ),
+        (planetary_text(second="second_sun"), "set.step\n.*meshes with a second gear of each planet"),
+        (planetary_text(more="second_sun = { teeth = 30 }"), "stands beside a ring.*Ravigneaux"),
+        (planetary_text((20, 24, 26), step=18, second="second_sun"), 'fixed = "ring"\n.*is no member of this set'),
+        (planetary_text(more='step_angle = "1 deg"'), "step_angle.*\n.*is of stepped planets"),
+        (planetary_text(step=18, more='helix_angle = "9 deg"'), "helix_angle.*\n.*not computed with stepped"),
+        (planetary_text(more='ring_mesh = { module = "3 mm" }'), "ring_mesh.module.*\n.*is not computed in a mesh"),
         (planetary_text(more="planet_count = 3"), "planet_count = 3\n.*Did you mean"),
         (planetary_text().replace("sun = {", "suns = {"), 'suns.*\n.*Did you mean "sun"'),
         (planetary_text().replace("teeth = 18", "teet = 18"), r"set.planet.teet"),

@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 from matplotlib.path import Path as Polygon
-from tests.planets import COARSE, RELIEF, planetary, written_out
+from tests.planets import COARSE, RELIEF, RINGED, TWO_SUNS, planetary, written_out
 
 from fenics_gears import simulate_train
 from fenics_gears.scene.train_layout import centres
-from fenics_gears.scene.train_mesh import gear_names
 from fenics_gears.show.gears_of_train import outline_of
 
 FOUR = (20, 16, 52)
@@ -160,26 +159,26 @@ def test_efficiency_follows_willis():
     assert 1.0 - basic == pytest.approx(float(np.nanmax(resting["friction_loss"])), rel=0.03)
 
 
-def test_teeth_of_all_gears_stand_clear_of_each_other():
+@pytest.mark.parametrize("own", [{"teeth": (17, 19, 55), "planets": "planets = 3"}, RINGED, TWO_SUNS])
+def test_teeth_of_all_gears_stand_clear_of_each_other(own):
     """Brute force, the whole outlines as chords: nothing of sun or ring is deeper within a planet than chords leave out
     of their arcs, and there their flanks touch."""
-    scene = planetary(teeth=(17, 19, 55), planets="planets = 3")
+    scene = planetary(**own)
     layout = scene.layout
     at = centres(layout)
-    names = gear_names(scene.meshes)
-    outlines = {
-        name: outline_of(layout.gear(each), layout.tooth_angle(each), at[layout.graph.shafts[each]])
-        for each, name in enumerate(names)
-    }
-    for number in range(1, 4):
-        planet = outlines[f"set.planet {number}"]
-        for other in ("sun", "ring"):
-            points = outlines[f"set.{other}"]
-            points = points[np.linalg.norm(points - planet.mean(axis=0), axis=1) < 45.0]
-            beside = distances(points, planet)
-            within = Polygon(planet).contains_points(points)
-            assert beside[within].max(initial=0.0) < 0.01
-            assert beside.min() < 0.02
+    outlines = [
+        outline_of(layout.gear(each), layout.tooth_angle(each), at[layout.graph.shafts[each]])
+        for each in range(len(layout.graph.shafts))
+    ]
+    for gears, kind in zip(layout.graph.gears, (mesh.of_set.gears for mesh in scene.meshes)):
+        number, other = gears if kind[0] != "sun" else gears[::-1]
+        planet = outlines[number]
+        points = outlines[other]
+        points = points[np.linalg.norm(points - planet.mean(axis=0), axis=1) < layout.gear(number).tip_radius + 3.0]
+        beside = distances(points, planet)
+        within = Polygon(planet).contains_points(points)
+        assert beside[within].max(initial=0.0) < 0.01
+        assert beside.min() < 0.02
 
 
 def distances(points: np.ndarray, line: np.ndarray) -> np.ndarray:

@@ -11,7 +11,11 @@ from .controls import Control, Path, Tree, friction, profile_shift, reliefs, twi
 
 LOADS = {"input_torque": "input torque", "output_torque": "output torque", "power": "power"}
 # The meshes of a planetary set, and what pinion and wheel of each are.
-MESHES = {"sun_mesh": ("sun", "planets at the sun"), "ring_mesh": ("planets at the ring", "ring")}
+MESHES = {
+    "sun_mesh": ("sun", "planets at the sun"),
+    "ring_mesh": ("planets at the ring", "ring"),
+    "second_sun_mesh": ("planets at the second sun", "second sun"),
+}
 
 
 def controls_of_train(tree: Tree) -> list[Control]:
@@ -62,7 +66,11 @@ def _gears(content: Any) -> Iterator[tuple[str, Path]]:
     listed = content.get("gears")
     if isinstance(listed, list):
         yield from ((f"gear {number}", ("gears", str(number))) for number in range(1, len(listed) + 1))
-    yield from ((name, (name,)) for name in (*GEARS, "sun", "planet", "ring") if isinstance(content.get(name), dict))
+    yield from (
+        (name, (name,))
+        for name in (*GEARS, "sun", "planet", "step", "ring", "second_sun")
+        if isinstance(content.get(name), dict)
+    )
 
 
 def _own_friction(tree: Tree) -> bool:

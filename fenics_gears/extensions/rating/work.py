@@ -71,10 +71,11 @@ def _rated(result: xr.Dataset, train: TrainScene) -> Iterator[tuple[int, float |
         if part.shafts.carrier is None:
             yield from ((first + number, None) for number in range(len(part.meshes)))
             continue
-        forces = result["largest_pair_force"].values[first : first + len(part.meshes) : 2]
+        with_sun = range(first, first + len(part.meshes))[part.shafts.carrier.meshes(0)]
+        forces = result["largest_pair_force"].values[list(with_sun)]
         # Of planets that carry the same the first.
         most = int((forces > forces.max() * (1.0 - ROUND_OFF)).argmax())
-        yield first + 2 * most, float(next(sets).attrs["load_sharing_factor"])
+        yield with_sun[most], float(next(sets).attrs["load_sharing_factor"])
 
 
 def _tell(mesh: RatedMesh, finish: Finish, rows: list[rating.RatingRow]) -> None:
