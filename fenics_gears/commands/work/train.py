@@ -12,7 +12,7 @@ from typing import Any
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.model.description import derived_rows
+from fenics_gears.model.description import Rows, derived_rows
 from fenics_gears.model.loop_rows import loop_rows
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel, train_model_of
@@ -183,7 +183,7 @@ def _shaft_rows(model: TrainModel) -> Iterator[Row]:
         yield f"shaft {shaft + 1}", f"{rate}{turning}, {1e-3 * torque:.5g} N m{carried}", ""
 
 
-def _derived_rows(mesh: MeshOfScene) -> list[Row]:
+def _derived_rows(mesh: MeshOfScene) -> Rows:
     """What the scene leaves out of the gears of a mesh, by their own names: "sun", "gear 2"."""
     own = [gear.partition(".")[2] for gear in mesh.gears]
     names = [f"gear {name}" if name.isdigit() else name for name in own]
