@@ -1,13 +1,12 @@
-"""Errors and times of runs: whole settings of `[accuracy]` and their runs, limits of falling sizes, subsets of effects.
+"""Errors and times of runs: whole settings of `[accuracy]` and their runs, distances of answers, subsets of effects.
 
-`SettingRuns` runs a scene with a `Setting` once, `answer` has its measures, and `richardson` their limit with its
-uncertainty. `run_sharing` runs a model with gears that other runs have, `Times` are its seconds by stage.
+`SettingRuns` runs a scene with a `Setting` once, and `answer` has its measures; `distance` compares one measure of two
+answers, relative to the second. Of two sizes `part_left` tells what is left. `run_sharing` runs a model with gears that
+other runs have, `Times` are its seconds by stage.
 
->>> import numpy as np
->>> from fenics_gears.measuring import richardson
->>> halved = richardson([np.array([3.0 + 0.2 * h**2]) for h in (1.0, 0.5, 0.25)], (1.0, 0.5, 0.25), expected=2.0)
->>> round(halved.order, 3), round(float(halved.value[0]), 3)
-(2.0, 3.0)
+>>> from fenics_gears.measuring import part_left
+>>> round(part_left((1.0, 0.5), order=2.0), 3)
+0.333
 """
 
 from fenics_gears.contact.interpolation import AVERAGED
@@ -18,7 +17,7 @@ from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.runs.one_run import completed
-from fenics_gears.runs.settings.convergence import Limit, error_from, largest_part, last_of, richardson, together
+from fenics_gears.runs.settings.convergence import part_left
 from fenics_gears.runs.settings.measures import (
     DEFECT,
     FACE_LOAD,
@@ -28,6 +27,7 @@ from fenics_gears.runs.settings.measures import (
     Answer,
     answer,
     comparable,
+    distance,
     distances,
     judged,
     measures_of,
@@ -48,9 +48,9 @@ from fenics_gears.system.versions import processor, versions
 __all__ = [
     "AVERAGED", "DEFECT", "EVERY_STEP", "FACE_LOAD", "ISO_6336", "MEAN", "NODE_SPACING", "ONCE", "OVER_FACE",
     "RIGID_TEETH", "SECTIONS", "SPAN", "STAGES", "STIFFNESS_TABLE", "Accuracy", "Answer", "Cycle", "LeadModification",
-    "Limit", "Model", "Output", "Setting", "SettingRuns", "SilentProgress", "Times", "answer", "broken_rules",
-    "communicator", "comparable", "compile_kernels", "completed", "default_setting", "distances", "effect_named",
-    "error_from", "every_effect", "half_width", "judged", "largest_normal_force", "largest_part", "last_of",
-    "measures_of", "own_setting", "peak_root_stress", "processor", "richardson", "run_sharing", "settings_of",
-    "shared_gears", "together", "versions", "without", "without_settings",
+    "Model", "Output", "Setting", "SettingRuns", "SilentProgress", "Times", "answer", "broken_rules", "communicator",
+    "comparable", "compile_kernels", "completed", "default_setting", "distance", "distances", "effect_named",
+    "every_effect", "half_width", "judged", "largest_normal_force", "measures_of", "own_setting", "part_left",
+    "peak_root_stress", "processor", "run_sharing", "settings_of", "shared_gears", "versions", "without",
+    "without_settings",
 ]  # fmt: skip

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from fenics_gears.extensions.measuring.accuracy import whole
+from fenics_gears.extensions.measuring.accuracy.convergence import largest_part
 from fenics_gears.extensions.measuring.accuracy.refinement import Level, Refinement
 from fenics_gears.runs.settings import measures
-from fenics_gears.runs.settings.convergence import largest_part
 from fenics_gears.runs.settings.measures import SPAN
 from fenics_gears.runs.settings.setting import Setting
 

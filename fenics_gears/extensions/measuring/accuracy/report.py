@@ -16,7 +16,6 @@ from fenics_gears.measuring import (
     Accuracy,
     Answer,
     Cycle,
-    Limit,
     Model,
     Output,
     Setting,
@@ -27,7 +26,6 @@ from fenics_gears.measuring import (
     compile_kernels,
     default_setting,
     distances,
-    error_from,
     judged,
     measures_of,
     own_setting,
@@ -35,12 +33,12 @@ from fenics_gears.measuring import (
     run_sharing,
     settings_of,
     shared_gears,
-    together,
     without_settings,
 )
 
 from ..machine import machine
 from . import whole
+from .convergence import Limit, error_from, together
 from .over_face import PLANE, in_the_plane
 from .refinement import (
     CONDENSATION,

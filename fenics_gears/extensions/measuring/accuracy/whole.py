@@ -6,8 +6,9 @@ from collections.abc import Mapping, Sequence
 from functools import reduce
 
 from fenics_gears import Scene, expected_cost, model_of
-from fenics_gears.measuring import Setting, largest_part
+from fenics_gears.measuring import Setting
 
+from .convergence import largest_part
 from .refinement import FAMILY, LENGTH, OF_FAMILY, Refinement
 
 # The path keeps a setting when its error is below this part of the error of the last one kept.
