@@ -46,6 +46,7 @@ from fenics_gears.results.curves_table import save_tables as save_tables
 from fenics_gears.results.files import load as load
 from fenics_gears.results.key_numbers import HARMONIC_NAMES as HARMONIC_NAMES
 from fenics_gears.results.key_numbers import MICROMETRE as MICROMETRE
+from fenics_gears.results.layout import MICRORADIANS as MICRORADIANS
 from fenics_gears.results.layout import OVERALL as OVERALL
 from fenics_gears.results.mesh_of_train import carried_train as carried_train
 from fenics_gears.results.mesh_of_train import mesh_run as mesh_run

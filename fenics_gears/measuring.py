@@ -12,6 +12,7 @@ other runs have, `Times` are its seconds by stage.
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.effects import SECTIONS, effect_named, every_effect, without
+from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.geometry.lead_modification import LeadModification
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
@@ -34,23 +35,20 @@ from fenics_gears.runs.settings.measures import (
 )
 from fenics_gears.runs.settings.setting import Setting, default_setting, half_width, own_setting, without_settings
 from fenics_gears.runs.settings.setting_runs import SettingRuns
-from fenics_gears.runs.settings.target import settings_of
+from fenics_gears.runs.settings.target import choose
 from fenics_gears.runs.timed import STAGES, Times, run_sharing, shared_gears
 from fenics_gears.scene.accuracy import NODE_SPACING
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy, Output
 from fenics_gears.scene.rules import broken_rules
-from fenics_gears.simulation.root_point import peak_root_stress
+from fenics_gears.simulation.stored_forces import stored_forces
 from fenics_gears.simulation.warm_up import compile_kernels
-from fenics_gears.system.job import communicator
-from fenics_gears.system.progress import SilentProgress
 from fenics_gears.system.versions import processor, versions
 
 __all__ = [
     "AVERAGED", "DEFECT", "EVERY_STEP", "FACE_LOAD", "ISO_6336", "MEAN", "NODE_SPACING", "ONCE", "OVER_FACE",
     "RIGID_TEETH", "SECTIONS", "SPAN", "STAGES", "STIFFNESS_TABLE", "Accuracy", "Answer", "Cycle", "LeadModification",
-    "Model", "Output", "Setting", "SettingRuns", "SilentProgress", "Times", "answer", "broken_rules", "communicator",
-    "comparable", "compile_kernels", "completed", "default_setting", "distance", "distances", "effect_named",
-    "every_effect", "half_width", "judged", "largest_normal_force", "measures_of", "own_setting", "part_left",
-    "peak_root_stress", "processor", "run_sharing", "settings_of", "shared_gears", "versions", "without",
-    "without_settings",
+    "Model", "Output", "Setting", "SettingRuns", "Times", "answer", "broken_rules", "choose", "comparable",
+    "compile_kernels", "completed", "default_setting", "distance", "distances", "effect_named", "every_effect",
+    "half_width", "judged", "largest_normal_force", "measures_of", "own_setting", "part_left", "processor",
+    "root_stress_rows", "run_sharing", "shared_gears", "stored_forces", "versions", "without", "without_settings",
 ]  # fmt: skip

@@ -8,12 +8,11 @@ from math import isnan, nan
 import xarray as xr
 
 from fenics_gears import ComputationError, GearsError, Scene, SceneError, model_of
-from fenics_gears.many_runs import GearStore, Progress
+from fenics_gears.many_runs import GearStore, Progress, SilentProgress
 from fenics_gears.measuring import (
     EVERY_STEP,
     Cycle,
     Model,
-    SilentProgress,
     compile_kernels,
     completed,
     largest_normal_force,
