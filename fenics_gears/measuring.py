@@ -4,6 +4,11 @@
 answers, relative to the second. Of two sizes `part_left` tells what is left. `run_sharing` runs a model with gears that
 other runs have, `Times` are its seconds by stage.
 
+An `Answer` is a dictionary: `SPAN`, `MEAN`, `DEFECT` and, over the face, `OVER_FACE` with `FACE_LOAD` are names of its
+measures. `STAGES` are those of `Times`, `SECTIONS` the effects of a scene. Values that settings take: `AVERAGED`
+contact nodes, `NODE_SPACING` flank elements apart; gears condensed `ONCE` or at `EVERY_STEP`; the models `RIGID_TEETH`,
+`ISO_6336` and `STIFFNESS_TABLE`.
+
 >>> from fenics_gears.measuring import part_left
 >>> round(part_left((1.0, 0.5), order=2.0), 3)
 0.333
@@ -16,7 +21,6 @@ from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.geometry.lead_modification import LeadModification
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
-from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.runs.one_run import completed
 from fenics_gears.runs.settings.convergence import part_left
 from fenics_gears.runs.settings.measures import (
@@ -49,6 +53,6 @@ __all__ = [
     "RIGID_TEETH", "SECTIONS", "SPAN", "STAGES", "STIFFNESS_TABLE", "Accuracy", "Answer", "Cycle", "LeadModification",
     "Model", "Output", "Setting", "SettingRuns", "Times", "answer", "broken_rules", "choose", "comparable",
     "compile_kernels", "completed", "default_setting", "distance", "distances", "effect_named", "every_effect",
-    "half_width", "judged", "largest_normal_force", "measures_of", "own_setting", "part_left", "processor",
-    "root_stress_rows", "run_sharing", "shared_gears", "stored_forces", "versions", "without", "without_settings",
+    "half_width", "judged", "measures_of", "own_setting", "part_left", "processor", "root_stress_rows", "run_sharing",
+    "shared_gears", "stored_forces", "versions", "without", "without_settings",
 ]  # fmt: skip

@@ -3,6 +3,10 @@
 `ShownRun` is a run with the cycles that are shown, `Cases` a study; functions named `..._charts` and the like take one
 of them and give `charts.Chart`. Rows are (label, value, unit).
 
+Words of a page: `NO_SCENE` and `TOO_FEW` say why a section is missing. Names of numbers: `PEAK_TO_PEAK` of a pair and
+`OF_THE_WHOLE` of a train; `SHARE` and `OF_SHARES` of paths; `RUNG` begins those of the solver's methods. `STATES` of a
+case stand in the order from done to missing. A page lists `LISTED_CASES` of them; a curve has `MOST_POINTS`.
+
 >>> from fenics_gears import gear_pair, load_scene
 >>> from fenics_gears.shown import characteristics, load_in_words
 >>> scene = load_scene("demos/lundvall2004.toml")
