@@ -28,6 +28,7 @@ from fenics_gears.geometry.involute import involute_function as involute_functio
 from fenics_gears.geometry.involute import sum_of_profile_shifts as sum_of_profile_shifts
 from fenics_gears.geometry.iso_6336 import mesh_factor as mesh_factor
 from fenics_gears.geometry.iso_6336 import single_stiffness as single_stiffness
+from fenics_gears.geometry.outline import tooth_outline as tooth_outline
 from fenics_gears.geometry.pair import GearPair as GearPair
 from fenics_gears.geometry.pair import gear_pair as gear_pair
 from fenics_gears.geometry.tooth_thickness import base_helix_angle as base_helix_angle
