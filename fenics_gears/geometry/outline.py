@@ -76,7 +76,7 @@ def tip_corner(gear: Gear) -> np.ndarray:
 
 
 def tooth_outline(gear: Gear, fillet_points: int = 41) -> ToothOutline:
-    """Outline of one tooth, mm; GeometryError for a gear without involute above its fillet, or with overlapping fillets.
+    """Outline of one tooth, mm; GeometryError for a gear without involute above its fillet, or overlapping fillets.
 
     >>> from fenics_gears import gear_pair, load_scene
     >>> pinion = gear_pair(load_scene("demos/lundvall2004.toml").gears).pinion
