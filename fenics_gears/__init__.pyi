@@ -28,6 +28,7 @@ from fenics_gears.geometry.involute import involute_function as involute_functio
 from fenics_gears.geometry.involute import sum_of_profile_shifts as sum_of_profile_shifts
 from fenics_gears.geometry.iso_6336 import mesh_factor as mesh_factor
 from fenics_gears.geometry.iso_6336 import single_stiffness as single_stiffness
+from fenics_gears.geometry.outline import tooth_outline as tooth_outline
 from fenics_gears.geometry.pair import GearPair as GearPair
 from fenics_gears.geometry.pair import gear_pair as gear_pair
 from fenics_gears.geometry.tooth_thickness import base_helix_angle as base_helix_angle
@@ -46,6 +47,7 @@ from fenics_gears.results.curves_table import save_tables as save_tables
 from fenics_gears.results.files import load as load
 from fenics_gears.results.key_numbers import HARMONIC_NAMES as HARMONIC_NAMES
 from fenics_gears.results.key_numbers import MICROMETRE as MICROMETRE
+from fenics_gears.results.layout import MICRORADIANS as MICRORADIANS
 from fenics_gears.results.layout import OVERALL as OVERALL
 from fenics_gears.results.mesh_of_train import carried_train as carried_train
 from fenics_gears.results.mesh_of_train import mesh_run as mesh_run

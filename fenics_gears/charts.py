@@ -1,17 +1,17 @@
 """Charts for pictures and pages, and their colours: what a program takes that draws its own.
 
 A `Chart` is data: curves over one axis, with titles and units. `draw_charts` writes charts as PNG; `plotly_figure` is
-what plotly's browser library draws of one. `run_charts`, `gear_outline` and `pinion_in_space` show a run.
+what plotly's browser library draws of one. `run_charts` and `gear_outline` show a run, `tooth_points` a tooth.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from fenics_gears.commands.work.shared import plots
-from fenics_gears.show.chart import BAND, BARS, LINES, MARKED_LINES, MARKERS, WORDS, Chart, Curve, span, stems
+from fenics_gears.show.chart import BAND, BARS, LINES, MARKED_LINES, MARKERS, WORDS, Chart, Curve, Field, span, stems
 from fenics_gears.show.harris_map import harris_map, words_apart
 from fenics_gears.show.interactive import figure as plotly_figure
 from fenics_gears.show.panels import DARK, GREY, PALETTE, shades, styled
@@ -22,14 +22,15 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
+    from fenics_gears.geometry.gear import Gear
     from fenics_gears.geometry.pair import GearPair
     from fenics_gears.scene.train import TrainScene
     from fenics_gears.show.gears_of_train import DrawnGear
 
 __all__ = [
-    "BAND", "BARS", "DARK", "GREY", "LINES", "MARKED_LINES", "MARKERS", "PALETTE", "WORDS", "Chart", "Curve",
+    "BAND", "BARS", "DARK", "GREY", "LINES", "MARKED_LINES", "MARKERS", "PALETTE", "WORDS", "Chart", "Curve", "Field",
     "conditions", "design", "draw_charts", "draw_run", "gear_outline", "gears_of_train", "harris_map",
-    "pinion_in_space", "plotly_figure", "run_charts", "save_figures", "shades", "span", "stems", "styled",
+    "plotly_figure", "run_charts", "save_figures", "shades", "span", "stems", "styled", "tooth_points",
     "train_charts", "words_apart",
 ]  # fmt: skip
 
@@ -53,20 +54,19 @@ def gears_of_train(scene: TrainScene) -> tuple[list[DrawnGear], float]:
     return gears_of_train(scene)
 
 
-def pinion_in_space(dataset: xr.Dataset) -> dict[str, Any] | None:
-    """Some teeth of the pinion as plotly's browser library draws them, the largest pressure while it is in mesh on the
-    flank of one; None of a run without contact fields."""
-    from fenics_gears.show.flank_in_space import pinion_in_space
-
-    return pinion_in_space(ShownRun(dataset))
-
-
 def gear_outline(pair: GearPair, gear: int, phase: float) -> np.ndarray:
     """Outline (n, 2), mm, of the pinion (0) or the wheel (1) at a phase of the mesh cycle; line of centres upright."""
     # Stands on bodies of finite elements, which other charts do not load.
     from fenics_gears.show.pair_drawing import gear_outline
 
     return gear_outline(pair, gear, phase)
+
+
+def tooth_points(gear: Gear) -> np.ndarray:
+    """Outline (n, 2), mm, of one tooth, from the middle of a space to the middle of the next."""
+    from fenics_gears.show.pair_drawing import tooth_points
+
+    return tooth_points(gear)
 
 
 def draw_run(dataset: xr.Dataset, directory: Path) -> list[Path]:

@@ -13,22 +13,22 @@ of a scene depends on is told by `effects_on`, `common_period` and `settling_tim
 """
 
 from fenics_gears.effects import common_period, effects_on
+from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.files import save
 from fenics_gears.results.settled import settling_time
 from fenics_gears.results.summary import result_rows
 from fenics_gears.results.together import OVER_FACE
-from fenics_gears.results.train import train_rows
+from fenics_gears.results.train_rows import train_rows
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.runs.common_windows import CommonWindows
 from fenics_gears.runs.condensing import BODY, gear_tasks
 from fenics_gears.runs.folder import sole_writer
 from fenics_gears.runs.gear_store import GearStore, operators_key
-from fenics_gears.runs.lines import FolderOfLines, kept
 from fenics_gears.runs.record import NUMBERS, OF_TRAINS, numbers_of, record_of
 from fenics_gears.runs.run import Run, run_of
-from fenics_gears.runs.runs import Failure, Runs, most_together, solved_at_once
+from fenics_gears.runs.runs import Failure, Runs, failure_of, most_together, solved_at_once
 from fenics_gears.runs.spent import Spent, seconds_of
 from fenics_gears.runs.team import Alone, Together, ranks
 from fenics_gears.simulation.dynamic_factor import quasi_static
@@ -37,13 +37,14 @@ from fenics_gears.studies.run_study import Outcome, run_with
 from fenics_gears.studies.study import Study
 from fenics_gears.studies.study_file import study_of
 from fenics_gears.studies.summary import last_words, summary_rows
-from fenics_gears.system.progress import Interruption, Progress
+from fenics_gears.system.job import communicator
+from fenics_gears.system.progress import Interruption, Progress, SilentProgress
 
 __all__ = [
-    "BODY", "NO_MEANING", "NUMBERS", "OF_TRAINS", "OVER_FACE", "RESULT_ATTRIBUTES", "Alone", "CommonWindows",
-    "Failure", "FolderOfLines", "GearStore", "Interruption", "Outcome", "Progress", "Run", "RunResult", "Runs",
-    "Spent", "Study", "Together", "common_period", "effects_on", "gear_tasks", "kept", "last_words",
-    "load_combined", "most_together", "numbers_of", "operators_key", "quasi_static", "ranks", "record_of",
-    "result_rows", "run_of", "run_with", "save", "seconds_of", "settling_time", "sole_writer", "solved_at_once",
-    "study_of", "summary_rows", "train_rows",
+    "BODY", "NO_MEANING", "NUMBERS", "NUMBERS_VERSION", "OF_TRAINS", "OVER_FACE", "RESULT_ATTRIBUTES", "Alone",
+    "CommonWindows", "Failure", "GearStore", "Interruption", "Outcome", "Progress", "Run", "RunResult", "Runs",
+    "SilentProgress", "Spent", "Study", "Together", "common_period", "communicator", "effects_on", "failure_of",
+    "gear_tasks", "last_words", "load_combined", "most_together", "numbers_of", "operators_key", "quasi_static",
+    "ranks", "record_of", "result_rows", "run_of", "run_with", "save", "seconds_of", "settling_time", "sole_writer",
+    "solved_at_once", "study_of", "summary_rows", "train_rows",
 ]  # fmt: skip

@@ -13,6 +13,7 @@ True
 
 from fenics_gears.inputs.allowed import AllowedFile, AllowedNumber
 from fenics_gears.inputs.fields import choice, declared, text, whole_number
+from fenics_gears.inputs.limits import Limit, limits_of, what_is_allowed
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean, line_numbers, listed
 from fenics_gears.inputs.section import Section, names_in, read
 from fenics_gears.inputs.tree import GEARS, Tree, over_the_face, value_at, wheel_torque
@@ -28,9 +29,10 @@ from fenics_gears.studies.scenes import Models, NoScene, SceneChanges, model_of_
 from fenics_gears.studies.study_file import Mistakes, entries, left_out
 
 __all__ = [
-    "GEARS", "LOAD_WORDS", "NOTHING_DONE", "STAGES", "AllowedFile", "AllowedNumber", "AxisError", "Mistakes", "Models",
-    "NoScene", "Problem", "SceneChanges", "Section", "Tree", "as_written", "choice", "declared", "did_you_mean",
-    "entries", "factor_of", "fields", "is_train", "known_paths", "left_out", "line_numbers", "listed",
-    "load_scene_or_train", "model_of_tree", "name_of", "names_in", "number_in", "over_the_face", "parsed", "read",
-    "text", "text_of", "value_at", "values_in_words", "values_of", "wheel_torque", "whole_number",
+    "GEARS", "LOAD_WORDS", "NOTHING_DONE", "STAGES", "AllowedFile", "AllowedNumber", "AxisError", "Limit", "Mistakes",
+    "Models", "NoScene", "Problem", "SceneChanges", "Section", "Tree", "as_written", "choice", "declared",
+    "did_you_mean", "entries", "factor_of", "fields", "is_train", "known_paths", "left_out", "limits_of",
+    "line_numbers", "listed", "load_scene_or_train", "model_of_tree", "name_of", "names_in", "number_in",
+    "over_the_face", "parsed", "read", "text", "text_of", "value_at", "values_in_words", "values_of",
+    "what_is_allowed", "wheel_torque", "whole_number",
 ]  # fmt: skip

@@ -76,7 +76,13 @@ def tip_corner(gear: Gear) -> np.ndarray:
 
 
 def tooth_outline(gear: Gear, fillet_points: int = 41) -> ToothOutline:
-    """Outline of one tooth; GeometryError for a gear without involute above its fillet, or with overlapping fillets."""
+    """Outline of one tooth, mm; GeometryError for a gear without involute above its fillet, or overlapping fillets.
+
+    >>> from fenics_gears import gear_pair, load_scene
+    >>> pinion = gear_pair(load_scene("demos/lundvall2004.toml").gears).pinion
+    >>> tooth_outline(pinion, 3).fillet.shape
+    (3, 2)
+    """
     if gear.tip_form_radius <= gear.form_radius:
         raise GeometryError(
             f"no involute: the fillet of the gear with {gear.tooth_count} teeth reaches up to radius"

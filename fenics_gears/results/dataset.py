@@ -5,9 +5,10 @@ Dimensions: `time`, all marched steps; `slot`, the tooth pairs that can touch at
 """
 
 import time
-from collections.abc import Mapping
+from collections.abc import Sequence
 from functools import cached_property
 from math import isfinite
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -18,11 +19,12 @@ from fenics_gears.dynamics.marched import March
 from fenics_gears.effects import common_period, from_effects, result_variables
 from fenics_gears.errors import attempted
 from fenics_gears.inputs.tree import GEARS
+from fenics_gears.model.model import Model
 from fenics_gears.model.storage import CONTACT_COORDINATES
 from fenics_gears.numbers_version import NUMBERS_VERSION
 
 from .carried_scene import scene_attributes
-from .contact_variables import largest_normal_force, transmitted
+from .contact_variables import Curves, largest_normal_force, transmitted
 from .extrema import Extrema, extremes
 from .key_numbers import key_numbers, largest_root_stress, path_point_coordinate, path_point_values
 from .numbers import RUNG, loss_attributes
@@ -190,14 +192,9 @@ def _numbers(recorder: Recorder, march: March, result: RunResult, first: int) ->
     lost = [separation for separation in march.separations if separation[0] > first or first == 0]
     numbers = loss_attributes(lost, first, march.steps, model.clock)
     extrema = Extrema(model, recorder.cycle, counted["mesh_phase"], error, [march])
-    friction: dict[str, float] = {}
-    if len(error) > 1 and model.scene.friction is not None and not march.locked:
-        friction = friction_loss(counted) if largest_normal_force(result) > NO_FORCE else {}
-    others = key_numbers(counted, model.pair, friction.get("friction_loss"), model.scene.motion.speed_given)
-    ((of_error, of_force),) = extremes(extrema, [(0, counted, "largest_pair_force" in others)])
-    # The last step begins the next cycle.
-    mean = float(error[:-1].mean() if len(error) > 1 else error[0])
-    numbers |= of_error | {"mean_transmission_error": mean} | friction | others
+    friction = friction_loss(result, counted) if not march.locked else {}
+    ((found, of_force),) = numbers_of_curves(model, extrema, [(0, counted, friction)])
+    numbers |= found
     if recorder.stress is not None or recorder.along_face:
         labelled = result.dataset.isel(time=slice(first, None))
         numbers |= largest_root_stress(labelled)
@@ -206,8 +203,32 @@ def _numbers(recorder: Recorder, march: March, result: RunResult, first: int) ->
     return numbers | of_force
 
 
-def friction_loss(counted: Mapping[str, np.ndarray]) -> dict[str, float]:
-    """The share of the drive's work that friction takes; nothing where the drive does no work."""
+def numbers_of_curves(
+    model: Model, extrema: Extrema, runs: Sequence[tuple[int, Curves, dict[str, float]]], key: bool = True
+) -> list[tuple[dict[str, Any], dict[str, Any]]]:
+    """Of runs that were marched together, each by its place, its settled curves and its friction loss: the numbers, key
+    numbers among them unless `key` is not set; and those of the largest pair force between steps."""
+    timed = model.scene.motion.speed_given
+    others = [
+        key_numbers(counted, model.pair, loss.get("friction_loss"), timed) if key else {} for _, counted, loss in runs
+    ]
+    located = extremes(
+        extrema, [(run, counted, "largest_pair_force" in own) for (run, counted, _), own in zip(runs, others)]
+    )
+    found: list[tuple[dict[str, Any], dict[str, Any]]] = []
+    for (_, counted, loss), own, (of_error, of_force) in zip(runs, others, located):
+        error = counted["transmission_error"]
+        # The last step begins the next cycle.
+        mean = float(error[:-1].mean() if len(error) > 1 else error[0])
+        found.append((of_error | {"mean_transmission_error": mean} | loss | own, of_force))
+    return found
+
+
+def friction_loss(curves: Curves, counted: Curves) -> dict[str, float]:
+    """The share of the drive's work that friction takes in settled steps; nothing where nothing presses, or the drive
+    does no work."""
+    if "work_friction" not in counted or len(counted["time"]) < 2 or largest_normal_force(curves) <= NO_FORCE:
+        return {}
     drive = abs(transmitted(counted).drive)
     taken = counted["work_friction"]
     return {"friction_loss": float(taken[-1] - taken[0]) / drive} if drive else {}

@@ -23,6 +23,7 @@ OF_PAIRS = {"step": "time", "contact_step": "contact_time"}
 # How the shafts of a train bend, on the average.
 OF_SHAFTS = {f"shaft_deflection_{axis}": ("shaft", "shaft_point") for axis in "xy"}
 WRITTEN = (*COORDINATES, "slot", "gear", "normal_force", "pair_normal_force")
+MICRORADIANS = 1e6  # in a radian
 TEXTS = ("title", "scene", "scene_name", "warnings")
 
 
@@ -121,4 +122,4 @@ def in_microradians(angle: float) -> str:
     >>> in_microradians(3.3892e-05)
     '33.89'
     """
-    return f"{1e6 * angle:.4g}"
+    return f"{MICRORADIANS * angle:.4g}"

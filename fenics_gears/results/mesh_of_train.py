@@ -1,8 +1,9 @@
-"""A mesh of a train's result as the result of its pair: what charts, tables and ratings of pairs take."""
+"""Meshes side by side in the result of a train, and one of them as the result of its pair: what charts, tables and
+ratings of pairs take."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,10 +19,73 @@ from .layout import OF_PAIRS
 from .sets_in_train import MESH, OF_SETS
 
 OF_MESH = "_of_mesh"
+# Each mesh has its own steps, in place of the times of a pair.
+STEPS = {time: step for step, time in OF_PAIRS.items()}
+SHARED = ("gear", "path_point", "slot")
 COORDINATES_OF_PAIRS = (
     *COORDINATES, *CONTACT_COORDINATES, "face_position", "face_slice_width", "gear", "path_point", "slot",
 )  # fmt: skip
 SAID = ("fenics_gears_version", "numbers_version", "complete")
+
+
+def over_meshes(meshes: Sequence[Mapping[str, tuple]]) -> Iterator[tuple[str, tuple]]:
+    """Name, and dimensions, values and labels of each variable of all meshes, side by side. What only some meshes have
+    over the face stands in its first slice for the others."""
+    own = [{name: of for name, of in each.items() if name not in SHARED} for each in meshes]
+    sizes = _largest_sizes(own)
+    for name in dict.fromkeys(name for each in own for name in each):
+        there = [each.get(name) for each in own]
+        dims = max((_names_of(each[0]) for each in there if each is not None), key=len)
+        values = _side_by_side(
+            [None if each is None else _over(dims, each) for each in there], [sizes[each] for each in dims]
+        )
+        behind = 1 if dims and dims[0] in STEPS else 0
+        renamed = [STEPS.get(each, each) for each in dims]
+        labels = _labels([each[2] for each in there if each is not None], len(meshes))
+        # Times and places of one mesh are no coordinate of all.
+        known = f"{name}{OF_MESH}" if name in dims else name
+        yield known, ((*renamed[:behind], MESH, *renamed[behind:]), np.moveaxis(values, 0, behind), labels)
+
+
+def _labels(of_meshes: Sequence[Mapping[str, Any]], meshes: int) -> dict[str, Any]:
+    """Labels of a variable of several meshes; a number that differs between all meshes is a list."""
+    labels = dict(of_meshes[0])
+    for name, value in labels.items():
+        every = [each[name] for each in of_meshes]
+        if not isinstance(value, str) and len(every) == meshes and any(each != value for each in every):
+            labels[name] = every
+    return labels
+
+
+def _over(dims: tuple[str, ...], variable: tuple) -> np.ndarray:
+    """The values of a variable with an axis for each of some dimensions."""
+    own = _names_of(variable[0])
+    values = np.asarray(variable[1])
+    return values.reshape([values.shape[own.index(each)] if each in own else 1 for each in dims])
+
+
+def _names_of(dims: str | Sequence[str]) -> tuple[str, ...]:
+    return (dims,) if isinstance(dims, str) else tuple(dims)
+
+
+def _largest_sizes(of_meshes: Sequence[Mapping[str, tuple]]) -> dict[str, int]:
+    """The largest size that any variable of any mesh has over each dimension."""
+    sizes: dict[str, int] = {}
+    for own in of_meshes:
+        for dims, values, _ in own.values():
+            for name, size in zip(_names_of(dims), np.shape(values)):
+                sizes[name] = max(size, sizes.get(name, 0))
+    return sizes
+
+
+def _side_by_side(arrays: Sequence[np.ndarray | None], shape: Sequence[int]) -> np.ndarray:
+    """Arrays of all meshes (meshes, ...): not a number, or 0, where one has less than another."""
+    kind = next(each.dtype for each in arrays if each is not None)
+    values = np.full((len(arrays), *shape), np.nan if kind.kind == "f" else 0, dtype=kind)
+    for own, each in zip(values, arrays):
+        if each is not None:
+            own[tuple(slice(size) for size in each.shape)] = each
+    return values
 
 
 def carried_train(result: xr.Dataset) -> TrainScene:

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.planetary import CARRIER, RING, SUN
@@ -15,7 +14,7 @@ from fenics_gears.model.train import RowModel
 from fenics_gears.scene.carrier import Carrier
 from fenics_gears.scene.train_mesh import gear_names
 
-from .layout import OVERALL, in_microradians
+from .layout import OVERALL
 from .train_shafts import ResultOfShafts
 
 MEMBER = "member"
@@ -167,43 +166,3 @@ def _efficiencies(carrier: Carrier, torques: np.ndarray) -> dict[str, float]:
     whole = -on[own.output] * float(own.speeds[own.output]) / on[own.input]
     basic = on[own.second] * own.weights[SUN] / (on[SUN] * own.weights[own.second])
     return {"efficiency": whole, "basic_efficiency": abs(basic), "friction_loss": 1.0 - whole}
-
-
-def set_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
-    """What is printed of a set: rows of label, value and unit; of both kinds of meshes the largest of all planets."""
-    attrs = found.attrs
-    rows = [
-        (f"overall transmission error, {label}", in_microradians(attrs[f"{name}_{OVERALL}"]), "urad of the output")
-        for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
-    ]
-    rows += [
-        ("load sharing factor K_gamma, of the sun's meshes", f"{attrs['load_sharing_factor']:.6g}", ""),
-        ("load sharing factor K_gamma, of the ring's meshes", f"{attrs['load_sharing_factor_ring']:.6g}", ""),
-        ("largest force of a planet on its pin", f"{attrs['largest_pin_force']:.5g}", "N"),
-    ]
-    members = [str(each) for each in found[MEMBER].values]
-    for place, member in enumerate(members):
-        torque = 1e-3 * float(found["member_torque"][:-1, place].mean())
-        rows.append((f"torque on the {member} from outside, mean", f"{torque:.6g}", "N m"))
-    for member in attrs.get("floating", "").split():
-        place = members.index(member)
-        radius = np.hypot(found["member_x"][:, place], found["member_y"][:, place])
-        rows.append((f"centre of the {member}, farthest from its place", f"{1e3 * float(radius.max()):.4g}", "um"))
-    for name, label in (("efficiency", "efficiency"), ("basic_efficiency", "efficiency with the carrier at rest")):
-        if name in attrs:
-            rows.append((label, f"{100.0 * attrs[name]:.5g}", "%"))
-    with_sun = np.array([": sun, " in str(each) for each in found["mesh"].values])
-    for name, which in (("sun and planets", with_sun), (f"planets and {members[1]}", ~with_sun)):
-        own = found.isel(mesh=which)
-        for number, label, unit in OF_MESHES:
-            if number in own and own[number].notnull().any():
-                rows.append((f"{name}: {label}", f"{float(own[number].max()):.4g}", unit))
-    return rows
-
-
-OF_MESHES = (
-    ("mean_mesh_stiffness", "mesh stiffness, mean", "N/(mm um)"),
-    ("face_load_factor", "face load factor K_Hbeta", ""),
-    ("largest_pair_force", "largest force of a tooth pair", "N"),
-    ("peak_contact_pressure", "peak contact pressure", "MPa"),
-)

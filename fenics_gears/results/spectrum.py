@@ -21,6 +21,7 @@ PINION = "turn of the pinion"
 WHEEL = "turn of the wheel"
 BOTH = "turn of either gear"
 HUNTING = "hunting tooth"
+BETWEEN = "between mesh orders"
 # Factors of the cosines; a line on a bin spreads over as many bins on either side as there are cosines. A line midway
 # between bins is 36 % too low without a window, 15 % in Hann's, 0.1 % in the flat top.
 NO_WINDOW = "none"

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.step_solver import HALVED
 from fenics_gears.dynamics.batch import OpenedNodes
@@ -20,18 +19,11 @@ from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.model.model import Model
 
-from .contact_variables import (
-    energy_variables,
-    largest_normal_force,
-    node_variables,
-    normal_forces,
-    pair_variables,
-    work_variables,
-)
-from .dataset import friction_loss
-from .extrema import Extrema, extremes, repeating_steps
+from .contact_variables import energy_variables, node_variables, normal_forces, pair_variables, work_variables
+from .dataset import friction_loss, numbers_of_curves
+from .extrema import Extrema, repeating_steps
 from .face_variables import AlongTheFace
-from .key_numbers import HARMONIC_NAMES, key_numbers
+from .key_numbers import HARMONIC_NAMES
 from .mesh_curves import EdgesAndKinks, pressure_curves
 from .recorder import KnownTouching
 from .settled import settled
@@ -44,6 +36,7 @@ LOSS = "friction_loss"
 # What can be asked for, and what of it takes no other key numbers.
 OVER_FACE = "face_load_factor", "largest_line_load_factor", "edge_line_load_factor", "transverse_load_factor"
 OF_THEMSELVES = frozenset((ERROR, LOSS, "max_normal_force", *OVER_FACE))
+Curves = dict[str, np.ndarray]
 OFFERED = OF_THEMSELVES | {FORCE, PRESSURE, *HARMONIC_NAMES}
 
 
@@ -84,20 +77,14 @@ def numbers_together(
     first = settled(model, model.steps).first
     curves, factors = _curves(models, cycle, [(run, marches[run]) for run in runs], first, asked)
     counted = [{name: values[first:] for name, values in of_run.items()} for of_run in curves]
-    loss = [_loss(*each) if LOSS in asked else {} for each in zip(curves, counted)]
-    timed = model.scene.motion.speed_given
-    key = not OF_THEMSELVES.issuperset(asked)
-    others = [key_numbers(each, model.pair, of.get(LOSS), timed) if key else {} for each, of in zip(counted, loss)]
+    loss = [friction_loss(*each) if LOSS in asked else {} for each in zip(curves, counted)]
     phase, error = (counted[0][name] for name in ("mesh_phase", "transmission_error"))
     extrema = Extrema(model, cycle, phase, error, marches, marcher.batch)
-    located = extremes(extrema, [(run, each, FORCE in of) for run, each, of in zip(runs, counted, others)])
+    found = numbers_of_curves(model, extrema, list(zip(runs, counted, loss)), not OF_THEMSELVES.issuperset(asked))
     seconds = (time.perf_counter() - begun) / count
     for place, run in enumerate(runs):
-        error = counted[place]["transmission_error"]
-        of_error, of_force = located[place]
-        numbers = others[place] | loss[place] | factors[place] | of_error | of_force
+        numbers = found[place][0] | found[place][1] | factors[place]
         numbers |= {
-            "mean_transmission_error": float(error[:-1].mean()),
             "newton_iterations_total": marches[run].newton_iterations,
             "steps_per_mesh_cycle": model.resolution.steps_per_mesh_cycle,
             "base_radius_wheel": abs(model.pair.wheel.base_radius),
@@ -119,14 +106,6 @@ def _equations(models: Sequence[Model]) -> list:
             known[load] = model.equations_of_motion
         equations.append(known[load])
     return equations
-
-
-Curves = dict[str, np.ndarray]
-
-
-def _loss(curves: Curves, counted: Curves) -> dict[str, float]:
-    pressed = "work_friction" in curves and len(counted["time"]) > 1 and largest_normal_force(curves) > NO_FORCE
-    return friction_loss(counted) if pressed else {}
 
 
 def _error(model: Model, march: March) -> np.ndarray:

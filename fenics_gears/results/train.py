@@ -3,7 +3,7 @@ meshes, and the transmission error of the whole over time."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -18,21 +18,17 @@ from fenics_gears.scene.train_scene import Link
 from .attributes import RESULT_ATTRIBUTES
 from .carried_scene import files_of
 from .dataset import RunResult
-from .layout import OF_OUTPUTS, OVERALL, in_microradians
+from .layout import OVERALL
+from .mesh_of_train import SHARED, over_meshes
 from .path_shares import path_shares
-from .planetary import PLANET, set_rows
-from .sets_in_train import MESH, SET, set_runs, side_by_side
+from .sets_in_train import MESH, side_by_side
 from .train_outputs import lag_of_output, of_outputs
 
 if TYPE_CHECKING:
     from .train_shafts import ResultOfShafts
 
-# Each mesh has its own steps, in place of the times of a pair.
-STEPS = {"time": "step", "contact_time": "contact_step"}
 # Of a mesh of a row by itself they would leave out what it does through the bodies of its neighbours.
 OF_ENERGY = ("energy", "work_")
-MICROMETRE = 1e-3
-SHARED = ("gear", "path_point", "slot")
 # What a result tells in words of its whole run.
 OF_THE_WHOLE = (
     "title", "scene", "scene_name", "scene_folder", "scene_files", "fenics_gears_version", "numbers_version",
@@ -84,7 +80,7 @@ def mesh_result(name: str, result: RunResult) -> MeshResult:
 def dataset_of(model: TrainModel, meshes: Sequence[MeshResult]) -> xr.Dataset:
     """All meshes side by side, and the lag of the last shaft."""
     times, overall = overall_error(model, meshes)
-    variables = dict(_over_meshes(meshes))
+    variables = dict(over_meshes([each.variables for each in meshes]))
     variables[OVERALL] = (
         "time",
         overall,
@@ -164,66 +160,6 @@ def _size(mesh: MeshResult, name: str) -> int:
     return len(mesh.variables[name][1]) if name in mesh.variables else 0
 
 
-def _over_meshes(meshes: Sequence[MeshResult]) -> Iterator[tuple[str, tuple]]:
-    """Name, and dimensions, values and labels of each variable of all meshes, side by side. What only some meshes have
-    over the face stands in its first slice for the others."""
-    own = [{name: of for name, of in each.variables.items() if name not in SHARED} for each in meshes]
-    sizes = _largest_sizes(own)
-    for name in dict.fromkeys(name for each in own for name in each):
-        there = [each.get(name) for each in own]
-        dims = max((_names_of(each[0]) for each in there if each is not None), key=len)
-        values = _side_by_side(
-            [None if each is None else _over(dims, each) for each in there], [sizes[each] for each in dims]
-        )
-        behind = 1 if dims and dims[0] in STEPS else 0
-        renamed = [STEPS.get(each, each) for each in dims]
-        labels = _labels([each[2] for each in there if each is not None], len(meshes))
-        # Times and places of one mesh are no coordinate of all.
-        known = f"{name}_of_mesh" if name in dims else name
-        yield known, ((*renamed[:behind], MESH, *renamed[behind:]), np.moveaxis(values, 0, behind), labels)
-
-
-def _labels(of_meshes: Sequence[Mapping[str, Any]], meshes: int) -> dict[str, Any]:
-    """Labels of a variable of several meshes; a number that differs between all meshes is a list."""
-    labels = dict(of_meshes[0])
-    for name, value in labels.items():
-        every = [each[name] for each in of_meshes]
-        if not isinstance(value, str) and len(every) == meshes and any(each != value for each in every):
-            labels[name] = every
-    return labels
-
-
-def _over(dims: tuple[str, ...], variable: tuple) -> np.ndarray:
-    """The values of a variable with an axis for each of some dimensions."""
-    own = _names_of(variable[0])
-    values = np.asarray(variable[1])
-    return values.reshape([values.shape[own.index(each)] if each in own else 1 for each in dims])
-
-
-def _names_of(dims: str | Sequence[str]) -> tuple[str, ...]:
-    return (dims,) if isinstance(dims, str) else tuple(dims)
-
-
-def _largest_sizes(of_meshes: Sequence[Mapping[str, tuple]]) -> dict[str, int]:
-    """The largest size that any variable of any mesh has over each dimension."""
-    sizes: dict[str, int] = {}
-    for own in of_meshes:
-        for dims, values, _ in own.values():
-            for name, size in zip(_names_of(dims), np.shape(values)):
-                sizes[name] = max(size, sizes.get(name, 0))
-    return sizes
-
-
-def _side_by_side(arrays: Sequence[np.ndarray | None], shape: Sequence[int]) -> np.ndarray:
-    """Arrays of all meshes (meshes, ...): not a number, or 0, where one has less than another."""
-    kind = next(each.dtype for each in arrays if each is not None)
-    values = np.full((len(arrays), *shape), np.nan if kind.kind == "f" else 0, dtype=kind)
-    for own, each in zip(values, arrays):
-        if each is not None:
-            own[tuple(slice(size) for size in each.shape)] = each
-    return values
-
-
 def _numbers_of_meshes(numbers: Sequence[Mapping[str, Any]]) -> dict[str, tuple]:
     described = {each.name: each for each in RESULT_ATTRIBUTES}
     found = {}
@@ -294,55 +230,3 @@ def _of_rows(model: TrainModel) -> list[str]:
     coupled: list[RowModel] = [row for row in model.rows if not row.single]
     of_meshes = [said for row in coupled for said in row.warnings_of_meshes]
     return [*of_meshes, *(said for row in coupled for said in row.warnings)]
-
-
-def train_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
-    """What is printed of a train or a planetary set: rows of label, value and unit."""
-    if SET not in found.dims:
-        return set_rows(found) if PLANET in found.dims else _rows_of_meshes(found)
-    meshes = [str(each) for each in found[MESH].values]
-    of_sets = {str(name): own for name, own in zip(found[SET].values, set_runs(found))}
-    others = [place for place, mesh in enumerate(meshes) if mesh.split(":")[0] not in of_sets]
-    rows = _rows_of_meshes(found.isel({MESH: others}))
-    return rows + [(f"{name}: {row[0]}", *row[1:]) for name, own in of_sets.items() for row in set_rows(own)]
-
-
-def _rows_of_meshes(found: xr.Dataset) -> list[tuple[str, str, str]]:
-    attrs = found.attrs
-    rows = [
-        (f"overall transmission error, {label}", in_microradians(attrs[f"{name}_overall_transmission_error"]), "urad")
-        for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
-    ]
-    for own in found[f"peak_to_peak_{OF_OUTPUTS}"] if OF_OUTPUTS in found else ():
-        rows.append((f"{own['output'].item()}: lag of its shaft, peak to peak", in_microradians(float(own)), "urad"))
-    for name, label in OF_SHAFTS:
-        if name in attrs:
-            rows.append((label, f"{attrs[name]:.5g}", "N"))
-    if "friction_loss" in attrs:
-        rows.append(("friction loss, all meshes", f"{100.0 * attrs['friction_loss']:.4g}", "%"))
-    for name in found[MESH].values:
-        own = found.sel({MESH: name})
-        radius = float(own["base_radius_wheel"])
-        for number, label in (("peak_to_peak", "peak to peak"), ("mean", "mean")):
-            angle = float(own[f"{number}_transmission_error"])
-            said = f"{angle * radius / MICROMETRE:.4g} um = {angle:.5g} rad"
-            rows.append((f"{name}: transmission error, {label}", said, ""))
-        if "mean_path_share" in own:
-            mean, most, least = (100.0 * float(own[f"{each}_path_share"]) for each in ("mean", "largest", "least"))
-            rows.append((f"{name}: share of the torque on its shaft", f"{mean:.4g} ({least:.4g} to {most:.4g})", "%"))
-        for number, label, unit in SAID:
-            if number in own and np.isfinite(own[number]):
-                rows.append((f"{name}: {label}", f"{float(own[number]):.4g}", unit))
-    return rows
-
-
-OF_SHAFTS = (
-    ("largest_bearing_force", "largest force of a bearing"),
-    ("largest_rolling_element_force", "largest force of a rolling element, under mean loads"),
-)
-SAID = (
-    ("mean_mesh_stiffness", "mesh stiffness, mean", "N/(mm um)"),
-    ("face_load_factor", "face load factor K_Hbeta", ""),
-    ("largest_pair_force", "largest force of a tooth pair", "N"),
-    ("peak_contact_pressure", "peak contact pressure", "MPa"),
-)

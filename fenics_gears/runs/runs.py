@@ -200,4 +200,5 @@ def _together(runs: Sequence[Run], asked: Collection[str]) -> dict[str, Any]:
 
 
 def failure_of(error: Exception) -> Failure:
+    """Why a run failed, in words."""
     return Failure(error if isinstance(error, GearsError) else f"{type(error).__name__}: {error}")

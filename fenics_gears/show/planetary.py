@@ -10,7 +10,6 @@ from math import degrees
 import numpy as np
 import xarray as xr
 
-from fenics_gears.results.mesh_of_train import mesh_run
 from fenics_gears.results.sets_in_train import set_runs
 from fenics_gears.scene.carrier import Carrier
 from fenics_gears.scene.train import TrainScene
@@ -21,8 +20,6 @@ from .chart import LEAST_SHARE, MARKERS, WORDS, Chart, Curve
 from .gears_of_train import outline_of
 from .pair_drawing import FILLS
 from .panels import DARK, PALETTE
-from .pressure import has_pressure, largest_pressures
-from .run import ShownRun
 
 CIRCLE_POINTS = 361
 KILO = 1e-3
@@ -142,32 +139,3 @@ def _orbits(of_set: str, scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
         caption = f"{of_set}Orbit of the {member} over {over}, {farthest}"
         charts.append(Chart(caption, curves, "x (µm)", "y (µm)", height=460, equal=True))
     return charts
-
-
-def pressures(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
-    """The largest contact pressure of the meshes of the first planet."""
-    charts = []
-    for kind in range(2):
-        number = range(len(scene.meshes))[carrier_of(scene).meshes(kind)][0]
-        run = ShownRun(mesh_run(dataset, scene, number))
-        charts += largest_pressures(run) if has_pressure(run) else []
-    return charts
-
-
-def member_table(scene: TrainScene, dataset: xr.Dataset) -> list[tuple[str, ...]]:
-    """Rows of the members: name, part, speed over the input's, rpm and kW where there is a speed, mean torque."""
-    carrier = carrier_of(scene)
-    own = carrier.set
-    rows: list[tuple[str, ...]] = []
-    for place, member in enumerate(own.members):
-        torque = float(dataset["member_torque"][:-1, place].mean())
-        part = {own.fixed: "fixed", own.input: "input", own.output: "output"}[member]
-        speed = float(own.speeds[member])
-        row: tuple[str, ...] = (member, part, f"{KILO * torque:.6g}", f"{speed:.6g}")
-        if carrier.speed is not None:
-            row += (
-                f"{60.0 * carrier.speed * speed / (2.0 * np.pi):.6g}",
-                f"{1e-6 * torque * carrier.speed * speed:.5g}",
-            )
-        rows.append(row)
-    return rows

@@ -13,7 +13,7 @@ import xarray as xr
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.train import train_model_of
-from fenics_gears.results.layout import OF_OUTPUTS
+from fenics_gears.results.layout import MICRORADIANS, OF_OUTPUTS
 from fenics_gears.results.mesh_of_train import carried_train, mesh_run
 from fenics_gears.results.overall_orders import overall_orders
 from fenics_gears.results.ramp_orders import ramp_orders
@@ -34,7 +34,6 @@ from .train_shafts import deflections
 POINTS_OF_A_CIRCLE = 181
 # Between drawings beside each other, as part of the next one.
 GAP = 0.08
-MICRO = 1e6
 HARMONICS_SHOWN = 4
 # Part of the largest amplitude below which a bar has no words.
 LEAST_FLAGGED = 0.1
@@ -127,12 +126,12 @@ def _circles(centre: complex, gear: Gear, pair: GearPair, name: str, colour: str
 def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     """Of the whole over time, and of each mesh over its own mesh cycles; of a planetary set of the first planet."""
     times, words = _times(scene, dataset)
-    overall = MICRO * np.asarray(dataset["overall_transmission_error"])
+    overall = MICRORADIANS * np.asarray(dataset["overall_transmission_error"])
     # Of the last cycles where stages vibrate.
     span = dataset.attrs["peak_to_peak_overall_transmission_error"]
     charts = [
         Chart(
-            f"Overall transmission error: peak to peak {MICRO * span:#.4g} µrad",
+            f"Overall transmission error: peak to peak {MICRORADIANS * span:#.4g} µrad",
             [Curve("overall transmission error", times, overall)],
             words,
             f"Lag of the {'last shaft' if scene.shafts.carrier is None else 'output'} (µrad)",
@@ -176,7 +175,7 @@ def _of_outputs(dataset: xr.Dataset, times: np.ndarray, along: str) -> Chart:
     """Lags of all shafts that drive no gear, each without its mean."""
     curves = []
     for number, own in enumerate(dataset[OF_OUTPUTS].transpose("output", "time")):
-        values = MICRO * np.asarray(own)
+        values = MICRORADIANS * np.asarray(own)
         curves.append(Curve(f"shaft of {own['output'].item()}", times, values - values.mean(), _colour(number)))
     words = "Lag of the shaft (µrad)"
     return Chart("Outputs, each without its mean", curves, along, words, height=280)
@@ -192,7 +191,8 @@ def orders(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     named = [(f"{each.mesh}, harmonic {each.harmonic}", _colour(names.index(each.mesh)), each) for each in found]
     dashes = {1: "solid", 2: "dash", 3: "dot"}
     amplitudes = [
-        Curve(words, rpm, MICRO * each.amplitudes, colour, dash=dashes[each.harmonic]) for words, colour, each in named
+        Curve(words, rpm, MICRORADIANS * each.amplitudes, colour, dash=dashes[each.harmonic])
+        for words, colour, each in named
     ]
     excited = [
         Curve(words, rpm, each.order * each.speeds, colour, dash=dashes[each.harmonic]) for words, colour, each in named
@@ -223,12 +223,12 @@ def _spectrum(scene: TrainScene, dataset: xr.Dataset) -> Chart:
     shown = [each for each in found if each.order <= highest * (1.0 + 1e-9)]
     curves = []
     flags = []
-    top = MICRO * max(each.amplitude for each in shown)
+    top = MICRORADIANS * max(each.amplitude for each in shown)
     # The meshes in the order of the train.
     for number, meshes in enumerate(dict.fromkeys(each.meshes for each in sorted(found, key=lambda each: each.place))):
         own = [each for each in shown if each.meshes == meshes]
         places = np.array([each.order for each in own])
-        heights = MICRO * np.array([each.amplitude for each in own])
+        heights = MICRORADIANS * np.array([each.amplitude for each in own])
         curves.append(Curve(meshes, places, heights, _colour(number), width=0.012 * highest, mode=BARS))
         flags += [
             Flag(place, height, f"{each.harmonic} × mesh", _colour(number))

@@ -58,15 +58,3 @@ def _faces(scene: TrainScene, bent: BentShaft) -> Iterator[tuple[str, np.ndarray
         mesh = next(each for each in scene.meshes if gear in each.gears)
         width = mesh.pair.face_widths[mesh.gears.index(gear)]
         yield gear, at + 0.5 * width * np.array([-1.0, 1.0])
-
-
-def bearing_rows(dataset: xr.Dataset) -> list[tuple[str, ...]]:
-    """Of each bearing its name, its place (mm), the mean of its force in each direction, and the largest, N."""
-    forces = np.stack([dataset[f"bearing_force_{axis}"].values for axis in "xyz"])
-    largest = np.linalg.norm(forces, axis=0).max(axis=0)
-    means = forces.mean(axis=1).T
-    names, places = (dataset[name].values for name in ("bearing", "bearing_place"))
-    return [
-        (str(name), digits(place), *(digits(each) for each in mean), digits(most))
-        for name, place, mean, most in zip(names, places, means, largest)
-    ]

@@ -12,7 +12,6 @@ from fenics_gears.results.curves_table import save_curves
 from fenics_gears.results.files import save
 from fenics_gears.results.layout import mistake_in
 from fenics_gears.results.overall_orders import overall_orders
-from fenics_gears.results.power_flow import power_flow
 
 FRICTION = "[friction]\ncoefficient = 0.08\n"
 # Of the whole train, or of the march.
@@ -70,16 +69,6 @@ def test_meshes_of_an_idler_add_up_with_their_phases():
     assert {each.meshes for each in orders} == {"row: gears 1 and 2, row: gears 2 and 3"}
     whole = sum(each.values for each in cycles_of_meshes(found, train))
     assert np.allclose(whole, curve, rtol=1e-12)
-
-
-def test_power_is_lost_mesh_by_mesh(run):
-    """The load has its torque, and what goes in is more by the loss of the whole."""
-    train, found, _ = run
-    flow = power_flow(found, train)
-    assert flow.shafts[-1].torque == train.output_torque
-    assert flow.shafts[-1].power / flow.shafts[0].power == pytest.approx(1.0 - found.attrs["friction_loss"], rel=1e-12)
-    assert flow.efficiency == pytest.approx(1.0 - found.attrs["friction_loss"], rel=1e-12)
-    assert flow.shafts[0].speed == pytest.approx(3.0 * flow.shafts[-1].speed)
 
 
 def test_the_table_has_a_column_for_each_mesh(run, tmp_path):

@@ -8,7 +8,7 @@ from fenics_gears import SceneError, simulate_train, train_from_text
 from fenics_gears.results.mesh_of_train import mesh_run
 from fenics_gears.results.overall_orders import overall_orders
 from fenics_gears.results.sets_in_train import LAG_OF_SET, set_run
-from fenics_gears.results.train import train_rows
+from fenics_gears.results.train_rows import train_rows
 
 PAIR = f"""
 [stages.last]

@@ -9,9 +9,7 @@ import pytest
 
 from fenics_gears.elasticity.cache import content_key
 from fenics_gears.numbers_version import NUMBERS_VERSION
-from fenics_gears.runs.lines import FolderOfLines, append
 from fenics_gears.runs.run import run_of, scene_key
-from fenics_gears.runs.runs import Failure
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.scene.schema import WORDS
 from fenics_gears.studies import scenes
@@ -89,20 +87,3 @@ def test_the_key_of_a_scene_is_that_of_all_it_says():
     scene = model_of_tree("design", BASE, DEMOS).scene
     said = {each.name: getattr(scene, each.name) for each in fields(scene) if each.name not in WORDS}
     assert scene_key(scene) == scene_key(scene) == content_key({"scene": said, "numbers": NUMBERS_VERSION})
-
-
-def test_a_line_without_what_is_asked_for_is_no_run(tmp_path):
-    """Definition: all numbers asked for, also from two lines, or a failure."""
-    for key, said in (
-        ("one", {"numbers": {"a": 1.0}}),
-        ("both", {"numbers": {"a": 1.0}}),
-        ("both", {"numbers": {"b": 2.0}}),
-        ("none", {"failure": "why"}),
-    ):
-        append(tmp_path, {"key": key, **said})
-
-    def known(*asked):
-        return FolderOfLines(tmp_path, lambda run, result: {}, asked).known([])
-
-    assert known("a").keys() == {"one", "both", "none"} and known("a", "b").keys() == {"both", "none"}
-    assert known("a", "b")["both"]["numbers"] == {"a": 1.0, "b": 2.0} and isinstance(known("a")["none"], Failure)

@@ -38,7 +38,7 @@ def run_train(scene: TrainScene, options: argparse.Namespace) -> int:
     directory = options.output or Path("results") / scene.name
     check_writable(directory, RUN_FILE, *TRAIN_PICTURE_FILES)
     model = train_model_of(scene)
-    from fenics_gears.results.train import train_rows
+    from fenics_gears.results.train_rows import train_rows
     from fenics_gears.runs.train import simulate_train
 
     file = directory / RUN_FILE

@@ -15,12 +15,13 @@ from fenics_gears.charts import (
     Curve,
     gear_outline,
     gears_of_train,
-    pinion_in_space,
     plotly_figure,
     run_charts,
     train_charts,
 )  # fmt: skip
 from fenics_gears.many_runs import result_rows, train_rows
+
+from .tooth import pinion_in_space
 
 # A hundredth of a micrometre.
 DIGITS = 5

@@ -9,13 +9,12 @@ import numpy as np
 import xarray as xr
 
 import fenics_gears
-from fenics_gears import OVERALL, carried_train, load, overall_orders
+from fenics_gears import MICRORADIANS, OVERALL, carried_train, load, overall_orders
 from fenics_gears.charts import DARK, GREY, MARKED_LINES, PALETTE, Chart, Curve, shades, span, words_apart
 from fenics_gears.many_runs import Outcome, load_combined
 
 from .train_map import LOADS_OF_TRAIN, TrainMap
 
-MICRORADIANS = 1e6
 DYNAMIC = "dynamic_"
 OF_THE_WHOLE = (f"peak_to_peak_{OVERALL}", f"mean_{OVERALL}", "friction_loss")
 OF_MESHES = (

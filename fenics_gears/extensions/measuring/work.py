@@ -21,7 +21,7 @@ from fenics_gears.command_line import (
     shown_progress,
     write_whole,
 )
-from fenics_gears.measuring import communicator
+from fenics_gears.many_runs import communicator
 from fenics_gears.scene_text import load_scene_or_train
 
 from .accuracy import report, work_precision

@@ -3,10 +3,9 @@
 import numpy as np
 import xarray as xr
 
-from fenics_gears import OVERALL, carried_train, overall_orders, spectrum
+from fenics_gears import MICRORADIANS, OVERALL, carried_train, overall_orders, spectrum
 from fenics_gears.charts import DARK, PALETTE, WORDS, Chart, Curve, stems
 
-MICRORADIANS = 1e6
 DECIBELS = 60.0
 # Harmonics whose levels are written beside their lines.
 NAMED = 3

@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from fenics_gears import MICRORADIANS
 from fenics_gears.charts import GREY, MARKED_LINES, MARKERS, PALETTE, Chart, Curve, draw_charts, harris_map, shades
 from fenics_gears.scene_text import is_train, model_of_tree
 
 from .design import QUANTILE, Goal, Variable
 from .evaluations import Evaluation
-from .goals import MICRORADIANS
 from .optimize import SearchOutcome, score
 from .result import harris_dataset
 

@@ -10,7 +10,6 @@ ERROR = "peak_to_peak_transmission_error"
 # Of trains, in urad of the last shaft.
 STEADY = "a constant speed: leave [speed_ramp] out"
 OVERALL_ERROR = f"peak_to_peak_{OVERALL}"
-MICRORADIANS = 1e6
 # The sum of orders by the weights of [orders]; of a pair under this name.
 WEIGHTED = "weighted_orders"
 MESH = "mesh"

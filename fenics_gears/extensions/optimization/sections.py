@@ -17,6 +17,7 @@ from fenics_gears.scene_text import (
     factor_of,
     fields,
     is_train,
+    limits_of,
     line_numbers,
     load_scene_or_train,
     names_in,
@@ -25,6 +26,7 @@ from fenics_gears.scene_text import (
     read,
     value_at,
     values_of,
+    what_is_allowed,
 )
 
 from .design import WORST, Bound, Goal, Loads, Scatter, Search, Tolerances, Variable
@@ -213,14 +215,11 @@ class Sections:
             if not self._is_result("constraints", name, written):
                 continue
             unit, words = self._unit_and_words(name)
-            given = written if isinstance(written, Mapping) else {}
-            ends = {key: _in_unit(value, unit) for key, value in given.items() if key in ("at_least", "at_most")}
-            if not ends or None in ends.values() or len(ends) != len(given):
-                example = "1.2" if unit == "1" else f'"20 {unit}"'
-                message = f"is no bound. Allowed: {{ at_most = {example} }}, and at_least likewise."
-                self.wrong("constraints", name, written, message)
+            limits = limits_of(written, unit)
+            if limits is None:
+                self.wrong("constraints", name, written, what_is_allowed(unit))
             else:
-                bounds.append(Bound(Goal(name, unit, words), **ends))
+                bounds.append(Bound(Goal(name, unit, words), **{each.end: each.value for each in limits}))
         return tuple(bounds)
 
     def tolerances(self) -> Tolerances:
@@ -280,15 +279,3 @@ def is_number(value: Any) -> bool:
     """Whether a value is a finite number without unit."""
     number = None if isinstance(value, str) else number_in(value, "")
     return number is not None and math.isfinite(number)
-
-
-def _in_unit(value: Any, unit: str) -> float | None:
-    """A bound in the unit of a result; None where it is of another kind."""
-    if unit == "1":
-        return value if is_number(value) else None
-    if not isinstance(value, str):
-        return None
-    try:
-        return units.of_kind(value, units.quantity(f"1 {unit}")[1])[0] / factor_of(unit)
-    except units.QuantityError:
-        return None

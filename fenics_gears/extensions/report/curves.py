@@ -1,27 +1,18 @@
-"""The sections of the report that are charts: motion, spectra, forces, contact pressure."""
+"""The sections of the report that are charts over time: motion, forces, contact pressure."""
 
 from dataclasses import replace
 
-from fenics_gears import spectrum
-from fenics_gears.pages import Block, PageSection, Table, Words, sentence
+from fenics_gears.pages import Block, PageSection, Words, sentence
 from fenics_gears.shown import (
-    FORCE,
     MOST_POINTS,
     TOO_FEW,
     ShownRun,
     force_charts,
     has_pressure,
     largest_pressures,
-    mesh_order_chart,
     motion_charts,
-    order_spectrum,
-    orders_by_cycle,
     pressure_maps,
-    run_spectrum,
-    signals_of,
 )
-
-LISTED_ORDERS = 10
 
 
 def motion(run: ShownRun) -> PageSection:
@@ -61,34 +52,3 @@ def _cycles_shown(run: ShownRun) -> list[Block]:
         " of each the smallest and the largest value are drawn, so that every peak is there."
     )
     return [] if run.shows_all else [Words(part + (f" {fewer}" if run.steps > MOST_POINTS else ""))]
-
-
-def spectra(run: ShownRun) -> PageSection:
-    """Amplitudes over orders, their table, and how they change from cycle to cycle in long records."""
-    heading = "Spectra by mesh order"
-    run = run.settled
-    if not run.has_curves or run.cycles < 1.0 - 1e-9:
-        short = "Less than one mesh cycle is stored; its harmonics cannot be separated."
-        return sentence("spectra", heading, short, not run.complete)
-    signals = signals_of(run)
-    spectra = {name: run_spectrum(run, values) for name, (values, _) in signals.items()}
-    followed = orders_by_cycle(run, signals)
-    blocks: list[Block] = []
-    if run.scene is not None and run.scene.speed_ramp is not None:
-        where = "See" if followed else "Records of 8 mesh cycles and more have"
-        said = "The mesh frequency changes through the record: orders stay in place, resonances pass through them."
-        blocks.append(Words(f"{said} {where} the orders cycle by cycle."))
-    blocks += [mesh_order_chart(run, name, unit, spectra[name]) for name, (_, unit) in signals.items()]
-    if FORCE not in signals:
-        blocks.append(Words("The force of the mesh does not vary: nothing but a constant torque acts on it."))
-    by_turns = order_spectrum(run)
-    blocks += [by_turns] if by_turns is not None else []
-    table = _table(signals, [each.lines for each in spectra.values()])
-    return PageSection("spectra", heading, [*blocks, table, *followed])
-
-
-def _table(signals: dict, lines: list[spectrum.OrderLines]) -> Table:
-    headings = ["Mesh order", *(f"{name} ({unit})" for name, (_, unit) in signals.items())]
-    highest = int(min(LISTED_ORDERS, max(each.orders[-1] for each in lines)))
-    rows = [[str(order), *(f"{each.at(order):.4g}" for each in lines)] for order in range(1, highest + 1)]
-    return Table(headings, rows, "Amplitudes of the mesh orders")

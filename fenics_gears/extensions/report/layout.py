@@ -13,14 +13,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from fenics_gears import SceneError, units, user_file
+from fenics_gears import SceneError, user_file
 from fenics_gears.many_runs import RESULT_ATTRIBUTES
 from fenics_gears.pages import Cell, Letterhead, Page, PageSection, Table, Words
 from fenics_gears.scene_text import (
+    Limit,
     Problem,
     Section,
     as_written,
     did_you_mean,
+    limits_of,
     line_numbers,
     listed,
     names_in,
@@ -28,6 +30,7 @@ from fenics_gears.scene_text import (
     read,
     text,
     text_of,
+    what_is_allowed,
 )
 from fenics_gears.shown import digits
 
@@ -36,7 +39,6 @@ LARGEST_LOGO = 2_000_000
 LONGEST = 200
 LIMITS = "limits"
 SECTIONS = "sections"
-ENDS = ("at_most", "at_least")
 # Gear data stand on the first page, then what matters.
 FIRST = ("geometry", LIMITS, "summary", "warnings")
 # Numbers of a result that may have a limit, by name, with their unit there.
@@ -60,23 +62,13 @@ class LayoutText(Section):
 
 
 @dataclass(frozen=True)
-class Limit:
-    """A limit of a number of a result: the end of the range, as it is written, and in the unit of `kind`."""
-
-    name: str
-    end: str
-    written: str
-    value: float
-    kind: str
-
-
-@dataclass(frozen=True)
 class ReportLayout:
-    """A layout that was read: its head, its sections in order (None: the usual ones), its limits."""
+    """A layout that was read: its head, its sections in order (None: the usual ones), its limits by
+    the names of numbers."""
 
     head: LayoutText
     sections: tuple[str, ...] | None
-    limits: tuple[Limit, ...]
+    limits: tuple[tuple[str, Limit], ...]
     logo: str = ""
     source: str = ""
 
@@ -111,45 +103,23 @@ def _is_list_of_texts(value: Any) -> bool:
     return isinstance(value, list) and bool(value) and all(isinstance(each, str) for each in value)
 
 
-def _limits(table: Any, problems: list[Problem]) -> Iterator[Limit]:
-    """The limits of ``[limits]``; mistakes are added to the problems."""
+def _limits(table: Any, problems: list[Problem]) -> Iterator[tuple[str, Limit]]:
+    """The limits of ``[limits]`` by the names of their numbers; mistakes are added to the problems."""
     if not isinstance(table, Mapping):
         problems.append(Problem((LIMITS,), as_written(table), "is no section. Write [limits], and below it numbers."))
         return
     for name, ends in table.items():
-        place = (LIMITS, name)
-        if name not in LIMITED:
-            hint = did_you_mean(name, LIMITED)
-            message = f"is no number of a result that can have a limit.{hint} The page on results has them all."
-            problems.append(Problem(place, as_written(ends), message))
-            continue
-        unit = LIMITED[name]
-        example = "1.2" if unit == "1" else '"20 um"' if unit == "rad" else f'"20 {unit}"'
-        if not isinstance(ends, Mapping) or not ends or set(ends) - set(ENDS):
-            message = f"is no limit. Allowed: {{ at_most = {example} }}, and at_least likewise."
-            problems.append(Problem(place, as_written(ends), message))
-            continue
-        for end, written in ends.items():
-            limit = _limit(name, end, written, unit)
-            if limit is None:
-                message = f"is no limit of a number in {unit}. Allowed: {{ {end} = {example} }}."
-                problems.append(Problem((*place, end), as_written(written), message))
-            else:
-                yield limit
-
-
-def _limit(name: str, end: str, written: Any, unit: str) -> Limit | None:
-    if isinstance(written, int | float) and not isinstance(written, bool):
-        return Limit(name, end, f"{float(written):g}", float(written), "") if unit == "1" else None
-    try:
-        value, kind = units.quantity(str(written))
-    except units.QuantityError:
-        return None
-    if unit == "1" and kind == "a percentage":
-        return Limit(name, end, str(written), value, "")
-    own = "" if unit == "1" else units.quantity(f"1 {unit}")[1]
-    allowed = {own} | ({"a length"} if unit == "rad" else set())
-    return Limit(name, end, str(written), value, kind) if kind in allowed and math.isfinite(value) else None
+        message = f"is no number of a result that can have a limit.{did_you_mean(name, LIMITED)}"
+        if name in LIMITED:
+            units = (LIMITED[name], "um") if LIMITED[name] == "rad" else (LIMITED[name],)
+            found = limits_of(ends, *units)
+            if found is not None:
+                yield from ((name, each) for each in found)
+                continue
+            message = what_is_allowed(*units)
+        else:
+            message += " The page on results has them all."
+        problems.append(Problem((LIMITS, name), as_written(ends), message))
 
 
 def _logo(layout: Path, name: str | None) -> str:
@@ -190,27 +160,24 @@ def laid_out(page: Page, layout: ReportLayout, numbers: Mapping[str, Any], micro
     return replace(page, title=head.title or page.title, sections=sections, letterhead=letterhead)
 
 
-def _limit_section(limits: Sequence[Limit], numbers: Mapping[str, Any], micrometres: float) -> PageSection:
+def _limit_section(limits: Sequence[tuple[str, Limit]], numbers: Mapping[str, Any], micrometres: float) -> PageSection:
     """A table of the limits: what was computed, and whether it is kept."""
-    rows = [_row(each, numbers, micrometres) for each in limits]
+    rows = [_row(*each, numbers, micrometres) for each in limits]
     broken = sum(each[-1].warns for each in rows)
     said = f"{broken} of {len(rows)} limits {'is' if broken == 1 else 'are'} not kept." if broken else "All are kept."
     table = Table(("number", "limit", "computed", "result"), rows, numbers=1)
     return PageSection(LIMITS, "Limits", [Words(said, warns=bool(broken)), table])
 
 
-def _row(limit: Limit, numbers: Mapping[str, Any], micrometres: float) -> list[Cell]:
-    unit = LIMITED[limit.name]
-    label = limit.name.replace("_", " ")
+def _row(name: str, limit: Limit, numbers: Mapping[str, Any], micrometres: float) -> list[Cell]:
+    label = name.replace("_", " ")
     bound = f"{limit.end.replace('_', ' ')} {limit.written}"
-    value = float(numbers.get(limit.name, math.nan))
-    if limit.kind == "a length" and unit == "rad":
-        value *= micrometres
-        unit = "um"
+    # An angle may have its limit as a length on the wheel's base circle.
+    value = float(numbers.get(name, math.nan)) * (micrometres if limit.unit != LIMITED[name] else 1.0)
     if not math.isfinite(value):
         return [Cell(label), Cell(bound), Cell("-"), Cell("not in this run", warns=True)]
-    largest = limit.value / (1.0 if unit == "1" else units.quantity(f"1 {unit}")[0])
+    largest = limit.value
     over = value > largest if limit.end == "at_most" else value < largest
     off = f"off by {100.0 * abs(value / largest - 1.0):.2g} %" if over and largest else "not kept" if over else "kept"
-    computed = f"{digits(value)} {'' if unit == '1' else unit}".strip()
+    computed = f"{digits(value)} {'' if limit.unit == '1' else limit.unit}".strip()
     return [Cell(label), Cell(bound), Cell(computed), Cell(off, warns=over)]

@@ -3,12 +3,11 @@
 from collections.abc import Callable
 
 from fenics_gears.charts import conditions
-from fenics_gears.many_runs import NO_MEANING, Progress
-from fenics_gears.measuring import SilentProgress
+from fenics_gears.many_runs import NO_MEANING, Progress, SilentProgress
 from fenics_gears.pages import Page, PageSection, made_by, scene_section, version_section
 from fenics_gears.shown import ShownRun, changed_files
 
-from .curves import forces, motion, pressure, spectra
+from .curves import forces, motion, pressure
 from .effects import effects
 from .energy import energy
 from .face import face
@@ -17,6 +16,7 @@ from .numbers import numbers
 from .overview import summary, warnings
 from .root_stress import root_stress
 from .solver import solver
+from .spectra import spectra
 from .stress import stress
 
 # What was computed comes first, as in any report; of the results pictures come before tables.

@@ -8,8 +8,7 @@ import xarray as xr
 
 from fenics_gears import OVERALL
 from fenics_gears.charts import PALETTE, Chart, Curve
-from fenics_gears.many_runs import Progress
-from fenics_gears.measuring import SilentProgress
+from fenics_gears.many_runs import Progress, SilentProgress
 from fenics_gears.pages import (
     Block,
     Cell,

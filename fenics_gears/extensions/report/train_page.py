@@ -6,11 +6,11 @@ from dataclasses import replace
 from math import pi
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
 
-from fenics_gears import carried_train, mesh_run, overall_orders
-from fenics_gears.many_runs import Progress, result_rows, train_rows
-from fenics_gears.measuring import SilentProgress
+from fenics_gears import MICRORADIANS, carried_train, mesh_run, overall_orders
+from fenics_gears.many_runs import Progress, SilentProgress, result_rows, train_rows
 from fenics_gears.pages import (
     Block,
     Facts,
@@ -31,7 +31,6 @@ from fenics_gears.shown import (
     Rows,
     ShownRun,
     TrainScene,
-    bearing_rows,
     bent_shafts_of,
     digits,
     drawing_of,
@@ -40,12 +39,10 @@ from fenics_gears.shown import (
     has_pressure,
     largest_pressures,
     line_loads,
-    member_table,
     motion_rows,
     orbits,
     pair_forces,
     planet_shares,
-    power_flow,
     set_runs,
     train_errors,
     train_model_of,
@@ -54,8 +51,8 @@ from fenics_gears.shown import (
 
 from .face import FACTORS
 from .overview import warnings
+from .power_flow import power_flow
 
-MICRO = 1e6
 LISTED_ORDERS = 20
 
 
@@ -98,8 +95,20 @@ def _shafts(dataset: xr.Dataset, train: TrainScene) -> list[PageSection]:
     if not charts:
         return []
     headings = ("Bearing", "Place (mm)", "To the right (N)", "Upwards (N)", "Axial (N)", "Largest (N)")
-    table = Table(headings, bearing_rows(dataset), "Mean forces of the shafts on their bearings", numbers=1)
+    table = Table(headings, _bearing_rows(dataset), "Mean forces of the shafts on their bearings", numbers=1)
     return [PageSection("shafts", "Shafts that bend", [*charts, table])]
+
+
+def _bearing_rows(dataset: xr.Dataset) -> list[tuple[str, ...]]:
+    """Of each bearing its name, its place (mm), the mean of its force in each direction, and the largest, N."""
+    forces = np.stack([dataset[f"bearing_force_{axis}"].values for axis in "xyz"])
+    largest = np.linalg.norm(forces, axis=0).max(axis=0)
+    means = forces.mean(axis=1).T
+    names, places = (dataset[name].values for name in ("bearing", "bearing_place"))
+    return [
+        (str(name), digits(place), *(digits(each) for each in mean), digits(most))
+        for name, place, mean, most in zip(names, places, means, largest)
+    ]
 
 
 def _frequencies(train: TrainScene) -> list[PageSection]:
@@ -121,7 +130,11 @@ def _said(rows: Rows) -> list[tuple[str, str, str]]:
 def _summary(dataset: xr.Dataset, train: TrainScene) -> PageSection:
     said = dataset.attrs
     tiles = [
-        Tile(f"Overall transmission error, {words}", digits(MICRO * said[f"{name}_overall_transmission_error"]), "µrad")
+        Tile(
+            f"Overall transmission error, {words}",
+            digits(MICRORADIANS * said[f"{name}_overall_transmission_error"]),
+            "µrad",
+        )
         for name, words in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
     ]
     tiles.append(Tile("Ratio", digits(train.ratio), "", "turns of the first shaft in one of the last"))
@@ -205,9 +218,26 @@ def _members(dataset: xr.Dataset, train: TrainScene) -> PageSection:
     of_speed = ("Speed (rpm)", "Power (kW)") if train.speed_given else ()
     headings = ("Member", "Part", "Torque (N m)", "Turns in one of the input", *of_speed)
     blocks: list[Block] = [
-        Table(headings, member_table(train, dataset), "Members, mean torques from outside", numbers=2)
+        Table(headings, _member_rows(train, dataset), "Members, mean torques from outside", numbers=2)
     ]
     return PageSection("power", "Power flow", [*blocks, *planet_shares(train, dataset), *orbits(train, dataset)])
+
+
+def _member_rows(train: TrainScene, dataset: xr.Dataset) -> list[tuple[str, ...]]:
+    """Rows of the members: name, part, speed over the input's, rpm and kW where there is a speed, mean torque."""
+    carrier = train.shafts.carrier
+    assert carrier is not None
+    own = carrier.set
+    rows: list[tuple[str, ...]] = []
+    for place, member in enumerate(dataset["member"].values.tolist()):
+        torque = float(dataset["member_torque"][:-1, place].mean())
+        part = {own.fixed: "fixed", own.input: "input", own.output: "output"}[member]
+        speed = float(own.speeds[member])
+        row: tuple[str, ...] = (member, part, f"{1e-3 * torque:.6g}", f"{speed:.6g}")
+        if carrier.speed is not None:
+            row += (f"{60.0 * carrier.speed * speed / (2.0 * pi):.6g}", f"{1e-6 * torque * carrier.speed * speed:.5g}")
+        rows.append(row)
+    return rows
 
 
 def _shares(dataset: xr.Dataset) -> list[Block]:
@@ -228,7 +258,7 @@ def _orders(dataset: xr.Dataset, train: TrainScene) -> PageSection:
     found = sorted(overall_orders(dataset, train), key=lambda each: -each.amplitude)[:LISTED_ORDERS]
     rows = [
         (
-            each.meshes, f"{each.harmonic}", f"{each.order:.5g}", digits(MICRO * each.amplitude),
+            each.meshes, f"{each.harmonic}", f"{each.order:.5g}", digits(MICRORADIANS * each.amplitude),
             *((digits(each.frequency),) if train.speed_given else ()),
         )
         for each in found

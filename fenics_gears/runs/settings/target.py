@@ -7,7 +7,6 @@ from math import ceil, sqrt
 
 import numpy as np
 
-from fenics_gears.errors import ComputationError
 from fenics_gears.scene.accuracy import RESOLVED
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.system.progress import Progress
@@ -79,20 +78,6 @@ def choose(scene: Scene, target: float, progress: Progress) -> Chosen:
             f"accuracy.target = {100.0 * target:g} % is not reached: {reason}. Take a larger target, or give settings"
             " of your own; `gears accuracy` shows the error of each."
         ) from None
-
-
-def settings_of(
-    scene: Scene, targets: tuple[float, ...], progress: Progress, failures: list[tuple[str, str]]
-) -> dict[str, tuple[Setting, float]]:
-    """By name the settings that targets choose, with the targets; those that none reaches join the failures."""
-    settings = {}
-    for target in targets:
-        name = f"target {100.0 * target:g} %"
-        try:
-            settings[name] = choose(scene, target, progress).setting, target
-        except ComputationError as error:
-            failures.append((name, str(error).splitlines()[0]))
-    return settings
 
 
 def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:

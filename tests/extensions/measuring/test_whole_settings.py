@@ -2,14 +2,16 @@
 
 import itertools
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from fenics_gears import ComputationError
 from fenics_gears.extensions.measuring.accuracy import whole
+from fenics_gears.extensions.measuring.accuracy.convergence import largest_part
 from fenics_gears.extensions.measuring.accuracy.refinement import Level, Refinement
 from fenics_gears.runs.settings import measures
-from fenics_gears.runs.settings.convergence import largest_part
 from fenics_gears.runs.settings.measures import SPAN
 from fenics_gears.runs.settings.setting import Setting
 
@@ -77,3 +79,17 @@ def test_parts_are_those_of_the_settings_own_levels():
         parts = whole.parts_of(replace(BASE, flank=flank, steps=steps), [FLANK, STEPS], ERRORS)
         assert parts == {"flank": ERRORS["flank", i], "steps": ERRORS["steps", j]}
         assert ERRORS[largest_part(parts), {"flank": i, "steps": j}[largest_part(parts)]] == max(parts.values())
+
+
+def test_settings_of_targets(monkeypatch):
+    """Definition: what `choose` gives; a target that cannot be reached joins the failures by its first line."""
+
+    def choose(scene, target, progress):
+        if target < 0.01:
+            raise ComputationError("is not reached\nand why")
+        return SimpleNamespace(setting=BASE)
+
+    monkeypatch.setattr(whole, "choose", choose)
+    failures = []
+    assert whole.settings_of(None, (0.1, 0.001), None, failures) == {"target 10 %": (BASE, 0.1)}
+    assert failures == [("target 0.1 %", "is not reached")]

@@ -14,6 +14,7 @@ from tests.programs import command, ended, python
 
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.extensions.optimization import lines as run_lines
 from fenics_gears.extensions.optimization import optimize as optimization
 from fenics_gears.extensions.optimization.charts import tolerance_rows, write_pictures
 from fenics_gears.extensions.optimization.conditions import samples, scattered
@@ -26,7 +27,6 @@ from fenics_gears.extensions.optimization.page import write_page
 from fenics_gears.extensions.optimization.search import front
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.files import read
-from fenics_gears.runs import lines as run_lines
 from fenics_gears.runs import one_run, runs
 from fenics_gears.runs.simulate import simulate
 from fenics_gears.runs.team import Alone
@@ -340,7 +340,7 @@ REFUSED = {
     "a weight": (VARIABLES + f"[goals]\n{ERROR} = 0\n", "is not a weight. Allowed: a number above 0"),
     "a bound of another kind": (
         VARIABLES + GOAL + '[constraints]\npeak_contact_pressure = { at_most = "3 mm" }\n',
-        'is no bound. Allowed: { at_most = "20 MPa" }',
+        'is no limit of a number in MPa. Allowed: { at_most = "20 MPa" }',
     ),
     "a scatter of nothing": (
         VARIABLES + GOAL + "[tolerances]\nfriction.coefficient = 0.02\n",

@@ -75,7 +75,7 @@ def test_sections_come_as_asked_for_and_gear_data_first(tmp_path):
         ('sections = "summary"', "is no list of names"),
         ("limits = 3", "is no section"),
         ("[limits]\nmesh_efficency = { at_least = 0.9 }", 'Did you mean "mesh_efficiency"'),
-        ('[limits]\nlargest_pair_force = "2 kN"', "is no limit. Allowed: { at_most"),
+        ('[limits]\nlargest_pair_force = "2 kN"', 'is no limit of a number in N. Allowed: { at_most = "20 N" }'),
         ('[limits]\nlargest_pair_force = { at_most = "2 um" }', "is no limit of a number in N"),
         ("[limits]\nlargest_pair_force = { at_most = 2 }", "is no limit of a number in N"),
         ('logo = "logo.gif"', "is no picture"),

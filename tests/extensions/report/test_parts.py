@@ -6,9 +6,9 @@ import numpy as np
 from tests.helical import wide_pair
 from tests.show.synthetic import made_up_run
 
-from fenics_gears.extensions.report.curves import spectra
 from fenics_gears.extensions.report.energy import energy
 from fenics_gears.extensions.report.overview import summary
+from fenics_gears.extensions.report.spectra import spectra
 from fenics_gears.show.run import ShownRun
 
 

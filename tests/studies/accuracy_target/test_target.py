@@ -14,7 +14,7 @@ from fenics_gears.effects.friction import Friction
 from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.runs.settings import setting_runs
 from fenics_gears.runs.settings.measures import FACE_LOAD, JUDGED, SPAN, distance, judged_answer
-from fenics_gears.runs.settings.target import choose, settings_of
+from fenics_gears.runs.settings.target import choose
 from fenics_gears.runs.settings.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
 from fenics_gears.runs.timed import run_sharing
 from fenics_gears.scene.data import Accuracy
@@ -185,17 +185,6 @@ def test_check_says_that_settings_are_chosen_by_the_run(text, tmp_path, capsys):
     (tmp_path / "scene.toml").write_text(text)
     assert main(["check", str(tmp_path / "scene.toml")]) == 0
     assert "10.000%: a run chooses settings" in capsys.readouterr().out
-
-
-def test_settings_of_targets(scene, monkeypatch):
-    """Definition: what `choose` gives; a target that cannot be reached joins the failures."""
-    failures = []
-    found = settings_of(scene, (TARGET,), SilentProgress(), failures)
-    assert found == {"target 10 %": (choose(scene, TARGET, SilentProgress()).setting, TARGET)} and not failures
-    monkeypatch.setenv(MEMORY_VARIABLE, "1 MB")
-    assert not settings_of(scene, (TARGET,), SilentProgress(), failures)
-    ((name, reason),) = failures
-    assert name == "target 10 %" and "is not reached" in reason
 
 
 @pytest.mark.nightly

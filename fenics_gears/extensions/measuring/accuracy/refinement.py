@@ -14,17 +14,15 @@ from fenics_gears.measuring import (
     RIGID_TEETH,
     STIFFNESS_TABLE,
     Answer,
-    Limit,
     Setting,
     comparable,
     default_setting,
     half_width,
-    last_of,
     own_setting,
-    richardson,
 )
 
 from . import over_face
+from .convergence import Limit, last_of, richardson
 from .over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, PLANE, SLICES, STEPS
 
 # A limit and its order are found from so many of the finest terms.

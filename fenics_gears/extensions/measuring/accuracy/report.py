@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears import ComputationError, GearsError, Scene, model_of
-from fenics_gears.many_runs import Progress
+from fenics_gears.many_runs import Progress, SilentProgress
 from fenics_gears.measuring import (
     DEFECT,
     EVERY_STEP,
@@ -16,31 +16,26 @@ from fenics_gears.measuring import (
     Accuracy,
     Answer,
     Cycle,
-    Limit,
     Model,
     Output,
     Setting,
     SettingRuns,
-    SilentProgress,
     Times,
     answer,
     compile_kernels,
     default_setting,
     distances,
-    error_from,
     judged,
     measures_of,
     own_setting,
-    peak_root_stress,
     run_sharing,
-    settings_of,
     shared_gears,
-    together,
     without_settings,
 )
 
 from ..machine import machine
 from . import whole
+from .convergence import Limit, error_from, together
 from .over_face import PLANE, in_the_plane
 from .refinement import (
     CONDENSATION,
@@ -54,6 +49,7 @@ from .refinement import (
     plan_of,
     refinements,
 )
+from .root_point import peak_root_stress
 
 OWN = "the scene's own"
 DEFAULTS = "the program's defaults"
@@ -216,7 +212,7 @@ class AccuracyStudy:
         for setting in whole.path(self.base, ran, errors, partial(whole.fits, self.scene), whole.ENOUGH):
             chosen[setting.words] = setting
         chosen |= dict.fromkeys(plan_of(self.scene).models)
-        of_targets = settings_of(self.scene, targets, self.progress, self.failures)
+        of_targets = whole.settings_of(self.scene, targets, self.progress, self.failures)
         chosen |= {name: setting for name, (setting, _) in of_targets.items()}
         answers, times = self._in_turns({name: scene_of(self.scene, name, setting) for name, setting in chosen.items()})
         measured = []

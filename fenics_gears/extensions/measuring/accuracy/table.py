@@ -3,9 +3,10 @@
 from math import isnan
 from pathlib import Path
 
-from fenics_gears.measuring import OVER_FACE, STAGES, Times, judged, largest_part, measures_of
+from fenics_gears.measuring import OVER_FACE, STAGES, Times, judged, measures_of
 
 from ..machine import write_lines
+from .convergence import largest_part
 from .refinement import CONDENSATION
 from .report import AccuracyReport, RefinementResult, WholeResult
 

@@ -5,9 +5,11 @@ others fine, or its own distance from the reference where that is larger."""
 from collections.abc import Mapping, Sequence
 from functools import reduce
 
-from fenics_gears import Scene, expected_cost, model_of
-from fenics_gears.measuring import Setting, largest_part
+from fenics_gears import ComputationError, Scene, expected_cost, model_of
+from fenics_gears.many_runs import Progress
+from fenics_gears.measuring import Setting, choose
 
+from .convergence import largest_part
 from .refinement import FAMILY, LENGTH, OF_FAMILY, Refinement
 
 # The path keeps a setting when its error is below this part of the error of the last one kept.
@@ -90,3 +92,17 @@ def _thinned(settings: list[Setting]) -> list[Setting]:
 def fits(scene: Scene, setting: Setting) -> bool:
     """Whether the contact operators of a mesh cycle can be held."""
     return expected_cost(model_of(setting.of(scene))).operators <= MOST_BYTES
+
+
+def settings_of(
+    scene: Scene, targets: tuple[float, ...], progress: Progress, failures: list[tuple[str, str]]
+) -> dict[str, tuple[Setting, float]]:
+    """By name the settings that targets choose, with the targets; those that none reaches join the failures."""
+    settings = {}
+    for target in targets:
+        name = f"target {100.0 * target:g} %"
+        try:
+            settings[name] = choose(scene, target, progress).setting, target
+        except ComputationError as error:
+            failures.append((name, str(error).splitlines()[0]))
+    return settings

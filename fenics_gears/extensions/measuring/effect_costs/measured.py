@@ -8,17 +8,9 @@ from math import isnan, nan
 import xarray as xr
 
 from fenics_gears import ComputationError, GearsError, Scene, SceneError, model_of
-from fenics_gears.many_runs import GearStore, Progress
-from fenics_gears.measuring import (
-    EVERY_STEP,
-    Cycle,
-    Model,
-    SilentProgress,
-    compile_kernels,
-    completed,
-    largest_normal_force,
-    shared_gears,
-)
+from fenics_gears.many_runs import GearStore, Progress, SilentProgress
+from fenics_gears.measuring import EVERY_STEP, Cycle, Model, compile_kernels, completed, shared_gears
+from fenics_gears.shown import largest_normal_force
 
 from ..machine import machine
 from .subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, subsets_of

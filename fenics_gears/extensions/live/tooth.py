@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.outline import tooth_outline
-
-from .chart import Field
-from .contact_pattern import contact_patterns
-from .interactive import numbers
-from .pair_drawing import tooth_points
-from .pressure import pressure_maps
-from .run import ShownRun
+from fenics_gears import Gear, tooth_outline
+from fenics_gears.charts import Field, tooth_points
+from fenics_gears.shown import ShownRun, charts_over_face, pressure_maps
 
 TEETH = 5
 ROWS = 40
@@ -24,9 +20,10 @@ STAND_OFF = 0.01
 _LIGHT = {"ambient": 0.55, "diffuse": 0.7, "specular": 0.15}
 
 
-def pinion_in_space(run: ShownRun) -> dict[str, Any] | None:
+def pinion_in_space(result: xr.Dataset) -> dict[str, Any] | None:
     """Some teeth of the pinion, the largest pressure while it is in mesh on the middle one; None without contact
     fields."""
+    run = ShownRun(result)
     pair = run.pair
     field = None if pair is None else _field(run)
     if pair is None or field is None:
@@ -62,7 +59,7 @@ def pinion_in_space(run: ShownRun) -> dict[str, Any] | None:
 def _field(run: ShownRun) -> Field | None:
     """The largest pressure over face and diameter of the pinion; in the plane it is alike all over the face."""
     if run.over_face:
-        patterns = contact_patterns(run)
+        patterns = list(charts_over_face(run)["Contact pattern"](run))
         return patterns[0].field if patterns else None
     maps = pressure_maps(run)
     field = maps[0].field if maps else None
@@ -120,4 +117,6 @@ def _points(surface: np.ndarray) -> dict[str, Any]:
 
 
 def _listed(values: Any) -> Any:
-    return [numbers(row, 5) for row in values] if isinstance(values, np.ndarray) else values
+    if not isinstance(values, np.ndarray):
+        return values
+    return [[float(f"{each:.5g}") if isfinite(each) else None for each in row] for row in values.tolist()]

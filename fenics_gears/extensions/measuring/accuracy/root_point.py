@@ -6,10 +6,7 @@ from functools import lru_cache
 import numpy as np
 import xarray as xr
 
-from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
-from fenics_gears.model.model import Model
-from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
+from fenics_gears.measuring import Cycle, Model, root_stress_rows, stored_forces
 
 PINION = 0
 
@@ -28,7 +25,7 @@ def peak_root_stress(run: xr.Dataset, model: Model, cycle: Cycle) -> float:
     return max(stresses, default=0.0)
 
 
-def point_rows(rows: RootStressRows) -> np.ndarray:
+def point_rows(rows) -> np.ndarray:
     """Rows (2 reach + 1, 2, d) of the point on either side; of the fillet's middle where the fillet has no such
     tangent."""
     of_plane = rows.rows[:, 0]
@@ -37,7 +34,7 @@ def point_rows(rows: RootStressRows) -> np.ndarray:
     return of_plane[:, [place, points + place]]
 
 
-def _stress(point: np.ndarray, stored: StoredForces, model) -> float:
+def _stress(point: np.ndarray, stored, model) -> float:
     """Larger stress (MPa) of both sides of the loaded teeth at a stored step; 0 where none is loaded."""
     forces = stored.on_flanks(model, PINION)
     reach = len(point) // 2

@@ -8,7 +8,7 @@ from math import pi
 import numpy as np
 import xarray as xr
 
-from fenics_gears.scene.train import TrainScene
+from fenics_gears.shown import TrainScene
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,98 @@
+"""What is printed of the result of a train or a planetary set: rows of label, value and unit."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+from .key_numbers import MICROMETRE
+from .layout import OF_OUTPUTS, OVERALL, in_microradians
+from .planetary import MEMBER, PLANET
+from .sets_in_train import MESH, SET, set_runs
+
+Rows = list[tuple[str, str, str]]
+OF_SHAFTS = (
+    ("largest_bearing_force", "largest force of a bearing"),
+    ("largest_rolling_element_force", "largest force of a rolling element, under mean loads"),
+)
+OF_MESHES = (
+    ("mean_mesh_stiffness", "mesh stiffness, mean", "N/(mm um)"),
+    ("face_load_factor", "face load factor K_Hbeta", ""),
+    ("largest_pair_force", "largest force of a tooth pair", "N"),
+    ("peak_contact_pressure", "peak contact pressure", "MPa"),
+)
+
+
+def train_rows(found: xr.Dataset) -> Rows:
+    """Of a train or a planetary set."""
+    if SET not in found.dims:
+        return _set_rows(found) if PLANET in found.dims else _rows_of_meshes(found)
+    meshes = [str(each) for each in found[MESH].values]
+    of_sets = {str(name): own for name, own in zip(found[SET].values, set_runs(found))}
+    others = [place for place, mesh in enumerate(meshes) if mesh.split(":")[0] not in of_sets]
+    rows = _rows_of_meshes(found.isel({MESH: others}))
+    return rows + [(f"{name}: {row[0]}", *row[1:]) for name, own in of_sets.items() for row in _set_rows(own)]
+
+
+def _rows_of_meshes(found: xr.Dataset) -> Rows:
+    attrs = found.attrs
+    rows = _of_the_whole(found, "urad")
+    for own in found[f"peak_to_peak_{OF_OUTPUTS}"] if OF_OUTPUTS in found else ():
+        rows.append((f"{own['output'].item()}: lag of its shaft, peak to peak", in_microradians(float(own)), "urad"))
+    for name, label in OF_SHAFTS:
+        if name in attrs:
+            rows.append((label, f"{attrs[name]:.5g}", "N"))
+    if "friction_loss" in attrs:
+        rows.append(("friction loss, all meshes", f"{100.0 * attrs['friction_loss']:.4g}", "%"))
+    for name in found[MESH].values:
+        own = found.sel({MESH: name})
+        radius = float(own["base_radius_wheel"])
+        for number, label in (("peak_to_peak", "peak to peak"), ("mean", "mean")):
+            angle = float(own[f"{number}_transmission_error"])
+            said = f"{angle * radius / MICROMETRE:.4g} um = {angle:.5g} rad"
+            rows.append((f"{name}: transmission error, {label}", said, ""))
+        if "mean_path_share" in own:
+            mean, most, least = (100.0 * float(own[f"{each}_path_share"]) for each in ("mean", "largest", "least"))
+            rows.append((f"{name}: share of the torque on its shaft", f"{mean:.4g} ({least:.4g} to {most:.4g})", "%"))
+        rows += _of_meshes(str(name), own)
+    return rows
+
+
+def _set_rows(found: xr.Dataset) -> Rows:
+    """Of a planetary set; of both kinds of meshes the largest of all planets."""
+    attrs = found.attrs
+    rows = _of_the_whole(found, "urad of the output")
+    rows += [
+        ("load sharing factor K_gamma, of the sun's meshes", f"{attrs['load_sharing_factor']:.6g}", ""),
+        ("load sharing factor K_gamma, of the ring's meshes", f"{attrs['load_sharing_factor_ring']:.6g}", ""),
+        ("largest force of a planet on its pin", f"{attrs['largest_pin_force']:.5g}", "N"),
+    ]
+    members = [str(each) for each in found[MEMBER].values]
+    for place, member in enumerate(members):
+        torque = 1e-3 * float(found["member_torque"][:-1, place].mean())
+        rows.append((f"torque on the {member} from outside, mean", f"{torque:.6g}", "N m"))
+    for member in attrs.get("floating", "").split():
+        place = members.index(member)
+        radius = np.hypot(found["member_x"][:, place], found["member_y"][:, place])
+        rows.append((f"centre of the {member}, farthest from its place", f"{1e3 * float(radius.max()):.4g}", "um"))
+    for name, label in (("efficiency", "efficiency"), ("basic_efficiency", "efficiency with the carrier at rest")):
+        if name in attrs:
+            rows.append((label, f"{100.0 * attrs[name]:.5g}", "%"))
+    with_sun = np.array([": sun, " in str(each) for each in found[MESH].values])
+    for name, which in (("sun and planets", with_sun), (f"planets and {members[1]}", ~with_sun)):
+        rows += _of_meshes(name, found.isel({MESH: which}))
+    return rows
+
+
+def _of_the_whole(found: xr.Dataset, unit: str) -> Rows:
+    return [
+        (f"overall transmission error, {label}", in_microradians(found.attrs[f"{name}_{OVERALL}"]), unit)
+        for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean"))
+    ]
+
+
+def _of_meshes(name: str, own: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+    """The largest numbers of one mesh, or of several alike."""
+    for number, label, unit in OF_MESHES:
+        if number in own and own[number].notnull().any():
+            yield f"{name}: {label}", f"{float(own[number].max()):.4g}", unit
