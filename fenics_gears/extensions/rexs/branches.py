@@ -113,15 +113,17 @@ class Branches:
         driving = {place(each.pinion.gear) for each in self.stages}
         outputs = [number for number in places if number not in driving]
         known = {}
+        loaded = []
         for number, gears in places.items():
             loads = self.train.loads(self.gears[gears[0]])
             if any(each is not None and (each.power or 0.0) > 0.0 for each in loads) and number != first:
                 both = f"{numbered(places[first])} and of {numbered(gears)}"
                 raise ValueProblem(f"has loads that drive the shafts of {both}. Allowed: one driven shaft.")
+            loaded += [number] if loads else []
             if loads and None not in loads:
                 total = abs(sum(each.number for each in loads if each is not None))
                 known[number] = computed(total, 1e3, "N m", together(each.load.origin for each in loads if each))
-        lacking = [number for number in outputs if number not in known]
+        lacking = [each for each in places if each not in (first, *known) and each in (*outputs, *loaded)]
         if torque is not None:
             known[lacking[0] if lacking else outputs[-1]] = torque
             lacking = lacking[1:]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -176,7 +177,7 @@ def _loads(
     speed = given[1] or reading.attempt(speed_of_input, model, units[0], ratio(units[0]))
     motion = {"motion": {"input_speed": speed}}
     if branches is not None:
-        return {"load": reading.attempt(branches.loads, given[0]) or {}} | motion if model else motion
+        return {"load": reading.attempt(partial(branches.loads, given[0])) or {}} | motion if model else motion
     torque = given[0] or reading.attempt(torque_of_output, model, units[-1], ratio(units[-1]))
     return {"load": {"output_torque": torque}} | motion
 

@@ -55,8 +55,11 @@ def units_in_order(model: RexsModel) -> list[Unit]:
 
 
 def is_series(model: RexsModel, units: Sequence[Unit]) -> bool:
-    """Whether each drives the next one alone."""
-    place = Train(model).place
+    """Whether each drives the next one alone, without loads on the shafts between."""
+    train = Train(model)
+    place = train.place
+    if any(train.loads(exit_of(each)) for each in units[:-1]):
+        return False
     entries = [place(entry_of(each)) for each in units]
     exits = [place(exit_of(each)) for each in units]
     return exits[:-1] == entries[1:] and len({*exits}) == len(units)
@@ -102,7 +105,8 @@ class _Gearbox:
         if self.sets and not is_series(self.model, found):
             sets = numbered([each.stage.id for each in self.sets])
             raise ValueProblem(
-                f"has power on several paths beside its planetary sets, {sets}. Allowed: one path through all stages;"
+                f"has power on several paths, or loads between stages, beside its planetary sets, {sets}. Allowed: one"
+                " path through all stages, with loads at its ends;"
                 " import pairs one by one, with --stage."
             )
         return found

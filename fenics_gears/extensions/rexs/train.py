@@ -266,7 +266,7 @@ class Train:
         numbers = {each.id for each in turning}
         inner = {each.roles["stage"] for each in (*own.sun_meshes, *own.ring_meshes)}
         meshes = [each.roles for each in self.model.related("stage") if numbers & {*each.roles.values()}]
-        others = [member.id for each in self._sets if each is not own for member in each.members.values()]
+        others = [member.id for each in self._sets if each.stage.id != own.stage.id for member in each.members.values()]
         return bool(numbers & {*others}) or any(roles.get("stage") not in inner for roles in meshes)
 
     def _mesh_of_set(self, own: PlanetarySet) -> Mesh | None:
