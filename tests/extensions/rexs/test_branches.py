@@ -1,7 +1,7 @@
 """Trains of REXS files whose power has several paths or ends. Gears of module 4 mm."""
 
 import re
-from math import cos, pi, sin
+from math import pi
 
 import pytest
 from tests.extensions.rexs.planetary_model import Box
@@ -45,19 +45,18 @@ def test_the_call_gives_a_torque_that_is_lacking(tmp_path):
 
 
 def split(torque=400.0):
-    """Shaft 2 drives 5 through 3 and 4, both with 20/40 and 20/40 teeth, at 62 deg up and down."""
+    """Shaft 2 drives 5, on one axis, through 3 to the right and 4 to the left, both with 20/40 and 20/40 teeth."""
     box = Box().shaft(2, 1000).shaft(3).shaft(4).shaft(5).load(91, 2, torque).gear(11, 20, 2).load(92, 5)
-    across, along = 120 * sin(62 * pi / 180), 120 * cos(62 * pi / 180)
     for path, side in ((3, 1), (4, -1)):
-        at = (along, side * across)
+        at = (120 * side, 0)
         box.gear(10 * path + 2, 40, path, at).stage(10 * path, 11, 10 * path + 2, 120.0)
         box.gear(10 * path + 5, 20, path, at)
-    box.gear(60, 40, 5, (2 * along, 0.0))
+    box.gear(60, 40, 5)
     return box.stage(33, 35, 60, 120.0).stage(43, 45, 60, 120.0)
 
 
 def test_a_split_torque_is_imported_and_runs(tmp_path):
-    """Two equal paths carry half each, at every step: a law of the scenes of trains."""
+    """Two paths that half a turn takes onto each other carry half each."""
     train, found = train_of(tmp_path, split())
     assert train.output_torque == pytest.approx(4 * 400e3)
     assert sorted(mesh.scene.load.wheel_torque for mesh in train.meshes) == pytest.approx([400e3] * 2 + [800e3] * 2)
