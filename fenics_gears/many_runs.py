@@ -16,6 +16,7 @@ from fenics_gears.effects import common_period, effects_on
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.files import save
+from fenics_gears.results.planetary import LARGEST_OF_SETS, kinds_of_meshes
 from fenics_gears.results.settled import settling_time
 from fenics_gears.results.summary import result_rows
 from fenics_gears.results.together import OVER_FACE
@@ -40,10 +41,10 @@ from fenics_gears.studies.summary import last_words, summary_rows
 from fenics_gears.system.progress import Interruption, Progress
 
 __all__ = [
-    "BODY", "NO_MEANING", "NUMBERS", "OF_TRAINS", "OVER_FACE", "RESULT_ATTRIBUTES", "Alone", "CommonWindows",
-    "Failure", "FolderOfLines", "GearStore", "Interruption", "Outcome", "Progress", "Run", "RunResult", "Runs",
-    "Spent", "Study", "Together", "common_period", "effects_on", "gear_tasks", "kept", "last_words",
-    "load_combined", "most_together", "numbers_of", "operators_key", "quasi_static", "ranks", "record_of",
-    "result_rows", "run_of", "run_with", "save", "seconds_of", "settling_time", "sole_writer", "solved_at_once",
-    "study_of", "summary_rows", "train_rows",
+    "BODY", "LARGEST_OF_SETS", "NO_MEANING", "NUMBERS", "OF_TRAINS", "OVER_FACE", "RESULT_ATTRIBUTES", "Alone",
+    "CommonWindows", "Failure", "FolderOfLines", "GearStore", "Interruption", "Outcome", "Progress", "Run",
+    "RunResult", "Runs", "Spent", "Study", "Together", "common_period", "effects_on", "gear_tasks", "kept",
+    "kinds_of_meshes", "last_words", "load_combined", "most_together", "numbers_of", "operators_key",
+    "quasi_static", "ranks", "record_of", "result_rows", "run_of", "run_with", "save", "seconds_of",
+    "settling_time", "sole_writer", "solved_at_once", "study_of", "summary_rows", "train_rows",
 ]  # fmt: skip
