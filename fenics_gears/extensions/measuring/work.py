@@ -99,8 +99,8 @@ def _stages(train, options, command: str) -> list[tuple[Scene, Path]]:
     if not alone:
         raise SceneError(
             f"gears {command} takes stages of two gears, each by itself; the meshes of this train are computed together"
-            f" ({', '.join(train.together)}), which is not measured yet: run it with finer settings, or make a scene of one of"
-            " its pairs."
+            f" ({', '.join(train.together)}), which is not measured yet: run it with finer settings, or make a scene of"
+            " one of its pairs."
         )
     coupled = ", ".join(train.together)
     left = f" Left out, since their meshes are computed together: {coupled}." if coupled else ""

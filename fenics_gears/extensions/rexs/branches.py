@@ -112,26 +112,19 @@ class Branches:
         first = place(self.stages[0].pinion.gear)
         driving = {place(each.pinion.gear) for each in self.stages}
         outputs = [number for number in places if number not in driving]
-        known = {}
-        loaded = []
-        for number, gears in places.items():
-            loads = self.train.loads(self.gears[gears[0]])
-            if any(each is not None and (each.power or 0.0) > 0.0 for each in loads) and number != first:
-                both = f"{numbered(places[first])} and of {numbered(gears)}"
-                raise ValueProblem(f"has loads that drive the shafts of {both}. Allowed: one driven shaft.")
-            loaded += [number] if loads else []
-            if loads and None not in loads:
-                total = abs(sum(each.number for each in loads if each is not None))
-                known[number] = computed(total, 1e3, "N m", together(each.load.origin for each in loads if each))
+        known, loaded = self._known(places, first)
         lacking = [each for each in places if each not in (first, *known) and each in (*outputs, *loaded)]
         if torque is not None:
-            known[lacking[0] if lacking else outputs[-1]] = torque
-            lacking = lacking[1:]
-        if len(lacking) > 1 or lacking and first not in known:
-            shafts = " and ".join(numbered(places[number]) for number in (*lacking, *([first] if lacking else [])))
+            last = [each for each in outputs if each in lacking] or outputs
+            known[last[-1]] = torque
+            lacking = [each for each in lacking if each != last[-1]]
+        between = [each for each in lacking if each not in outputs]
+        if between or len(lacking) > 1 or lacking and first not in known:
+            shafts = " and of ".join(numbered(places[number]) for number in lacking)
             raise ValueProblem(
-                f"has not the torques that its train needs: of the shafts of {shafts} all but one must be known."
-                " Allowed: torque_around_u_axis of an external_load on them, or --wheel-torque of the last gear."
+                f"has no torque on the shafts of {shafts}. Of the loads of the drive, {numbered(places[first])}, and of"
+                " the shafts that drive no gear all but one must be known, and all between. Allowed:"
+                " torque_around_u_axis of an external_load on them, or --wheel-torque of the last gear."
             )
         further = [number for number in known if number not in (first, *lacking)]
         single = outputs[0] if len(outputs) == 1 and not lacking else None
@@ -146,6 +139,22 @@ class Branches:
             )
             found["torques"] = Value(0.0, f"[\n{entries}]", together(known[number].origin for number in others))
         return found
+
+    def _known(self, places: dict[int, list[int]], first: int) -> tuple[dict[int, Value], list[int]]:
+        """Torques by the places that they are on, and all places that have loads. Raises ValueProblem for a second
+        drive."""
+        known: dict[int, Value] = {}
+        loaded: list[int] = []
+        for number, gears in places.items():
+            loads = self.train.loads(self.gears[gears[0]])
+            if any(each is not None and (each.power or 0.0) > 0.0 for each in loads) and number != first:
+                both = f"{numbered(places[first])} and of {numbered(gears)}"
+                raise ValueProblem(f"has loads that drive the shafts of {both}. Allowed: one driven shaft.")
+            loaded += [number] if loads else []
+            if loads and None not in loads:
+                total = abs(sum(each.number for each in loads if each is not None))
+                known[number] = computed(total, 1e3, "N m", together(each.load.origin for each in loads if each))
+        return known, loaded
 
     def _parts(self):
         return [part for stage in self.stages for part in stage.named.values()]

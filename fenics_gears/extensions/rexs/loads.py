@@ -6,7 +6,8 @@ from .attributes import Reading, every, first
 from .model import Component, RexsModel
 from .order import Unit, entry_of, exit_of
 from .stage import GearParts, Stage
-from .train import Share, Train
+from .train import Train
+from .transmission import Share
 from .values import Value, ValueProblem, computed, together
 
 RPM = 0.10471975511965977  # rad/s

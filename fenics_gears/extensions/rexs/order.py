@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from .model import Component, Relation, RexsModel
-from .planetary_sets import CARRIER, PLANETARY, PlanetarySet, found_set
+from .planetary_sets import PlanetarySet, found_set
 from .stage import Stage, driving_gear, relations_of_pairs, stage_of
 from .train import Train
+from .transmission import CARRIER, PLANETARY
 from .values import ValueProblem, numbered
 
 

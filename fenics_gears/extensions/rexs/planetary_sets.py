@@ -5,12 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .model import Component, Relation, RexsModel
-from .transmission import is_internal
+from .transmission import CARRIER, is_internal
 from .values import COUNT, ValueProblem, numbered, value_of
 
-PLANETARY = "planetary_stage"
-CARRIER = "planet_carrier"
-CASING = "gear_casing"
 ALLOWED = "Allowed: one sun, one ring, and planets of one gear that mesh with both."
 
 

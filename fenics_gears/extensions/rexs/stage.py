@@ -5,9 +5,8 @@ from dataclasses import dataclass, replace
 from math import copysign
 
 from .model import Component, Relation, RexsModel
-from .planetary_sets import PLANETARY
 from .train import Train
-from .transmission import is_internal
+from .transmission import PLANETARY, is_internal
 from .values import COUNT, Value, ValueProblem, value_of, word_of
 
 CYLINDRICAL = "cylindrical_stage"

@@ -8,47 +8,31 @@ ends without a load or goes through other planetary stages.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
 from .model import Component, RexsModel
-from .planetary_sets import CARRIER, CASING, PLANETARY, PlanetarySet, found_set, is_set
+from .planetary_sets import PlanetarySet, found_set, is_set
 from .transmission import (
+    CASING,
+    PLANETARY,
     POWER,
     TORQUE,
     Mesh,
+    Share,
     alike,
     axis_of,
-    is_gear,
     is_internal,
-    is_joint,
     is_torque,
-    turns_both,
+    joints,
     word,
 )
 from .values import SPEED, Value, ValueProblem, computed, value_of
 
-# Relations of a joint and the two parts that it joins; the second is that of version 1.0.
-JOINING = ("side", "coupling")
 # Stages whose ratio is that of the teeth; one in a planetary stage turns about an axis that turns itself.
 PLAIN_STAGES = ("cylindrical_stage", "bevel_stage")
-
-
-@dataclass(frozen=True)
-class Share:
-    """The part of one load in a gear: the torque (N mm) about the gear's axis, whose sign is known or not; the power
-    that the load puts into the train; its origin; and the stages on the way. The power follows from the speed of the
-    load's own shaft, None where the file does not give it: signs of shafts that turn the other way are often not
-    meant."""
-
-    number: float
-    signed: bool
-    power: float | None
-    load: Value
-    stages: tuple[int, ...] = ()
 
 
 class Train:
@@ -202,29 +186,10 @@ class Train:
     @cached_property
     def _joined(self) -> dict[int, list[int]]:
         joined: dict[int, list[int]] = {}
-        for one, other in self._joints():
+        for one, other in joints(self.model):
             joined.setdefault(one, []).append(other)
             joined.setdefault(other, []).append(one)
         return joined
-
-    def _joints(self) -> Iterator[tuple[int, int]]:
-        """Pairs of parts that turn as one: a shaft and what is on it, and what joints that are no bearings join."""
-        components = self.model.components
-        for relation in self.model.relations:
-            roles = relation.roles
-            if relation.type == "assembly" and {"assembly", "part"} <= roles.keys():
-                holder = components[roles["assembly"]]
-                held_gear = holder.type == CASING and is_gear(components[roles["part"]])
-                if holder.type in ("shaft", CARRIER) or is_gear(holder) or held_gear:
-                    yield roles["assembly"], roles["part"]
-            elif relation.type == "planet_carrier_shaft" and {"planetary_stage", "shaft"} <= roles.keys():
-                for carrier in self.model.partners("assembly", "part", assembly=components[roles["planetary_stage"]]):
-                    if carrier.type == CARRIER:
-                        yield carrier.id, roles["shaft"]
-            elif relation.type in JOINING:
-                parts = [number for number in roles.values() if not is_joint(components[number])]
-                if len(parts) == 2 and all(turns_both(components[number]) for number in roles.values()):
-                    yield parts[0], parts[1]
 
     @cached_property
     def _meshes(self) -> list[Mesh]:

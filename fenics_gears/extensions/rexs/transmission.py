@@ -3,18 +3,24 @@ part to another in a fixed ratio."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from .model import Component
-from .values import COUNT, numbers_of, value_of, word_of
+from .model import Component, RexsModel
+from .values import COUNT, Value, numbers_of, value_of, word_of
 
 # Of a load on a shaft.
 TORQUE = "torque_around_u_axis"
 POWER = "power"
 # Cosine of the angle between axes from which on they count as parallel.
 PARALLEL = 0.99
+# Relations of a joint and the two parts that it joins; the second is that of version 1.0.
+JOINING = ("side", "coupling")
+PLANETARY = "planetary_stage"
+CARRIER = "planet_carrier"
+CASING = "gear_casing"
 
 
 @dataclass(frozen=True)
@@ -37,6 +43,40 @@ class Mesh:
         else:
             own, other = (value_of(each, "number_of_teeth", COUNT).number for each in (gear, self.mate(gear)))
         return abs(own / other)
+
+
+@dataclass(frozen=True)
+class Share:
+    """The part of one load in a gear: the torque (N mm) about the gear's axis, whose sign is known or not; the power
+    that the load puts into the train; its origin; and the stages on the way. The power follows from the speed of the
+    load's own shaft, None where the file does not give it: signs of shafts that turn the other way are often not
+    meant."""
+
+    number: float
+    signed: bool
+    power: float | None
+    load: Value
+    stages: tuple[int, ...] = ()
+
+
+def joints(model: RexsModel) -> Iterator[tuple[int, int]]:
+    """Pairs of parts that turn as one: a shaft and what is on it, and what joints that are no bearings join."""
+    components = model.components
+    for relation in model.relations:
+        roles = relation.roles
+        if relation.type == "assembly" and {"assembly", "part"} <= roles.keys():
+            holder = components[roles["assembly"]]
+            held_gear = holder.type == CASING and is_gear(components[roles["part"]])
+            if holder.type in ("shaft", CARRIER) or is_gear(holder) or held_gear:
+                yield roles["assembly"], roles["part"]
+        elif relation.type == "planet_carrier_shaft" and {"planetary_stage", "shaft"} <= roles.keys():
+            for carrier in model.partners("assembly", "part", assembly=components[roles["planetary_stage"]]):
+                if carrier.type == CARRIER:
+                    yield carrier.id, roles["shaft"]
+        elif relation.type in JOINING:
+            parts = [number for number in roles.values() if not is_joint(components[number])]
+            if len(parts) == 2 and all(turns_both(components[number]) for number in roles.values()):
+                yield parts[0], parts[1]
 
 
 def axis_of(part: Component) -> np.ndarray | None:
