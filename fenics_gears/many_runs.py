@@ -17,6 +17,7 @@ from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.files import save
+from fenics_gears.results.planetary import LARGEST_OF_SETS, kinds_of_meshes
 from fenics_gears.results.settled import settling_time
 from fenics_gears.results.summary import result_rows
 from fenics_gears.results.together import OVER_FACE
@@ -41,10 +42,10 @@ from fenics_gears.system.job import communicator
 from fenics_gears.system.progress import Interruption, Progress, SilentProgress
 
 __all__ = [
-    "BODY", "NO_MEANING", "NUMBERS", "NUMBERS_VERSION", "OF_TRAINS", "OVER_FACE", "RESULT_ATTRIBUTES", "Alone",
-    "CommonWindows", "Failure", "GearStore", "Interruption", "Outcome", "Progress", "Run", "RunResult", "Runs",
-    "SilentProgress", "Spent", "Study", "Together", "common_period", "communicator", "effects_on", "failure_of",
-    "gear_tasks", "last_words", "load_combined", "most_together", "numbers_of", "operators_key", "quasi_static",
-    "ranks", "record_of", "result_rows", "run_of", "run_with", "save", "seconds_of", "settling_time", "sole_writer",
-    "solved_at_once", "study_of", "summary_rows", "train_rows",
+    "BODY", "LARGEST_OF_SETS", "NO_MEANING", "NUMBERS", "NUMBERS_VERSION", "OF_TRAINS", "OVER_FACE",
+    "RESULT_ATTRIBUTES", "Alone", "CommonWindows", "Failure", "GearStore", "Interruption", "Outcome", "Progress", "Run",
+    "RunResult", "Runs", "SilentProgress", "Spent", "Study", "Together", "common_period", "communicator", "effects_on",
+    "failure_of", "gear_tasks", "kinds_of_meshes", "last_words", "load_combined", "most_together", "numbers_of",
+    "operators_key", "quasi_static", "ranks", "record_of", "result_rows", "run_of", "run_with", "save", "seconds_of",
+    "settling_time", "sole_writer", "solved_at_once", "study_of", "summary_rows", "train_rows",
 ]  # fmt: skip

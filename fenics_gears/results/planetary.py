@@ -3,6 +3,7 @@ its members, efficiency. All in the frame of the carrier, the sun being seen to 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -35,6 +36,19 @@ NUMBERS_OF_SETS = {
     "basic_efficiency": ("1", "efficiency with the carrier at rest"),
     "floating": ("", "members whose centres move"),
 }
+
+
+def kinds_of_meshes(names: Sequence[str]) -> dict[str, list[int]]:
+    """Places of meshes by what is said of them: those of all planets with the sun together, and with the ring.
+
+    >>> kinds_of_meshes(["pair", "set: sun, planet 1", "set: planet 1, ring", "set: sun, planet 2"])
+    {'pair': [0], 'set: sun and planets': [1, 3], 'set: planets and ring': [2]}
+    """
+    found: dict[str, list[int]] = {}
+    for place, name in enumerate(names):
+        kind = re.sub(r"planet \d+, ring$", "planets and ring", re.sub(r", planet \d+$", " and planets", name))
+        found.setdefault(kind, []).append(place)
+    return found
 
 
 def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: Sequence[Curves]) -> ResultOfShafts:

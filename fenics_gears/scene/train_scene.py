@@ -88,6 +88,12 @@ class TrainScene(OfMeshes):
         return [row[0] for row in self.rows if len(row) == 1 and not self.shafts.moving]
 
     @property
+    def together(self) -> list[str]:
+        """Names of the stages whose meshes are computed together."""
+        alone = {self.meshes[number].name for number in self.alone}
+        return list(dict.fromkeys(each.name.partition(":")[0] for each in self.meshes if each.name not in alone))
+
+    @property
     def numbered(self) -> list[tuple[int, TrainScene]]:
         """Its parts, and the number of the first mesh of each."""
         counts = [len(part.meshes) for part in self.parts]

@@ -13,6 +13,7 @@ import xarray as xr
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.layout import OVERALL
+from fenics_gears.results.planetary import kinds_of_meshes
 from fenics_gears.results.stored import stored
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.studies.axis import SAMPLE
@@ -215,8 +216,8 @@ class Cases:
         ):
             if factor_of_set in self.dataset:
                 found[factor_of_set] = (self.numbers(factor_of_set), "", words)
-        for mesh in self.dataset["mesh"].values:
-            values = self.dataset[PEAK_TO_PEAK].sel(mesh=mesh).values.ravel() * scale
-            name = f"{PEAK_TO_PEAK}_{re.sub(r'[^A-Za-z0-9-]+', '_', str(mesh))}"
+        for mesh, places in kinds_of_meshes([str(each) for each in self.dataset["mesh"].values]).items():
+            values = self.dataset[PEAK_TO_PEAK].isel(mesh=places).max("mesh").values.ravel() * scale
+            name = f"{PEAK_TO_PEAK}_{re.sub(r'[^A-Za-z0-9-]+', '_', mesh)}"
             found[name] = (values, unit, f"Transmission error, peak to peak{OF_MESH}{mesh}")
         return found

@@ -1,6 +1,7 @@
 """What ``gears picture`` does."""
 
 import argparse
+import sys
 from contextlib import closing
 from pathlib import Path
 
@@ -76,6 +77,8 @@ def _of_stages(options: argparse.Namespace, file: Path, dataset) -> int:
         with closing(shown_progress(options.quiet)) as progress:
             written = _written(options, own, mesh.scene, stored_index(own, options.at), output, progress)
         print_files(written, options.quiet)
+    if train.together and not options.quiet:
+        print(f"Not drawn, since their meshes are computed together: {', '.join(train.together)}.", file=sys.stderr)
     return 0
 
 

@@ -11,7 +11,7 @@ import xarray as xr
 import fenics_gears
 from fenics_gears import MICRORADIANS, OVERALL, carried_train, load, overall_orders
 from fenics_gears.charts import DARK, GREY, MARKED_LINES, PALETTE, Chart, Curve, shades, span, words_apart
-from fenics_gears.many_runs import Outcome, load_combined
+from fenics_gears.many_runs import Outcome, kinds_of_meshes, load_combined
 
 from .train_map import LOADS_OF_TRAIN, TrainMap
 
@@ -134,18 +134,22 @@ def _over(found: xr.Dataset, over: str, axis: str, prefix: str) -> Iterator[Char
     }
     yield _chart(curves, places, axis, f"Its orders{at}", "Amplitude (µrad)")
     errors = found[f"{prefix}peak_to_peak_transmission_error"]
-    of_meshes = {str(name): errors.sel(mesh=name).values for name in found["mesh"].values}
     yield _chart(
-        of_meshes,
+        _of_kinds(errors),
         places,
         axis,
         f"Transmission error of each mesh, peak to peak{at}",
         "Peak to peak (µrad of its wheel)",
     )
     if f"{prefix}largest_pair_force" in found:
-        forces = found[f"{prefix}largest_pair_force"]
-        of_meshes = {str(name): forces.sel(mesh=name).values for name in found["mesh"].values}
-        yield _chart(of_meshes, places, axis, f"Largest force of a tooth pair{at}", "Force (N)")
+        forces = _of_kinds(found[f"{prefix}largest_pair_force"])
+        yield _chart(forces, places, axis, f"Largest force of a tooth pair{at}", "Force (N)")
+
+
+def _of_kinds(numbers: xr.DataArray) -> dict[str, np.ndarray]:
+    """Numbers of meshes by what is said of these, the largest of all planets."""
+    kinds = kinds_of_meshes([str(name) for name in numbers["mesh"].values])
+    return {name: numbers.isel(mesh=places).max("mesh").values for name, places in kinds.items()}
 
 
 def _drawn_orders(found: xr.Dataset) -> np.ndarray:

@@ -17,7 +17,7 @@ from fenics_gears.command_line import (
     seconds_in_words,
     shown_progress,
 )
-from fenics_gears.many_runs import Outcome, last_words, ranks, run_with, summary_rows
+from fenics_gears.many_runs import Outcome, kinds_of_meshes, last_words, ranks, run_with, summary_rows
 from fenics_gears.scene_text import load_scene_or_train
 
 from .charts import map_pictures
@@ -74,7 +74,9 @@ def _dataset(wanted: LoadMap | TrainMap, at_rest: Outcome, over_speed: Outcome |
 
 def _drawn(dataset, directory: Path, scene) -> list[Path]:
     if not isinstance(scene, Scene):
-        stages = (f"{mesh.name} {mesh.pair.pinion.teeth}/{mesh.pair.wheel.teeth} teeth" for mesh in scene.meshes)
+        kinds = kinds_of_meshes([mesh.name for mesh in scene.meshes])
+        pairs = {name: scene.meshes[places[0]].pair for name, places in kinds.items()}
+        stages = (f"{name} {own.pinion.teeth}/{own.wheel.tooth_count} teeth" for name, own in pairs.items())
         return draw_charts(train_map_pictures(dataset), directory, scene.title, ", ".join(stages))
     supports = [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
     more = f"{design(scene)}{', elastic ' + ' and '.join(supports) if supports else ''}"

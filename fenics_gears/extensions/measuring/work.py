@@ -96,14 +96,14 @@ def scenes_to_measure(options, command: str) -> list[tuple[Scene, Path]]:
 def _stages(train, options, command: str) -> list[tuple[Scene, Path]]:
     """The pairs of a train that are computed by themselves, and a folder for each; the standard error says so."""
     alone = [train.meshes[number] for number in train.alone]
-    coupled = [mesh.name for mesh in train.meshes if mesh not in alone]
     if not alone:
         raise SceneError(
             f"gears {command} takes stages of two gears, each by itself; the meshes of this train are computed together"
-            f" ({', '.join(coupled)}), which is not measured yet: run it with finer settings, or make a scene of one of"
-            " its pairs."
+            f" ({', '.join(train.together)}), which is not measured yet: run it with finer settings, or make a scene of"
+            " one of its pairs."
         )
-    left = f" Left out, since they have gears in common: {', '.join(coupled)}." if coupled else ""
+    coupled = ", ".join(train.together)
+    left = f" Left out, since their meshes are computed together: {coupled}." if coupled else ""
     if not options.quiet:
         said = "Each stage of two gears by itself, under its torque: shafts between them are rigid."
         print(f"{said}{left}", file=sys.stderr)

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from fenics_gears import HARMONIC_NAMES, OVERALL, Scene
-from fenics_gears.many_runs import NUMBERS, OF_TRAINS, OVER_FACE, RESULT_ATTRIBUTES
+from fenics_gears.many_runs import LARGEST_OF_SETS, NUMBERS, OF_TRAINS, OVER_FACE, RESULT_ATTRIBUTES
 
 ERROR = "peak_to_peak_transmission_error"
 # Of trains, in urad of the last shaft.
@@ -18,7 +18,7 @@ ON_SHAFTS = ("largest_bearing_force",)
 NAMES = (
     ERROR, OVERALL_ERROR, WEIGHTED, *HARMONIC_NAMES, "max_normal_force", "largest_pair_force",
     "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure",
-    *ROOT, "friction_loss", *OVER_FACE, *ON_SHAFTS,
+    *ROOT, "friction_loss", *OVER_FACE, *ON_SHAFTS, *LARGEST_OF_SETS,
 )  # fmt: skip
 
 
@@ -52,6 +52,8 @@ def unit_and_words(name: str, of_train: bool = False) -> tuple[str, str]:
         return "urad", OF_TRAINS[OVERALL_ERROR][1]
     if name in NUMBERS:
         return NUMBERS[name]
+    if name in LARGEST_OF_SETS:
+        return LARGEST_OF_SETS[name]
     attribute = next(each for each in RESULT_ATTRIBUTES if each.name == name)
     return attribute.units, attribute.meaning
 
@@ -62,6 +64,9 @@ def lacking(name: str, scene: Any) -> str:
     if name == WEIGHTED:
         ramped = not isinstance(scene, Scene) and scene.shafts.ramp is not None
         return STEADY if ramped else ""
+    if name in LARGEST_OF_SETS:
+        parts = () if isinstance(scene, Scene) else scene.parts
+        return "" if any(part.shafts.carrier for part in parts) else 'a planetary set, kind = "planetary"'
     if isinstance(scene, Scene):
         return "a train of gears, [stages.NAME]" if name == OVERALL_ERROR else _lacking(name, scene)
     if name == OVERALL_ERROR:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from .model import Component
-from .stage import GearParts, Stage
+from .stage import EXTERNAL, INTERNAL, GearParts, Stage, internal_gear
 from .values import COUNT, MODULES, NUMBER, SPEED, Value, ValueProblem, place, together, value_of
 
 LookedUp = TypeVar("LookedUp")
@@ -49,6 +49,9 @@ ATTRIBUTES: dict[str, tuple[tuple[str, str, str], ...]] = {
     "root_diameter": (("gear", "root_diameter", "mm"),),
     "tooth_depth": (("gear", "tooth_depth", "mm"),),
     "bore_diameter": (("gear", "inner_diameter", "mm"), ("bodies", "inner_diameter", "mm")),
+    "outer_diameter": (("gear", "outer_diameter", "mm"), ("bodies", "outer_diameter", "mm")),
+    "cutter_teeth": (("cutters", "number_of_teeth", COUNT),),
+    "cutter_shift": (("cutters", "addendum_modification_coefficient", NUMBER),),
     "tool_module": (("tool", "normal_module", "mm"),),
     "tool_addendum": (
         ("tool", "addendum_coefficient_reference_profile", NUMBER),
@@ -78,6 +81,8 @@ POSITIVE = (
     "module", "centre_distance", "common_face_width", "face_width", "teeth", "tip_diameter", "root_diameter",
     "youngs_modulus", "density",
 )  # fmt: skip
+# Of these a program may write negative values for an internal gear (ISO 21771).
+SIGNED = ("teeth", "tip_diameter", "root_diameter")
 # Attributes of gears, flanks and tools for which a scene has no field.
 _THICKNESS = (
     "din_3967_deviation_tolerance_series", "tooth_thickness_deviation_tolerance_series_din_3967_1978",
@@ -170,6 +175,8 @@ def missing(one: Place, *others: Place) -> ValueProblem:
 
 def _checked(asked: str, where: Place, module: Value | None = None) -> Value:
     value = value_of(*where, module)
+    if asked in SIGNED and value.number and where[0].type in (EXTERNAL, INTERNAL) and internal_gear(where[0]):
+        return value
     return positive(value, where) if asked in POSITIVE else value
 
 

@@ -17,7 +17,7 @@ from .model import Component, RexsModel
 from .placing import turning_axis
 from .shaft_parts import SectionOfShaft, place_along, sections_of
 from .stage import Stage
-from .train import TORQUE, axis_of
+from .transmission import TORQUE, axis_of
 from .values import Value, ValueProblem, computed, numbered, value_of, word_of
 
 # N/mm: what holds without giving way. Files write 1e22 N/m, or that a bearing absorbs axial forces, and no stiffness.

@@ -1,10 +1,11 @@
 """Reliefs and tolerances of the loaded flanks, and what a file says of flanks that a scene has no field for."""
 
 from dataclasses import replace
-from math import cos, isclose, sqrt
+from math import copysign, cos, inf, isclose, sqrt
 
 from .attributes import NO_PLACE, NO_PLACE_OF_RELIEFS, Reading, given, missing, positive, required, stated
-from .gears import ROUNDED, Sections, transverse_angle
+from .circles import ROUNDED
+from .gears import Sections, transverse_angle
 from .lead import LEAD_TYPES, shape_of
 from .model import Component
 from .stage import Fields, GearParts, Stage
@@ -102,6 +103,7 @@ def _classes(reading: Reading, part: GearParts) -> list[Value]:
 
 
 def _base_diameter(beta: float, module: Value, angle: Value, teeth: Value) -> float:
+    """Negative of an internal gear, whose flank begins at its tip and goes outwards."""
     return module.number * teeth.number * cos(transverse_angle(angle.number, beta)) / cos(beta)
 
 
@@ -145,13 +147,14 @@ def _start(relief: Component, base: float, tip: float) -> tuple[str, Value, floa
         return "start", start, start.number
     whole = 0.5 * sqrt(max(tip**2 - base**2, 0.0))
     diameter = None
-    if not 0.0 < length.number < whole:
+    inwards = copysign(1.0, base)
+    if not 0.0 < length.number < (whole if base > 0.0 else inf):
         raise ValueProblem(
             f"{place(*by_length[:2])} = {length.words} is no length of roll of this flank. Allowed: above 0 and below"
             f" {whole:.6g} mm."
         )
     if relief.type == TIP:
-        diameter = sqrt(base**2 + 4.0 * (whole - length.number) ** 2)
+        diameter = sqrt(base**2 + 4.0 * (whole - inwards * length.number) ** 2)
         if start is not None and abs(start.number - diameter) > ROUNDED * tip:
             raise ValueProblem(
                 f"{place(*where[:2])} = {start.words} contradicts {by_length[1]} = {length.words}, which starts at"
@@ -166,12 +169,15 @@ def _at_the_tip(relief: Component, depth: Value, start: float, power: int, base:
     evaluated = stated(where)
     if evaluated is None:
         return depth
-    if not base <= start < evaluated.number:
+    beyond = copysign(1.0, base) * (abs(evaluated.number) - start) > 0.0
+    if not (beyond and min(start, abs(evaluated.number)) >= abs(base)):
+        side = "outside" if base > 0.0 else "inside"
         raise ValueProblem(
-            f"{place(*where[:2])} = {evaluated.words} does not lie outside the start of the relief, {start:.6g} mm."
+            f"{place(*where[:2])} = {evaluated.words} does not lie {side} the start of the relief, {start:.6g} mm."
         )
-    if isclose(evaluated.number, tip, rel_tol=SAME):
+    if isclose(abs(evaluated.number), tip, rel_tol=SAME):
         return depth
-    begin, there, end = (sqrt(diameter**2 - base**2) for diameter in (start, evaluated.number, max(tip, base)))
+    ends = start, abs(evaluated.number), max(tip, abs(base))
+    begin, there, end = (sqrt(diameter**2 - base**2) for diameter in ends)
     number = depth.number * ((end - begin) / (there - begin)) ** power
     return computed(number, 1e-3, "um", f"{depth.origin}, {depth.words} at diameter {evaluated.words}, at the tip")

@@ -2,35 +2,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+
+import numpy as np
 
 from fenics_gears import SceneError
 
 from .attributes import Reading, needed
 from .bent_shafts import shaft_sections
+from .branches import Branches
+from .circles import without_derived_tip
 from .flanks import loaded_flanks, note_what_is_left_out, relief_sections
 from .gears import Sections, gear_sections
 from .imported import by_call, check_complete
 from .lead import lead_sections
-from .loads import model_with_loads, pinion_speed, wheel_torque
+from .loads import model_with_loads, speed_of_input, torque_of_output
 from .model import RexsModel
+from .order import Unit, described, is_series, units_in_order
 from .placing import direction, turning_axis
+from .planetary import set_sections
 from .read import read_model
 from .rows import in_rows, names_of_gears, row_sections
 from .scene_text import train_text
 from .shaft_parts import SECTION
-from .stage import Stage, stages_in_a_row
-from .train import is_force
+from .stage import Stage
+from .transmission import is_force
 from .values import Value, ValueProblem, numbered
 
 
 @dataclass(frozen=True)
 class ImportedTrain:
-    """The text of a scene, its stages, what had to be assumed, and what of the file it leaves out."""
+    """The text of a scene, who drives whom in it, what had to be assumed, and what of the file it leaves out."""
 
     text: str
-    stages: tuple[Stage, ...]
+    stages: tuple[str, ...]
     assumed: tuple[str, ...]
     left_out: tuple[str, ...]
 
@@ -50,50 +58,93 @@ def imported_train(
     model = read_model(path)
     loaded = model_with_loads(reading, model, load_case, given)
     try:
-        stages = stages_in_a_row(loaded or model)
+        units = units_in_order(loaded or model)
     except ValueProblem as problem:
         raise SceneError(f"{path}: {problem}\nNothing was written.") from None
-    sections, left_out = _sections(reading, loaded or model, stages, bent)
-    sections |= _loads(reading, loaded, stages, given)
+    branches = None if is_series(loaded or model, units) else Branches(loaded or model, _pairs(units), name_of)
+    sections, left_out = _sections(reading, loaded or model, units, branches, bent)
+    sections |= _loads(reading, loaded, units, branches, given)
     check_complete(reading, path)
     assumed = [
         f"{section}.{name} = {value.words}: {value.origin}"
         for section, fields in sections.items()
         for name, value in fields.items()
         if value.assumed
-    ] + [each for stage in stages for each in loaded_flanks(stage)]
+    ] + [each for stage in _pairs(units) for each in loaded_flanks(stage)]
     notes = {
         "Assumed, since the file does not say it:": assumed,
         "Left out, since a train has no place for it yet:": left_out,
     }
-    return ImportedTrain(
-        train_text(path.name, model, stages, sections, notes), tuple(stages), tuple(assumed), tuple(left_out)
-    )
+    who = tuple(f"{each.stage}: {described(each)}" for each in units)
+    return ImportedTrain(train_text(path.name, model, who, sections, notes), who, tuple(assumed), tuple(left_out))
 
 
-def _sections(reading: Reading, model: RexsModel, stages: list[Stage], bent: bool) -> tuple[Sections, list[str]]:
+def _pairs(units: Sequence[Unit]) -> list[Stage]:
+    return [each for each in units if isinstance(each, Stage)]
+
+
+def _sections(
+    reading: Reading, model: RexsModel, units: Sequence[Unit], branches: Branches | None, bent: bool
+) -> tuple[Sections, list[str]]:
     """Sections of all stages, and what is left out."""
-    turning = turning_axis(stages[0])
     sections: Sections = {}
-    placed = True
-    rows = in_rows(stages)
-    for row in rows:
-        meshes = []
-        for stage in row:
-            own = _stage_sections(reading, stage)
-            towards = reading.attempt(direction, stage, turning)
-            placed = placed and towards is not None
-            own["gears"] |= {"direction": towards} if towards is not None else {}
-            meshes.append(own)
-        found = meshes[0] if len(row) == 1 else row_sections(reading, row, meshes)
-        sections |= {_of_train(name, row[0]): fields for name, fields in found.items()}
-    shafts = shaft_sections(reading, model, stages, names_of_gears(rows, name_of)) if bent else {}
-    left_out = [*reading.left_out, *_beside_the_gears(model, shafts)]
-    sections |= shafts
-    return sections, left_out if placed else [
+    names: dict[int, str] = {} if branches is None else branches.names
+    placed: list[bool] = []
+    stages: list[Stage] = []
+    for unit in (*units, None):
+        if isinstance(unit, Stage):
+            stages.append(unit)
+            continue
+        if stages:
+            meshes = [_stage_sections(reading, stage, turning_axis(stages[0])) for stage in stages]
+            placed += ["direction" in mesh["gears"] for mesh in meshes]
+            rows = [[stage] for stage in stages] if branches else in_rows(stages)
+            names |= {} if branches else names_of_gears(rows, name_of)
+            sections |= _of_stages(reading, rows, meshes, branches)
+            stages = []
+        if unit is not None:
+            found = set_sections(reading, model, unit)
+            sections |= {f"stages.{name_of(unit)}{name and '.'}{name}": fields for name, fields in found.items()}
+    shafts, left_out = _shafts(reading, model, units, branches, names, bent)
+    return sections | shafts, left_out if all(placed) else [
         *left_out,
         "directions of wheels from pinions, which the file does not say",
     ]
+
+
+def _of_stages(
+    reading: Reading, rows: Sequence[Sequence[Stage]], meshes: Sequence[Sections], branches: Branches | None
+) -> Sections:
+    """Sections of stages that stand beside each other in the scene, from those of their meshes."""
+    if branches is not None:
+        meshes = branches.sections(reading, meshes)
+    left = list(meshes)
+    sections: Sections = {}
+    for row in rows:
+        own = [left.pop(0) for _ in row]
+        found = own[0] if len(row) == 1 else row_sections(reading, row, own)
+        sections |= {_of_train(name, row[0]): fields for name, fields in found.items()}
+    return sections
+
+
+def _shafts(
+    reading: Reading,
+    model: RexsModel,
+    units: Sequence[Unit],
+    branches: Branches | None,
+    names: dict[int, str],
+    bent: bool,
+) -> tuple[Sections, list[str]]:
+    """Sections of shafts that bend or carry several gears, and what is left out beside the gears."""
+    stages = _pairs(units)
+    if bent and len(stages) < len(units):
+        bent = False
+        reading.left_out.append("bending of shafts, which is not computed beside planetary sets")
+    shafts = shaft_sections(reading, model, stages, names) if bent else {}
+    left_out = [*reading.left_out, *_beside_the_gears(model, shafts)]
+    carried = branches.shafts() if branches is not None else {}
+    # A shaft that bends says itself what it carries.
+    return {**carried, **shafts}, left_out
 
 
 def _beside_the_gears(model: RexsModel, shafts: Sections) -> list[str]:
@@ -108,28 +159,41 @@ def _beside_the_gears(model: RexsModel, shafts: Sections) -> list[str]:
 
 
 def _loads(
-    reading: Reading, model: RexsModel | None, stages: list[Stage], given: tuple[Value | None, Value | None]
+    reading: Reading,
+    model: RexsModel | None,
+    units: Sequence[Unit],
+    branches: Branches | None,
+    given: tuple[Value | None, Value | None],
 ) -> Sections:
-    """Torque on the last gear and speed of the first one."""
+    """Torque on the last gear and speed of the first one; of a train with several ends the torques of all but one."""
 
-    def ratio(stage: Stage) -> float | None:
-        teeth = [reading.attempt(needed, part, "teeth") for part in (stage.pinion, stage.wheel)]
-        return None if None in teeth else teeth[1].number / teeth[0].number
+    def ratio(unit: Unit) -> float | None:
+        if not isinstance(unit, Stage):
+            turns = unit.own.turns(unit.held)
+            return abs(turns[unit.input] / turns[unit.output])
+        teeth = [reading.attempt(needed, part, "teeth") for part in (unit.pinion, unit.wheel)]
+        return None if None in teeth else abs(teeth[1].number / teeth[0].number)
 
-    torque = given[0] or reading.attempt(wheel_torque, model, stages[-1], ratio(stages[-1]))
-    speed = given[1] or reading.attempt(pinion_speed, model, stages[0], ratio(stages[0]))
-    return {"load": {"output_torque": torque}, "motion": {"input_speed": speed}}
+    speed = given[1] or reading.attempt(speed_of_input, model, units[0], ratio(units[0]))
+    motion = {"motion": {"input_speed": speed}}
+    if branches is not None:
+        return {"load": reading.attempt(partial(branches.loads, given[0])) or {}} | motion if model else motion
+    torque = given[0] or reading.attempt(torque_of_output, model, units[-1], ratio(units[-1]))
+    return {"load": {"output_torque": torque}} | motion
 
 
-def _stage_sections(reading: Reading, stage: Stage) -> Sections:
+def _stage_sections(reading: Reading, stage: Stage, turning: np.ndarray) -> Sections:
     sections = gear_sections(reading, stage)
     sections |= relief_sections(reading, stage, sections)
     sections |= lead_sections(reading, stage, sections)
+    without_derived_tip(sections)
     note_what_is_left_out(reading, stage)
+    towards = reading.attempt(direction, stage, turning)
+    sections["gears"] |= {"direction": towards} if towards is not None else {}
     return sections
 
 
-def name_of(stage: Stage) -> str:
+def name_of(stage: Unit) -> str:
     """What a stage is called in the scene."""
     return f"stage_{stage.stage.id}"
 

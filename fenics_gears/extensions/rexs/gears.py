@@ -4,24 +4,18 @@ from dataclasses import replace
 from functools import partial
 from math import acos, atan, cos, hypot, isclose, tan
 
-from fenics_gears import RACKS, USUAL_BORE, inverse_involute, involute_function, sum_of_profile_shifts
+from fenics_gears import inverse_involute, involute_function, sum_of_profile_shifts
 
 from .attributes import Reading, every, first, given, missing, needed, places
+from .circles import ROUNDED, STANDARD, check_reference_diameter, cutter, gear_section
 from .placing import distance_of_positions, offset_of_wheel
-from .shaft_parts import diameter_at
-from .stage import GearParts, Stage
+from .stage import GearParts, Stage, internal_gear
 from .values import NUMBER, SAME, Value, ValueProblem, agreed, bare, computed, place, together
 
 # By the section of a scene ("gears.pinion"), its fields; None for what was not found, which is among the reading's
 # problems.
 Sections = dict[str, dict[str, Value | None]]
-STANDARD = "ISO 53 A"
-ADDENDUM, DEDENDUM, _ = RACKS[STANDARD]
 MATERIAL = ("youngs_modulus", "poissons_ratio")
-# A shaft that is thicker, over the root diameter, is one piece with the gear.
-THICK_SHAFT = 0.7
-# Rounding that is allowed where the file repeats module, teeth or shifts, in modules.
-ROUNDED = 1e-3
 # Helix angle, rad, of gears that are spur.
 NO_HELIX = 1e-9
 
@@ -34,13 +28,13 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
     angle = reading.attempt(_pressure_angle, stage)
     distance = reading.attempt(_distance, stage)
     parts = stage.named.values()
-    teeth = [reading.attempt(needed, part, "teeth") for part in parts]
+    teeth = [reading.attempt(_signed_teeth, part) for part in parts]
     shifts = _profile_shifts(reading, stage, module, angle, distance, teeth, beta)
     if distance is None and not given(stage, "centre_distance"):
         distance = reading.attempt(distance_of_shifts, beta, module, angle, *teeth, *shifts)
-    gears = [_gear_section(reading, part, beta, module, *own) for part, *own in zip(parts, teeth, shifts)]
+    gears = [gear_section(reading, part, beta, module, *own) for part, *own in zip(parts, teeth, shifts)]
     for part, count in zip(parts, teeth):
-        reading.attempt(_check_reference_diameter, part, beta, module, count)
+        reading.attempt(check_reference_diameter, part, beta, module, count)
     reading.attempt(_check_sum_of_shifts, stage, *shifts)
     pair = {"module": module, "pressure_angle": angle, **helix, "centre_distance": distance}
     widths = reading.attempt(_face_widths, stage) or [None]
@@ -53,8 +47,20 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
     why = "no tip radius of the tool; that of ISO 53, or what has room on the rack's tip"
     rack = {"profile": Value(0.0, f'"{STANDARD}"', why, assumed=True)}
     named = {f"gears.{name}": gear for name, gear in zip(stage.named, gears)}
-    racks = {f"{name}.rack": rack for name, gear in named.items() if "rack_tip_radius" not in gear}
-    return {"gears": pair, **named, **racks, **(reading.attempt(_materials, stage) or {})}
+    outside = {f"gears.{name}" for name, part in stage.named.items() if not internal_gear(part.gear)}
+    racks = {f"{name}.rack": rack for name in named if name in outside and "rack_tip_radius" not in named[name]}
+    tool = reading.attempt(cutter, stage.wheel) if internal_gear(stage.wheel.gear) else None
+    cutters = {"gears.wheel.cutter": tool} if tool else {}
+    return {"gears": pair, **named, **racks, **cutters, **(reading.attempt(_materials, stage) or {})}
+
+
+def _signed_teeth(part: GearParts) -> Value:
+    """The number of teeth, negative of an internal gear (ISO 21771), whichever sign a program gives it."""
+    teeth = needed(part, "teeth")
+    if not internal_gear(part.gear):
+        return teeth
+    count = abs(int(teeth.number))
+    return replace(teeth, number=-count, written=str(-count))
 
 
 def _module(stage: Stage) -> Value:
@@ -67,14 +73,16 @@ def _helix(stage: Stage) -> dict[str, Value | None]:
     there = [angle for angle in (pinion, wheel) if angle is not None]
     if not any(abs(angle.number) > NO_HELIX for angle in there):
         return {}
-    if len(there) == 2 and abs(pinion.number + wheel.number) > ROUNDED * abs(pinion.number):
+    inside = internal_gear(stage.wheel.gear)
+    if len(there) == 2 and abs(pinion.number + (-1.0 if inside else 1.0) * wheel.number) > ROUNDED * abs(pinion.number):
+        signs = "one sign of an internal pair" if inside else "opposite signs"
         raise ValueProblem(
             f"{stage.stage}: {pinion.origin} is {pinion.words}, {wheel.origin} is {wheel.words}. Allowed on parallel"
-            " axes: the same angle with opposite signs."
+            f" axes: the same angle with {signs}."
         )
     angle = there[0]
     origin = together(each.origin for each in there)
-    hand = "right" if (angle.number > 0.0) == (pinion is not None) else "left"
+    hand = "right" if (angle.number > 0.0) == (pinion is not None or inside) else "left"
     return {
         "helix_angle": Value(abs(angle.number), angle.written.replace('"-', '"'), origin),
         "pinion_hand": Value(0.0, f'"{hand}"', f"the sign of {origin}"),
@@ -125,6 +133,9 @@ def _profile_shifts(
     parts = stage.named.values()
     shifts = [reading.attempt(partial(_stated_shift, part, module)) for part in parts]
     unsaid = [number for number, part in enumerate(parts) if not given(part, "profile_shift")]
+    if len(unsaid) == 2 and _without_shifts(beta, module, distance, teeth):
+        why = f"no addendum_modification_coefficient; {distance.origin} is that of the teeth without shifts"
+        return [bare(0.0, why, assumed=True)] * 2
     if len(unsaid) == 2:
         pinion = place(stage.pinion.gear, "addendum_modification_coefficient")
         name = stage.wheel.gear.id
@@ -136,6 +147,14 @@ def _profile_shifts(
         known = shifts[1 - unsaid[0]]
         shifts[unsaid[0]] = reading.attempt(_remaining_shift, stage, beta, known, module, angle, distance, *teeth)
     return shifts
+
+
+def _without_shifts(beta: float, module: Value | None, distance: Value | None, teeth: list[Value | None]) -> bool:
+    """Whether a centre distance is that of the reference circles."""
+    if module is None or distance is None or None in teeth:
+        return False
+    reference = 0.5 * module.number * abs(sum(each.number for each in teeth if each is not None)) / cos(beta)
+    return abs(abs(distance.number) - reference) < SAME * module.number
 
 
 def _distance(stage: Stage) -> Value | None:
@@ -150,7 +169,7 @@ def distance_of_shifts(beta: float, module: Value, angle: Value, *teeth_and_shif
     operating = inverse_involute(involute_function(tan(transverse)) + 2.0 * shifts * tan(angle.number) / teeth)
     bases = 0.5 * module.number * teeth * cos(transverse) / cos(beta)
     why = "no center_distance; from teeth, module and both profile shifts, without backlash"
-    return computed(bases * hypot(1.0, operating), 1.0, "mm", why, assumed=True)
+    return computed(abs(bases) * hypot(1.0, operating), 1.0, "mm", why, assumed=True)
 
 
 def _stated_shift(part: GearParts, module: Value | None) -> Value | None:
@@ -164,93 +183,15 @@ def _remaining_shift(
     """What is left of the sum of both shifts that leaves no backlash (ISO 21771)."""
     count = sum(each.number for each in teeth)
     transverse = transverse_angle(angle.number, beta)
-    cosine = 0.5 * module.number * count * cos(transverse) / cos(beta) / distance.number
+    cosine = 0.5 * module.number * abs(count) * cos(transverse) / cos(beta) / abs(distance.number)
     if not cosine < 1.0:
         name = place(stage.stage, "center_distance")
         raise ValueProblem(
-            f"{name} = {distance.number:.6g} mm is too small for {count:g} teeth of module {module.number:g} mm."
+            f"{name} = {distance.number:.6g} mm is too small for {abs(count):g} teeth of module {module.number:g} mm."
         )
     total = sum_of_profile_shifts(count, acos(cosine), transverse, angle.number)
     why = "no addendum_modification_coefficient; what that of the other gear and the centre distance leave it"
-    return bare(round(total - known.number, 9), why, assumed=True)
-
-
-def _gear_section(
-    reading: Reading, part: GearParts, beta: float, module: Value | None, teeth: Value | None, shift: Value | None
-) -> dict[str, Value | None]:
-    def stated_or(asked: str, computed_by, *arguments) -> Value | None:
-        if given(part, asked):
-            return reading.attempt(needed, part, asked)
-        return reading.attempt(computed_by, part, beta, module, teeth, shift, *arguments)
-
-    # A mistake in it is told whatever else is missing.
-    reading.attempt(first, part, "tip_diameter")
-    tip = reading.attempt(_tip_diameter, part, beta, module, teeth, shift)
-    root = stated_or("root_diameter", _root_diameter, tip)
-    radius = reading.attempt(_of_tool, part, module, "rack_tip_radius")
-    return {
-        "teeth": teeth,
-        "profile_shift": shift,
-        "tip_diameter": tip,
-        "root_diameter": root,
-        "bore_diameter": reading.attempt(_bore_diameter, part, root),
-        **({"rack_tip_radius": radius} if radius is not None else {}),
-    }
-
-
-def _tip_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value) -> Value:
-    stated = first(part, "tip_diameter")
-    shifted = teeth.number / cos(beta) + 2.0 * shift.number
-    if stated is not None and stated.number > module.number * (shifted - 2.0 * DEDENDUM):
-        return stated
-    addendum = first(part, "addendum")
-    modules, source = _or_standard(addendum, "addendum", ADDENDUM)
-    # Programs write numbers such as 1 mm where they have none.
-    lacking = (
-        "no tip_diameter" if stated is None else f"{stated.origin} is {stated.words}, below the roots of its teeth"
-    )
-    why = f"{lacking}; from teeth, profile shift and {source}"
-    number = module.number * (shifted + 2.0 * modules)
-    return computed(number, 1.0, "mm", why, assumed=addendum is None or stated is not None)
-
-
-def _or_standard(stated: Value | None, name: str, standard: float) -> tuple[float, str]:
-    """Modules, and where they are from in words."""
-    number, origin = (standard, f"the {name} of ISO 53") if stated is None else (stated.number, stated.origin)
-    return number, f"{origin}, {number} modules"
-
-
-def _root_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value, tip: Value) -> Value:
-    """What the depth of the teeth gives, or what the rack cuts at the shift of its generating, if that is given."""
-    depth = first(part, "tooth_depth")
-    if depth is not None:
-        why = f"no root_diameter; tip diameter less twice {depth.origin}"
-        return computed(tip.number - 2.0 * depth.number, 1.0, "mm", why)
-    generated = first(part, "generated_shift")
-    addendum = _of_tool(part, module, "tool_addendum")
-    at = "profile shift" if generated is None else generated.origin
-    modules, source = _or_standard(addendum, "dedendum", DEDENDUM)
-    number = module.number * (teeth.number / cos(beta) + 2.0 * ((generated or shift).number - modules))
-    return computed(number, 1.0, "mm", f"no root_diameter; from teeth, {at} and {source}", assumed=addendum is None)
-
-
-def _of_tool(part: GearParts, module: Value, asked: str) -> Value | None:
-    agreed([module, *every(part, "tool_module")], "The tool has another module than the gear")
-    return agreed(every(part, asked, module), f"{part.tool[0]} contradicts itself") if part.tool else None
-
-
-def _bore_diameter(part: GearParts, root: Value) -> Value:
-    bore = first(part, "bore_diameter")
-    if bore is not None and bore.number < 0.0:
-        raise ValueProblem(f"{place(*given(part, 'bore_diameter')[0][:2])} = {bore.words} is negative.")
-    if bore is not None and bore.number > 0.0:
-        return bore
-    why = "no inner_diameter" if bore is None else f"{bore.origin} is 0, a solid gear"
-    shaft = diameter_at(part.gear, part.shafts[0], part.on_shafts) if part.shafts else None
-    if shaft is not None and shaft.number <= THICK_SHAFT * root.number:
-        return replace(shaft, origin=f"{why}; {shaft.origin}, the shaft there", assumed=True)
-    why = f"{why}; {USUAL_BORE} of the root diameter, held rigidly"
-    return computed(USUAL_BORE * root.number, 1.0, "mm", why, assumed=True)
+    return bare(round(total - known.number, 9) + 0.0, why, assumed=True)
 
 
 def _materials(stage: Stage) -> Sections:
@@ -266,16 +207,6 @@ def _materials(stage: Stage) -> Sections:
         }
     except ValueProblem:
         return {f"gears.{name}.material": each for name, each in materials.items()}
-
-
-def _check_reference_diameter(part: GearParts, beta: float, module: Value, teeth: Value) -> None:
-    diameter = module.number * teeth.number / cos(beta)
-    for stated, where in zip(every(part, "reference_diameter"), given(part, "reference_diameter")):
-        if abs(stated.number - diameter) > ROUNDED * module.number:
-            raise ValueProblem(
-                f"{place(*where[:2])} = {stated.words} contradicts its module and its {teeth.number} teeth, "
-                f"which give {diameter:.6g} mm."
-            )
 
 
 def _check_sum_of_shifts(stage: Stage, pinion: Value, wheel: Value) -> None:

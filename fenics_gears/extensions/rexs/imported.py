@@ -7,6 +7,7 @@ from pathlib import Path
 from fenics_gears import SceneError, units
 
 from .attributes import Reading, first
+from .circles import without_derived_tip
 from .flanks import loaded_flanks, note_what_is_left_out, relief_sections, tolerance_class
 from .gears import Sections, gear_sections
 from .lead import lead_sections
@@ -52,6 +53,7 @@ def imported_scene(
     sections = gear_sections(reading, chosen)
     sections |= relief_sections(reading, chosen, sections)
     sections |= lead_sections(reading, chosen, sections)
+    without_derived_tip(sections)
     sections |= _load_sections(reading, loaded, chosen, sections, given)
     sections |= _error_sections(reading, chosen, sections)
     densities = {name: reading.attempt(first, part, "density") for name, part in chosen.named.items()}
@@ -89,7 +91,7 @@ def _load_sections(
 ) -> Sections:
     """Torque and speed; ``model``: in its load case, None where that is not known."""
     teeth = gears["gears.pinion"]["teeth"], gears["gears.wheel"]["teeth"]
-    ratio = None if None in teeth else teeth[1].number / teeth[0].number
+    ratio = None if None in teeth else abs(teeth[1].number / teeth[0].number)
     torque = given[0] or reading.attempt(wheel_torque, model, stage, ratio)
     speed = given[1] or reading.attempt(pinion_speed, model, stage, ratio)
     return {"load": {"wheel_torque": torque}, "motion": {"pinion_speed": speed}}

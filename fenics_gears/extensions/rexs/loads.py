@@ -3,9 +3,11 @@
 from dataclasses import replace
 
 from .attributes import Reading, every, first
-from .model import RexsModel
+from .model import Component, RexsModel
+from .order import Unit, entry_of, exit_of
 from .stage import GearParts, Stage
 from .train import Train
+from .transmission import Share
 from .values import Value, ValueProblem, computed, together
 
 RPM = 0.10471975511965977  # rad/s
@@ -62,12 +64,41 @@ def pinion_speed(model: RexsModel, stage: Stage, ratio: float) -> Value:
         for speed in speeds:
             if speed.number != 0.0:
                 return _scaled(speed, factor, RPM, "rpm")
-    stated = None if stage.in_planetary else Train(model).speed(stage.pinion.gear)
+    return _speed_of_train(model, None if stage.in_planetary else stage.pinion.gear)
+
+
+def _speed_of_train(model: RexsModel, part: Component | None) -> Value:
+    stated = None if part is None else Train(model).speed(part)
     if stated is not None:
         speed, factor, stages = stated
         return _scaled(_through(speed, stages), abs(factor), RPM, "rpm")
     why = "no rotational_speed; without [inertia] it sets the scale of time only"
     return computed(ASSUMED_SPEED * RPM, RPM, "rpm", why, assumed=True)
+
+
+def torque_of_output(model: RexsModel, unit: Unit, ratio: float) -> Value:
+    """The torque on the last gear of a train or the output of its last set; ``ratio``: turns of the input in one of
+    the output. Raises ValueProblem where the file gives none."""
+    if isinstance(unit, Stage):
+        return wheel_torque(model, unit, ratio)
+    for part, factor in ((exit_of(unit), 1.0), (entry_of(unit), ratio)):
+        torque = _brought(Train(model).shares(part, unit.stage))
+        if torque is not None and factor == 1.0:
+            return _scaled(torque, 1.0, 1e3, "N m")
+        if torque is not None:
+            origin = f"{torque.origin.removesuffix(BY_TEETH)}{BY_TEETH}"
+            return computed(abs(torque.number) * factor, 1e3, "N m", origin)
+    raise ValueProblem(
+        f"{unit.stage}: no torque. Neither its input, {entry_of(unit)}, nor its output, {exit_of(unit)}, has external"
+        ' loads that are all known and reach it by one path. Give that of its output: --wheel-torque "437 N m".'
+    )
+
+
+def speed_of_input(model: RexsModel, unit: Unit, ratio: float) -> Value:
+    """The speed of the first gear of a train, or of the input of its first set; a slow one where none is given."""
+    if isinstance(unit, Stage):
+        return pinion_speed(model, unit, ratio)
+    return _speed_of_train(model, entry_of(unit))
 
 
 def _scaled(value: Value, factor: float, unit: float, name: str) -> Value:
@@ -89,7 +120,11 @@ def _through(value: Value, stages: tuple[int, ...]) -> Value:
 def _torque_of_train(model: RexsModel, stage: Stage, part: GearParts) -> Value | None:
     """What the loads on a gear's side of the stage bring to it, where all of it goes through this mesh; None where it
     may not."""
-    shares = None if stage.in_planetary else Train(model).shares(part.gear, stage.stage)
+    return None if stage.in_planetary else _brought(Train(model).shares(part.gear, stage.stage))
+
+
+def _brought(shares: list[Share] | None) -> Value | None:
+    """What loads bring together; None where not all are known, or their signs are not."""
     bringing = [share for share in shares or () if share.number != 0.0]
     if not shares or len(bringing) > 1 and not all(share.signed for share in bringing):
         return None

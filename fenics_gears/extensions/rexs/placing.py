@@ -11,10 +11,9 @@ from math import atan2, cos, degrees, isclose, pi, remainder, sin
 
 import numpy as np
 
-from .model import Component
 from .shaft_parts import POSITION, located
 from .stage import GearParts, Stage
-from .train import axis_of
+from .transmission import axis_of
 from .values import Value, ValueProblem, computed, numbers_of, place, together, value_of
 
 ANGLE = "rotating_angle_around_neg_u_axis"
@@ -115,14 +114,17 @@ def _by_angle(stage: Stage) -> np.ndarray | None:
     angle = value_of(stage.stage, ANGLE, "deg").number
     parts = sorted(stage.named.values(), key=lambda part: part.gear.id != stage.first)
     axis = _axis_of_parts(parts[0])
-    upwards = _upwards(parts[0].gear)
+    upwards = _upwards(parts[0])
     vector = cos(angle) * upwards + sin(angle) * np.cross(upwards, axis)
     return vector if parts[0] is stage.pinion else -vector
 
 
-def _upwards(gear: Component) -> np.ndarray:
-    if "w_axis_vector" not in gear.attributes:
-        return UPWARDS
-    vector = np.array(numbers_of(gear, "w_axis_vector"))
-    length = float(np.linalg.norm(vector)) if vector.shape == (3,) else 0.0
-    return vector / length if length > 0.0 else UPWARDS
+def _upwards(part: GearParts) -> np.ndarray:
+    """The w axis of a gear's shaft, or of the gear itself, which programs turn to where its teeth are."""
+    holders = (each for each in (*part.shafts, part.gear) if "w_axis_vector" in each.attributes)
+    for each in holders:
+        vector = np.array(numbers_of(each, "w_axis_vector"))
+        length = float(np.linalg.norm(vector)) if vector.shape == (3,) else 0.0
+        if length > 0.0:
+            return vector / length
+    return UPWARDS

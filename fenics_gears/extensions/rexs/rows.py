@@ -7,7 +7,8 @@ from dataclasses import replace
 from math import isclose
 
 from .attributes import Reading
-from .gears import ROUNDED, Sections, distance_of_shifts
+from .circles import ROUNDED
+from .gears import Sections, distance_of_shifts
 from .stage import Stage
 from .values import SAME, Value, ValueProblem, agreed, computed, together
 

@@ -32,14 +32,13 @@ def scene_text(
 def train_text(
     file: str,
     model: RexsModel,
-    stages: Sequence[Stage],
+    who: Sequence[str],
     sections: Mapping[str, Mapping[str, Value]],
     notes: Mapping[str, Iterable[str]],
 ) -> str:
-    """The TOML text of a train's scene, of all stages."""
-    who = [f"{stage.stage}: {stage.pinion.gear} drives {stage.wheel.gear}." for stage in stages]
+    """The TOML text of a train's scene, of all stages; `who` drives whom in them."""
     more = ["", "Sections that may be added: [friction], [shafts], [bearings], [inertia], ... (docs/trains.md)."]
-    return _head(file, model, who, notes, more) + _body(f"gears of {file}", sections)
+    return _head(file, model, list(who), notes, more) + _body(f"gears of {file}", sections)
 
 
 def _body(title: str, sections: Mapping[str, Mapping[str, Value]]) -> str:

@@ -6,14 +6,14 @@ from math import copysign
 
 from .model import Component, Relation, RexsModel
 from .train import Train
+from .transmission import PLANETARY, is_internal
 from .values import COUNT, Value, ValueProblem, value_of, word_of
 
 CYLINDRICAL = "cylindrical_stage"
 EXTERNAL = "cylindrical_gear"
 INTERNAL = "ring_gear"
-# Parts by which a gearbox has a planetary set.
-PLANETARY = ("planetary_stage", "planet_carrier")
-RACK_TOOL = "rack_shaped_tool"
+CUTTER = "cutter_wheel_tool"
+TOOLS = ("rack_shaped_tool", CUTTER)
 # Of a section of a scene.
 Fields = dict[str, Value]
 
@@ -40,6 +40,11 @@ class GearParts:
     def tool(self) -> list[Component]:
         """The tool that made the root, the first one."""
         return self.tools[:1]
+
+    @property
+    def cutters(self) -> list[Component]:
+        """The shaper cutter of an internal gear."""
+        return [each for each in self.tool if each.type == CUTTER]
 
     @property
     def material(self) -> list[Component]:
@@ -106,7 +111,7 @@ class Stage:
 def chosen_stage(model: RexsModel, wanted: int | None) -> Stage:
     """The stage with the wanted number, or the only one. Raises ValueProblem, which lists the stages, where it is not
     clear which."""
-    relations = _relations(model)
+    relations = relations_of_pairs(model)
     listed = _listed(model, relations)
     if wanted is None and len(relations) > 1:
         raise ValueProblem(
@@ -115,40 +120,10 @@ def chosen_stage(model: RexsModel, wanted: int | None) -> Stage:
     number = next(iter(relations)) if wanted is None else wanted
     if number not in relations:
         raise ValueProblem(f"has no stage of cylindrical gears with the number {number}. There are:\n{listed}")
-    return _stage(model, relations[number])
+    return stage_of(model, relations[number])
 
 
-def stages_in_a_row(model: RexsModel) -> list[Stage]:
-    """All stages of a gearbox, from the one that is driven on: each drives the next by the shaft of its wheel. Raises
-    ValueProblem where they do not follow each other so."""
-    train = Train(model)
-    relations = _relations(model)
-    if planetary := [each for each in model.components.values() if each.type in PLANETARY]:
-        named = ", ".join(map(str, planetary[:5]))
-        raise ValueProblem(
-            f"has a planetary set, which is not yet computed: {named}. Import pairs of external gears of it one by one:"
-            f"\n{_listed(model, {number: each for number, each in relations.items() if _both_external(model, each)})}"
-        )
-    stages = [_stage(model, relation) for relation in relations.values()]
-    behind = {
-        one.stage.id: [other for other in stages if train.turn_as_one(one.wheel.gear, other.pinion.gear)]
-        for one in stages
-    }
-    driven = {each.stage.id for following in behind.values() for each in following}
-    first = [each for each in stages if each.stage.id not in driven]
-    if len(first) != 1:
-        raise ValueProblem(f"has {len(first)} stages that no other one drives; a train has one.")
-    found = first
-    while following := behind[found[-1].stage.id]:
-        if len(following) > 1:
-            raise ValueProblem(f"{found[-1].stage} drives {len(following)} stages; in a train each drives one.")
-        found = [*found, following[0]]
-    if len(found) < len(stages):
-        raise ValueProblem(f"only {len(found)} of its {len(stages)} stages follow each other by their shafts.")
-    return found
-
-
-def _relations(model: RexsModel) -> dict[int, Relation]:
+def relations_of_pairs(model: RexsModel) -> dict[int, Relation]:
     """Pairs of cylindrical gears by the number of their stage. Raises ValueProblem where there is none."""
     relations = {
         each.roles["stage"]: each
@@ -174,10 +149,6 @@ def _listed(model: RexsModel, relations: dict[int, Relation]) -> str:
     return "\n".join(f"    --stage {number}    {_described(model, each)}" for number, each in relations.items())
 
 
-def _both_external(model: RexsModel, relation: Relation) -> bool:
-    return all(model.components[relation.roles[role]].type == EXTERNAL for role in ("gear_1", "gear_2"))
-
-
 def _described(model: RexsModel, relation: Relation) -> str:
     gears = [model.components[relation.roles[role]] for role in ("gear_1", "gear_2")]
     named = model.components[relation.roles["stage"]].name
@@ -190,21 +161,34 @@ def _with_teeth(gear: Component) -> str:
     return f"{gear.type} {gear.id} ({count} teeth)"
 
 
-def _stage(model: RexsModel, relation: Relation) -> Stage:
+def stage_of(model: RexsModel, relation: Relation, pinion: Component | None = None) -> Stage:
+    """The pair of a stage; its pinion drives, or is the one that is given. Raises ValueProblem."""
     stage = model.components[relation.roles["stage"]]
     train = Train(model)
     parts = [_parts(model, stage, model.components[relation.roles[role]]) for role in ("gear_1", "gear_2")]
     for part in parts:
-        _check_external(part.gear)
+        if part.gear.type not in (EXTERNAL, INTERNAL):
+            raise ValueProblem(f"{part.gear} is no cylindrical gear.")
     holders = model.partners("assembly", "assembly", part=stage)
-    in_planetary = any(each.type == "planetary_stage" for each in holders)
+    in_planetary = any(each.type == PLANETARY for each in holders)
     if not in_planetary:
         parts = [replace(part, by_torque=_side_by_torque(train, stage, part.gear)) for part in parts]
-    pinion, wheel = parts if _first_drives(train, stage, *parts) else parts[::-1]
-    torque = None if in_planetary else _torque(train, stage, pinion.gear)
-    return Stage(
-        stage, pinion, wheel, in_planetary, relation.roles["gear_1"], copysign(1.0, torque) if torque else None
-    )
+    said = pinion or _driving(train, stage, *parts) or _smaller(*parts)
+    first = said.id == parts[0].gear.id
+    ordered = parts if first else parts[::-1]
+    if internal_gear(ordered[0].gear):
+        raise ValueProblem(
+            f"{ordered[0].gear} is an internal gear and drives {ordered[1].gear}. Allowed: an internal gear that is"
+            " driven by an external one."
+        )
+    torque = None if in_planetary else _torque(train, stage, ordered[0].gear)
+    sense = copysign(1.0, torque) if torque else None
+    return Stage(stage, ordered[0], ordered[1], in_planetary, relation.roles["gear_1"], sense)
+
+
+def internal_gear(gear: Component) -> bool:
+    """Whether a gear is internal: a ring_gear, or one with a negative number of teeth."""
+    return gear.type == INTERNAL or _teeth(gear) is not None and is_internal(gear)
 
 
 def _parts(model: RexsModel, stage: Component, gear: Component) -> GearParts:
@@ -222,7 +206,7 @@ def _parts(model: RexsModel, stage: Component, gear: Component) -> GearParts:
         gear,
         flanks,
         {side: model.partners("reference", "referenced", origin=flank) for side, flank in flanks.items()},
-        [each for each in referred if each.type == RACK_TOOL],
+        [each for each in referred if each.type in TOOLS],
         [model.components[number] for number in settings],
         [each for each in model.partners("assembly", "part", assembly=gear) if each.type == "gear_body"],
         [each for each in model.partners("reference", "referenced", origin=gear) if each.type == "material"],
@@ -232,34 +216,31 @@ def _parts(model: RexsModel, stage: Component, gear: Component) -> GearParts:
     )
 
 
-def _check_external(gear: Component) -> None:
-    teeth = _teeth(gear)
-    if gear.type == INTERNAL or teeth is not None and teeth < 0:
-        raise ValueProblem(f"{gear} is an internal gear; pairs of external gears are computed only.")
-    if gear.type != EXTERNAL:
-        raise ValueProblem(f"{gear} is no cylindrical gear.")
-
-
 def _teeth(gear: Component) -> float | None:
     return value_of(gear, "number_of_teeth", COUNT).number if "number_of_teeth" in gear.attributes else None
 
 
-def _first_drives(train: Train, stage: Component, first: GearParts, second: GearParts) -> bool:
-    """Whether the first gear is the scene's pinion, which drives: as the file says, by the way of the power, or the one
-    with fewer teeth."""
+def driving_gear(model: RexsModel, relation: Relation, train: Train) -> Component | None:
+    """The gear of a stage that drives, as the file says, or by the way of the power; None where neither says it."""
+    stage = model.components[relation.roles["stage"]]
+    gears = (model.components[relation.roles[role]] for role in ("gear_1", "gear_2"))
+    return _driving(train, stage, *(_parts(model, stage, gear) for gear in gears))
+
+
+def _driving(train: Train, stage: Component, first: GearParts, second: GearParts) -> Component | None:
     says = [_drives(part) for part in (first, second)]
     if says[0] != says[1]:
-        return says[0] is True or says[1] is False
+        return first.gear if says[0] is True or says[1] is False else second.gear
     # Programs also write that neither drives, or both.
-    try:
-        coming = [train.power(part.gear, stage) for part in (first, second)]
-    except ValueProblem:
-        # It is told where the torque is looked up.
-        coming = [None, None]
-    if coming[0] or coming[1]:
-        return coming[0] > 0.0 if coming[0] else coming[1] < 0.0
+    return train.driving(stage, first.gear, second.gear)
+
+
+def _smaller(first: GearParts, second: GearParts) -> Component:
+    """The gear with fewer teeth, or within an internal gear."""
+    if internal_gear(first.gear) != internal_gear(second.gear):
+        return second.gear if internal_gear(first.gear) else first.gear
     teeth = [_teeth(part.gear) for part in (first, second)]
-    return None in teeth or teeth[0] <= teeth[1]
+    return first.gear if None in teeth or teeth[0] <= teeth[1] else second.gear
 
 
 def _side_by_torque(train: Train, stage: Component, gear: Component) -> str | None:

@@ -1,62 +1,38 @@
 """The gear train around a mesh: which parts turn as one, which meshes join them, and the torque, speed and direction
 of power that a gear has through it.
 
-Nothing is lost on the way: M2 = M1 z2/z1, n2 = n1 z1/z2. A torque is known only where it follows from the given loads.
-It does not where a path divides and comes together again, ends without a load or goes through a planetary stage.
+Nothing is lost on the way: M2 = M1 z2/z1, n2 = n1 z1/z2; through a planetary set whose third member is held, by Willis.
+A torque is known only where it follows from the given loads. It does not where a path divides and comes together again,
+ends without a load or goes through other planetary stages.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
 from .model import Component, RexsModel
-from .values import COUNT, SPEED, Value, numbers_of, value_of, word_of
+from .planetary_sets import PlanetarySet, found_set, is_set
+from .transmission import (
+    CASING,
+    PLANETARY,
+    POWER,
+    TORQUE,
+    Mesh,
+    Share,
+    alike,
+    axis_of,
+    is_internal,
+    is_torque,
+    joints,
+    word,
+)
+from .values import SPEED, Value, ValueProblem, computed, value_of
 
-# Relations of a joint and the two parts that it joins; the second is that of version 1.0.
-JOINING = ("side", "coupling")
 # Stages whose ratio is that of the teeth; one in a planetary stage turns about an axis that turns itself.
 PLAIN_STAGES = ("cylindrical_stage", "bevel_stage")
-# Parts that hold what they are joined to, or share its torque in ways that are not followed.
-NOT_FOLLOWED = ("gear_casing", "planet_carrier", "side_plate")
-# Of a load on a shaft.
-TORQUE = "torque_around_u_axis"
-# Cosine of the angle between axes from which on they count as parallel.
-PARALLEL = 0.99
-
-
-@dataclass(frozen=True)
-class _Mesh:
-    """Two gears of a stage; ``plain``: whether torque and speed follow by the teeth."""
-
-    stage: Component
-    gears: tuple[Component, Component]
-    plain: bool
-
-    def mate(self, gear: Component) -> Component:
-        return self.gears[1] if gear.id == self.gears[0].id else self.gears[0]
-
-    def ratio(self, gear: Component) -> float:
-        """How many times the torque about ``gear`` is that about its mate; turns are as many times fewer."""
-        own, other = (value_of(each, "number_of_teeth", COUNT).number for each in (gear, self.mate(gear)))
-        return abs(own / other)
-
-
-@dataclass(frozen=True)
-class Share:
-    """The part of one load in a gear: the torque (N mm) about the gear's axis, whose sign is known or not; the power
-    that the load puts into the train; its origin; and the stages on the way. The power follows from the speed of the
-    load's own shaft, None where the file does not give it: signs of shafts that turn the other way are often not
-    meant."""
-
-    number: float
-    signed: bool
-    power: float | None
-    load: Value
-    stages: tuple[int, ...] = ()
 
 
 class Train:
@@ -79,6 +55,31 @@ class Train:
         if not shares or any(share.power is None for share in shares):
             return None
         return sum(share.power for share in shares if share.power is not None)
+
+    def driving(self, stage: Component, one: Component, other: Component) -> Component | None:
+        """The one of both through which power comes to a stage; None where that does not follow."""
+        try:
+            coming = [self.power(each, stage) for each in (one, other)]
+        except ValueProblem:
+            # It is told where the torque is looked up.
+            return None
+        if not (coming[0] or coming[1]):
+            return None
+        return one if (coming[0] > 0.0 if coming[0] else coming[1] < 0.0) else other
+
+    def bearings(self, part: Component) -> list[Component]:
+        """The bearings of all that turns as one with a part."""
+        numbers = {each.id for each in self._turning(part)}
+        joints = [
+            self.model.components[each.roles["assembly"]]
+            for each in self.model.related("side")
+            if "assembly" in each.roles and numbers & {*each.roles.values()}
+        ]
+        return [each for each in joints if "bearing" in each.type]
+
+    def place(self, part: Component) -> int:
+        """A number that all that turns as one with a part has, and nothing else."""
+        return min(each.id for each in self._turning(part))
 
     def speed(self, gear: Component) -> tuple[Value, float, tuple[int, ...]] | None:
         """The nearest speed that is given in the train, how many times as fast the gear turns, without sign, and the
@@ -118,14 +119,14 @@ class Train:
     def _shares(self, gear: Component, stage: Component, seen: set[int]) -> list[Share] | None:
         turning = self._turning(gear)
         numbers = {each.id for each in turning}
-        if numbers & seen or any(each.type in NOT_FOLLOWED for each in turning) or self._in_planetary(numbers):
+        if numbers & seen or any(each.type == CASING for each in turning) or self._in_planetary(numbers):
             return None
         seen |= numbers
-        loads = [each for each in turning if each.type == "external_load" and _is_torque(each)]
+        own_shares = self._own_shares(turning)
         beyond = [(own, mesh) for own, mesh in self._meshes_of(turning) if mesh.stage.id != stage.id]
-        if not (loads or beyond) or any(TORQUE not in load.attributes for load in loads):
+        if not (own_shares or beyond) or None in own_shares:
             return None
-        shares = [self._own_share(load, turning) for load in loads]
+        shares = [each for each in own_shares if each is not None]
         for own, mesh in beyond:
             through = self._shares(mesh.mate(own), mesh.stage, seen) if mesh.plain else None
             if through is None:
@@ -133,15 +134,30 @@ class Train:
             shares += [self._passed_on(share, own, mesh) for share in through]
         return shares
 
-    def _own_share(self, load: Component, turning: tuple[Component, ...]) -> Share:
-        torque = value_of(load, TORQUE, "N m")
-        sign = self._sign(load, self._axis_of(turning))
-        number = torque.number * (sign or 1.0)
-        speed = self._own_speed(turning)
-        power = None if sign is None or speed is None or speed[1] is None else number * speed[0].number * speed[1]
-        return Share(number, sign is not None, power, torque)
+    def loads(self, part: Component) -> list[Share | None]:
+        """What loads bring to a part without a stage on the way; None of each whose torque is not known."""
+        return self._own_shares(self._turning(part))
 
-    def _passed_on(self, share: Share, own: Component, mesh: _Mesh) -> Share:
+    def _own_shares(self, turning: tuple[Component, ...]) -> list[Share | None]:
+        return [self._own_share(load, turning) for load in turning if load.type == "external_load" and is_torque(load)]
+
+    def _own_share(self, load: Component, turning: tuple[Component, ...]) -> Share | None:
+        """The torque of a load, or that of its power at the speed of its shaft."""
+        speed = self._own_speed(turning)
+        if TORQUE in load.attributes:
+            torque = value_of(load, TORQUE, "N m")
+            sign = self._sign(load, self._axis_of(turning))
+            number = torque.number * (sign or 1.0)
+            power = None if sign is None or speed is None or speed[1] is None else number * speed[0].number * speed[1]
+            return Share(number, sign is not None, power, torque)
+        if POWER not in load.attributes or speed is None:
+            return None
+        power = value_of(load, POWER, "kW")
+        number = power.number / speed[0].number
+        torque = computed(abs(number), 1e3, "N m", f"{power.origin} over {speed[0].origin}")
+        return Share(number * (speed[1] or 1.0), speed[1] is not None, power.number, torque)
+
+    def _passed_on(self, share: Share, own: Component, mesh: Mesh) -> Share:
         sense = self._sense(mesh)
         return replace(
             share,
@@ -170,62 +186,90 @@ class Train:
     @cached_property
     def _joined(self) -> dict[int, list[int]]:
         joined: dict[int, list[int]] = {}
-        for one, other in self._joints():
+        for one, other in joints(self.model):
             joined.setdefault(one, []).append(other)
             joined.setdefault(other, []).append(one)
         return joined
 
-    def _joints(self) -> Iterator[tuple[int, int]]:
-        """Pairs of parts that turn as one: a shaft and what is on it, and what joints that are no bearings join."""
-        components = self.model.components
-        for relation in self.model.relations:
-            roles = relation.roles
-            if relation.type == "assembly" and {"assembly", "part"} <= roles.keys():
-                if components[roles["assembly"]].type == "shaft" or _is_gear(components[roles["assembly"]]):
-                    yield roles["assembly"], roles["part"]
-            elif relation.type in JOINING:
-                parts = [number for number in roles.values() if not _is_joint(components[number])]
-                if len(parts) == 2 and all(_turns_both(components[number]) for number in roles.values()):
-                    yield parts[0], parts[1]
-
     @cached_property
-    def _meshes(self) -> list[_Mesh]:
+    def _meshes(self) -> list[Mesh]:
         components = self.model.components
-        meshes = []
+        meshes = [each for each in map(self._mesh_of_set, self._sets) if each is not None]
+        followed = {each.stage.id for each in meshes}
         for relation in self.model.related("stage"):
             if {"stage", "gear_1", "gear_2"} <= relation.roles.keys():
                 stage, *gears = (components[relation.roles[role]] for role in ("stage", "gear_1", "gear_2"))
                 holders = self.model.partners("assembly", "assembly", part=stage)
+                if followed & {each.id for each in holders}:
+                    continue
                 counted = all("number_of_teeth" in gear.attributes for gear in gears)
                 plain = counted and stage.type in PLAIN_STAGES
-                plain = plain and not any(holder.type == "planetary_stage" for holder in holders)
-                meshes.append(_Mesh(stage, (gears[0], gears[1]), plain))
+                plain = plain and not any(holder.type == PLANETARY for holder in holders)
+                meshes.append(Mesh(stage, (gears[0], gears[1]), plain))
         return meshes
 
-    def _meshes_of(self, turning: tuple[Component, ...]) -> list[tuple[Component, _Mesh]]:
+    @cached_property
+    def _sets(self) -> list[PlanetarySet]:
+        """The planetary sets like those of a scene."""
+        return [
+            found_set(self.model, each)
+            for each in self.model.components.values()
+            if each.type == PLANETARY and is_set(self.model, each)
+        ]
+
+    def held(self, own: PlanetarySet) -> list[str]:
+        """Names of the members of a set that are joined to the casing; or of the one that nothing else is joined to."""
+        turning = {name: self._turning(member) for name, member in own.members.items()}
+        found = [name for name, parts in turning.items() if any(each.type == CASING for each in parts)]
+        alone = [
+            name for name, parts in turning.items() if not self._own_shares(parts) and not self._onwards(own, parts)
+        ]
+        return found or (alone if len(alone) == 1 else [])
+
+    def _onwards(self, own: PlanetarySet, turning: tuple[Component, ...]) -> bool:
+        """Whether a mesh that is none of a set, or a member of another set, turns as one with these."""
+        numbers = {each.id for each in turning}
+        inner = {each.roles["stage"] for each in (*own.sun_meshes, *own.ring_meshes)}
+        meshes = [each.roles for each in self.model.related("stage") if numbers & {*each.roles.values()}]
+        others = [member.id for each in self._sets if each.stage.id != own.stage.id for member in each.members.values()]
+        return bool(numbers & {*others}) or any(roles.get("stage") not in inner for roles in meshes)
+
+    def _mesh_of_set(self, own: PlanetarySet) -> Mesh | None:
+        """The way of the power through a set, None where not one of its members is held."""
+        held = self.held(own)
+        if len(held) != 1:
+            return None
+        turns = own.turns(held[0])
+        ends = [name for name in own.members if name != held[0]]
+        members = own.members[ends[0]], own.members[ends[1]]
+        return Mesh(own.stage, members, True, (turns[ends[0]], turns[ends[1]]))
+
+    def _meshes_of(self, turning: tuple[Component, ...]) -> list[tuple[Component, Mesh]]:
         """The meshes of all gears that turn as one, each with its own gear."""
         numbers = {each.id for each in turning}
         return [(gear, mesh) for mesh in self._meshes for gear in mesh.gears if gear.id in numbers]
 
     def _in_planetary(self, numbers: set[int]) -> bool:
-        """Whether one of the parts is a member of a planetary stage."""
+        """Whether one of the parts is a member of a planetary stage through which torque is not followed."""
         components = self.model.components
+        followed = {mesh.stage.id for mesh in self._meshes if mesh.turns is not None}
         return any(
             numbers & set(relation.roles.values())
-            and any(components[each].type == "planetary_stage" for each in relation.roles.values())
+            and any(components[each].type == PLANETARY and each not in followed for each in relation.roles.values())
             for relation in self.model.relations
         )
 
-    def _sense(self, mesh: _Mesh) -> float | None:
+    def _sense(self, mesh: Mesh) -> float | None:
         """1 where torques of both gears about their axes have one sign, -1 where they have two, None where that is not
         known. One sign have external gears whose axes point alike, and bevel gears whose axes both point to where they
         cross."""
         one, other = (self._axis_of(self._turning(gear)) for gear in mesh.gears)
-        if mesh.stage.type == "cylindrical_stage":
-            alike = _alike(one, other)
-            return None if alike is None else -alike if any(map(_is_internal, mesh.gears)) else alike
+        if mesh.stage.type == "cylindrical_stage" or mesh.turns is not None:
+            same = alike(one, other)
+            together = mesh.turns[0] * mesh.turns[1] > 0.0 if mesh.turns else any(map(is_internal, mesh.gears))
+            return None if same is None else -same if together else same
         senses = [self._sign(gear, axis) for gear, axis in zip(mesh.gears, (one, other))]
-        tips = [_word(gear, "bevel_cone_orientation") for gear in mesh.gears]
+        tips = [word(gear, "bevel_cone_orientation") for gear in mesh.gears]
         if None in senses or not set(tips) <= {"positive", "negative"}:
             return None
         return float(np.prod(senses)) * (1.0 if tips[0] == tips[1] else -1.0)
@@ -236,55 +280,4 @@ class Train:
         return next((axis for each in ordered if (axis := axis_of(each)) is not None), None)
 
     def _sign(self, part: Component, axis: np.ndarray | None) -> float | None:
-        return _alike(axis_of(part), axis)
-
-
-def axis_of(part: Component) -> np.ndarray | None:
-    """The unit vector of a part's axis; None where it has none."""
-    if "u_axis_vector" not in part.attributes:
-        return None
-    vector = np.array(numbers_of(part, "u_axis_vector"))
-    length = float(np.linalg.norm(vector))
-    return vector / length if vector.shape == (3,) and length > 0.0 else None
-
-
-def _alike(one: np.ndarray | None, other: np.ndarray | None) -> float | None:
-    """1 where axes point alike, -1 where they are opposite, None where they are not parallel; those that are not given
-    point alike."""
-    cosine = 1.0 if one is None or other is None else float(one @ other)
-    return None if abs(cosine) < PARALLEL else np.sign(cosine)
-
-
-def _is_gear(part: Component) -> bool:
-    return part.type in ("cylindrical_gear", "bevel_gear", "ring_gear")
-
-
-def _is_internal(gear: Component) -> bool:
-    return gear.type == "ring_gear" or value_of(gear, "number_of_teeth", COUNT).number < 0
-
-
-def _word(part: Component, name: str) -> str:
-    return word_of(part, name).lower() if name in part.attributes else ""
-
-
-def _is_joint(part: Component) -> bool:
-    return part.type.endswith(("bearing", "coupling", "_fit", "_connection", "_geometry"))
-
-
-def _turns_both(part: Component) -> bool:
-    """Whether a joint passes torque on; a switchable one where the file says that it is engaged."""
-    if part.type == "switchable_coupling":
-        return _word(part, "is_engaged") == "true"
-    return "bearing" not in part.type
-
-
-def _is_torque(load: Component) -> bool:
-    """Whether a load is more than a force across the shaft: it says so, or has a torque."""
-    said = _word(load, "transmits_torque")
-    return said == "true" or TORQUE in load.attributes and said != "false"
-
-
-def is_force(load: Component) -> bool:
-    """Whether a load has forces, or torques across the shaft, that are more than nothing."""
-    beside = [name for name in load.attributes if name.startswith(("force_", "torque_around_")) and name != TORQUE]
-    return load.type == "external_load" and any(any(numbers_of(load, name)) for name in beside)
+        return alike(axis_of(part), axis)

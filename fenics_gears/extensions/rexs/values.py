@@ -194,5 +194,6 @@ def together(origins: Iterable[str]) -> str:
     origins = list(dict.fromkeys(origins))
     matches = [_OF_COMPONENTS.fullmatch(origin) for origin in origins]
     if len(origins) > 1 and None not in matches and len({each[1] for each in matches}) == 1:
-        return f"{matches[0][1]} of components {', '.join(each[2] for each in matches)}"
+        numbers = dict.fromkeys(number for each in matches for number in each[2].split(", "))
+        return f"{matches[0][1]} of components {', '.join(numbers)}"
     return " and ".join(origins)

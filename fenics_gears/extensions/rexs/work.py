@@ -45,8 +45,7 @@ def _import_train(options: argparse.Namespace, output: Path) -> int:
         raise SceneError(f"{source}: {error}\nNothing was written.{assumed}") from error
     write_whole(output, lambda path: path.write_text(imported.text, encoding="utf-8"))
     if not options.quiet:
-        drives = [f"{each.pinion.gear} drives {each.wheel.gear}." for each in imported.stages]
-        print(_summary([f"{output}:", *drives], imported, output))
+        print(_summary([f"{output}:", *imported.stages], imported, output))
     return 0
 
 

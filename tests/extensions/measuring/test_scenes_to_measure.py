@@ -25,7 +25,7 @@ def test_rows_with_idlers_are_not_measured(tmp_path, capsys):
     text = '[stages.a]\nkind = "row"\nmodule = "3 mm"\npressure_angle = "20 deg"\nface_width = "30 mm"\n'
     path.write_text(f'{text}gears = [{gear}, {gear}, {gear}]\nmaterial = "steel"\n{LOAD}')
     assert main(["accuracy", str(path)]) == 2
-    assert "computed together (a: gears 1 and 2, a: gears 2 and 3)" in capsys.readouterr().err
+    assert "computed together (a)" in capsys.readouterr().err
 
 
 def test_settings_are_wanted_as_they_stand(tmp_path, capsys):

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.planets import planetary_text
 from tests.trains import COARSE, stage
 
 from fenics_gears import load_scene, overall_orders, simulate_train, train_from_text
@@ -13,7 +14,7 @@ from fenics_gears.extensions.optimization.conditions import samples
 from fenics_gears.extensions.optimization.design_file import load_design
 from fenics_gears.extensions.optimization.evaluations import Evaluator
 from fenics_gears.extensions.optimization.expected import expected_work
-from fenics_gears.extensions.optimization.goals import weighted_orders
+from fenics_gears.extensions.optimization.goals import lacking, unit_and_words, weighted_orders
 from fenics_gears.results.files import read
 from fenics_gears.runs.team import Alone
 from fenics_gears.scene.train import load_train
@@ -126,3 +127,13 @@ def test_a_search_ends_with_a_train(gearbox):
     assert Path("results/design/harris_map.png").is_file()
     with pytest.raises(SceneError, match="is a train"):
         load_scene("results/design/best.toml")
+
+
+def test_load_sharing_is_a_goal_of_planetary_sets():
+    """K_gamma is a number of a set, alone or beside other stages; of other trains and of pairs it is refused."""
+    of_set = train_from_text(planetary_text())
+    assert lacking("load_sharing_factor", of_set) == ""
+    assert unit_and_words("load_sharing_factor")[1] == "K_gamma of the sun's meshes"
+    pair = train_from_text(stage("first", 2.0, (20, 30)) + '[load]\noutput_torque = "400 N m"\n')
+    for scene in (pair, pair.meshes[0].scene):
+        assert lacking("load_sharing_factor", scene) == 'a planetary set, kind = "planetary"'

@@ -29,7 +29,6 @@ WRONG_VALUES = [
         "normal_module of component 5 is 4.5 mm, but normal_module of component 6 is 5.0 mm",
     ),
     ((P, "number_of_teeth", 16, "mm"), "number_of_teeth = 16 mm is not a whole number without unit"),
-    ((P, "number_of_teeth", -48), "component 5 (cylindrical_gear 'pinion') is an internal gear"),
     ((P, "inner_diameter", -1.0, "mm"), "inner_diameter = -1.0 mm is negative"),
     (
         (FLANK, "normal_pressure_angle", 25.0, "deg"),
@@ -122,10 +121,13 @@ def test_wrong_reliefs_are_named(tmp_path, values, words):
 
 
 def test_pairs_that_are_none(tmp_path):
-    """Ring gears and other stages."""
+    """Ring gears that drive, and other stages."""
     ring = rexs.paper_model()
-    rexs.component(ring, W)["type"] = "ring_gear"
-    assert "component 6 (ring_gear 'wheel') is an internal gear" in refused(tmp_path, ring)
+    ring = rexs.with_values(
+        ring, (rexs.PINION_DATA, "is_driving_gear", True), (rexs.WHEEL_DATA, "is_driving_gear", False)
+    )
+    rexs.component(ring, P)["type"] = "ring_gear"
+    assert "component 5 (ring_gear 'pinion') is an internal gear and drives" in refused(tmp_path, ring)
     worm = rexs.paper_model()
     rexs.component(worm, rexs.STAGE)["type"] = "worm_stage"
     assert "has no pair of cylindrical gears" in refused(tmp_path, worm) and "Its stages are: worm_stage" in refused(
