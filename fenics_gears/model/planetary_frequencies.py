@@ -61,10 +61,12 @@ def lumped_set(row: RowModel) -> LumpedSet:
 def _member(carrier: Carrier, name: str, given: VibratingMember, radius: float) -> LumpedMember:
     """A member whose arc has a radius (mm)."""
     support = 0.0 if name in carrier.floating else given.support_stiffness
+    # In time the input turns as it is driven.
+    prescribed = (carrier.set.fixed, carrier.set.input) if carrier.in_time else (carrier.set.fixed,)
     if given.torsional_stiffness is not None:
         torsion = given.torsional_stiffness / radius**2
     else:
-        torsion = None if carrier.set.fixed == name else 0.0
+        torsion = None if name in prescribed else 0.0
     return LumpedMember(given.mass, given.moment_of_inertia / radius**2, support, torsion)
 
 

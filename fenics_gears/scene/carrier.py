@@ -10,7 +10,7 @@ from re import sub
 from fenics_gears.geometry.planetary import RING, SUN, PlanetarySet
 from fenics_gears.inputs.tree import GEARS
 
-from .planetary_schema import VibrationText
+from .planetary_schema import VibratingMember, VibratingPlanet, VibrationText
 from .schema import HUNTING_TOOTH_PERIOD
 
 
@@ -30,7 +30,8 @@ class Carrier:
     each planet tangential, against its force, and radial, outwards, mm; none where pins are in their places.
     `run_outs`: of gears whose base circles are off their axes.
     `floating`: members that no bearing holds. `speed`, rad/s, and `torque`, N mm: of the input. `vibration`: lumped
-    members for natural frequencies, None where the scene has none."""
+    members, None where the scene has none; `in_time`: whether it runs with them, else they are for natural frequencies
+    alone."""
 
     stage: str
     set: PlanetarySet
@@ -41,6 +42,7 @@ class Carrier:
     speed: float | None = None
     torque: float = 0.0
     vibration: VibrationText | None = None
+    in_time: bool = False
 
     @property
     def sun(self) -> str:
@@ -68,8 +70,20 @@ class Carrier:
         if gear in self.planets:
             stiffness = self.pin_stiffness or (inf if self.pin_errors else None)
             return None if stiffness is None else (stiffness, stiffness)
-        member = SUN if gear == self.sun else RING
-        return (0.0, 0.0) if member in self.floating else None
+        stiffness = self.held(SUN if gear == self.sun else RING)
+        return None if stiffness is None else (stiffness, stiffness)
+
+    def held(self, member: str) -> float | None:
+        """Stiffness (N/mm) that holds the centre of sun or ring in a run, 0 of one that floats; None where it stands."""
+        if member in self.floating:
+            return 0.0
+        lumped = self.lumped(member)
+        return lumped.support_stiffness if self.in_time and isinstance(lumped, VibratingMember) else None
+
+    def lumped(self, member: str) -> VibratingPlanet:
+        """Masses and springs of a lumped member."""
+        found: VibratingPlanet = getattr(self.vibration, member)
+        return found
 
     def displaced(self, gear: str) -> complex:
         """Where (mm) the centre of a gear stands beside its place, in space."""

@@ -19,7 +19,8 @@ from fenics_gears.inputs.tree import GEARS
 from .carrier import Carrier, OfSet
 from .data import Scene
 from .gear_schema import Gears
-from .planetary_rules import text_of_set, wrong_sections
+from .planetary_in_time import INERTIA, check_in_time, inertia_and_damping, wrong_in_time
+from .planetary_rules import OF_A_SET_ALONE, OF_THE_TRAIN, text_of_set, wrong_sections
 from .planetary_run_out import run_outs_of, with_run_outs
 from .planetary_schema import GEARS_OF_SET, MESHES, OF_THE_FACE, RING_MESH, SUN_MESH, PlanetaryText
 from .train_loads import TrainLoad, TrainMotion
@@ -36,16 +37,20 @@ Tree = Mapping[str, Any]
 def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfScene], TrainSections]:
     """The meshes of a parsed set in the frame of its carrier, and its load and motion. Raises MistakesOfStage,
     SceneError and GeometryError for what is wrong."""
-    problems = list(wrong_sections(tree))
+    problems = list(wrong_sections(tree, (*OF_THE_TRAIN, *OF_A_SET_ALONE)))
     found, wrong = load_and_motion(tree)
+    problems += wrong
+    inertia, damping, wrong = inertia_and_damping(tree)
     problems += wrong
     if problems:
         raise MistakesOfStage(problems)
     ((stage, content),) = tree[STAGES].items()
     text, problems = text_of_set(stage, content)
-    if text is None:
-        raise MistakesOfStage(problems)
     load, motion = found
+    if text is not None and INERTIA in tree:
+        problems += wrong_in_time((STAGES, stage), text, motion)
+    if text is None or problems:
+        raise MistakesOfStage(problems)
     scenes = _scenes(tree, stage, content, source, folder)
     pairs = [pair_of(scene, f"{source}, stage {stage}", own.words) for scene, own in zip(scenes, _of_meshes(stage))]
     place = f"{source}: stages.{stage}"
@@ -55,11 +60,17 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
     for scene, mesh in zip(scenes, MESHES):
         check_together(scene, f"{place}.{mesh}")
     carrier = _carrier(stage, text, own_set)
-    _check_motion(own_set, load, motion, scenes[0].friction is not None, place)
+    _check_motion(own_set, load, motion, "friction" if scenes[0].friction is not None else "", place)
+    if INERTIA in tree:
+        check_in_time(scenes[0], place)
+        _check_motion(own_set, load, motion, INERTIA, place)
+        carrier = replace(carrier, in_time=True)
     shafts = TrainShafts(
         tuple((gear,) for gear in carrier.gears),
         (None,) * len(carrier.gears),
         (None,) * len(carrier.gears),
+        load=inertia,
+        damping=damping,
         moving=True,
         carrier=carrier,
     )
@@ -177,14 +188,14 @@ def _carrier(stage: str, text: PlanetaryText, own: PlanetarySet) -> Carrier:
     return replace(carrier, run_outs=run_outs_of(text.eccentricity, carrier.sun, carrier.planets, carrier.ring))
 
 
-def _check_motion(own: PlanetarySet, load: TrainLoad, motion: TrainMotion, friction: bool, place: str) -> None:
-    """Raise SceneError for a power without a speed, and for friction where the ring drives."""
+def _check_motion(own: PlanetarySet, load: TrainLoad, motion: TrainMotion, named: str, place: str) -> None:
+    """Raise SceneError for a power without a speed, and for a section that is `named` where the ring drives."""
     if load.power is not None and motion.input_speed is None:
         raise SceneError(f"{place}: load.power needs a speed. Allowed: with motion.input_speed. {NOTHING_DONE}")
-    if friction and not own.sun_drives:
+    if named and not own.sun_drives:
         raise SceneError(
-            f"{place}: friction where the ring drives the planets, as the carrier sees it, is not computed yet."
-            " Allowed: without [friction], or with input and output exchanged, where the sun drives."
+            f"{place}: {named} where the ring drives the planets, as the carrier sees it, is not computed yet."
+            f" Allowed: without [{named}], or with input and output exchanged, where the sun drives."
             f" {NOTHING_DONE}"
         )
 
