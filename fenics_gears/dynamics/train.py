@@ -210,10 +210,7 @@ class Rows:
 
 
 def train_drivetrain(
-    parts: TrainParts,
-    damping: Damping | None = None,
-    mesh_stiffness: Sequence[float] = (),
-    rows: Rows | None = None,
+    parts: TrainParts, damping: Damping | None = None, mesh_stiffness: Sequence[float] = (), rows: Rows | None = None
 ) -> TrainDrivetrain:
     """The gears of a train under a torque on the last shaft. `mesh_stiffness` (f,), N/mm: of one tooth pair of each
     mesh, roughly; damping ratios are of the modes with them. `rows`: how gears move, unless as in any train."""

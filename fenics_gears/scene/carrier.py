@@ -77,8 +77,10 @@ class Carrier:
         """Stiffness (N/mm) that holds the centre of sun or ring in a run, 0 of one that floats; None where it stands."""
         if member in self.floating:
             return 0.0
-        lumped = self.lumped(member)
-        return lumped.support_stiffness if self.in_time and isinstance(lumped, VibratingMember) else None
+        if not self.in_time or self.vibration is None:
+            return None
+        lumped: VibratingMember = getattr(self.vibration, member)
+        return lumped.support_stiffness
 
     def lumped(self, member: str) -> VibratingPlanet:
         """Masses and springs of a lumped member."""

@@ -29,7 +29,9 @@ def inertia_and_damping(tree: Mapping[str, Any]) -> tuple[float | None, Damping 
         return None, None, problems
     for name in written:
         if name != "load":
-            said = "is not of a set. Its masses are in [stages.NAME.vibration]. Allowed here: [inertia.load], or nothing."
+            said = (
+                "is not of a set. Its masses are in [stages.NAME.vibration]. Allowed here: [inertia.load], or nothing."
+            )
             problems.append(Problem((INERTIA, name), as_written(written[name]), said))
     return load_inertia(tree, problems), damping_of_train(tree, problems), problems
 
@@ -50,7 +52,9 @@ def wrong_in_time(path: Path, text: PlanetaryText, motion: TrainMotion | None) -
 
 def _wrong_springs(path: Path, text: PlanetaryText, given: VibrationText) -> Iterator[Problem]:
     if given.carrier.support_stiffness is not None:
-        said = "lets the carrier move aside, which is not computed with [inertia] yet. Leave it out: its centre is held."
+        said = (
+            "lets the carrier move aside, which is not computed with [inertia] yet. Leave it out: its centre is held."
+        )
         yield Problem((*path, CARRIER, "support_stiffness"), f"{given.carrier.support_stiffness:g} N/mm", said)
     for member in (SUN, RING):
         if getattr(given, member).support_stiffness == 0.0 and member not in (text.floating or ()):
