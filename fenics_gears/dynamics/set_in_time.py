@@ -1,7 +1,7 @@
 """A planetary set with masses, in the frame that turns with its carrier at the nominal speed Omega.
 
 Rotations are those beyond the nominal motion, the same in every frame: a member that turns as prescribed, the input or
-the fixed one, has none. A planet's centre moves by its pin u from where the carrier takes it, which has turned by theta:
+the fixed one, has none. A planet's centre is off by u on its pin from where the carrier, turned by theta, takes it:
 
     c = u + theta t,   t = J a,   J: a quarter turn counter-clockwise,
 
@@ -12,8 +12,8 @@ with its place a on the carrier. Of the kinetic energy of all centres, that of s
     Omega^2 sum m U^T U   off the stiffness, with u = U q, and Omega^2 m a as the load of each planet on its pin:
 
 what turns with the carrier has the same centrifugal force wherever that stands. Teeth see the gears as the carrier
-does, which a rotation of all together does not change. Lin and Parker (J. Vib. Acoust. 121, 1999, 316-321) have the same
-but for u: their planets are pulled off the carrier that they have turned with.
+does, which a rotation of all together does not change. Lin and Parker (J. Vib. Acoust. 121, 1999, 316-321) have c in
+place of u off the stiffness: there planets are pulled off the carrier that they have turned with.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 @dataclass(frozen=True)
 class SetInTime:
     """The carrier and the members of a set. `places` (p, 2), mm: of the pins; `speed`, rad/s: Omega, counter-clockwise
-    where the carrier sees the sun turn so; `carrier` and `load`, N mm s^2: moments of inertia of the carrier and of what
-    the `output` drives. `springs`, N mm/rad: of each member that may turn beyond its nominal rotation, zero where none
+    where the carrier sees the sun turn so; `carrier` and `load`, N mm s^2: moments of inertia of the carrier and of
+    what the `output` drives. `springs`, N mm/rad: of each member that may turn beyond its nominal rotation, zero where none
     holds it. `torque`, N mm, on the output, and `behind`: the sense in which it acts, 1 counter-clockwise."""
 
     places: np.ndarray

@@ -23,7 +23,7 @@ the equation of motion at the end of the step reads
 First order in the terms of inertia and damping, which are small there; the static part is exact. E. Hairer and G.
 Wanner, Solving Ordinary Differential Equations II, 1996, section IV.3: L-stable.
 
-In a frame that turns, forces -S x' act besides, S being skew. They do no work, and turn the velocities: before each step
+In a frame that turns, forces -S x' act besides, S being skew. They do no work, and turn velocities: before each step
 
     x' -> (M + dt/2 S)^-1 (M - dt/2 S) x',
 

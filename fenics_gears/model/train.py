@@ -18,9 +18,9 @@ import numpy as np
 from fenics_gears.dynamics.clock import FOLLOWING, SteadyClock, TimeScales, time_scales
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
 from fenics_gears.dynamics.guidance import time_step_warnings
+from fenics_gears.dynamics.set_in_time import set_drivetrain
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
 from fenics_gears.dynamics.stepping import EquationsOfMotion
-from fenics_gears.dynamics.set_in_time import set_drivetrain
 from fenics_gears.dynamics.train import TrainDrivetrain, coordinates_of_mesh, drivetrain_of_mesh, train_drivetrain
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation

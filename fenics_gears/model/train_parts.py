@@ -69,8 +69,8 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
 
 
 def set_in_time(carrier: Carrier, load: float | None, radius: float) -> SetInTime:
-    """The carrier and members of a set with masses, the planets on a circle of this radius (mm); `load` (N mm s^2): moment
-    of inertia of what the output drives."""
+    """The carrier and members of a set with masses, the planets on a circle of this radius (mm); `load` (N mm s^2):
+    moment of inertia of what the output drives."""
     own = carrier.set
     springs = {member: getattr(carrier.vibration, member).torsional_stiffness for member in MEMBERS}
     springs[own.output] = 0.0

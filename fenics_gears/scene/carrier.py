@@ -74,7 +74,7 @@ class Carrier:
         return None if stiffness is None else (stiffness, stiffness)
 
     def held(self, member: str) -> float | None:
-        """Stiffness (N/mm) that holds the centre of sun or ring in a run, 0 of one that floats; None where it stands."""
+        """Stiffness (N/mm) that holds the centre of sun or ring, 0 of one that floats; None where it stands."""
         if member in self.floating:
             return 0.0
         if not self.in_time or self.vibration is None:

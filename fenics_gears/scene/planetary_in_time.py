@@ -21,7 +21,8 @@ INERTIA = "inertia"
 
 
 def inertia_and_damping(tree: Mapping[str, Any]) -> tuple[float | None, Damping | None, list[Problem]]:
-    """Moment of inertia (N mm s^2) of the load and damping of a parsed set, None where it has none, and what is wrong."""
+    """Moment of inertia (N mm s^2) of the load and damping of a parsed set, None where it has none; and what is
+    wrong."""
     problems: list[Problem] = []
     written = tree.get(INERTIA, {})
     if not isinstance(written, Mapping):
