@@ -27,7 +27,8 @@ def test_it_has_the_natural_frequencies_of_lumped_members(parts, planets):
     """Lin and Parker's matrices, which are put together member by member in other coordinates: to round-off, as the
     carrier hardly turns."""
     springs = HELD | ({"ring_springs": HELD["ring_springs"] + BESIDE["fixed ring"]} if parts[0] == "ring" else {})
-    (row,) = train_model_of(in_time(0.001, parts=parts, planets=planets, **springs)).rows
+    load = '[inertia.load]\nmoment_of_inertia = "0.2 kg m^2"'
+    (row,) = train_model_of(in_time(0.001, parts=parts, planets=planets, inertia=load, **springs)).rows
     lumped = lumped_set(row)
     wanted = [each.frequency for each in set_modes(lumped)]
     springs_of_meshes = np.tile(lumped.mesh_stiffness, len(row.meshes) // 2)
