@@ -36,8 +36,8 @@ QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 class SetInTime:
     """The carrier and the members of a set. `places` (p, 2), mm: of the pins; `speed`, rad/s: Omega, counter-clockwise
     where the carrier sees the sun turn so; `carrier` and `load`, N mm s^2: moments of inertia of the carrier and of
-    what the `output` drives. `springs`, N mm/rad: of each member that may turn beyond its nominal rotation, zero where none
-    holds it. `torque`, N mm, on the output, and `behind`: the sense in which it acts, 1 counter-clockwise."""
+    what the `output` drives. `springs`, N mm/rad: of each member that may turn beyond its nominal rotation, zero where
+    none holds it. `torque`, N mm, on the output, and `behind`: the sense in which it acts, 1 counter-clockwise."""
 
     places: np.ndarray
     speed: float

@@ -1,0 +1,59 @@
+"""FVA's set with masses over its speed: how a floating sun shares load and moves aside where its mass counts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from fenics_gears.dynamics.planetary_modes import ROTATIONAL, TRANSLATIONAL, set_modes
+from fenics_gears.model.planetary_frequencies import lumped_set
+from fenics_gears.model.train import train_model_of
+from fenics_gears.scene.train import TrainScene, train_from_text
+from fenics_gears.show.panels import PALETTE, styled
+
+SCENE = Path(__file__).parent / "in_time.toml"
+# Mesh frequencies, Hz.
+FREQUENCIES = tuple(range(100, 2401, 100))
+NUMBERS = (("load_sharing_factor", "K_gamma of the sun's meshes"), ("orbit", "Sun, farthest from its place (µm)"))
+
+
+def at(frequency: float, cycles: int = 24) -> TrainScene:
+    """The set at a mesh frequency (Hz)."""
+    text = SCENE.read_text(encoding="utf-8")
+    speed = 60.0 * frequency / 17.0 * (17.0 + 61.0) / 61.0
+    text = text.replace("5000 rpm", f"{speed!r} rpm").replace("mesh_cycles = 24", f"mesh_cycles = {cycles}")
+    return train_from_text(text, "in_time", source=str(SCENE))
+
+
+def numbers(result) -> dict[str, float]:
+    """Of the last six mesh cycles."""
+    steps = 6 * int(result["steps_per_mesh_cycle"][0])
+    x, y = (result[f"member_{axis}"].values[-1 - steps :, 0] for axis in "xy")
+    return {
+        "load_sharing_factor": float(result.attrs["load_sharing_factor"]),
+        "orbit": 1e3 * float(np.hypot(x, y).max()),
+    }
+
+
+@styled
+def picture(found: dict[float, dict[str, float]]) -> Figure:
+    """Numbers by mesh frequency (Hz), over the natural frequencies of the set with lumped members."""
+    figure = Figure(figsize=(9.0, 6.0), layout="constrained")
+    title = "FVA's set in time: a floating sun between three planets"
+    figure.suptitle(title, x=0.012, ha="left", fontsize=14)
+    (row,) = train_model_of(at(FREQUENCIES[0])).rows
+    modes = set_modes(lumped_set(row))
+    parts = figure.subplots(2, 1, sharex=True)
+    for axes, (name, words), colour in zip(parts, NUMBERS, PALETTE):
+        axes.plot(list(found), [each[name] for each in found.values()], color=colour, marker="o", markersize=3)
+        for kind, style in ((ROTATIONAL, ":"), (TRANSLATIONAL, "--")):
+            own = sorted({round(each.frequency, 3) for each in modes if each.kind == kind})
+            for number, frequency in enumerate(each for each in own if each < max(found)):
+                label = f"{kind} modes" if number == 0 else None
+                axes.axvline(frequency, color="0.45", linestyle=style, linewidth=1.0, label=label)
+        axes.set_ylabel(words)
+    parts[0].legend(loc="upper left", fontsize=9)
+    parts[1].set_xlabel("Mesh frequency (Hz)")
+    return figure
