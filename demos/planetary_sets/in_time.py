@@ -16,6 +16,7 @@ from fenics_gears.show.panels import PALETTE, styled
 SCENE = Path(__file__).parent / "in_time.toml"
 # Mesh frequencies, Hz.
 FREQUENCIES = tuple(range(100, 2401, 100))
+STYLES = ("--", "-.", ":")
 NUMBERS = (("load_sharing_factor", "K_gamma of the sun's meshes"), ("orbit", "Sun, farthest from its place (µm)"))
 
 
@@ -37,22 +38,35 @@ def numbers(result) -> dict[str, float]:
     }
 
 
+def resonances() -> dict[tuple[str, int], list[float]]:
+    """By kind of modes and harmonic of the mesh, the first three, mesh frequencies (Hz) at which it meets a mode that
+    it moves by the phase law (Parker 2000)."""
+    (row,) = train_model_of(at(FREQUENCIES[0])).rows
+    modes = set_modes(lumped_set(row))
+    law = row.shafts.carrier.set.phase_law(3)
+    kinds = {"r": ROTATIONAL, "t": TRANSLATIONAL}
+    return {
+        (kinds[letter], harmonic): sorted(
+            {round(each.frequency / harmonic, 3) for each in modes if each.kind == kinds[letter]}
+        )
+        for harmonic, letter in enumerate(law, 1)
+    }
+
+
 @styled
 def picture(found: dict[float, dict[str, float]]) -> Figure:
-    """Numbers by mesh frequency (Hz), over the natural frequencies of the set with lumped members."""
+    """Numbers by mesh frequency (Hz), over the mesh frequencies whose harmonics the phase law leads to a mode."""
     figure = Figure(figsize=(9.0, 6.0), layout="constrained")
     title = "FVA's set in time: a floating sun between three planets"
     figure.suptitle(title, x=0.012, ha="left", fontsize=14)
-    (row,) = train_model_of(at(FREQUENCIES[0])).rows
-    modes = set_modes(lumped_set(row))
     parts = figure.subplots(2, 1, sharex=True)
     for axes, (name, words), colour in zip(parts, NUMBERS, PALETTE):
         axes.plot(list(found), [each[name] for each in found.values()], color=colour, marker="o", markersize=3)
-        for kind, style in ((ROTATIONAL, ":"), (TRANSLATIONAL, "--")):
-            own = sorted({round(each.frequency, 3) for each in modes if each.kind == kind})
-            for number, frequency in enumerate(each for each in own if each < max(found)):
-                label = f"{kind} modes" if number == 0 else None
-                axes.axvline(frequency, color="0.45", linestyle=style, linewidth=1.0, label=label)
+        for (kind, harmonic), frequencies in resonances().items():
+            within = [each for each in frequencies if min(found) < each < max(found)]
+            for number, frequency in enumerate(within):
+                label = f"harmonic {harmonic}, {kind} mode" if number == 0 else None
+                axes.axvline(frequency, color="0.35", linestyle=STYLES[harmonic - 1], linewidth=1.0, label=label)
         axes.set_ylabel(words)
     parts[0].legend(loc="upper left", fontsize=9)
     parts[1].set_xlabel("Mesh frequency (Hz)")

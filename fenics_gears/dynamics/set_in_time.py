@@ -140,6 +140,8 @@ def set_drivetrain(
 ) -> TrainDrivetrain:
     """The equations of motion of a set with masses; `mesh_stiffness` as of `train_drivetrain`. Its `angle` is the lag
     of the output."""
+    # The load is on the output, which the last shaft need not be.
+    parts = replace(parts, loads={})
     rows = RowsOfSet(parts, own)
     as_train = train_drivetrain(parts, rows=rows)
     members = np.array([rows.turned(member) for member in MEMBERS])
