@@ -1,10 +1,14 @@
-"""FVA's set with masses over its speed: how a floating sun shares load and moves aside where its mass counts."""
+"""FVA's set with masses over its speed: how a floating sun shares the load, and moves aside, where its mass counts.
+
+python -m demos.planetary_sets.in_time [DIR]
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import numpy as np
+from demos.arguments import output_directory
 from matplotlib.figure import Figure
 
 from fenics_gears.dynamics.planetary_modes import ROTATIONAL, TRANSLATIONAL, set_modes
@@ -17,7 +21,7 @@ SCENE = Path(__file__).parent / "in_time.toml"
 # Mesh frequencies, Hz.
 FREQUENCIES = tuple(range(100, 2401, 100))
 STYLES = ("--", "-.", ":")
-NUMBERS = (("load_sharing_factor", "K_gamma of the sun's meshes"), ("orbit", "Sun, farthest from its place (µm)"))
+NUMBERS = (("load_sharing_factor", "K_gamma, sun"), ("orbit", "Sun off its place, most (µm)"))
 
 
 def at(frequency: float, cycles: int = 24) -> TrainScene:
@@ -68,6 +72,24 @@ def picture(found: dict[float, dict[str, float]]) -> Figure:
                 label = f"harmonic {harmonic}, {kind} mode" if number == 0 else None
                 axes.axvline(frequency, color="0.35", linestyle=STYLES[harmonic - 1], linewidth=1.0, label=label)
         axes.set_ylabel(words)
-    parts[0].legend(loc="upper left", fontsize=9)
+    parts[0].legend(loc="upper left", fontsize=9, frameon=True, framealpha=1.0)
     parts[1].set_xlabel("Mesh frequency (Hz)")
     return figure
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run all speeds; print their numbers, and write `in_time.png`."""
+    directory = output_directory("planetary_sets", __doc__.splitlines()[0], arguments)
+    from fenics_gears import simulate_train
+    from fenics_gears.show.plots import save_figure
+
+    directory.mkdir(parents=True, exist_ok=True)
+    found = {}
+    for frequency in FREQUENCIES:
+        found[frequency] = numbers(simulate_train(at(frequency)))
+        print(f"{frequency} Hz: {found[frequency]}")
+    save_figure(picture(found), directory / "in_time.png")
+
+
+if __name__ == "__main__":
+    main()
