@@ -58,7 +58,7 @@ def test_the_set_in_time_has_its_resonances_by_the_phase_law():
     found = {frequency: in_time.numbers(simulate_train(in_time.at(frequency, 6))) for frequency in (1.0, 1800.0)}
     assert found[1.0]["load_sharing_factor"] == pytest.approx(1.0, abs=1e-4)
     assert found[1800.0]["load_sharing_factor"] > 1.05
-    assert [len(axes.get_lines()) for axes in in_time.picture(found).figure.axes] == [9, 9]
+    assert [len(axes.get_lines()) for axes in in_time.picture(found).figure.axes] == [7, 7]
 
 
 @pytest.mark.nightly
