@@ -88,3 +88,40 @@ output = "{loaded}"
 def planetary(**options) -> TrainScene:
     """A planetary set; options are those of `planetary_text`."""
     return train_from_text(planetary_text(**options))
+
+
+def in_time_text(
+    speed: float = 1500,
+    cycles: int = 1,
+    *,
+    more: str = "",
+    pins: str = "",
+    sun_springs: str = "",
+    ring_springs: str = "",
+    sections: str = "",
+    inertia: str = "[inertia]",
+    **options,
+) -> str:
+    """A planetary set with masses, its input at a `speed` (rpm); `pins`, `sun_springs`, `ring_springs`: more of the
+    carrier's pins and of members. Without `inertia` it is at rest."""
+    lumped = f"""
+carrier = {{ pin_stiffness = "3e5 N/mm"{pins} }}
+{more}
+[stages.set.vibration]
+sun = {{ mass = "2 kg", moment_of_inertia = "1.2e-3 kg m^2"{sun_springs} }}
+ring = {{ mass = "8 kg", moment_of_inertia = "0.1 kg m^2"{ring_springs} }}
+carrier = {{ mass = "15 kg", moment_of_inertia = "0.09 kg m^2" }}
+planet = {{ mass = "2 kg", moment_of_inertia = "2e-3 kg m^2" }}
+[stages.set.sun_mesh]
+tip_relief = {RELIEF}
+[stages.set.ring_mesh]
+tip_relief = {RELIEF}
+"""
+    motion = f'[motion]\ninput_speed = "{speed} rpm"\nmesh_cycles = {cycles}\n'
+    asked = {"teeth": (20, 16, 52), "planets": "planets = 3"} | options
+    return planetary_text(more=lumped, sections=f"{inertia}\n{sections}\n{motion}", **asked)
+
+
+def in_time(speed: float, cycles: int = 1, **options) -> TrainScene:
+    """A planetary set with masses; options are those of `in_time_text`."""
+    return train_from_text(in_time_text(speed, cycles, **options))

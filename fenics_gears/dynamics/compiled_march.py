@@ -20,7 +20,15 @@ from fenics_gears.contact.rigid_step import Sides, rigid_step
 
 from .drivetrain import Drivetrain
 from .steps import Steps, in_block
-from .time_integration import average_advanced, average_history, backward_advanced, backward_history, with_history
+from .time_integration import (
+    average_advanced,
+    average_history,
+    backward_advanced,
+    backward_history,
+    in_turned_frame,
+    turned_velocities,
+    with_history,
+)
 
 STATIC, AVERAGE_ACCELERATION, BACKWARD_EULER = range(3)
 # Sets of a mesh cycle before, where there are none.
@@ -33,7 +41,7 @@ class Motion(NamedTuple):
 
     `free_motion` (f k,): how a load moves the drivetrain where only contact holds it, else empty; `rigid`: steps are
     those of `contact.rigid_step`; `modes`: how many of the coordinates, the last ones, are modes of shafts, which
-    contact does not move: they are eliminated before each step.
+    contact does not move: they are eliminated before each step. `gyroscopic`: (k, k) in a frame that turns, else empty.
     """
 
     method: int
@@ -46,6 +54,7 @@ class Motion(NamedTuple):
     force_tolerance: float
     rigid: bool = False
     modes: int = 0
+    gyroscopic: np.ndarray = np.empty((0, 0))
 
     @classmethod
     def of(
@@ -59,14 +68,18 @@ class Motion(NamedTuple):
         )
         free = drivetrain.free_motion if method == STATIC else np.empty(0)
         numbers = float(friction), tolerance.length, tolerance.force, rigid, drivetrain.modes
-        return cls(method, stiffness, mass, damping, free, *numbers)
+        turning = method != STATIC and drivetrain.gyroscopic is not None
+        gyroscopic = np.ascontiguousarray(drivetrain.gyroscopic) if turning else np.empty((0, 0))
+        return cls(method, stiffness, mass, damping, free, *numbers, gyroscopic)
 
     @property
     def packed(self) -> np.ndarray:
         """All in one array for compiled code, which `_unpacked` takes apart: to find the types of many arrays takes
         numba longer than a step."""
         numbers = self.method, self.friction, self.length_tolerance, self.force_tolerance, self.rigid, self.modes
-        return np.concatenate([numbers, *(array.ravel() for array in self[1:4]), self.free_motion])
+        turning = len(self.gyroscopic) > 0
+        arrays = (*self[1:4], self.gyroscopic, self.free_motion)
+        return np.concatenate([numbers, [turning], *(array.ravel() for array in arrays)])
 
 
 class Course(NamedTuple):
@@ -139,7 +152,11 @@ _eliminated, _left_load, _put_modes = (njit(cache=True)(each) for each in (elimi
 
 @njit(cache=True)
 def _unpacked(numbers, k):
-    matrices, free_motion = numbers[6 : 6 + 3 * k * k].reshape(3, k, k), numbers[6 + 3 * k * k :]
+    turning = int(numbers[6])
+    end = 7 + 3 * k * k
+    matrices = numbers[7:end].reshape(3, k, k)
+    gyroscopic = numbers[end : end + turning * k * k].reshape(turning * k, k)
+    free_motion = numbers[end + turning * k * k :]
     return Motion(
         int(numbers[0]),
         matrices[0],
@@ -151,6 +168,7 @@ def _unpacked(numbers, k):
         numbers[3],
         numbers[4] != 0.0,
         int(numbers[5]),
+        gyroscopic,
     )
 
 
@@ -160,6 +178,7 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
     starts, kinds, states, status = steps.starts, steps.kinds, steps.states, steps.status
     k, duration, moved = len(motion.stiffness), -1.0, len(motion.stiffness) - motion.modes
     history = np.zeros((3, k, k))
+    frame = np.zeros((2, 0, 0))
     # A number that is written out has `newton` compiled once more.
     method = Method(1.0, np.int64(ALL_AT_ONCE), motion.length_tolerance, motion.force_tolerance)
     residuals, most = np.empty((MOST_ITERATIONS, 5)), np.diff(starts).max()
@@ -169,9 +188,14 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
             duration = durations[s]
             if motion.method != STATIC:
                 history = _history(motion, duration)
+            if len(motion.gyroscopic):
+                frame = turned_velocities(duration, motion.mass, motion.damping, motion.gyroscopic)
             modes = _eliminated(motion.stiffness + history[0], motion.modes)
         outer = loads[s]
-        load = outer if motion.method == STATIC else with_history(outer, history, states[s - 1])
+        begun = states[s - 1]
+        if len(motion.gyroscopic):
+            begun = in_turned_frame(begun, frame)
+        load = outer if motion.method == STATIC else with_history(outer, history, begun)
         now, before = slice(starts[s], starts[s + 1]), slice(starts[s - 1], starts[s])
         contact = arrays_of(steps.rows[s], kinds, starts[s] - starts[s - 1])
         nodes, n = status[now], starts[s + 1] - starts[s]
@@ -202,7 +226,7 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
         if outcome != CONVERGED:
             return
         _put_modes(coordinates, load, modes)
-        states[s] = _advanced(motion.method, duration, states[s - 1], coordinates)
+        states[s] = _advanced(motion.method, duration, begun, coordinates)
         places[0] = s + 1
 
 

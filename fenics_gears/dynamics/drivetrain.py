@@ -52,7 +52,8 @@ class Drivetrain:
     `bearing_stiffness` (k, k), N/mm, the part of the stiffness that is in the bearings. `of_the_coupling` (k,),
     N s^2/mm: mass of an elastic input shaft that turns with its coupling, whose rotation is prescribed. `rolling`: by
     how much bearings depart from the stiffness that the matrix has for them, None where none does. `seats`: those of
-    the gears that give way.
+    the gears that give way. `gyroscopic` (k, k), N s/mm, skew: of the velocities in a frame that turns, None where none
+    does.
     """
 
     coordinates: tuple[str, ...]
@@ -67,6 +68,7 @@ class Drivetrain:
     of_the_coupling: np.ndarray | float = 0.0
     rolling: RollingSprings | None = None
     seats: tuple[SeatOfMesh, ...] = ()
+    gyroscopic: np.ndarray | None = None
 
     @property
     def indices(self) -> list[int]:

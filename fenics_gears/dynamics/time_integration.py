@@ -22,6 +22,14 @@ the equation of motion at the end of the step reads
 
 First order in the terms of inertia and damping, which are small there; the static part is exact. E. Hairer and G.
 Wanner, Solving Ordinary Differential Equations II, 1996, section IV.3: L-stable.
+
+In a frame that turns, forces -S x' act besides, S being skew. They do no work, and turn velocities: before each step
+
+    x' -> (M + dt/2 S)^-1 (M - dt/2 S) x',
+
+which keeps the kinetic energy, whatever the step, and leaves the step's matrix symmetric (Strang, SIAM J. Numer. Anal.
+5, 1968, 506-517: second order, the velocity at a step being that of its middle turn). The acceleration follows as the
+damping of the turned velocity has it.
 """
 
 from __future__ import annotations
@@ -60,18 +68,46 @@ class Scheme:
         damping = drivetrain.damping if drivetrain.damping is not None else np.zeros_like(mass)
         self._history = self._matrices(step, mass, damping)
         self.stiffness = drivetrain.stiffness + self._history[0]
+        self._frame = None
+        if drivetrain.gyroscopic is not None:
+            self._frame = turned_velocities(step, mass, damping, drivetrain.gyroscopic)
 
     def load(self, state: State, outer: np.ndarray) -> np.ndarray:
         """Right-hand side (k,), N, of the step that starts from `state`, under the forces `outer` (k,), N."""
         if not self.inert:
             return outer
-        return with_history(outer, self._history, np.array(state))
+        return with_history(outer, self._history, self._begun(state))
 
     def advance(self, state: State, position: np.ndarray) -> State:
         """The state at the end of the step, from its position (k,), mm."""
         if not self.inert:
             return State(position, state.velocity, state.acceleration)
-        return State(*self._advanced(self.step, np.array(state), position))
+        return State(*self._advanced(self.step, self._begun(state), position))
+
+    def _begun(self, state: State) -> np.ndarray:
+        """The state (3, k) that a step starts from."""
+        begun = np.array(state)
+        return begun if self._frame is None else in_turned_frame(begun, self._frame)
+
+
+@njit(cache=True)
+def turned_velocities(step, mass, damping, gyroscopic):
+    """How a frame that turns for a step takes velocities on, and what damping adds to accelerations by that: matrices
+    (2, k, k) on velocities."""
+    half = 0.5 * step * gyroscopic
+    matrices = np.empty((2, *mass.shape))
+    matrices[0] = np.linalg.inv(mass + half) @ (mass - half)
+    matrices[1] = np.linalg.inv(mass) @ (damping @ (np.eye(len(mass)) - matrices[0]))
+    return matrices
+
+
+@njit(cache=True)
+def in_turned_frame(states, frame):
+    """Position, velocity and acceleration (3, k) as a step begins that `frame` (2, k, k) takes on."""
+    turned = states.copy()
+    turned[1] = frame[0] @ states[1]
+    turned[2] += frame[1] @ states[1]
+    return turned
 
 
 @njit(cache=True)

@@ -42,13 +42,15 @@ class TrainDrivetrain(Drivetrain):
     meshes alone hold. `angle` (k,): rotation (rad) of the last shaft; `of_meshes`: of each mesh, how its own
     coordinates (l, k) follow; `ends`: by mesh, rotation (k,), rad, of the
     load on the shaft that it drives. `nominal`: how the coordinates (k,) of rigid and twisting shafts move, mm, as the
-    first shaft turns by 1 rad and all others with it."""
+    first shaft turns by 1 rad and all others with it. `of_members` (3, k), rad/mm: of a planetary set with inertia,
+    rotations of its members, counter-clockwise."""
 
     motions: tuple[tuple[float, ...], ...] = ()
     angle: np.ndarray = field(default_factory=lambda: np.zeros(0))
     of_meshes: tuple[np.ndarray, ...] = ()
     ends: tuple[np.ndarray, ...] = ()
     nominal: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    of_members: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
 
     @property
     def free_motion(self) -> np.ndarray:  # type: ignore[override]
@@ -113,7 +115,7 @@ class TrainParts:
         return [gear for gear in range(len(self.graph.shafts)) if self.moves(gear) and gear not in self.centred]
 
 
-class _Rows:
+class Rows:
     """How each gear moves (k,) by the coordinates of a train, in mm and rad."""
 
     def __init__(self, parts: TrainParts):
@@ -181,6 +183,10 @@ class _Rows:
         """The gear whose centre it has: itself, but for one that is `centred` by another."""
         return self.parts.centred.get(gear, gear)
 
+    def moved(self, gear: int) -> tuple[np.ndarray, np.ndarray]:
+        """Rotation (k,), in either sense, and displacements (2, k) of a gear as its inertia has them."""
+        return self.rotation(gear, self.graph.sides[gear][0][1]), self.centre(gear)
+
     def of_mesh(self, mesh: int) -> np.ndarray:
         """A mesh's own coordinates (l, k), in mm."""
         pair = self.parts.pairs[mesh]
@@ -215,11 +221,11 @@ class _Rows:
 
 
 def train_drivetrain(
-    parts: TrainParts, damping: Damping | None = None, mesh_stiffness: Sequence[float] = ()
+    parts: TrainParts, damping: Damping | None = None, mesh_stiffness: Sequence[float] = (), rows: Rows | None = None
 ) -> TrainDrivetrain:
     """The gears of a train under a torque on the last shaft. `mesh_stiffness` (f,), N/mm: of one tooth pair of each
-    mesh, roughly; damping ratios are of the modes with them."""
-    rows = _Rows(parts)
+    mesh, roughly; damping ratios are of the modes with them. `rows`: how gears move, unless as in any train."""
+    rows = rows or Rows(parts)
     graph = parts.graph
     meshes = range(len(parts.pairs))
     turns = turns_of_shafts(graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in parts.pairs])
@@ -257,7 +263,7 @@ def train_drivetrain(
     return replace(undamped, damping=damping_of(undamped, damping, np.array(mesh_stiffness)))
 
 
-def _stiffness(rows: _Rows) -> tuple[np.ndarray, np.ndarray]:
+def _stiffness(rows: Rows) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness (k, k) of shafts and bearings, N/mm, and the part of it in bearings."""
     parts = rows.parts
     in_bearings = np.zeros((len(rows.names), len(rows.names)))
@@ -277,14 +283,12 @@ def _stiffness(rows: _Rows) -> tuple[np.ndarray, np.ndarray]:
     return stiffness, in_bearings
 
 
-def _mass(rows: _Rows) -> np.ndarray:
+def _mass(rows: Rows) -> np.ndarray:
     """Mass (k, k), N s^2/mm, of gears and load."""
     parts = rows.parts
     found = np.zeros((len(rows.names), len(rows.names)))
-    for gear, meshes in enumerate(rows.graph.sides):
-        angle = rows.rotation(gear, meshes[0][1])
-        centre = rows.centre(gear)
-        own = parts.masses[gear]
+    for gear, own in enumerate(parts.masses):
+        angle, centre = rows.moved(gear)
         found += own.moment_of_inertia * np.outer(angle, angle) + own.mass * centre.T @ centre
     for shaft, load in parts.loads.items():
         end = rows.end(shaft)

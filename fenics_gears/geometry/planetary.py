@@ -15,6 +15,7 @@ RING = "ring"
 SECOND_SUN = "second_sun"
 CARRIER = "carrier"
 MEMBERS = (SUN, RING, SECOND_SUN, CARRIER)
+WITH_RING = (SUN, RING, CARRIER)
 # Of what harmonics of the meshes do to sun, ring and carrier.
 ROTATION = "r"
 TRANSLATION = "t"

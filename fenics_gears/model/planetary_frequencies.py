@@ -16,8 +16,8 @@ from fenics_gears.dynamics.planetary_modes import (
     set_modes,
 )
 from fenics_gears.geometry.planetary import CARRIER, RING, SUN
-from fenics_gears.scene.carrier import Carrier
 from fenics_gears.scene.planetary_schema import VibratingMember
+from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import mesh_stiffness
 from .train import RowModel
@@ -47,9 +47,9 @@ def lumped_set(row: RowModel) -> LumpedSet:
         given.ring_mesh_stiffness or mesh_stiffness(with_ring.scene, ring),
     )
     return LumpedSet(
-        sun=_member(carrier, SUN, given.sun, abs(sun.pinion.base_radius)),
-        ring=_member(carrier, RING, given.ring, abs(ring.wheel.base_radius)),
-        carrier=_member(carrier, CARRIER, given.carrier, abs(sun.centre_distance)),
+        sun=_member(row.shafts, SUN, given.sun, abs(sun.pinion.base_radius)),
+        ring=_member(row.shafts, RING, given.ring, abs(ring.wheel.base_radius)),
+        carrier=_member(row.shafts, CARRIER, given.carrier, abs(sun.centre_distance)),
         planet=LumpedMember(given.planet.mass, given.planet.moment_of_inertia / planet**2),
         angles=tuple(carrier.set.angles),
         pressure_angles=(sun.operating_pressure_angle, ring.operating_pressure_angle),
@@ -58,14 +58,19 @@ def lumped_set(row: RowModel) -> LumpedSet:
     )
 
 
-def _member(carrier: Carrier, name: str, given: VibratingMember, radius: float) -> LumpedMember:
-    """A member whose arc has a radius (mm)."""
+def _member(shafts: TrainShafts, name: str, given: VibratingMember, radius: float) -> LumpedMember:
+    """A member whose arc has a radius (mm), the output with the load."""
+    carrier = shafts.carrier
+    assert carrier is not None
     support = 0.0 if name in carrier.floating else given.support_stiffness
+    # In time the input turns as it is driven.
+    prescribed = (carrier.set.fixed, carrier.set.input) if carrier.in_time else (carrier.set.fixed,)
     if given.torsional_stiffness is not None:
         torsion = given.torsional_stiffness / radius**2
     else:
-        torsion = None if carrier.set.fixed == name else 0.0
-    return LumpedMember(given.mass, given.moment_of_inertia / radius**2, support, torsion)
+        torsion = None if name in prescribed else 0.0
+    load = (shafts.load or 0.0) if name == carrier.set.output else 0.0
+    return LumpedMember(given.mass, (given.moment_of_inertia + load) / radius**2, support, torsion)
 
 
 def set_frequency_rows(row: RowModel) -> list[Row]:
@@ -81,7 +86,8 @@ def set_frequency_rows(row: RowModel) -> list[Row]:
     assert carrier is not None
     speed = None if carrier.speed is None else abs(carrier.speed * float(carrier.set.speeds[CARRIER])) / (2.0 * pi)
     size = "" if speed is None else f"; here {speed:.4g} Hz"
-    words = f"gyroscopic and centrifugal terms: of free masses by the carrier's turns in a second{size}"
+    runs = ", which a run has" if carrier.in_time else ""
+    words = f"gyroscopic and centrifugal terms{runs}: of free masses by the carrier's turns in a second{size}"
     return [*rows, ("left out", "rotation of the carrier", words)]
 
 

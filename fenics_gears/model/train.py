@@ -18,6 +18,7 @@ import numpy as np
 from fenics_gears.dynamics.clock import FOLLOWING, SteadyClock, TimeScales, time_scales
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
 from fenics_gears.dynamics.guidance import time_step_warnings
+from fenics_gears.dynamics.set_in_time import set_drivetrain
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.train import TrainDrivetrain, coordinates_of_mesh, drivetrain_of_mesh, train_drivetrain
@@ -44,6 +45,7 @@ from .train_parts import (
     model_of_mesh,
     offsets_of,
     parts_of,
+    set_in_time,
     whole_steps,
     whole_torques,
 )
@@ -76,6 +78,10 @@ class RowModel(OfMeshes):
     @cached_property
     def drivetrain(self) -> TrainDrivetrain:
         parts = parts_of(self.meshes, self.shafts)
+        carrier = self.shafts.carrier
+        if carrier is not None and carrier.in_time:
+            own = set_in_time(carrier, self.shafts.load, abs(parts.pairs[0].centre_distance))
+            return set_drivetrain(parts, own, self.shafts.damping, self.mesh_stiffness)
         if self.bent is None:
             return train_drivetrain(parts, self.shafts.damping, self.mesh_stiffness)
         from fenics_gears.dynamics.train_shafts import with_bent_shafts

@@ -9,9 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.dynamics.set_in_time import SetInTime
 from fenics_gears.dynamics.train import TrainParts
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.gear_data import LumpedGear
 from fenics_gears.geometry.gear_train import Layout
+from fenics_gears.geometry.planetary import CARRIER, WITH_RING
 from fenics_gears.geometry.train_graph import turns_of_shafts
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import GEARS
@@ -25,7 +28,6 @@ from .shared_gears import check_shared
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.train_shafts import BentShafts
-    from fenics_gears.geometry.gear_data import LumpedGear
     from fenics_gears.scene.carrier import Carrier
 
 # Steps of the mesh cycles of all meshes together: each has its contact operators.
@@ -44,6 +46,9 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
         if mesh.scene.inertia is not None:
             masses.append(lumped_gears(mesh.scene, mesh.pair)[GEARS[side]])
         name = mesh.gears[side]
+        if shafts.carrier is not None and shafts.carrier.in_time:
+            lumped = shafts.carrier.lumped(name.partition(".")[2].split()[0])
+            masses.append(LumpedGear(lumped.mass, lumped.moment_of_inertia, mesh.pair.face_width))
         supports.append(_support(mesh.scene, GEARS[side]) if shafts.carrier is None else shafts.carrier.support(name))
     given = {each.shaft: each.torque for each in shafts.loads}
     torques = [
@@ -69,6 +74,26 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
     planets = [names.index(each) for each in carrier.planets]
     together = None if carrier.together is None else (planets, carrier.together)
     return replace(parts, centred=carrier.centred(names), together=together)
+
+
+def set_in_time(carrier: Carrier, load: float | None, radius: float) -> SetInTime:
+    """The carrier and members of a set with masses, the planets on a circle of this radius (mm); `load` (N mm s^2):
+    moment of inertia of what the output drives."""
+    own = carrier.set
+    springs = {member: getattr(carrier.vibration, member).torsional_stiffness for member in WITH_RING}
+    springs[own.output] = 0.0
+    # Where the sun drives the planets, torques from outside have the senses of the weights.
+    behind = 1 if own.weights[own.output] > 0 else -1
+    return SetInTime(
+        places=radius * np.array([np.cos(own.angles), np.sin(own.angles)]).T,
+        speed=(carrier.speed or 0.0) * float(own.speeds[CARRIER]) * (1 if own.sun_by_carrier > 0 else -1),
+        carrier=carrier.lumped(CARRIER).moment_of_inertia,
+        load=load or 0.0,
+        springs={member: spring for member, spring in springs.items() if spring is not None},
+        output=own.output,
+        torque=abs(own.torques(carrier.torque)[own.output]),
+        behind=behind,
+    )
 
 
 def offsets_of(

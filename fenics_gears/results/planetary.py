@@ -51,6 +51,10 @@ def kinds_of_meshes(names: Sequence[str]) -> dict[str, list[int]]:
     return found
 
 
+TORQUE = "torque on a member from outside, positive as the input's"
+TORQUE_IN_TIME = "torque that a member takes to its teeth or pins, positive as the input's"
+
+
 def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: Sequence[Curves]) -> ResultOfShafts:
     """What the states (steps, k) of a march and the curves of all meshes say of a set. Numbers are of the
     recorded mesh cycles."""
@@ -58,19 +62,27 @@ def result_of_set(row: RowModel, carrier: Carrier, states: np.ndarray, meshes: S
     last = slice(-1 - row.recorded, -1)
     shares = {name: _shares(meshes[carrier.meshes(kind)]) for kind, name in enumerate((SUN, RING))}
     torques = _member_torques(carrier, meshes)
-    pins = _pin_forces(row.layout, carrier, meshes)
-    lag = _output_lag(row, carrier, states)
-    rotation = np.zeros((len(states), len(own.members)))
-    # It stays behind, whichever way it turns; the sun turns counter-clockwise as the carrier sees it.
-    onwards = np.sign(float(own.speeds[own.output] * own.sun_by_carrier))
-    rotation[:, own.members.index(own.output)] = -onwards * lag
+    if carrier.in_time:
+        pins = _pin_springs(row, carrier, states)
+        arm = abs(row.models[0].pair.centre_distance)
+        of_carrier = np.sign(own.weights[own.input]) * arm * pins[..., 0].sum(axis=1)
+        torques[:, own.members.index(CARRIER)] = -of_carrier
+        lag = states @ row.drivetrain.angle
+        rotation = states @ row.drivetrain.of_members.T
+    else:
+        pins = _pin_forces(row.layout, carrier, meshes)
+        lag = _output_lag(row, carrier, states)
+        rotation = np.zeros((len(states), len(own.members)))
+        # It stays behind, whichever way it turns; the sun turns counter-clockwise as the carrier sees it.
+        onwards = np.sign(float(own.speeds[own.output] * own.sun_by_carrier))
+        rotation[:, own.members.index(own.output)] = -onwards * lag
     over = ("time", PLANET)
     variables = {
         "planet_load_share": (over, shares[SUN], _said("1", "force of the sun on a planet over their mean")),
         "planet_load_share_ring": (over, shares[RING], _said("1", "force of a planet on the ring over their mean")),
         "pin_force": ((*over, "pin_direction"), pins, _said("N", "force of a planet on its pin")),
         "member_torque": (
-            ("time", MEMBER), torques, _said("N mm", "torque on a member from outside, positive as the input's")
+            ("time", MEMBER), torques, _said("N mm", TORQUE_IN_TIME if carrier.in_time else TORQUE)
         ),
         "member_rotation": (
             ("time", MEMBER), rotation, _said("rad", "rotation of a member beyond its nominal one, counter-clockwise")
@@ -140,6 +152,24 @@ def _pin_forces(layout: Layout, carrier: Carrier, meshes: Sequence[Curves]) -> n
     return np.stack(found, axis=1)
 
 
+def _pin_springs(row: RowModel, carrier: Carrier, states: np.ndarray) -> np.ndarray:
+    """The same of a set with masses: what the springs of the pins take."""
+    found = []
+    for planet, angle in zip(carrier.planets, carrier.set.angles):
+        outwards = np.array([np.cos(angle), np.sin(angle)])
+        onwards = np.array([-outwards[1], outwards[0]])
+        found.append(_places(row, states, planet) @ np.stack([onwards, outwards], axis=1))
+    return (carrier.pin_stiffness or 0.0) * np.stack(found, axis=1)
+
+
+def _places(row: RowModel, states: np.ndarray, gear: str) -> np.ndarray:
+    """Where (steps, 2), mm, the centre of a gear stands beside its place, in space."""
+    number = gear_names(row.meshes).index(gear)
+    first, _ = row.graph.sides[number][0]
+    places = [row.drivetrain.coordinates.index(f"centre_{axis} of gear {number + 1}") for axis in "xy"]
+    return states[:, places] @ row.layout.axes(first)
+
+
 def _output_lag(row: RowModel, carrier: Carrier, states: np.ndarray) -> np.ndarray:
     """Lag (steps,), rad, of the output: the ring's, as the carrier sees it, by the teeth of ring and output."""
     own = carrier.set
@@ -152,20 +182,11 @@ def _centres(row: RowModel, carrier: Carrier, states: np.ndarray) -> dict[str, t
         return {}
     members = carrier.set.members
     centres = np.zeros((len(states), 2, len(members)))
-    names = gear_names(row.meshes)
-    coordinates = row.drivetrain.coordinates
-
-    def centre(gear: str) -> np.ndarray:
-        number = names.index(gear)
-        first, _ = row.graph.sides[number][0]
-        places = [coordinates.index(f"centre_{axis} of gear {number + 1}") for axis in "xy"]
-        return states[:, places] @ row.layout.axes(first)
-
     for place, gear in enumerate((carrier.sun, carrier.ring)):
-        if members[place] in carrier.floating:
-            centres[:, :, place] = centre(gear)
+        if members[place] in carrier.moving:
+            centres[:, :, place] = _places(row, states, gear)
     if CARRIER in carrier.moving:
-        planets = np.hstack([centre(each) for each in carrier.planets])
+        planets = np.hstack([_places(row, states, each) for each in carrier.planets])
         centres[:, :, -1] = planets @ carrier.centre_by_planets.T
     return {
         f"member_{axis}": (("time", MEMBER), centres[:, place], _said("mm", f"place of a member's centre, {where}"))

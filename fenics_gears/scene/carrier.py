@@ -15,7 +15,7 @@ from fenics_gears.dynamics.shafts import HousingFile
 from fenics_gears.geometry.planetary import CARRIER, SUN, PlanetarySet
 from fenics_gears.inputs.tree import GEARS
 
-from .planetary_schema import VibrationText
+from .planetary_schema import VibratingMember, VibratingPlanet, VibrationText
 from .schema import HUNTING_TOOTH_PERIOD
 
 
@@ -37,7 +37,8 @@ class Carrier:
     is held.
     `run_outs`: of gears whose base circles are off their axes.
     `floating`: members that no bearing holds. `speed`, rad/s, and `torque`, N mm: of the input. `vibration`: lumped
-    members for natural frequencies, None where the scene has none."""
+    members, None where the scene has none; `in_time`: whether it runs with them, else they are for natural frequencies
+    alone."""
 
     stage: str
     set: PlanetarySet
@@ -50,11 +51,13 @@ class Carrier:
     vibration: VibrationText | None = None
     file: HousingFile | None = None
     bearing_stiffness: float | None = None
+    in_time: bool = False
 
     @property
     def moving(self) -> tuple[str, ...]:
-        """Members whose centres move: what is floating, and a carrier on springs."""
-        return self.floating if self.bearing_stiffness is None else (*self.floating, CARRIER)
+        """Members whose centres move: what is floating or on springs, a carrier too."""
+        own = tuple(each for each in self.set.members if each != CARRIER and self.held(each) is not None)
+        return own if self.bearing_stiffness is None else (*own, CARRIER)
 
     @property
     def sun(self) -> str:
@@ -107,8 +110,22 @@ class Carrier:
                 return 0.0, 0.0
             stiffness = self.pin_stiffness or (inf if self.pin_errors else None)
             return None if stiffness is None else (stiffness, stiffness)
-        member = SUN if gear == self.sun else self.set.second
-        return (0.0, 0.0) if member in self.floating else None
+        stiffness = self.held(SUN if gear == self.sun else self.set.second)
+        return None if stiffness is None else (stiffness, stiffness)
+
+    def held(self, member: str) -> float | None:
+        """Stiffness (N/mm) that holds the centre of sun or ring, 0 of one that floats; None where it stands."""
+        if member in self.floating:
+            return 0.0
+        if not self.in_time or self.vibration is None:
+            return None
+        lumped: VibratingMember = getattr(self.vibration, member)
+        return lumped.support_stiffness
+
+    def lumped(self, member: str) -> VibratingPlanet:
+        """Masses and springs of a lumped member."""
+        found: VibratingPlanet = getattr(self.vibration, member)
+        return found
 
     @cached_property
     def together(self) -> np.ndarray | None:

@@ -22,7 +22,8 @@ from .carrier import Carrier, OfSet
 from .data import Scene
 from .gear_schema import Gears
 from .planetary_assembly import check_centres, check_clear, set_of
-from .planetary_rules import text_of_set, wrong_sections
+from .planetary_in_time import INERTIA, check_in_time, inertia_and_damping, wrong_in_time
+from .planetary_rules import OF_A_SET_ALONE, OF_THE_TRAIN, text_of_set, wrong_sections
 from .planetary_run_out import run_outs_of, with_run_outs
 from .planetary_schema import OF_THE_FACE, OF_THE_STEP, PlanetaryText, gears_in, meshes_in
 from .train_loads import TrainLoad, TrainMotion
@@ -37,16 +38,20 @@ Tree = Mapping[str, Any]
 def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfScene], TrainSections]:
     """The meshes of a parsed set in the frame of its carrier, and its load and motion. Raises MistakesOfStage,
     SceneError and GeometryError for what is wrong."""
-    problems = list(wrong_sections(tree))
+    problems = list(wrong_sections(tree, (*OF_THE_TRAIN, *OF_A_SET_ALONE)))
     found, wrong = load_and_motion(tree)
+    problems += wrong
+    inertia, damping, wrong = inertia_and_damping(tree)
     problems += wrong
     if problems:
         raise MistakesOfStage(problems)
     ((stage, content),) = tree[STAGES].items()
     text, problems = text_of_set(stage, content)
-    if text is None:
-        raise MistakesOfStage(problems)
     load, motion = found
+    if text is not None and INERTIA in tree:
+        problems += wrong_in_time((STAGES, stage), text, motion)
+    if text is None or problems:
+        raise MistakesOfStage(problems)
     of_meshes = _of_meshes(stage, content)
     scenes = _scenes(tree, of_meshes, content, source, folder)
     pairs = [pair_of(scene, f"{source}, stage {stage}", own.words) for scene, own in zip(scenes, of_meshes)]
@@ -58,9 +63,13 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
         check_together(scene, f"{place}.{own.mesh}")
     carrier = _carrier(stage, text, own_set, place, folder)
     _check_in_plane(carrier, scenes[0], place)
-    _check_motion(own_set, load, motion, scenes[0].friction is not None, place)
+    _check_motion(own_set, load, motion, "friction" if scenes[0].friction is not None else "", place)
+    if INERTIA in tree:
+        check_in_time(scenes[0], place)
+        _check_motion(own_set, load, motion, INERTIA, place)
+        carrier = replace(carrier, in_time=True)
     none = (None,) * len(carrier.shafts)
-    shafts = TrainShafts(carrier.shafts, none, none, moving=True, carrier=carrier)
+    shafts = TrainShafts(carrier.shafts, none, none, load=inertia, damping=damping, moving=True, carrier=carrier)
     meshes = _meshes(carrier, of_meshes, scenes, pairs)
     if own_set.stepped:
         meshes = _clocked(meshes, carrier, text.step_angle or 0.0)
@@ -161,14 +170,14 @@ def _check_in_plane(carrier: Carrier, scene: Scene, place: str) -> None:
         )
 
 
-def _check_motion(own: PlanetarySet, load: TrainLoad, motion: TrainMotion, friction: bool, place: str) -> None:
-    """Raise SceneError for a power without a speed, and for friction where the ring drives."""
+def _check_motion(own: PlanetarySet, load: TrainLoad, motion: TrainMotion, named: str, place: str) -> None:
+    """Raise SceneError for a power without a speed, and for a section that is `named` where the ring drives."""
     if load.power is not None and motion.input_speed is None:
         raise SceneError(f"{place}: load.power needs a speed. Allowed: with motion.input_speed. {NOTHING_DONE}")
-    if friction and not own.sun_drives:
+    if named and not own.sun_drives:
         raise SceneError(
-            f"{place}: friction where the {own.second} drives the planets, as the carrier sees it, is not computed yet."
-            " Allowed: without [friction], or with input and output exchanged, where the sun drives."
+            f"{place}: {named} where the {own.second} drives the planets, as the carrier sees it, is not computed yet."
+            f" Allowed: without [{named}], or with input and output exchanged, where the sun drives."
             f" {NOTHING_DONE}"
         )
 

@@ -44,10 +44,14 @@ NOT_HERE = {
     **dict.fromkeys(OF_A_MESH, f"is of one mesh: write it in [stages.NAME.{SUN_MESH}] or [stages.NAME.{RING_MESH}]."),
     **{name: f"is of the whole train: write it as [{name}]." for name in ("friction", "accuracy")},
 }  # fmt: skip
-DYNAMICS = "is not computed with a planetary set yet, which is quasi-static. Leave it out."
+OF_A_SET_ALONE = ("inertia", "damping")
 NOT_WITH_A_SET = {
-    **dict.fromkeys(("inertia", "damping", "shafts", "speed_ramp"), DYNAMICS),
-    "bearings": "is not computed with a planetary set yet. Allowed: floating, and carrier.pin_stiffness of the set.",
+    **dict.fromkeys(("shafts", "speed_ramp"), "is not computed with a planetary set yet. Leave it out."),
+    **dict.fromkeys(
+        OF_A_SET_ALONE, "is computed of a planetary set by itself alone, not beside other stages yet. Leave it out."
+    ),
+    "bearings": "is not of a planetary set. Allowed: floating, carrier.pin_stiffness, and with [inertia]"
+    " support_stiffness of the members in [stages.NAME.vibration].",
 }
 Tree = Mapping[str, Any]
 

@@ -177,8 +177,8 @@ class VibratingMember(VibratingPlanet):
 
 @dataclass(frozen=True, kw_only=True)
 class VibrationText(Section):
-    """``[stages.NAME.vibration]``: lumped members, for the natural frequencies that `gears check` prints; runs are
-    quasi-static. Pins have the `pin_stiffness` of the carrier."""
+    """``[stages.NAME.vibration]``: lumped members, for the natural frequencies that `gears check` prints, and with
+    `[inertia]` for the run. Pins have the `pin_stiffness` of the carrier."""
 
     sun: VibratingMember
     ring: VibratingMember

@@ -103,7 +103,7 @@ def checked_shafts(
             numbered = [BentShaft(name, number_of[own.carries[0]], own) for name, own in sections.items()]
             found = _of_sections(numbered, carried, housing)
             problems += _misplaced(tree, meshes, numbered, found)
-    load = _load(tree, problems)
+    load = load_inertia(tree, problems)
     if graph is not None and on_shafts is not None and motion is not None:
         by_name = NamedShafts(carried, named)
         loads, wrong = loads_of_shafts(on_shafts, tree["load"], by_name, graph)
@@ -112,9 +112,7 @@ def checked_shafts(
         soft |= {each.number for each in found.bent}
         problems += [*wrong, *wrong_speed, *misplaced_loads(loads, tree, by_name, graph, soft)]
         found = replace(found, loads=loads, speed_of=speed_of)
-    damping = _damping(tree, problems)
-    if damping is not None and "inertia" not in tree:
-        problems.append(Problem(("damping",), "", "needs the section [inertia], which is missing. Add it."))
+    damping = damping_of_train(tree, problems)
     moving = any(name in each for each in (tree, *_tables(tree["stages"])) for name in COUPLING)
     # A torque between meshes is one of the equations of motion of all.
     moving |= graph is not None and not (graph.is_chain and {each.shaft for each in found.loads} <= {*graph.outputs})
@@ -234,7 +232,8 @@ def _wrong_twist(shaft: BentShaft, graph: TrainGraph) -> Iterator[Problem]:
         yield Problem(("shafts", shaft.name, "clocking"), f'"{shaft.own.clocking:g} rad"', said)
 
 
-def _load(tree: Mapping[str, Any], problems: list[Problem]) -> float | None:
+def load_inertia(tree: Mapping[str, Any], problems: list[Problem]) -> float | None:
+    """Moment of inertia (N mm s^2) of the load, None where there is none; what is wrong with it is added."""
     inertia = tree.get("inertia")
     if not isinstance(inertia, Mapping) or "load" not in inertia:
         return None
@@ -247,7 +246,8 @@ def _load(tree: Mapping[str, Any], problems: list[Problem]) -> float | None:
     return None if load is None else load.moment_of_inertia
 
 
-def _damping(tree: Mapping[str, Any], problems: list[Problem]) -> Damping | None:
+def damping_of_train(tree: Mapping[str, Any], problems: list[Problem]) -> Damping | None:
+    """The damping of all stages, None where there is none; what is wrong with it is added."""
     written = tree.get("damping")
     if written is None:
         return None
@@ -260,4 +260,6 @@ def _damping(tree: Mapping[str, Any], problems: list[Problem]) -> Damping | None
             problems.append(Problem(("damping", gear), "", said))
     damping, wrong = read_by_itself(Damping, written, ("damping",))
     problems += wrong
+    if damping is not None and "inertia" not in tree:
+        problems.append(Problem(("damping",), "", "needs the section [inertia], which is missing. Add it."))
     return damping

@@ -4,7 +4,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from demos.planetary_sets import sets, wind_turbine
+from demos.planetary_sets import in_time, sets, wind_turbine
 from demos.planetary_sets.picture import picture
 
 from fenics_gears import load_train, simulate_train, train_from_text
@@ -50,6 +50,15 @@ def test_the_gearbox_of_nrel_has_its_ratio_and_torques():
     assert [train.input_torque, *(part.output_torque for part in train.parts)] == pytest.approx(by_hand)
     generator = 12.1 / 60.0 * 75 / 19 * 111 / 18 * 95 / 24
     assert train.meshes[-1].scene.motion.mesh_frequency == pytest.approx(24 * generator)
+
+
+def test_the_set_in_time_has_its_resonances_by_the_phase_law():
+    """17 teeth, three planets: harmonics 1 and 2 push members aside, 3 turns them; the slow set shares evenly."""
+    assert list(in_time.resonances()) == [("translational", 1), ("translational", 2), ("rotational", 3)]
+    found = {frequency: in_time.numbers(simulate_train(in_time.at(frequency, 6))) for frequency in (1.0, 1800.0)}
+    assert found[1.0]["load_sharing_factor"] == pytest.approx(1.0, abs=1e-4)
+    assert found[1800.0]["load_sharing_factor"] > 1.05
+    assert [len(axes.get_lines()) for axes in in_time.picture(found).figure.axes] == [7, 7]
 
 
 @pytest.mark.nightly

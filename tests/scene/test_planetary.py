@@ -1,7 +1,7 @@
 """Planetary sets as scenes: what is read, and mistakes, told before anything is computed."""
 
 import pytest
-from tests.planets import planetary, planetary_text
+from tests.planets import in_time_text, planetary, planetary_text
 
 from fenics_gears import GearsError, train_from_text
 from fenics_gears.model.train import train_model_of
@@ -15,6 +15,15 @@ sun = {LUMPED}
 ring = {LUMPED}
 carrier = {LUMPED}
 planet = {{ mass = "2 kg", moment_of_inertia = "1e-3 kg m^2" }}"""
+
+PINS = 'carrier = { pin_stiffness = "3e5 N/mm" }'
+IN_TIME = planetary_text((20, 16, 52), "planets = 3", more=f"{PINS}\n{VIBRATION}", sections="[inertia]").replace(
+    'support_stiffness = "1e5 N/mm"', 'support_stiffness = "1e5 N/mm", torsional_stiffness = "0 N mm/rad"', 1
+)
+# Of the third member.
+IN_TIME = f"{IN_TIME.replace('[inertia]', '')}\n[inertia]\n".replace(
+    f"carrier = {LUMPED}", f'{f"carrier = {LUMPED}"[:-2]}, torsional_stiffness = "1e9 N mm/rad" }}'
+)
 
 
 @pytest.mark.parametrize(
@@ -76,7 +85,15 @@ planet = {{ mass = "2 kg", moment_of_inertia = "1e-3 kg m^2" }}"""
         (planetary_text().replace("teeth = 18", "teet = 18"), r"set.planet.teet"),
         (planetary_text(more='tip_relief = { depth = "9 um", start = "HPSTC" }'), r"\[stages.set.sun_mesh\]"),
         (planetary_text(more="sun_mesh = { coast_flanks = {} }"), "sun_mesh.coast_flanks.*is not computed in a mesh"),
-        (planetary_text(sections='[inertia]\ndensity = "7.8 g/cm^3"'), "inertia.*\n.*quasi-static"),
+        (planetary_text(sections='[inertia]\ndensity = "7.8 g/cm^3"'), r"density.*\n.*masses are in \[stages.NAME.vib"),
+        (planetary_text(sections="[inertia]"), r"set.vibration\n.*is missing, which \[inertia\] needs"),
+        (planetary_text(sections="[damping]\nratio = 0.1"), r"damping.*\n.*needs the section \[inertia\]"),
+        (IN_TIME, "vibration.carrier.support_stiffness.*\n.*not computed with .inertia. yet"),
+        (IN_TIME, "carrier.torsional_stiffness.*\n.*would take the torque of the output"),
+        (IN_TIME, "sun.torsional_stiffness.*\n.*lets a member turn that is to stand"),
+        (IN_TIME, r"motion.mesh_cycles\n.*is missing, which \[inertia\] needs"),
+        (in_time_text(parts=("ring", "carrier", "sun")), r"inertia where the ring drives .*without \[inertia\]"),
+        (in_time_text(more='helix_angle = "20 deg"'), r"not computed yet of a planetary set over the face"),
         (planetary_text(more=VIBRATION), r"set.carrier.pin_stiffness.*\n.*natural frequencies need the spring"),
         (planetary_text(more=VIBRATION.replace("mass", "weight", 1)), r"vibration.sun.weight"),
         (

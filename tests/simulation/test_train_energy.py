@@ -5,6 +5,7 @@ from functools import reduce
 
 import numpy as np
 import pytest
+from tests.planets import in_time
 from tests.simulation.test_train_motion import BEARINGS, FRICTION, INERTIA, motion, shaft
 from tests.simulation.test_train_shafts import all_bent, cut_in
 from tests.trains import COARSE, bent_two_stages, helical_row, row, row_section, split_text, stage, two_stages
@@ -58,6 +59,12 @@ def several_loads() -> TrainScene:
     return train_from_text(stage("first", 2.0, (20, 30)) + stage("second", 3.0, (20, 40)) + side + load + more)
 
 
+def set_at_speed() -> TrainScene:
+    """A floating sun, and a frame that turns at 200 rad/s."""
+    given = {"more": 'floating = ["sun"]', "pins": ', pin_errors = ["10 um", "0 um", "0 um"]'}
+    return in_time(6900, 2, sections=FRICTION + "[damping]\nratio = 0.04\n", **given)
+
+
 CASES = {
     "idler": (lambda: row([24, 31, 40], [0, 60], 300, more=FRICTION), 1e9),
     "helical idler": (helical_idler, 1e9),
@@ -67,6 +74,7 @@ CASES = {
     "no positions kept": (stages_behind_an_idler, 0.0),
     "clocked paths": (clocked_paths, 1e9),
     "clocked paths that move": (lambda: clocked_paths(MOVING), 1e9),
+    "a planetary set": (set_at_speed, 1e9),
     "shafts that bend": (lambda: bent_two_stages(1.0, MOVING + FRICTION), 1e9),
     "teeth cut into a shaft that bends": (lambda: cut_in(bent_two_stages(1.0, MOVING + FRICTION)), 1e9),
     "paths on shafts that bend": (bent_clocked_paths, 1e9),
