@@ -7,31 +7,30 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .mesh_cycle import Deviation
 from .operator import Position
 from .row import JoinedPosition, RowCycle
+from .run_out import RunOut
 
 
 class GapsOfRows:
-    """Runs on a `row` without offsets and deviations of its own. By mesh the `offsets` (runs, l), mm, and by run the
-    `deviations` of each mesh, as of MeshOfRow; `steps` (0 to `steps` - 1) of the run, after which they repeat. It is
-    `dynamics.batch.OpenedNodes`."""
+    """Runs on a `row` without offsets and run-out of its own. By mesh the `offsets` (runs, l), mm, as of MeshOfRow, and
+    by run the `run_outs` of each mesh; gaps repeat after so many `steps`. It is `dynamics.batch.OpenedNodes`."""
 
     def __init__(
-        self,
-        row: RowCycle,
-        offsets: Sequence[np.ndarray],
-        deviations: Sequence[Sequence[tuple[Deviation, ...]]],
-        steps: int,
+        self, row: RowCycle, offsets: Sequence[np.ndarray], run_outs: Sequence[Sequence[tuple[RunOut, ...]]], steps: int
     ):
         self._row = row
         self._offsets = offsets
-        self._deviations = deviations
+        self._run_outs = run_outs
+        # By mesh, with the number of the run.
+        self._of_meshes = [
+            [(run, each) for run, own in enumerate(of_mesh) for each in own] for of_mesh in zip(*run_outs)
+        ]
         self.steps = steps
 
     def of_steps(self, positions: Sequence[Position]) -> np.ndarray:
         ends = np.cumsum([position.operator.nodes for position in positions])
-        gaps = np.empty((len(self._deviations), ends[-1]))
+        gaps = np.empty((len(self._run_outs), ends[-1]))
         for step, (position, end) in enumerate(zip(positions, ends)):
             self._put(step, position, gaps[:, end - position.operator.nodes : end])
         return gaps
@@ -40,13 +39,13 @@ class GapsOfRows:
         """As of `OpenedNodes`, at places of the first mesh cycle."""
         found = []
         for run, position in asked:
-            gaps = np.empty((len(self._deviations), position.operator.nodes))
+            gaps = np.empty((len(self._run_outs), position.operator.nodes))
             self._put(position.index, position, gaps)
             found.append(gaps[run])
         return np.concatenate(found)
 
     def of(self, run: int) -> RowCycle:
-        return self._row.with_gaps_of([each[run] for each in self._offsets], self._deviations[run])
+        return self._row.with_gaps_of([each[run] for each in self._offsets], self._run_outs[run])
 
     def _put(self, step: float, position: Position, gaps: np.ndarray) -> None:
         """Put the gaps of all runs (runs, n) at a step into place."""
@@ -55,6 +54,8 @@ class GapsOfRows:
             operator = own.operator
             there = gaps[:, first : first + operator.nodes]
             there[:] = operator.gap - self._offsets[number] @ operator.jacobian[: operator.nodes].T
-            for run, deviations in enumerate(self._deviations):
-                for deviation in deviations[number]:
-                    there[run] += operator.face.cosine * deviation(step, own)
+            if self._of_meshes[number]:
+                runs, run_outs = zip(*self._of_meshes[number])
+                motions = np.array([each.motion(step) for each in run_outs])
+                # Of one mesh all have the same rows.
+                there[list(runs)] -= operator.face.cosine * (motions @ run_outs[0].rows(own).T)

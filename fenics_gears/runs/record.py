@@ -94,8 +94,10 @@ def line_of(run: Run, result: RunResult | RunOfTrain | NumbersOfRun) -> dict[str
 
 def record_of_line(line: Mapping[str, Any]) -> RunRecord:
     """The record of a run of which a line is kept: it has no curves."""
-    own = line["numbers"], np.empty(0), {}, line["base_radius"]
-    return RunRecord(*own, warnings=line["warnings"], seconds=tuple(line["seconds"]))
+    said = line["warnings"]
+    return RunRecord(
+        line["numbers"], np.empty(0), {}, line["base_radius"], warnings=said, seconds=tuple(line["seconds"])
+    )
 
 
 def _of_train(run: xr.Dataset | StoredResult) -> RunRecord:

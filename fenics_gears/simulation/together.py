@@ -12,6 +12,7 @@ from fenics_gears.contact.gaps_of_rows import GapsOfRows
 from fenics_gears.contact.mesh_cycle import SHARE_KEPT, SHARE_OF_A_BLOCK, Cycle, Gaps
 from fenics_gears.contact.relief_gaps import Profiles
 from fenics_gears.contact.row import RowCycle
+from fenics_gears.contact.run_out import RunOut
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects import ALONG_THE_FACE, common_period, effects_on
 from fenics_gears.elasticity.cache import user_cache
@@ -22,14 +23,7 @@ from fenics_gears.results.contact_variables import mesh_variables
 from fenics_gears.results.extrema import repeating_steps
 from fenics_gears.results.planetary import OF_SETS, result_of_set
 from fenics_gears.results.side_by_side import SideBySide
-from fenics_gears.results.together import (
-    OFFERED,
-    NumbersOfRun,
-    equations_of,
-    nodes_of,
-    numbers_together,
-    runs_smoothly,
-)
+from fenics_gears.results.together import OFFERED, NumbersOfRun, equations_of, nodes_of, numbers_together, runs_smoothly
 from fenics_gears.system.memory import give_back
 from fenics_gears.system.progress import SilentProgress
 
@@ -46,7 +40,9 @@ def can_be_solved_together(model: Model | TrainModel, asked: Collection[str]) ->
     if not isinstance(model, Model):
         row = model.rows[0]
         by_itself = len(model.rows) == 1 and row.shafts.carrier is not None and set(asked) == OF_SETS
-        return by_itself and not row.over_face and row.drivetrain.mass is None and row.models[0].scene.friction is None
+        steady = row.drivetrain.mass is None and row.models[0].scene.friction is None
+        deviations = (each for own in row.models for each in deviations_of(own))
+        return by_itself and steady and not row.over_face and all(isinstance(each, RunOut) for each in deviations)
     scene = model.scene
     drivetrain = model.drivetrain
     teeth_alike = reliefs_apart(model) and common_period(scene) == 1
@@ -126,9 +122,13 @@ def sets_solved_together(models: Sequence[TrainModel], kept_row: KeptRow) -> lis
 def _gaps_of(rows: Sequence[RowModel], bare: RowCycle) -> GapsOfRows:
     """What opens the flanks of each run: pins beside their places, and gears that run out."""
     offsets = [np.array(of_mesh) for of_mesh in zip(*([offset for _, offset in row.placed] for row in rows))]
-    deviations = [[deviations_of(model) for model in row.models] for row in rows]
-    repeats = bare.steps if not any(map(any, deviations)) else rows[0].steps + 1
-    return GapsOfRows(bare, offsets, deviations, repeats)
+    run_outs = [[_run_outs_of(model) for model in row.models] for row in rows]
+    repeats = bare.steps if not any(map(any, run_outs)) else rows[0].steps + 1
+    return GapsOfRows(bare, offsets, run_outs, repeats)
+
+
+def _run_outs_of(model: Model) -> tuple[RunOut, ...]:
+    return tuple(each for each in deviations_of(model) if isinstance(each, RunOut))
 
 
 def _numbers_of_sets(rows: Sequence[RowModel], cycle: RowCycle, opened: GapsOfRows) -> list[NumbersOfRun | None]:

@@ -13,7 +13,8 @@ class Study:
 
     `combine`: "product" (one dimension for each axis, and one, `sample`, for all that are random) or "zip" (one
     dimension, `case`). `cases`: its runs, the last swept field changes fastest, samples before others. `text` and
-    `scene_text`: the files it was read from. `base_key`: the base scene's hash. `asked`: the numbers that are kept of each run; None for whole results.
+    `scene_text`: the files it was read from. `base_key`: the base scene's hash. `asked`: the
+    numbers that are kept of each run; None for whole results.
     """
 
     name: str

@@ -117,7 +117,8 @@ def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
         message = f'is not known.{did_you_mean(tree["combine"], COMBINATIONS)} Allowed: "product", "zip".'
         mistakes.add(("combine",), as_written(tree["combine"]), message)
     if isinstance(tree.get("keep"), str) and tree["keep"] not in KEPT:
-        message = f'is not known.{did_you_mean(tree["keep"], KEPT)} Allowed: "runs", a file of each; "numbers", no files.'
+        hint = did_you_mean(tree["keep"], KEPT)
+        message = f'is not known.{hint} Allowed: "runs", a file of each case; "numbers", without files.'
         mistakes.add(("keep",), as_written(tree["keep"]), message)
     for key in ("set", "sweep"):
         if key in tree and not isinstance(tree[key], Mapping):
