@@ -186,7 +186,10 @@ def test_studies_sweep_the_clocking_of_a_shaft(gearbox, capsys):
     assert "this is the gear in1.pinion of another stage" in capsys.readouterr().err
 
 
-PINS = 'stages.set.carrier.pin_errors = { distribution = "normal", mean = "0 um", deviation = "10 um", count = 4, seed = 1, entries = 2 }'
+PINS = (
+    'stages.set.carrier.pin_errors = { distribution = "normal", mean = "0 um", deviation = "10 um", count = 4,'
+    " seed = 1, entries = 2 }"
+)
 
 
 @pytest.mark.usefixtures("undrawn")
