@@ -3,8 +3,6 @@ planets with the sun do: it has the operators of that one, with its own numbers 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from .mesh import Mesh
 from .mesh_cycle import Cycle
 from .operator import Position
@@ -37,16 +35,3 @@ class CycleAlike(Cycle):
         cycles = int((index + self._ahead) // self.steps)
         operator = true.operator.changed(pairs=counted_from(-cycles, true.operator.pairs))
         return Position(operator, true.node_before, index, self.mesh.nodes)
-
-
-def order_of_alike(cycles: Sequence[Cycle]) -> tuple[int, list[int]] | None:
-    """After how few steps each of several meshes is where one of them was, and the number of that one for each, as of
-    planets that are equally spaced; None where there are no such steps."""
-    places = [(id(each._like), each._ahead) if isinstance(each, CycleAlike) else (id(each), 0) for each in cycles]
-    steps = cycles[0].steps
-    places = [(like, ahead % steps) for like, ahead in places]
-    for shift in sorted({ahead for _, ahead in places if ahead}):
-        later = [(like, (ahead + shift) % steps) for like, ahead in places]
-        if set(later) == set(places) and len(set(places)) == len(places):
-            return shift, [places.index(each) for each in later]
-    return None

@@ -196,16 +196,6 @@ class Cycle:
         give_back()
         return True
 
-    @property
-    def alike_after(self) -> int:
-        """Steps after which all meshes are where these or others were."""
-        return self.steps
-
-    def earlier_alike(self, step: int) -> tuple[int, np.ndarray] | None:
-        """An earlier step of the same mesh cycle at which other meshes were where these are, and the numbers (n,) that
-        the contact nodes had there; None where there is none."""
-        return None
-
     def pair_number(self, step: int, index: int | np.ndarray):
         """Number of a pair counted through the run: pair `c` reaches the start of contact at the beginning of cycle
         `c`."""

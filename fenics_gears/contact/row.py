@@ -10,12 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
-from functools import cached_property
 from math import floor, lcm
 
 import numpy as np
 
-from .cycle_alike import order_of_alike
 from .idler import Part, RowCompliance
 from .mesh import Mesh
 from .mesh_cycle import Cycle, Deviation, Kept
@@ -191,25 +189,6 @@ class RowCycle(Cycle):
         self, position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
     ) -> StepSolution:
         return solve_step(problem, status)
-
-    @cached_property
-    def _order(self) -> tuple[int, list[int]] | None:
-        return order_of_alike([each.cycle for each in self.meshes])
-
-    @property
-    def alike_after(self) -> int:
-        return self.steps if self._order is None else self._order[0]
-
-    def earlier_alike(self, step: int) -> tuple[int, np.ndarray] | None:
-        if self._order is None:
-            return None
-        shift, others = self._order
-        counts = np.array([own.operator.nodes for own, _ in self._alike(step).of_meshes])
-        earlier = np.empty_like(counts)
-        earlier[others] = counts
-        firsts = np.cumsum(earlier) - earlier
-        nodes = [firsts[other] + np.arange(count) for other, count in zip(others, counts)]
-        return step - shift, np.concatenate(nodes)
 
     def _alike(self, step: int) -> JoinedPosition:
         """All meshes at a step, without what differs from mesh cycle to mesh cycle."""

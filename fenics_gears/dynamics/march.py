@@ -185,8 +185,8 @@ class Marcher:
         # Positions of a block are held together, also those that are not kept.
         most = LONGEST_BLOCK_OF_OWN_SOLVER if self.cycle.traits.own_solver else LONGEST_BLOCK
         if self.cycle.traits.repeats:
-            # The sets of the mesh cycle before, or of other meshes, are known when a block begins.
-            most = min(most, self.cycle.alike_after)
+            # The sets of the mesh cycle before are known when a block begins.
+            most = min(most, cycle)
         longest = int(min(most, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self._bytes, 1.0)))
         length = cycle * (longest // cycle) or ceil(cycle / ceil(cycle / longest))
         left_of_cycle = cycle - (first - 1) % cycle

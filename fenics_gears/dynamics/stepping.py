@@ -75,7 +75,6 @@ class FirstSets:
     """
 
     def __init__(self, cycle: Cycle, friction: float):
-        self._cycle = cycle
         self._steps = cycle.steps
         self._repeats = cycle.traits.repeats
         self._friction = friction
@@ -96,15 +95,7 @@ class FirstSets:
     def before(self, step: float) -> np.ndarray:
         """The sets (n,) of a mesh cycle before `step`, or of another run there; empty where none are known."""
         own = self._own.get(step - self._steps)
-        if own is None:
-            own = self._others.get(step % self._steps)
-        return self._of_other_meshes(step) if own is None else own
-
-    def _of_other_meshes(self, step: float) -> np.ndarray:
-        """The sets (n,) that other meshes had where these are now."""
-        found = self._cycle.earlier_alike(int(step)) if self._own and step == int(step) else None
-        sets = None if found is None else self._own.get(found[0])
-        return NO_SETS if sets is None else sets[found[1]]
+        return self._others.get(step % self._steps, NO_SETS) if own is None else own
 
     def before_all(self, steps: Sequence[float], nodes: np.ndarray) -> np.ndarray:
         """The sets (N,) before some steps with so many `nodes`, -1 where they are not known; none where none are

@@ -23,18 +23,6 @@ def test_helical_planets_in_phase_share_evenly():
     np.testing.assert_allclose(torques, np.tile(600e3 * np.array([1.0, 3.0, -4.0]), (len(torques), 1)), rtol=1e-9)
 
 
-def test_planets_begin_with_the_sets_of_those_before_them():
-    """Symmetry: a third of a mesh cycle later each planet is where another one was and carries what that one did. Its
-    sets are known, and one iteration finds them right."""
-    accuracy = COARSEST.replace("steps_per_mesh_cycle = 3", "steps_per_mesh_cycle = 6")
-    found = simulate_train(planetary(teeth=(17, 19, 55), planets="planets = 3", more=HELICAL, accuracy=accuracy))
-    forces = found["normal_force"].values
-    for kind in range(2):
-        own = np.sort(forces[:, kind::2], axis=1)
-        np.testing.assert_allclose(own[2:], own[:-2], rtol=1e-10)
-    assert (found["newton_iterations"].values[2:] == 1).all()
-
-
 @pytest.mark.nightly
 def test_the_mirror_image_of_a_helical_set_shares_as_the_set():
     """With the other hand the same planets carry the same: the set seen in a mirror across its axis."""
