@@ -85,6 +85,7 @@ class Profiles:
         self._removals = removals
         self._openings = openings
         self._facing = _facing_points(cycle)
+        self.steps = cycle.steps
 
     def of_steps(self, positions: Sequence[Position]) -> np.ndarray:
         """Gaps (runs, n), mm along the normal, at all steps of the mesh cycle, one after the other."""

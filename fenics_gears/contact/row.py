@@ -107,6 +107,7 @@ class RowCycle(Cycle):
         self._joined: dict[float, JoinedPosition] = {}
         # Of the steps that were built last, for which there may be no room.
         self._around: dict[int, JoinedPosition] = {}
+        self._keeps = True
 
     @property
     def meshes(self) -> list[MeshOfRow]:
@@ -139,12 +140,14 @@ class RowCycle(Cycle):
         return other
 
     def share(self, memory: float, once: bool = False) -> None:
-        """Let operators take so many bytes, those of single meshes among them; those of all meshes none where each
-        position of them is passed `once`. Meshes and rows within it pass theirs more often."""
+        """Let operators take so many bytes, those of single meshes among them; those of all meshes are held
+        for a block of steps alone where each position of them is passed `once`. Meshes and rows within it pass theirs
+        more often."""
         count = len(self._members)
         # Operators grow with the square of their nodes, and those of all meshes have count times as many; how these
         # feel each other takes as much as each by itself.
-        self.kept = Kept(0.0 if once else memory * count / (count + 2))
+        self.kept = Kept(memory * count / (count + 2))
+        self._keeps = not once
         self._compliance.kept = Kept(memory / (count + 2))
         for each in self._members:
             own = memory / (count * (count + 2))
@@ -203,7 +206,7 @@ class RowCycle(Cycle):
     def _joined_at(self, step: int) -> JoinedPosition:
         """All meshes at a step of the mesh cycle, kept if there is room."""
         position = self._at(step, step - 1)
-        if self.kept.takes(position.bytes):
+        if self._keeps and self.kept.takes(position.bytes):
             self._joined[step] = position
         return position
 

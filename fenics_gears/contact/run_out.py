@@ -29,14 +29,18 @@ class RunOut:
         self._steps = steps
         each = zip(pair.sides, eccentricity.of_gears, pair.face_widths)
         self._gears = [(side, offset, width) for side, offset, width in each if offset is not None]
-        self._rows = PerPosition(_rows)
+        self.rows = PerPosition(_rows)
 
     def __call__(self, step: float, position: Position) -> np.ndarray:
         """The additional gaps (n,), mm, positive when they open."""
+        return -self.rows(position) @ self.motion(step)
+
+    def motion(self, step: float) -> np.ndarray:
+        """How both gears' teeth stand beside their axes (13,); `rows` (n, 13) at a position say what that closes."""
         motion = np.zeros(len(COORDINATES))
         for side, offset, width in self._gears:
             motion[COLUMNS[side.number]] = run_out(side, offset, width, step / self._steps)
-        return -self._rows(position) @ motion
+        return motion
 
 
 def run_out(side: Side, offset: Offset, width: float, cycles: float) -> list[float]:

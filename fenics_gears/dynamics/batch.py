@@ -25,8 +25,12 @@ RIGID_SLIP = ROW.names.index("rigid_slip")
 class OpenedNodes(Protocol):
     """What opens the contact nodes of each run."""
 
+    @property
+    def steps(self) -> int:
+        """After how many steps they repeat: a mesh cycle, or all of a run."""
+
     def of_steps(self, positions: Sequence[Position]) -> np.ndarray:
-        """Gaps (runs, n), mm, at all steps of a mesh cycle, one after the other."""
+        """Gaps (runs, n), mm, at all of these steps, one after the other."""
 
     def at(self, asked: Sequence[tuple[int, Position]]) -> np.ndarray:
         """Gaps (n,), mm, of runs at a position each, one after the other."""
@@ -63,8 +67,8 @@ class Batch:
             self._open(opened)
 
     def _open(self, opened: OpenedNodes) -> None:
-        """The positions of a mesh cycle, and the rows (runs, steps, r) of their operators with each run's gaps."""
-        self._positions = self._at(range(self.cycle.steps))
+        """The positions until gaps repeat, and the rows (runs, steps, r) of their operators with each run's gaps."""
+        self._positions = self._at(range(opened.steps))
         self._gaps = opened.of_steps(self._positions)
         table = table_of(self._positions)
         self._ends = np.cumsum(table[:, NODES])
@@ -172,13 +176,13 @@ class Batch:
 
     def _rows_of(self, steps: Sequence[int], positions: list[Position]) -> np.ndarray:
         """The rows (runs, s, r) of the operators at the positions of some steps, with the gaps of each run."""
-        return table_of(positions)[None] if self.opened is None else self._rows[:, np.array(steps) % self.cycle.steps]
+        return table_of(positions)[None] if self.opened is None else self._rows[:, np.array(steps) % self.opened.steps]
 
     def _opened(self, run: int, step: int, position: Position) -> Position:
         """The position at a step with the gaps of a run."""
         if self.opened is None:
             return position
-        end = self._ends[step % self.cycle.steps]
+        end = self._ends[step % self.opened.steps]
         return position.with_gap(self._gaps[run, end - position.operator.nodes : end])
 
 

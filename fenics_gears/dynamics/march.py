@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
-from functools import cache
+from functools import cache, cached_property
 from math import ceil
 from typing import TypeVar
 
@@ -187,10 +187,15 @@ class Marcher:
         if self.cycle.traits.repeats:
             # The sets of the mesh cycle before are known when a block begins.
             most = min(most, cycle)
-        longest = int(min(most, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self.cycle.position(0).bytes, 1.0)))
+        longest = int(min(most, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self._bytes, 1.0)))
         length = cycle * (longest // cycle) or ceil(cycle / ceil(cycle / longest))
         left_of_cycle = cycle - (first - 1) % cycle
         return min(first + (length if length >= cycle else min(length, left_of_cycle)), steps + 1)
+
+    @cached_property
+    def _bytes(self) -> int:
+        """Of a position, which may have to be built for this."""
+        return self.cycle.position(0).bytes
 
     def _block(self, lasts: dict[int, Record], numbers: range, take: Take, report: Report) -> dict[int, Record]:
         """Solve the steps `numbers` of each run from its last one; those before a failure or Ctrl-C are taken too. With

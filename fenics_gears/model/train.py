@@ -28,7 +28,7 @@ from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.scene.data import Load, Motion
+from fenics_gears.scene.data import Load, Motion, Scene
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_mesh import MeshOfScene, OfMeshes, rows_of
 from fenics_gears.scene.train_shafts import TrainShafts
@@ -298,7 +298,8 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
     """Meshes that move together, their cycles divided into steps of one length in time; `recorded_cycles` as of
     TrainScene."""
     check_supports(meshes)
-    models = [model_of_mesh(mesh, mesh.scene) for mesh in meshes]
+    known: list[tuple[Scene, Model]] = []
+    models = [model_of_mesh(mesh, mesh.scene, known) for mesh in meshes]
     if shafts.carrier is not None:
         models = [coarser(mesh, model) for mesh, model in zip(meshes, models)]
     steps = whole_steps(meshes, [model.resolution.steps_per_mesh_cycle for model in models])
@@ -316,7 +317,7 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
             if shafts.carrier is not None:
                 torque = largest_torque(mesh.scene.load.wheel_torque, torque)
             alone = replace(mesh.scene, accuracy=accuracy, load=Load(torque), inertia=None)
-            wide = model_of_mesh(mesh, alone).resolution.contact_grid.length
+            wide = model_of_mesh(mesh, alone, known).resolution.contact_grid.length
             if shafts.carrier is not None:
                 accuracy = with_own_nodes(accuracy, models[number], wide)
             accuracy = replace(accuracy, contact_length=wide)
@@ -324,7 +325,8 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
         recorded = min(ceil(recorded_cycles * max(steps) / own), passed)
         motion = Motion(mesh.scene.motion.mesh_frequency, passed, recorded, True, mesh.scene.motion.speed_given)
         # Masses are of the whole train.
-        model = model_of_mesh(mesh, replace(mesh.scene, accuracy=accuracy, motion=motion, inertia=None))
+        whole = replace(mesh.scene, accuracy=accuracy, motion=motion, inertia=None)
+        model = model_of_mesh(mesh, whole, known)
         names = coordinates_of_mesh(parts, number) + (() if bent is None else bent.names_in(number))
         supports = [parts.support(gear) for gear in parts.gears[number]]
         seats = () if bent is None else bent.seats_in(number)

@@ -182,10 +182,16 @@ def check_supports(meshes: Sequence[MeshOfScene]) -> None:
             )
 
 
-def model_of_mesh(mesh: MeshOfScene, scene: Scene) -> Model:
-    """As `model_of`, of a mesh with such a scene; what is wrong with shafts is said with their names in the train."""
+def model_of_mesh(mesh: MeshOfScene, scene: Scene, known: list[tuple[Scene, Model]]) -> Model:
+    """As `model_of`, of a mesh with such a scene, from those `known` where the meshes of other planets have the same;
+    what is wrong with shafts is said with their names in the train."""
+    found = next((model for other, model in known if other == scene), None)
+    if found is not None:
+        return found
     try:
-        return model_of(scene)
+        found = model_of(scene)
+        known.append((scene, found))
+        return found
     except SceneError as error:
         if not mesh.bent and mesh.of_set is None:
             raise

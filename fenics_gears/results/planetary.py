@@ -28,6 +28,8 @@ LARGEST_OF_SETS = {
     "load_sharing_factor_ring": ("1", "K_gamma of the ring's meshes"),
     "largest_pin_force": ("N", "largest force of a planet on its pin"),
 }
+# Those that sets have where nothing else of them is asked for.
+OF_SETS = {*LARGEST_OF_SETS, f"mean_{OVERALL}", f"peak_to_peak_{OVERALL}"}
 NUMBERS_OF_SETS = {
     **LARGEST_OF_SETS,
     f"mean_{OVERALL}": ("rad", "lag of the output behind the input, mean"),

@@ -18,6 +18,7 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.model.model import Model
+from fenics_gears.model.train import RowModel
 
 from .contact_variables import energy_variables, node_variables, normal_forces, pair_variables, work_variables
 from .dataset import friction_loss, numbers_of_curves
@@ -63,7 +64,7 @@ def numbers_together(
     be run by itself."""
     begun = time.perf_counter()
     model = models[0]
-    marcher = Marcher(cycle, *_equations(models), opened=opened)
+    marcher = Marcher(cycle, *equations_of(models), opened=opened)
     marches = marcher.together(model.steps, repeating_steps(model))
     if any(march.interrupted for march in marches):
         raise KeyboardInterrupt
@@ -96,7 +97,7 @@ def numbers_together(
     return of_runs
 
 
-def _equations(models: Sequence[Model]) -> list:
+def equations_of(models: Sequence[Model | RowModel]) -> list:
     """What each run solves for, made once for runs with the same load: they are alike in all else."""
     equations = []
     known = {}
@@ -113,9 +114,14 @@ def _error(model: Model, march: March) -> np.ndarray:
     return model.transmission_error(march.latest.states[:, 0])
 
 
+def runs_smoothly(march: March) -> bool:
+    """Whether flanks touch at every step, and none was divided."""
+    return not (march.separations or march.steps_by_method[HALVED])
+
+
 def _is_as_expected(model: Model, march: March) -> bool:
     """Whether the result of a march would have no warning."""
-    if march.separations or march.steps_by_method[HALVED]:
+    if not runs_smoothly(march):
         return False
     return bool(np.abs(_error(model, march)).max() <= abs(model.pair.wheel.angular_pitch))
 
@@ -134,7 +140,7 @@ def _curves(
     over_face = not set(OVER_FACE).isdisjoint(asked)
     for run, march in marches:
         steps = march.latest
-        nodes = _nodes(cycle, steps) if nodes is None else nodes.with_forces(steps)
+        nodes = nodes_of(cycle, steps) if nodes is None else nodes.with_forces(steps)
         curves = common | {"transmission_error": _error(model, march)} | _of_nodes(models[run], cycle, nodes, asked)
         of_runs.append(curves)
         factors.append(_load_factors(models[run], nodes, curves, first) if over_face else {})
@@ -146,7 +152,8 @@ def _load_factors(model: Model, nodes: SideBySide, curves: Curves, first: int) -
     return AlongTheFace(nodes.cycle).numbers_of_curves(curves | of_pairs, nodes, first, model.contact_steps)
 
 
-def _nodes(cycle: Cycle, steps: Steps) -> SideBySide:
+def nodes_of(cycle: Cycle, steps: Steps) -> SideBySide:
+    """Contact nodes of the steps of a run on a cycle."""
     ways = cycle.shared(KnownTouching).of(cycle)
     return SideBySide(cycle.shared(KnownLayouts), cycle, steps, ways.slots, 1 + ways.latest)
 

@@ -1,7 +1,11 @@
 """What is kept of a run in memory: its numbers, curves and warnings."""
 
+from __future__ import annotations
+
 from collections import ChainMap
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -15,6 +19,14 @@ from fenics_gears.results.path_shares import OF_SHARES
 from fenics_gears.results.planetary import LARGEST_OF_SETS
 from fenics_gears.results.settled import settled_steps
 from fenics_gears.results.stored import StoredResult
+
+from .spent import seconds_of
+
+if TYPE_CHECKING:
+    from fenics_gears.results.together import NumbersOfRun
+
+    from .run import Run
+    from .train import RunOfTrain
 
 # Units and long name of each number that every record has.
 NUMBERS = {
@@ -34,6 +46,7 @@ OF_TRAINS = {
     "mean_overall_transmission_error": ("rad", "overall transmission error, mean"),
     **{name: NUMBERS[name] for name in ("newton_iterations", "wall_time")},
 }
+TRAIN_ERROR = f"peak_to_peak_{OVERALL}"
 # Of trains with friction.
 OF_LOSS = ("friction_loss",)
 # Curves of the last cycles, taken where a run has them.
@@ -51,6 +64,7 @@ class RunRecord:
     of the run. `mesh_phase` (steps,): mesh cycles since the first recorded step. `base_radius`: of the wheel, mm.
     `labels`: units and long name of each curve. `seconds`: as in `spent.seconds_of`, of a run that was computed here.
 
+    `of_train`: whether it is a train's.
     Of a train, numbers and curves are those of the whole, mesh cycles those of its first mesh, and `of_meshes` has by
     name what pairs have as numbers, for each of the `meshes`.
     """
@@ -64,6 +78,26 @@ class RunRecord:
     seconds: tuple[float, ...] = ()
     meshes: tuple[str, ...] = ()
     of_meshes: dict[str, np.ndarray] = field(default_factory=dict)
+
+    @property
+    def of_train(self) -> bool:
+        return TRAIN_ERROR in self.numbers
+
+
+def line_of(run: Run, result: RunResult | RunOfTrain | NumbersOfRun) -> dict[str, Any]:
+    """What is kept of a run whose numbers alone are kept, for `record_of_line`."""
+    said = result.attrs
+    numbers = train_numbers_of(result) if TRAIN_ERROR in said else numbers_of(result)  # type: ignore[arg-type]
+    others = {"warnings": said.get("warnings", ""), "base_radius": said.get("base_radius_wheel", np.nan)}
+    return {"numbers": numbers, "seconds": seconds_of(result), **others}  # type: ignore[arg-type]
+
+
+def record_of_line(line: Mapping[str, Any]) -> RunRecord:
+    """The record of a run of which a line is kept: it has no curves."""
+    said = line["warnings"]
+    return RunRecord(
+        line["numbers"], np.empty(0), {}, line["base_radius"], warnings=said, seconds=tuple(line["seconds"])
+    )
 
 
 def _of_train(run: xr.Dataset | StoredResult) -> RunRecord:

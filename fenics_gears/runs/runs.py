@@ -14,7 +14,7 @@ from fenics_gears.errors import GearsError
 from fenics_gears.model.model import Model
 from fenics_gears.model.train import TrainModel
 from fenics_gears.results.dataset import RunResult
-from fenics_gears.simulation.together import alike, can_be_solved_together, solved_together
+from fenics_gears.simulation.together import alike, can_be_solved_together, sets_solved_together, solved_together
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.system.progress import Progress
 
@@ -182,19 +182,24 @@ def _computed(model: Model | TrainModel, progress: Progress) -> RunResult | RunO
 
 def _together(runs: Sequence[Run], asked: Collection[str]) -> dict[str, Any]:
     """The numbers of those runs that can be solved together, by their keys."""
-    groups: list[list[tuple[str, Model]]] = []
+    groups: list[list[tuple[str, Any]]] = []
     for run in runs:
         model = run.model
         group = next((each for each in groups if alike(each[0][1], model)), None)
         if group is not None:
             group.append((run.key, model))
-        elif isinstance(model, Model) and can_be_solved_together(model, asked):
+        elif can_be_solved_together(model, asked):
             groups.append([(run.key, model)])
     by_key: dict[str, Any] = {}
     for group in groups:
         # What fails together fails by itself, or does not.
         with contextlib.suppress(GearsError):
-            results = solved_together([model for _, model in group], own_gear_store().prepared, asked)
+            models = [model for _, model in group]
+            store = own_gear_store()
+            pairs = isinstance(models[0], Model)
+            results = (
+                solved_together(models, store.prepared, asked) if pairs else sets_solved_together(models, store.row)
+            )
             by_key |= {key: result for (key, _), result in zip(group, results)}
     return by_key
 

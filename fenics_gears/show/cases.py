@@ -116,6 +116,11 @@ class Cases:
         """Whether the cases are trains."""
         return OF_THE_WHOLE in self.dataset
 
+    @property
+    def meshes(self) -> list[str]:
+        """Names of the meshes of trains; none where numbers of the whole alone are kept."""
+        return [str(each) for each in self.dataset["mesh"].values] if "mesh" in self.dataset else []
+
     def texts(self, name: str) -> list[str]:
         """A text of each case, empty where there is none."""
         return [str(each) for each in self.dataset[name].values.ravel()]
@@ -123,7 +128,7 @@ class Cases:
     @cached_property
     def states(self) -> list[str]:
         """The state of each case: one of `STATES`."""
-        done = np.isfinite(self.numbers(PEAK_TO_PEAK))
+        done = np.isfinite(self.numbers(OF_THE_WHOLE if self.of_trains else PEAK_TO_PEAK))
         failed = self.dataset["failed"].values.ravel()
         return [
             STATES[1] if ready and said else STATES[0] if ready else STATES[2] if wrong else STATES[3]
@@ -216,7 +221,7 @@ class Cases:
         ):
             if factor_of_set in self.dataset:
                 found[factor_of_set] = (self.numbers(factor_of_set), "", words)
-        for mesh, places in kinds_of_meshes([str(each) for each in self.dataset["mesh"].values]).items():
+        for mesh, places in kinds_of_meshes(self.meshes).items():
             values = self.dataset[PEAK_TO_PEAK].isel(mesh=places).max("mesh").values.ravel() * scale
             name = f"{PEAK_TO_PEAK}_{re.sub(r'[^A-Za-z0-9-]+', '_', mesh)}"
             found[name] = (values, unit, f"Transmission error, peak to peak{OF_MESH}{mesh}")

@@ -48,12 +48,7 @@ def solved_row(
 ) -> list[MeshResult]:
     """All meshes of a row together. `kept_row`: keeps its contact equations, or makes them. Errors are those of
     `runs.train.simulate_train`."""
-    for_operators = memory_for_operators(row_cost(row), partial(row_too_large, row))
-    compile_loops(progress)
-    with writing_meanwhile(cache or user_cache()) as kept:
-        once = kept_row is None and row.passes_once
-        make = partial(_cycle_with_room, row, (for_operators, once), progress, kept)
-        cycle = make() if kept_row is None else kept_row(row, make)
+    cycle = cycle_of_row(row, progress, cache, kept_row)
     progress.stage("compile")
     compile_kernels(cycle.tangential, False)
     result = RowResult(row, [Recorder(each, mesh.cycle) for each, mesh in zip(row.models, cycle.meshes)])
@@ -66,6 +61,18 @@ def solved_row(
     if march.interrupted:
         raise KeyboardInterrupt
     return result.of_meshes(march)
+
+
+def cycle_of_row(
+    row: RowModel, progress: Progress, cache: Cache | None = None, kept_row: KeptRow | None = None
+) -> RowCycle:
+    """The contact equations of a row with its gaps, kept or made, in the memory that is left."""
+    for_operators = memory_for_operators(row_cost(row), partial(row_too_large, row))
+    compile_loops(progress)
+    with writing_meanwhile(cache or user_cache()) as kept:
+        once = kept_row is None and row.passes_once
+        make = partial(_cycle_with_room, row, (for_operators, once), progress, kept)
+        return make() if kept_row is None else kept_row(row, make)
 
 
 def _cycle_with_room(row: RowModel, room: tuple[float, bool], progress: Progress, cache: Cache) -> RowCycle:

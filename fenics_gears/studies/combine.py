@@ -62,7 +62,7 @@ def _variables(
     study: Study, records: Mapping[int, RunRecord], failures: Mapping[int, str]
 ) -> dict[str, tuple[Mapping, Any, dict]]:
     """By name the values of the cases that have one, what stands for the others, and the attributes."""
-    of_trains = any(record.meshes for record in records.values())
+    of_trains = any(record.of_train for record in records.values())
     known = {name for each in records.values() for name in each.numbers}
     of_sets = {name: said for name, said in LARGEST_OF_SETS.items() if name in known}
     numbers = (OF_TRAINS if of_trains else NUMBERS) | of_sets | _studied(known)
@@ -80,7 +80,7 @@ def _variables(
         "meaningless": (without_meaning, 0, {"units": "1", "long_name": "whether the case's result has no meaning"}),
         "failure": (failures, "", {"long_name": "why the case failed"}),
         "warnings": ({i: each.warnings for i, each in records.items()}, "", {"long_name": "warnings of the run"}),
-        "case_file": ({i: f"cases/{study.cases[i].name}.nc" for i in records}, "", {"long_name": "file of the case"}),
+        "case_file": ({i: study.file_of(i) for i in records}, "", {"long_name": "file of the case"}),
     }
 
 
@@ -117,10 +117,8 @@ def save_study(dataset: xr.Dataset, directory: Path) -> Path:
 def load_combined(path: Path) -> xr.Dataset:
     """Read a study's dataset into memory. Raises ComputationError when the file is none of this program, or damaged."""
     result = read(path)
-    if "peak_to_peak_transmission_error" not in result or "study" not in result.attrs:
-        raise ComputationError(
-            f"{path}: holds no study of this program (no peak_to_peak_transmission_error, no study text)"
-        )
+    if "failed" not in result or "study" not in result.attrs:
+        raise ComputationError(f"{path}: holds no study of this program (no variable `failed`, no study text)")
     return result
 
 
@@ -136,6 +134,8 @@ def _curves(study: Study, records: Mapping[int, RunRecord]) -> tuple[dict[str, t
     """The curves that some case has, over the study's dimensions and the mesh phase; or why there are none."""
     if not records:
         return {}, "none: no case has a result"
+    if study.asked is not None:
+        return {}, "none: the numbers alone are kept"
     phase = next(iter(records.values())).mesh_phase
     if any(
         len(each.mesh_phase) != len(phase) or not np.allclose(each.mesh_phase, phase, rtol=0, atol=1e-9)

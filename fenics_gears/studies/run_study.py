@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.runs.folder import Folder, sole_writer
-from fenics_gears.runs.record import RunRecord
+from fenics_gears.runs.lines import FolderOfLines
+from fenics_gears.runs.record import RunRecord, line_of, record_of_line
 from fenics_gears.runs.run import Run
 from fenics_gears.runs.runs import Failure, Runs
 from fenics_gears.runs.spent import Spent
@@ -67,7 +68,9 @@ def run_with(
     where something is, and return None. Raises ComputationError where the directory cannot be used."""
     check_writable(directory, STUDY_FILE, INDEX)
     with sole_writer(directory):
-        runs = Runs(Folder(directory / "cases"), team, study.cases)
+        cases = directory / "cases"
+        store = Folder(cases) if study.asked is None else FolderOfLines(cases, line_of, study.asked)
+        runs = Runs(store, team, study.cases)
         if only_kept and runs.missing(study.cases):
             return None
         return _run(runs, study, directory, progress, quiet)
@@ -91,7 +94,7 @@ def _run(runs: Runs, study: Study, directory: Path, progress: Progress, quiet: b
             if isinstance(known, Failure):
                 outcome.failures[case.index] = str(known)
             elif known is not None:
-                outcome.records[case.index] = known
+                outcome.records[case.index] = known if isinstance(known, RunRecord) else record_of_line(known)
         outcome.file = save_study(combined(study, outcome.records, outcome.failures), directory)
     return outcome
 

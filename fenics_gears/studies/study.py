@@ -13,7 +13,8 @@ class Study:
 
     `combine`: "product" (one dimension for each axis, and one, `sample`, for all that are random) or "zip" (one
     dimension, `case`). `cases`: its runs, the last swept field changes fastest, samples before others. `text` and
-    `scene_text`: the files it was read from. `base_key`: the base scene's hash.
+    `scene_text`: the files it was read from. `base_key`: the base scene's hash. `asked`: the
+    numbers that are kept of each run; None for whole results.
     """
 
     name: str
@@ -24,6 +25,11 @@ class Study:
     text: str
     scene_text: str
     base_key: str
+    asked: tuple[str, ...] | None = None
+
+    def file_of(self, case: int) -> str:
+        """The file of a case's run, from the study's folder on; empty where numbers alone are kept."""
+        return f"cases/{self.cases[case].name}.nc" if self.asked is None else ""
 
     @property
     def dimensions(self) -> tuple[str, ...]:

@@ -10,9 +10,13 @@ from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import Problem, counted, did_you_mean, line_numbers
 from fenics_gears.inputs.tree import value_at
 from fenics_gears.inputs.written import as_written
+from fenics_gears.results.planetary import OF_SETS
+from fenics_gears.runs.record import TRAIN_ERROR
 from fenics_gears.runs.run import Run, run_of, scene_key
+from fenics_gears.scene.data import Scene
 from fenics_gears.scene.parsing import is_train, name_of, parsed, text_of
 from fenics_gears.scene.read import load_scene_or_train
+from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_pair import STAGES
 
 from . import fields
@@ -21,8 +25,11 @@ from .random_values import is_random, sampled
 from .scenes import NoScene, SceneChanges, Scenes
 from .study import Study
 
-KEYS = ("title", "scene", "combine", "without", "set", "sweep")
+KEYS = ("title", "scene", "combine", "keep", "without", "set", "sweep")
 COMBINATIONS = ("product", "zip")
+KEPT = ("runs", "numbers")
+# What is asked for where numbers alone are kept, of pairs and of trains.
+OF_PAIRS = ("peak_to_peak_transmission_error", "max_normal_force")
 MOST_CASES = 100_000
 # Names of the combined dataset's own variables.
 TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear", "mesh", "quantile", SAMPLE}
@@ -83,7 +90,14 @@ def study_of(
     axes = changes.axes
     cases = _cases(Scenes(name, scene_file.parent, changes, scene_tree), changes, mistakes)
     mistakes.check()
-    return Study(name, tree.get("title", name), combine, axes, cases, text, base.text, scene_key(base))
+    asked = None
+    if tree.get("keep") == "numbers":
+        asked = tuple(sorted(OF_SETS)) if _has_sets(base) else (TRAIN_ERROR,) if is_train(scene_tree) else OF_PAIRS
+    return Study(name, tree.get("title", name), combine, axes, cases, text, base.text, scene_key(base), asked)
+
+
+def _has_sets(base: Scene | TrainScene) -> bool:
+    return isinstance(base, TrainScene) and any(part.shafts.carrier is not None for part in base.parts)
 
 
 def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
@@ -93,7 +107,7 @@ def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
             if not hint and (key,) in fields.known_paths():
                 hint = " A field of the scene belongs below [set], or below [sweep] with a list of values."
             mistakes.add((key,), as_written(value), f"is not known in a study.{hint} Known: {', '.join(KEYS)}.")
-    for key in ("title", "scene", "combine"):
+    for key in ("title", "scene", "combine", "keep"):
         if key in tree and not isinstance(tree[key], str):
             mistakes.add((key,), as_written(tree[key]), "is not a text.")
     if "scene" not in tree:
@@ -102,6 +116,10 @@ def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
     if isinstance(tree.get("combine"), str) and tree["combine"] not in COMBINATIONS:
         message = f'is not known.{did_you_mean(tree["combine"], COMBINATIONS)} Allowed: "product", "zip".'
         mistakes.add(("combine",), as_written(tree["combine"]), message)
+    if isinstance(tree.get("keep"), str) and tree["keep"] not in KEPT:
+        hint = did_you_mean(tree["keep"], KEPT)
+        message = f'is not known.{hint} Allowed: "runs", a file of each case; "numbers", without files.'
+        mistakes.add(("keep",), as_written(tree["keep"]), message)
     for key in ("set", "sweep"):
         if key in tree and not isinstance(tree[key], Mapping):
             message = f"is not a section. Write a line [{key}], and below it fields of the scene."

@@ -32,7 +32,7 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
 def _transmission_errors(outcome: Outcome) -> tuple[str, str, str]:
     """Smallest and largest of all cases, as lengths at the wheel's base circle and as angles of the wheel; of trains
     as angles of the last shaft."""
-    overall = [each.numbers[PEAK_TO_PEAK] for each in outcome.records.values() if each.meshes]
+    overall = [each.numbers[PEAK_TO_PEAK] for each in outcome.records.values() if each.of_train]
     if overall:
         said = f"{in_microradians(min(overall))} to {in_microradians(max(overall))}"
         return "overall transmission error, peak to peak", said, "urad"
@@ -53,7 +53,11 @@ def last_words(outcome: Outcome, again: str = "the study") -> str:
             " Why, and their scenes:"
         )
         shown = list(outcome.failures)[:MOST_FAILURES]
-        lines += [f"  {outcome.file.parent / 'cases' / outcome.study.cases[index].name}.failed.txt" for index in shown]
+        if outcome.study.asked is None:
+            folder = outcome.file.parent / "cases"
+            lines += [f"  {folder / outcome.study.cases[index].name}.failed.txt" for index in shown]
+        else:
+            lines += [f"  {outcome.study.cases[index]}: {outcome.failures[index]}" for index in shown]
         lines += ["  ..."] if len(outcome.failures) > MOST_FAILURES else []
     if outcome.interrupted:
         missing = len(outcome.study.cases) - len(outcome.records)

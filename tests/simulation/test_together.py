@@ -8,8 +8,9 @@ import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 from tests.hard_cases.invariants import cycle_of
 from tests.helical import CROWNED, FRICTION, helical_scene, on_stand_in_bodies
+from tests.planets import COARSE, planetary_text
 
-from fenics_gears import model_of
+from fenics_gears import model_of, simulate_train, train_from_text
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -21,14 +22,16 @@ from fenics_gears.geometry.lead_modification import LeadModification, LeadModifi
 from fenics_gears.geometry.misalignment import Misalignment
 from fenics_gears.geometry.profile_modification import ProfileModification, ProfileModifications
 from fenics_gears.geometry.relief import Relief
+from fenics_gears.model.train import train_model_of
+from fenics_gears.results.planetary import OF_SETS
 from fenics_gears.results.together import ERROR, OFFERED, OVER_FACE
 from fenics_gears.runs.common_windows import CommonWindows
-from fenics_gears.runs.gear_store import operators_key
+from fenics_gears.runs.gear_store import GearStore, operators_key
 from fenics_gears.runs.one_run import completed
 from fenics_gears.scene.data import Load
 from fenics_gears.simulation import together
 from fenics_gears.simulation.elastic_route import gaps_of
-from fenics_gears.simulation.together import alike, can_be_solved_together, solved_together
+from fenics_gears.simulation.together import alike, can_be_solved_together, sets_solved_together, solved_together
 
 # What a run by itself counts differently: how long it took and how often Newton's method was applied, by the sets that
 # the runs before it left.
@@ -207,3 +210,24 @@ def test_what_ends_all_marches_is_raised(paper_scene, stand_in_flanks, monkeypat
     monkeypatch.setattr(Block, "solve", ended)
     with pytest.raises(told):
         solved_together(models, sharing(scene, stand_in_flanks), [ERROR])
+
+
+def test_sets_together_have_the_numbers_of_sets_alone():
+    """Identity, to round-off: pins beside their places, a sun that runs out, another torque."""
+    texts = [
+        planetary_text(
+            more=f'carrier.pin_errors = ["{pin} um", "-5 um"]\neccentricity.sun.distance = "{out} um"',
+            accuracy=f'{COARSE}\ncontact_length = "4 mm"\ncontact_nodes = 20',
+            load=f'input_torque = "{torque} N m"',
+            sections='[motion]\ninput_speed = "1500 rpm"\nmesh_cycles = 3',
+        )
+        for pin, out, torque in ((10, 5, 600), (25, 8, 600), (25, 5, 610))
+    ]
+    models = [train_model_of(train_from_text(text)) for text in texts]
+    assert all(can_be_solved_together(model, OF_SETS) for model in models)
+    assert all(alike(models[0], model) for model in models)
+    for numbers, model in zip(sets_solved_together(models, GearStore().row), models):
+        alone = simulate_train(model).attrs
+        assert {name: numbers.attrs[name] for name in OF_SETS} == pytest.approx(
+            {name: alone[name] for name in OF_SETS}, rel=1e-12
+        )

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.planets import planetary_text
 from tests.programs import gears
 from tests.studies.conftest import stamps
 from tests.trains import COARSE, split_text, stage
@@ -183,3 +184,37 @@ def test_studies_sweep_the_clocking_of_a_shaft(gearbox, capsys):
     Path("study.toml").write_text(sweep.replace("shafts.path2.clocking", "stages.in2.pinion.teeth"))
     assert main(["study", "study.toml", "--quiet"]) != 0
     assert "this is the gear in1.pinion of another stage" in capsys.readouterr().err
+
+
+PINS = (
+    'stages.set.carrier.pin_errors = { distribution = "normal", mean = "0 um", deviation = "10 um", count = 4,'
+    " seed = 1, entries = 2 }"
+)
+
+
+@pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize("scene, sweep", [("set", PINS), ("pair", 'load.wheel_torque = ["90 N m", "100 N m"]')])
+def test_numbers_alone_are_those_of_whole_runs(folder, capsys, scene, sweep):
+    """Identity with a study that keeps whole runs: of a planetary set, whose cases are marched together, and of a pair.
+    There are no files of cases, and what is kept is not computed again."""
+    Path("set.toml").write_text(planetary_text(more='carrier.pin_errors = ["1 um", "0 um"]'))
+    found = []
+    for name, keep in (("whole", "runs"), ("alone", "numbers")):
+        Path(f"{name}.toml").write_text(f'scene = "{scene}.toml"\nkeep = "{keep}"\n[sweep]\n{sweep}\n')
+        assert main(["study", f"{name}.toml", "--quiet"]) == 0
+        found.append(load_combined(folder / f"results/{name}/study.nc"))
+    whole, alone = found
+    numbers = ["load_sharing_factor", "largest_pin_force", "peak_to_peak_overall_transmission_error"]
+    for number in numbers if scene == "set" else ["peak_to_peak_transmission_error", "max_normal_force"]:
+        np.testing.assert_allclose(alone[number], whole[number], rtol=1e-12)
+    assert not [*Path("results/alone/cases").glob("*.nc")]
+    capsys.readouterr()
+    assert main(["study", "alone.toml"]) == 0
+    assert ", 0 to be computed" in capsys.readouterr().err
+
+
+def test_what_a_study_keeps_is_named(folder):
+    """Runs or numbers, nothing else."""
+    Path("other.toml").write_text('scene = "pair.toml"\nkeep = "number"\n[sweep]\nfriction = ["absent", "present"]\n')
+    with pytest.raises(SceneError, match='"numbers"'):
+        load_study("other.toml")

@@ -183,7 +183,7 @@ def standing_out(cases: Cases) -> dict[int, list[str]]:
 def _table(cases: Cases) -> PageSection:
     measures = [(values, unit) for values, unit, _ in cases.measures.values()]
     measures.append((cases.numbers("wall_time"), "s"))
-    of_meshes = [f"T_EPP of {mesh}" for mesh in cases.dataset["mesh"].values] if cases.of_trains else ["Largest force"]
+    of_meshes = [f"T_EPP of {mesh}" for mesh in cases.meshes] if cases.of_trains else ["Largest force"]
     names = ("T_EPP", "Mean error", *of_meshes, "Wall time")
     measured = [f"{name} ({unit})" for name, (_, unit) in zip(names, measures)]
     headings = ["Case", *(field.title for field in cases.fields), "State", *measured, "Newton iterations"]
