@@ -247,6 +247,10 @@ class _Opened(Position):
     true: Position
     gap: np.ndarray
 
+    def with_gap(self, gap: np.ndarray, row: np.ndarray | None = None) -> Position:
+        # Without the gaps that it has.
+        return self.true.with_gap(gap, row)
+
     @cached_property
     def operator(self) -> ContactOperator:  # type: ignore[override]
         """That of the position with these gaps."""
