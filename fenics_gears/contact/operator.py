@@ -218,6 +218,11 @@ class Position:
         whole = sum(array.nbytes for array in self.in_memory[1])
         return whole if not self.operator.stored.address else int(SHARE_FORMED * whole)
 
+    @property
+    def as_built(self) -> Position:
+        """The position without what opens it."""
+        return self
+
     def with_gap(self, gap: np.ndarray, row: np.ndarray | None = None) -> Position:
         """The same position with other gaps (n,), mm, in one piece; what is known of it already is not found again.
         `row`: as of `in_memory` with these gaps, where it is known."""
@@ -247,9 +252,9 @@ class _Opened(Position):
     true: Position
     gap: np.ndarray
 
-    def with_gap(self, gap: np.ndarray, row: np.ndarray | None = None) -> Position:
-        # Without the gaps that it has.
-        return self.true.with_gap(gap, row)
+    @property
+    def as_built(self) -> Position:
+        return self.true
 
     @cached_property
     def operator(self) -> ContactOperator:  # type: ignore[override]

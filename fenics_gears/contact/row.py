@@ -260,7 +260,9 @@ class RowCycle(Cycle):
 
 def _opened(position: JoinedPosition, meshes: Sequence[MeshOfRow]) -> JoinedPosition:
     """A position whose parts have the gaps of these meshes."""
-    of_meshes = tuple((mesh.cycle.opened(own), first) for mesh, (own, first) in zip(meshes, position.of_meshes))
+    of_meshes = tuple(
+        (mesh.cycle.opened(own.as_built), first) for mesh, (own, first) in zip(meshes, position.of_meshes)
+    )
     return replace(position, of_meshes=of_meshes)
 
 

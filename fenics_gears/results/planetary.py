@@ -180,10 +180,10 @@ def set_rows(found: xr.Dataset) -> list[tuple[str, str, str]]:
         if name in attrs:
             rows.append((label, f"{100.0 * attrs[name]:.5g}", "%"))
     for kind, name in enumerate(("sun and planets", "planets and ring")):
-        own = found.isel(mesh=slice(kind, None, 2))
         for number, label, unit in OF_MESHES:
-            if number in own and own[number].notnull().any():
-                rows.append((f"{name}: {label}", f"{float(own[number].max()):.4g}", unit))
+            values = found[number].values[kind::2] if number in found else np.array([np.nan])
+            if not np.isnan(values).all():
+                rows.append((f"{name}: {label}", f"{float(np.nanmax(values)):.4g}", unit))
     return rows
 
 

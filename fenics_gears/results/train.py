@@ -319,19 +319,20 @@ def _rows_of_meshes(found: xr.Dataset) -> list[tuple[str, str, str]]:
             rows.append((label, f"{attrs[name]:.5g}", "N"))
     if "friction_loss" in attrs:
         rows.append(("friction loss, all meshes", f"{100.0 * attrs['friction_loss']:.4g}", "%"))
-    for name in found[MESH].values:
-        own = found.sel({MESH: name})
-        radius = float(own["base_radius_wheel"])
+    numbers = {name: variable.values for name, variable in found.variables.items() if variable.dims == (MESH,)}
+    for place, name in enumerate(numbers[MESH]):
+        own = {number: values[place] for number, values in numbers.items()}
+        radius = own["base_radius_wheel"]
         for number, label in (("peak_to_peak", "peak to peak"), ("mean", "mean")):
-            angle = float(own[f"{number}_transmission_error"])
+            angle = own[f"{number}_transmission_error"]
             said = f"{angle * radius / MICROMETRE:.4g} um = {angle:.5g} rad"
             rows.append((f"{name}: transmission error, {label}", said, ""))
         if "mean_path_share" in own:
-            mean, most, least = (100.0 * float(own[f"{each}_path_share"]) for each in ("mean", "largest", "least"))
+            mean, most, least = (100.0 * own[f"{each}_path_share"] for each in ("mean", "largest", "least"))
             rows.append((f"{name}: share of the torque on its shaft", f"{mean:.4g} ({least:.4g} to {most:.4g})", "%"))
         for number, label, unit in SAID:
             if number in own and np.isfinite(own[number]):
-                rows.append((f"{name}: {label}", f"{float(own[number]):.4g}", unit))
+                rows.append((f"{name}: {label}", f"{own[number]:.4g}", unit))
     return rows
 
 

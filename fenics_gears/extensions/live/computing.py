@@ -21,8 +21,9 @@ from fenics_gears import ComputationError, GearsError, simulate, simulate_train
 from fenics_gears.charts import draw_run
 from fenics_gears.command_line import REPORT_FILE, main
 from fenics_gears.many_runs import CommonWindows, GearStore, Progress, save
-from fenics_gears.scene_text import Models, NoScene, is_train
+from fenics_gears.scene_text import Models, NoScene, Tree, is_train
 
+from .settled import with_steps
 from .shown import shown, shown_train
 
 RUN = "run"
@@ -74,6 +75,8 @@ class Computing:
         self._models = Models(name, Path(directory))
         self._windows = CommonWindows()
         self._store = GearStore()
+        # Of first looks at trains, which have operators of their own.
+        self._looks = GearStore()
         self._name = name
         self._result: Any = None
         self._waiting: list[Work] = []
@@ -126,25 +129,35 @@ class Computing:
 
     def _run(self, work: Work) -> dict[str, Any]:
         told = Told(self._connection.send, work.number, self._newer)
+        model = self._model(work)
+        first_look = {"kind": "result", "first_look": work.steps is not None}
         if is_train(work.tree):
-            model = self._models.of(work.tree)
-            self._store.of_pairs(len(model.rows))
-            found = simulate_train(model, told, preparation=self._store.prepared, kept_row=self._store.row)
+            store = self._store if work.steps is None else self._looks
+            store.of_pairs(len(model.rows))
+            found = simulate_train(model, told, preparation=store.prepared, kept_row=store.row)
             self._result = found
-            return {"kind": "result", "first_look": False} | shown_train(found, model.scene)
-        models = [self._models.of(work.tree)]
-        for tree in work.reach:
-            # A slider may go where there is no scene.
-            with suppress(NoScene):
-                models.append(self._models.of(tree))
-        model = self._windows.of(models)[0]
+            return first_look | shown_train(found, model.scene)
         if work.steps is not None:
             model = replace(model, resolution=replace(model.resolution, steps_per_mesh_cycle=work.steps))
         result = simulate(model, progress=told, preparation=self._store.prepared)
         if not result.attrs["complete"]:
             raise KeyboardInterrupt
         self._result = result
-        return {"kind": "result", "first_look": work.steps is not None} | shown(result, model.pair)
+        return first_look | shown(result, model.pair)
+
+    def _model(self, work: Work) -> Any:
+        """That of the scene, with contact nodes that others within reach have too."""
+
+        def model(tree: Tree) -> Any:
+            few = work.steps is not None and is_train(tree)
+            return self._models.of(with_steps(tree, work.steps) if few else tree)
+
+        models = [model(work.tree)]
+        for tree in work.reach:
+            # A slider may go where there is no scene.
+            with suppress(NoScene):
+                models.append(model(tree))
+        return self._windows.of(models)[0]
 
     def _file(self, work: Work) -> dict[str, Any]:
         """A file that the page has asked for."""

@@ -15,12 +15,12 @@ from aiohttp import WSCloseCode, WSMsgType, web
 
 from fenics_gears import SceneError, as_toml
 from fenics_gears.pages import colours
-from fenics_gears.scene_text import Models, Tree, is_train
+from fenics_gears.scene_text import Models, Tree
 
 from .computing import FILES, PICTURES, REPORT, RESULT, Work
 from .process import ComputingProcess
 from .session import Session
-from .settled import settled
+from .settled import is_slow, settled
 
 HOST = "127.0.0.1"
 TYPES = {".js": "text/javascript", ".css": "text/css", ".html": "text/html"}
@@ -36,9 +36,7 @@ class LiveServer:
         self._files: list[asyncio.Future[bytes]] = []
         self._process = ComputingProcess(name, str(folder))
         tree = settled(tree, model, Models(name, folder))
-        # Of trains there is no first look with few steps.
-        over_face = not is_train(tree) and model.scene.three_dimensional
-        self.session = Session(tree, name, over_face, self._process.send, self._tell)
+        self.session = Session(tree, name, is_slow(tree, model), self._process.send, self._tell)
 
     async def run(self, port: int, started: Callable[[str], None]) -> None:
         """Serve until the task is cancelled. Raises SceneError where the port is taken."""
