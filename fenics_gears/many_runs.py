@@ -29,6 +29,7 @@ from fenics_gears.runs.lines import FolderOfLines, kept
 from fenics_gears.runs.record import NUMBERS, OF_TRAINS, numbers_of, record_of
 from fenics_gears.runs.run import Run, run_of
 from fenics_gears.runs.runs import Failure, Runs, most_together, solved_at_once
+from fenics_gears.runs.simulate import settled_run
 from fenics_gears.runs.spent import Spent, seconds_of
 from fenics_gears.runs.team import Alone, Together, ranks
 from fenics_gears.simulation.dynamic_factor import quasi_static
@@ -44,6 +45,6 @@ __all__ = [
     "Failure", "FolderOfLines", "GearStore", "Interruption", "Outcome", "Progress", "Run", "RunResult", "Runs",
     "Spent", "Study", "Together", "common_period", "effects_on", "gear_tasks", "kept", "last_words",
     "load_combined", "most_together", "numbers_of", "operators_key", "quasi_static", "ranks", "record_of",
-    "result_rows", "run_of", "run_with", "save", "seconds_of", "settling_time", "sole_writer", "solved_at_once",
-    "study_of", "summary_rows", "train_rows",
+    "result_rows", "run_of", "run_with", "save", "seconds_of", "settled_run", "settling_time", "sole_writer",
+    "solved_at_once", "study_of", "summary_rows", "train_rows",
 ]  # fmt: skip

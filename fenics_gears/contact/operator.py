@@ -28,7 +28,7 @@ NO_NODES_BEFORE = np.empty(0, dtype=np.int64)
 
 
 class _ReadOtherwise:
-    """A field of an operator, without a default, of which `read` makes what is read of what is stored; None stays."""
+    """A field of an operator without a default: `read` turns what is stored into what is read. None stays None."""
 
     def __init__(self, read: Callable[[Any, ContactOperator], np.ndarray]):
         self._read = read

@@ -12,6 +12,7 @@ import zipfile
 from collections.abc import Callable
 from contextlib import redirect_stderr, suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from multiprocessing.connection import Connection
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -19,8 +20,8 @@ from typing import Any
 
 from fenics_gears import ComputationError, GearsError, simulate, simulate_train
 from fenics_gears.charts import draw_run
-from fenics_gears.command_line import REPORT_FILE, main
-from fenics_gears.many_runs import CommonWindows, GearStore, Progress, save
+from fenics_gears.command_line import PICTURE_FILE, REPORT_FILE, main
+from fenics_gears.many_runs import CommonWindows, GearStore, Progress, save, settled_run
 from fenics_gears.scene_text import Models, NoScene, Tree, is_train
 
 from .settled import with_steps
@@ -30,6 +31,7 @@ RUN = "run"
 PICTURES = "pictures"
 REPORT = "report"
 RESULT = "result"
+STRESS = "stress"
 END = "end"
 
 
@@ -139,7 +141,11 @@ class Computing:
             return first_look | shown_train(found, model.scene)
         if work.steps is not None:
             model = replace(model, resolution=replace(model.resolution, steps_per_mesh_cycle=work.steps))
-        result = simulate(model, progress=told, preparation=self._store.prepared)
+        if work.steps is None:
+            result = simulate(model, progress=told, preparation=self._store.prepared)
+        else:
+            # Without proposed lead modifications, which take longer than few steps.
+            result = settled_run(model, told, preparation=self._store.prepared).dataset
         if not result.attrs["complete"]:
             raise KeyboardInterrupt
         self._result = result
@@ -175,17 +181,22 @@ def _pictures(result: Any, name: str) -> bytes:
 
 
 def _report(result: Any, name: str) -> bytes:
-    return _of_saved(result, name, _page)
+    return _of_saved(result, name, partial(_written_by, "report", REPORT_FILE))
 
 
-def _page(file: Path) -> bytes:
-    """What ``gears report`` writes on a run. Raises ComputationError with what it says where it fails."""
-    page = file.with_name(REPORT_FILE)
+def _stress(result: Any, name: str) -> bytes:
+    return _of_saved(result, name, partial(_written_by, "picture", PICTURE_FILE))
+
+
+def _written_by(command: str, name: str, file: Path) -> bytes:
+    """What a command writes on a run, into a file of this name. Raises ComputationError with what it says where it
+    fails."""
+    own = file.with_name(name)
     with redirect_stderr(io.StringIO()) as said:
-        failed = main(["report", str(file), "-o", str(page), "-q"])
+        failed = main([command, str(file), "-o", str(own), "-q"])
     if failed:
         raise ComputationError(said.getvalue().strip())
-    return page.read_bytes()
+    return own.read_bytes()
 
 
 def _result(result: Any, name: str) -> bytes:
@@ -200,7 +211,7 @@ def _of_saved(result: Any, name: str, content: Callable[[Path], bytes]) -> bytes
         return content(file)
 
 
-FILES = {PICTURES: _pictures, REPORT: _report, RESULT: _result}
+FILES = {PICTURES: _pictures, REPORT: _report, RESULT: _result, STRESS: _stress}
 
 
 def serve(connection: Connection, name: str, directory: str) -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fenics_gears import as_toml, model_of, scene_from_text, simulate, simulate_train, train_from_text
-from fenics_gears.extensions.live.computing import REPORT, RESULT, RUN, Computing, Work
+from fenics_gears.extensions.live.computing import REPORT, RESULT, RUN, STRESS, Computing, Work
 from fenics_gears.extensions.live.controls import controls_of, reach
 from fenics_gears.extensions.live.settled import settled
 from fenics_gears.scene_text import Models, fields
@@ -94,6 +94,13 @@ def test_a_first_look_at_a_train_has_few_steps(computing, spoken, train, tmp_pat
     expected = 1e6 * alone["overall_transmission_error"].values
     assert answer["first_look"] and np.abs(error_of(answer) - expected).max() < 1e-6 * np.abs(expected).max()
     assert not answered(computing, spoken, Work(RUN, 1, train))["first_look"]
+
+
+@pytest.mark.nightly
+def test_the_stress_of_bodies_is_a_picture(computing, spoken, tree):
+    """By the signature of the format; `gears picture` has tests of what it shows."""
+    answered(computing, spoken, Work(RUN, 1, tree), Work(STRESS, 1))
+    assert spoken.of("file")[0]["content"][:8] == b"\x89PNG\r\n\x1a\n"
 
 
 def test_only_the_newest_scene_is_run(computing, spoken, tree):
