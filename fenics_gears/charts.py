@@ -42,8 +42,7 @@ def run_charts(dataset: xr.Dataset) -> list[tuple[str, list[Chart]]]:
 
 def train_charts(dataset: xr.Dataset, scene: TrainScene) -> list[tuple[str, list[Chart]]]:
     """The same of a train's run: all but its drawing, which `gears_of_train` gives."""
-    _, *subjects = plots("train").subjects_of(scene, dataset)
-    return [(subject, charts) for subject, charts in subjects if charts]
+    return [each for each in plots("train").subjects_of(scene, dataset) if each[1]]
 
 
 def gears_of_train(scene: TrainScene) -> tuple[list[DrawnGear], float]:

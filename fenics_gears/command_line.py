@@ -11,6 +11,7 @@ from fenics_gears.commands.shared import (
     CASES,
     INTERRUPTED,
     JOURNAL,
+    PICTURE_FILE,
     REPORT_FILE,
     RUN_FILE,
     STUDY_FILE,
@@ -40,7 +41,7 @@ _READERS = {"checked_model": "scenes"}
 _READERS |= dict.fromkeys(("loaded_run", "run_file", "run_or_journal", "stages_beside"), "runs")
 
 __all__ = [
-    "CASES", "INTERRUPTED", "JOURNAL", "REPORT_FILE", "RUN_FILE", "STUDY_FILE", "WITHOUT_SOMETHING",
+    "CASES", "INTERRUPTED", "JOURNAL", "PICTURE_FILE", "REPORT_FILE", "RUN_FILE", "STUDY_FILE", "WITHOUT_SOMETHING",
     "add_memory_argument", "add_output_argument", "add_processes_argument", "add_run_argument", "add_scene_argument",
     "after_result", "check_writable", "file_to_write", "later", "main", "number_of_option", "positive_count",
     "print_files", "print_rows", "print_table", "seconds_in_words", "shown_progress", "under_mpirun", "write_whole",

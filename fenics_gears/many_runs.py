@@ -30,6 +30,7 @@ from fenics_gears.runs.gear_store import GearStore, operators_key
 from fenics_gears.runs.record import NUMBERS, OF_TRAINS, numbers_of, record_of
 from fenics_gears.runs.run import Run, run_of
 from fenics_gears.runs.runs import Failure, Runs, failure_of, most_together, solved_at_once
+from fenics_gears.runs.simulate import settled_run
 from fenics_gears.runs.spent import Spent, seconds_of
 from fenics_gears.runs.team import Alone, Together, ranks
 from fenics_gears.simulation.dynamic_factor import quasi_static
@@ -47,5 +48,5 @@ __all__ = [
     "RunResult", "Runs", "SilentProgress", "Spent", "Study", "Together", "common_period", "communicator", "effects_on",
     "failure_of", "gear_tasks", "kinds_of_meshes", "last_words", "load_combined", "most_together", "numbers_of",
     "operators_key", "quasi_static", "ranks", "record_of", "result_rows", "run_of", "run_with", "save", "seconds_of",
-    "settling_time", "sole_writer", "solved_at_once", "study_of", "summary_rows", "train_rows",
+    "settled_run", "settling_time", "sole_writer", "solved_at_once", "study_of", "summary_rows", "train_rows",
 ]  # fmt: skip

@@ -193,7 +193,7 @@ def weighted(lines, weights):
 def add_section(lines, ends, section, firsts, axes, across):
     """Add compliance `section` (n, n', 4) between flank nodes i and others, from the `firsts` on: by the last two
     components of directions `axes` (d, 5) and `across` (e, 5) to `lines` (i, d, e, j), from `ends[0]` to `ends[1]`."""
-    # Unsigned places need no look for a negative index.
+    # uint64 avoids numba's wraparound check.
     numbers, found, count = section.reshape(-1), lines.reshape(-1), np.uint64(ends[1] - ends[0])
     one, two, three, four = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
     for d, e in np.ndindex((len(axes), len(across))):
@@ -212,7 +212,7 @@ def add_section(lines, ends, section, firsts, axes, across):
 @njit(cache=True)
 def add_seen(found, near, first, values):
     """Add to `found` (m, r) what contact nodes see of `values` (r, s) of flank nodes; r as of `weighted`."""
-    # One flank node's values beside each other; unsigned places need no look for a negative index; four sums are made
+    # One flank node's values beside each other; uint64 avoids numba's wraparound check; four sums are made
     # at a time.
     numbers, sums, weights = np.ascontiguousarray(values.T).reshape(-1), found.reshape(-1), near.reshape(-1)
     wide, width, zero, four = np.uint64(len(values)), np.uint64(near.shape[1]), np.uint64(0), np.uint64(4)

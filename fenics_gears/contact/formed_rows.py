@@ -233,7 +233,8 @@ def _form(source, group, nodes):
     add_fine(found, rows, columns, source.fine, group, nodes)
     add_ends(found, rows, source.fine, group, nodes)
     layer = source.fine.layers[rows.groups[SLICE, group]] * source.fine.shares[rows.groups[SLICE, group]]
-    # Written without being read: a page that is read first comes from the system twice.
+    # Each value is stored at once, never added to: the system hands out a page twice where it is read before it is
+    # written.
     for e, j in np.ndindex((others, m)):
         for d in range(kinds):
             for number in range(count):
@@ -284,7 +285,7 @@ def _put_body(lines, blocks, own, other, low, directions):
 @njit(cache=True)
 def _put_products(found, place, count, weights, numbers, at):
     """Put products of nine weights with so many times nine numbers into place."""
-    # Unsigned places need no look for a negative index; three sums do not wait for each other.
+    # uint64 avoids numba's wraparound check; three sums do not wait for each other.
     a, b, c, d, e, f, g, h, k = (weights[0], weights[1], weights[2], weights[3], weights[4], weights[5], weights[6],
                                  weights[7], weights[8])  # fmt: skip
     at, one, two, three, four = np.uint64(at), np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)

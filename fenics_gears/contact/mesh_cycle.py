@@ -182,7 +182,7 @@ class Cycle:
         """
         if before == ceil(step) - 1 and in_common(step):
             return self._deviating(step, self._found(step))
-        return self._deviating(step, self._opened(self._build([(step, before)])[0]))
+        return self._deviating(step, self.opened(self._build([(step, before)])[0]))
 
     def give_up(self) -> bool:
         """Give up what is kept, and keep half as much from now on; whether there was anything."""
@@ -285,12 +285,12 @@ class Cycle:
         found = self._positions.get(key)
         if found is None:
             (built,) = self.true_positions([(step, ceil(step) - 1)])
-            found = self._opened(built)
+            found = self.opened(built)
             if key in self._built:
                 self._positions[key] = found
         return found
 
-    def _opened(self, position: Position) -> Position:
+    def opened(self, position: Position) -> Position:
         """The position with the profile and the openings of these gaps."""
         if self.gaps.profile is None and not self.gaps.openings:
             return position

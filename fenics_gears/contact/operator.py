@@ -28,7 +28,7 @@ NO_NODES_BEFORE = np.empty(0, dtype=np.int64)
 
 
 class _ReadOtherwise:
-    """A field of an operator, without a default, of which `read` makes what is read of what is stored; None stays."""
+    """A field of an operator without a default: `read` turns what is stored into what is read. None stays None."""
 
     def __init__(self, read: Callable[[Any, ContactOperator], np.ndarray]):
         self._read = read
@@ -218,6 +218,11 @@ class Position:
         whole = sum(array.nbytes for array in self.in_memory[1])
         return whole if not self.operator.stored.address else int(SHARE_FORMED * whole)
 
+    @property
+    def as_built(self) -> Position:
+        """The position without what opens it."""
+        return self
+
     def with_gap(self, gap: np.ndarray, row: np.ndarray | None = None) -> Position:
         """The same position with other gaps (n,), mm, in one piece; what is known of it already is not found again.
         `row`: as of `in_memory` with these gaps, where it is known."""
@@ -246,6 +251,10 @@ class _Opened(Position):
 
     true: Position
     gap: np.ndarray
+
+    @property
+    def as_built(self) -> Position:
+        return self.true
 
     @cached_property
     def operator(self) -> ContactOperator:  # type: ignore[override]

@@ -7,7 +7,7 @@ frame is the mirror image, in which the other flanks of the gear between them ar
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from math import floor, lcm
@@ -16,7 +16,7 @@ import numpy as np
 
 from .idler import Part, RowCompliance
 from .mesh import Mesh
-from .mesh_cycle import Cycle, Deviation, Kept
+from .mesh_cycle import Cycle, Deviation, Gaps, Kept
 from .operator import ContactOperator, Position
 from .places import counted_from
 from .step_solver import StepProblem, StepSolution, solve_step
@@ -49,6 +49,10 @@ def at_phase(mesh: Mesh, phase: float, ahead: int = 0, steps: int = 1) -> Mesh:
 STEP_ROUND_OFF = 1e-6
 
 
+# The gaps of a mesh on the operators of its cycle.
+GapsOf = Callable[[Cycle], Gaps]
+
+
 @dataclass(frozen=True)
 class MeshOfRow:
     """A mesh of a train: its `cycle` over the coordinates (l,) of its own two gears, and how these follow (l, k) from
@@ -61,6 +65,13 @@ class MeshOfRow:
     offset: np.ndarray | None = None
     modes: int = 0
     deviations: tuple[Deviation, ...] = ()
+
+    def with_gaps_of(self, offset: np.ndarray | None, gaps_of: GapsOf) -> MeshOfRow:
+        """The same operators with another offset and other gaps."""
+        gaps = gaps_of(self.cycle)
+        # Deviations of all meshes are added together.
+        cycle = self.cycle.with_gaps(replace(gaps, deviations=()))
+        return replace(self, cycle=cycle, offset=offset, deviations=gaps.deviations)
 
     def deviating(self, step: float, position: Position) -> Position:
         """Its position at a step (any, also after whole cycles), with its deviations."""
@@ -117,23 +128,22 @@ class RowCycle(Cycle):
             found += each.cycle.meshes if isinstance(each.cycle, RowCycle) else [each]
         return found
 
-    def with_gaps_of(
-        self, offsets: Sequence[np.ndarray | None], deviations: Sequence[tuple[Deviation, ...]]
-    ) -> RowCycle:
-        """The same operators, which both have in common, with other offsets and deviations of all meshes: their gaps
-        alone differ."""
-        return self._with(zip(offsets, deviations))
+    def with_gaps_of(self, offsets: Sequence[np.ndarray | None], gaps_of: Sequence[GapsOf]) -> RowCycle:
+        """The same operators, which both have in common, with other offsets and gaps of all meshes."""
+        return self._with(zip(offsets, gaps_of))
 
-    def _with(self, of_meshes: Iterator[tuple[np.ndarray | None, tuple[Deviation, ...]]]) -> RowCycle:
+    def _with(self, of_meshes: Iterator[tuple[np.ndarray | None, GapsOf]]) -> RowCycle:
         other = copy(self)
         other._members = [
             replace(each, cycle=each.cycle._with(of_meshes))
             if isinstance(each.cycle, RowCycle)
-            else replace(each, **dict(zip(("offset", "deviations"), next(of_meshes))))
+            else each.with_gaps_of(*next(of_meshes))
             for each in self._members
         ]
         meshes = other.meshes
-        other._joined = {step: _with_gaps_of(position, meshes) for step, position in self._joined.items()}
+        other._joined = {
+            step: _with_gaps_of(_opened(position, meshes), meshes) for step, position in self._joined.items()
+        }
         other._around = {}
         # What is shared has addresses of gaps.
         other._shared = {}
@@ -249,6 +259,14 @@ class RowCycle(Cycle):
         before_now = np.concatenate([_moved(part.position.node_before, part.first_before) for part in parts])
         of_meshes = tuple(each for part in parts for each in _of_meshes(part))
         return JoinedPosition(operator, before_now, step % self.steps, of_meshes=of_meshes)
+
+
+def _opened(position: JoinedPosition, meshes: Sequence[MeshOfRow]) -> JoinedPosition:
+    """A position whose parts have the gaps of these meshes."""
+    of_meshes = tuple(
+        (mesh.cycle.opened(own.as_built), first) for mesh, (own, first) in zip(meshes, position.of_meshes)
+    )
+    return replace(position, of_meshes=of_meshes)
 
 
 def _with_gaps_of(position: JoinedPosition, meshes: Sequence[MeshOfRow]) -> JoinedPosition:

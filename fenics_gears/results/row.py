@@ -66,8 +66,8 @@ class RowResult:
             places = _along_the_row(coordinates_of(recorder, recorder.arrays))
             numbers = self._numbers(recorder)
             said = self._said(march)
-            labelled = xr.Dataset(curves, places)
             for along in recorder.along_face:
+                labelled = xr.Dataset(curves, places)
                 numbers |= _finite(along.numbers(labelled, numbers))
                 said += along.warnings(labelled)
             own = {name: of for name, of in (curves | places).items() if not name.startswith(OF_ENERGY)}

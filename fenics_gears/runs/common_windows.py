@@ -16,28 +16,31 @@ class CommonWindows:
     """
 
     def __init__(self) -> None:
-        self._longest: dict[tuple, float] = {}
+        self._longest: dict[tuple | None, float] = {}
 
     def of(self, models: Sequence[Any]) -> list[Any]:
-        """The models with the longest window that these or others before them asked for and that share its
-        operators."""
-        keys = [self._key(model) for model in models]
-        for model, key in zip(models, keys):
-            if key is not None and (own := model.resolution.contact_grid.inner_length) is not None:
-                self._longest[key] = max(own, self._longest.get(key, own))
-        return [model if key is None else _with_window(model, self._longest[key]) for model, key in zip(models, keys)]
+        """The models, of pairs or of trains, with the longest windows that these or others before them asked for and
+        that share their operators."""
+        for model in models:
+            for each in [model] if isinstance(model, Model) else model.models:
+                key = _key(each)
+                if key is not None:
+                    own = each.resolution.contact_grid.inner_length
+                    self._longest[key] = max(own, self._longest.get(key, own))
+        return [self._with_windows(model) for model in models]
 
-    @staticmethod
-    def _key(model: Any) -> tuple | None:
-        """What models share that differ in their windows; None of one without, and of trains."""
+    def _with_windows(self, model: Any) -> Any:
         if not isinstance(model, Model):
-            return None
+            rows = (replace(row, models=tuple(map(self._with_windows, row.models))) for row in model.rows)
+            return replace(model, rows=tuple(rows))
         grid = model.resolution.contact_grid
-        return None if grid.inner_length is None else operators_key(model, replace(grid, inner_length=None))
+        length = self._longest.get(_key(model))
+        if grid.inner_length == length:
+            return model
+        return replace(model, resolution=replace(model.resolution, contact_grid=replace(grid, inner_length=length)))
 
 
-def _with_window(model: Model, length: float) -> Model:
+def _key(model: Model) -> tuple | None:
+    """What models share that differ in their windows; None of one without."""
     grid = model.resolution.contact_grid
-    if grid.inner_length == length:
-        return model
-    return replace(model, resolution=replace(model.resolution, contact_grid=replace(grid, inner_length=length)))
+    return None if grid.inner_length is None else operators_key(model, replace(grid, inner_length=None))

@@ -5,11 +5,11 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.effects import ALONG_THE_FACE, effects_on, without
+from fenics_gears.effects import ALONG_THE_FACE, effects_on
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies, Body
 from fenics_gears.inputs.tree import GEARS
@@ -17,7 +17,7 @@ from fenics_gears.model.model import Model
 from fenics_gears.model.shared_gears import couplings
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.bodies import body_key, gear_bodies, gear_body
-from fenics_gears.simulation.elastic_route import deviations_of, gaps_of, mesh_cycle, sections_of_gaps
+from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_of_gaps
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 
@@ -50,7 +50,7 @@ class GearStore:
         self._operators: dict[tuple, tuple[Bodies, Cycle]] = {}
         self._cycle_key: tuple | None = None
         self._cycle: Cycle | None = None
-        self._row: tuple[tuple, list[bytes], RowCycle] | None = None
+        self._row: tuple[tuple, list[tuple], RowCycle] | None = None
 
     def of_pairs(self, pairs: int) -> None:
         """Keep from now on the contact operators and gears of so many pairs of gears that come one after the other:
@@ -84,20 +84,21 @@ class GearStore:
         return bodies, self._cycle
 
     def row(self, row: RowModel, make: Callable[[], RowCycle]) -> RowCycle:
-        """The contact equations of meshes that move together: those of the last ones where they are the same, with
-        offsets and deviations of their own, as of pins beside their places and gears that run out; else made."""
+        """The contact equations of meshes that move together: those of the last ones where operators are the same,
+        with offsets and gaps of their own, as of pins beside their places, reliefs and gears that run out; else
+        made."""
         shared = [(tuple(couplings(row.layout, gear)), row.keys_of_shared(gear)) for gear in row.graph.shared]
         of_meshes = [coordinates.tobytes() for coordinates, _ in row.placed]
         offsets = [offset for _, offset in row.placed]
-        said = [(each.tobytes(), _deviating(model.scene)) for each, model in zip(offsets, row.models)]
-        key = tuple(map(_key_of_alike, row.models)), tuple(row.layout.phases), tuple(shared), tuple(of_meshes)
+        said = [(each.tobytes(), _key_of_gaps(model)) for each, model in zip(offsets, row.models)]
+        key = tuple(map(operators_key, row.models)), tuple(row.layout.phases), tuple(shared), tuple(of_meshes)
         if self._row is None or self._row[0] != key:
             # Frees memory before the next is made.
             self._row = None
             self._row = key, said, make()
         elif self._row[1] != said:
-            deviations = [deviations_of(model) for model in row.models]
-            self._row = key, said, self._row[2].with_gaps_of(offsets, deviations)
+            gaps = [functools.partial(gaps_of, model) for model in row.models]
+            self._row = key, said, self._row[2].with_gaps_of(offsets, gaps)
         return self._row[2]
 
     @property
@@ -186,18 +187,12 @@ def operators_key(model: Model, grid: ContactGrid | None = None) -> tuple:
 def cycle_key(model: Model, of_operators: tuple | None = None) -> tuple:
     """What the contact equations of a mesh cycle depend on; `of_operators`: what its operators do, where that is
     known."""
-    of_gaps = (getattr(model.scene, section) for section in sections_of_gaps(model))
-    return *(of_operators or operators_key(model)), *of_gaps
+    return *(of_operators or operators_key(model)), *_key_of_gaps(model)
 
 
-def _key_of_alike(model: Model) -> tuple:
-    """As `cycle_key`, without what differs from mesh cycle to mesh cycle, as run-out does."""
-    return cycle_key(replace(model, scene=without(model.scene, *_deviating(model.scene))))
-
-
-def _deviating(scene: Scene) -> dict[str, Any]:
-    """What opens nodes otherwise in each mesh cycle, by its section."""
-    return {each.section: getattr(scene, each.section) for each in effects_on(scene) if each.gaps is not None}
+def _key_of_gaps(model: Model) -> tuple:
+    """What opens the nodes of a model's contact operators."""
+    return tuple(getattr(model.scene, section) for section in sections_of_gaps(model))
 
 
 def _shaping(scene: Scene) -> list[str]:

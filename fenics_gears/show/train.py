@@ -49,16 +49,17 @@ def draw_train(dataset: xr.Dataset, directory: Path) -> list[Path]:
     scene = carried_train(dataset)
     figures = {
         name: picture(heading(subject, scene.title), charts)
-        for name, (subject, charts) in zip(TRAIN_PICTURE_FILES, subjects_of(scene, dataset))
+        for name, (subject, charts) in zip(
+            TRAIN_PICTURE_FILES, [(_drawn(scene), [drawing_of(scene)]), *subjects_of(scene, dataset)]
+        )
         if charts
     }
     return save_figures(figures, directory)
 
 
 def subjects_of(scene: TrainScene, dataset: xr.Dataset) -> list[tuple[str, list[Chart]]]:
-    """Subjects and charts of the pictures of a train, the drawing first; without charts where it has no such thing."""
+    """Subjects and charts of the pictures of a train behind its drawing; without charts where it has no such thing."""
     return [
-        ("Gear train" if scene.shafts.carrier is None else "Planetary set", [drawing_of(scene)]),
         ("Transmission error", errors(scene, dataset)),
         ("Orders of the overall transmission error", orders(scene, dataset)),
         ("Line load along the face", loads_along_face(scene, dataset)),
@@ -66,6 +67,10 @@ def subjects_of(scene: TrainScene, dataset: xr.Dataset) -> list[tuple[str, list[
         ("Load sharing of the planets", shares(scene, dataset)),
         ("Orbits of floating members", orbits(scene, dataset)),
     ]
+
+
+def _drawn(scene: TrainScene) -> str:
+    return "Gear train" if scene.shafts.carrier is None else "Planetary set"
 
 
 def drawing_of(scene: TrainScene) -> Chart:
@@ -144,16 +149,18 @@ def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     for number, mesh in enumerate(scene.meshes):
         if mesh.like is not None:
             continue
-        own = dataset.isel(mesh=number)
+        error, phase, span = (
+            dataset[name].values[..., number]
+            for name in ("transmission_error", "mesh_phase", "peak_to_peak_transmission_error")
+        )
         # That of an internal gear is negative.
         radius = 1e3 * abs(mesh.pair.wheel.base_radius)
-        values = radius * np.asarray(own["transmission_error"])
+        values = radius * error
         known = np.isfinite(values)
-        span = radius * float(own["peak_to_peak_transmission_error"])
         charts.append(
             Chart(
-                f"{mesh.name}: peak to peak {span:#.4g} µm on the wheel's base circle",
-                [Curve(mesh.name, np.asarray(own["mesh_phase"])[known], values[known], _colour(number))],
+                f"{mesh.name}: peak to peak {radius * span:#.4g} µm on the wheel's base circle",
+                [Curve(mesh.name, phase[known], values[known], _colour(number))],
                 f"Time (cycles of mesh {mesh.name})",
                 "Transmission error (µm)",
                 least=LEAST_SHARE * float(np.abs(values[known]).max(initial=0.0)),

@@ -4,7 +4,6 @@ shafts have several paths, masses, bearings or twist."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from functools import partial
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -24,6 +23,7 @@ from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.elasticity.compliance import Body
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.inputs.tree import GEARS
+from fenics_gears.model.model import Model
 from fenics_gears.model.shared_gears import couplings
 from fenics_gears.model.train import RowModel
 from fenics_gears.model.train_cost import row_cost, row_too_large
@@ -33,7 +33,7 @@ from fenics_gears.results.train import MeshResult
 from fenics_gears.system.progress import Progress
 
 from .bodies import body_key, gear_bodies, gear_body
-from .elastic_route import cycle_of, deviations_of, gaps_of, mesh_cycle, mesh_of
+from .elastic_route import cycle_of, gaps_of, mesh_cycle, mesh_of
 from .simulate import MARCH, memory_for_operators
 from .warm_up import compile_kernels, compile_loops
 
@@ -104,11 +104,17 @@ def _member(
     and `offset` of each mesh, and how many `modes` there are, as of MeshOfRow."""
     if len(row.models) == 1:
         bodies = gear_bodies(row.models[0], progress, cache)
-        return MeshOfRow(mesh_cycle(row.models[0], bodies), *placed[0], modes)
+        return _mesh(row.models[0], mesh_cycle(row.models[0], bodies), placed[0], modes)
     cycle = _row_of(row, placed, modes, progress, cache)
     count = placed[0][0].shape[1]
     # What its meshes have by themselves is in it.
     return MeshOfRow(cycle, np.eye(count)[: count - modes], modes=modes)
+
+
+def _mesh(model: Model, cycle: Cycle, placed: tuple[np.ndarray, np.ndarray], modes: int) -> MeshOfRow:
+    """A mesh with the gaps of its model."""
+    coordinates, offset = placed
+    return MeshOfRow(cycle, coordinates, None, modes).with_gaps_of(offset, partial(gaps_of, model))
 
 
 def _row_of(
@@ -117,14 +123,10 @@ def _row_of(
     """Meshes that have gears in common; arguments as of `_member`."""
     bodies = list(_bodies(row, progress, cache))
     meshes: list[MeshOfRow] = []
-    for number, (coordinates, offset) in enumerate(placed):
+    for number, of_mesh in enumerate(placed):
         like = _like(row, number, bodies)
         cycle = _cycle(row, number, bodies, None if like is None else meshes[like].cycle)
-        deviations = deviations_of(row.models[number])
-        if deviations:
-            # Those of all meshes are added together.
-            cycle = cycle.with_gaps(replace(cycle.gaps, deviations=()))
-        meshes.append(MeshOfRow(cycle, coordinates, offset, modes, deviations))
+        meshes.append(_mesh(row.models[number], cycle, of_mesh, modes))
     if row.over_face:
         return RowCycle(meshes, _over_face().joined(row, bodies, [mesh.cycle for mesh in meshes]))
     coupled = [
@@ -185,10 +187,7 @@ def _cycle(row: RowModel, number: int, bodies: Sequence[Body | SharedBody], like
         for gear in row.graph.gears[number]
     )
     mesh = at_phase(mesh_of(model, (pinion, wheel)), phase, ahead, model.resolution.steps_per_mesh_cycle)
-    if like is None:
-        return cycle_of(model, mesh)
-    cycle = CycleAlike(mesh, like, ahead)
-    return cycle.with_gaps(gaps_of(model, cycle))
+    return cycle_of(model, mesh) if like is None else CycleAlike(mesh, like, ahead)
 
 
 def of_mesh(steps: Steps, cycle: RowCycle, number: int) -> Steps:

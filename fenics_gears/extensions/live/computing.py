@@ -12,6 +12,7 @@ import zipfile
 from collections.abc import Callable
 from contextlib import redirect_stderr, suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from multiprocessing.connection import Connection
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -19,16 +20,18 @@ from typing import Any
 
 from fenics_gears import ComputationError, GearsError, simulate, simulate_train
 from fenics_gears.charts import draw_run
-from fenics_gears.command_line import REPORT_FILE, main
-from fenics_gears.many_runs import CommonWindows, GearStore, Progress, save
-from fenics_gears.scene_text import Models, NoScene, is_train
+from fenics_gears.command_line import PICTURE_FILE, REPORT_FILE, main
+from fenics_gears.many_runs import CommonWindows, GearStore, Progress, save, settled_run
+from fenics_gears.scene_text import Models, NoScene, Tree, is_train
 
+from .settled import with_steps
 from .shown import shown, shown_train
 
 RUN = "run"
 PICTURES = "pictures"
 REPORT = "report"
 RESULT = "result"
+STRESS = "stress"
 END = "end"
 
 
@@ -74,6 +77,8 @@ class Computing:
         self._models = Models(name, Path(directory))
         self._windows = CommonWindows()
         self._store = GearStore()
+        # Of first looks at trains, which have operators of their own.
+        self._looks = GearStore()
         self._name = name
         self._result: Any = None
         self._waiting: list[Work] = []
@@ -126,25 +131,39 @@ class Computing:
 
     def _run(self, work: Work) -> dict[str, Any]:
         told = Told(self._connection.send, work.number, self._newer)
+        model = self._model(work)
+        first_look = {"kind": "result", "first_look": work.steps is not None}
         if is_train(work.tree):
-            model = self._models.of(work.tree)
-            self._store.of_pairs(len(model.rows))
-            found = simulate_train(model, told, preparation=self._store.prepared, kept_row=self._store.row)
+            store = self._store if work.steps is None else self._looks
+            store.of_pairs(len(model.rows))
+            found = simulate_train(model, told, preparation=store.prepared, kept_row=store.row)
             self._result = found
-            return {"kind": "result", "first_look": False} | shown_train(found, model.scene)
-        models = [self._models.of(work.tree)]
-        for tree in work.reach:
-            # A slider may go where there is no scene.
-            with suppress(NoScene):
-                models.append(self._models.of(tree))
-        model = self._windows.of(models)[0]
+            return first_look | shown_train(found, model.scene)
         if work.steps is not None:
             model = replace(model, resolution=replace(model.resolution, steps_per_mesh_cycle=work.steps))
-        result = simulate(model, progress=told, preparation=self._store.prepared)
+        if work.steps is None:
+            result = simulate(model, progress=told, preparation=self._store.prepared)
+        else:
+            # Without proposed lead modifications, which take longer than few steps.
+            result = settled_run(model, told, preparation=self._store.prepared).dataset
         if not result.attrs["complete"]:
             raise KeyboardInterrupt
         self._result = result
-        return {"kind": "result", "first_look": work.steps is not None} | shown(result, model.pair)
+        return first_look | shown(result, model.pair)
+
+    def _model(self, work: Work) -> Any:
+        """That of the scene, with contact nodes that others within reach have too."""
+
+        def model(tree: Tree) -> Any:
+            few = work.steps is not None and is_train(tree)
+            return self._models.of(with_steps(tree, work.steps) if few else tree)
+
+        models = [model(work.tree)]
+        for tree in work.reach:
+            # A slider may go where there is no scene.
+            with suppress(NoScene):
+                models.append(model(tree))
+        return self._windows.of(models)[0]
 
     def _file(self, work: Work) -> dict[str, Any]:
         """A file that the page has asked for."""
@@ -162,17 +181,22 @@ def _pictures(result: Any, name: str) -> bytes:
 
 
 def _report(result: Any, name: str) -> bytes:
-    return _of_saved(result, name, _page)
+    return _of_saved(result, name, partial(_written_by, "report", REPORT_FILE))
 
 
-def _page(file: Path) -> bytes:
-    """What ``gears report`` writes on a run. Raises ComputationError with what it says where it fails."""
-    page = file.with_name(REPORT_FILE)
+def _stress(result: Any, name: str) -> bytes:
+    return _of_saved(result, name, partial(_written_by, "picture", PICTURE_FILE))
+
+
+def _written_by(command: str, name: str, file: Path) -> bytes:
+    """What a command writes on a run, into a file of this name. Raises ComputationError with what it says where it
+    fails."""
+    own = file.with_name(name)
     with redirect_stderr(io.StringIO()) as said:
-        failed = main(["report", str(file), "-o", str(page), "-q"])
+        failed = main([command, str(file), "-o", str(own), "-q"])
     if failed:
         raise ComputationError(said.getvalue().strip())
-    return page.read_bytes()
+    return own.read_bytes()
 
 
 def _result(result: Any, name: str) -> bytes:
@@ -187,7 +211,7 @@ def _of_saved(result: Any, name: str, content: Callable[[Path], bytes]) -> bytes
         return content(file)
 
 
-FILES = {PICTURES: _pictures, REPORT: _report, RESULT: _result}
+FILES = {PICTURES: _pictures, REPORT: _report, RESULT: _result, STRESS: _stress}
 
 
 def serve(connection: Connection, name: str, directory: str) -> None:

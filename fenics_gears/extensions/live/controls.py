@@ -15,6 +15,7 @@ STEPS = 200
 # Of a slider's ends, and the groups of fields with which the gears change.
 REACHED = 0.75
 SHAPES = ("Gears", "Friction", "More fields")
+SHIFT = "profile_shift"
 # How a relief says where it begins.
 STARTS = ("start", "length_on_path", "length_on_flank")
 
@@ -95,7 +96,8 @@ def controls_of(tree: Tree, over_face: bool) -> list[Control]:
 def reach(tree: Tree, controls: Sequence[Control]) -> list[Tree]:
     """The scene with each slider in turn towards either end: what contact nodes have to reach from the start, so that
     all of them share contact operators."""
-    ends = [(each, REACHED * end) for each in controls if each.group not in SHAPES for end in each.ends]
+    apart = [each for each in controls if each.group not in SHAPES and each.path[-1] != SHIFT]
+    ends = [(each, REACHED * end) for each in apart for end in each.ends]
     return [control.changed(tree, end) for control, end in ends if end]
 
 
@@ -126,7 +128,7 @@ def _load(tree: Tree) -> Iterator[Control]:
 
 def _gears(tree: Tree) -> Iterator[Control]:
     for gear in GEARS:
-        path = ("gears", gear, "profile_shift")
+        path = ("gears", gear, SHIFT)
         if value_at(tree, *path) is not None:
             yield profile_shift(path, gear, "Gears", tree)
     if value_at(tree, "gears", "centre_distance") is not None:

@@ -15,16 +15,18 @@ from aiohttp import WSCloseCode, WSMsgType, web
 
 from fenics_gears import SceneError, as_toml
 from fenics_gears.pages import colours
-from fenics_gears.scene_text import Models, Tree, is_train
+from fenics_gears.scene_text import Models, Tree
 
-from .computing import FILES, PICTURES, REPORT, RESULT, Work
+from .computing import FILES, PICTURES, REPORT, RESULT, STRESS, Work
 from .process import ComputingProcess
 from .session import Session
-from .settled import settled
+from .settled import is_slow, settled
 
 HOST = "127.0.0.1"
 TYPES = {".js": "text/javascript", ".css": "text/css", ".html": "text/html"}
-ENDINGS = {PICTURES: "zip", REPORT: "html", RESULT: "nc"}
+ENDINGS = {PICTURES: "zip", RESULT: "nc"}
+# What the browser shows.
+SHOWN = {REPORT: "text/html", STRESS: "image/png"}
 
 
 class LiveServer:
@@ -36,9 +38,7 @@ class LiveServer:
         self._files: list[asyncio.Future[bytes]] = []
         self._process = ComputingProcess(name, str(folder))
         tree = settled(tree, model, Models(name, folder))
-        # Of trains there is no first look with few steps.
-        over_face = not is_train(tree) and model.scene.three_dimensional
-        self.session = Session(tree, name, over_face, self._process.send, self._tell)
+        self.session = Session(tree, name, is_slow(tree, model), self._process.send, self._tell)
 
     async def run(self, port: int, started: Callable[[str], None]) -> None:
         """Serve until the task is cancelled. Raises SceneError where the port is taken."""
@@ -66,7 +66,7 @@ class LiveServer:
         application.router.add_get(f"{home}socket", self._socket)
         application.router.add_get(f"{home}plotly.js", self._plotly)
         application.router.add_get(f"{home}scene.toml", self._scene)
-        application.router.add_get(f"{home}{{kind:pictures|report|result}}", self._file)
+        application.router.add_get(f"{home}{{kind:{'|'.join(FILES)}}}", self._file)
         application.router.add_get(f"{home}{{name:live\\.(?:js|css)}}", self._own)
         return application
 
@@ -109,8 +109,8 @@ class LiveServer:
             content = await future
         except SceneError as error:
             raise web.HTTPConflict(text=f"{error}\n") from None
-        if kind == REPORT:
-            return web.Response(body=content, content_type="text/html", charset="utf-8")
+        if kind in SHOWN:
+            return web.Response(body=content, content_type=SHOWN[kind], charset="utf-8" if kind == REPORT else None)
         return _download(content, f"{self.session.name}.{ENDINGS[kind]}", "application/octet-stream")
 
     async def _socket(self, request: web.Request) -> web.WebSocketResponse:

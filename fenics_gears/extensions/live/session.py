@@ -16,22 +16,20 @@ from .controls import Control, Path, Tree, control_of, controls_of, reach
 from .train_controls import controls_of_train, names_in_train
 
 MOST_UNDONE = 500
-# Steps of a mesh cycle of a first look at a pair over the face, which takes a tenth of the time.
+# Steps of a mesh cycle of a first look at what is slow, which takes a tenth of the time.
 FIRST_LOOK = 10
 
 
 class Session:
-    """What one call of ``gears live`` shows."""
+    """What one call of ``gears live`` shows. `slow`: what is over the face, or a planetary set."""
 
-    def __init__(
-        self, tree: Tree, name: str, over_face: bool, ask: Callable[[Work], None], tell: Callable[[Any], None]
-    ):
+    def __init__(self, tree: Tree, name: str, slow: bool, ask: Callable[[Work], None], tell: Callable[[Any], None]):
         self.name = name
         self.start = dict(tree)
         self.tree = dict(tree)
         self._train = is_train(tree)
-        self.controls: list[Control] = controls_of_train(tree) if self._train else controls_of(tree, over_face)
-        self._over_face = over_face
+        self.controls: list[Control] = controls_of_train(tree) if self._train else controls_of(tree, slow)
+        self._slow = slow
         self._ask = ask
         self._tell = tell
         self._undone: list[Tree] = []
@@ -63,11 +61,11 @@ class Session:
             self.describe()
 
     def run(self) -> None:
-        """Ask for the run of the present scene: over the face first with few steps."""
+        """Ask for the run of the present scene: over the face and of planetary sets first with few steps."""
         self.number += 1
         self._problems = []
-        steps = FIRST_LOOK if self._over_face else None
-        others = () if self.number > 1 or self._train else tuple(reach(self.tree, self.controls))
+        steps = FIRST_LOOK if self._slow else None
+        others = () if self.number > 1 else tuple(reach(self.tree, self.controls))
         self._ask(Work(RUN, self.number, self.tree, steps, others))
 
     def answered(self, answer: dict[str, Any]) -> None:

@@ -52,7 +52,7 @@ def shown_train(result: xr.Dataset, scene: Any) -> dict[str, Any]:
         "charts": _figures(train_charts(result, scene)),
         "numbers": numbers,
         "warnings": str(result.attrs.get("warnings", "")).splitlines(),
-        "drawing": _drawing_of_train(scene),
+        "drawing": _drawing_of_train(_Gears(scene)),
         "tooth": None,
     }
 
@@ -102,10 +102,25 @@ def _drawing(pair: GearPair) -> dict[str, Any]:
     return {"gears": parts, "ends": _ends(centres, radii), "turn": 0.0}
 
 
-def _drawing_of_train(scene: Any) -> dict[str, Any]:
+class _Gears:
+    """A train, alike where its gears and where they stand are."""
+
+    def __init__(self, scene: Any):
+        self.scene = scene
+        self._key = tuple((each.pair, each.direction, each.gears, each.shafts) for each in scene.meshes)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Gears) and self._key == other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+
+@lru_cache(maxsize=2)
+def _drawing_of_train(of: _Gears) -> dict[str, Any]:
     """The same of a train as its run begins: of a cycle of its first mesh; `turn`: of the carrier of a planetary set,
     in which its gears are described."""
-    gears, turn = gears_of_train(scene)
+    gears, turn = gears_of_train(of.scene)
     parts = [
         {
             "outline": np.round(each.outline, DIGITS).tolist(), "centre": list(each.centre), "bore": each.around,

@@ -7,7 +7,7 @@ from typing import Any
 
 from fenics_gears.scene_text import GEARS, STAGES, fields, value_at
 
-from .controls import Control, Path, Tree, friction, profile_shift, reliefs, twice
+from .controls import SHIFT, Control, Path, Tree, friction, profile_shift, reliefs, twice
 
 LOADS = {"input_torque": "input torque", "output_torque": "output torque", "power": "power"}
 # The meshes of a planetary set, and what pinion and wheel of each are.
@@ -50,7 +50,7 @@ def _of_stage(tree: Tree, stage: str) -> Iterator[Control]:
     group = f"Stage {stage}"
     content = tree[STAGES][stage]
     for words, path in _gears(content):
-        own = (*place, *path, "profile_shift")
+        own = (*place, *path, SHIFT)
         if value_at(tree, *own) is not None:
             yield profile_shift(own, words, group, tree)
     if has_planets(content):

@@ -23,6 +23,9 @@ def warnings(run: ShownRun) -> PageSection:
 
 
 def _sentence(words: str) -> str:
+    if "." in words.split(maxsplit=1)[0]:
+        # The name of a field.
+        words = f"`{words}".replace(" ", "` ", 1)
     return words[:1].upper() + words[1:] + ("" if words.endswith(".") else ".")
 
 

@@ -4,10 +4,13 @@ import numpy as np
 import pytest
 
 from fenics_gears import as_toml, model_of, scene_from_text, simulate, simulate_train, train_from_text
-from fenics_gears.extensions.live.computing import REPORT, RESULT, RUN, Computing, Work
+from fenics_gears.extensions.live.computing import REPORT, RESULT, RUN, STRESS, Computing, Work
 from fenics_gears.extensions.live.controls import controls_of, reach
 from fenics_gears.extensions.live.settled import settled
 from fenics_gears.scene_text import Models, fields
+from fenics_gears.simulation.train import row_cycle
+
+COARSE = {"steps_per_mesh_cycle": 10}
 
 
 @pytest.fixture
@@ -57,6 +60,47 @@ def test_a_train_is_shown_as_it_is_run(computing, spoken, train, tmp_path):
     assert b"<html" in spoken.of("file")[0]["content"]
     windows = [[each.resolution.contact_grid for each in models.of(tree).models] for tree in (scene, changed)]
     assert windows[0] == windows[1]
+
+
+def test_reliefs_of_a_train_share_its_contact_operators(computing, spoken, train, tmp_path, monkeypatch):
+    """The other route: each scene run by itself. Gears are condensed for the first one alone, and a train that is
+    changed back is the one before."""
+    models = Models("train", tmp_path)
+    scene = settled(train, models.of(train), models)
+    relief = {"depth": "15 um", "start": "HPSTC"}
+    relieved = fields.changed(scene, ("stages", "idler", "tip_relief"), {"wheel": relief})
+    both = fields.changed(relieved, ("stages", "idler", "root_relief"), {"pinion": {**relief, "start": "LPSTC"}})
+    before = error_of(answered(computing, spoken, Work(RUN, 1, scene)))
+    monkeypatch.setattr("fenics_gears.simulation.train.row_cycle", None)
+    for number, tree in enumerate((relieved, both), 2):
+        found = error_of(answered(computing, spoken, Work(RUN, number, tree)))
+        expected = 1e6 * simulate_of(tree, monkeypatch)["overall_transmission_error"].values
+        assert np.abs(found - expected).max() < 1e-6 * np.abs(expected).max()
+        assert np.abs(found - before).max() > 0.01 * np.abs(before).max()
+    assert np.abs(error_of(answered(computing, spoken, Work(RUN, 4, scene))) - before).max() < 1e-9
+
+
+def simulate_of(tree, monkeypatch):
+    """The run of a train by itself, which makes operators of its own."""
+    with monkeypatch.context() as own:
+        own.setattr("fenics_gears.simulation.train.row_cycle", row_cycle)
+        return simulate_train(train_from_text(as_toml(tree)))
+
+
+def test_a_first_look_at_a_train_has_few_steps(computing, spoken, train, tmp_path):
+    """The other route: the scene with that many steps, run by itself; all steps then follow."""
+    answer = answered(computing, spoken, Work(RUN, 1, train, steps=10))
+    alone = simulate_train(train_from_text(as_toml({**train, "accuracy": train["accuracy"] | COARSE})))
+    expected = 1e6 * alone["overall_transmission_error"].values
+    assert answer["first_look"] and np.abs(error_of(answer) - expected).max() < 1e-6 * np.abs(expected).max()
+    assert not answered(computing, spoken, Work(RUN, 1, train))["first_look"]
+
+
+@pytest.mark.nightly
+def test_the_stress_of_bodies_is_a_picture(computing, spoken, tree):
+    """By the signature of the format; `gears picture` has tests of what it shows."""
+    answered(computing, spoken, Work(RUN, 1, tree), Work(STRESS, 1))
+    assert spoken.of("file")[0]["content"][:8] == b"\x89PNG\r\n\x1a\n"
 
 
 def test_only_the_newest_scene_is_run(computing, spoken, tree):

@@ -11,9 +11,9 @@ DEPTH = "tip_relief.pinion.depth"
 class Page:
     """A session with lists in the place of the computing process and the browsers."""
 
-    def __init__(self, tree, over_face=False):
+    def __init__(self, tree, slow=False):
         self.asked, self.told = [], []
-        self.session = Session(tree, "pair", over_face, self.asked.append, self.told.append)
+        self.session = Session(tree, "pair", slow, self.asked.append, self.told.append)
 
     def do(self, action, **what):
         self.session.do({"do": action, **what})
@@ -95,7 +95,7 @@ def test_answers_for_older_scenes_are_not_shown(tree):
 
 def test_over_the_face_a_first_look_is_followed_by_all_steps(tree):
     """The page draws something soon, and the whole run after it."""
-    page = Page(tree, over_face=True)
+    page = Page(tree, slow=True)
     page.do("set", name="lead_modifications.pinion.crowning", value=5.0)
     first = page.asked[-1]
     page.session.answered({"kind": "result", "number": first.number, "first_look": True})
