@@ -102,7 +102,7 @@ class RowModel(OfMeshes):
         if ramp is None or self.drivetrain.mass is None:
             return EquationsOfMotion(*common, SteadyClock(first.time_step))
         turned = self.input_speed / ramp.start
-        load = inertia_forces(ramp, turned * self.drivetrain.mass @ self.drivetrain.nominal)
+        load = inertia_forces(ramp, turned * self.drivetrain.momentum)
         return EquationsOfMotion(*common, ramp, (load,))
 
     @property

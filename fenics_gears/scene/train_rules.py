@@ -64,7 +64,7 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[TrainSections | None, list[P
     load, motion = found
     shafts, wrong = checked_shafts(tree, not problems, load, motion)
     problems += wrong
-    ramp, wrong = checked_ramp(tree, load, motion, shafts)
+    ramp, wrong = checked_ramp(tree, load, motion)
     problems += wrong
     if problems:
         return None, problems

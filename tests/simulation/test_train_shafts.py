@@ -14,6 +14,11 @@ from tests.trains import (
 )
 
 from fenics_gears import scene_from_text, simulate, simulate_train, train_from_text
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.model.train import train_model_of
+from fenics_gears.model.train_parts import parts_of
+from fenics_gears.simulation.train import row_cycle
+from fenics_gears.system.progress import SilentProgress
 
 ACCURACY = """
     [accuracy]
@@ -121,6 +126,40 @@ def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair(helix, bearings, vi
         assert whole.attrs["largest_bearing_force"] == pytest.approx(size, rel=1e-8)
         mean = expected.attrs["mean_axis_inclination_in_plane"]
         assert float(found["mean_axis_inclination_in_plane"]) == pytest.approx(mean, rel=1e-8)
+
+
+def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair_on_a_ramp():
+    """Two ways to the same equations: inertia forces of gears, load and shafts, whose coupling leads."""
+    pair, train = pair_and_train(15.0, ROLLING, True)
+    expected = simulate(scene_from_text(f'{pair}[speed_ramp]\nend_frequency = "1500 Hz"\n'))
+    whole = simulate_train(train_from_text(f'{train}[speed_ramp]\nend_speed = "5000 rpm"\n'))
+    assert whole["time"].values == pytest.approx(expected["time"].values, rel=1e-12)
+    for name in ("transmission_error", "normal_force", "line_load", "rotation", "tilt_x"):
+        size = np.nanmax(np.abs(expected[name].values))
+        found = whole.isel(mesh=0)[name].values
+        assert found == pytest.approx(expected[name].values, rel=1e-8, abs=1e-8 * size), name
+
+
+def test_a_spin_up_loads_each_mesh_by_all_that_turns_behind_it():
+    """Newton's law of a rotation: on a determinate train the forces of a mesh in balance are those of the torque and of
+    the angular acceleration of all behind it, the shaft that bends among them."""
+    ramp = f'[motion]\ninput_speed = "600 rpm"\nmesh_cycles = 2\n[speed_ramp]\nend_speed = "6000 rpm"\n{INERTIA}'
+    train = train_from_text(bent_two_stages(more=ramp).text)
+    (model,) = train_model_of(train).rows
+    cycle = row_cycle(model, SilentProgress(), None)
+    step = model.steps // 2
+    rest = Marcher(cycle, model.equations_of_motion).stepper.in_balance(step, cycle.position(step))
+    (shaft,) = model.drivetrain.elastic
+    of_shaft = shaft.density * 150.0 * np.pi / 32.0 * 35.0**4
+    gears = [each.moment_of_inertia for each in parts_of(model.meshes, model.shafts).masses]
+    # Of the slowest mesh, the second, whose pinion has 24 teeth; its wheel has 30.
+    accelerated = 2.0 * np.pi * model.ramp.acceleration / 24
+    second = 300e3 + (gears[3] + 10.0) * accelerated * 24 / 30
+    first = second * 24 / 30 + (gears[1] + gears[2] + of_shaft) * accelerated
+    for (position, at), torque, mesh in zip(rest.position.of_meshes, (first, second), train.meshes):
+        force = rest.solution.forces[at : at + position.operator.nodes].sum()
+        assert force * mesh.pair.wheel.base_radius * mesh.pair.cosine == pytest.approx(torque, rel=1e-9)
+    assert accelerated * of_shaft > 1e-3 * first
 
 
 def textbook_force(mesh, sense: float) -> np.ndarray:
