@@ -14,7 +14,7 @@ import numpy as np
 from fenics_gears.contact.cycle_alike import CycleAlike
 from fenics_gears.contact.joined_meshes import JoinedMeshes
 from fenics_gears.contact.mesh import step_by_step
-from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.mesh_cycle import Cycle, Deviation
 from fenics_gears.contact.row import JoinedPosition, MeshOfRow, RowCycle, at_phase
 from fenics_gears.contact.row_in_plane import GearInPlane, RowInPlane
 from fenics_gears.dynamics.march import Marcher
@@ -24,6 +24,7 @@ from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.elasticity.compliance import Body
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.inputs.tree import GEARS
+from fenics_gears.model.model import Model
 from fenics_gears.model.shared_gears import couplings
 from fenics_gears.model.train import RowModel
 from fenics_gears.model.train_cost import row_cost, row_too_large
@@ -95,7 +96,8 @@ def _member(
     and `offset` of each mesh, and how many `modes` there are, as of MeshOfRow."""
     if len(row.models) == 1:
         bodies = gear_bodies(row.models[0], progress, cache)
-        return MeshOfRow(mesh_cycle(row.models[0], bodies), *placed[0], modes)
+        cycle, deviations = _apart(row.models[0], mesh_cycle(row.models[0], bodies))
+        return MeshOfRow(cycle, *placed[0], modes, deviations)
     cycle = _row_of(row, placed, modes, progress, cache)
     count = placed[0][0].shape[1]
     # What its meshes have by themselves is in it.
@@ -110,11 +112,8 @@ def _row_of(
     meshes: list[MeshOfRow] = []
     for number, (coordinates, offset) in enumerate(placed):
         like = _like(row, number, bodies)
-        cycle = _cycle(row, number, bodies, None if like is None else meshes[like].cycle)
-        deviations = deviations_of(row.models[number])
-        if deviations:
-            # Those of all meshes are added together.
-            cycle = cycle.with_gaps(replace(cycle.gaps, deviations=()))
+        whole = _cycle(row, number, bodies, None if like is None else meshes[like].cycle)
+        cycle, deviations = _apart(row.models[number], whole)
         meshes.append(MeshOfRow(cycle, coordinates, offset, modes, deviations))
     if row.over_face:
         return RowCycle(meshes, _over_face().joined(row, bodies, [mesh.cycle for mesh in meshes]))
@@ -126,6 +125,12 @@ def _row_of(
         for shared in couplings(row.layout, gear)
     ]
     return RowCycle(meshes, RowInPlane(coupled))
+
+
+def _apart(model: Model, cycle: Cycle) -> tuple[Cycle, tuple[Deviation, ...]]:
+    """A cycle without what differs from mesh cycle to mesh cycle, and that: of all meshes it is added together."""
+    deviations = deviations_of(model)
+    return cycle.with_gaps(replace(cycle.gaps, deviations=())) if deviations else cycle, deviations
 
 
 def _over_face() -> ModuleType:

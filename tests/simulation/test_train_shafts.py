@@ -129,10 +129,12 @@ def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair(helix, bearings, vi
 
 
 def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair_on_a_ramp():
-    """Two ways to the same equations: inertia forces of gears, load and shafts, whose coupling leads."""
+    """Two ways to the same equations: inertia forces of gears, load and shafts, whose coupling leads; a pinion that
+    runs out and wobbles."""
     pair, train = pair_and_train(15.0, ROLLING, True)
-    expected = simulate(scene_from_text(f'{pair}[speed_ramp]\nend_frequency = "1500 Hz"\n'))
-    whole = simulate_train(train_from_text(f'{train}[speed_ramp]\nend_speed = "5000 rpm"\n'))
+    run_out = 'eccentricity.pinion]\ndistance = "20 um"\nphase = "1 rad"\nwobble = "9 um"\nwobble_phase = "2 rad"\n'
+    expected = simulate(scene_from_text(f'{pair}[{run_out}[speed_ramp]\nend_frequency = "1500 Hz"\n'))
+    whole = simulate_train(train_from_text(f'{train}[stages.one.{run_out}[speed_ramp]\nend_speed = "5000 rpm"\n'))
     assert whole["time"].values == pytest.approx(expected["time"].values, rel=1e-12)
     for name in ("transmission_error", "normal_force", "line_load", "rotation", "tilt_x"):
         size = np.nanmax(np.abs(expected[name].values))
