@@ -54,9 +54,7 @@ def _shaft_systems(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]
     return tuple(replace(each, shafts=tuple(map(vibrating, each.shafts))) for each in systems)
 
 
-def highest_of_interest(
-    scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear], faster: float = 1.0
-) -> float:
+def highest_of_interest(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear], faster: float = 1.0) -> float:
     """Frequency (Hz) up to which shafts need their own modes: that of the highest mesh harmonic of interest, or roughly
     the resonance of both gears on the mesh, whichever is higher. `faster`: how often the scene's speed the train
     reaches."""

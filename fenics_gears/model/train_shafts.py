@@ -61,8 +61,8 @@ def bent_shafts(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShaft
             up_to = max(up_to, 2.0 * highest_of_interest(mesh.scene, mesh.pair, of_mesh, faster))
     axes = {}
     for bent in shafts.bent:
-        mesh, _ = _places(meshes, bent.own.carries[0])[0]
-        axes[bent.name] = shaft_axes(frames[mesh].axes)
+        number, _ = _places(meshes, bent.own.carries[0])[0]
+        axes[bent.name] = shaft_axes(frames[number].axes)
     systems = []
     gears: list[GearOnShaft] = []
     for system in _in_housings(shafts, [_shaft(bent, meshes, up_to) for bent in shafts.bent], axes):

@@ -44,9 +44,7 @@ def checked_ramp(
     return (None if problems else ramp), problems
 
 
-def _wrong_ramp(
-    tree: Mapping[str, Any], ramp: TrainRamp, load: TrainLoad, motion: TrainMotion
-) -> Iterator[Problem]:
+def _wrong_ramp(tree: Mapping[str, Any], ramp: TrainRamp, load: TrainLoad, motion: TrainMotion) -> Iterator[Problem]:
     written = tree[SPEED_RAMP]
     if "inertia" not in tree:
         yield Problem((SPEED_RAMP,), "", "needs the section [inertia], which is missing. Add it.")

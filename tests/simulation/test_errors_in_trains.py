@@ -82,9 +82,8 @@ def test_an_idler_that_runs_out_moves_both_of_its_mates():
     train = train_from_text(stages.replace("# here", run_out) + rest)
     found = simulate_train(train)
     first, second = (mesh.pair for mesh in train.meshes)
-    lines = np.deg2rad(15.0) + 0.5 * np.pi - first.operating_pressure_angle, (
-        np.deg2rad(70.0) - 0.5 * np.pi + second.operating_pressure_angle
-    )
+    line = np.deg2rad(15.0) + 0.5 * np.pi - first.operating_pressure_angle
+    lines = line, np.deg2rad(70.0) - 0.5 * np.pi + second.operating_pressure_angle
     turned = lines[0] - ANGLE - 2.0 * np.pi * np.arange(500) / 500
     for mesh, (pair, line, sign) in enumerate(zip((first, second), lines, (1.0, -1.0))):
         moved = sign * DISTANCE * np.cos(turned - line) / pair.wheel.base_radius
