@@ -7,11 +7,13 @@ of these forces,
 
 Factors are Cholesky's without friction, else those of elimination with pivots; with friction a position has both, for
 Newton's method begins without it. They last until the sets change: the march finds there those of the mesh cycle
-before; a run of a search, those of the run before.
+before; a run of a search, those of the run before. Without friction meshes that do not feel each other have factors of
+their own.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 from typing import NamedTuple
 
@@ -39,23 +41,25 @@ from .mixed_form import add_slip, put_entries, put_solution, system_of
 
 # Of the largest pivot: a compliance with smaller ones is left to elimination that looks for pivots in all unknowns.
 LEAST_PIVOT = 1e-6
-# What LAPACK is told; and bytes of its integers.
+# What LAPACK is told; and bytes of its integers and of numbers.
 LOWER, TRANSPOSED = ord("L"), ord("T")
-INT = 4
-# In the table of Factors after what `addresses` names: slip of what is factored with friction, room for `lines`; and
-# LAPACK's functions.
-SLIP, LINES, POTRF, POTRS, GETRF, GETRS = range(PRESENT + 1, PRESENT + 7)
+INT, NUMBER = 4, 8
+# In the table of Factors after what `addresses` names: slip of what is factored with friction, room for `lines`;
+# LAPACK's functions; and of `ends` their address and how many there are.
+SLIP, LINES, POTRF, POTRS, GETRF, GETRS, ENDS, COUNT = range(PRESENT + 1, PRESENT + 9)
 
 
 class Factors:
     """Room for factors between some of m forces of n nodes, without and with friction, which takes memory as far as it
-    is used; `table` is for compiled code."""
+    is used; `table` is for compiled code. `firsts`: first nodes of meshes that do not feel each other."""
 
-    def __init__(self, nodes: int, forces: int):
+    def __init__(self, nodes: int, forces: int, firsts: Sequence[int] = (0,)):
         rooms = [(pages(size, size), np.zeros(size + 1, dtype=np.int64)) for size in (nodes, forces)]
         self._arrays = *rooms[0], *rooms[1], np.zeros(forces, dtype=np.int32), np.zeros(forces), pages(forces, forces)
         addresses = [array.ctypes.data for array in self._arrays]
-        self.table = np.array([*addresses[:-2], -1, marching.ctypes.data, *addresses[-2:], *_lapack()])
+        self._ends = np.array([*firsts, nodes], dtype=np.int64)
+        ends = self._ends.ctypes.data, len(self._ends)
+        self.table = np.array([*addresses[:-2], -1, marching.ctypes.data, *addresses[-2:], *_lapack(), *ends])
 
 
 @cache
@@ -81,13 +85,14 @@ class _System(NamedTuple):
 
 
 class _Factored(NamedTuple):
-    """Factors: `matrix` (a, a), by columns as LAPACK reads them, of the transposed compliance between the forces of
-    `rows` (a,) with their `slip`, as of a _System; and the `table` of Factors.
+    """Factors of the transposed compliance between the forces of `rows` (a,) with their `slip`, as of a _System; and
+    the `table` of Factors. Of each of the `blocks` (b, 3) that do not feel each other the first row, how many there
+    are, and the address of a matrix, by columns as LAPACK reads them.
 
     `of_forces` (k, a): G~; first among `lines` is C^-1 G, with friction as long as the factors last.
     """
 
-    matrix: np.ndarray
+    blocks: np.ndarray
     rows: np.ndarray
     slip: np.ndarray
     of_forces: np.ndarray
@@ -105,7 +110,7 @@ def factored_solver():
 def _solve(address):
     """Returns 1, or 0 where the compliance is not safely regular or the drivetrain is loose."""
     at = carray(to_integer(address), 13)
-    m, k, size, slipping, table = at[1], at[2], at[3], at[4], carray(to_integer(at[0]), GETRS + 1)
+    m, k, size, slipping, table = at[1], at[2], at[3], at[4], carray(to_integer(at[0]), COUNT + 1)
     compliance = carray(to_number(at[5]), (m, m))
     system = _System(
         compliance,
@@ -126,9 +131,13 @@ def _solve_frictionless(system, table, result):
     known = forces_at(table[KNOWN])
     factored = _factored(table, system.rows, system.slip, len(system.load))
     if not np.array_equal(known[1:], system.rows):
+        then, ends = known[1:].copy(), carray(to_integer(table[ENDS]), table[COUNT])
         known[0] = 0
-        if not _factor(factored, system):
-            return 0
+        for number in range(len(factored.blocks)):
+            first, size, _ = factored.blocks[number]
+            had = then[np.searchsorted(then, ends[number]) : np.searchsorted(then, ends[number + 1])]
+            if not np.array_equal(had, system.rows[first : first + size]) and not _factor(factored, system, number):
+                return 0
         _know(table[KNOWN], system.rows)
     _put_motions(factored, system)
     return _solve_with(factored, system, result)
@@ -145,7 +154,7 @@ def _solve_slipping(system, table, result):
     factored = _factored(table, rows, slip, k)
     if not (np.array_equal(then, rows) and np.array_equal(slip_then, slip)):
         known[0] = 0
-        if not _factor(factored, system):
+        if not _factor(factored, system, 0):
             return 0
         _know(table[OF_FRICTION + KNOWN], rows)
         carray(to_number(table[SLIP]), len(slip))[:] = slip
@@ -164,25 +173,39 @@ def _know(address, rows):
 def _factored(table, rows, slip, k):
     """Room for the factors between some forces."""
     size, frictional = len(rows), len(slip) > 0
-    matrix = carray(to_number(table[OF_FRICTION + ROOM if frictional else ROOM]), (size, size))
     if frictional:
+        blocks = np.array([[0, size, table[OF_FRICTION + ROOM]]])
         lines = carray(to_number(table[LINES]), (2 * k + 1, size))
     else:
+        blocks = _blocks(table, rows)
         lines = np.empty((2 * k + 1, size))
-    return _Factored(matrix, rows, slip, lines[:k], lines[k:], table)
+    return _Factored(blocks, rows, slip, lines[:k], lines[k:], table)
 
 
 @njit(cache=True)
-def _factor(factored, system):
-    """Put the factors of a system into place; returns whether they are safely regular."""
-    compliance, slip, rows, matrix = system.compliance, system.slip, system.rows, factored.matrix
-    n = len(compliance) // 2
-    for a in range(len(rows)):
+def _blocks(table, rows):
+    """As of _Factored without friction; where each has its matrix does not depend on the rows."""
+    ends, address = carray(to_integer(table[ENDS]), table[COUNT]), table[ROOM]
+    blocks = np.empty((len(ends) - 1, 3), dtype=np.int64)
+    for number in range(len(blocks)):
+        first, end = np.searchsorted(rows, ends[number]), np.searchsorted(rows, ends[number + 1])
+        blocks[number, 0], blocks[number, 1], blocks[number, 2] = first, end - first, address
+        address += NUMBER * (ends[number + 1] - ends[number]) ** 2
+    return blocks
+
+
+@njit(cache=True)
+def _factor(factored, system, number):
+    """Put the factors of a block of a system into place; returns whether they are safely regular."""
+    first, size, address = factored.blocks[number]
+    compliance, slip, rows = system.compliance, system.slip, system.rows[first : first + size]
+    n, matrix = len(compliance) // 2, carray(to_number(address), (size, size))
+    for a in range(size):
         row = compliance[rows[a]]
         put_entries(matrix[a], row, rows, np.int64(0) if len(slip) else a, system.unit)
         if len(slip):
             add_slip(matrix[a], row[n:], rows, slip, system.unit)
-    return _eliminate(factored, len(slip) > 0)
+    return _eliminate(matrix, factored.table, len(slip) > 0)
 
 
 @njit(cache=True)
@@ -199,17 +222,17 @@ def _put_motions(factored, system):
 
 
 @njit(cache=True)
-def _eliminate(factored, slipping):
+def _eliminate(matrix, table, slipping):
     """Put factors into the place of the matrix; returns whether they are safely regular."""
-    matrix, least, largest = factored.matrix, np.inf, 0.0
+    least, largest = np.inf, 0.0
     # A letter is the first byte of its number.
     numbers = np.array([LOWER, len(matrix), 0], dtype=np.int32)
     at, address = np.int64(numbers.ctypes.data), matrix.ctypes.data
     size, info = at + INT, at + 2 * INT
     if slipping:
-        call(factored.table[GETRF], (size, size, address, size, factored.table[PIVOTS], info))
+        call(table[GETRF], (size, size, address, size, table[PIVOTS], info))
     else:
-        call(factored.table[POTRF], (at, size, address, size, info))
+        call(table[POTRF], (at, size, address, size, info))
     for j in range(len(matrix)):
         # Cholesky's diagonal has the roots of pivots.
         pivot = abs(matrix[j, j]) if slipping else matrix[j, j] ** 2
@@ -222,13 +245,18 @@ def _eliminate(factored, slipping):
 def _put_solutions(factored, sides, slipping):
     """Put C^-1 b of right sides b (s, a) in their place."""
     # By columns as LAPACK reads them: a right side is a column, and the matrix is the transposed one.
-    numbers = np.array([TRANSPOSED if slipping else LOWER, len(factored.matrix), len(sides), 0], dtype=np.int32)
-    at, matrix, result = np.int64(numbers.ctypes.data), factored.matrix.ctypes.data, sides.ctypes.data
-    size, count, info = at + INT, at + 2 * INT, at + 3 * INT
-    if slipping:
-        call(factored.table[GETRS], (at, size, count, matrix, size, factored.table[PIVOTS], result, size, info))
-    else:
-        call(factored.table[POTRS], (at, size, count, matrix, size, result, size, info))
+    rows = len(factored.rows)
+    numbers = np.array([TRANSPOSED if slipping else LOWER, rows, len(sides), 0, rows], dtype=np.int32)
+    at, pivots = np.int64(numbers.ctypes.data), factored.table[PIVOTS]
+    size, count, info, whole = at + INT, at + 2 * INT, at + 3 * INT, at + 4 * INT
+    for number in range(len(factored.blocks)):
+        first, own, matrix = factored.blocks[number]
+        numbers[1] = own
+        result = sides.ctypes.data + NUMBER * first
+        if own and slipping:
+            call(factored.table[GETRS], (at, size, count, matrix, size, pivots, result, whole, info))
+        elif own:
+            call(factored.table[POTRS], (at, size, count, matrix, size, result, whole, info))
     # Named once more, for compiled code gives back an array as soon as nothing names it.
     numbers[3] = 0
 

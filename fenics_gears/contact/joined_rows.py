@@ -87,7 +87,9 @@ def joined_rows(
     if not by_columns and any(part.rows.address for part in parts):
         from .factored_compliance import Factors, factored_solver
 
-        factors = Factors(nodes, kinds[0] * nodes)
+        # Those that a gear couples feel each other.
+        firsts = [0] if couplings else [part.first for part in parts]
+        factors = Factors(nodes, kinds[0] * nodes, firsts)
         table[0, 1:3] = factored_solver().address, factors.table.ctypes.data
     table[0, 0] = joined_row_former().address
     table[0, PARTS:] = len(parts), len(couplings), nodes, columns, *kinds, matrix.ctypes.data, formed.ctypes.data

@@ -150,8 +150,8 @@ def _orders_of_turns(result: xr.Dataset, train: TrainScene) -> Iterator[OverallO
 def overall_orders(result: xr.Dataset, train: TrainScene, *, turns: bool = False) -> list[OverallOrder]:
     """The first harmonics of each mesh frequency in the overall transmission error of a train's result, by their order;
     of meshes that have the same one, which an idler couples, the sum. Each has the `meshes`, the `harmonic`, the
-    `order` of the first shaft, the `frequency` (Hz) and the `amplitude` of the last shaft (rad). With `turns` also those
-    of turns of the gears that run out or whose teeth differ.
+    `order` of the first shaft, the `frequency` (Hz) and the `amplitude` of the last shaft (rad). With `turns` also
+    those of turns of the gears that run out or whose teeth differ.
 
     >>> from pathlib import Path
     >>> from fenics_gears import simulate_train, train_from_text

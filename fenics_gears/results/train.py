@@ -131,7 +131,8 @@ def _frequencies(model: TrainModel) -> dict[str, tuple]:
 
 def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.ndarray, np.ndarray]:
     """Times (s) over a cycle of the slowest mesh, or the longest period of gears that run out or have errors, at the
-    steps of the fastest; and the lag (rad) of the last shaft there: of each row that of its last gear, through the ratios behind it. Between steps it is linear.
+    steps of the fastest; and the lag (rad) of the last shaft there: of each row that of its last gear, through the
+    ratios behind it. Between steps it is linear.
 
     Where all meshes move together, at all steps: the rotation of the last gear, and of the first one through the
     ratios."""

@@ -7,9 +7,11 @@ from tests.trains import (
     bent_ends,
     bent_paths,
     bent_two_stages,
+    gear_text,
     helical_paths,
     helical_row,
     helical_stage,
+    mate,
     shaft_section,
 )
 
@@ -176,6 +178,31 @@ def textbook_force(mesh, sense: float) -> np.ndarray:
     onwards = sense * np.array([-outwards[1], outwards[0], 0.0])
     pressed = np.tan(pair.operating_pressure_angle) * outwards
     return tangential * (onwards + pressed - np.array([0.0, 0.0, sense * helix]))
+
+
+def test_a_bending_shaft_carries_a_pinion_with_two_mates():
+    """Statics by hand: bearings of the drive have the textbook's forces of both meshes, each under the torque of its
+    output, wherever the load stands on the face; those of an output those of its own mesh."""
+    table = gear_text(20, 2.0)
+    stages = mate("a", table, gear_text(30, 2.0), 20.0) + mate("b", '"a.pinion"', gear_text(24, 2.0), 150.0)
+    stages = stages.replace('face_width = "20 mm"', 'helix_angle = "15 deg"\nface_width = "10 mm"')
+    loads = '[load]\ntorques = [{ on = "a.wheel", torque = "120 N m" }, { on = "b.wheel", torque = "50 N m" }]\n'
+    coarse = (
+        'slices = 3\nlayers = 2\nbody_element_size = "3 mm"\nsteps_per_mesh_cycle = 6\nflank_element_size = "0.2 mm"\n'
+    )
+    drive = shaft_section("drive", {"a.pinion": 40.0}, 90.0, 20.0, 'torque_at = "0 mm"')
+    output = shaft_section("output", {"b.wheel": 40.0}, 90.0, 20.0, 'torque_at = "90 mm"')
+    shafts = drive + output + "".join(bearing_sections(each, (10.0, 80.0), 3e5, 1e5) for each in ("drive", "output"))
+    train = train_from_text(f"{stages}{loads}[accuracy]\n{coarse}{shafts}")
+    found = simulate_train(train)
+    a, b = (textbook_force(mesh, 1.0) for mesh in train.meshes)
+    assert [mesh.scene.load.wheel_torque for mesh in train.meshes] == [120e3, 50e3]
+    forces = np.stack([found[f"bearing_force_{axis}"].values for axis in "xyz"], axis=-1)
+    names = np.array([str(name).partition(" ")[0] for name in found["bearing"].values])
+    size = np.abs(a).max()
+    for shaft, wanted in (("drive", -a - b), ("output", b)):
+        total = forces[:, names == shaft].sum(axis=1)
+        assert total == pytest.approx(np.tile(wanted, (len(total), 1)), abs=1e-8 * size), shaft
 
 
 def cut_in(scene):
