@@ -1,5 +1,5 @@
 """An idler whose third gear stands at several angles, a helical one, two stages that vibrate together at several
-speeds, two paths whose shafts are clocked, and two helical stages of an electric axle."""
+speeds, two paths whose shafts are clocked, two helical stages of an electric axle, and a gearbox with its oil pump."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ HERE = Path(__file__).parent
 FIRST_ANGLE = 60.0
 ANGLES = 13
 IDLER = "the idler"
+PUMP = "240 N m on the main output, 12 N m on the pump, whose wheel runs out by 40 µm"
 # Of the first shaft, rpm.
 SPEEDS = (300, 500, 750, 1000, 1300, 1600, 1800, 2000, 2200, 2600, 3000, 3600, 4300, 5000, 5600, 6000, 6500, 7500, 9000)
 
@@ -108,6 +109,15 @@ def chart_of_clockings(clockings: tuple[float, ...], shares: list[float]):
     )
 
 
+def lags_of_outputs(run: Path):
+    """Lags of both shafts that drive no gear, in the result of a run."""
+    from fenics_gears import carried_train, load
+    from fenics_gears.shown import train_errors
+
+    found = load(run / "run.nc")
+    return train_errors(carried_train(found), found)[1]
+
+
 def _peaks(over: str, axis: str, places: list[float], errors: list[float]):
     import numpy as np
 
@@ -125,8 +135,8 @@ def _peaks(over: str, axis: str, places: list[float], errors: list[float]):
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Run all trains; write their results and pictures, `idler_angle.png`, `two_stages_speed.png` and
-    `split_torque_clocking.png`."""
+    """Run all trains; write their results and pictures, `idler_angle.png`, `two_stages_speed.png`,
+    `split_torque_clocking.png` and `two_outputs_lags.png`."""
     directory = output_directory("gear_trains", __doc__.splitlines()[0], arguments)
     from fenics_gears.charts import draw_charts
     from fenics_gears.commands.cli import main as gears
@@ -143,8 +153,9 @@ def main(arguments: list[str] | None = None) -> None:
     text = (HERE / "split_torque.toml").read_text(encoding="utf-8")
     subject = "Split torque", [chart_of_clockings(CLOCKINGS, over_clockings(text, CLOCKINGS))]
     draw_charts({"split_torque_clocking.png": subject}, directory, "367 N m on the pinion of 32 teeth, two paths")
-    for name in ("idler", "helical_idler", "two_stages", "split_torque", "electric_axle"):
+    for name in ("idler", "helical_idler", "two_stages", "split_torque", "electric_axle", "two_outputs"):
         gears(["run", str(HERE / f"{name}.toml"), "-o", str(directory / name)])
+    draw_charts({"two_outputs_lags.png": ("Lags", [lags_of_outputs(directory / "two_outputs")])}, directory, PUMP)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ flexibility of the nodes, which stiff bearings do not spoil. Gyroscopic moments 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -199,6 +199,13 @@ class ShaftSystem(ShaftsAtRest):
                 if name in names:
                     moved[[self.motions.index(each) for each in turned], names.index(name)] = 1.0
         return moved
+
+    def turning(self, turns: Mapping[str, float]) -> np.ndarray:
+        """All motions (g + m,) of shafts that turn as a whole by so much, by their names."""
+        found = np.zeros(len(self.motions))
+        for shaft in self.shafts:
+            found[[self.motions.index(name) for name in shaft.turns]] = turns[shaft.name]
+        return found
 
     def momentum_of_coupling(self, names: Sequence[str]) -> np.ndarray:
         """Momentum (k,) over a pair's coordinates per speed (rad/s) of the prescribed rotation of a whole input shaft,

@@ -41,15 +41,15 @@ class TrainDrivetrain(Drivetrain):
     """Equations of motion of a train. `motions` (f, k): those of shafts that turn together, which without mass some
     meshes alone hold. `angle` (k,): rotation (rad) of the last shaft; `of_meshes`: of each mesh, how its own
     coordinates (l, k) follow; `ends`: by mesh, rotation (k,), rad, of the
-    load on the shaft that it drives. `nominal`: how the coordinates (k,) of rigid and twisting shafts move, mm, as the
-    first shaft turns by 1 rad and all others with it. `of_members` (3, k), rad/mm: of a planetary set with inertia,
+    load on the shaft that it drives. `momentum` (k,), N s: of all masses, as the first shaft turns by 1 rad/s and all
+    others with it; none without mass. `of_members` (3, k), rad/mm: of a planetary set with inertia,
     rotations of its members, counter-clockwise."""
 
     motions: tuple[tuple[float, ...], ...] = ()
     angle: np.ndarray = field(default_factory=lambda: np.zeros(0))
     of_meshes: tuple[np.ndarray, ...] = ()
     ends: tuple[np.ndarray, ...] = ()
-    nominal: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    momentum: np.ndarray = field(default_factory=lambda: np.zeros(0))
     of_members: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
 
     @property
@@ -256,11 +256,11 @@ def train_drivetrain(
         angle=-rows.onwards(graph.last) * rows.of(f"rotation_{graph.last + 1}"),
         of_meshes=of_meshes,
         ends=tuple(rows.lag(driven) for _, driven in graph.between),
-        nominal=rows.nominal(turns),
     )
     if undamped.mass is None:
         return undamped
-    return replace(undamped, damping=damping_of(undamped, damping, np.array(mesh_stiffness)))
+    dampers = damping_of(undamped, damping, np.array(mesh_stiffness))
+    return replace(undamped, damping=dampers, momentum=_momentum(rows, undamped.mass, turns))
 
 
 def _stiffness(rows: Rows) -> tuple[np.ndarray, np.ndarray]:
@@ -293,6 +293,16 @@ def _mass(rows: Rows) -> np.ndarray:
     for shaft, load in parts.loads.items():
         end = rows.end(shaft)
         found += load * np.outer(end, end)
+    return found
+
+
+def _momentum(rows: Rows, mass: np.ndarray, turns: Sequence[Fraction]) -> np.ndarray:
+    """Momentum (k,), N s, of gears and load as the first shaft turns by 1 rad/s."""
+    found = mass @ rows.nominal(turns)
+    if "rotation_1" not in rows.names:
+        # Its turn is prescribed: gears that turn against it are moved on all the same.
+        for gear in rows.graph.on(0):
+            found += rows.parts.masses[gear].moment_of_inertia * rows.rotation(gear, PINION)
     return found
 
 

@@ -70,13 +70,14 @@ class GearOnShaft:
 class BentShafts:
     """All shafts of a train that bend: their `systems`, the `gears` on them, once in each of their meshes, the `frames`
     of all meshes; `axes` (3, 3) of each shaft in space, one a row, by its name. `masses`: of the gears by their names,
-    none without inertia."""
+    none without inertia. `turns`: of each shaft by its name, about the axis of the train, in one of the first."""
 
     systems: tuple[ShaftSystem, ...]
     axes: Mapping[str, np.ndarray]
     gears: tuple[GearOnShaft, ...]
     frames: tuple[MeshFrame, ...]
     masses: Mapping[str, LumpedGear]
+    turns: Mapping[str, float]
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -247,7 +248,11 @@ def with_bent_shafts(
     if whole.mass is None:
         return whole
     dampers = with_shafts(np.zeros_like(base.stiffness), "damping")
-    return replace(whole, damping=damping_of(whole, damping, np.array(mesh_stiffness), dampers))
+    momentum = coordinates.padded(base.momentum) + sum(
+        moved.T @ system.mass @ system.turning(bent.turns) for system, moved in moving
+    )
+    damping_matrix = damping_of(whole, damping, np.array(mesh_stiffness), dampers)
+    return replace(whole, damping=damping_matrix, momentum=momentum)
 
 
 def _mass_of_gears(coordinates: _Coordinates) -> np.ndarray:

@@ -159,6 +159,17 @@ def common_period(scene) -> float:
     return inf if inf in periods else lcm(*periods)
 
 
+def gear_differs(scene, gear: str) -> bool:
+    """Whether the pinion or the wheel runs out, or its teeth are not all alike."""
+    if scene.eccentricity is not None and getattr(scene.eccentricity, gear) is not None:
+        return True
+    if scene.flank_errors is None:
+        return False
+    from .flank_errors import teeth_differ
+
+    return teeth_differ(scene.flank_errors, scene, gear)
+
+
 def without(scene, *sections: str):
     """The scene less some effects; what needs them is left in and may then not be valid."""
     changed = replace(scene, **{name: None for name in sections if name in AT_THE_TOP})

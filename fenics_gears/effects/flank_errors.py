@@ -8,7 +8,6 @@ right end, whatever the hand. Teeth are counted in the order in which they mesh,
 meshes first; a pitch is that from the tooth before.
 """
 
-from collections.abc import Sequence
 from math import lcm
 from typing import Any
 
@@ -54,13 +53,14 @@ def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
 
 def period(errors: FlankErrors, scene) -> int:
     """Mesh cycles of whole turns of the gears whose teeth differ."""
+    return lcm(*(getattr(scene.gears, gear).teeth for gear in GEARS if teeth_differ(errors, scene, gear)))
+
+
+def teeth_differ(errors: FlankErrors, scene, gear: str) -> bool:
+    """Whether a gear's teeth are not all alike in some deviations; what is not given is drawn, or there is none."""
+    own: GearErrors = getattr(errors, gear)
     names = lists_of(scene)
     drawn = errors.tolerance_class is not None
-    return lcm(*(getattr(scene.gears, gear).teeth for gear in GEARS if _differ(getattr(errors, gear), names, drawn)))
-
-
-def _differ(own: GearErrors, names: Sequence[str], drawn: bool) -> bool:
-    """Whether a gear's teeth are not all alike in some deviations; what is not given is `drawn`, or there is none."""
     if any(each is not None for each in (own.waviness, own.profile_curves, own.helix_curves)):
         return True
     return any(drawn if (given := getattr(own, name)) is None else len(set(given)) > 1 for name in names)

@@ -54,13 +54,14 @@ def _shaft_systems(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]
     return tuple(replace(each, shafts=tuple(map(vibrating, each.shafts))) for each in systems)
 
 
-def highest_of_interest(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]) -> float:
+def highest_of_interest(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear], faster: float = 1.0) -> float:
     """Frequency (Hz) up to which shafts need their own modes: that of the highest mesh harmonic of interest, or roughly
-    the resonance of both gears on the mesh, whichever is higher."""
+    the resonance of both gears on the mesh, whichever is higher. `faster`: how often the scene's speed the train
+    reaches."""
     along = sum(getattr(pair, name).base_radius ** 2 / each.moment_of_inertia for name, each in gears.items())
     stiffness = mesh_stiffness(scene, pair)
     resonance = sqrt(stiffness * along) / (2.0 * pi) if isfinite(stiffness) else 0.0
-    return max(HARMONICS * scene.mesh_frequencies[1], resonance)
+    return max(HARMONICS * faster * scene.mesh_frequencies[1], resonance)
 
 
 def mesh_stiffness(scene: Scene, pair: GearPair | None = None) -> float:

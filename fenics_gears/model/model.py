@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property, partial
-from math import inf, lcm
+from math import ceil, inf, lcm
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -37,8 +38,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Model:
     """A scene ready to be computed: its gear pair, its drivetrain, how finely, and the material removed from either
-    flank. `contact_cycles`: mesh cycles, the last, whose contact fields are stored. `own_clock`: of the train
-    that it is a mesh of, where that has a speed ramp."""
+    flank. `contact_cycles`: mesh cycles, the last, whose contact fields are stored. Of a mesh of a train `own_clock` is
+    its clock on a speed ramp, and `of_slowest` how many of its cycles are counted as one."""
 
     scene: Scene
     pair: GearPair
@@ -47,6 +48,7 @@ class Model:
     removal: tuple
     contact_cycles: int = 0
     own_clock: Clock | None = None
+    of_slowest: Fraction | None = None
 
     @property
     def models(self) -> list[Model]:
@@ -206,10 +208,11 @@ class Model:
         if not run < period < inf:
             return []
         whole = lcm(self.scene.gears.pinion.teeth, self.scene.gears.wheel.teeth)
-        words = f' or "{HUNTING_TOOTH_PERIOD}"' if period == whole else ""
+        words = f' or "{HUNTING_TOOTH_PERIOD}"' if period == whole and self.of_slowest is None else ""
         return [
             f"only {run} of the {period} mesh cycles of the common period are run: cycles are not alike, and all"
-            f" numbers are of a part of them; motion.mesh_cycles = {period}{words} goes through all"
+            f" numbers are of a part of them; motion.mesh_cycles = {ceil(period / (self.of_slowest or 1))}{words} goes"
+            " through all"
         ]
 
     def _without_fields(self) -> list[str]:

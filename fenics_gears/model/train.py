@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 from math import ceil, lcm, pi
 from typing import TYPE_CHECKING
@@ -108,7 +109,7 @@ class RowModel(OfMeshes):
         if ramp is None or self.drivetrain.mass is None:
             return EquationsOfMotion(*common, SteadyClock(first.time_step))
         turned = self.input_speed / ramp.start
-        load = inertia_forces(ramp, turned * self.drivetrain.mass @ self.drivetrain.nominal)
+        load = inertia_forces(ramp, turned * self.drivetrain.momentum)
         return EquationsOfMotion(*common, ramp, (load,))
 
     @property
@@ -290,7 +291,7 @@ def _row_of(scene: TrainScene, numbers: Sequence[int]) -> RowModel:
     """The row of these meshes of a train."""
     meshes = tuple(scene.meshes[number] for number in numbers)
     if len(meshes) == 1 and not scene.shafts.moving:
-        return RowModel(meshes, (model_of(meshes[0].scene),))
+        return RowModel(meshes, (replace(model_of(meshes[0].scene), of_slowest=Fraction(1)),))
     return together(meshes, scene.shafts, scene.recorded_cycles)
 
 
@@ -333,7 +334,7 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
         drivetrain = drivetrain_of_mesh(mesh.pair, mesh.scene.load.wheel_torque, names, supports, seats)
         if shafts.carrier is not None:
             model = narrowed(model)
-        found.append(replace(model, drivetrain=drivetrain))
+        found.append(replace(model, drivetrain=drivetrain, of_slowest=Fraction(max(steps), own)))
     check_alike(meshes, found)
     recorded = recorded_cycles * max(steps) if shafts.moving else 0
     row = RowModel(tuple(meshes), tuple(found), shafts, recorded)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from math import inf
+from math import inf, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,7 +29,7 @@ from fenics_gears.effects.elastic_shaft_housing import check_housing, stiffness_
 from fenics_gears.effects.elastic_shaft_rules import bearings_hold, held_at_work
 from fenics_gears.effects.elastic_shaft_seats import seated
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.train_graph import TrainGraph
+from fenics_gears.geometry.train_graph import TrainGraph, turns_of_shafts
 from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.scene.train_mesh import MeshOfScene, gear_names, layout_of
 from fenics_gears.scene.train_shaft import BentShaft
@@ -50,15 +50,19 @@ def bent_shafts(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShaft
     frames = mesh_frames(meshes)
     masses: dict[str, LumpedGear] = {}
     up_to = 0.0
+    graph = layout_of(meshes).graph
+    first = meshes[graph.out_of(0)[0]]
+    speed = 2.0 * pi * first.scene.motion.mesh_frequency / first.pair.pinion.teeth
+    faster = 1.0 if shafts.ramp is None else max(shafts.ramp.end_speed / speed, 1.0)
     for mesh in meshes:
         if mesh.scene.inertia is not None:
             of_mesh = lumped_gears(mesh.scene, mesh.pair)
             masses |= {name: of_mesh[side] for name, side in zip(mesh.gears, SIDES)}
-            up_to = max(up_to, 2.0 * highest_of_interest(mesh.scene, mesh.pair, of_mesh))
+            up_to = max(up_to, 2.0 * highest_of_interest(mesh.scene, mesh.pair, of_mesh, faster))
     axes = {}
     for bent in shafts.bent:
-        first, _ = _places(meshes, bent.own.carries[0])[0]
-        axes[bent.name] = shaft_axes(frames[first].axes)
+        number, _ = _places(meshes, bent.own.carries[0])[0]
+        axes[bent.name] = shaft_axes(frames[number].axes)
     systems = []
     gears: list[GearOnShaft] = []
     for system in _in_housings(shafts, [_shaft(bent, meshes, up_to) for bent in shafts.bent], axes):
@@ -69,7 +73,9 @@ def bent_shafts(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> BentShaft
         ]
         systems.append(_at_work(system, own, frames))
         gears += own
-    return BentShafts(tuple(systems), axes, tuple(gears), tuple(frames), masses)
+    turned = turns_of_shafts(graph, [(mesh.pair.pinion.teeth, mesh.pair.wheel.teeth) for mesh in meshes])
+    turns = {bent.name: graph.senses[bent.number] * float(turned[bent.number]) for bent in shafts.bent}
+    return BentShafts(tuple(systems), axes, tuple(gears), tuple(frames), masses, turns)
 
 
 def _in_housings(

@@ -6,18 +6,23 @@ least squares over the recorded cycles, which are whole ones of the slowest mesh
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 
+from fenics_gears.effects import gear_differs
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import NOTHING_DONE
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.train import TrainScene
 
 from .sets_in_train import LAG_OF_SET, SET
 
 HARMONICS = 10
+# Of a turn of a shaft.
+OF_A_TURN = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +39,7 @@ class CycleOfMesh:
 @dataclass(frozen=True)
 class OverallOrder:
     """A harmonic of meshes that have one mesh frequency: their names, place of the first of them in the train,
-    harmonic, order of the first shaft, amplitude."""
+    harmonic, order of the first shaft, amplitude. Or `of_turn` of a gear that runs out or has errors, by its name."""
 
     meshes: str
     place: int
@@ -42,6 +47,7 @@ class OverallOrder:
     order: float
     frequency: float
     amplitude: float
+    of_turn: bool = False
 
 
 def cycles_of_meshes(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]:
@@ -80,33 +86,72 @@ def _fitted(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]:
     """The harmonics of each mesh frequency in the overall transmission error; of meshes with one frequency, and of
     harmonics that another mesh has too, those of the first of them."""
     steps = result["steps_per_mesh_cycle"].values.astype(int)
-    last = slice(-1 - train.recorded_cycles * steps.max(), -1)
-    lag = result["overall_transmission_error"].values[last]
-    times = result["time"].values[last]
     frequencies = [mesh.scene.motion.mesh_frequency for mesh in train.meshes]
-    # Within half of the steps of its cycle.
-    known = [(mesh, n) for mesh in range(len(steps)) for n in range(1, min(HARMONICS, steps[mesh] // 2 - 1) + 1)]
-    distinct: dict[float, tuple[int, int]] = {}
-    for mesh, n in known:
-        distinct.setdefault(round(n * frequencies[mesh] / frequencies[0], 9), (mesh, n))
-    angles = 2.0 * np.pi * np.outer(times, [n * frequencies[mesh] for mesh, n in distinct.values()])
-    columns = np.hstack([np.ones((len(times), 1)), np.cos(angles), np.sin(angles)])
-    fitted = np.linalg.lstsq(columns, lag, rcond=None)[0][1:].reshape(2, -1)
+    distinct = _of_meshes(result, train)
+    turns = [n * frequency for _, _, n, frequency in _of_turns(train)]
+    fitted = _harmonics(result, train, [n * frequencies[mesh] for mesh, n in distinct] + turns)
     found = []
     for number, (frequency, named) in enumerate(zip(frequencies, train.meshes)):
         phase = 2.0 * np.pi * np.arange(steps[number]) / steps[number]
         values = np.zeros(steps[number])
-        for (own, n), (cosine, sine) in zip(distinct.values(), fitted.T):
+        for (own, n), (cosine, sine) in zip(distinct, fitted):
             if own == number:
                 values += cosine * np.cos(n * phase) + sine * np.sin(n * phase)
         found.append(CycleOfMesh(named.name, values, frequency, frequency / train.input_speed))
     return found
 
 
-def overall_orders(result: xr.Dataset, train: TrainScene) -> list[OverallOrder]:
+def _of_meshes(result: xr.Dataset, train: TrainScene) -> list[tuple[int, int]]:
+    """Mesh and harmonic of each frequency, within half of the steps of its cycle; of several the first one."""
+    steps = result["steps_per_mesh_cycle"].values.astype(int)
+    frequencies = [mesh.scene.motion.mesh_frequency for mesh in train.meshes]
+    distinct: dict[float, tuple[int, int]] = {}
+    for mesh, own in enumerate(steps):
+        for n in range(1, min(HARMONICS, own // 2 - 1) + 1):
+            distinct.setdefault(round(n * frequencies[mesh] / frequencies[0], 9), (mesh, n))
+    return list(distinct.values())
+
+
+def _of_turns(train: TrainScene) -> list[tuple[str, int, int, float]]:
+    """Name, mesh, harmonic and frequency (Hz) of turns of the gears that run out or whose teeth differ; those of one
+    shaft once."""
+    found: dict[float, tuple[str, int, float]] = {}
+    for number, mesh in enumerate(train.meshes):
+        for side, name, gear in zip(mesh.pair.sides, mesh.gears, GEARS):
+            frequency = mesh.scene.motion.mesh_frequency / side.gear.tooth_count
+            if mesh.of_set is None and gear_differs(mesh.scene, gear):
+                found.setdefault(round(frequency / train.input_speed, 9), (name, number, frequency))
+    return [(name, mesh, n, frequency) for name, mesh, frequency in found.values() for n in range(1, OF_A_TURN + 1)]
+
+
+def _harmonics(result: xr.Dataset, train: TrainScene, frequencies: Sequence[float]) -> np.ndarray:
+    """Cosines and sines (n, 2), rad, of such frequencies (Hz) in the overall transmission error, together."""
+    steps = int(result["steps_per_mesh_cycle"].max())
+    last = slice(-1 - train.recorded_cycles * steps if train.shafts.moving else 0, -1)
+    times = result["time"].values[last]
+    angles = 2.0 * np.pi * np.outer(times, frequencies)
+    columns = np.hstack([np.ones((len(times), 1)), np.cos(angles), np.sin(angles)])
+    lag = result["overall_transmission_error"].values[last]
+    return np.linalg.lstsq(columns, lag, rcond=None)[0][1:].reshape(2, -1).T
+
+
+def _orders_of_turns(result: xr.Dataset, train: TrainScene) -> Iterator[OverallOrder]:
+    turns = _of_turns(train)
+    if not turns:
+        return
+    frequencies = [mesh.scene.motion.mesh_frequency for mesh in train.meshes]
+    others = [n * frequencies[mesh] for mesh, n in _of_meshes(result, train)]
+    fitted = _harmonics(result, train, [n * frequency for _, _, n, frequency in turns] + others)
+    for (name, mesh, n, own), each in zip(turns, fitted):
+        order = n * own / train.input_speed
+        yield OverallOrder(name, mesh, n, order, n * own, float(np.hypot(*each)), of_turn=True)
+
+
+def overall_orders(result: xr.Dataset, train: TrainScene, *, turns: bool = False) -> list[OverallOrder]:
     """The first harmonics of each mesh frequency in the overall transmission error of a train's result, by their order;
     of meshes that have the same one, which an idler couples, the sum. Each has the `meshes`, the `harmonic`, the
-    `order` of the first shaft, the `frequency` (Hz) and the `amplitude` of the last shaft (rad).
+    `order` of the first shaft, the `frequency` (Hz) and the `amplitude` of the last shaft (rad). With `turns` also
+    those of turns of the gears that run out or whose teeth differ.
 
     >>> from pathlib import Path
     >>> from fenics_gears import simulate_train, train_from_text
@@ -134,4 +179,5 @@ def overall_orders(result: xr.Dataset, train: TrainScene) -> list[OverallOrder]:
             OverallOrder(names, cycles.index(first), n, n * first.order, n * first.frequency, float(amplitude))
             for n, amplitude in enumerate(amplitudes, 1)
         ]
+    found += _orders_of_turns(result, train) if turns else []
     return sorted(found, key=lambda each: each.order)

@@ -126,8 +126,9 @@ def _frequencies(model: TrainModel) -> dict[str, tuple]:
 
 
 def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.ndarray, np.ndarray]:
-    """Times (s) over a cycle of the slowest mesh, at the steps of the fastest; and the lag (rad) of the last shaft
-    there: of each row that of its last gear, through the ratios behind it. Between steps it is linear.
+    """Times (s) over a cycle of the slowest mesh, or the longest period of gears that run out or have errors, at the
+    steps of the fastest; and the lag (rad) of the last shaft there: of each row that of its last gear, through the
+    ratios behind it. Between steps it is linear.
 
     Where all meshes move together, at all steps: the rotation of the last gear, and of the first one through the
     ratios."""
@@ -137,9 +138,12 @@ def overall_error(model: TrainModel, meshes: Sequence[MeshResult]) -> tuple[np.n
     links = model.scene.links
     curves = [meshes[link.mesh].lag(link) for link in links]
     steps = [link.frequency * len(curve) for link, curve in zip(links, curves)]
-    cycles = 1 if model.scene.joined else model.models[0].scene.motion.mesh_cycles
+    whole = [1.0 / link.frequency for link in links]
+    if not model.scene.joined:
+        motions = [own.scene.motion for own in model.models]
+        whole += [own.mesh_cycles / own.mesh_frequency for own in motions]
     # Of a whole number round-off makes no step more.
-    times = np.arange(int(np.ceil(cycles * max(steps) / min(link.frequency for link in links) - 1e-9)) + 1) / max(steps)
+    times = np.arange(int(np.ceil(max(whole) * max(steps) - 1e-9)) + 1) / max(steps)
     cycles_of = [(times * link.frequency, curve) for link, curve in zip(links, curves)]
     lags = (
         np.interp(phase * len(curve), np.arange(len(curve)), curve, period=len(curve)) for phase, curve in cycles_of

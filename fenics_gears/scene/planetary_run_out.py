@@ -1,4 +1,4 @@
-"""Gears of a planetary set that run out, as the pairs of its meshes have it.
+"""Gears of several meshes that run out, in a planetary set or another train, as the pairs of these have it.
 
 In the frame of the carrier each gear turns at its own rate about a centre that stands still, and takes its run-out
 along. Each of its meshes sees the same displacement from its own line of action.
@@ -13,6 +13,8 @@ from math import atan2, cos, sin
 import numpy as np
 
 from fenics_gears.contact.eccentricity import Eccentricity, Offset
+from fenics_gears.errors import SceneError
+from fenics_gears.inputs.problem import NOTHING_DONE
 
 from .carrier import RunOut
 from .planetary_schema import RunOutsOfSet
@@ -33,18 +35,43 @@ def run_outs_of(own: RunOutsOfSet | None, sun: str, planets: Sequence[str], ring
 
 
 def with_run_outs(meshes: Sequence[MeshOfScene], run_outs: Sequence[RunOut]) -> list[MeshOfScene]:
-    """The meshes of a set with the `[eccentricity]` of their pairs."""
+    """Meshes with the `[eccentricity]` of their pairs: that of gears which run out, beside what they have of others."""
     known = {each.gear: each for each in run_outs}
     layout = layout_of(meshes)
     found = []
     for number, mesh in enumerate(meshes):
         axes = layout.axes(number)
-        sides = zip(mesh.pair.sides, mesh.gears)
-        offsets = [_offset(axes, side.turning, known[gear]) if gear in known else None for side, gear in sides]
+        own = mesh.scene.eccentricity
+        sides = zip(mesh.pair.sides, mesh.gears, (None, None) if own is None else own.of_gears)
+        offsets = [
+            _offset(axes, side.turning, known[gear]) if gear in known else offset for side, gear, offset in sides
+        ]
         if any(offsets):
             mesh = replace(mesh, scene=replace(mesh.scene, eccentricity=Eccentricity(*offsets)))
         found.append(mesh)
     return found
+
+
+def in_all_meshes(meshes: Sequence[MeshOfScene], source: str) -> list[MeshOfScene]:
+    """Meshes of a train in which a gear with several mates runs out in all of them as the scene has it in one."""
+    layout = layout_of(meshes)
+    found: dict[str, RunOut] = {}
+    for number, mesh in enumerate(meshes):
+        own = mesh.scene.eccentricity
+        for side, gear, offset in zip(mesh.pair.sides, layout.graph.gears[number], () if own is None else own.of_gears):
+            name = mesh.gears[side.number]
+            if offset is None or gear not in layout.graph.shared:
+                continue
+            if offset.wobble or name in found:
+                what = "wobbles, which is not yet computed" if offset.wobble else "runs out in two stages"
+                raise SceneError(
+                    f"{source}: stages.{mesh.name}.eccentricity: the gear {name} has several mates and {what}. Allowed:"
+                    f" its distance and phase, in one of its stages. {NOTHING_DONE}"
+                )
+            angle = side.turning * offset.phase
+            along, off = layout.axes(number).T @ np.array([cos(angle), sin(angle)])
+            found[name] = RunOut(name, offset.distance, atan2(off, along))
+    return with_run_outs(meshes, list(found.values())) if found else list(meshes)
 
 
 def _offset(axes: np.ndarray, turning: float, own: RunOut) -> Offset:

@@ -11,10 +11,12 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from math import pi, prod
+from fractions import Fraction
+from math import ceil, lcm, pi, prod
 from pathlib import Path
 from typing import Any
 
+from fenics_gears.effects import common_period
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import NOTHING_DONE, Problem, line_numbers, listed
 
@@ -26,7 +28,7 @@ from .schema import LAST_CYCLES, NOMINAL_FREQUENCY
 from .train_joints import Ends, JoinedText, in_series
 from .train_layout import check_layout
 from .train_loads import TrainLoad
-from .train_mesh import MeshOfScene, gear_names, layout_of
+from .train_mesh import MeshOfScene, gear_names, layout_of, rows_of
 from .train_pair import MistakesOfStage, TrainMistakes
 from .train_rules import TrainSections, checked_train
 from .train_scene import TrainScene, exact_turns, turns_of
@@ -184,18 +186,35 @@ def _completed(
     driving = 2.0 * pi * of_first / first
     on_shafts = torques_of_shafts(load, sections.shafts.loads, turns, driving)
     given = given and speed is not None
-    cycles = motion.mesh_cycles or 1
+    periods = [int(common_period(mesh.scene)) for mesh in meshes]
+    # Meshes of one gear have one frequency to the last digit.
+    lengths = [exact[graph.between[number][0]] * mesh.pair.pinion.teeth / first for number, mesh in enumerate(meshes)]
+    cycles = [motion.mesh_cycles or 1] * len(meshes)
+    if motion.mesh_cycles is None and sections.shafts.carrier is None:
+        cycles = _whole_periods(meshes, periods, lengths, sections.shafts.moving)
     torques = even_torques(layout, on_shafts)
     found: list[MeshOfScene] = []
     for number, mesh in enumerate(meshes):
-        # Meshes of one gear have one frequency to the last digit.
-        frequency = of_first * float(exact[graph.between[number][0]] * mesh.pair.pinion.teeth / first)
-        moving = Motion(frequency, cycles, cycles, False, given)
+        own = cycles[number]
+        moving = Motion(of_first * float(lengths[number]), own, own, periods[number] > 1, given)
         found.append(replace(mesh, scene=replace(mesh.scene, load=Load(torques[number]), motion=moving)))
-    alike = sections.shafts.ramp is None and not any(mesh.scene.eccentricity for mesh in meshes)
-    usual = LAST_CYCLES if alike else cycles
-    recorded = min(motion.recorded_cycles or usual, cycles)
+    usual = LAST_CYCLES if sections.shafts.ramp is None and max(periods) == 1 else max(cycles)
+    recorded = min(motion.recorded_cycles or usual, max(cycles))
     of_ends = sum(own * turn for own, turn in zip(on_shafts, turns)), on_shafts[-1]
     if (carrier := sections.shafts.carrier) is not None:
         of_ends = carrier.torque, abs(carrier.set.torques(carrier.torque)[carrier.set.output])
     return TrainScene(title, name, tuple(found), *of_ends, given, text, sections.shafts, recorded)
+
+
+def _whole_periods(
+    meshes: Sequence[MeshOfScene], periods: Sequence[int], rates: Sequence[Fraction], moving: bool
+) -> list[int]:
+    """Cycles that each mesh is run, unless given: a whole period of what differs between its cycles; where stages move
+    together so many of the slowest mesh that each has gone through its own. `rates`: mesh frequencies over one."""
+    if moving:
+        return [max(ceil(period / rate * min(rates)) for period, rate in zip(periods, rates))] * len(meshes)
+    found = list(periods)
+    for row in rows_of(meshes):
+        for number in row:
+            found[number] = lcm(*(periods[each] for each in row))
+    return found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from fenics_gears.inputs.fields import quantity, whole_number
 from fenics_gears.inputs.problem import Problem
@@ -12,9 +12,6 @@ from fenics_gears.inputs.section import Section, fields_of, read_by_itself
 from fenics_gears.inputs.written import as_written
 
 from .train_loads import TrainLoad, TrainMotion
-
-if TYPE_CHECKING:
-    from .train_shafts import TrainShafts
 
 SPEED_RAMP = "speed_ramp"
 
@@ -32,7 +29,7 @@ class TrainRamp(Section):
 
 
 def checked_ramp(
-    tree: Mapping[str, Any], load: TrainLoad | None, motion: TrainMotion | None, shafts: TrainShafts
+    tree: Mapping[str, Any], load: TrainLoad | None, motion: TrainMotion | None
 ) -> tuple[TrainRamp | None, list[Problem]]:
     """The speed ramp of a parsed train, None where it has none or a wrong one, and what is wrong with it."""
     written = tree.get(SPEED_RAMP)
@@ -43,13 +40,11 @@ def checked_ramp(
         return None, [Problem((SPEED_RAMP,), as_written(written), said)]
     ramp, problems = read_by_itself(TrainRamp, written, (SPEED_RAMP,))
     if not problems and load is not None and motion is not None:
-        problems = list(_wrong_ramp(tree, ramp, load, motion, shafts))
+        problems = list(_wrong_ramp(tree, ramp, load, motion))
     return (None if problems else ramp), problems
 
 
-def _wrong_ramp(
-    tree: Mapping[str, Any], ramp: TrainRamp, load: TrainLoad, motion: TrainMotion, shafts: TrainShafts
-) -> Iterator[Problem]:
+def _wrong_ramp(tree: Mapping[str, Any], ramp: TrainRamp, load: TrainLoad, motion: TrainMotion) -> Iterator[Problem]:
     written = tree[SPEED_RAMP]
     if "inertia" not in tree:
         yield Problem((SPEED_RAMP,), "", "needs the section [inertia], which is missing. Add it.")
@@ -65,9 +60,3 @@ def _wrong_ramp(
     if motion.mesh_cycles is not None and ramp.hold_cycles >= motion.mesh_cycles:
         said = f"leaves no cycle of motion.mesh_cycles = {motion.mesh_cycles} for the ramp. Allowed: fewer."
         yield Problem((SPEED_RAMP, "hold_cycles"), as_written(written["hold_cycles"]), said)
-    if shafts.bent:
-        said = (
-            f"is not yet computed with shafts that bend, as [shafts.{shafts.bent[0].name}]. Leave out their sections,"
-            " or the ramp."
-        )
-        yield Problem((SPEED_RAMP,), "", said)

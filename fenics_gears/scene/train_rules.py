@@ -25,8 +25,9 @@ ENDS = ("load", "motion")
 SHARED = ("friction", "accuracy", "inertia", "bearings")
 OVER_THE_FACE = ("lead_modifications", "misalignment")
 OF_A_ROW = (*SHARED, "tip_relief", "root_relief", "profile_modifications", "corner_contact", *OVER_THE_FACE)
-OF_A_STAGE = (*OF_A_ROW, "coast_flanks", "body_meshes")
-OF_A_PAIR = ("shafts", "damping", "torque_ripple", "speed_ramp", "flank_errors", "eccentricity")
+RUN_OUT = "eccentricity"
+OF_A_STAGE = (*OF_A_ROW, "coast_flanks", "body_meshes", "flank_errors", RUN_OUT)
+OF_A_PAIR = ("shafts", "damping", "torque_ripple", "speed_ramp")
 OF_A_TRAIN = ("title", "stages", "load", "motion", *SHARED, "shafts", "damping", "speed_ramp")
 MOST_STAGES = 20
 NAMES = r"[A-Za-z0-9_-]{1,60}"
@@ -64,7 +65,7 @@ def checked_train(tree: Mapping[str, Any]) -> tuple[TrainSections | None, list[P
     load, motion = found
     shafts, wrong = checked_shafts(tree, not problems, load, motion)
     problems += wrong
-    ramp, wrong = checked_ramp(tree, load, motion, shafts)
+    ramp, wrong = checked_ramp(tree, load, motion)
     problems += wrong
     if problems:
         return None, problems
@@ -137,7 +138,7 @@ def _of_stage(path: tuple[str, ...], content: Any, coupled: bool) -> Iterator[Pr
         wrong = "gears" if "gears" in content else "directions"
         yield Problem((*path, wrong), as_written(content[wrong]), f'is of a row. Add kind = "{ROW}", or leave it out.')
     for name in (*OF_A_PAIR, *(OF_A_STAGE if coupled else ())):
-        if name in content and name not in OF_A_ROW:
+        if name in content and name not in OF_A_ROW and (name != RUN_OUT or kind == ROW):
             what = "where a gear has several mates" if name in OF_A_STAGE else "of a stage by itself"
             allowed = f"Allowed: {', '.join(OF_A_ROW if coupled else OF_A_STAGE)}."
             if name in OF_A_TRAIN:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import prod
+from math import gcd, lcm, prod
 
+from fenics_gears.effects import common_period
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.train_graph import turns_of_shafts
 
@@ -115,8 +116,11 @@ class TrainScene(OfMeshes):
                 continue
             last = len(part.meshes) - 1
             for number, mesh in enumerate(part.meshes):
-                own = abs(mesh.pair.rotation_ratio), mesh.scene.motion.mesh_frequency
-                found.append(Link(mesh.name, first + number, *own, twist if number == last else 0.0))
+                run = mesh.scene.motion
+                # Of a part of its period that is run no more is known.
+                cycles = int(min(common_period(mesh.scene), run.mesh_cycles))
+                own = abs(mesh.pair.rotation_ratio), run.mesh_frequency / cycles
+                found.append(Link(mesh.name, first + number, *own, twist if number == last else 0.0, cycles=cycles))
         return found
 
     @property
@@ -134,6 +138,16 @@ class TrainScene(OfMeshes):
         """Turns of the first shaft in one turn of the last; of a planetary set of its input and its output."""
         carrier = self.shafts.carrier
         return 1.0 / self.turns_of_last if carrier is None else abs(float(carrier.set.ratio))
+
+    @property
+    def period(self) -> Fraction:
+        """Turns of the first shaft after which all meshes and all that differs between their cycles repeats."""
+        turned = exact_turns(self.layout)
+        own = [
+            int(common_period(mesh.scene)) / (turned[self.graph.between[number][0]] * mesh.pair.pinion.teeth)
+            for number, mesh in enumerate(self.meshes)
+        ]
+        return Fraction(lcm(*(each.numerator for each in own)), gcd(*(each.denominator for each in own)))
 
     @property
     def turns_of_last(self) -> float:

@@ -7,17 +7,27 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, fields, make_dataclass
 from typing import Any, get_type_hints
 
+from fenics_gears.contact.eccentricity import Eccentricity
 from fenics_gears.effects import effect_named
 from fenics_gears.inputs.fields import choice, declared, quantities, quantity, text
 from fenics_gears.inputs.section import AllowedTables, Section
 
 from .accuracy import Accuracy
 from .gear_schema import Gears, GearText
-from .planetary_schema import GEARS_OF_SET, MESHES, OF_A_MESH, OF_THE_STEP, PLANETARY, SUN_MESH, PlanetaryText
+from .planetary_schema import (
+    GEARS_OF_SET,
+    MESHES,
+    OF_A_MESH,
+    OF_THE_STEP,
+    PLANETARY,
+    SUN_MESH,
+    PlanetaryText,
+    RunOutsOfSet,
+)
 from .train_joints import JoinsText
 from .train_loads import TrainLoad, TrainMotion
 from .train_ramp import TrainRamp
-from .train_rules import OF_A_STAGE, PAIR, ROW, SHARED
+from .train_rules import OF_A_STAGE, PAIR, ROW, RUN_OUT, SHARED
 
 ACCURACY = "accuracy"
 ANGLES = "-360 deg to 360 deg"
@@ -52,6 +62,11 @@ class _Stage(Gears):
 
 
 @dataclass(frozen=True, kw_only=True)
+class _RunOuts(RunOutsOfSet, Eccentricity):
+    """``[stages.NAME.eccentricity]``: of the gears of a pair, or of a set."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class _AlwaysThere(JoinsText):
     title: str | None = text(500, meaning="title in summaries and pictures", otherwise="the name of the file")
     load: TrainLoad
@@ -67,7 +82,10 @@ def stage_text() -> type[Section]:
 
 def _of_planets() -> Iterator[tuple[str, Any, Any]]:
     """Name, kind and field of what a planetary set has beside the fields of all stages."""
-    yield from _optional(PlanetaryText, [each.name for each in fields(PlanetaryText)])
+    hints = get_type_hints(PlanetaryText)
+    for each in fields(PlanetaryText):
+        kind = _RunOuts | None if each.name == RUN_OUT else hints[each.name]
+        yield each.name, kind, field(default=None, metadata=each.metadata)
     for gear in GEARS_OF_SET:
         yield gear, GearText | None, field(default=None)
     effects = _with(Section, OF_A_MESH)

@@ -16,6 +16,7 @@ from fenics_gears.inputs.units import QuantityError, of_kind
 from fenics_gears.inputs.written import as_written
 
 from .data import Scene
+from .planetary_run_out import in_all_meshes
 from .train_layout import check_cut_alike
 from .train_mesh import MeshOfScene
 from .train_pair import MistakesOfStage, Placed, check_together, in_stage, pair_of, pair_scene
@@ -56,7 +57,7 @@ def meshes_of_stages(tree: Mapping[str, Any], sections: TrainSections, source: s
         pair = pair_of(scene, f"{source}, stage {mesh.stage}")
         own = MeshOfScene(mesh.name, scene, pair, direction, mesh.gears, both, graph.sense(number))
         found.append(replace(own, scene=in_train(scene), bent=of_pair(mesh.gears, bent)) if bent else own)
-    return found
+    return in_all_meshes(found, source)
 
 
 def _scenes_of(

@@ -225,7 +225,7 @@ def orders(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
 def _spectrum(scene: TrainScene, dataset: xr.Dataset) -> Chart:
     """Amplitudes of the overall transmission error over orders of the first shaft, by the meshes that make them."""
     first, last = ("first shaft", "last shaft") if scene.shafts.carrier is None else ("input", "output")
-    found = overall_orders(dataset, scene)
+    found = overall_orders(dataset, scene, turns=True)
     highest = max(each.order for each in found if each.harmonic <= HARMONICS_SHOWN)
     shown = [each for each in found if each.order <= highest * (1.0 + 1e-9)]
     curves = []
@@ -238,13 +238,14 @@ def _spectrum(scene: TrainScene, dataset: xr.Dataset) -> Chart:
         heights = MICRORADIANS * np.array([each.amplitude for each in own])
         curves.append(Curve(meshes, places, heights, _colour(number), width=0.012 * highest, mode=BARS))
         flags += [
-            Flag(place, height, f"{each.harmonic} × mesh", _colour(number))
+            Flag(place, height, f"{each.harmonic} × {'turn' if each.of_turn else 'mesh'}", _colour(number))
             for each, place, height in zip(own, places, heights)
             if height > LEAST_FLAGGED * top
         ]
+    note = "" if any(each.of_turn for each in found) else ORDERS_NOTE
     return Chart(
         f"Harmonics of the meshes, as they reach the {last}", curves, f"Order (events a turn of the {first})",
-        f"Amplitude of the {last} (µrad)", ORDERS_NOTE, height=420, x_range=(0.0, 1.12 * highest), flags=flags,
+        f"Amplitude of the {last} (µrad)", note, height=420, x_range=(0.0, 1.12 * highest), flags=flags,
     )  # fmt: skip
 
 

@@ -108,7 +108,7 @@ def sets_solved_together(models: Sequence[TrainModel], kept_row: KeptRow) -> lis
         # By the cycle that is kept for the runs after these.
         cycle.build(range(cycle.steps))
         compile_kernels(False)
-        bare = cycle.with_gaps_of([None] * len(row.meshes), [()] * len(row.meshes))
+        bare = cycle.with_gaps_of([None] * len(row.meshes), [lambda own: own.gaps] * len(row.meshes))
         at_once = _most_at_once(row, bare)
         found: list[NumbersOfRun | None] = []
         for first in range(0, len(rows) if at_once else 0, max(at_once, 1)):

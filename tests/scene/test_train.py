@@ -1,7 +1,7 @@
 """Mistakes in scenes of trains, told before anything is computed."""
 
 import pytest
-from tests.trains import bent_two_stages, row, stage
+from tests.trains import row, stage
 
 from fenics_gears import GearsError, SceneError, train_from_text
 
@@ -54,7 +54,8 @@ SHAFT = '[shafts.one]\ncarries = ["{}"]\ntorsional_stiffness = "1e8 N mm/rad"'
             stage("one", 2.0, (20, 30), "[stages.one.bearings]\nx = 3") + LOAD,
             r"stages.one.bearings.x = 3.*not a known field of \[bearings\]",
         ),
-        (stage("one", 2.0, (20, 30), "[stages.one.eccentricity]\nx = 3") + LOAD, "is not yet computed of a stage"),
+        (stage("one", 2.0, (20, 30), "[stages.one.torque_ripple]\nx = 3") + LOAD, "is not yet computed of a stage"),
+        (ROW.replace("[load]", "[stages.row.eccentricity]\n[load]"), "where a gear has several mates"),
         (ROW.replace("[load]", "[stages.row.coast_flanks]\n[load]"), "where a gear has several mates"),
         (stage("one", 2.0, (20, 30)).replace("teeth = 30", "tooth = 30") + LOAD, "train:7: stages.one.wheel.tooth"),
         (stage("one", 2.0, (20, 30)) + LOAD + "\n[accuracy]\nelements = 3", "accuracy.elements = 3"),
@@ -113,10 +114,3 @@ def test_meshes_of_a_row_have_one_frequency():
     """To the last digit, whatever the numbers of teeth: a cycle of one is a cycle of all, and no step more."""
     meshes = row([24, 31, 40, 25], [0, 60, 20], 100).meshes
     assert {mesh.scene.motion.mesh_frequency for mesh in meshes} == {1.0}
-
-
-def test_a_ramp_with_shafts_that_bend_is_refused():
-    """What is not computed together is told before a run."""
-    more = f'{DENSITY}{MOVING}\n[speed_ramp]\nend_speed = "1200 rpm"\n'
-    with pytest.raises(SceneError, match="not yet computed with shafts that bend"):
-        bent_two_stages(more=more)

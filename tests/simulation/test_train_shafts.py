@@ -7,13 +7,20 @@ from tests.trains import (
     bent_ends,
     bent_paths,
     bent_two_stages,
+    gear_text,
     helical_paths,
     helical_row,
     helical_stage,
+    mate,
     shaft_section,
 )
 
 from fenics_gears import scene_from_text, simulate, simulate_train, train_from_text
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.model.train import train_model_of
+from fenics_gears.model.train_parts import parts_of
+from fenics_gears.simulation.train import row_cycle
+from fenics_gears.system.progress import SilentProgress
 
 ACCURACY = """
     [accuracy]
@@ -123,6 +130,42 @@ def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair(helix, bearings, vi
         assert float(found["mean_axis_inclination_in_plane"]) == pytest.approx(mean, rel=1e-8)
 
 
+def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair_on_a_ramp():
+    """Two ways to the same equations: inertia forces of gears, load and shafts, whose coupling leads; a pinion that
+    runs out and wobbles."""
+    pair, train = pair_and_train(15.0, ROLLING, True)
+    run_out = 'eccentricity.pinion]\ndistance = "20 um"\nphase = "1 rad"\nwobble = "9 um"\nwobble_phase = "2 rad"\n'
+    expected = simulate(scene_from_text(f'{pair}[{run_out}[speed_ramp]\nend_frequency = "1500 Hz"\n'))
+    whole = simulate_train(train_from_text(f'{train}[stages.one.{run_out}[speed_ramp]\nend_speed = "5000 rpm"\n'))
+    assert whole["time"].values == pytest.approx(expected["time"].values, rel=1e-12)
+    for name in ("transmission_error", "normal_force", "line_load", "rotation", "tilt_x"):
+        size = np.nanmax(np.abs(expected[name].values))
+        found = whole.isel(mesh=0)[name].values
+        assert found == pytest.approx(expected[name].values, rel=1e-8, abs=1e-8 * size), name
+
+
+def test_a_spin_up_loads_each_mesh_by_all_that_turns_behind_it():
+    """Newton's law of a rotation: on a determinate train the forces of a mesh in balance are those of the torque and of
+    the angular acceleration of all behind it, the shaft that bends among them."""
+    ramp = f'[motion]\ninput_speed = "600 rpm"\nmesh_cycles = 2\n[speed_ramp]\nend_speed = "6000 rpm"\n{INERTIA}'
+    train = train_from_text(bent_two_stages(more=ramp).text)
+    (model,) = train_model_of(train).rows
+    cycle = row_cycle(model, SilentProgress(), None)
+    step = model.steps // 2
+    rest = Marcher(cycle, model.equations_of_motion).stepper.in_balance(step, cycle.position(step))
+    (shaft,) = model.drivetrain.elastic
+    of_shaft = shaft.density * 150.0 * np.pi / 32.0 * 35.0**4
+    gears = [each.moment_of_inertia for each in parts_of(model.meshes, model.shafts).masses]
+    # Of the slowest mesh, the second, whose pinion has 24 teeth; its wheel has 30.
+    accelerated = 2.0 * np.pi * model.ramp.acceleration / 24
+    second = 300e3 + (gears[3] + 10.0) * accelerated * 24 / 30
+    first = second * 24 / 30 + (gears[1] + gears[2] + of_shaft) * accelerated
+    for (position, at), torque, mesh in zip(rest.position.of_meshes, (first, second), train.meshes):
+        force = rest.solution.forces[at : at + position.operator.nodes].sum()
+        assert force * mesh.pair.wheel.base_radius * mesh.pair.cosine == pytest.approx(torque, rel=1e-9)
+    assert accelerated * of_shaft > 1e-3 * first
+
+
 def textbook_force(mesh, sense: float) -> np.ndarray:
     """Force (3,) of a right-hand pinion on its wheel at the pitch circles, in space: tangential force T / r_w, F_t
     tan(alpha_wt), F_t tan(beta_w); the pinion turns counter-clockwise where the sense is 1. By the right hand's rule
@@ -135,6 +178,31 @@ def textbook_force(mesh, sense: float) -> np.ndarray:
     onwards = sense * np.array([-outwards[1], outwards[0], 0.0])
     pressed = np.tan(pair.operating_pressure_angle) * outwards
     return tangential * (onwards + pressed - np.array([0.0, 0.0, sense * helix]))
+
+
+def test_a_bending_shaft_carries_a_pinion_with_two_mates():
+    """Statics by hand: bearings of the drive have the textbook's forces of both meshes, each under the torque of its
+    output, wherever the load stands on the face; those of an output those of its own mesh."""
+    table = gear_text(20, 2.0)
+    stages = mate("a", table, gear_text(30, 2.0), 20.0) + mate("b", '"a.pinion"', gear_text(24, 2.0), 150.0)
+    stages = stages.replace('face_width = "20 mm"', 'helix_angle = "15 deg"\nface_width = "10 mm"')
+    loads = '[load]\ntorques = [{ on = "a.wheel", torque = "120 N m" }, { on = "b.wheel", torque = "50 N m" }]\n'
+    coarse = (
+        'slices = 3\nlayers = 2\nbody_element_size = "3 mm"\nsteps_per_mesh_cycle = 6\nflank_element_size = "0.2 mm"\n'
+    )
+    drive = shaft_section("drive", {"a.pinion": 40.0}, 90.0, 20.0, 'torque_at = "0 mm"')
+    output = shaft_section("output", {"b.wheel": 40.0}, 90.0, 20.0, 'torque_at = "90 mm"')
+    shafts = drive + output + "".join(bearing_sections(each, (10.0, 80.0), 3e5, 1e5) for each in ("drive", "output"))
+    train = train_from_text(f"{stages}{loads}[accuracy]\n{coarse}{shafts}")
+    found = simulate_train(train)
+    a, b = (textbook_force(mesh, 1.0) for mesh in train.meshes)
+    assert [mesh.scene.load.wheel_torque for mesh in train.meshes] == [120e3, 50e3]
+    forces = np.stack([found[f"bearing_force_{axis}"].values for axis in "xyz"], axis=-1)
+    names = np.array([str(name).partition(" ")[0] for name in found["bearing"].values])
+    size = np.abs(a).max()
+    for shaft, wanted in (("drive", -a - b), ("output", b)):
+        total = forces[:, names == shaft].sum(axis=1)
+        assert total == pytest.approx(np.tile(wanted, (len(total), 1)), abs=1e-8 * size), shaft
 
 
 def cut_in(scene):

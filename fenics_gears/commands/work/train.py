@@ -10,11 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears import results
+from fenics_gears.effects import common_period
 from fenics_gears.errors import ComputationError
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.model.description import Rows, derived_rows
+from fenics_gears.model.description import derived_rows
 from fenics_gears.model.loop_rows import loop_rows
 from fenics_gears.model.model import Model
+from fenics_gears.model.motion_rows import Rows, period_rows
 from fenics_gears.model.train import TrainModel, train_model_of
 from fenics_gears.model.train_cost import row_cost, row_too_large, train_cost
 from fenics_gears.model.train_motion_rows import frequencies_of_train, motion_rows
@@ -153,6 +155,11 @@ def _train_rows(model: TrainModel) -> list[Row]:
         held = f", after {ramp.hold_cycles} cycles of the slowest mesh" if ramp.hold_cycles else ""
         speeds = f"{60.0 * scene.input_speed:.5g} to {30.0 / pi * ramp.end_speed:.5g}"
         rows.append(("speed of the first shaft", speeds, f"rpm, linear in time{held}; below at the start"))
+    if any(common_period(mesh.scene) > 1 for mesh in scene.meshes) and scene.shafts.carrier is None:
+        whole = scene.period
+        slowest = min(mesh.scene.motion.mesh_frequency for mesh in scene.meshes)
+        run = f"turns of the first shaft, {slowest / scene.input_speed * whole:.6g} cycles of the slowest mesh"
+        rows.append(("all meshes and gears repeat together after", f"{float(whole):g}", run))
     if scene.speed_given:
         rows.append(("power", f"{1e-6 * 2.0 * pi * scene.input_speed * scene.input_torque:.5g}", "kW"))
     return rows
@@ -195,9 +202,9 @@ def _derived_rows(mesh: MeshOfScene) -> Rows:
     return said
 
 
-def _mesh_rows(mesh: MeshOfScene, own: Model, phase: float) -> list[Row]:
+def _mesh_rows(mesh: MeshOfScene, own: Model, phase: float) -> Rows:
     pair = own.pair
-    rows = [
+    rows: Rows = [
         ("teeth", f"{pair.pinion.teeth} / {pair.wheel.tooth_count}", "internal" if pair.wheel.internal else ""),
         ("centre distance", f"{abs(pair.centre_distance):.6g}", "mm"),
         ("direction of the wheel from the pinion", f"{180.0 / pi * mesh.direction:.4g}", "deg"),
@@ -210,6 +217,8 @@ def _mesh_rows(mesh: MeshOfScene, own: Model, phase: float) -> list[Row]:
     slices, layers = own.slices_and_layers
     if slices:
         rows.append(("slices over the face, layers of the bodies", f"{slices}, {layers}", ""))
+    if common_period(own.scene) > 1:
+        rows += [*period_rows(own), ("mesh cycles that are run", own.scene.motion.mesh_cycles, "")]
     if own.scene.accuracy.target is not None:
         rows.append(("target", f"{own.scene.accuracy.target:.3%}", "a run chooses steps and elements first"))
     if own.scene.motion.speed_given:

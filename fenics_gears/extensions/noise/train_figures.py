@@ -14,7 +14,7 @@ NAMED = 3
 def train_figures(result: xr.Dataset) -> xr.Dataset:
     """Amplitudes (urad of the last shaft) and levels (dB re 1 urad) over `order`, events in a turn of the first shaft;
     beside each its meshes, harmonic and frequency (Hz)."""
-    found = overall_orders(result, carried_train(result))
+    found = overall_orders(result, carried_train(result), turns=True)
     amplitudes = MICRORADIANS * np.array([each.amplitude for each in found])
     words = "amplitude of the lag of the last shaft"
     of_levels = f"level of the {words}"

@@ -255,7 +255,7 @@ def _orders(dataset: xr.Dataset, train: TrainScene) -> PageSection:
     charts = train_orders(train, dataset)
     if train.shafts.ramp is not None:
         return PageSection("orders", "Orders of the overall transmission error over the speed", charts)
-    found = sorted(overall_orders(dataset, train), key=lambda each: -each.amplitude)[:LISTED_ORDERS]
+    found = sorted(overall_orders(dataset, train, turns=True), key=lambda each: -each.amplitude)[:LISTED_ORDERS]
     rows = [
         (
             each.meshes, f"{each.harmonic}", f"{each.order:.5g}", digits(MICRORADIANS * each.amplitude),
