@@ -48,6 +48,17 @@ def gyroscopic_warnings(vibrations: Iterable[Vibration], speeds: Mapping[str, fl
     ]
 
 
+def radii_of_tilting(pair: GearPair, bearings: Bearings) -> dict[str, float]:
+    """The coordinates of gears whose bearings have places, with mm per rad of each: tilts, and the axial one where the
+    shaft is not held."""
+    radii = {}
+    for number, (gear, radius) in enumerate(zip(GEARS, pair.base_radii), 1):
+        if bearings.places_of(gear) is not None:
+            axial = {} if bearings.axial(gear) is None else {f"axial_{number}": 1.0}
+            radii |= axial | {f"tilt_x{number}": radius, f"tilt_y{number}": radius}
+    return radii
+
+
 def add_bearings(stiffness: np.ndarray, names: tuple[str, ...], bearings: Bearings) -> None:
     """Add the tilting springs of shafts whose bearings have places, in N, mm and rad, and the axial ones.
 

@@ -18,14 +18,14 @@ from scipy.linalg import block_diag
 from fenics_gears.geometry.pair import GearPair
 
 from .damping import Damping, damping_of
-from .drivetrain import MeshSprings
+from .drivetrain import Drivetrain, MeshSprings
 from .elastic_shaft import FIVE, MOTIONS, SeatedGear
 from .rolling_springs import springs_of
 from .seat_of_mesh import SeatOfMesh
 from .shaft_at_work import even_load
 from .shaft_system import ShaftSystem
 from .tilting import mesh_over_face
-from .train import TrainDrivetrain
+from .train import mass_of_gear
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
@@ -130,6 +130,15 @@ def turned_motions(of: np.ndarray, to: np.ndarray) -> np.ndarray:
     return block_diag(turn, np.linalg.det(turn) * turn)
 
 
+def shafts_of_pair(
+    systems: tuple[ShaftSystem, ...], pair: GearPair, torque: float, masses: Mapping[str, LumpedGear]
+) -> BentShafts:
+    """The shafts of a pair that bend, in the frame of its mesh, under a torque (N mm) on the wheel."""
+    seats = [seat for system in systems for _, seat in system.seated]
+    gears = tuple(GearOnShaft(seat, 0, SIDES.index(seat.gear), np.eye(2 * len(SPACE))) for seat in seats)
+    return BentShafts(systems, {seat.gear: SPACE for seat in seats}, gears, (MeshFrame(SPACE, pair, torque),), masses)
+
+
 def even_loads(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequence[MeshFrame]) -> np.ndarray:
     """Loads (5 g,) of the gears of a system of shafts, in the frames of these, by an even line load in each mesh."""
     loads = np.zeros((len(system.seated), FIVE))
@@ -144,7 +153,7 @@ def even_loads(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequen
 class _Coordinates:
     """Those of a drivetrain with rigid shafts, and behind them those of shafts that bend; the last ones are modes."""
 
-    def __init__(self, base: TrainDrivetrain, bent: BentShafts):
+    def __init__(self, base: Drivetrain, bent: BentShafts):
         self.base = base
         self.bent = bent
         moved = [name for system in bent.systems for name in system.moved]
@@ -180,11 +189,21 @@ class _Coordinates:
             for gear in (self.bent.once[seat.gear] for seat in shaft.seats):
                 moved[system.motions.index(gear.seat.motions[-1])] = self.turn(gear, names_of[gear.mesh])
                 # The turn of the drive is prescribed.
-                if gear.side and shaft.torque_at is not None:
+                if gear.side:
                     sense = self.bent.frames[gear.mesh].sense
                     for name in shaft.coupling(shaft.chain):
                         moved[system.motions.index(name)] = sense * self.padded(self.base.ends[gear.mesh])
         return moved
+
+    def of_the_coupling(self, system: ShaftSystem, moved: np.ndarray) -> np.ndarray:
+        """Momentum (k,) of a system that is `moving` per speed (rad/s) of the prescribed rotation of a whole input
+        shaft, as far as it is not that of its gear."""
+        turning = np.zeros(len(system.motions))
+        for shaft, seat in system.seated:
+            if self.bent.once[seat.gear].side == 0 and shaft.torque_at is not None:
+                held = () if "rotation_1" in self.names else seat.motions[-1:]
+                turning[[system.motions.index(name) for name in (*held, *shaft.coupling(shaft.chain))]] = 1.0
+        return moved.T @ system.mass @ turning
 
     def of_mesh(self, mesh: int) -> np.ndarray:
         """A mesh's own coordinates (l, k), in mm: those that it has on rigid shafts, then those of its gears on shafts
@@ -208,12 +227,12 @@ class _Coordinates:
 
 
 def with_bent_shafts(
-    base: TrainDrivetrain,
+    base: Drivetrain,
     bent: BentShafts,
     names_of: Sequence[tuple[str, ...]],
     damping: Damping | None = None,
-    mesh_stiffness: Sequence[float] = (),
-) -> TrainDrivetrain:
+    mesh_stiffness: Sequence[float] | float = (),
+) -> Drivetrain:
     """A drivetrain whose gears turn and twist their shafts, with some shafts that also bend; `names_of`: names of the
     coordinates of each mesh. `mesh_stiffness`, N/mm: of either half of the face of one tooth pair in each mesh,
     roughly."""
@@ -238,6 +257,7 @@ def with_bent_shafts(
         ),
         systems=bent.systems,
         bearing_stiffness=with_shafts(base.bearing_stiffness, "bearing_stiffness"),
+        of_the_coupling=sum(coordinates.of_the_coupling(*each) for each in moving) / bent.frames[0].pair.base_radii[0],
         motions=tuple(tuple(coordinates.padded(np.array(each)).tolist()) for each in base.motions),
         angle=coordinates.padded(base.angle),
         of_meshes=of_meshes,
@@ -254,7 +274,5 @@ def _mass_of_gears(coordinates: _Coordinates) -> np.ndarray:
     """Mass (k, k), N s^2/mm, of gears as far as they move and tilt with their shafts."""
     mass = np.zeros((len(coordinates.names),) * 2)
     for name, gear in coordinates.bent.once.items():
-        own = coordinates.bent.masses[name]
-        rows = coordinates.of(gear.seat.of_gear)
-        mass += rows.T @ np.diag([own.mass] * 3 + [own.tilting_inertia] * 2) @ rows
+        mass += mass_of_gear(coordinates.bent.masses[name], coordinates.of(gear.seat.of_gear))
     return mass

@@ -140,7 +140,7 @@ def _centres(row: RowModel, carrier: Carrier, states: np.ndarray) -> dict[str, t
             continue
         number = names.index(gear)
         first, _ = row.graph.sides[number][0]
-        places = [coordinates.index(f"centre_{axis} of gear {number + 1}") for axis in "xy"]
+        places = [coordinates.index(f"centre_{axis}{number + 1}") for axis in "xy"]
         centres[:, :, MEMBERS.index(member)] = states[:, places] @ row.layout.axes(first)
     return {
         f"member_{axis}": (("time", MEMBER), centres[:, place], _said("mm", f"place of a member's centre, {where}"))
