@@ -24,13 +24,12 @@ from fenics_gears.geometry.train_graph import PINION, TrainGraph, turns_of_shaft
 
 from .damping import Damping, damping_of
 from .drivetrain import Drivetrain, MeshSprings
-from .tilting import add_bearings, mesh_over_face, radii_of_tilting
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
 
-    from .bearings import Bearings
     from .seat_of_mesh import SeatOfMesh
+    from .tilting import Tilting
 
 # Relative normal displacement of the flanks per coordinate of a mesh; see contact.operator.displacement_jacobian.
 # Friction also acts across.
@@ -52,7 +51,7 @@ class TrainParts:
     `masses`, none without inertia, and `supports` along and off the line of action of its first mesh (N/mm), None where
     its centre is fixed, infinite in directions in which it is fixed beside its place. `loads`: moments of inertia
     (N mm s^2) of the loads by the numbers of their shafts. `turning`: numbers of gears that turn against their shaft,
-    one that bends. `tilting`: the bearings of a pair on which gears tilt, None where none does.
+    one that bends. `tilting`: the gears of a pair that tilt, None where none does.
     """
 
     graph: TrainGraph
@@ -64,7 +63,7 @@ class TrainParts:
     supports: Sequence[tuple[float, float] | None] = ()
     loads: Mapping[int, float] = field(default_factory=dict)
     turning: Sequence[int] = ()
-    tilting: Bearings | None = None
+    tilting: Tilting | None = None
 
     @property
     def gears(self) -> Sequence[tuple[int, int]]:
@@ -101,7 +100,7 @@ class _Rows:
             mesh, side = self.graph.sides[gear][0]
             radii[f"turn of gear {gear + 1}"] = pairs[mesh].base_radii[side]
         if parts.tilting is not None:
-            radii |= radii_of_tilting(pairs[0], parts.tilting)
+            radii |= parts.tilting.radii
         self.names = tuple(radii)
         self.radii = np.array([*radii.values()])
 
@@ -195,7 +194,7 @@ def train_drivetrain(
 
     mesh = MeshSprings(cosines * flanks(MESH_DIRECTION), flanks(ACROSS_DIRECTION))
     if parts.tilting is not None:
-        mesh = mesh_over_face(parts.pairs[0], rows.names)
+        mesh = parts.tilting.mesh(rows.names)
     stiffness, in_bearings = _stiffness(rows)
     undamped = Drivetrain(
         rows.names,
@@ -225,7 +224,7 @@ def _stiffness(rows: _Rows) -> tuple[np.ndarray, np.ndarray]:
     parts = rows.parts
     springs = np.diag([rows.held.get(name, 0.0) for name in rows.names])
     if parts.tilting is not None:
-        add_bearings(springs, rows.names, parts.tilting)
+        parts.tilting.add_bearings(springs, rows.names)
     in_bearings = springs / np.outer(rows.radii, rows.radii)
     stiffness = in_bearings.copy()
     for shaft, torsion in enumerate(parts.torsion):

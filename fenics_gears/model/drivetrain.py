@@ -13,18 +13,18 @@ from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.inertia import Inertia
 from fenics_gears.dynamics.train import TrainParts, coordinates_of_mesh, train_drivetrain
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.gear_data import LumpedGear, rough_pair_stiffness
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.gear_data import LumpedGear, Material, rough_pair_stiffness
 from fenics_gears.geometry.iso_6336 import pair_stiffness, theoretical_stiffness
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.train_graph import TrainGraph
 from fenics_gears.inputs.tree import GEARS, SHAFTS
-from fenics_gears.scene.data import ISO_6336, Scene
-
-from .bore_twist import bore_twist_stiffness
+from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, Scene
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.elastic_shaft import ElasticShaft
     from fenics_gears.dynamics.shaft_system import ShaftSystem
+    from fenics_gears.dynamics.tilting import Tilting
     from fenics_gears.geometry.section import CrossSection
 
 # Harmonics of the mesh that shafts follow with all of their modes.
@@ -44,7 +44,7 @@ def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
     stiffness = mesh_stiffness(scene, pair)
     if not systems:
         return train_drivetrain(parts, scene.damping, stiffness)
-    # Of shafts that bend alone.
+    # Of few scenes.
     from fenics_gears.dynamics.train_shafts import shafts_of_pair, with_bent_shafts
 
     bent = shafts_of_pair(systems, pair, scene.load.wheel_torque, gears)
@@ -60,7 +60,6 @@ def _parts(
     bent = {shaft.name: shaft for system in systems for shaft in system.shafts}
     torsion = [_torsion(scene, shaft, bent.get(gear)) for gear, shaft in zip(GEARS, SHAFTS)]
     loads = {} if scene.inertia is None else _loads(scene.inertia, gears["wheel"], isfinite(torsion[1]))
-    bearings = scene.bearings
     return TrainParts(
         TrainGraph(((0, 1),), (0, 1), internal=frozenset((0,) if pair.wheel.internal else ())),
         (pair,),
@@ -70,8 +69,17 @@ def _parts(
         tuple(gears.values()),
         [support_of(scene, gear) for gear in GEARS],
         loads,
-        tilting=None if bearings is None or bearings.places is None else bearings,
+        tilting=_tilting(scene, pair),
     )
+
+
+def _tilting(scene: Scene, pair: GearPair) -> Tilting | None:
+    if scene.bearings is None or scene.bearings.places is None:
+        return None
+    # Of few scenes.
+    from fenics_gears.dynamics.tilting import Tilting
+
+    return Tilting(pair, scene.bearings)
 
 
 def _torsion(scene: Scene, shaft: str, bent: ElasticShaft | None) -> float:
@@ -152,6 +160,43 @@ def mesh_stiffness(scene: Scene, pair: GearPair | None = None) -> float:
     theory = theoretical_stiffness(scene.gears)
     teeth = theory if theory > 0.0 else rough_pair_stiffness(scene.tooth_elasticity, scene.gears.face_width)
     return 1.0 / (1.0 / teeth + 1.0 / bore_twist_stiffness(scene, pair))
+
+
+def bore_twist_stiffness(scene: Scene, pair: GearPair) -> float:
+    """Approximate stiffness (N/mm) along the line of action of both bodies, which twist between their roots and the
+    bores where they are held. Infinite where none twists, as on shafts that bend or with given meshes.
+
+    A ring of width b(r) and shear modulus G under a torque T twists by T/(2 pi G) times the integral of dr/(b r^3): the
+    closed form of a disc that is sheared around its axis. Along the line of action, at the base circle of radius r_b,
+    the body is a spring of r_b^2 times that twist by T.
+    """
+    if scene.tooth_elasticity is None or scene.accuracy.model in (ISO_6336, RIGID_TEETH):
+        return inf
+    flexibility = 0.0
+    for name, material, width in zip(GEARS, scene.gears.materials, pair.face_widths):
+        on_shaft = scene.shafts is not None and name in (scene.shafts.sections or {})
+        given = scene.body_meshes is not None and getattr(scene.body_meshes, name) is not None
+        if not (on_shaft or given):
+            flexibility += _flexibility_of(getattr(pair, name), material, width)
+    return 1.0 / flexibility if flexibility else inf
+
+
+def _flexibility_of(gear: Gear, material: Material, width: float) -> float:
+    """mm/N along the line of action."""
+    shear_modulus = 0.5 * material.youngs_modulus / (1.0 + material.poissons_ratio)
+    rings = [(gear.bore_radius, gear.root_radius, 1.0)]
+    if gear.web is not None:
+        ends = gear.bore_radius, gear.web.hub_radius, gear.web.rim_radius, gear.root_radius
+        rings = list(zip(ends, ends[1:], (1.0, gear.web.share, 1.0)))
+    twist = sum(0.5 * (inner**-2 - outer**-2) / share for inner, outer, share in rings)
+    body = gear.base_radius**2 * abs(twist) / (2.0 * pi * shear_modulus * width)
+    if gear.foundation is None:
+        return body
+    # A rigid ring on its springs: it turns by the tangential ones, and moves by both.
+    half_circle = pi * abs(gear.bore_radius) * width
+    radial, tangential = (each * material.youngs_modulus * half_circle for each in gear.foundation)
+    turning = 2.0 * tangential * gear.bore_radius**2
+    return body + gear.base_radius**2 / turning + 1.0 / (radial + tangential)
 
 
 def line_load(scene: Scene, pair: GearPair) -> float:
