@@ -156,7 +156,8 @@ class _Coordinates:
     def __init__(self, base: Drivetrain, bent: BentShafts):
         self.base = base
         self.bent = bent
-        moved = [name for system in bent.systems for name in system.moved]
+        # Of faces behind those of gears, as `Drivetrain.indices` has them.
+        moved = sorted((name for system in bent.systems for name in system.moved), key=lambda name: "face_" in name[:5])
         modes = [name for system in bent.systems for name in system.modes]
         self.names = (*base.coordinates, *moved, *modes)
         self.radii = np.concatenate([base.radii, np.ones(len(moved) + len(modes))])
