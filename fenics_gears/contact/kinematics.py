@@ -18,7 +18,7 @@ from .tooth_pair import PairNodes, node_ends, over_nodes, per_node
 # (mm), so that every coordinate is a length and every row a force, and no equation is scaled against another. The
 # output shaft's end goes by its twist rb2 (phi3 - phi2): as the difference of two rotations the twist of a stiff shaft
 # would be lost in round-off.
-CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "centre_y2", "rotation_2", "shaft_twist")
+CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "centre_y2", "rotation_2", "twist_2")
 
 
 # Six more of gears that also move along their axes and tilt; tilts are carried as arc lengths, rb theta.

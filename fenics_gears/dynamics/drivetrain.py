@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
 # Of the driving and of the driven gear.
 ROTATIONS = ("rotation_1", "rotation_2")
-FREE = {name: f"the {gear}" for name, gear in zip(ROTATIONS, GEARS)}
 # Each coordinate's gear, with the shaft and the bearings that are on its side of the mesh.
 SIDE = {name: GEARS[0 if name.endswith("1") else 1] for name in COORDINATES}
 
@@ -44,16 +43,21 @@ class MeshSprings:
 
 @dataclass(frozen=True)
 class Drivetrain:
-    """Equations of motion [26]-[28] without the contact forces, over k of the centre coordinates.
+    """Equations of motion [26]-[28] without the contact forces, over the k coordinates of a train of gears.
 
     `coordinates`: their names; `radii` (k,): mm per rad of a rotation, 1 for a translation; `stiffness` (k, k), N/mm;
     `load` (k,), N; `mass` (k, k), N s^2/mm, and `damping` (k, k), N s/mm, or None where the scene has none. `mesh`: how
-    the coordinates move flanks that have a width; None in the plane. `systems`: of the shafts that also bend, and
-    `bearing_stiffness` (k, k), N/mm, the part of the stiffness that is in the bearings. `of_the_coupling` (k,),
-    N s^2/mm: mass of an elastic input shaft that turns with its coupling, whose rotation is prescribed. `rolling`: by
-    how much bearings depart from the stiffness that the matrix has for them, None where none does. `seats`: those of
-    the gears that give way. `gyroscopic` (k, k), N s/mm, skew: of the velocities in a frame that turns, None where none
-    does.
+    the coordinates move flanks. `systems`: of the shafts that also bend, and `bearing_stiffness` (k, k), N/mm, the part
+    of the stiffness that is in the bearings. `of_the_coupling` (k,), N s^2/mm: mass of an elastic input shaft that
+    turns with its coupling, whose rotation is prescribed. `rolling`: by how much bearings depart from the stiffness
+    that the matrix has for them, None where none does. `seats`: those of the gears that give way. `gyroscopic` (k, k),
+    N s/mm, skew: of the velocities in a frame that turns, None where none does.
+
+    `motions` (f, k): those of shafts that turn together, which without mass some meshes alone hold. `angle` (k,):
+    rotation (rad) of the last shaft; `of_meshes`: of each mesh, how its own coordinates (l, k) follow; `ends`: by mesh,
+    rotation (k,), rad, of the load on the shaft that it drives. `nominal_momentum` (k,), N s: of all masses, as the
+    first shaft turns by 1 rad/s and all others with it; none without mass. `of_members` (3, k), rad/mm: of a planetary
+    set with inertia, rotations of its members, counter-clockwise.
     """
 
     coordinates: tuple[str, ...]
@@ -69,6 +73,12 @@ class Drivetrain:
     rolling: RollingSprings | None = None
     seats: tuple[SeatOfMesh, ...] = ()
     gyroscopic: np.ndarray | None = None
+    motions: tuple[tuple[float, ...], ...] = ()
+    angle: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    of_meshes: tuple[np.ndarray, ...] = ()
+    ends: tuple[np.ndarray, ...] = ()
+    nominal_momentum: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    of_members: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
 
     @property
     def indices(self) -> list[int]:
@@ -144,33 +154,26 @@ class Drivetrain:
         """Whether the load drives the pair from the wheel."""
         return bool(self.load[self.driven] < 0.0)
 
-    @cached_property
+    @property
     def free_motion(self) -> np.ndarray:
-        """How the load moves the drivetrain (k,) where, without mass, only contact holds it; empty where its stiffness
-        does."""
-        values, vectors = np.linalg.eigh(self.stiffness)
-        if values[0] > 1e-14 * max(values[-1], 0.0) and values[-1] > 0.0:
-            return np.empty(0)
-        motion = vectors[:, 0]
-        along = motion @ self.load or -motion[self.driven]
-        return motion * np.sign(along)
+        """The motions that without mass some meshes alone hold, (f k,); without any load backwards."""
+        return np.array(self.motions).ravel() * (1.0 if np.any(self.load) else -1.0)
 
     @property
     def free_words(self) -> str:
-        """The free motion and the load that works on it, in words; empty where there is none."""
-        motion = self.free_motion
-        if not len(motion):
-            return ""
-        turning = int(np.argmax(np.abs(motion)))
-        torque = 1e-3 * self.load[turning] * abs(self.radii[turning])
-        name = FREE.get(self.coordinates[turning], "the drivetrain")
-        return f"{name} turns freely under its torque of {torque:.4g} N m"
+        """What turns freely where a mesh opens, and the load that works on it, in words."""
+        if not all(float(self.angle @ each) for each in self.motions):
+            return "the gears behind a mesh turn freely under their torque"
+        motion = max(self.motions, key=lambda each: abs(float(self.angle @ each)))
+        torque = 1e-3 * float(self.load @ motion) / float(self.angle @ motion)
+        last = "wheel" if len(self.ends) == 1 else "last gear"
+        return f"the {last} turns freely under its torque of {torque:.4g} N m"
 
     def value(self, states: np.ndarray, name: str) -> np.ndarray:
         """Coordinate `name`, or "shaft_end" (phi3), of states (..., k), in mm or rad; zero where the scene holds it
         fixed."""
         if name == "shaft_end":
-            return self.value(states, ROTATIONS[1]) + self.value(states, "shaft_twist")
+            return self.value(states, ROTATIONS[1]) + self.value(states, "twist_2")
         if name not in self.coordinates:
             return np.zeros(states.shape[:-1])
         position = self.coordinates.index(name)
@@ -186,16 +189,6 @@ class Drivetrain:
         springs = [self.values(states, system.coordinates) @ system.bearing_loads.T for system in self.systems]
         loads = (np.concatenate(springs, axis=1) + of_teeth).reshape(len(states), self.bearings, -1)
         return loads if self.rolling is None else self.rolling.loads(states, loads)
-
-
-def forces_of_torque(names: tuple[str, ...], radii: np.ndarray, torque: float) -> np.ndarray:
-    """Forces (k,), N, of a torque (N mm) on the output shaft's end, which moves with the wheel and with the twist."""
-    return np.array([torque if name in (ROTATIONS[1], "shaft_twist") else 0.0 for name in names]) / np.abs(radii)
-
-
-def kind_of(name: str) -> str:
-    """First word of a coordinate's name."""
-    return name.partition("_")[0]
 
 
 def gear_of(name: str) -> str:

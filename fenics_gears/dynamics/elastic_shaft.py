@@ -234,11 +234,6 @@ class ElasticShaft:
         """Names of the turns of its gears and of its coupling."""
         return (*(each.motions[-1] for each in self.seats), *self.coupling(self.chain))
 
-    @property
-    def driven(self) -> bool:
-        """Whether it is a pair's input shaft, the rotation of whose coupling is prescribed."""
-        return self.name == "pinion"
-
     def motions_at(self, chain: Chain, place: float) -> tuple[str, ...]:
         """Names (5,) of the motions of the node at a place beside the gears, without the turn."""
         # Both ends of a face without width are at one place.

@@ -13,10 +13,6 @@ from fenics_gears.inputs.tree import GEARS
 
 from .drivetrain import Drivetrain, gear_of
 
-# Relative normal displacement of the flanks per coordinate; see contact.operator.displacement_jacobian. Friction also
-# acts across.
-MESH_DIRECTION = {"centre_x1": 1.0, "rotation_1": 1.0, "centre_x2": -1.0, "rotation_2": 1.0}
-ACROSS_DIRECTION = {"centre_y1": 1.0, "centre_y2": -1.0}
 # Below this part of the highest frequency a motion is rigid; a shape that moves the flanks by less than this part is
 # not excited.
 RIGID, STILL = 1e-6, 1e-6
@@ -68,7 +64,8 @@ def vibrations(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray, frict
     [227, 510, 688, 3851]
     """
     frequencies, shapes = modes(drivetrain, mesh_stiffness)
-    directions = np.concatenate([_along(drivetrain), _across(drivetrain)]) if friction else _along(drivetrain)
+    along = drivetrain.mesh.normals
+    directions = np.concatenate([along, drivetrain.mesh.across]) if friction else along
     moved = np.abs(directions @ shapes).max(axis=0)
     if np.isinf(mesh_stiffness).any():
         # Tied flanks do not move apart in any mode; their errors excite every mode.
@@ -91,7 +88,7 @@ def vibrations(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray, frict
 def modes(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Natural frequencies (k,), Hz, ascending, and shapes (k, k), one a column, of modal mass 1. `mesh_stiffness`,
     N/mm: of the mesh, or of each mesh of a train (f,)."""
-    normals = _along(drivetrain)
+    normals = drivetrain.mesh.normals
     if np.isinf(mesh_stiffness).any():
         return _tied_modes(drivetrain, normals)
     springs = np.broadcast_to(
@@ -102,26 +99,11 @@ def modes(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray) -> tuple[n
     return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * pi), shapes
 
 
-def _along(drivetrain: Drivetrain) -> np.ndarray:
-    """Displacement (r, k) of the flanks along their normal per coordinate: as a whole, or of either half of their
-    width."""
-    return _plane(drivetrain, MESH_DIRECTION) if drivetrain.mesh is None else drivetrain.mesh.normals
-
-
-def _across(drivetrain: Drivetrain) -> np.ndarray:
-    """Displacement (1, k) off the line of action."""
-    return _plane(drivetrain, ACROSS_DIRECTION) if drivetrain.mesh is None else drivetrain.mesh.across
-
-
-def _plane(drivetrain: Drivetrain, direction: dict[str, float]) -> np.ndarray:
-    return np.array([[direction.get(name, 0.0) for name in drivetrain.coordinates]])
-
-
 # What most of the energy of a mode may be in: first words of coordinates, and the mode in words.
 OF_GEARS = ((("tilt",), "{} tilts"), (("axial",), "{} moves along its axis"))
 OF_SHAFTS = (
     (("centre", "tilt", "face", "bending"), "the {}'s shaft bends"),
-    (("rotation", "shaft", "torsion"), "the {}'s shaft twists"),
+    (("rotation", "twist", "torsion"), "the {}'s shaft twists"),
     (("axial",), "the {}'s shaft moves along its axis"),
 )
 
@@ -129,8 +111,6 @@ OF_SHAFTS = (
 def _motions(drivetrain: Drivetrain, frequencies: np.ndarray, shapes: np.ndarray) -> list[str]:
     """What gears do beside the plane motion in each mode, in words, empty where that has less than half of the kinetic
     energy; where shafts bend also what they do, and whether most of the elastic energy is in the mesh."""
-    if drivetrain.mesh is None:
-        return [""] * shapes.shape[1]
     # Of modes of modal mass 1 these are shares.
     energy, said = shapes * (drivetrain.mass @ shapes), [""] * shapes.shape[1]
     bent = [shaft.name for shaft in drivetrain.elastic]

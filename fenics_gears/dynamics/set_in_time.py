@@ -27,7 +27,8 @@ from fenics_gears.geometry.planetary import CARRIER, RING, SUN, WITH_RING
 from fenics_gears.geometry.train_graph import PINION
 
 from .damping import Damping, damping_of
-from .train import Rows, TrainDrivetrain, TrainParts, train_drivetrain
+from .drivetrain import Drivetrain
+from .train import Rows, TrainParts, train_drivetrain
 
 QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 
@@ -84,7 +85,9 @@ class RowsOfSet(Rows):
 
     def moved(self, gear: int) -> tuple[np.ndarray, np.ndarray]:
         shaft = self.graph.shafts[gear]
-        return self.of(f"rotation_{shaft + 1}"), self.centre(gear) + self._axes(gear) @ self._carried(shaft)
+        centre = self.centre(gear)
+        centre[:2] += self._axes(gear) @ self._carried(shaft)
+        return self.of(f"rotation_{shaft + 1}"), centre
 
     def _carried(self, shaft: int) -> np.ndarray:
         """Displacement (2, k), in space, of a gear's place by the carrier."""
@@ -93,7 +96,7 @@ class RowsOfSet(Rows):
         return np.outer(QUARTER_TURN @ self.own.places[shaft - 1], self.of(CARRIER))
 
     def _axes(self, gear: int) -> np.ndarray:
-        return self.parts.layout.axes(self.graph.sides[gear][0][0])
+        return self.parts.axes[self.graph.sides[gear][0][0]]
 
     def in_the_frame(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """What the turning frame brings: stiffness that is off (k, k), N/mm, skew matrix of velocities (k, k), N s/mm,
@@ -105,7 +108,7 @@ class RowsOfSet(Rows):
         speed = self.own.speed
         for gear, lumped in enumerate(self.parts.masses):
             shaft = self.graph.shafts[gear]
-            beside = self._axes(gear).T @ self.centre(gear)
+            beside = self._axes(gear).T @ self.centre(gear)[:2]
             centre = beside + self._carried(shaft)
             off += speed**2 * lumped.mass * beside.T @ beside
             skew += 2.0 * speed * lumped.mass * centre.T @ QUARTER_TURN @ centre
@@ -137,7 +140,7 @@ class RowsOfSet(Rows):
 
 def set_drivetrain(
     parts: TrainParts, own: SetInTime, damping: Damping | None, mesh_stiffness: Sequence[float]
-) -> TrainDrivetrain:
+) -> Drivetrain:
     """The equations of motion of a set with masses; `mesh_stiffness` as of `train_drivetrain`. Its `angle` is the lag
     of the output."""
     # The load is on the output, which the last shaft need not be.

@@ -16,9 +16,8 @@ import numpy as np
 from scipy.linalg import block_diag, eigh
 
 from .beam import Beam
-from .elastic_shaft import FIVE, NUMBERS, ElasticShaft, SeatedGear
+from .elastic_shaft import FIVE, ElasticShaft, SeatedGear
 from .elastic_shaft_seat import BentBySeat
-from .seat_of_mesh import SeatOfMesh
 from .shaft_elements import SIX, Assembly, Element, Springs, carried, motions_of
 from .shafts_at_rest import ShaftsAtRest
 
@@ -56,11 +55,6 @@ class ShaftSystem(ShaftsAtRest):
         of_gears = (name for each in shaft.seats for name in (*each.of_gear, *shaft.of_face(each)))
         own = (name for name in self.own_modes if name.endswith(f"_{shaft.name}"))
         return (*of_gears, *shaft.in_rolling, *own)
-
-    @property
-    def yielding(self) -> list[SeatOfMesh]:
-        """The seats of a pair that are not rigid; its shafts have the frame of the mesh."""
-        return [SeatOfMesh(self, seat, seat.gear, np.eye(SIX)) for _, seat in self.seated if seat.yields_within]
 
     @cached_property
     def motions(self) -> tuple[str, ...]:
@@ -189,33 +183,12 @@ class ShaftSystem(ShaftsAtRest):
         moved[self.of_coordinates, [names.index(name) for name in self.coordinates]] = 1.0
         return moved
 
-    def motions_of_pair(self, names: Sequence[str]) -> np.ndarray:
-        """The same, with the turns of the gears of a pair and of its output shaft's coupling."""
-        moved = self.motions_over(names)
-        for shaft, seat in self.seated:
-            rotation = f"rotation_{NUMBERS[seat.gear]}"
-            coupling = () if shaft.driven else shaft.coupling(shaft.chain)
-            for name, turned in ((rotation, (seat.motions[-1], *coupling)), ("shaft_twist", coupling)):
-                if name in names:
-                    moved[[self.motions.index(each) for each in turned], names.index(name)] = 1.0
-        return moved
-
     def turning(self, turns: Mapping[str, float]) -> np.ndarray:
         """All motions (g + m,) of shafts that turn as a whole by so much, by their names."""
         found = np.zeros(len(self.motions))
         for shaft in self.shafts:
             found[[self.motions.index(name) for name in shaft.turns]] = turns[shaft.name]
         return found
-
-    def momentum_of_coupling(self, names: Sequence[str]) -> np.ndarray:
-        """Momentum (k,) over a pair's coordinates per speed (rad/s) of the prescribed rotation of a whole input shaft,
-        as far as it is not that of the gear."""
-        turning = np.zeros(len(self.motions))
-        for shaft, seat in self.seated:
-            if shaft.driven:
-                held = seat.motions[-1:] if f"rotation_{NUMBERS[seat.gear]}" not in names else ()
-                turning[[self.motions.index(each) for each in (*held, *shaft.coupling(shaft.chain))]] = 1.0
-        return self.motions_of_pair(names).T @ self.mass @ turning
 
     @cached_property
     def own_modes(self) -> tuple[str, ...]:

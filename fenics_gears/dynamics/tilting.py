@@ -9,6 +9,7 @@ the speed of rotation (1/s), J_t being the moment of inertia about a diameter. J
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from math import sqrt
 from typing import TYPE_CHECKING
 
@@ -48,24 +49,45 @@ def gyroscopic_warnings(vibrations: Iterable[Vibration], speeds: Mapping[str, fl
     ]
 
 
-def add_bearings(stiffness: np.ndarray, names: tuple[str, ...], bearings: Bearings) -> None:
-    """Add the tilting springs of shafts whose bearings have places, in N, mm and rad, and the axial ones.
+@dataclass(frozen=True)
+class Tilting:
+    """The gears of a `pair` whose `bearings` have places."""
 
-    The translations' own stiffness is there already: both bearings together have it.
-    """
-    for number, gear in enumerate(GEARS, 1):
-        places = bearings.places_of(gear)
-        if places is None:
-            continue
-        for direction, (tilt, sense) in TILTS.items():
-            centre = names.index(f"centre_{direction}{number}")
-            turned = names.index(f"{tilt}{number}")
-            each = 0.5 * bearings.of(gear, direction)
-            stiffness[turned, turned] += each * sum(place**2 for place in places)
-            stiffness[centre, turned] = stiffness[turned, centre] = sense * each * sum(places)
-        if f"axial_{number}" in names:
-            axial = names.index(f"axial_{number}")
-            stiffness[axial, axial] += bearings.axial(gear)
+    pair: GearPair
+    bearings: Bearings
+
+    @property
+    def radii(self) -> dict[str, float]:
+        """Their coordinates with mm per rad of each: tilts, and the axial one where the shaft is not held."""
+        radii = {}
+        for number, (gear, radius) in enumerate(zip(GEARS, self.pair.base_radii), 1):
+            if self.bearings.places_of(gear) is not None:
+                axial = {} if self.bearings.axial(gear) is None else {f"axial_{number}": 1.0}
+                radii |= axial | {f"tilt_x{number}": radius, f"tilt_y{number}": radius}
+        return radii
+
+    def add_bearings(self, stiffness: np.ndarray, names: tuple[str, ...]) -> None:
+        """Add the tilting springs, in N, mm and rad, and the axial ones.
+
+        The translations' own stiffness is there already: both bearings together have it.
+        """
+        for number, gear in enumerate(GEARS, 1):
+            places = self.bearings.places_of(gear)
+            if places is None:
+                continue
+            for direction, (tilt, sense) in TILTS.items():
+                centre = names.index(f"centre_{direction}{number}")
+                turned = names.index(f"{tilt}{number}")
+                each = 0.5 * self.bearings.of(gear, direction)
+                stiffness[turned, turned] += each * sum(place**2 for place in places)
+                stiffness[centre, turned] = stiffness[turned, centre] = sense * each * sum(places)
+            if f"axial_{number}" in names:
+                axial = names.index(f"axial_{number}")
+                stiffness[axial, axial] += self.bearings.axial(gear)
+
+    def mesh(self, names: tuple[str, ...]) -> MeshSprings:
+        """How all coordinates of the pair move its flanks."""
+        return mesh_over_face(self.pair, names)
 
 
 def mesh_over_face(pair: GearPair, names: tuple[str, ...]) -> MeshSprings:

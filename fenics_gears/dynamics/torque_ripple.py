@@ -14,7 +14,7 @@ import numpy as np
 from fenics_gears.inputs.fields import declared, number, quantity
 from fenics_gears.inputs.section import AllowedTables, Section
 
-from .drivetrain import Drivetrain, forces_of_torque
+from .drivetrain import Drivetrain
 
 HIGHEST_ORDER = 1e6
 MOST_HARMONICS = 1000
@@ -57,7 +57,7 @@ def torque(ripple: TorqueRipple, angles: Sequence[float]) -> np.ndarray:
 
 def varying_load(ripple: TorqueRipple, drivetrain: Drivetrain, shaft_step: float) -> Callable[[float], np.ndarray]:
     """Forces (k,), N, at a step; the wheel's shaft turns by `shaft_step` (rad) in each."""
-    unit = forces_of_torque(drivetrain.coordinates, drivetrain.radii, 1.0)
+    unit = drivetrain.ends[0]
 
     def load(step: float) -> np.ndarray:
         return unit * torque(ripple, [shaft_step * step])[0]

@@ -13,90 +13,61 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from math import inf, isfinite
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.geometry.gear_train import Layout
+from fenics_gears.contact.kinematics import MOTIONS
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.train_graph import PINION, TrainGraph, turns_of_shafts
 
 from .damping import Damping, damping_of
 from .drivetrain import Drivetrain, MeshSprings
-from .frequencies import ACROSS_DIRECTION, MESH_DIRECTION
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
 
     from .seat_of_mesh import SeatOfMesh
+    from .tilting import Tilting
 
+# Relative normal displacement of the flanks per coordinate of a mesh; see contact.operator.displacement_jacobian.
+# Friction also acts across.
+MESH_DIRECTION = {"centre_x1": 1.0, "rotation_1": 1.0, "centre_x2": -1.0, "rotation_2": 1.0}
+ACROSS_DIRECTION = {"centre_y1": 1.0, "centre_y2": -1.0}
 # Coordinates of one mesh in their order: of the centre along and off the line of action, and the rotation, of either
 # gear.
 OF_A_GEAR = ("centre_x{}", "centre_y{}", "rotation_{}")
 
 
 @dataclass(frozen=True)
-class TrainDrivetrain(Drivetrain):
-    """Equations of motion of a train. `motions` (f, k): those of shafts that turn together, which without mass some
-    meshes alone hold. `angle` (k,): rotation (rad) of the last shaft; `of_meshes`: of each mesh, how its own
-    coordinates (l, k) follow; `ends`: by mesh, rotation (k,), rad, of the
-    load on the shaft that it drives. `momentum` (k,), N s: of all masses, as the first shaft turns by 1 rad/s and all
-    others with it; none without mass. `of_members` (3, k), rad/mm: of a planetary set with inertia,
-    rotations of its members, counter-clockwise."""
-
-    motions: tuple[tuple[float, ...], ...] = ()
-    angle: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    of_meshes: tuple[np.ndarray, ...] = ()
-    ends: tuple[np.ndarray, ...] = ()
-    momentum: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    of_members: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
-
-    @property
-    def free_motion(self) -> np.ndarray:  # type: ignore[override]
-        """The motions of all meshes, (f k,)."""
-        return np.array(self.motions).ravel()
-
-    @property
-    def free_words(self) -> str:
-        if not all(float(self.angle @ each) for each in self.motions):
-            return "the gears behind a mesh turn freely under their torque"
-        motion = max(self.motions, key=lambda each: abs(float(self.angle @ each)))
-        torque = 1e-3 * float(self.load @ motion) / float(self.angle @ motion)
-        return f"the last gear turns freely under its torque of {torque:.4g} N m"
-
-
-@dataclass(frozen=True)
 class TrainParts:
-    """What a train is put together of: the `layout` of its meshes, and the `torques` (N mm) that resist the rotation of
-    each shaft, 0 where there are none.
+    """What a train is put together of: the `graph` of its meshes, their `pairs` and the directions `axes` (2, 2), in
+    rows, along and off the line of action of each; the `torques` (N mm) that resist the rotation of each shaft, 0 where
+    there are none.
 
     `torsion`: stiffness (N mm/rad) of each shaft, of the first between drive and gears, of outputs between gears and
     load, of others between the gears that are driven and those that only drive, infinite where it is rigid. By gear:
     `masses`, none without inertia, and `supports` along and off the line of action of its first mesh (N/mm), None where
-    its centre is fixed, infinite where it is fixed beside its place. `loads`: moments of inertia (N mm s^2) of the
-    loads by the numbers of their shafts. `turning`: numbers of gears that turn against their shaft, one that bends.
-    `centred`: of gears that have the centre of another one on their shaft, that one. `together`: gears (n) that one
-    support holds, and its stiffness (2 n, 2 n), N/mm, in space, gear after gear.
+    its centre is fixed, infinite in directions in which it is fixed beside its place. `loads`: moments of inertia
+    (N mm s^2) of the loads by the numbers of their shafts. `turning`: numbers of gears that turn against their shaft,
+    one that bends. `tilting`: the gears of a pair that tilt, None where none does. `centred`: of gears that have the
+    centre of another one on their shaft, that one. `together`: gears (n) that one support holds, and its stiffness
+    (2 n, 2 n), N/mm, in space, gear after gear.
     """
 
-    layout: Layout
+    graph: TrainGraph
+    pairs: Sequence[GearPair]
+    axes: Sequence[np.ndarray]
     torques: Sequence[float]
     torsion: Sequence[float]
     masses: Sequence[LumpedGear] = ()
     supports: Sequence[tuple[float, float] | None] = ()
     loads: Mapping[int, float] = field(default_factory=dict)
     turning: Sequence[int] = ()
+    tilting: Tilting | None = None
     centred: Mapping[int, int] = field(default_factory=dict)
     together: tuple[Sequence[int], np.ndarray] | None = None
-
-    @property
-    def graph(self) -> TrainGraph:
-        return self.layout.graph
-
-    @property
-    def pairs(self) -> Sequence[GearPair]:
-        return self.layout.pairs
 
     @property
     def gears(self) -> Sequence[tuple[int, int]]:
@@ -105,14 +76,6 @@ class TrainParts:
 
     def support(self, gear: int) -> tuple[float, float] | None:
         return self.supports[gear] if self.supports else None
-
-    def moves(self, gear: int) -> bool:
-        """Whether the centre of a gear is free to move against its support."""
-        return isfinite((self.support(gear) or (inf,))[0])
-
-    def moving(self) -> list[int]:
-        """Numbers of the gears whose centres move by themselves."""
-        return [gear for gear in range(len(self.graph.shafts)) if self.moves(gear) and gear not in self.centred]
 
 
 class Rows:
@@ -123,26 +86,29 @@ class Rows:
         self.graph = parts.graph
         pairs = parts.pairs
         last = self.graph.last
-        names = []
-        radii = []
+        radii: dict[str, float] = {}
+        # Stiffness of the supports, N/mm.
+        self.held: dict[str, float] = {}
         for shaft in range(last + 1):
+            for gear in self.graph.on(shaft):
+                if gear in parts.centred:
+                    continue
+                along_and_off = zip("xy", parts.support(gear) or ())
+                self.held |= {f"centre_{axis}{gear + 1}": own for axis, own in along_and_off if isfinite(own)}
+            radii |= {name: 1.0 for name in self.held if name not in radii}
             driven = [pairs[mesh].base_radii[1] for mesh in self.graph.into(shaft)]
             driving = [pairs[mesh].base_radii[0] for mesh in self.graph.out_of(shaft)]
             if shaft or isfinite(parts.torsion[0]):
-                names.append(f"rotation_{shaft + 1}")
-                radii.append((driven or driving)[0])
+                radii[f"rotation_{shaft + 1}"] = (driven or driving)[0]
             if shaft and isfinite(parts.torsion[shaft]):
-                names.append(f"twist_{shaft + 1}")
-                radii.append((driving or driven)[0])
+                radii[f"twist_{shaft + 1}"] = (driving or driven)[0]
         for gear in parts.turning:
             mesh, side = self.graph.sides[gear][0]
-            names.append(f"turn of gear {gear + 1}")
-            radii.append(pairs[mesh].base_radii[side])
-        for gear in parts.moving():
-            names += [f"centre_x of gear {gear + 1}", f"centre_y of gear {gear + 1}"]
-            radii += [1.0, 1.0]
-        self.names = tuple(names)
-        self.radii = np.array(radii)
+            radii[f"turn of gear {gear + 1}"] = pairs[mesh].base_radii[side]
+        if parts.tilting is not None:
+            radii |= parts.tilting.radii
+        self.names = tuple(radii)
+        self.radii = np.array([*radii.values()])
 
     def of(self, name: str) -> np.ndarray:
         """One coordinate by itself, in mm or rad; zero where it is none."""
@@ -176,27 +142,28 @@ class Rows:
         return -self.onwards(shaft) * self.end(shaft)
 
     def centre(self, gear: int) -> np.ndarray:
-        """Displacements (2, k) of a gear's centre, along and off the line of action of the first mesh of `owner`."""
-        return np.array([self.of(f"centre_{axis} of gear {self.owner(gear) + 1}") for axis in "xy"])
+        """Motions (5, k) of a gear's centre along and off the line of action of the first mesh of `owner` and along the
+        axis, in mm, and about the first two, in rad."""
+        return np.array([self.of(motion.format(self.owner(gear) + 1)) for motion in MOTIONS[:5]])
 
     def owner(self, gear: int) -> int:
         """The gear whose centre it has: itself, but for one that is `centred` by another."""
         return self.parts.centred.get(gear, gear)
 
     def moved(self, gear: int) -> tuple[np.ndarray, np.ndarray]:
-        """Rotation (k,), in either sense, and displacements (2, k) of a gear as its inertia has them."""
+        """Rotation (k,), in either sense, and motions (5, k) of a gear's centre as its inertia has them."""
         return self.rotation(gear, self.graph.sides[gear][0][1]), self.centre(gear)
 
     def of_mesh(self, mesh: int) -> np.ndarray:
         """A mesh's own coordinates (l, k), in mm."""
         pair = self.parts.pairs[mesh]
-        layout = self.parts.layout
+        axes = self.parts.axes
         rows = []
         for side, gear in enumerate(self.graph.gears[mesh]):
             if self.parts.support(gear) is not None:
                 first, _ = self.graph.sides[self.owner(gear)][0]
-                turned = layout.axes(mesh) @ layout.axes(first).T
-                rows += list(self.centre(gear) if first == mesh else turned @ self.centre(gear))
+                centre = self.centre(gear)[:2]
+                rows += list(centre if first == mesh else axes[mesh] @ axes[first].T @ centre)
             rows.append(pair.base_radii[side] * self.rotation(gear, side))
         return np.array(rows)
 
@@ -221,10 +188,14 @@ class Rows:
 
 
 def train_drivetrain(
-    parts: TrainParts, damping: Damping | None = None, mesh_stiffness: Sequence[float] = (), rows: Rows | None = None
-) -> TrainDrivetrain:
-    """The gears of a train under a torque on the last shaft. `mesh_stiffness` (f,), N/mm: of one tooth pair of each
-    mesh, roughly; damping ratios are of the modes with them. `rows`: how gears move, unless as in any train."""
+    parts: TrainParts,
+    damping: Damping | None = None,
+    mesh_stiffness: Sequence[float] | float = (),
+    rows: Rows | None = None,
+) -> Drivetrain:
+    """The gears of a train under the torques on its shafts; coordinates that cannot move do not appear.
+    `mesh_stiffness` (f,), N/mm: of one tooth pair of each mesh, roughly; damping ratios are of the modes with them.
+    `rows`: how gears move, unless as in any train."""
     rows = rows or Rows(parts)
     graph = parts.graph
     meshes = range(len(parts.pairs))
@@ -239,8 +210,11 @@ def train_drivetrain(
     # Of helical teeth the normal leans along the axis.
     cosines = np.array([[pair.cosine] for pair in parts.pairs])
 
+    mesh = MeshSprings(cosines * flanks(MESH_DIRECTION), flanks(ACROSS_DIRECTION))
+    if parts.tilting is not None:
+        mesh = parts.tilting.mesh(rows.names)
     stiffness, in_bearings = _stiffness(rows)
-    undamped = TrainDrivetrain(
+    undamped = Drivetrain(
         rows.names,
         rows.radii,
         stiffness,
@@ -250,7 +224,7 @@ def train_drivetrain(
         ),
         _mass(rows) if parts.masses else None,
         None,
-        MeshSprings(cosines * flanks(MESH_DIRECTION), flanks(ACROSS_DIRECTION)),
+        mesh,
         bearing_stiffness=in_bearings,
         motions=tuple(rows.motion_of(shafts, turns) for shafts in graph.cuts),
         angle=-rows.onwards(graph.last) * rows.of(f"rotation_{graph.last + 1}"),
@@ -260,20 +234,20 @@ def train_drivetrain(
     if undamped.mass is None:
         return undamped
     dampers = damping_of(undamped, damping, np.array(mesh_stiffness))
-    return replace(undamped, damping=dampers, momentum=_momentum(rows, undamped.mass, turns))
+    return replace(undamped, damping=dampers, nominal_momentum=_momentum(rows, undamped.mass, turns))
 
 
 def _stiffness(rows: Rows) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness (k, k) of shafts and bearings, N/mm, and the part of it in bearings."""
     parts = rows.parts
-    in_bearings = np.zeros((len(rows.names), len(rows.names)))
-    for gear in parts.moving():
-        centre = rows.centre(gear)
-        in_bearings += centre.T @ np.diag(parts.support(gear) or ()) @ centre
+    springs = np.diag([rows.held.get(name, 0.0) for name in rows.names])
+    if parts.tilting is not None:
+        parts.tilting.add_bearings(springs, rows.names)
+    in_bearings = springs / np.outer(rows.radii, rows.radii)
     if parts.together is not None:
         gears, own = parts.together
         first = [rows.graph.sides[gear][0][0] for gear in gears]
-        inside = np.vstack([parts.layout.axes(mesh).T @ rows.centre(gear) for mesh, gear in zip(first, gears)])
+        inside = np.vstack([parts.axes[mesh].T @ rows.centre(gear)[:2] for mesh, gear in zip(first, gears)])
         in_bearings += inside.T @ own @ inside
     stiffness = in_bearings.copy()
     for shaft, torsion in enumerate(parts.torsion):
@@ -289,7 +263,7 @@ def _mass(rows: Rows) -> np.ndarray:
     found = np.zeros((len(rows.names), len(rows.names)))
     for gear, own in enumerate(parts.masses):
         angle, centre = rows.moved(gear)
-        found += own.moment_of_inertia * np.outer(angle, angle) + own.mass * centre.T @ centre
+        found += own.moment_of_inertia * np.outer(angle, angle) + mass_of_gear(own, centre)
     for shaft, load in parts.loads.items():
         end = rows.end(shaft)
         found += load * np.outer(end, end)
@@ -304,6 +278,11 @@ def _momentum(rows: Rows, mass: np.ndarray, turns: Sequence[Fraction]) -> np.nda
         for gear in rows.graph.on(0):
             found += rows.parts.masses[gear].moment_of_inertia * rows.rotation(gear, PINION)
     return found
+
+
+def mass_of_gear(gear: LumpedGear, moved: np.ndarray) -> np.ndarray:
+    """Mass (k, k) of a gear whose middle moves so (5, k), in mm along x, y and z, in rad about x and y."""
+    return moved.T @ np.diag([gear.mass] * 3 + [gear.tilting_inertia] * 2) @ moved
 
 
 def coordinates_of_mesh(parts: TrainParts, mesh: int) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ vectors, which a mirror image turns round.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,14 +18,14 @@ from scipy.linalg import block_diag
 from fenics_gears.geometry.pair import GearPair
 
 from .damping import Damping, damping_of
-from .drivetrain import MeshSprings
+from .drivetrain import Drivetrain, MeshSprings
 from .elastic_shaft import FIVE, MOTIONS, SeatedGear
 from .rolling_springs import springs_of
 from .seat_of_mesh import SeatOfMesh
 from .shaft_at_work import even_load
 from .shaft_system import ShaftSystem
 from .tilting import mesh_over_face
-from .train import TrainDrivetrain
+from .train import mass_of_gear
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear_data import LumpedGear
@@ -70,14 +70,15 @@ class GearOnShaft:
 class BentShafts:
     """All shafts of a train that bend: their `systems`, the `gears` on them, once in each of their meshes, the `frames`
     of all meshes; `axes` (3, 3) of each shaft in space, one a row, by its name. `masses`: of the gears by their names,
-    none without inertia. `turns`: of each shaft by its name, about the axis of the train, in one of the first."""
+    none without inertia. `turns`: of each shaft by its name, about the axis of the train, in one of the first; none
+    for a pair's."""
 
     systems: tuple[ShaftSystem, ...]
     axes: Mapping[str, np.ndarray]
     gears: tuple[GearOnShaft, ...]
     frames: tuple[MeshFrame, ...]
     masses: Mapping[str, LumpedGear]
-    turns: Mapping[str, float]
+    turns: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -131,6 +132,15 @@ def turned_motions(of: np.ndarray, to: np.ndarray) -> np.ndarray:
     return block_diag(turn, np.linalg.det(turn) * turn)
 
 
+def shafts_of_pair(
+    systems: tuple[ShaftSystem, ...], pair: GearPair, torque: float, masses: Mapping[str, LumpedGear]
+) -> BentShafts:
+    """The shafts of a pair that bend, in the frame of its mesh, under a torque (N mm) on the wheel."""
+    seats = [seat for system in systems for _, seat in system.seated]
+    gears = tuple(GearOnShaft(seat, 0, SIDES.index(seat.gear), np.eye(2 * len(SPACE))) for seat in seats)
+    return BentShafts(systems, {seat.gear: SPACE for seat in seats}, gears, (MeshFrame(SPACE, pair, torque),), masses)
+
+
 def even_loads(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequence[MeshFrame]) -> np.ndarray:
     """Loads (5 g,) of the gears of a system of shafts, in the frames of these, by an even line load in each mesh."""
     loads = np.zeros((len(system.seated), FIVE))
@@ -145,10 +155,11 @@ def even_loads(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequen
 class _Coordinates:
     """Those of a drivetrain with rigid shafts, and behind them those of shafts that bend; the last ones are modes."""
 
-    def __init__(self, base: TrainDrivetrain, bent: BentShafts):
+    def __init__(self, base: Drivetrain, bent: BentShafts):
         self.base = base
         self.bent = bent
-        moved = [name for system in bent.systems for name in system.moved]
+        # Of faces behind those of gears, as `Drivetrain.indices` has them.
+        moved = sorted((name for system in bent.systems for name in system.moved), key=lambda name: "face_" in name[:5])
         modes = [name for system in bent.systems for name in system.modes]
         self.names = (*base.coordinates, *moved, *modes)
         self.radii = np.concatenate([base.radii, np.ones(len(moved) + len(modes))])
@@ -181,11 +192,21 @@ class _Coordinates:
             for gear in (self.bent.once[seat.gear] for seat in shaft.seats):
                 moved[system.motions.index(gear.seat.motions[-1])] = self.turn(gear, names_of[gear.mesh])
                 # The turn of the drive is prescribed.
-                if gear.side and shaft.torque_at is not None:
+                if gear.side:
                     sense = self.bent.frames[gear.mesh].sense
                     for name in shaft.coupling(shaft.chain):
                         moved[system.motions.index(name)] = sense * self.padded(self.base.ends[gear.mesh])
         return moved
+
+    def of_the_coupling(self, system: ShaftSystem, moved: np.ndarray) -> np.ndarray:
+        """Momentum (k,) of a system that is `moving` per speed (rad/s) of the prescribed rotation of a whole input
+        shaft, as far as it is not that of its gear."""
+        turning = np.zeros(len(system.motions))
+        for shaft, seat in system.seated:
+            if self.bent.once[seat.gear].side == 0 and shaft.torque_at is not None:
+                held = () if "rotation_1" in self.names else seat.motions[-1:]
+                turning[[system.motions.index(name) for name in (*held, *shaft.coupling(shaft.chain))]] = 1.0
+        return moved.T @ system.mass @ turning
 
     def of_mesh(self, mesh: int) -> np.ndarray:
         """A mesh's own coordinates (l, k), in mm: those that it has on rigid shafts, then those of its gears on shafts
@@ -209,12 +230,12 @@ class _Coordinates:
 
 
 def with_bent_shafts(
-    base: TrainDrivetrain,
+    base: Drivetrain,
     bent: BentShafts,
     names_of: Sequence[tuple[str, ...]],
     damping: Damping | None = None,
-    mesh_stiffness: Sequence[float] = (),
-) -> TrainDrivetrain:
+    mesh_stiffness: Sequence[float] | float = (),
+) -> Drivetrain:
     """A drivetrain whose gears turn and twist their shafts, with some shafts that also bend; `names_of`: names of the
     coordinates of each mesh. `mesh_stiffness`, N/mm: of either half of the face of one tooth pair in each mesh,
     roughly."""
@@ -239,6 +260,7 @@ def with_bent_shafts(
         ),
         systems=bent.systems,
         bearing_stiffness=with_shafts(base.bearing_stiffness, "bearing_stiffness"),
+        of_the_coupling=sum(coordinates.of_the_coupling(*each) for each in moving) / bent.frames[0].pair.base_radii[0],
         motions=tuple(tuple(coordinates.padded(np.array(each)).tolist()) for each in base.motions),
         angle=coordinates.padded(base.angle),
         of_meshes=of_meshes,
@@ -248,18 +270,18 @@ def with_bent_shafts(
     if whole.mass is None:
         return whole
     dampers = with_shafts(np.zeros_like(base.stiffness), "damping")
-    momentum = coordinates.padded(base.momentum) + sum(
+    damping_matrix = damping_of(whole, damping, np.array(mesh_stiffness), dampers)
+    if not bent.turns:
+        return replace(whole, damping=damping_matrix)
+    momentum = coordinates.padded(base.nominal_momentum) + sum(
         moved.T @ system.mass @ system.turning(bent.turns) for system, moved in moving
     )
-    damping_matrix = damping_of(whole, damping, np.array(mesh_stiffness), dampers)
-    return replace(whole, damping=damping_matrix, momentum=momentum)
+    return replace(whole, damping=damping_matrix, nominal_momentum=momentum)
 
 
 def _mass_of_gears(coordinates: _Coordinates) -> np.ndarray:
     """Mass (k, k), N s^2/mm, of gears as far as they move and tilt with their shafts."""
     mass = np.zeros((len(coordinates.names),) * 2)
     for name, gear in coordinates.bent.once.items():
-        own = coordinates.bent.masses[name]
-        rows = coordinates.of(gear.seat.of_gear)
-        mass += rows.T @ np.diag([own.mass] * 3 + [own.tilting_inertia] * 2) @ rows
+        mass += mass_of_gear(coordinates.bent.masses[name], coordinates.of(gear.seat.of_gear))
     return mass

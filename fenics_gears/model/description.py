@@ -15,9 +15,8 @@ from fenics_gears.geometry.gear_data import Material
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import ISO_6336, Scene
 
-from .bore_twist import bore_twist_stiffness
 from .cost import SECTOR_UNKNOWNS, expected_cost
-from .drivetrain import mesh_stiffness
+from .drivetrain import bore_twist_stiffness, mesh_stiffness
 from .expected_errors import error_rows
 from .face_resolution import face_discretisation, layers_of_common_face
 from .model import Model, model_of

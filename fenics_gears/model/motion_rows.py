@@ -66,7 +66,7 @@ def inertia_rows(model: Model) -> Rows:
         lowest = "lowest mode" if modes == 1 else f"{modes} lowest modes"
         words = f"kg, in addition, with its {lowest}, up to {shaft.up_to:.4g} Hz"
         rows.append((f"mass of the {shaft.name}'s shaft", 1e3 * shaft.mass_of_all, words))
-    twists = "shaft_twist" in model.drivetrain.coordinates
+    twists = "twist_2" in model.drivetrain.coordinates
     if twists or inertia.load is not None:
         place = "far end of the output shaft" if twists else "with the wheel"
         rows.append(("load moment of inertia", 1e3 * inertia.shaft_end, f"kg mm^2, {place}"))
@@ -140,6 +140,6 @@ MOTIONS = {
 
 
 def motion_in_words(coordinate: str) -> str:
-    if coordinate == "shaft_twist":
+    if coordinate == "twist_2":
         return "twist of the output shaft"
     return f"{gear_of(coordinate)} {MOTIONS[coordinate[:-1]]}"

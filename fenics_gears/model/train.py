@@ -17,12 +17,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.dynamics.clock import FOLLOWING, SteadyClock, TimeScales, time_scales
+from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
 from fenics_gears.dynamics.guidance import time_step_warnings
 from fenics_gears.dynamics.set_in_time import set_drivetrain
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
 from fenics_gears.dynamics.stepping import EquationsOfMotion
-from fenics_gears.dynamics.train import TrainDrivetrain, coordinates_of_mesh, drivetrain_of_mesh, train_drivetrain
+from fenics_gears.dynamics.train import coordinates_of_mesh, drivetrain_of_mesh, train_drivetrain
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
@@ -77,7 +78,7 @@ class RowModel(OfMeshes):
         return len(self.models) == 1 and not self.shafts.moving
 
     @cached_property
-    def drivetrain(self) -> TrainDrivetrain:
+    def drivetrain(self) -> Drivetrain:
         parts = parts_of(self.meshes, self.shafts)
         carrier = self.shafts.carrier
         if carrier is not None and carrier.in_time:
@@ -109,7 +110,7 @@ class RowModel(OfMeshes):
         if ramp is None or self.drivetrain.mass is None:
             return EquationsOfMotion(*common, SteadyClock(first.time_step))
         turned = self.input_speed / ramp.start
-        load = inertia_forces(ramp, turned * self.drivetrain.momentum)
+        load = inertia_forces(ramp, turned * self.drivetrain.nominal_momentum)
         return EquationsOfMotion(*common, ramp, (load,))
 
     @property
@@ -308,7 +309,7 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
     parts = parts_of(meshes, shafts)
     bent = bent_of(meshes, shafts)
     sizes = _flank_sizes(meshes, models)
-    wholes = whole_torques(parts.layout, parts.torques)
+    wholes = whole_torques(parts)
     found = []
     for number, (mesh, own, size) in enumerate(zip(meshes, steps, sizes)):
         accuracy = replace(mesh.scene.accuracy, steps_per_mesh_cycle=own, flank_element_size=size)

@@ -71,7 +71,7 @@ def _bent_rows(row: RowModel) -> Rows:
 
 def _on_rigid(name: str) -> bool:
     """Whether a coordinate is none of a shaft that bends."""
-    return name.startswith(("rotation_", "twist_")) or " of gear " in name
+    return name.startswith(("rotation_", "twist_", "turn of")) or name[-1].isdigit() and name.startswith("centre_")
 
 
 def frequencies_of_train(row: RowModel) -> Rows:
@@ -114,11 +114,10 @@ def _moving(row: RowModel) -> list[str]:
 
 def motion_in_words(name: str, gears: list[str]) -> str:
     """A coordinate of a train for people; `gears`: names of all, from the first on."""
-    kind, _, number = name.partition(" of gear ")
-    if kind == "turn":
-        return f"turn of {gears[int(number) - 1]} against its shaft"
-    if number:
-        direction = "along" if kind == "centre_x" else "off"
-        return f"centre of {gears[int(number) - 1]} {direction} the line of action"
+    if name.startswith("turn of gear "):
+        return f"turn of {gears[int(name.split()[-1]) - 1]} against its shaft"
     kind, _, number = name.partition("_")
+    if kind == "centre":
+        direction = "along" if number[0] == "x" else "off"
+        return f"centre of {gears[int(number[1:]) - 1]} {direction} the line of action"
     return f"twist of shaft {number}" if kind == "twist" else f"rotation of shaft {number}"

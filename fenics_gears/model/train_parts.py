@@ -13,7 +13,6 @@ from fenics_gears.dynamics.set_in_time import SetInTime
 from fenics_gears.dynamics.train import TrainParts
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear_data import LumpedGear
-from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.planetary import CARRIER, WITH_RING
 from fenics_gears.geometry.train_graph import turns_of_shafts
 from fenics_gears.inputs.problem import NOTHING_DONE
@@ -22,7 +21,7 @@ from fenics_gears.scene.data import Scene
 from fenics_gears.scene.train_mesh import MeshOfScene, gear_names, layout_of
 from fenics_gears.scene.train_shafts import TrainShafts
 
-from .drivetrain import lumped_gears
+from .drivetrain import lumped_gears, support_of
 from .model import Model, model_of
 from .shared_gears import check_shared
 
@@ -49,7 +48,7 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
         if shafts.carrier is not None and shafts.carrier.in_time:
             lumped = shafts.carrier.lumped(name.partition(".")[2].split()[0])
             masses.append(LumpedGear(lumped.mass, lumped.moment_of_inertia, mesh.pair.face_width))
-        supports.append(_support(mesh.scene, GEARS[side]) if shafts.carrier is None else shafts.carrier.support(name))
+        supports.append(support_of(mesh.scene, GEARS[side]) if shafts.carrier is None else shafts.carrier.support(name))
     given = {each.shaft: each.torque for each in shafts.loads}
     torques = [
         given.get(shaft, 0.0)
@@ -66,7 +65,8 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
         twists, turning = turning_of(meshes, shafts, graph)
         for number, twist in twists.items():
             torsion[number] = twist
-    parts = TrainParts(layout, torques, torsion, masses, supports, shafts.inertias, turning)
+    axes = [layout.axes(mesh) for mesh in range(len(meshes))]
+    parts = TrainParts(graph, layout.pairs, axes, torques, torsion, masses, supports, shafts.inertias, turning)
     carrier = shafts.carrier
     if carrier is None:
         return parts
@@ -127,23 +127,13 @@ def _pins_beside(carrier: Carrier, mesh: MeshOfScene, axes: np.ndarray, names: t
     return own
 
 
-def whole_torques(layout: Layout, of_shafts: Sequence[float]) -> list[float]:
-    """Torque (N mm) on the wheel of each mesh without losses, as if all power went through it; `of_shafts`: torque on
-    each shaft from outside."""
-    turns = turns_of_shafts(layout.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in layout.pairs])
+def whole_torques(parts: TrainParts) -> list[float]:
+    """Torque (N mm) on the wheel of each mesh without losses, as if all power went through it."""
+    turns = turns_of_shafts(parts.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in parts.pairs])
     return [
-        sum(torque * float(turns[shaft] / turns[driven]) for shaft, torque in enumerate(of_shafts) if torque)
-        for _, driven in layout.graph.between
+        sum(torque * float(turns[shaft] / turns[driven]) for shaft, torque in enumerate(parts.torques) if torque)
+        for _, driven in parts.graph.between
     ]
-
-
-def _support(scene: Scene, gear: str) -> tuple[float, float] | None:
-    """Stiffness (N/mm) of a gear's support along and off the line of action; None where its centre is fixed."""
-    if scene.bearings is None:
-        return None
-    along = scene.bearings.of(gear, "x")
-    off = scene.bearings.of(gear, "y")
-    return None if along is None or off is None else (along, off)
 
 
 def whole_steps(meshes: Sequence[MeshOfScene], least: Sequence[int]) -> list[int]:
@@ -173,7 +163,7 @@ def whole_steps(meshes: Sequence[MeshOfScene], least: Sequence[int]) -> list[int
 def check_supports(meshes: Sequence[MeshOfScene]) -> None:
     """Raise SceneError for a gear in several meshes whose support has directions: those of any would be meant."""
     for sides in layout_of(meshes).graph.sides:
-        found = [_support(meshes[mesh].scene, GEARS[side]) for mesh, side in sides]
+        found = [support_of(meshes[mesh].scene, GEARS[side]) for mesh, side in sides]
         one = found[0]
         if len(found) > 1 and (set(found) != {one} or one is not None and one[0] != one[1]):
             raise SceneError(

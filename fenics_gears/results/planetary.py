@@ -168,7 +168,7 @@ def _places(row: RowModel, states: np.ndarray, gear: str) -> np.ndarray:
     """Where (steps, 2), mm, the centre of a gear stands beside its place, in space."""
     number = gear_names(row.meshes).index(gear)
     first, _ = row.graph.sides[number][0]
-    places = [row.drivetrain.coordinates.index(f"centre_{axis} of gear {number + 1}") for axis in "xy"]
+    places = [row.drivetrain.coordinates.index(f"centre_{axis}{number + 1}") for axis in "xy"]
     return states[:, places] @ row.layout.axes(first)
 
 

@@ -120,7 +120,7 @@ def _reaction_rows(operators: Sequence[ContactOperator], pairs, tangential: bool
     for side, columns in zip(sides, COLUMNS):
         rows[:, columns] *= -np.repeat([1.0, side.gear.base_radius], 3)
     reached = COORDINATES if face.slices > 1 else CENTRE_COORDINATES
-    return rows.T[[place for place, name in enumerate(reached) if name != "shaft_twist"]]
+    return rows.T[[place for place, name in enumerate(reached) if name != "twist_2"]]
 
 
 MOST_TIMES_JOINED = 8

@@ -17,9 +17,9 @@ from fenics_gears.dynamics.marched import March
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache, writing_meanwhile
 from fenics_gears.errors import ComputationError, MemoryEnded, attempted
-from fenics_gears.model.bore_twist import bore_twist_stiffness
 from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.cost_parts import ExpectedCost
+from fenics_gears.model.drivetrain import bore_twist_stiffness
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.extrema import repeating_steps

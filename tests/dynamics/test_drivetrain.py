@@ -21,7 +21,7 @@ from fenics_gears.scene.read import scene_from_text
 def from_twist(coordinates):
     """Coordinates per phi1, phi2, phi3 of the paper: the last one is the twist phi3 - phi2."""
     change = np.eye(len(coordinates))
-    change[coordinates.index("shaft_twist"), coordinates.index("rotation_2")] = -1.0
+    change[coordinates.index("twist_2"), coordinates.index("rotation_2")] = -1.0
     return change
 
 
@@ -59,7 +59,7 @@ def test_absent_sections_have_no_coordinates_and_no_matrices(paper_scene, paper_
     with_bearings = drivetrain(replace(bare, bearings=paper_scene.bearings), paper_pair)
     assert with_bearings.coordinates == ("centre_x1", "centre_y1", "centre_x2", "centre_y2", "rotation_2")
     with_shafts = drivetrain(replace(bare, shafts=paper_scene.shafts), paper_pair)
-    assert with_shafts.coordinates == ("rotation_1", "rotation_2", "shaft_twist")
+    assert with_shafts.coordinates == ("rotation_1", "rotation_2", "twist_2")
     in_angles = from_twist(with_shafts.coordinates).T @ (with_shafts.load * with_shafts.radii)
     assert in_angles == pytest.approx([0.0, 0.0, 437e3], abs=1e-9)
 

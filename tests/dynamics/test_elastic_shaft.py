@@ -207,7 +207,7 @@ def test_stiff_shafts_are_the_rigid_ones_with_places(paper_scene, paper_pair):
     wanted = drivetrain(rigid, paper_pair)
     # The coupling is at the gear, so that nothing twists.
     kept = [wanted.coordinates.index(name) for name in found.coordinates]
-    assert set(wanted.coordinates) - set(found.coordinates) == {"rotation_1", "shaft_twist"}
+    assert set(wanted.coordinates) - set(found.coordinates) == {"rotation_1", "twist_2"}
     assert found.stiffness == pytest.approx(wanted.stiffness[np.ix_(kept, kept)], rel=1e-14, abs=1e-9)
     assert found.bearing_stiffness == pytest.approx(found.stiffness, rel=1e-14, abs=1e-9)
 
@@ -220,11 +220,11 @@ def test_the_twist_is_that_of_a_torsional_spring(paper_scene, paper_pair):
     width = paper_pair.face_widths[0]
     twisted = G * 2.0 * second(30.0) / (100.0 - 0.5 * width)
     wanted = drivetrain(replace(scene, shafts=Shafts(twisted)), paper_pair)
-    for side, gear, name in (("input", "pinion", "rotation_1"), ("output", "wheel", "shaft_twist")):
+    for side, gear, name in (("input", "pinion", "rotation_1"), ("output", "wheel", "twist_2")):
         other = {"input": "output", "output": "input"}[side]
         shafts = Shafts(None, **{side: own, other: Shaft(twisted)})
         found = drivetrain(replace(scene, shafts=shafts, bearings=Bearings(**{gear: bearings})), paper_pair)
-        assert {"rotation_1", "rotation_2", "shaft_twist"} <= set(found.coordinates)
+        assert {"rotation_1", "rotation_2", "twist_2"} <= set(found.coordinates)
         place, there = found.coordinates.index(name), wanted.coordinates.index(name)
         assert found.stiffness[place] == pytest.approx(np.eye(len(found.load))[place] * wanted.stiffness[there, there])
         assert found.load[place] == wanted.load[there]

@@ -73,7 +73,7 @@ def test_ends_that_differ_by_round_off_are_one_place():
     assert np.array(others) == pytest.approx(np.array([exact, exact]), rel=1e-9)
 
 
-def test_a_free_shaft_twists_as_in_closed_form():
+def test_a_free_twist_2s_as_in_closed_form():
     """Exact: n/2L sqrt(G/rho), but for the elements' own error."""
     found = shaft([ShaftSection(150.0, 30.0, bore=12.0)], 40.0, [Bearing(0.0, 1e5, 1e5), Bearing(90.0, 1e5)], 120.0)
     own = frequencies(vibrating(found, DENSITY, ALL))

@@ -42,7 +42,7 @@ def kinetic_energy(rows: RowsOfSet, place: np.ndarray, velocity: np.ndarray) -> 
     found = 0.0
     for gear, lumped in enumerate(rows.parts.masses):
         shaft = rows.graph.shafts[gear]
-        axes = rows.parts.layout.axes(rows.graph.sides[gear][0][0])
+        axes = rows.parts.axes[rows.graph.sides[gear][0][0]]
         beside, moving = (axes.T @ rows.centre(gear) @ each for each in (place, velocity))
         angle = rate = 0.0
         if shaft not in (0, rows.graph.last):

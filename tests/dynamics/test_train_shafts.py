@@ -53,7 +53,7 @@ def test_one_gears_force_tilts_the_other_as_in_closed_form():
     assert moved[4] == pytest.approx(LOAD * slope, rel=1e-9)
 
 
-def test_two_gears_on_a_shaft_twist_against_each_other_as_its_sections():
+def test_two_gears_on_a_twist_2_against_each_other_as_its_sections():
     """Exact: G J over length, section by section between the gears."""
     found, _ = two_gears()
     lengths = (20.0, 30.0), (60.0, 42.0)

@@ -213,7 +213,7 @@ def test_a_side_that_names_nothing_is_rigid():
     assert set(alone.coordinates) == of_pinion | {"rotation_2"}
     beside = '[shafts.output]\ntorsional_stiffness = "1e8 N mm/rad"\n[bearings.wheel]\nstiffness = "1e5 N/mm"\n'
     both = model_of(helical_scene(INPUT + PINION + beside, accuracy=FEW)).drivetrain
-    assert set(both.coordinates) - set(alone.coordinates) == {"centre_x2", "centre_y2", "shaft_twist"}
+    assert set(both.coordinates) - set(alone.coordinates) == {"centre_x2", "centre_y2", "twist_2"}
 
 
 @pytest.mark.parametrize("torque", [3e5, -3e5], ids=["drive", "coast"])

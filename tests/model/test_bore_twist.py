@@ -10,9 +10,8 @@ from tests.coarse import coarse_scene, frictionless, teeth_alone
 from fenics_gears import model_of, simulate
 from fenics_gears.dynamics.damping import Damping
 from fenics_gears.geometry.gear_data import Web
-from fenics_gears.model.bore_twist import bore_twist_stiffness
 from fenics_gears.model.description import describe
-from fenics_gears.model.drivetrain import mesh_stiffness
+from fenics_gears.model.drivetrain import bore_twist_stiffness, mesh_stiffness
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Accuracy
 

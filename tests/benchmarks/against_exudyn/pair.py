@@ -14,7 +14,6 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.spring_mesh import PairSprings, spring_mesh
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.bearings import Bearings, Support
-from fenics_gears.dynamics.drivetrain import forces_of_torque
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.shafts import Shaft, Shafts
@@ -51,7 +50,7 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
         return [PairSprings(0, DRIVE, np.zeros(1), np.zeros(1), np.array([MESH]))]
 
     cycle = Cycle(spring_mesh(pair, springs, 1, coast_flanks=False), STEPS, shafts.indices, tangential=False)
-    added = forces_of_torque(shafts.coordinates, shafts.radii, COUPLE_AFTER)
+    added = COUPLE_AFTER * shafts.ends[0]
     marcher = Marcher(cycle, EquationsOfMotion(shafts, STEP, loads=(lambda step: added * (step > 0),)))
     start = marcher.start()[0]
     # At rest where the first couple holds it, accelerated by what is added, as Exudyn starts.
