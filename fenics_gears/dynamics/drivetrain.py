@@ -162,7 +162,7 @@ class Drivetrain:
     @property
     def free_words(self) -> str:
         """What turns freely where a mesh opens, and the load that works on it, in words."""
-        if not all(float(self.angle @ each) for each in self.motions):
+        if not self.motions or not all(float(self.angle @ each) for each in self.motions):
             return "the gears behind a mesh turn freely under their torque"
         motion = max(self.motions, key=lambda each: abs(float(self.angle @ each)))
         torque = 1e-3 * float(self.load @ motion) / float(self.angle @ motion)

@@ -43,7 +43,7 @@ def kinetic_energy(rows: RowsOfSet, place: np.ndarray, velocity: np.ndarray) -> 
     for gear, lumped in enumerate(rows.parts.masses):
         shaft = rows.graph.shafts[gear]
         axes = rows.parts.axes[rows.graph.sides[gear][0][0]]
-        beside, moving = (axes.T @ rows.centre(gear) @ each for each in (place, velocity))
+        beside, moving = (axes.T @ rows.centre(gear)[:2] @ each for each in (place, velocity))
         angle = rate = 0.0
         if shaft not in (0, rows.graph.last):
             beside = beside + rows.own.places[shaft - 1]
