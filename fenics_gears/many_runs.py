@@ -13,7 +13,6 @@ of a scene depends on is told by `effects_on`, `common_period` and `settling_tim
 """
 
 from fenics_gears.effects import common_period, effects_on
-from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.files import save
@@ -27,9 +26,10 @@ from fenics_gears.runs.common_windows import CommonWindows
 from fenics_gears.runs.condensing import BODY, gear_tasks
 from fenics_gears.runs.folder import sole_writer
 from fenics_gears.runs.gear_store import GearStore, operators_key
+from fenics_gears.runs.lines import FolderOfLines, kept
 from fenics_gears.runs.record import NUMBERS, OF_TRAINS, numbers_of, record_of
 from fenics_gears.runs.run import Run, run_of
-from fenics_gears.runs.runs import Failure, Runs, failure_of, most_together, solved_at_once
+from fenics_gears.runs.runs import Failure, Runs, most_together, solved_at_once
 from fenics_gears.runs.simulate import settled_run
 from fenics_gears.runs.spent import Spent, seconds_of
 from fenics_gears.runs.team import Alone, Together, ranks
@@ -43,10 +43,11 @@ from fenics_gears.system.job import communicator
 from fenics_gears.system.progress import Interruption, Progress, SilentProgress
 
 __all__ = [
-    "BODY", "LARGEST_OF_SETS", "NO_MEANING", "NUMBERS", "NUMBERS_VERSION", "OF_TRAINS", "OVER_FACE",
-    "RESULT_ATTRIBUTES", "Alone", "CommonWindows", "Failure", "GearStore", "Interruption", "Outcome", "Progress", "Run",
-    "RunResult", "Runs", "SilentProgress", "Spent", "Study", "Together", "common_period", "communicator", "effects_on",
-    "failure_of", "gear_tasks", "kinds_of_meshes", "last_words", "load_combined", "most_together", "numbers_of",
-    "operators_key", "quasi_static", "ranks", "record_of", "result_rows", "run_of", "run_with", "save", "seconds_of",
-    "settled_run", "settling_time", "sole_writer", "solved_at_once", "study_of", "summary_rows", "train_rows",
+    "BODY", "LARGEST_OF_SETS", "NO_MEANING", "NUMBERS", "OF_TRAINS", "OVER_FACE",
+    "RESULT_ATTRIBUTES", "Alone", "CommonWindows", "Failure", "FolderOfLines", "GearStore", "Interruption", "Outcome",
+    "Progress", "Run", "RunResult", "Runs", "SilentProgress", "Spent", "Study", "Together", "common_period",
+    "communicator", "effects_on", "gear_tasks", "kept", "kinds_of_meshes", "last_words", "load_combined",
+    "most_together", "numbers_of", "operators_key", "quasi_static", "ranks", "record_of", "result_rows", "run_of",
+    "run_with", "save", "seconds_of", "settled_run", "settling_time", "sole_writer", "solved_at_once", "study_of",
+    "summary_rows", "train_rows",
 ]  # fmt: skip

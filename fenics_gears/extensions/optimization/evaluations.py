@@ -14,11 +14,13 @@ from fenics_gears.many_runs import (
     Alone,
     CommonWindows,
     Failure,
+    FolderOfLines,
     Interruption,
     Run,
     RunResult,
     Runs,
     Together,
+    kept,
     numbers_of,
     record_of,
     run_of,
@@ -29,7 +31,6 @@ from fenics_gears.scene_text import Models, NoScene, is_train
 from .conditions import trees_of
 from .design import Design, Goal
 from .goals import ERROR, OVER_FACE, OVERALL_ERROR, order_name
-from .lines import FolderOfLines, kept
 
 UNUSABLE = 1e6
 """What the search is told instead of a goal where a design failed; one that breaks bounds is told a thousandth of it

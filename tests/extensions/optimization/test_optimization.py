@@ -14,7 +14,6 @@ from tests.programs import command, ended, python
 
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.extensions.optimization import lines as run_lines
 from fenics_gears.extensions.optimization import optimize as optimization
 from fenics_gears.extensions.optimization.charts import tolerance_rows, write_pictures
 from fenics_gears.extensions.optimization.conditions import samples, scattered
@@ -27,6 +26,7 @@ from fenics_gears.extensions.optimization.page import write_page
 from fenics_gears.extensions.optimization.search import front
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.files import read
+from fenics_gears.runs import lines as run_lines
 from fenics_gears.runs import one_run, runs
 from fenics_gears.runs.simulate import simulate
 from fenics_gears.runs.team import Alone

@@ -1,7 +1,7 @@
 """Runs of a search that are kept as lines."""
 
-from fenics_gears.extensions.optimization.lines import FolderOfLines, append
-from fenics_gears.many_runs import Failure
+from fenics_gears.runs.lines import FolderOfLines, append
+from fenics_gears.runs.runs import Failure
 
 
 def test_a_line_without_what_is_asked_for_is_no_run(tmp_path):

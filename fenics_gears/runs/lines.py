@@ -10,10 +10,18 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from fenics_gears import ComputationError, GearsError
-from fenics_gears.many_runs import NUMBERS_VERSION, Failure, Run, RunResult, communicator, failure_of
+from fenics_gears.errors import ComputationError, GearsError
+from fenics_gears.numbers_version import NUMBERS_VERSION
+from fenics_gears.results.dataset import RunResult
+from fenics_gears.system.job import communicator
+
+from .run import Run
+from .runs import Failure, failure_of
+
+if TYPE_CHECKING:
+    from fenics_gears.results.together import NumbersOfRun
 
 ENDING = ".jsonl"
 Line = dict[str, Any]
@@ -25,7 +33,7 @@ class FolderOfLines:
     for. `failure` says why there are none, also where the result has no meaning."""
 
     directory: Path
-    line_of: Callable[[Run, RunResult], Line]
+    line_of: Callable[[Run, RunResult | NumbersOfRun], Line]
     asked: tuple[str, ...]
 
     def known(self, runs: Iterable[Run]) -> dict[str, Line | Failure]:
@@ -34,7 +42,7 @@ class FolderOfLines:
         lines = kept(self.directory)[0].items()
         return {key: _known(line) for key, line in lines if "failure" in line or asked <= line["numbers"].keys()}
 
-    def keep(self, run: Run, result: RunResult) -> Line | Failure:
+    def keep(self, run: Run, result: RunResult | NumbersOfRun) -> Line | Failure:
         line = {"key": run.key, **self.line_of(run, result)}
         append(self.directory, line)
         return _known(line)
