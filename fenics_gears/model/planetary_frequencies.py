@@ -20,7 +20,7 @@ from fenics_gears.scene.planetary_schema import VibratingMember
 from fenics_gears.scene.train_shafts import TrainShafts
 
 from .drivetrain import mesh_stiffness
-from .train import RowModel
+from .row_model import RowModel
 
 Row = tuple[str, float | str, str]
 WORDS = {

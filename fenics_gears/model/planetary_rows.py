@@ -10,7 +10,7 @@ from fenics_gears.geometry.planetary import RING, SUN, PlanetarySet
 from fenics_gears.scene.carrier import Carrier
 from fenics_gears.scene.train_mesh import gear_names
 
-from .train import RowModel
+from .row_model import RowModel
 
 Row = tuple[str, str, str]
 HARMONICS = 12

@@ -8,7 +8,8 @@ from fenics_gears.scene.data import Accuracy
 
 from .cost import expected_cost, refused, settings_that_fit, too_large
 from .cost_parts import CONDENSING_PROGRAM, ExpectedCost
-from .train import RowModel, TrainModel, together
+from .row_model import RowModel
+from .train import TrainModel, together
 
 # Contact operators of all meshes together, in the square of their nodes: with factors of what is closed, which those of
 # a pair are counted without (measured, of rows of two meshes over the face).

@@ -11,7 +11,7 @@ from fenics_gears.dynamics.frequencies import modes
 from fenics_gears.scene.train_mesh import gear_names
 
 from .motion_rows import Rows, frequency_rows
-from .train import RowModel
+from .row_model import RowModel
 from .train_parts import parts_of
 
 # Of the kinetic energy of a mode, at least, for a motion to be named.

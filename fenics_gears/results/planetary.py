@@ -11,7 +11,7 @@ import numpy as np
 
 from fenics_gears.geometry.gear_train import Layout
 from fenics_gears.geometry.planetary import CARRIER, RING, SUN
-from fenics_gears.model.train import RowModel
+from fenics_gears.model.row_model import RowModel
 from fenics_gears.scene.carrier import Carrier
 from fenics_gears.scene.train_mesh import gear_names
 

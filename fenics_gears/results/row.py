@@ -13,7 +13,7 @@ import xarray as xr
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.steps import Steps
-from fenics_gears.model.train import RowModel
+from fenics_gears.model.row_model import RowModel
 
 from .contact_variables import energy_of_teeth
 from .dataset import coordinates_of, variables_of

@@ -18,7 +18,7 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.marched import March
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.model.model import Model
-from fenics_gears.model.train import RowModel
+from fenics_gears.model.row_model import RowModel
 
 from .contact_variables import energy_variables, node_variables, normal_forces, pair_variables, work_variables
 from .dataset import friction_loss, numbers_of_curves

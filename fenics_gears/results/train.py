@@ -11,7 +11,8 @@ import numpy as np
 import xarray as xr
 
 import fenics_gears
-from fenics_gears.model.train import RowModel, TrainModel
+from fenics_gears.model.row_model import RowModel
+from fenics_gears.model.train import TrainModel
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.scene.train_scene import Link
 

@@ -9,7 +9,8 @@ from typing import ClassVar
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.model.train import RowModel, TrainModel
+from fenics_gears.model.row_model import RowModel
+from fenics_gears.model.train import TrainModel
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.train_mesh import gear_names
 from fenics_gears.simulation.bodies import body_key

@@ -23,7 +23,7 @@ from fenics_gears.system.progress import Progress
 
 if TYPE_CHECKING:
     from fenics_gears.contact.row import RowCycle
-    from fenics_gears.model.train import RowModel
+    from fenics_gears.model.row_model import RowModel
 
 # How many mesh cycles of the same gears are kept, such as for torques with other elements or contact nodes. The part of
 # the memory for contact operators that they and their bodies may take in addition to another one.

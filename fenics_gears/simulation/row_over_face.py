@@ -13,7 +13,7 @@ from fenics_gears.elasticity.compliance import Body, FlankCompliance, Reach
 from fenics_gears.elasticity.face.compliance import shared_compliance
 from fenics_gears.elasticity.face_compliance_data import SharedCompliance
 from fenics_gears.elasticity.gear_compliance import flank_compliance
-from fenics_gears.model.train import RowModel
+from fenics_gears.model.row_model import RowModel
 
 
 @dataclass(frozen=True, eq=False)

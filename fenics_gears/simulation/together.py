@@ -18,7 +18,8 @@ from fenics_gears.effects import ALONG_THE_FACE, common_period, effects_on
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.model import RELIEFS, Model, differ_only
-from fenics_gears.model.train import RowModel, TrainModel
+from fenics_gears.model.row_model import RowModel
+from fenics_gears.model.train import TrainModel
 from fenics_gears.results.contact_variables import mesh_variables
 from fenics_gears.results.extrema import repeating_steps
 from fenics_gears.results.planetary import OF_SETS, result_of_set

@@ -25,8 +25,8 @@ from fenics_gears.elasticity.compliance import Body
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
+from fenics_gears.model.row_model import RowModel
 from fenics_gears.model.shared_gears import couplings
-from fenics_gears.model.train import RowModel
 from fenics_gears.model.train_cost import row_cost, row_too_large
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.row import RowResult

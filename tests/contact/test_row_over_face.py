@@ -15,7 +15,8 @@ from fenics_gears.dynamics.train import drivetrain_of_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.face_compliance_data import BetweenMates
 from fenics_gears.geometry.gear_train import SharedGear
-from fenics_gears.model.train import RowModel, train_model_of
+from fenics_gears.model.row_model import RowModel
+from fenics_gears.model.train import train_model_of
 from fenics_gears.model.train_cost import WITH_FACTORS, row_cost
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.train import row_cycle

@@ -11,7 +11,8 @@ from tests.trains import COARSE, gear_text, helical_paths, mate, split_text
 from fenics_gears import simulate_train, train_from_text
 from fenics_gears.dynamics.stepping import Stepper
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.model.train import RowModel, train_model_of
+from fenics_gears.model.row_model import RowModel
+from fenics_gears.model.train import train_model_of
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 

@@ -11,7 +11,7 @@ from fenics_gears import model_of, simulate, simulate_train, train_from_text
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.dynamics.train import drivetrain_of_mesh
-from fenics_gears.model.train import RowModel
+from fenics_gears.model.row_model import RowModel
 from fenics_gears.scene.train_mesh import layout_of
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress

@@ -9,7 +9,7 @@ from tests.trains import COARSE, row, row_section, stage, two_stages
 from fenics_gears import scene_from_text, simulate, simulate_train, train_from_text
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.steps import Steps
-from fenics_gears.model.train import RowModel
+from fenics_gears.model.row_model import RowModel
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 

@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from fenics_gears import train_from_text
-from fenics_gears.model.train import RowModel, train_model_of
+from fenics_gears.model.row_model import RowModel
+from fenics_gears.model.train import train_model_of
 
 SCENE = Path(__file__).parents[3] / "demos" / "gear_trains" / "two_stages.toml"
 MORE = """
