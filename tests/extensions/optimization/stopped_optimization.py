@@ -9,7 +9,7 @@ if "OMPI_COMM_WORLD_RANK" not in os.environ:
     sys.modules["mpi4py"] = None
 
 from fenics_gears.commands import cli
-from fenics_gears.extensions.optimization import lines
+from fenics_gears.runs import lines
 
 done, append = 0, lines.append
 
