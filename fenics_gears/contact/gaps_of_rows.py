@@ -4,9 +4,12 @@ places and gears that run out."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
+from .mesh_cycle import Cycle, Gaps
 from .operator import Position
 from .row import JoinedPosition, RowCycle
 from .run_out import RunOut
@@ -45,7 +48,8 @@ class GapsOfRows:
         return np.concatenate(found)
 
     def of(self, run: int) -> RowCycle:
-        return self._row.with_gaps_of([each[run] for each in self._offsets], self._run_outs[run])
+        gaps_of = [partial(_with_run_outs, run_outs) for run_outs in self._run_outs[run]]
+        return self._row.with_gaps_of([each[run] for each in self._offsets], gaps_of)
 
     def _put(self, step: float, position: Position, gaps: np.ndarray) -> None:
         """Put the gaps of all runs (runs, n) at a step into place."""
@@ -59,3 +63,8 @@ class GapsOfRows:
                 motions = np.array([each.motion(step) for each in run_outs])
                 # Of one mesh all have the same rows.
                 there[list(runs)] -= operator.face.cosine * (motions @ run_outs[0].rows(own).T)
+
+
+def _with_run_outs(run_outs: tuple[RunOut, ...], cycle: Cycle) -> Gaps:
+    """The gaps of a cycle whose gears run out so."""
+    return replace(cycle.gaps, deviations=run_outs)
