@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import inf, pi
+from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -48,10 +48,9 @@ class Drivetrain:
     `coordinates`: their names; `radii` (k,): mm per rad of a rotation, 1 for a translation; `stiffness` (k, k), N/mm;
     `load` (k,), N; `mass` (k, k), N s^2/mm, and `damping` (k, k), N s/mm, or None where the scene has none. `mesh`: how
     the coordinates move flanks. `systems`: of the shafts that also bend, and `bearing_stiffness` (k, k), N/mm, the part
-    of the stiffness that is in the bearings. `of_the_coupling` (k,), N s^2/mm: mass of an elastic input shaft that
-    turns with its coupling, whose rotation is prescribed. `rolling`: by how much bearings depart from the stiffness
-    that the matrix has for them, None where none does. `seats`: those of the gears that give way. `gyroscopic` (k, k),
-    N s/mm, skew: of the velocities in a frame that turns, None where none does.
+    of the stiffness that is in the bearings. `rolling`: by how much bearings depart from the stiffness that the matrix
+    has for them, None where none does. `seats`: those of the gears that give way. `gyroscopic` (k, k), N s/mm, skew: of
+    the velocities in a frame that turns, None where none does.
 
     `motions` (f, k): those of shafts that turn together, which without mass some meshes alone hold. `angle` (k,):
     rotation (rad) of the last shaft; `of_meshes`: of each mesh, how its own coordinates (l, k) follow; `ends`: by mesh,
@@ -69,7 +68,6 @@ class Drivetrain:
     mesh: MeshSprings | None = None
     systems: tuple[ShaftSystem, ...] = ()
     bearing_stiffness: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
-    of_the_coupling: np.ndarray | float = 0.0
     rolling: RollingSprings | None = None
     seats: tuple[SeatOfMesh, ...] = ()
     gyroscopic: np.ndarray | None = None
@@ -143,11 +141,6 @@ class Drivetrain:
         """How the coordinates (k,) move, mm, as both gears turn by arcs of 1 mm, the driven one backwards."""
         arcs = dict(zip(ROTATIONS, (1.0, -1.0)))
         return np.array([arcs.get(name, 0.0) for name in self.coordinates])
-
-    def momentum(self, wheel_teeth: int) -> np.ndarray:
-        """Momentum (k,), N s^2, of the nominal motion per Hz of mesh frequency."""
-        base_pitch = 2.0 * pi * self.radii[self.driven] / wheel_teeth
-        return self.mass @ (base_pitch * self.nominal_motion) + base_pitch * self.of_the_coupling
 
     @property
     def driven_backwards(self) -> bool:

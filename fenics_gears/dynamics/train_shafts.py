@@ -9,7 +9,7 @@ vectors, which a mirror image turns round.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -70,15 +70,14 @@ class GearOnShaft:
 class BentShafts:
     """All shafts of a train that bend: their `systems`, the `gears` on them, once in each of their meshes, the `frames`
     of all meshes; `axes` (3, 3) of each shaft in space, one a row, by its name. `masses`: of the gears by their names,
-    none without inertia. `turns`: of each shaft by its name, about the axis of the train, in one of the first; none
-    for a pair's."""
+    none without inertia. `turns`: of each shaft by its name, about the axis of the train, in one of the first."""
 
     systems: tuple[ShaftSystem, ...]
     axes: Mapping[str, np.ndarray]
     gears: tuple[GearOnShaft, ...]
     frames: tuple[MeshFrame, ...]
     masses: Mapping[str, LumpedGear]
-    turns: Mapping[str, float] = field(default_factory=dict)
+    turns: Mapping[str, float]
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -138,7 +137,9 @@ def shafts_of_pair(
     """The shafts of a pair that bend, in the frame of its mesh, under a torque (N mm) on the wheel."""
     seats = [seat for system in systems for _, seat in system.seated]
     gears = tuple(GearOnShaft(seat, 0, SIDES.index(seat.gear), np.eye(2 * len(SPACE))) for seat in seats)
-    return BentShafts(systems, {seat.gear: SPACE for seat in seats}, gears, (MeshFrame(SPACE, pair, torque),), masses)
+    axes = {seat.gear: SPACE for seat in seats}
+    turns = dict(zip(SIDES, (1.0, -pair.pinion.teeth / pair.wheel.teeth)))
+    return BentShafts(systems, axes, gears, (MeshFrame(SPACE, pair, torque),), masses, turns)
 
 
 def even_loads(system: ShaftSystem, gears: Sequence[GearOnShaft], frames: Sequence[MeshFrame]) -> np.ndarray:
@@ -198,16 +199,6 @@ class _Coordinates:
                         moved[system.motions.index(name)] = sense * self.padded(self.base.ends[gear.mesh])
         return moved
 
-    def of_the_coupling(self, system: ShaftSystem, moved: np.ndarray) -> np.ndarray:
-        """Momentum (k,) of a system that is `moving` per speed (rad/s) of the prescribed rotation of a whole input
-        shaft, as far as it is not that of its gear."""
-        turning = np.zeros(len(system.motions))
-        for shaft, seat in system.seated:
-            if self.bent.once[seat.gear].side == 0 and shaft.torque_at is not None:
-                held = () if "rotation_1" in self.names else seat.motions[-1:]
-                turning[[system.motions.index(name) for name in (*held, *shaft.coupling(shaft.chain))]] = 1.0
-        return moved.T @ system.mass @ turning
-
     def of_mesh(self, mesh: int) -> np.ndarray:
         """A mesh's own coordinates (l, k), in mm: those that it has on rigid shafts, then those of its gears on shafts
         that bend."""
@@ -260,7 +251,6 @@ def with_bent_shafts(
         ),
         systems=bent.systems,
         bearing_stiffness=with_shafts(base.bearing_stiffness, "bearing_stiffness"),
-        of_the_coupling=sum(coordinates.of_the_coupling(*each) for each in moving) / bent.frames[0].pair.base_radii[0],
         motions=tuple(tuple(coordinates.padded(np.array(each)).tolist()) for each in base.motions),
         angle=coordinates.padded(base.angle),
         of_meshes=of_meshes,
@@ -271,8 +261,6 @@ def with_bent_shafts(
         return whole
     dampers = with_shafts(np.zeros_like(base.stiffness), "damping")
     damping_matrix = damping_of(whole, damping, np.array(mesh_stiffness), dampers)
-    if not bent.turns:
-        return replace(whole, damping=damping_matrix)
     momentum = coordinates.padded(base.nominal_momentum) + sum(
         moved.T @ system.mass @ system.turning(bent.turns) for system, moved in moving
     )

@@ -1,7 +1,7 @@
 """``[speed_ramp]``: a mesh frequency that rises or falls during the run (``dynamics.speed_ramp``)."""
 
 from dataclasses import dataclass
-from math import inf
+from math import inf, pi
 
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
 from fenics_gears.inputs.fields import quantity, whole_number
@@ -50,7 +50,8 @@ def clock(ramp: SpeedRamp, model):
 
 
 def load(ramp: SpeedRamp, model):
-    return inertia_forces(clock(ramp, model), model.drivetrain.momentum(model.scene.gears.wheel.teeth))
+    turn = 2.0 * pi / model.scene.gears.pinion.teeth
+    return inertia_forces(clock(ramp, model), turn * model.drivetrain.nominal_momentum)
 
 
 def results(ramp: SpeedRamp, scene, cycle, steps) -> dict:

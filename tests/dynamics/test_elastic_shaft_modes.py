@@ -144,7 +144,7 @@ def test_an_accelerated_input_shaft_is_twisted_by_its_own_inertia():
     model = model_of(scene)
     own, there = model.drivetrain, model.drivetrain.coordinates.index("rotation_1")
     clock = SimpleNamespace(acceleration_at=lambda step: 1.0)
-    load = inertia_forces(clock, own.momentum(scene.gears.wheel.teeth))(0)
+    load = inertia_forces(clock, 2.0 * pi / scene.gears.pinion.teeth * own.nominal_momentum)(0)
     found = load[there] / own.stiffness[there, there] / own.radii[there]
     speed, beam = 2.0 * pi / scene.gears.pinion.teeth, own.elastic[0]
     # Parts of the shaft between coupling and seat, from the coupling on, and all that is beyond.

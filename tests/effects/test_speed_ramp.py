@@ -78,7 +78,9 @@ def test_spin_up_at_rest_changes_the_mesh_force_by_inertia_times_acceleration(
     scene = replace(paper_scene, friction=None, damping=None, **dict.fromkeys(absent))
     for clock in (UP, DOWN):
         marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-4)
-        marcher.stepper.loads = (inertia_forces(clock, shafts.momentum(24)),)
+        marcher.stepper.loads = (
+            inertia_forces(clock, 2.0 * np.pi / paper_pair.pinion.teeth * shafts.nominal_momentum),
+        )
         behind = 1 if "shafts" in absent else 2
         alpha = 2.0 * np.pi * clock.acceleration / 24
         expected = (437e3 + behind * 24.5 * alpha) / paper_pair.wheel.base_radius
