@@ -59,7 +59,7 @@ RIGID = "rigid"
 RIGID_WINDOW = 0.5
 RIGID_NODES = 81
 # Sizes that are given are rounded.
-ROUNDED = 1.02
+ROUNDED = 1.01
 # Of the peak pressure with one element in a half-width; with two a quarter of it (`scene.accuracy.RESOLVED`).
 ERROR_AT_ONE = 0.2
 # Curves of fewer see little of the change from one tooth pair to two.
@@ -274,7 +274,7 @@ def _unresolved(resolution: Resolution) -> list[str]:
     ):
         if size <= ROUNDED * enough:
             continue
-        of = "half " if resolution.resolved == 2.0 else f"{1.0 / resolution.resolved:.2g} of "
+        of = "half " if resolution.resolved == RESOLVED else f"{1.0 / resolution.resolved:.2g} of "
         harm = f"the peak contact pressure may be off by {100.0 * ERROR_AT_ONE * (size / half_width) ** 2:.0f} %"
         if size > half_width:
             of = ""

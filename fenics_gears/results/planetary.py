@@ -48,7 +48,8 @@ def kinds_of_meshes(names: Sequence[str]) -> dict[str, list[int]]:
     """
     found: dict[str, list[int]] = {}
     for place, name in enumerate(names):
-        kind = re.sub(r"planet \d+, ring$", "planets and ring", re.sub(r", planet \d+$", " and planets", name))
+        with_sun = re.sub(r", planet \d+$", " and planets", name)
+        kind = re.sub(r"(planet|step) \d+, (\w+)$", r"planets and \2", with_sun)
         found.setdefault(kind, []).append(place)
     return found
 

@@ -7,7 +7,7 @@ import xarray as xr
 
 from .key_numbers import MICROMETRE
 from .layout import OF_OUTPUTS, OVERALL, in_microradians
-from .planetary import MEMBER, PLANET
+from .planetary import MEMBER, PLANET, kinds_of_meshes
 from .sets_in_train import MESH, SET, set_runs
 
 Rows = list[tuple[str, str, str]]
@@ -79,9 +79,9 @@ def _set_rows(found: xr.Dataset) -> Rows:
         if name in attrs:
             rows.append((label, f"{100.0 * attrs[name]:.5g}", "%"))
     numbers = _of_each_mesh(found)
-    with_sun = np.array([": sun, " in str(each) for each in numbers[MESH]])
-    for name, which in (("sun and planets", with_sun), (f"planets and {members[1]}", ~with_sun)):
-        rows += _of_meshes(name, {number: values[which] for number, values in numbers.items()})
+    for name, places in kinds_of_meshes([str(each) for each in numbers[MESH]]).items():
+        kind = name.partition(": ")[2]
+        rows += _of_meshes(kind, {number: values[places] for number, values in numbers.items()})
     return rows
 
 
