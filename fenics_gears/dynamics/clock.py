@@ -19,6 +19,9 @@ class Clock(Protocol):
     def duration(self, first: float, last: float) -> float:
         """Time from one step to another, s, without the round-off of a difference of times."""
 
+    def speed(self, first: float, last: float) -> float:
+        """Mean speed from one step to another, over that at the start."""
+
     def times(self, steps: np.ndarray) -> np.ndarray:
         """Times (s,) of many steps, s."""
 
@@ -39,6 +42,10 @@ class SteadyClock:
     def duration(self, first: float, last: float) -> float:
         """Time from one step to another, s."""
         return (last - first) * self.time_step
+
+    def speed(self, first: float, last: float) -> float:
+        """The same at all steps."""
+        return 1.0
 
     def times(self, steps: np.ndarray) -> np.ndarray:
         """Times (s,) of many steps, s."""

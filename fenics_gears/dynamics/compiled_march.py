@@ -41,7 +41,8 @@ class Motion(NamedTuple):
 
     `free_motion` (f k,): how a load moves the drivetrain where only contact holds it, else empty; `rigid`: steps are
     those of `contact.rigid_step`; `modes`: how many of the coordinates, the last ones, are modes of shafts, which
-    contact does not move: they are eliminated before each step. `gyroscopic`: (k, k) in a frame that turns, else empty.
+    contact does not move: they are eliminated before each step. `frame` (2, k, k): the matrices of a frame that turns,
+    else empty, and `frame_step` as it has it.
     """
 
     method: int
@@ -54,7 +55,8 @@ class Motion(NamedTuple):
     force_tolerance: float
     rigid: bool = False
     modes: int = 0
-    gyroscopic: np.ndarray = np.empty((0, 0))
+    frame: np.ndarray = np.empty((0, 0, 0))
+    frame_step: float = 0.0
 
     @classmethod
     def of(
@@ -68,18 +70,18 @@ class Motion(NamedTuple):
         )
         free = drivetrain.free_motion if method == STATIC else np.empty(0)
         numbers = float(friction), tolerance.length, tolerance.force, rigid, drivetrain.modes
-        turning = method != STATIC and drivetrain.gyroscopic is not None
-        gyroscopic = np.ascontiguousarray(drivetrain.gyroscopic) if turning else np.empty((0, 0))
-        return cls(method, stiffness, mass, damping, free, *numbers, gyroscopic)
+        frame = drivetrain.frame
+        if method == STATIC or frame is None:
+            return cls(method, stiffness, mass, damping, free, *numbers)
+        return cls(method, stiffness, mass, damping, free, *numbers, np.array(frame[:2]), frame.step)
 
     @property
     def packed(self) -> np.ndarray:
         """All in one array for compiled code, which `_unpacked` takes apart: to find the types of many arrays takes
         numba longer than a step."""
         numbers = self.method, self.friction, self.length_tolerance, self.force_tolerance, self.rigid, self.modes
-        turning = len(self.gyroscopic) > 0
-        arrays = (*self[1:4], self.gyroscopic, self.free_motion)
-        return np.concatenate([numbers, [turning], *(array.ravel() for array in arrays)])
+        arrays = (*self[1:4], self.frame, self.free_motion)
+        return np.concatenate([numbers, [self.frame_step], *(array.ravel() for array in arrays)])
 
 
 class Course(NamedTuple):
@@ -152,11 +154,11 @@ _eliminated, _left_load, _put_modes = (njit(cache=True)(each) for each in (elimi
 
 @njit(cache=True)
 def _unpacked(numbers, k):
-    turning = int(numbers[6])
+    of_frame = 2 if numbers[6] > 0.0 else 0
     end = 7 + 3 * k * k
     matrices = numbers[7:end].reshape(3, k, k)
-    gyroscopic = numbers[end : end + turning * k * k].reshape(turning * k, k)
-    free_motion = numbers[end + turning * k * k :]
+    frame = numbers[end : end + of_frame * k * k].reshape(of_frame, k, k)
+    free_motion = numbers[end + of_frame * k * k :]
     return Motion(
         int(numbers[0]),
         matrices[0],
@@ -168,7 +170,8 @@ def _unpacked(numbers, k):
         numbers[3],
         numbers[4] != 0.0,
         int(numbers[5]),
-        gyroscopic,
+        frame,
+        numbers[6],
     )
 
 
@@ -178,7 +181,8 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
     starts, kinds, states, status = steps.starts, steps.kinds, steps.states, steps.status
     k, duration, moved = len(motion.stiffness), -1.0, len(motion.stiffness) - motion.modes
     history = np.zeros((3, k, k))
-    frame = np.zeros((2, 0, 0))
+    turning = len(motion.frame) > 0
+    frame, softened = np.zeros((2, 0, 0)), np.zeros((k, k))
     # A number that is written out has `newton` compiled once more.
     method = Method(1.0, np.int64(ALL_AT_ONCE), motion.length_tolerance, motion.force_tolerance)
     residuals, most = np.empty((MOST_ITERATIONS, 5)), np.diff(starts).max()
@@ -188,12 +192,14 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
             duration = durations[s]
             if motion.method != STATIC:
                 history = _history(motion, duration)
-            if len(motion.gyroscopic):
-                frame = turned_velocities(duration, motion.mass, motion.damping, motion.gyroscopic)
-            modes = _eliminated(motion.stiffness + history[0], motion.modes)
+            if turning:
+                speed = motion.frame_step / duration
+                frame = turned_velocities(duration, motion.mass, motion.damping, speed * motion.frame[0])
+                softened = (1.0 - speed**2) * motion.frame[1]
+            modes = _eliminated(motion.stiffness + history[0] + softened, motion.modes)
         outer = loads[s]
         begun = states[s - 1]
-        if len(motion.gyroscopic):
+        if turning:
             begun = in_turned_frame(begun, frame)
         load = outer if motion.method == STATIC else with_history(outer, history, begun)
         now, before = slice(starts[s], starts[s + 1]), slice(starts[s - 1], starts[s])

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -41,6 +41,17 @@ class MeshSprings:
     across: np.ndarray
 
 
+class TurningFrame(NamedTuple):
+    """What the frame of a drivetrain brings that turns, at the speed at which a run starts: a skew matrix of velocities
+    `gyroscopic` (k, k), N s/mm; and, by the square of the speed, a stiffness that is off, `softening` (k, k), N/mm, and
+    a `load` (k,), N. `step`, s: a whole step at that speed."""
+
+    gyroscopic: np.ndarray
+    softening: np.ndarray
+    load: np.ndarray
+    step: float
+
+
 @dataclass(frozen=True)
 class Drivetrain:
     """Equations of motion [26]-[28] without the contact forces, over the k coordinates of a train of gears.
@@ -49,8 +60,8 @@ class Drivetrain:
     `load` (k,), N; `mass` (k, k), N s^2/mm, and `damping` (k, k), N s/mm, or None where the scene has none. `mesh`: how
     the coordinates move flanks. `systems`: of the shafts that also bend, and `bearing_stiffness` (k, k), N/mm, the part
     of the stiffness that is in the bearings. `rolling`: by how much bearings depart from the stiffness that the matrix
-    has for them, None where none does. `seats`: those of the gears that give way. `gyroscopic` (k, k), N s/mm, skew: of
-    the velocities in a frame that turns, None where none does.
+    has for them, None where none does. `seats`: those of the gears that give way. `frame`: in which it is,
+    None where that stands; what it brings at the start is part of stiffness and load.
 
     `motions` (f, k): those of shafts that turn together, which without mass some meshes alone hold. `angle` (k,):
     rotation (rad) of the last shaft; `of_meshes`: of each mesh, how its own coordinates (l, k) follow; `ends`: by mesh,
@@ -70,7 +81,7 @@ class Drivetrain:
     bearing_stiffness: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
     rolling: RollingSprings | None = None
     seats: tuple[SeatOfMesh, ...] = ()
-    gyroscopic: np.ndarray | None = None
+    frame: TurningFrame | None = None
     motions: tuple[tuple[float, ...], ...] = ()
     angle: np.ndarray = field(default_factory=lambda: np.zeros(0))
     of_meshes: tuple[np.ndarray, ...] = ()

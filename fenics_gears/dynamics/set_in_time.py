@@ -14,6 +14,9 @@ with its place a on the carrier. Of the kinetic energy of all centres, that of s
 what turns with the carrier has the same centrifugal force wherever that stands. Teeth see the gears as the carrier
 does, which a rotation of all together does not change. Lin and Parker (J. Vib. Acoust. 121, 1999, 316-321) have c in
 place of u off the stiffness: there planets are pulled off the carrier that they have turned with.
+
+On a speed ramp Omega is that of each step, and the nominal motion of all that turns is accelerated: -Omega' m t for a
+planet's centre. Of displacements u that is left out, Omega' m u, a millionth of the springs' forces and less.
 """
 
 from __future__ import annotations
@@ -24,10 +27,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fenics_gears.geometry.planetary import CARRIER, RING, SUN, WITH_RING
-from fenics_gears.geometry.train_graph import PINION
+from fenics_gears.geometry.train_graph import PINION, turns_of_shafts
 
 from .damping import Damping, damping_of
-from .drivetrain import Drivetrain
+from .drivetrain import Drivetrain, TurningFrame
 from .train import Rows, TrainParts, train_drivetrain
 
 QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
@@ -36,12 +39,15 @@ QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 @dataclass(frozen=True)
 class SetInTime:
     """The carrier and the members of a set. `places` (p, 2), mm: of the pins; `speed`, rad/s: Omega, counter-clockwise
-    where the carrier sees the sun turn so; `carrier` and `load`, N mm s^2: moments of inertia of the carrier and of
+    where the carrier sees the sun turn so; `in_a_turn`: turns of the carrier in one of the sun as the carrier sees it;
+    `step`, s: of the run at that speed; `carrier` and `load`, N mm s^2: moments of inertia of the carrier and of
     what the `output` drives. `springs`, N mm/rad: of each member that may turn beyond its nominal rotation, zero where
     none holds it. `torque`, N mm, on the output, and `behind`: the sense in which it acts, 1 counter-clockwise."""
 
     places: np.ndarray
     speed: float
+    in_a_turn: float
+    step: float
     carrier: float
     load: float
     springs: Mapping[str, float]
@@ -98,9 +104,8 @@ class RowsOfSet(Rows):
     def _axes(self, gear: int) -> np.ndarray:
         return self.parts.axes[self.graph.sides[gear][0][0]]
 
-    def in_the_frame(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """What the turning frame brings: stiffness that is off (k, k), N/mm, skew matrix of velocities (k, k), N s/mm,
-        and the load (k,), N, of the planets on their pins."""
+    def in_the_frame(self) -> TurningFrame:
+        """What the turning frame brings; its load is that of the planets on their pins."""
         size = len(self.names)
         off = np.zeros((size, size))
         skew = np.zeros((size, size))
@@ -114,7 +119,23 @@ class RowsOfSet(Rows):
             skew += 2.0 * speed * lumped.mass * centre.T @ QUARTER_TURN @ centre
             if shaft not in (0, self.graph.last):
                 load += speed**2 * lumped.mass * self.own.places[shaft - 1] @ beside
-        return off, skew, load
+        return TurningFrame(skew, off, load, self.own.step)
+
+    def momentum(self, turns: Sequence) -> np.ndarray:
+        """Momentum (k,), N s, of all masses in space, as the carrier sees the sun turn by 1 rad/s."""
+        own = self.own
+        # Counter-clockwise in space: of sun, planets and ring, and of the carrier.
+        rotations = own.in_a_turn + np.array([1.0, *(-float(each) for each in turns[1:])])
+        found = own.carrier * own.in_a_turn * self.of(CARRIER)
+        for gear, lumped in enumerate(self.parts.masses):
+            shaft = self.graph.shafts[gear]
+            rotation = self.of(f"rotation_{shaft + 1}") * (-1.0 if shaft == self.graph.last else 1.0)
+            found = found + lumped.moment_of_inertia * rotations[shaft] * rotation
+            if shaft not in (0, self.graph.last):
+                centre = self._axes(gear).T @ self.centre(gear)[:2] + self._carried(shaft)
+                found = found + lumped.mass * own.in_a_turn * (QUARTER_TURN @ own.places[shaft - 1]) @ centre
+        of_members = {SUN: rotations[0], RING: rotations[-1], CARRIER: own.in_a_turn}
+        return found + own.load * of_members[own.output] * self.turned(own.output)
 
     def motion_of(self, shafts: Sequence[int], turns: Sequence) -> tuple[float, ...]:
         """As of any train, but for what rolls back, and turns with all members, until input and fixed member stand
@@ -152,16 +173,18 @@ def set_drivetrain(
     lumped = {CARRIER: own.carrier}
     lumped[own.output] = lumped.get(own.output, 0.0) + own.load
     masses = np.diag([lumped.get(member, 0.0) for member in WITH_RING])
-    off, skew, load = rows.in_the_frame()
+    frame = rows.in_the_frame()
     output = rows.turned(own.output)
+    turns = turns_of_shafts(rows.graph, [(pair.pinion.teeth, pair.wheel.teeth) for pair in parts.pairs])
     assert as_train.mass is not None
     undamped = replace(
         as_train,
-        stiffness=as_train.stiffness + members.T @ springs @ members - off,
-        load=load + own.behind * own.torque * output,
+        stiffness=as_train.stiffness + members.T @ springs @ members - frame.softening,
+        load=frame.load + own.behind * own.torque * output,
         mass=as_train.mass + members.T @ masses @ members,
-        gyroscopic=skew if skew.any() else None,
+        frame=frame if own.speed else None,
         angle=own.behind * output,
         of_members=members,
+        nominal_momentum=rows.momentum(turns),
     )
     return replace(undamped, damping=damping_of(undamped, damping, np.array(mesh_stiffness)))

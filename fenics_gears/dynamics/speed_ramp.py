@@ -55,6 +55,10 @@ class RampClock:
             )
         return passed
 
+    def speed(self, first: float, last: float) -> float:
+        """Mean speed from one step to another, over that at the start."""
+        return (last - first) / (self.steps_per_mesh_cycle * self.start * self.duration(first, last))
+
     def times(self, steps: np.ndarray) -> np.ndarray:
         """Times (s,) of many steps, s."""
         return np.array([self.time(step) for step in steps.tolist()])
@@ -80,5 +84,14 @@ def inertia_forces(clock: RampClock, momentum: np.ndarray) -> Callable[[float], 
 
     def load(step: float) -> np.ndarray:
         return -momentum * clock.acceleration_at(step)
+
+    return load
+
+
+def centrifugal_forces(clock: RampClock, at_start: np.ndarray) -> Callable[[float], np.ndarray]:
+    """Forces (k,), N, at a step beyond those `at_start` (k,), by the square of the speed."""
+
+    def load(step: float) -> np.ndarray:
+        return ((clock.mesh_frequency(step) / clock.start) ** 2 - 1.0) * at_start
 
     return load

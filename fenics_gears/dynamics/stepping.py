@@ -160,7 +160,7 @@ class Stepper:
         """The method over the step that ends at `step`; made anew where that step is not as long as the one before."""
         duration = self.clock.duration(step - 1, step)
         if duration != self.dynamic.step:
-            self.dynamic = type(self.dynamic)(self.drivetrain, duration)
+            self.dynamic = type(self.dynamic)(self.drivetrain, duration, self.clock.speed(step - 1, step))
         return self.dynamic
 
     def load(self, step: float) -> np.ndarray:
@@ -220,7 +220,8 @@ class Stepper:
         record, parts = last, ()
         drivetrain = self.drivetrain if scheme.inert else self._static_drivetrain
         for end in (0.5 * (last.step + step), step):
-            finer = type(scheme)(drivetrain, self.clock.duration(record.step, end))
+            last_and_end = record.step, end
+            finer = type(scheme)(drivetrain, self.clock.duration(*last_and_end), self.clock.speed(*last_and_end))
             try:
                 record = self.part(finer, record, end, self.cycle.between(end, record.step))
             except ContactNotConverged as failed:

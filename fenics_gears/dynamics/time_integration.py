@@ -29,7 +29,8 @@ In a frame that turns, forces -S x' act besides, S being skew. They do no work, 
 
 which keeps the kinetic energy, whatever the step, and leaves the step's matrix symmetric (Strang, SIAM J. Numer. Anal.
 5, 1968, 506-517: second order, the velocity at a step being that of its middle turn). The acceleration follows as the
-damping of the turned velocity has it.
+damping of the turned velocity has it. On a speed ramp S and what is off the stiffness are those of a step's mean
+speed.
 """
 
 from __future__ import annotations
@@ -53,12 +54,12 @@ class State(NamedTuple):
 
 class Scheme:
     """Effective stiffness and load of one step of length `step` (s), by a method's own `history` and `advanced`;
-    `inert` where the scene has inertia."""
+    `inert` where the scene has inertia. `speed`: of the step's frame over that at the start."""
 
     _matrices: Callable
     _advanced: Callable
 
-    def __init__(self, drivetrain: Drivetrain, step: float):
+    def __init__(self, drivetrain: Drivetrain, step: float, speed: float = 1.0):
         self.step = step
         self.inert = drivetrain.mass is not None
         self.stiffness = drivetrain.stiffness
@@ -69,8 +70,10 @@ class Scheme:
         self._history = self._matrices(step, mass, damping)
         self.stiffness = drivetrain.stiffness + self._history[0]
         self._frame = None
-        if drivetrain.gyroscopic is not None:
-            self._frame = turned_velocities(step, mass, damping, drivetrain.gyroscopic)
+        frame = drivetrain.frame
+        if frame is not None:
+            self._frame = turned_velocities(step, mass, damping, speed * frame.gyroscopic)
+            self.stiffness = self.stiffness + (1.0 - speed**2) * frame.softening
 
     def load(self, state: State, outer: np.ndarray) -> np.ndarray:
         """Right-hand side (k,), N, of the step that starts from `state`, under the forces `outer` (k,), N."""

@@ -14,7 +14,7 @@ from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
 from fenics_gears.dynamics.guidance import time_step_warnings
 from fenics_gears.dynamics.set_in_time import set_drivetrain
-from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
+from fenics_gears.dynamics.speed_ramp import RampClock, centrifugal_forces, inertia_forces
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.train import train_drivetrain
 from fenics_gears.elasticity.compliance import Reach
@@ -62,7 +62,9 @@ class RowModel(OfMeshes):
         parts = parts_of(self.meshes, self.shafts)
         carrier = self.shafts.carrier
         if carrier is not None and carrier.in_time:
-            own = set_in_time(carrier, self.shafts.load, abs(parts.pairs[0].centre_distance))
+            slowest = self.slowest
+            step = 1.0 / (slowest.scene.motion.mesh_frequency * slowest.resolution.steps_per_mesh_cycle)
+            own = set_in_time(carrier, self.shafts.load, abs(parts.pairs[0].centre_distance), step)
             return set_drivetrain(parts, own, self.shafts.damping, self.mesh_stiffness)
         if self.bent is None:
             return train_drivetrain(parts, self.shafts.damping, self.mesh_stiffness)
@@ -90,8 +92,10 @@ class RowModel(OfMeshes):
         if ramp is None or self.drivetrain.mass is None:
             return EquationsOfMotion(*common, SteadyClock(first.time_step))
         turned = self.input_speed / ramp.start
-        load = inertia_forces(ramp, turned * self.drivetrain.nominal_momentum)
-        return EquationsOfMotion(*common, ramp, (load,))
+        loads = [inertia_forces(ramp, turned * self.drivetrain.nominal_momentum)]
+        if self.drivetrain.frame is not None:
+            loads.append(centrifugal_forces(ramp, self.drivetrain.frame.load))
+        return EquationsOfMotion(*common, ramp, tuple(loads))
 
     @property
     def slowest(self) -> Model:
@@ -100,7 +104,7 @@ class RowModel(OfMeshes):
 
     @property
     def input_speed(self) -> float:
-        """Speed of the first shaft at the start, rad/s."""
+        """Speed of the first shaft at the start, rad/s; of the sun as a carrier sees it."""
         first = self.models[self.graph.out_of(0)[0]]
         return 2.0 * pi * first.scene.motion.mesh_frequency / first.pair.pinion.teeth
 
@@ -112,8 +116,7 @@ class RowModel(OfMeshes):
             return None
         start = self.slowest.scene.motion.mesh_frequency
         steps = self.slowest.resolution.steps_per_mesh_cycle
-        end = start * ramp.end_speed / self.input_speed
-        return RampClock(start, end, ramp.hold_cycles * steps, self.steps, steps)
+        return RampClock(start, start * self._speeds[1], ramp.hold_cycles * steps, self.steps, steps)
 
     @property
     def steps(self) -> int:
@@ -144,7 +147,11 @@ class RowModel(OfMeshes):
     @property
     def _speeds(self) -> tuple[float, float]:
         """The speeds at the start and at the end, as parts of that at the start."""
-        return 1.0, 1.0 if self.shafts.ramp is None else self.shafts.ramp.end_speed / self.input_speed
+        if self.shafts.ramp is None:
+            return 1.0, 1.0
+        carrier = self.shafts.carrier
+        at_start = None if carrier is None else carrier.speed
+        return 1.0, self.shafts.ramp.end_speed / (at_start or self.input_speed)
 
     @property
     def warnings(self) -> list[str]:

@@ -76,9 +76,9 @@ def parts_of(meshes: Sequence[MeshOfScene], shafts: TrainShafts) -> TrainParts:
     return replace(parts, centred=carrier.centred(names), together=together)
 
 
-def set_in_time(carrier: Carrier, load: float | None, radius: float) -> SetInTime:
+def set_in_time(carrier: Carrier, load: float | None, radius: float, step: float) -> SetInTime:
     """The carrier and members of a set with masses, the planets on a circle of this radius (mm); `load` (N mm s^2):
-    moment of inertia of what the output drives."""
+    moment of inertia of what the output drives; `step`, s: of the run at its first speed."""
     own = carrier.set
     springs = {member: getattr(carrier.vibration, member).torsional_stiffness for member in WITH_RING}
     springs[own.output] = 0.0
@@ -87,6 +87,8 @@ def set_in_time(carrier: Carrier, load: float | None, radius: float) -> SetInTim
     return SetInTime(
         places=radius * np.array([np.cos(own.angles), np.sin(own.angles)]).T,
         speed=(carrier.speed or 0.0) * float(own.speeds[CARRIER]) * (1 if own.sun_by_carrier > 0 else -1),
+        in_a_turn=float(own.speeds[CARRIER] / own.sun_by_carrier),
+        step=step,
         carrier=carrier.lumped(CARRIER).moment_of_inertia,
         load=load or 0.0,
         springs={member: spring for member, spring in springs.items() if spring is not None},

@@ -29,6 +29,7 @@ from .planetary_schema import OF_THE_FACE, OF_THE_STEP, PlanetaryText, gears_in,
 from .train_loads import TrainLoad, TrainMotion
 from .train_mesh import MeshOfScene, gear_names, layout_of
 from .train_pair import STAGES, MistakesOfStage, Placed, check_together, pair_of, pair_scene
+from .train_ramp import checked_ramp
 from .train_rules import TrainSections, load_and_motion
 from .train_shafts import TrainShafts
 
@@ -43,6 +44,9 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
     problems += wrong
     inertia, damping, wrong = inertia_and_damping(tree)
     problems += wrong
+    if problems:
+        raise MistakesOfStage(problems)
+    ramp, problems = checked_ramp(tree, *found)
     if problems:
         raise MistakesOfStage(problems)
     ((stage, content),) = tree[STAGES].items()
@@ -69,7 +73,9 @@ def planetary_parts(tree: Tree, source: str, folder: Path) -> tuple[list[MeshOfS
         _check_motion(own_set, load, motion, INERTIA, place)
         carrier = replace(carrier, in_time=True)
     none = (None,) * len(carrier.shafts)
-    shafts = TrainShafts(carrier.shafts, none, none, load=inertia, damping=damping, moving=True, carrier=carrier)
+    shafts = TrainShafts(
+        carrier.shafts, none, none, load=inertia, damping=damping, moving=True, carrier=carrier, ramp=ramp
+    )
     meshes = _meshes(carrier, of_meshes, scenes, pairs)
     if own_set.stepped:
         meshes = _clocked(meshes, carrier, text.step_angle or 0.0)

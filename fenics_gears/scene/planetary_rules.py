@@ -44,9 +44,9 @@ NOT_HERE = {
     **dict.fromkeys(OF_A_MESH, f"is of one mesh: write it in [stages.NAME.{SUN_MESH}] or [stages.NAME.{RING_MESH}]."),
     **{name: f"is of the whole train: write it as [{name}]." for name in ("friction", "accuracy")},
 }  # fmt: skip
-OF_A_SET_ALONE = ("inertia", "damping")
+OF_A_SET_ALONE = ("inertia", "damping", "speed_ramp")
 NOT_WITH_A_SET = {
-    **dict.fromkeys(("shafts", "speed_ramp"), "is not computed with a planetary set yet. Leave it out."),
+    "shafts": "is not computed with a planetary set yet. Leave it out.",
     **dict.fromkeys(
         OF_A_SET_ALONE, "is computed of a planetary set by itself alone, not beside other stages yet. Leave it out."
     ),

@@ -25,7 +25,7 @@ from . import TRAIN_PICTURE_FILES
 from .chart import BARS, LEAST_SHARE, Chart, Curve, Flag
 from .drawing import picture
 from .line_load import line_loads
-from .panels import GREY, PALETTE
+from .panels import GREY, PALETTE, digits
 from .planetary import orbits, set_drawing, shares
 from .plots import heading, save_figures
 from .run import ShownRun
@@ -136,7 +136,7 @@ def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
     span = dataset.attrs["peak_to_peak_overall_transmission_error"]
     charts = [
         Chart(
-            f"Overall transmission error: peak to peak {MICRORADIANS * span:#.4g} µrad",
+            f"Overall transmission error: peak to peak {digits(MICRORADIANS * span)} µrad",
             [Curve("overall transmission error", times, overall)],
             words,
             f"Lag of the {'last shaft' if scene.shafts.carrier is None else 'output'} (µrad)",
@@ -159,7 +159,7 @@ def errors(scene: TrainScene, dataset: xr.Dataset) -> list[Chart]:
         known = np.isfinite(values)
         charts.append(
             Chart(
-                f"{mesh.name}: peak to peak {radius * span:#.4g} µm on the wheel's base circle",
+                f"{mesh.name}: peak to peak {digits(radius * span)} µm on the wheel's base circle",
                 [Curve(mesh.name, phase[known], values[known], _colour(number))],
                 f"Time (cycles of mesh {mesh.name})",
                 "Transmission error (µm)",

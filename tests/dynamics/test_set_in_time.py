@@ -1,18 +1,21 @@
 """A planetary set in the frame of its carrier: mass, Coriolis and centrifugal terms."""
 
+from collections.abc import Mapping
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
 from tests.planets import in_time
 
-from fenics_gears.dynamics.drivetrain import Drivetrain
+from fenics_gears.dynamics.drivetrain import Drivetrain, TurningFrame
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.dynamics.planetary_modes import set_modes
-from fenics_gears.dynamics.set_in_time import RowsOfSet, set_drivetrain
+from fenics_gears.dynamics.set_in_time import RowsOfSet, SetInTime, set_drivetrain
 from fenics_gears.dynamics.time_integration import AverageAcceleration, State
 from fenics_gears.geometry.planetary import CARRIER
 from fenics_gears.model.planetary_frequencies import lumped_set
+from fenics_gears.model.row_model import RowModel
 from fenics_gears.model.train import train_model_of
 from fenics_gears.model.train_parts import parts_of, set_in_time
 
@@ -35,9 +38,11 @@ def test_it_has_the_natural_frequencies_of_lumped_members(parts, planets):
     assert natural_frequencies(row.drivetrain, springs_of_meshes).tolist() == pytest.approx(wanted, rel=1e-9)
 
 
-def kinetic_energy(rows: RowsOfSet, place: np.ndarray, velocity: np.ndarray) -> float:
+def kinetic_energy(
+    rows: RowsOfSet, place: np.ndarray, velocity: np.ndarray, turning: Mapping[str, float] | None = None
+) -> float:
     """Of all centres, without small quantities left out: a planet's is turned by the carrier, those of sun and ring
-    stand in the frame."""
+    stand in the frame. `turning`, rad/s: nominal speeds of gears about their centres, in space, and of the carrier."""
     speed = rows.own.speed
     found = 0.0
     for gear, lumped in enumerate(rows.parts.masses):
@@ -53,9 +58,37 @@ def kinetic_energy(rows: RowsOfSet, place: np.ndarray, velocity: np.ndarray) -> 
         in_space = turned @ (moving + (speed + rate) * quarter @ beside)
         rotation, _ = rows.moved(gear)
         found += 0.5 * lumped.mass * in_space @ in_space
-        found += 0.5 * lumped.moment_of_inertia * float(rotation @ velocity) ** 2
+        # The ring is counted clockwise.
+        rotation = -rotation if shaft == rows.graph.last else rotation
+        name = {0: "sun", rows.graph.last: "ring"}.get(shaft, "planet")
+        found += 0.5 * lumped.moment_of_inertia * (float(rotation @ velocity) + (turning or {}).get(name, 0.0)) ** 2
     carried = float(rows.of(CARRIER) @ velocity)
-    return found + 0.5 * rows.own.carrier * carried**2
+    return found + 0.5 * rows.own.carrier * (carried + (turning or {}).get(CARRIER, 0.0)) ** 2
+
+
+def test_its_nominal_momentum_is_the_slope_of_the_kinetic_energy():
+    """Brute force: what a ramp accelerates, by the energy of all masses in space at Willis' speeds, differentiated
+    numerically; the sun floats, the carrier drives the load."""
+    (row,) = train_model_of(in_time(4000.0, more='floating = ["sun"]')).rows
+    carrier = row.shafts.carrier
+    rows = RowsOfSet(parts_of(row.meshes, row.shafts), row_of_set(row))
+    sun, planet, ring = 20, 16, 52
+    assert carrier.set.speeds == {"sun": 1, "ring": 0, "carrier": Fraction(sun, sun + ring)}
+    speed = 4000.0 * np.pi / 30.0
+    turning = {"sun": speed, "ring": 0.0, "carrier": speed * sun / (sun + ring)}
+    turning["planet"] = turning["carrier"] - sun / planet * (speed - turning["carrier"])
+    nothing = np.zeros(len(rows.names))
+    slope = [
+        kinetic_energy(rows, nothing, each, turning) - kinetic_energy(rows, nothing, -each, turning)
+        for each in np.eye(len(rows.names))
+    ]
+    found = row.drivetrain.nominal_momentum * (speed - turning["carrier"])
+    assert found == pytest.approx(0.5 * np.array(slope), rel=1e-8, abs=1e-8 * np.abs(slope).max())
+
+
+def row_of_set(row: RowModel) -> SetInTime:
+    """The carrier and the members of a row's set."""
+    return set_in_time(row.shafts.carrier, row.shafts.load, abs(row.models[0].pair.centre_distance), 1e-5)
 
 
 def test_its_terms_are_those_of_the_kinetic_energy():
@@ -63,9 +96,8 @@ def test_its_terms_are_those_of_the_kinetic_energy():
     sun, a ring on a spring, and a carrier that turns at 4,000 rpm."""
     scene = in_time(4000.0 * 3.6, more='floating = ["sun"]', ring_springs=HELD["ring_springs"], planets="planets = 3")
     (row,) = train_model_of(scene).rows
-    carrier = row.shafts.carrier
     parts = parts_of(row.meshes, row.shafts)
-    own = set_in_time(carrier, None, abs(parts.pairs[0].centre_distance))
+    own = row_of_set(row)
     assert own.speed == pytest.approx(4000.0 * np.pi / 30.0)
     rows = RowsOfSet(parts, own)
     size = len(rows.names)
@@ -89,9 +121,11 @@ def test_its_terms_are_those_of_the_kinetic_energy():
     drivetrain = row.drivetrain
     plain = replace(own, speed=0.0)
     still = set_drivetrain(parts, plain, None, ())
+    frame = drivetrain.frame
+    assert frame is not None
     for found, wanted in (
         (drivetrain.mass, second[size:, size:]),
-        (drivetrain.gyroscopic, mixed - mixed.T),
+        (frame.gyroscopic, mixed - mixed.T),
         (still.stiffness - drivetrain.stiffness, off),
         (drivetrain.load - still.load, slope / (2.0 * small[:size])),
     ):
@@ -108,7 +142,7 @@ def test_a_mass_on_springs_whirls_at_its_two_frequencies():
     quarter = np.array([[0.0, -1.0], [1.0, 0.0]])
     drivetrain = Drivetrain(
         ("x", "y"), np.ones(2), (spring - mass * speed**2) * np.eye(2), np.zeros(2), mass * np.eye(2), None,
-        gyroscopic=2.0 * speed * mass * quarter,
+        frame=TurningFrame(2.0 * speed * mass * quarter, np.zeros((2, 2)), np.zeros(2), 1.0),
     )  # fmt: skip
     errors = []
     for count in (500, 1000, 2000):

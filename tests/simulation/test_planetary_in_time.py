@@ -65,3 +65,51 @@ def test_a_settled_set_turns_into_itself():
         assert orbit[third:] == pytest.approx(turned, abs=1e-9 * np.abs(orbit).max())
     lag = found["overall_transmission_error"].values
     assert lag[third:] == pytest.approx(lag[:-third], abs=1e-9 * np.ptp(lag))
+
+
+RAMP = """
+[speed_ramp]
+end_speed = "{} rpm"
+hold_cycles = {}
+"""
+
+
+def test_a_ramp_that_hardly_rises_is_a_steady_run():
+    """Limit, with all terms of the frame."""
+    text = {"more": 'floating = ["sun"]', "sections": DAMPED.format(0.05)}
+    steady = simulate_train(in_time(7000, 2, **text))
+    text["sections"] += RAMP.format(7000.0000001, 0)
+    found = simulate_train(in_time(7000, 2, **text))
+    for name in COMPARED:
+        wanted = steady[name].values
+        assert found[name].values == pytest.approx(wanted, abs=1e-6 * np.abs(wanted).max()), name
+
+
+def test_a_ramp_takes_the_power_of_what_it_accelerates():
+    """Willis and the energy of rigid members: over mesh cycles in which vibrations have died down, what the sun does
+    more than the carrier gives is the gain of kinetic energy. Pins carry m r Omega^2 of each step's speed."""
+    load = '[inertia.load]\nmoment_of_inertia = "2 kg m^2"\n'
+    text = {"teeth": IN_PHASE, "more": 'floating = ["sun"]', "sections": DAMPED.format(0.3) + RAMP.format(3000, 1)}
+    found = simulate_train(in_time(1000, 30, inertia=f"[inertia]\n{load}", **text))
+    sun = 2.0 * np.pi * found["mesh_frequency"].values[:, 0] / 18
+    speeds = {"carrier": sun * 18 / 54, "planet": -sun}
+    speeds["sun"] = sun + speeds["carrier"]
+    speeds["planet"] = speeds["planet"] + speeds["carrier"]
+    radius = 0.5 * 4.0 * (18 + 18)
+    moments = {"planet": 3 * 2.0, "sun": 0.0, "carrier": 2000.0 + 90.0 + 3 * 2e-3 * radius**2}
+    kinetic = sum(0.5 * moments[name] * speed**2 for name, speed in speeds.items())
+    torques = dict(zip(found["member"].values.tolist(), found["member_torque"].values.T))
+    # Pins push the planets on, and these what they carry.
+    on_teeth = torques["sun"] * speeds["sun"]
+    on_load = 600e3 * 4 * speeds["carrier"]
+    cycle = slice(20 * 12, 29 * 12 + 1)
+    time = found["time"].values[cycle]
+    gained = kinetic[cycle][-1] - kinetic[cycle][0]
+    given = on_teeth[cycle] - on_load[cycle]
+    assert np.sum(0.5 * (given[1:] + given[:-1]) * np.diff(time)) == pytest.approx(gained, rel=2e-3)
+    pins = found["pin_force"].values[cycle, :, 1]
+    # The sun pushes its planet outwards, the ring inwards; what they differ by spins the planet up.
+    forces = found["normal_force"].values[cycle]
+    wanted = 2e-3 * speeds["carrier"][cycle, None] ** 2 * (radius + pins / 3e5)
+    wanted = wanted + (forces[:, 0::2] - forces[:, 1::2]) * np.sin(np.deg2rad(20.0))
+    assert pins.mean() == pytest.approx(wanted.mean(), rel=1e-3)
