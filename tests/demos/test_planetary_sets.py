@@ -1,11 +1,8 @@
 """The demonstration of planetary sets."""
 
-from itertools import product
-
 import numpy as np
 import pytest
 from demos.planetary_sets import in_time, sets, wind_turbine
-from demos.planetary_sets.picture import picture
 
 from fenics_gears import load_train, simulate_train, train_from_text
 
@@ -18,17 +15,6 @@ def test_a_floating_sun_takes_a_third_of_an_error_of_one_pin_of_four():
     results = {case: simulate_train(train_from_text(sets.scene_text(*case, COARSE))) for case in cases}
     held, moved, free, moved_free = (float(sets.row(case, found)[3]) for case, found in results.items())
     assert (moved_free - free) / (moved - held) == pytest.approx(1.0 / 3.0, abs=0.03)
-
-
-def test_the_picture_shows_shares_and_orbits():
-    """Three planets in two charts, three orbits, and the set to scale: ring, sun and planets with their holes."""
-    cases = list(product((3,), (False, True), sets.ERRORS))
-    scenes = {case: train_from_text(sets.scene_text(*case, COARSE)) for case in cases}
-    results = {case: simulate_train(scenes[case]) for case in cases if case[1] or case[2] == 20}
-    figure = picture(scenes, results)
-    lines = {axes.get_title(loc="left").partition(":")[0]: len(axes.get_lines()) for axes in figure.axes}
-    assert lines == {"": 0, "sun held": 3, "sun floating": 3, "Orbits of the floating sun": 3}
-    assert len(figure.axes[0].patches) == 2 * 5
 
 
 def test_both_scenes_are_sets_of_fva():
