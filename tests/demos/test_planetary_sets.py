@@ -9,6 +9,7 @@ from fenics_gears import load_train, simulate_train, train_from_text
 COARSE = 'steps_per_mesh_cycle = 12\nflank_element_size = "0.3 mm"'
 
 
+@pytest.mark.nightly
 def test_a_floating_sun_takes_a_third_of_an_error_of_one_pin_of_four():
     """Linear springs: K_gamma grows by k e (N - 1)/F with the sun held, by k e (N - 3)/F with a floating one."""
     cases = [(4, floating, error) for floating in (False, True) for error in (0, 20)]
@@ -38,6 +39,7 @@ def test_the_gearbox_of_nrel_has_its_ratio_and_torques():
     assert train.meshes[-1].scene.motion.mesh_frequency == pytest.approx(24 * generator)
 
 
+@pytest.mark.nightly
 def test_the_set_in_time_has_its_resonances_by_the_phase_law():
     """17 teeth, three planets: harmonics 1 and 2 push members aside, 3 turns them; the slow set shares evenly."""
     assert list(in_time.resonances()) == [("translational", 1), ("translational", 2), ("rotational", 3)]
