@@ -75,6 +75,7 @@ def test_stages_that_move_together_are_rated(scene, tmp_path, capsys):
     assert "run a scene of one of its pairs" in said
 
 
+@pytest.mark.nightly
 def test_a_train_whose_shafts_bend_is_rated(tmp_path, capsys):
     """Misalignment over the face is that of the run, by both gears of a shaft; a face factor iterated over shafts that
     are the pair's alone would leave the other gear out, and is not there."""

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.effects.examples import scene_of, text_of
+from tests.helical import wide_pair
 
 from fenics_gears import ComputationError, SceneError, model_of, simulate
 from fenics_gears.commands.cli import main
@@ -20,8 +21,9 @@ from fenics_gears.extensions.measuring.accuracy.refinement import (
     QUICK_IN_THE_PLANE,
     STEPS,
 )
+from fenics_gears.extensions.measuring.accuracy.work_precision import work_precision
 from fenics_gears.runs.settings import setting_runs
-from fenics_gears.runs.settings.measures import CURVE, MEASURES, ROOT, SPAN
+from fenics_gears.runs.settings.measures import CURVE, FACE_LOAD, MEAN, MEASURES, ROOT, SPAN, judged
 from fenics_gears.runs.settings.setting import default_setting, half_width, own_setting
 from fenics_gears.runs.timed import run_sharing
 from fenics_gears.scene.accuracy import NODE_SPACING
@@ -233,3 +235,29 @@ def test_the_order_expected_of_steps_is_that_of_the_time_stepping(frequency, ord
     scene = replace(scene_of(TEETH, "inertia", "friction"), motion=Motion(frequency, 2, 1))
     steps = next(each for each in refinement.refinements(scene, quick=True) if each.name == STEPS)
     assert steps.expected == order
+
+
+def test_settings_of_targets_and_numbers_over_the_face_are_drawn(report):
+    """Definition: a target's settings are charged their distance alone; over the face there are curves of their own."""
+    numbers = {MEAN: 0.01, FACE_LOAD: 0.02}
+    own = replace(report.own, errors={**report.own.errors, **numbers})
+    chosen = replace(own, name="target 5 %", parts={}, target=0.05)
+    settings, models = (
+        tuple(replace(each, errors={**each.errors, **numbers}) for each in results)
+        for results in (report.settings, report.models)
+    )
+    told = replace(
+        report,
+        scene=wide_pair(),
+        settings=settings,
+        models=models,
+        targets=(chosen,),
+        uncertainty={**report.uncertainty, **numbers},
+    )
+    (row,) = [row for row in table.whole_rows(told) if row[0].startswith("target 5 %")]
+    assert row[0] == "target 5 %" and row[-1] == "" and chosen.total_error == judged(chosen.errors)
+    whole, single, _ = work_precision(told).axes
+    assert "target 5 %" in [text.get_text() for text in whole.texts]
+    labels = [line.get_label() for line in single.lines]
+    assert {"peak-to-peak transmission error", "mean transmission error", "face load factor"} <= set(labels)
+    assert len(work_precision(report).axes) == 2

@@ -1,10 +1,12 @@
 """Whole settings of `gears accuracy`: fronts and charged errors of numbers known exactly."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from fenics_gears import ComputationError
 from fenics_gears.extensions.measuring.accuracy import whole
 from fenics_gears.extensions.measuring.accuracy.refinement import Level, Refinement
 from fenics_gears.runs.settings import measures
@@ -67,3 +69,17 @@ def test_the_path_refines_what_limits_it():
     """By hand; 0.28, 0.13, 0.07, 0.032, 0.017 by turns of the larger error."""
     found = [(setting.flank, setting.steps) for setting in whole.path(BASE, [FLANK, STEPS], ERRORS)]
     assert found == [(0.16, 20), (0.16, 40), (0.08, 40), (0.08, 80), (0.04, 80), (0.04, 160)]
+
+
+def test_settings_of_targets(monkeypatch):
+    """Definition: what `choose` gives; a target that cannot be reached joins the failures by its first line."""
+
+    def choose(scene, target, progress):
+        if target < 0.01:
+            raise ComputationError("is not reached\nand why")
+        return SimpleNamespace(setting=BASE)
+
+    monkeypatch.setattr(whole, "choose", choose)
+    failures = []
+    assert whole.settings_of(None, (0.1, 0.001), None, failures) == {"target 10 %": (BASE, 0.1)}
+    assert failures == [("target 0.1 %", "is not reached")]

@@ -8,7 +8,21 @@ from tests.show.synthetic import made_up_run
 
 from fenics_gears.extensions.report.energy import energy
 from fenics_gears.extensions.report.overview import summary
+from fenics_gears.extensions.report.spectra import spectra
 from fenics_gears.show.run import ShownRun
+
+
+def ramp_of(paper_scene, cycles):
+    text = f'{paper_scene.text}\n[speed_ramp]\nend_frequency = "50 Hz"\n'
+    return made_up_run(scene=text, cycles=cycles, steps=int(20 * cycles) + 1)
+
+
+def test_a_ramp_points_to_orders_cycle_by_cycle_only_where_they_are_drawn(paper_scene, tmp_path):
+    """From eight stored mesh cycles on."""
+    for cycles in (2.0, 9.0):
+        section = spectra(ShownRun(ramp_of(paper_scene, cycles), tmp_path / "run.nc"))
+        drawn = [block.caption for block in section.blocks if "cycle by cycle" in getattr(block, "caption", "")]
+        assert ("See the orders cycle by cycle." in section.blocks[0].text) == bool(drawn) == (cycles > 8.0)
 
 
 def tiles_of(dataset, tmp_path):
