@@ -5,6 +5,7 @@ import pytest
 from demos.planetary_sets import in_time, sets, wind_turbine
 
 from fenics_gears import load_train, simulate_train, train_from_text
+from fenics_gears.show.planetary import set_drawing
 
 COARSE = 'steps_per_mesh_cycle = 12\nflank_element_size = "0.3 mm"'
 
@@ -16,6 +17,20 @@ def test_a_floating_sun_takes_a_third_of_an_error_of_one_pin_of_four():
     results = {case: simulate_train(train_from_text(sets.scene_text(*case, COARSE))) for case in cases}
     held, moved, free, moved_free = (float(sets.row(case, found)[3]) for case, found in results.items())
     assert (moved_free - free) / (moved - held) == pytest.approx(1.0 / 3.0, abs=0.03)
+
+
+def test_a_set_is_drawn_to_scale():
+    """Geometry: teeth between root and tip circles, bores as they are, the three planets 2 pi/3 apart on the circle of
+    the centre distance."""
+    train = load_train(sets.HERE / "fva.toml")
+    *gears, planets = set_drawing(train).curves
+    middles = planets.x + 1j * planets.y
+    assert np.abs(middles) == pytest.approx(3 * [78.0])
+    assert np.angle(middles[1:] / middles[:-1]) == pytest.approx(2 * [2.0 * np.pi / 3.0])
+    sun = train.meshes[0].pair.pinion
+    teeth, bore = (np.hypot(each.x, each.y) for each in gears if each.name == "sun, 17 teeth")
+    assert (teeth.min(), teeth.max()) == pytest.approx((sun.root_radius, sun.tip_radius), rel=1e-3)
+    assert bore == pytest.approx(np.full(len(bore), sun.bore_radius))
 
 
 def test_both_scenes_are_sets_of_fva():
