@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import pytest
 from demos.internal_gears import planet_in_ring
 from demos.internal_gears.picture import picture
 
@@ -10,7 +9,6 @@ from fenics_gears import load_scene, simulate
 from fenics_gears.scene.data import Accuracy
 
 
-@pytest.mark.nightly
 def test_a_softer_support_makes_a_softer_mesh():
     """The demonstration's own words, on coarse bodies."""
     scene = load_scene(planet_in_ring.HERE / "planet_in_ring.toml")

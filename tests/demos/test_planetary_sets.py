@@ -54,7 +54,6 @@ def test_the_gearbox_of_nrel_has_its_ratio_and_torques():
     assert train.meshes[-1].scene.motion.mesh_frequency == pytest.approx(24 * generator)
 
 
-@pytest.mark.nightly
 def test_the_set_in_time_has_its_resonances_by_the_phase_law():
     """17 teeth, three planets: harmonics 1 and 2 push members aside, 3 turns them; the slow set shares evenly."""
     assert list(in_time.resonances()) == [("translational", 1), ("translational", 2), ("rotational", 3)]

@@ -8,8 +8,9 @@ from tests.coarse import quasi_static
 from tests.hard_cases.invariants import run_of, worst_of
 from tests.hard_cases.test_any_scene import LAWS
 
-from fenics_gears import model_of
+from fenics_gears import model_of, simulate
 from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.results.summary import summary_rows
 from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.system.progress import SilentProgress
 
@@ -106,3 +107,16 @@ def test_locking_begins_where_the_lever_arms_say(dynamic, coarse, paper_pair, me
         found = "self-locking" if "self-locking" in said else "no self-locking"
         measured(f"{dynamic}: {words} this coefficient", found, right)
         assert found == right
+
+
+def test_the_summary_counts_the_fallbacks(coarse, measured):
+    """Message: a line on fallbacks with the result's own counts; none where Newton alone was used."""
+    scene = with_friction(quasi_static(coarse), 2.0, ("shafts", "bearings"))
+    result = simulate(scene)
+    counts = rungs_of(result)
+    (line,) = [value for label, value, _ in summary_rows(result) if label == "steps solved by fallbacks"]
+    measured("fallbacks in the summary at mu = 2", line, "as counted in the result")
+    assert sum(counts.values()) == result.attrs["steps"] and len(counts) > 1
+    assert line == ", ".join(f"{count} by {rung}" for rung, count in counts.items() if rung != "newton")
+    plain = summary_rows(simulate(with_friction(quasi_static(coarse), 0.3)))
+    assert not [label for label, _, _ in plain if "fallback" in label]

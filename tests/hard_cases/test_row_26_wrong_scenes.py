@@ -3,6 +3,7 @@ is allowed and the nearest known name; exit code 2, nothing written."""
 
 import re
 import tomllib
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -18,8 +19,9 @@ from tests.hard_cases.scene_fields import (
     scene_with,
     whole_scene,
 )
-from tests.paper_text import ACCURACY
+from tests.paper_text import ACCURACY, without
 
+from fenics_gears import GeometryError, Scene, SceneError, scene_from_text
 from fenics_gears.commands.cli import main
 from fenics_gears.inputs.problem import LISTED
 
@@ -286,6 +288,36 @@ def test_either_end_of_every_range_can_be_run(tmp_path, monkeypatch, capsys, mea
         "all",
     )
     assert wrong == []
+
+
+ANY_VALUE = (
+    "0", "-1", "1e-320", "nan", "-inf", '""', '"mm"', '"1 mm"', '"HPSTC"', "true", "[]", "{}", "{depth = 3}",
+    "12:30:00", "9" * 60, '"1e308 m"', "'''3 mm'''"
+)  # fmt: skip
+LEFT_OUT = ("", "shafts", "bearings", "inertia", "motion", "gears", "coast_flanks")
+
+
+@pytest.mark.parametrize(
+    "every", [pytest.param(397, id="by day"), pytest.param(23, id="by night", marks=pytest.mark.nightly)]
+)
+def test_any_value_in_any_field_is_taken_or_refused(every):
+    """A scene or a refusal, never another error; also where another section is missing."""
+    for field, value, missing in list(product(fields(), ANY_VALUE, LEFT_OUT))[::every]:
+        text = scene_with(field.path, value)
+        if missing:
+            text = without(text, missing)
+        try:
+            scene = scene_from_text(text)
+        except GeometryError as error:
+            assert re.search(r"(pinion|wheel|gears)\b.*\n?.*Nothing was computed or written\.", str(error)), (
+                field.name,
+                value,
+                missing,
+            )
+        except SceneError as error:
+            assert "mistake" in str(error), (field.name, value, missing)
+        else:
+            assert isinstance(scene, Scene)
 
 
 LINES = DEMO.read_text().splitlines()
