@@ -17,25 +17,41 @@ def scene(tmp_path):
     return gearbox_file(tmp_path)
 
 
-def test_run_writes_result_and_pictures(scene, tmp_path):
-    """What the page on trains says."""
-    assert main(["run", str(scene), "-o", str(tmp_path / "out"), "-q"]) == 0
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory):
+    """A scene with a speed, and the folder of its run with pictures."""
+    folder = tmp_path_factory.mktemp("train")
+    scene = gearbox_file(folder)
+    scene.write_text(scene.read_text() + '[motion]\ninput_speed = "3000 rpm"\n')
+    assert main(["run", str(scene), "-o", str(folder / "out"), "-q"]) == 0
+    return scene, folder / "out"
+
+
+def test_run_writes_result_and_pictures(ran, capsys):
+    """What the page on trains says; pictures again, and curves."""
+    scene, out = ran
     written = {"run.nc", "train.png", "transmission_error.png", "order_spectrum.png", "first", "second"}
-    assert {each.name for each in (tmp_path / "out").iterdir()} == written
-    found = load(tmp_path / "out" / "run.nc")
+    assert {each.name for each in out.iterdir()} == written
+    found = load(out / "run.nc")
     assert found.sizes["mesh"] == 2
     assert found.attrs["complete"] == 1
     assert found.attrs["scene"] == scene.read_text()
+    (out / "train.png").unlink()
+    assert main(["plot", str(out), "-q"]) == main(["export", str(out), "-q"]) == 0
+    assert {each.name for each in out.iterdir()} == {*written, "curves.csv"}
+    capsys.readouterr()
 
 
-def test_each_stage_is_a_run_and_a_scene_for_all_other_commands(scene, tmp_path, capsys):
-    """A stage is a pair under its torque: 200 N m on the first wheel."""
-    assert main(["run", str(scene), "-o", str(tmp_path / "out"), "-q", "--no-pictures"]) == 0
-    first = tmp_path / "out" / "first"
+def test_each_stage_is_a_run_and_a_scene_for_all_other_commands(ran, tmp_path, capsys):
+    """A stage is a pair under its torque: 200 N m on the first wheel. Not the run of the whole: which of its meshes
+    would be drawn?"""
+    first = ran[1] / "first"
     assert main(["export", str(first), "-q"]) == 0
     assert main(["check", str(first / "scene.toml")]) == 0
     assert load_scene(first / "scene.toml").load.wheel_torque == pytest.approx(200e3)
     capsys.readouterr()
+    assert main(["picture", str(ran[1]), "-o", str(tmp_path / "one.png")]) == 2
+    assert str(first) in capsys.readouterr().err
 
 
 def test_check_tells_shafts_and_meshes(scene, capsys):
@@ -107,24 +123,6 @@ def test_a_target_is_kept_stage_by_stage(scene, tmp_path):
     again = simulate_train(train_from_text(found.attrs["scene"]))
     for name in ("mean_transmission_error", "peak_to_peak_transmission_error"):
         assert np.array_equal(again[name], found[name])
-
-
-def test_a_stage_is_drawn_where_its_run_is(scene, tmp_path, capsys):
-    """Not on the run of the whole: which of its meshes would it be?"""
-    assert main(["run", str(scene), "-o", str(tmp_path / "out"), "-q", "--no-pictures"]) == 0
-    assert main(["picture", str(tmp_path / "out"), "-o", str(tmp_path / "one.png")]) == 2
-    assert str(tmp_path / "out" / "first") in capsys.readouterr().err
-
-
-def test_commands_of_runs_take_a_train(scene, tmp_path, capsys):
-    """Its pictures again, and its curves."""
-    scene.write_text(scene.read_text() + '[motion]\ninput_speed = "3000 rpm"\n')
-    out = tmp_path / "out"
-    assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
-    assert main(["plot", str(out), "-q"]) == 0
-    assert main(["export", str(out), "-q"]) == 0
-    assert (out / "train.png").is_file() and (out / "curves.csv").is_file()
-    capsys.readouterr()
 
 
 def test_commands_take_stages_that_move_together(scene, tmp_path, capsys):

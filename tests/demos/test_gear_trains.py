@@ -6,6 +6,7 @@ from demos.gear_trains import trains
 COARSE = '\n[accuracy]\nsteps_per_mesh_cycle = 40\nflank_element_size = "0.08 mm"\n'
 
 
+@pytest.mark.nightly
 def test_a_pitch_of_the_idler_brings_the_same_again(tmp_path):
     """The idler turned by a tooth is the same idler, but for how far apart on it the two meshes are. Between, both
     meshes change pairs at other times, and their transmission errors add up to another span."""

@@ -1,17 +1,16 @@
 """The demonstration of planetary sets."""
 
-from itertools import product
-
 import numpy as np
 import pytest
 from demos.planetary_sets import in_time, sets, wind_turbine
-from demos.planetary_sets.picture import picture
 
 from fenics_gears import load_train, simulate_train, train_from_text
+from fenics_gears.show.planetary import set_drawing
 
 COARSE = 'steps_per_mesh_cycle = 12\nflank_element_size = "0.3 mm"'
 
 
+@pytest.mark.nightly
 def test_a_floating_sun_takes_a_third_of_an_error_of_one_pin_of_four():
     """Linear springs: K_gamma grows by k e (N - 1)/F with the sun held, by k e (N - 3)/F with a floating one."""
     cases = [(4, floating, error) for floating in (False, True) for error in (0, 20)]
@@ -20,15 +19,18 @@ def test_a_floating_sun_takes_a_third_of_an_error_of_one_pin_of_four():
     assert (moved_free - free) / (moved - held) == pytest.approx(1.0 / 3.0, abs=0.03)
 
 
-def test_the_picture_shows_shares_and_orbits():
-    """Three planets in two charts, three orbits, and the set to scale: ring, sun and planets with their holes."""
-    cases = list(product((3,), (False, True), sets.ERRORS))
-    scenes = {case: train_from_text(sets.scene_text(*case, COARSE)) for case in cases}
-    results = {case: simulate_train(scenes[case]) for case in cases if case[1] or case[2] == 20}
-    figure = picture(scenes, results)
-    lines = {axes.get_title(loc="left").partition(":")[0]: len(axes.get_lines()) for axes in figure.axes}
-    assert lines == {"": 0, "sun held": 3, "sun floating": 3, "Orbits of the floating sun": 3}
-    assert len(figure.axes[0].patches) == 2 * 5
+def test_a_set_is_drawn_to_scale():
+    """Geometry: teeth between root and tip circles, bores as they are, the three planets 2 pi/3 apart on the circle of
+    the centre distance."""
+    train = load_train(sets.HERE / "fva.toml")
+    *gears, planets = set_drawing(train).curves
+    middles = planets.x + 1j * planets.y
+    assert np.abs(middles) == pytest.approx(3 * [78.0])
+    assert np.angle(middles[1:] / middles[:-1]) == pytest.approx(2 * [2.0 * np.pi / 3.0])
+    sun = train.meshes[0].pair.pinion
+    teeth, bore = (np.hypot(each.x, each.y) for each in gears if each.name == "sun, 17 teeth")
+    assert (teeth.min(), teeth.max()) == pytest.approx((sun.root_radius, sun.tip_radius), rel=1e-3)
+    assert bore == pytest.approx(np.full(len(bore), sun.bore_radius))
 
 
 def test_both_scenes_are_sets_of_fva():

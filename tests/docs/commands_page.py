@@ -3,6 +3,7 @@
 import argparse
 import inspect
 import re
+from functools import cache
 
 from tests.docs.markdown import capital, prose, table
 
@@ -11,6 +12,7 @@ from fenics_gears.elasticity.cache import DEFAULT_SIZE
 from fenics_gears.system.memory import MEMORY_VARIABLE
 
 
+@cache
 def parser(called: str = "") -> argparse.ArgumentParser:
     return cli._parser(called)
 
@@ -19,6 +21,7 @@ def _choices(called: str = "") -> argparse._SubParsersAction:
     return next(each for each in parser(called)._actions if isinstance(each, argparse._SubParsersAction))
 
 
+@cache
 def commands() -> dict[str, tuple[str, argparse.ArgumentParser]]:
     helps = {action.dest: action.help for action in _choices()._choices_actions}
     return {name: (words, _choices(name).choices[name]) for name, words in helps.items()}

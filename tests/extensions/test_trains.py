@@ -15,48 +15,49 @@ def scene(tmp_path):
     return gearbox_file(tmp_path)
 
 
-def test_a_train_is_rated_mesh_by_mesh(scene, tmp_path, capsys):
-    """One table; a stage has the rows that its own run has."""
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory):
+    """The folder of a run with a speed."""
+    folder = tmp_path_factory.mktemp("train")
+    scene = gearbox_file(folder)
     scene.write_text(scene.read_text() + '[motion]\ninput_speed = "3000 rpm"\n')
-    out = tmp_path / "out"
-    assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
-    assert main(["rate", str(out)]) == 0
+    assert main(["run", str(scene), "-o", str(folder / "out"), "-q", "--no-pictures"]) == 0
+    return folder / "out"
+
+
+def test_a_train_is_rated_mesh_by_mesh(ran, capsys):
+    """One table; a stage has the rows that its own run has."""
+    assert main(["rate", str(ran)]) == 0
     assert "a stage's own scene.toml, which is in its folder" in capsys.readouterr().out
-    rows = (out / "rating.csv").read_text().splitlines()
+    rows = (ran / "rating.csv").read_text().splitlines()
     assert rows[0] == "mesh,quantity,unit,ISO 6336,this run"
     for name in ("first", "second"):
-        assert main(["rate", str(out / name), "-q"]) == 0
-        own = (out / name / "rating.csv").read_text().splitlines()
+        assert main(["rate", str(ran / name), "-q"]) == 0
+        own = (ran / name / "rating.csv").read_text().splitlines()
         assert [row.removeprefix(f"{name},") for row in rows if row.startswith(f"{name},")] == own[1:]
     capsys.readouterr()
 
 
-def test_the_spectrum_of_a_train(scene, tmp_path, capsys):
+def test_the_spectrum_of_a_train(ran, capsys):
     """Levels of its orders: 20 log10 of what the run's own orders have in urad; 20 teeth mesh 20 times a turn, those of
     the second stage 20 times in 30/20 turns."""
-    out = tmp_path / "out"
-    assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
-    assert main(["plot", str(out), "--spectrum", "-q"]) == 0
-    figures = xr.load_dataset(out / "noise.nc")
-    found = load(out / "run.nc")
+    assert main(["plot", str(ran), "--spectrum", "-q"]) == 0
+    figures = xr.load_dataset(ran / "noise.nc")
+    found = load(ran / "run.nc")
     expected = overall_orders(found, carried_train(found))
     levels = [20.0 * log10(1e6 * each.amplitude) for each in expected]
     assert figures["overall_transmission_error_level"].values == pytest.approx(levels, abs=1e-9)
     first = [float(figures["order"][(figures["meshes"] == name).values][0]) for name in ("first", "second")]
     assert first == pytest.approx([20.0, 20.0 * 20 / 30])
-    assert (out / "noise.png").stat().st_size > 10000
-    assert main(["plot", str(out), "--spectrum", "hann"]) == 2
+    assert (ran / "noise.png").stat().st_size > 10000
+    assert main(["plot", str(ran), "--spectrum", "hann"]) == 2
     assert "orders of a train are of whole cycles" in capsys.readouterr().err
 
 
-def test_the_sound_of_a_train(scene, tmp_path, capsys):
+def test_the_sound_of_a_train(ran):
     """Of its overall transmission error: half a second of samples of two bytes."""
-    scene.write_text(scene.read_text() + '[motion]\ninput_speed = "3000 rpm"\n')
-    out = tmp_path / "out"
-    assert main(["run", str(scene), "-o", str(out), "-q", "--no-pictures"]) == 0
-    assert main(["listen", str(out), "--seconds", "0.5", "-q"]) == 0
-    assert (out / "overall_transmission_error.wav").stat().st_size > 2 * 0.5 * 48000
-    capsys.readouterr()
+    assert main(["listen", str(ran), "--seconds", "0.5", "-q"]) == 0
+    assert (ran / "overall_transmission_error.wav").stat().st_size > 2 * 0.5 * 48000
 
 
 def test_stages_that_move_together_are_rated(scene, tmp_path, capsys):
@@ -74,6 +75,7 @@ def test_stages_that_move_together_are_rated(scene, tmp_path, capsys):
     assert "run a scene of one of its pairs" in said
 
 
+@pytest.mark.nightly
 def test_a_train_whose_shafts_bend_is_rated(tmp_path, capsys):
     """Misalignment over the face is that of the run, by both gears of a shaft; a face factor iterated over shafts that
     are the pair's alone would leave the other gear out, and is not there."""

@@ -6,20 +6,9 @@ import sys
 from collections import Counter
 
 import pytest
-from hypothesis import given
 from tests.docs.blocks import ROOT
-from tests.hard_cases.random_runs import called, wrong_with
-from tests.hard_cases.whole_scenes import whole_scenes
 
 SECONDS, PROCESSES = 600, 2
-
-
-@given(whole_scenes())
-def test_any_scene_is_described_or_refused(tmp_path_factory, text):
-    """A user's expectation: `gears check` ends with its exit code and words, without numbers that are none."""
-    file = tmp_path_factory.mktemp("any") / "pair.toml"
-    file.write_text(text, encoding="utf-8")
-    assert not wrong_with("check", *called("check", str(file))), text
 
 
 @pytest.mark.nightly

@@ -18,7 +18,9 @@ def stiffened(scene, factor):
 
 
 @pytest.mark.parametrize(
-    "make", [quasi_static, lambda scene: frictionless(quasi_static(scene))], ids=["friction", "frictionless"]
+    "make",
+    [quasi_static, pytest.param(lambda scene: frictionless(quasi_static(scene)), marks=pytest.mark.nightly)],
+    ids=["friction", "frictionless"],
 )
 def test_stiff_springs_tend_to_the_rigid_drivetrain(make, coarse, measured):
     """Exact limit: the scene without shafts and bearings, as 1/k."""

@@ -1,6 +1,7 @@
 """Row 20: friction of 0.3 to 2 on the paper's pair: it converges, or says what friction does."""
 
 from dataclasses import replace
+from itertools import product
 
 import pytest
 from tests.coarse import quasi_static
@@ -46,10 +47,21 @@ def locks_from(pair):
     return pair.wheel.base_radius / (pair.line_of_action_length - pair.path_start)
 
 
-@pytest.mark.parametrize("absent", ABSENT, ids=["all", "without bearings", "rigid"])
-@pytest.mark.parametrize("dynamic", DYNAMIC)
+# By day both ends of friction, each in time on one drivetrain and at rest on another.
+BY_DAY = [
+    (0.3, "dynamic", ()),
+    (0.3, "quasi-static", ABSENT[2]),
+    (2.0, "dynamic", ABSENT[2]),
+    (2.0, "quasi-static", ()),
+]
+
+
 @pytest.mark.parametrize(
-    "friction", [0.3, *(pytest.param(each, marks=pytest.mark.nightly) for each in (0.6, 1.0)), 2.0]
+    ("friction", "dynamic", "absent"),
+    [
+        pytest.param(*each, marks=[] if each in BY_DAY else pytest.mark.nightly)
+        for each in product((0.3, 0.6, 1.0, 2.0), DYNAMIC, ABSENT)
+    ],
 )
 def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse, paper_pair, measured):
     """Coulomb's law from the equations; by the wheel's moments friction can lock from mu = rb2/(L - x) on (1.65 at

@@ -18,6 +18,7 @@ BESIDE = (0.0, 1e-12, -1e-12)
 # Before the pitch point, and after it until all nodes slip again; short enough that one step's slip is less than the
 # teeth give way.
 AT, AFTER, FINE = 10, 60, 400
+STILL = {"inertia": None, "damping": None}
 
 
 class Shifted(Cycle):
@@ -49,8 +50,16 @@ def on_line(record):
     return float(np.abs(operator.rigid_slip).min())
 
 
-@pytest.mark.parametrize("friction", [0.1, 0.3])
-@pytest.mark.parametrize("changes", [{}, {"inertia": None, "damping": None}], ids=["dynamic", "quasi-static"])
+@pytest.mark.parametrize(
+    ("friction", "changes"),
+    [
+        (0.1, {}),
+        pytest.param(0.3, {}, marks=pytest.mark.nightly),
+        pytest.param(0.1, STILL, marks=pytest.mark.nightly),
+        (0.3, STILL),
+    ],
+    ids=["0.1, dynamic", "0.3, dynamic", "0.1, quasi-static", "0.3, quasi-static"],
+)
 @pytest.mark.parametrize(
     "absent",
     [

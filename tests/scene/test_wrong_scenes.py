@@ -45,7 +45,6 @@ def refusal(tmp_path, monkeypatch, capsys):
 
 # (what to replace, by what, field and value in the message, further fragments)
 MUTATIONS = [
-    ("teeth = 16", "teeth = 16.5", "gears.pinion.teeth = 16.5", ["is not a whole number", "from 5 to 1000"]),
     ("teeth = 16", "module = 16", "gears.pinion.module = 16", ['"module" belongs to [gears]', "teeth, profile_shift"]),
     ("teeth = 16", "friction = 0.1", "gears.pinion.friction = 0.1", ["It is a section of the scene: [friction]"]),
     ('module = "4.5 mm"', 'module = "4.5 Mm"', 'gears.module = "4.5 Mm"', ['unknown unit "Mm". Did you mean "mm"?']),
@@ -58,27 +57,19 @@ MUTATIONS = [
     ('pressure_angle = "20 deg"', 'transverse_pressure_angle = "11 deg"\nhelix_angle = "40 deg"',
      'gears.transverse_pressure_angle = "11 deg"', ["makes pressure_angle = 8.469 deg", "from 10 deg to 35 deg"]),
     ('module = "4.5 mm"', "module = 4.5", "gears.module = 4.5", ['In mm it is written "4.5 mm"']),
-    ('"20 deg"', '"0.35"', 'gears.pressure_angle = "0.35"', ["not an angle", "from 10 deg to 35 deg"]),
-    ("poissons_ratio = 0.3", "poissons_ratio = 0.5", "gears.material.poissons_ratio = 0.5", ["is too large",
-     "above -1 and below 0.5"]),
     ('"437 N m"', '"-437 N m"', 'load.wheel_torque = "-437 N m"', ["is negative", "from the wheel",
      "with the section [coast_flanks] any sign"]),
     ('mesh_frequency = "200 Hz"', 'mesh_frequency = "200 rpm"', 'motion.mesh_frequency = "200 rpm"',
      ["is an angular speed", '"200 Hz"']),
-    ('mesh_frequency = "200 Hz"', 'pinion_speed = "12.5 Hz"', 'motion.pinion_speed = "12.5 Hz"', ["is a frequency",
-     '"750 rpm"']),
     ('mesh_frequency = "200 Hz"', 'mesh_frequency = "200 Hz"\npinion_speed = "750 rpm"',
      'motion.pinion_speed = "750 rpm"', ["one of the two"]),
     ("recorded_cycles = 2", "recorded_cycles = 31", "motion.recorded_cycles = 31", ["is more than mesh_cycles = 30"]),
     ("coefficient = 0.1", "coefficient = 0", "friction.coefficient = 0", ["is zero",
      "leave the section [friction] out", "up to 5"]),
-    ("coefficient = 0.1", "", "friction.coefficient", ["is missing", "above 0 and up to 5"]),
     ("[inertia]", "[damping.inertia]", "[damping.inertia]", ["is not a known field of [damping]",
      "needs the section [inertia]"]),
     ('"0.4e-3 s"\nmass_proportional = "0.5e-3 1/s"', '"0 s"\nmass_proportional = "0 1/s"', "[damping]",
      ["damps nothing", "leave the section [damping] out"]),
-    ('element = "P2"', 'element = "P3"', 'accuracy.element = "P3"', ["is not known",
-     '"P1", "P2", "Q1", "Q1 incompatible", "Q2"']),
     ('element = "P2"', 'element = "p2"', 'accuracy.element = "p2"', ['Did you mean "P2"?']),
     ('"0.08 mm"', '"5 mm"', 'accuracy.flank_element_size = "5 mm"', ["too large for a module of 4.5 mm",
      "up to 4.5 mm"]),
@@ -86,7 +77,6 @@ MUTATIONS = [
     ("[load]\nwheel_torque", "load = 3\n[wheel]\nwheel_torque", "gears.material.load = 3",
      ["is not a known field of [gears.material]"]),
     ('title = "', 'friction = 0.3\ntitle2 = "', "friction = 0.3", ["is not a section", "[friction]"]),
-    ('title = "Lundvall, Strömberg, Klarbring 2004"', "title = 2004", "title = 2004", ["is not a text"]),
     ('title = "', 'title = "' + 600 * "x", "title = ", ["is too long", "500 characters"]),
 ]  # fmt: skip
 

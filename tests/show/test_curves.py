@@ -51,12 +51,6 @@ def test_transmission_error_and_the_wheels_sideways_motion():
     assert all(angle == pytest.approx(20.0 * length, rel=1e-12) for angle, length in angles)
 
 
-def test_the_peak_to_peak_is_named():
-    """400 µrad by construction, 20 µm on a base radius of 50 mm."""
-    above, _ = transmission_error(made_up_run(steps=41)).get_axes()
-    assert above.get_title(loc="left") == "Transmission error on the wheel's base circle: peak to peak 20.00 µm"
-
-
 def test_a_motion_of_rounding_errors_is_shown_as_none():
     """Contact is solved to 1e-4 um; what is smaller is no curve."""
     run = made_up_run()
@@ -88,14 +82,6 @@ def test_a_long_run_shows_its_last_cycles_and_all_of_them_cycle_by_cycle():
     np.testing.assert_allclose(low, [each.min() for each in cycles], rtol=1e-12)
     np.testing.assert_allclose(high, [each.max() for each in cycles], rtol=1e-12)
     assert last.get_title(loc="left") == "Transmission error over all 12 mesh cycles"
-
-
-def test_load_sharing_of_a_long_run_names_the_pairs_that_are_seen():
-    """Of 47 cycles' pairs those that carry in the last four."""
-    run = made_up_run(steps=941, cycles=47.0)
-    names = [line.get_label() for line in load_sharing(run).get_axes()[0].get_lines()]
-    last = int(run["pair_number"].max())
-    assert names == ["all pairs", *(f"pair {number}" for number in range(last - 5, last + 1))]
 
 
 def test_mesh_forces():

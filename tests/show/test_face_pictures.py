@@ -49,15 +49,6 @@ def test_words_above_a_stress_picture_end_within_it(monkeypatch, length):
     assert "mesh phase 0.250" in figure.texts[1].get_text()
 
 
-def test_each_curve_of_the_line_load_has_its_factor_and_is_seen(run):
-    """The title's three factors are of different curves; where two curves are one, the lower is the wider."""
-    chart = line_loads(run)[2]
-    mean, largest, away = chart.curves[:3]
-    assert chart.caption == "Line load along the face" and "tooth pairs summed" in mean.name
-    assert f"face load factor {run.dataset.attrs['face_load_factor']:.3f}" in mean.name
-    assert largest.width > 2.0 * away.width and largest.name.startswith("one tooth pair: largest at any time")
-
-
 def test_pattern_shows_the_largest_pressure_where_it_is(run):
     """The result's fields: cells hold the largest averaged pressure, at the diameter of its node. Five nodes
     weigh -1, 4, 10, 4, -1: what alternates goes, cubics stay. Two at either end are as they are."""

@@ -125,7 +125,7 @@ TORQUES = 'load.input_torque = ["500 N m", "600 N m"]\n'
 @pytest.mark.parametrize(
     ("field", "sections"),
     [
-        (PINS, ""),
+        pytest.param(PINS, "", marks=pytest.mark.nightly),
         (PINS, "[friction]\ncoefficient = 0.05"),
         (("stages", "set", "eccentricity", "planets", "distance"), ""),
     ],

@@ -54,6 +54,7 @@ def test_shafts_with_names_are_swept(gearbox):
         study_of(sweep.format("stiffness_of_it"))
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("undrawn")
 def test_every_case_is_what_a_run_of_its_train_gives(gearbox, capsys):
     """Exact identity with a run of each train alone: of the whole and of each mesh; and a study that is run again
@@ -169,6 +170,7 @@ def test_two_processes_give_what_one_gives(gearbox):
     assert Path("both/peak_to_peak_overall_transmission_error.png").is_file()
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("undrawn")
 def test_studies_sweep_the_clocking_of_a_shaft(gearbox, capsys):
     """Two equal paths: turned back and ahead by the same angle, one has what the other has; a study has the shares."""

@@ -12,7 +12,6 @@ from fenics_gears import SceneError, model_of, scene_from_text, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.effects import SECTIONS
 from fenics_gears.extensions.measuring.effect_costs import measured, table
-from fenics_gears.extensions.measuring.effect_costs.picture import effect_costs
 from fenics_gears.extensions.measuring.effect_costs.subsets import ALONE, BARE, LEFT_OUT, subsets_of
 from fenics_gears.runs import one_run
 from fenics_gears.simulation.simulate import solved
@@ -154,14 +153,6 @@ def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monke
         line[:3] == ["all", "7", "+"] for line in lines
     )
     assert any(line[:2] == ["ratio", "measured"] for line in lines)
-
-
-def test_the_picture_names_the_colours_that_it_has(report):
-    """Of bars and lines that are drawn, and of no others."""
-    rows = tuple(row for row in report.rows if row.subset.kind not in (LEFT_OUT, BARE))
-    both = [effect_costs(each).texts[-1].get_text() for each in (report, replace(report, rows=rows))]
-    named = [{colour for colour in ("green", "orange", "dotted", "dashed") if colour in words} for words in both]
-    assert named == [{"green", "orange", "dotted", "dashed"}, {"green", "dashed"}]
 
 
 def test_a_subset_that_fails_is_a_line_with_its_reason(monkeypatch):

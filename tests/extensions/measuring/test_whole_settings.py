@@ -1,6 +1,5 @@
 """Whole settings of `gears accuracy`: fronts and charged errors of numbers known exactly."""
 
-import itertools
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -9,7 +8,6 @@ import pytest
 
 from fenics_gears import ComputationError
 from fenics_gears.extensions.measuring.accuracy import whole
-from fenics_gears.extensions.measuring.accuracy.convergence import largest_part
 from fenics_gears.extensions.measuring.accuracy.refinement import Level, Refinement
 from fenics_gears.runs.settings import measures
 from fenics_gears.runs.settings.measures import SPAN
@@ -71,14 +69,6 @@ def test_the_path_refines_what_limits_it():
     """By hand; 0.28, 0.13, 0.07, 0.032, 0.017 by turns of the larger error."""
     found = [(setting.flank, setting.steps) for setting in whole.path(BASE, [FLANK, STEPS], ERRORS)]
     assert found == [(0.16, 20), (0.16, 40), (0.08, 40), (0.08, 80), (0.04, 80), (0.04, 160)]
-
-
-def test_parts_are_those_of_the_settings_own_levels():
-    """Identity."""
-    for (i, flank), (j, steps) in itertools.product(enumerate((0.16, 0.08, 0.04)), enumerate((20, 40, 80, 160))):
-        parts = whole.parts_of(replace(BASE, flank=flank, steps=steps), [FLANK, STEPS], ERRORS)
-        assert parts == {"flank": ERRORS["flank", i], "steps": ERRORS["steps", j]}
-        assert ERRORS[largest_part(parts), {"flank": i, "steps": j}[largest_part(parts)]] == max(parts.values())
 
 
 def test_settings_of_targets(monkeypatch):

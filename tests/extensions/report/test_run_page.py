@@ -4,9 +4,6 @@ import base64
 import csv
 import json
 import re
-import tomllib
-from fnmatch import fnmatch
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,7 +18,6 @@ from fenics_gears.extensions.measuring.effect_costs import measured
 from fenics_gears.extensions.measuring.effect_costs.table import CSV_COLUMNS
 from fenics_gears.results.pairs import contact_times
 
-CHECKOUT = Path(__file__).parents[3]
 pytestmark = pytest.mark.usefixtures("without_stills")
 SECTIONS = [
     "summary", "warnings", "geometry", "motion", "forces", "pressure", "stress", "root-stress", "spectra", "numbers",
@@ -241,15 +237,3 @@ def test_wrong_calls_are_refused_before_anything_is_written(run, tmp_path, capsy
     (tmp_path / "run.nc").write_bytes(b"no NetCDF at all")
     assert "cannot be read as a result" in refusal(capsys, tmp_path)
     assert {file.name for file in tmp_path.iterdir()} == {"run.nc"}
-
-
-def test_an_installed_copy_has_the_template():
-    """package-data names each file that is no module."""
-    wanted = tomllib.loads((CHECKOUT / "pyproject.toml").read_text())["tool"]["setuptools"]["package-data"]["*"]
-    files = [
-        file
-        for file in (CHECKOUT / "fenics_gears" / "show" / "pages").iterdir()
-        if file.is_file() and file.suffix != ".py"
-    ]
-    assert {"page.html", "colours.css", "page.css", "page.js"} <= {file.name for file in files}
-    assert all(any(fnmatch(file.name, pattern) for pattern in wanted) for file in files)

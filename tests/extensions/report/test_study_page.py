@@ -59,15 +59,6 @@ def test_cases_and_curves_are_those_of_the_file(study):
     assert page.sections["failures"].strip().endswith("None.")
 
 
-def test_a_study_writes_its_pictures(study):
-    """One for each number that cases are compared by."""
-    assert {file.stem for file in study.glob("*.png")} == {
-        "peak_to_peak_transmission_error",
-        "mean_transmission_error",
-        "max_normal_force",
-    }
-
-
 def test_cases_lead_to_their_files_and_to_their_reports(study, tmp_path):
     """To the report where there is one, else to the file; from wherever the page is."""
     copy = tmp_path / "with a space" / "out"

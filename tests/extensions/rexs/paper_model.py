@@ -26,7 +26,7 @@ def attribute(name, value, unit="none"):
     return {"id": name, "unit": unit, KINDS[type(value)]: value}
 
 
-def _component(number, kind, *attributes, name=""):
+def new_component(number, kind, *attributes, name=""):
     named = {"name": name} if name else {}
     return {"id": number, "type": kind, **named, "attributes": [attribute(*each) for each in attributes]}
 
@@ -54,7 +54,7 @@ def paper_model():
         for each in root.find("relations")
     ]
     components = [
-        _component(int(each.get("id")), each.get("type"), *map(_read_attribute, each), name=each.get("name"))
+        new_component(int(each.get("id")), each.get("type"), *map(_read_attribute, each), name=each.get("name"))
         for each in root.find("components")
     ]
     head = {
@@ -94,7 +94,7 @@ def with_values(model, *changes):
 def with_component(model, number, kind, *attributes, **relations):
     """The model with one more component, in relations given by their type as dictionaries of roles."""
     changed = copy.deepcopy(model)
-    changed["model"]["components"].append(_component(number, kind, *attributes))
+    changed["model"]["components"].append(new_component(number, kind, *attributes))
     for place, (kind, roles) in enumerate(relations.items()):
         changed["model"]["relations"].append(relation(1000 * number + place, kind, **roles))
     return changed

@@ -1,7 +1,34 @@
-"""Gearboxes with planetary sets and with several paths as REXS models, JSON of version 1.4: shafts, gears, loads."""
+"""Gearboxes as REXS models of version 1.4: shafts, gears and loads put together as JSON, and two stages as XML."""
 
 import json
 from math import cos, pi, sin
+
+from tests.extensions.rexs import paper_model as rexs
+
+
+def two_stages() -> str:
+    """20/40 teeth of module 4 mm from shaft 2 to 3, again from 3 to 40; 100 N m and 1000 rpm on shaft 2."""
+    sizes = [("normal_module", 4.0, "mm"), ("helix_angle_reference_diameter", 0.0, "deg"), ("face_width", 40.0, "mm")]
+    flank = ("addendum_modification_coefficient", 0.0), ("normal_pressure_angle", 20.0, "deg")
+    shafts = [(1, "gear_unit"), (2, "shaft", ("rotational_speed", 1000.0, "1 / min")), (3, "shaft"), (40, "shaft")]
+    parts = [*shafts, (20, "external_load", ("torque_around_u_axis", 100.0, "N m"))]
+    parts += [(number, "cylindrical_stage", ("center_distance", 120.0, "mm")) for number in (4, 50)]
+    relations = [("assembly", {"assembly": 1, "part": part}) for part in (2, 3, 40, 4, 50)]
+    relations += [("assembly", {"assembly": 2, "part": 20})]
+    relations += [("stage", {"stage": stage, "gear_1": one, "gear_2": two}) for stage, one, two in STAGES]
+    for number, teeth, shaft, left in ((5, 20, 2, 7), (6, 40, 3, 9), (51, 20, 3, 61), (52, 40, 40, 63)):
+        parts.append((number, "cylindrical_gear", ("number_of_teeth", teeth), *sizes))
+        parts += [(side, "cylindrical_gear_flank", *flank) for side in (left, left + 1)]
+        relations.append(("assembly", {"assembly": shaft, "part": number}))
+        relations.append(("flank", {"gear": number, "left": left, "right": left + 1}))
+    model = {"version": "1.4", "applicationId": "tests", "applicationVersion": "", "date": "2026-11-28"}
+    model["components"] = [rexs.new_component(*each) for each in parts]
+    model["relations"] = [rexs.relation(place, kind, **roles) for place, (kind, roles) in enumerate(relations, 1)]
+    # Tests put attributes behind the beginning of a component.
+    return rexs.as_xml({"model": model}).decode().replace('type="shaft" />', 'type="shaft"></component>')
+
+
+STAGES = (4, 5, 6), (50, 51, 52)
 
 
 class Box:

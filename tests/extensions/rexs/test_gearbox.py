@@ -3,9 +3,9 @@ left out. 20/40 teeth of module 4 mm in both stages, centres 120 mm apart, 100 N
 
 import re
 from math import pi
-from pathlib import Path
 
 import pytest
+from tests.extensions.rexs.planetary_model import two_stages
 
 from fenics_gears import SceneError, load_train
 from fenics_gears.commands.cli import main
@@ -13,7 +13,7 @@ from fenics_gears.extensions.rexs.gearbox import imported_train
 from fenics_gears.extensions.rexs.imported import imported_scene
 from fenics_gears.scene.read import scene_from_text
 
-BOX = Path(__file__).with_name("two_stages.rexs").read_text()
+BOX = two_stages()
 ALONG_X = ("u_axis_vector", "mm", (1, 0, 0))
 
 

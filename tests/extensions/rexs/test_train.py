@@ -1,10 +1,10 @@
 """Torque, speed and direction along a gear train: M2 = M1 z2/z1 and n2 = n1 z1/z2 without losses, equilibrium of what
 turns as one, and the power that comes in where torque and speed have one sign."""
 
-from pathlib import Path
-
 import pytest
 from tests.extensions.rexs import paper_model as rexs
+from tests.extensions.rexs import planetary_model
+from tests.extensions.rexs.planetary_model import Box
 from tests.extensions.rexs.test_lookups import refused, scene_of
 
 from fenics_gears import load_train
@@ -19,51 +19,27 @@ TEETH = "number_of_teeth"
 FIRST, SECOND = 100, 200
 
 
-class Gearbox:
-    """A model of shafts 1, 2, ..., stages between them and loads on them, by REXS's components and relations."""
+class Gearbox(Box):
+    """A model of shafts 1, 2, ..., stages between them and loads on them."""
 
     def __init__(self):
         self.components, self.relations = [], []
 
-    def _component(self, number, kind, **attributes):
-        listed = [{"id": name, "unit": unit, "value": str(value)} for name, (value, unit) in attributes.items()]
-        self.components.append({"id": number, "type": kind, "attributes": listed})
-
-    def relate(self, kind, **roles):
-        refs = [{"role": role, "id": number} for role, number in roles.items()]
-        self.relations.append({"type": kind, "refs": refs})
-
-    def shaft(self, number, speed=None):
-        self._component(number, "shaft", **({"rotational_speed": (speed, "1 / min")} if speed else {}))
-        return self
-
-    def stage(self, number, shafts, teeth, kind="cylindrical", second="cylindrical_gear", **own):
+    def between(self, number, shafts, teeth, kind="cylindrical", second="cylindrical_gear", **own):
         """A stage, with its two gears ``number`` + 1 and + 2 on two shafts; ``own``: words of both gears."""
-        self._component(number, f"{kind}_stage")
-        for which, (shaft, count) in enumerate(zip(shafts, teeth), start=1):
-            words = {name: (values[which - 1], "none") for name, values in own.items()}
-            gear = second if which == 2 else f"{kind}_gear"
-            self._component(number + which, gear, number_of_teeth=(count, "none"), **words)
-            self.relate("assembly", assembly=shaft, part=number + which)
-        self.relate("stage", stage=number, gear_1=number + 1, gear_2=number + 2)
-        return self
+        self.part(number, f"{kind}_stage")
+        for which, (shaft, count) in enumerate(zip(shafts, teeth)):
+            words = {name: (values[which], "none") for name, values in own.items()}
+            self.gear(number + 1 + which, count, shaft, kind=second if which else f"{kind}_gear", **words)
+        return self.relate("stage", stage=number, gear_1=number + 1, gear_2=number + 2)
 
-    def load(self, number, shaft, torque=None):
-        known = {} if torque is None else {"torque_around_u_axis": (torque, "N m")}
-        self._component(number, "external_load", transmits_torque=("true", "none"), **known)
-        self.relate("assembly", assembly=shaft, part=number)
-        return self
-
-    def joint(self, number, kind, one, other, relation="side", **words):
-        self._component(number, kind, **{name: (word, "none") for name, word in words.items()})
-        self.relate(relation, assembly=number, inner_part=one, outer_part=other)
-        return self
+    def checked(self):
+        return checked_model({"version": "1.4", "components": self.components, "relations": self.relations})
 
     def of_stage(self, number):
         """Torque on the driven gear in N m, speed of the driving one in rpm, the number of the driving gear's
         component and the side of the driven gear's teeth that is loaded."""
-        tree = {"version": "1.4", "components": self.components, "relations": self.relations}
-        model = checked_model(tree)
+        model = self.checked()
         stage = chosen_stage(model, number)
         counts = [float(part.gear.attributes[TEETH].value) for part in (stage.pinion, stage.wheel)]
         ratio = counts[1] / counts[0]
@@ -79,7 +55,7 @@ def three_shafts(torque=100, speed=1000):
 
 def two_stages():
     """20/40 teeth from shaft 1 to shaft 2, again from shaft 2 to shaft 3; 100 N m and 1000 rpm on shaft 1."""
-    return three_shafts().stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (2, 3), (20, 40))
+    return three_shafts().between(FIRST, (1, 2), (20, 40)).between(SECOND, (2, 3), (20, 40))
 
 
 def test_torque_and_speed_go_through_the_stages_before():
@@ -87,7 +63,7 @@ def test_torque_and_speed_go_through_the_stages_before():
     assert two_stages().of_stage(FIRST)[:3] == (pytest.approx(200.0), 1000.0, FIRST + 1)
     assert two_stages().of_stage(SECOND)[:3] == (pytest.approx(400.0), 500.0, SECOND + 1)
     from_the_end = Gearbox().shaft(1).shaft(2).shaft(3, 250).load(10, 3, -400)
-    from_the_end.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (2, 3), (20, 40))
+    from_the_end.between(FIRST, (1, 2), (20, 40)).between(SECOND, (2, 3), (20, 40))
     assert from_the_end.of_stage(FIRST)[:2] == (pytest.approx(200.0), 1000.0)
 
 
@@ -106,8 +82,9 @@ def test_torque_and_speed_go_through_the_stages_before():
 )
 def test_couplings_and_seats_pass_torque_on_and_bearings_do_not(kind, relation, words, joined):
     """REXS: couplings join by the relation "side", up to version 1.0 by "coupling"; an open one carries nothing."""
-    box = three_shafts().stage(FIRST, (2, 3), (20, 40))
-    box.joint(11, kind, 1, 2, relation, **words)
+    box = three_shafts().between(FIRST, (2, 3), (20, 40))
+    box.part(11, kind, **{name: (word, "none") for name, word in words.items()})
+    box.relate(relation, assembly=11, inner_part=1, outer_part=2)
     if joined:
         assert box.of_stage(FIRST)[:3] == (pytest.approx(200.0), 1000.0, FIRST + 1)
     else:
@@ -117,19 +94,18 @@ def test_couplings_and_seats_pass_torque_on_and_bearings_do_not(kind, relation, 
 
 def test_a_shaft_held_by_the_casing_takes_what_is_not_said():
     """A coupling to the casing is a brake: what comes beyond it does not follow."""
-    box = two_stages()
-    box._component(12, "gear_casing")
+    box = two_stages().part(12, "gear_casing")
     with pytest.raises(ValueProblem, match="no torque"):
-        box.joint(11, "coupling", 2, 12).of_stage(SECOND)
+        box.couple(11, 2, 12).of_stage(SECOND)
 
 
 def test_what_a_branch_takes_is_not_in_the_mesh():
     """Equilibrium of shaft 1: of 100 N m, 30 N m on shaft 3 with 40 teeth are 15 N m on 20 teeth; 85 N m are left."""
     box = three_shafts().load(11, 3, 30)
-    box.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (1, 3), (20, 40))
+    box.between(FIRST, (1, 2), (20, 40)).between(SECOND, (1, 3), (20, 40))
     assert box.of_stage(FIRST)[0] == pytest.approx(170.0)
     unknown = three_shafts().load(11, 3)
-    unknown.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (1, 3), (20, 40))
+    unknown.between(FIRST, (1, 2), (20, 40)).between(SECOND, (1, 3), (20, 40))
     with pytest.raises(ValueProblem, match="no torque"):
         unknown.of_stage(FIRST)
 
@@ -137,14 +113,14 @@ def test_what_a_branch_takes_is_not_in_the_mesh():
 def test_an_internal_gear_turns_the_sign():
     """The gears of an internal pair turn in one sense: what resists on shaft 3 is negative, and is taken off too."""
     box = three_shafts().load(11, 3, -60)
-    box.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (1, 3), (20, 80), second="ring_gear")
+    box.between(FIRST, (1, 2), (20, 40)).between(SECOND, (1, 3), (20, 80), second="ring_gear")
     assert box.of_stage(FIRST)[0] == pytest.approx(170.0)
 
 
 def test_paths_that_part_and_meet_again_are_not_shared_out():
     """Which of two parallel stages carries how much, no ratio of teeth says."""
     box = Gearbox().shaft(1, 1000).shaft(2).load(10, 1, 100)
-    box.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (1, 2), (20, 40))
+    box.between(FIRST, (1, 2), (20, 40)).between(SECOND, (1, 2), (20, 40))
     with pytest.raises(ValueProblem, match="reach it by one path"):
         box.of_stage(FIRST)
 
@@ -152,7 +128,7 @@ def test_paths_that_part_and_meet_again_are_not_shared_out():
 @pytest.mark.parametrize(("torque", "driving"), [(100, FIRST + 1), (-100, FIRST + 2)])
 def test_power_says_which_gear_drives(torque, driving):
     """Torque and speed of one sign drive, of two signs brake, however many teeth there are: here 40 to 20."""
-    box = Gearbox().shaft(1, 500).shaft(2).load(10, 1, torque).stage(FIRST, (1, 2), (40, 20))
+    box = Gearbox().shaft(1, 500).shaft(2).load(10, 1, torque).between(FIRST, (1, 2), (40, 20))
     assert box.of_stage(FIRST)[2] == driving
 
 
@@ -164,8 +140,8 @@ def test_torque_says_which_flank_is_loaded(torque, orientation, side):
     """The driving gear turns by its leading flank; turning about +u, it turns clockwise as seen from its end in -u, and
     the leading flank of the tooth at the top is the right one. Seen from the same end, the mate has the same side."""
     box = three_shafts(torque, 10 * torque)
-    box.stage(FIRST, (1, 2), (20, 40), datum_face_orientation=[orientation] * 2)
-    box.stage(SECOND, (2, 3), (20, 40), datum_face_orientation=[orientation] * 2)
+    box.between(FIRST, (1, 2), (20, 40), datum_face_orientation=[orientation] * 2)
+    box.between(SECOND, (2, 3), (20, 40), datum_face_orientation=[orientation] * 2)
     other = {"left": "right", "right": "left"}[side]
     assert [box.of_stage(number)[3] for number in (FIRST, SECOND)] == [side, other]
 
@@ -175,8 +151,8 @@ def test_torque_goes_through_a_bevel_stage(tips, side):
     """Bevel gears whose axes both point to where they cross turn as external gears: the shaft behind turns the other
     way; with one axis turned round it does not."""
     box = three_shafts()
-    box.stage(FIRST, (1, 2), (20, 40), kind="bevel", second="bevel_gear", bevel_cone_orientation=tips)
-    box.stage(SECOND, (2, 3), (20, 40), datum_face_orientation=["negative"] * 2)
+    box.between(FIRST, (1, 2), (20, 40), kind="bevel", second="bevel_gear", bevel_cone_orientation=tips)
+    box.between(SECOND, (2, 3), (20, 40), datum_face_orientation=["negative"] * 2)
     assert box.of_stage(SECOND) == (pytest.approx(400.0), 500.0, SECOND + 1, side)
 
 
@@ -207,23 +183,22 @@ def test_the_scene_says_where_the_torque_is_from(tmp_path):
 def test_stages_of_a_train_follow_each_other_by_their_shafts(order):
     """From the shaft that is driven on, whatever their numbers are."""
     box = Gearbox().shaft(1, 1000).shaft(2).shaft(3).load(10, 1, 100)
-    box.stage(order[0], (1, 2), (20, 40)).stage(order[1], (2, 3), (20, 40))
-    model = checked_model({"version": "1.4", "components": box.components, "relations": box.relations})
-    assert [each.stage.id for each in units_in_order(model)] == list(order)
+    box.between(order[0], (1, 2), (20, 40)).between(order[1], (2, 3), (20, 40))
+    assert [each.stage.id for each in units_in_order(box.checked())] == list(order)
 
 
 def test_stages_that_are_no_train_are_refused():
     """Two pairs that have nothing in common."""
     apart = Gearbox().shaft(1, 1000).shaft(2).shaft(3).shaft(4).load(10, 1, 100)
-    apart.stage(FIRST, (1, 2), (20, 40)).stage(SECOND, (3, 4), (20, 40))
-    model = checked_model({"version": "1.4", "components": apart.components, "relations": apart.relations})
+    apart.between(FIRST, (1, 2), (20, 40)).between(SECOND, (3, 4), (20, 40))
     with pytest.raises(ValueProblem, match="has 2 shafts that drive and that no stage drives"):
-        units_in_order(model)
+        units_in_order(apart.checked())
 
 
 def test_a_gearbox_is_imported_as_a_train(tmp_path, capsys):
     """100 N m on the first shaft make 200 N m on the second and 400 N m on the last one."""
-    file = Path(__file__).with_name("two_stages.rexs")
+    file = tmp_path / "two_stages.rexs"
+    file.write_text(planetary_model.two_stages())
     assert main(["import", str(file), "--train", "-o", str(tmp_path / "box.toml")]) == 0
     assert "Next: gears check" in capsys.readouterr().out
     train = load_train(tmp_path / "box.toml")
