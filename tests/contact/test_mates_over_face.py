@@ -118,13 +118,6 @@ def test_mates_at_mirrored_places_share_evenly():
     assert found["path_share"].values == pytest.approx(np.full((len(found["step"]), 4), 0.5), abs=1e-10)
 
 
-@pytest.mark.nightly
-def test_a_sun_of_five_mates_shares_evenly():
-    """The same of five paths, a fifth of a turn apart."""
-    found = simulate_train(train_from_text(over_face(split_text(5, teeth=(25, 30, 20, 35)))))
-    assert found["path_share"].values == pytest.approx(np.full((len(found["step"]), 10), 0.2), abs=1e-10)
-
-
 def test_spur_mates_that_do_not_vary_along_the_face_feel_each_other_as_in_the_plane(monkeypatch):
     """Without Poisson's effect a spur body under an even load is in plane strain: what the second mate adds to the lag
     of the first is that of the plane, but for the coarse section (2 % with elements of two modules, 1 % of one)."""

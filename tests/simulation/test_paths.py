@@ -5,8 +5,7 @@ from math import asin, degrees, radians, sin
 import numpy as np
 import pytest
 from tests.scene.test_paths import loop_of_gears
-from tests.simulation.test_train_motion import FRICTION
-from tests.trains import COARSE, gear_text, helical_paths, mate, split_text
+from tests.trains import COARSE, gear_text, mate, split_text
 
 from fenics_gears import simulate_train, train_from_text
 from fenics_gears.dynamics.stepping import Stepper
@@ -50,15 +49,6 @@ def test_equal_paths_have_the_transmission_error_of_one_under_its_part():
     lag = alone["overall_transmission_error"].values
     assert found["overall_transmission_error"].values == pytest.approx(lag, rel=1e-9)
     assert found.attrs["mean_overall_transmission_error"] == pytest.approx(lag[:-1].mean(), rel=1e-9)
-
-
-def test_helical_paths_whose_gears_are_their_own_share_evenly():
-    """Over the face, two gears side by side on the first shaft and two on the last: equal paths carry half each. The
-    second gear of the last shaft is driven: turned ahead it gives way, and its path carries less."""
-    even = run(helical_paths())
-    assert even["path_share"].values == pytest.approx(np.full((len(even["step"]), 4), 0.5), abs=1e-9)
-    turned = run(helical_paths('clocking = "1e-4 rad"'))
-    assert (turned["path_share"].isel(mesh=[1, 3]) < 0.49).all()
 
 
 def test_clocking_moves_load_from_path_to_path():
@@ -160,11 +150,3 @@ def errors(model: RowModel, steps: np.ndarray, cache: Cache) -> np.ndarray:
         record = stepper.in_balance(step, cycle.between(step, step - 1))
         found.append(float(drivetrain.angle @ record.state.position))
     return np.array(found)
-
-
-def test_the_compliance_of_a_loop_is_symmetric_and_positive():
-    """Betti's theorem, and the energy of any load, of a loop of meshes."""
-    (model,) = train_model_of(train_from_text(split_text(more=FRICTION))).rows
-    compliance = row_cycle(model, SilentProgress(), None).position(3).operator.compliance
-    assert np.array_equal(compliance, compliance.T)
-    assert np.linalg.eigvalsh(compliance).min() > 0.0
