@@ -4,7 +4,6 @@ from math import cos, pi, radians, sqrt, tan
 
 import numpy as np
 import pytest
-from tests.benchmarks.third_dimension.pairs import in_plane
 from tests.geometry.test_internal_pairs import involute
 from tests.internal import internal_scene, moving
 
@@ -24,7 +23,6 @@ contact_length = "4 mm"
 contact_nodes = 21
 steps_per_mesh_cycle = 10
 """
-PARALLEL = '[misalignment]\nin_plane = "0 um"\n'
 TILTING = moving(
     2, 'axial_stiffness = "200 kN/mm"\nplaces = { pinion = ["-40 mm", "60 mm"], wheel = ["-45 mm", "50 mm"] }'
 )
@@ -66,17 +64,6 @@ def test_gaps_are_those_of_two_helicoids_drawn_one_in_the_other():
             checked += known.sum()
             np.testing.assert_allclose(found[known], (other - pinion)[known], rtol=0.0, atol=1e-9)
     assert checked > 40
-
-
-def test_without_poissons_ratio_a_spur_pair_is_the_plane_one():
-    """Exact identity: nothing varies along the face; the load on each width is T/(rb b), on the ring too."""
-    bare = 'material = { youngs_modulus = "206 GPa", poissons_ratio = 0 }'
-    more = COARSE.replace('body_element_size = "4 mm"\n', "").replace("layers = 2", "layers = 1") + PARALLEL
-    scene = scene_from_text(internal_scene(more=more).replace('material = "steel"', bare))
-    face, plane = simulate(scene), simulate(in_plane(scene))
-    np.testing.assert_allclose(face.transmission_error, plane.transmission_error, rtol=1e-10)
-    torque = 500e3 / (44.0 * cos(radians(20.0)) * 50.0)
-    np.testing.assert_allclose(face.line_load.sum("slot"), torque, rtol=1e-9)
 
 
 @pytest.fixture(scope="module")

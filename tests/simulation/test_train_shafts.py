@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from tests.elastic_shaft_scenes import E_AXLE, ELASTIC, OUTPUT, PRESSED, ROLLING, SKEWED, WHEEL
 from tests.trains import (
     bearing_sections,
     bent_ends,
@@ -30,25 +31,6 @@ ACCURACY = """
     steps_per_mesh_cycle = 10
     flank_element_size = "0.25 mm"
     """
-LINEAR = (
-    'at = "12 mm"\nradial_stiffness = "0.3e6 N/mm"\naxial_stiffness = "0.1e6 N/mm"\n',
-    'at = "85 mm"\nradial_stiffness = "0.4e6 N/mm"\ntilting_stiffness = "1e7 N mm/rad"\n',
-)
-ROLLING = (
-    'at = "12 mm"\nrolling = { number = 9, diameter = "12.7 mm", pitch_diameter = "65 mm", clearance = "15 um" }\n',
-    'at = "85 mm"\nrolling = { elements = "rollers", number = 14, diameter = "9 mm", length = "10 mm",'
-    ' pitch_diameter = "65 mm", clearance = "20 um" }\n',
-)
-# With teeth cut in between them, as on the input shaft of an electric axle.
-BETWEEN = tuple(each.replace("85 mm", "128 mm") for each in ROLLING)
-ROWS = "[[3e5, 1e4, 0, 0, 2e5], [1e4, 3e5, 0, 1e5, 0], [0, 0, 2e5, 0, 0], [0, 1e5, 0, 1e7, 0], [2e5, 0, 0, 0, 1e7]]"
-OF_WHEEL = (f'at = "20 mm"\nstiffness_matrix = {ROWS}\n', 'at = "110 mm"\nradial_stiffness = "0.4e6 N/mm"\n')
-INPUT = (
-    'sections = [{ length = "40 mm", diameter = "28 mm", bore = "8 mm" }, { length = "90 mm", diameter = "35 mm" }]\n'
-    'torque_at = "0 mm"\n'
-)
-OUTPUT = 'sections = [{ length = "150 mm", diameter = "40 mm" }]\ntorque_at = "150 mm"\n'
-IRON = 'material = { name = "ductile cast iron" }\n'
 INERTIA = '[inertia]\ndensity = "7.85 g/cm^3"\n[inertia.load]\nmoment_of_inertia = "0.01 kg m^2"\n'
 
 
@@ -57,59 +39,65 @@ def all_bent(compliance: float, of_last: str = "", more: str = "") -> str:
     return bent_ends(bent_paths(compliance, of_last, more), compliance)
 
 
-def tables(name: str, each: tuple[str, ...]) -> str:
-    return "".join(f"[[{name}]]\n{one}" for one in each)
+# What a pair's sections are called in a train of one mesh.
+IN_A_TRAIN = {
+    "[shafts.input]": '[shafts.a]\ncarries = ["one.pinion"]',
+    "[shafts.output]": '[shafts.b]\ncarries = ["one.wheel"]',
+    'material = "ductile cast iron"': 'material = { name = "ductile cast iron" }',
+    "bearings.pinion": "shafts.a.bearings",
+    "bearings.wheel": "shafts.b.bearings",
+    'gear_at = "114 mm"': 'gears_at = ["114 mm"]',
+    'gear_at = "60 mm"': 'gears_at = ["60 mm"]',
+    'gear_at = "58 mm"': 'gears_at = ["58 mm"]',
+    'seat = "integral"': 'seats = ["integral"]',
+    'seat = "press fit"': 'seats = ["press fit"]',
+}
+ON_ROLLING = ROLLING + OUTPUT + WHEEL
+BETWEEN = E_AXLE + OUTPUT + WHEEL
+# As thick as the bores.
+FITTED = PRESSED.replace("22.36 mm", "27 mm").replace("43.48 mm", "52.5 mm")
 
 
-def pair_and_train(helix: float, bearings: tuple[str, ...], vibrating: bool, seat: str = "") -> tuple[str, str]:
-    """A pair on shafts that bend, and the same as a train of one mesh, seen from another direction; gears on such a
-    seat."""
+def pair_and_train(helix: float, shafts: str, vibrating: bool) -> tuple[str, str]:
+    """A pair on shafts that bend, and the same as a train of one mesh, seen from another direction."""
     more = '[friction]\ncoefficient = 0.05\n[load]\n{} = "200 N m"\n'
     motion = ""
     if vibrating:
         more = f"[damping]\nratio = 0.05\n{INERTIA}{more}"
         motion = '[motion]\n{} = "3000 rpm"\nmesh_cycles = 2\n'
-    gears = helical_stage("one", 3.0, (18, 35), helix)
-    pair = gears.replace("stages.one", "gears") + ACCURACY + more.format("wheel_torque") + motion.format("pinion_speed")
-    pair += f'[shafts.input]\n{INPUT}gear_at = "114 mm"\n[shafts.output]\n{OUTPUT}gear_at = "60 mm"\n{IRON}'
-    pair += tables("bearings.pinion", bearings) + tables("bearings.wheel", OF_WHEEL)
+    gears = helical_stage("one", 3.0, (18, 35), helix).replace("stages.one", "gears")
+    pair = gears + ACCURACY + more.format("wheel_torque") + motion.format("pinion_speed") + shafts
     train = helical_stage("one", 3.0, (18, 35), helix, 'direction = "25 deg"') + ACCURACY
     train += more.format("output_torque") + motion.format("input_speed")
-    train += f'[shafts.a]\ncarries = ["one.pinion"]\n{INPUT}gears_at = ["114 mm"]\n'
-    train += tables("shafts.a.bearings", bearings)
-    train += f'[shafts.b]\ncarries = ["one.wheel"]\n{OUTPUT}gears_at = ["60 mm"]\n{IRON}'
-    if seat:
-        # Teeth that are cut in are of the shaft's material.
-        pair, train = (each.replace(IRON, "") for each in (pair, train))
-        pair = pair.replace("gear_at =", f'seat = "{seat}"\ngear_at =')
-        train = train.replace("gears_at =", f'seats = ["{seat}"]\ngears_at =')
-    if seat == "press fit":
-        # The shafts are as thick as the bores.
-        pair, train = (
-            each.replace('"35 mm"', '"27 mm"').replace('"40 mm" }]', '"52.5 mm" }]') for each in (pair, train)
-        )
-    return pair, train + tables("shafts.b.bearings", OF_WHEEL)
+    for of_pair, of_train in IN_A_TRAIN.items():
+        shafts = shafts.replace(of_pair, of_train)
+    return pair, train + shafts
 
 
 @pytest.mark.parametrize(
-    ("helix", "bearings", "vibrating", "seat"),
+    ("helix", "shafts", "vibrating"),
     [
-        (15.0, LINEAR, False, ""),
-        (15.0, BETWEEN, False, "integral"),
-        (15.0, ROLLING, True, ""),
-        pytest.param(0.0, LINEAR, False, "", marks=pytest.mark.nightly),
-        pytest.param(15.0, ROLLING, False, "", marks=pytest.mark.nightly),
-        pytest.param(15.0, LINEAR, True, "", marks=pytest.mark.nightly),
-        pytest.param(15.0, LINEAR, False, "integral", marks=pytest.mark.nightly),
-        pytest.param(15.0, BETWEEN, True, "integral", marks=pytest.mark.nightly),
-        pytest.param(15.0, BETWEEN, False, "press fit", marks=pytest.mark.nightly),
-        pytest.param(0.0, ROLLING, True, "", marks=pytest.mark.nightly),
+        (15.0, ELASTIC, False),
+        (15.0, BETWEEN, False),
+        (15.0, ON_ROLLING, True),
+        *(
+            pytest.param(*each, marks=pytest.mark.nightly)
+            for each in (
+                (0.0, ELASTIC, False),
+                (15.0, ON_ROLLING, False),
+                (15.0, ELASTIC, True),
+                (15.0, SKEWED, False),
+                (15.0, BETWEEN, True),
+                (15.0, FITTED, False),
+                (0.0, ON_ROLLING, True),
+            )
+        ),
     ],
 )
-def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair(helix, bearings, vibrating, seat):
+def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair(helix, shafts, vibrating):
     """Two ways to the same equations, with friction: motions, forces over the face and in all bearings, misalignment
     by the load, at every step. The pair has its bearings' forces along and off the line of action."""
-    pair, train = pair_and_train(helix, bearings, vibrating, seat)
+    pair, train = pair_and_train(helix, shafts, vibrating)
     expected = simulate(scene_from_text(pair))
     scene = train_from_text(train)
     whole = simulate_train(scene)
@@ -133,7 +121,7 @@ def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair(helix, bearings, vi
 def test_a_train_of_one_mesh_on_shafts_that_bend_is_the_pair_on_a_ramp():
     """Two ways to the same equations: inertia forces of gears, load and shafts, whose coupling leads; a pinion that
     runs out and wobbles."""
-    pair, train = pair_and_train(15.0, ROLLING, True)
+    pair, train = pair_and_train(15.0, ON_ROLLING, True)
     run_out = 'eccentricity.pinion]\ndistance = "20 um"\nphase = "1 rad"\nwobble = "9 um"\nwobble_phase = "2 rad"\n'
     expected = simulate(scene_from_text(f'{pair}[{run_out}[speed_ramp]\nend_frequency = "1500 Hz"\n'))
     whole = simulate_train(train_from_text(f'{train}[stages.one.{run_out}[speed_ramp]\nend_speed = "5000 rpm"\n'))
