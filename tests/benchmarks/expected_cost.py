@@ -1,6 +1,5 @@
-"""Expected cost beside measured, of the examples: `python -m tests.benchmarks.expected_cost [NAME ...]`, or of so many
-scenes drawn at random: `--drawn 60`, `--drawn 15:30`. Each runs in a process of its own on one thread with an empty
-cache; seconds are the processor's, memory is the process's peak."""
+"""Expected cost beside measured, of the examples: `python -m tests.benchmarks.expected_cost [NAME ...]`. Each runs in a
+process of its own on one thread with an empty cache; seconds are the processor's, memory is the process's peak."""
 
 import io
 import json
@@ -102,27 +101,6 @@ def cases() -> dict[str, str]:
     return found | {"23/47": LARGER_PAIR, "23/47 + coast_flanks": LARGER_PAIR + "[coast_flanks]\n"}
 
 
-# How names of scenes that are drawn begin; their number follows.
-DRAWN = "drawn "
-
-
-def text_of(name: str) -> str:
-    """Of an example, or of a scene that is drawn."""
-    if name.startswith(DRAWN):
-        from .drawn_scenes import drawn_scene
-
-        return drawn_scene(int(name.split()[1].rstrip(",")))[1]
-    return cases()[name]
-
-
-def drawn(given: str) -> list[str]:
-    """Names of scenes that are drawn: the first so many, or from a number to before another, "15:30"."""
-    from .drawn_scenes import drawn_scene
-
-    first, _, end = given.rpartition(":")
-    return [f"{DRAWN}{number}, {drawn_scene(number)[0]}" for number in range(int(first or 0), int(end))]
-
-
 def measure(name: str) -> dict[str, float]:
     """Run an example in this process; seconds of condensing and marching, bytes, and what was expected."""
     time.perf_counter = time.process_time
@@ -134,7 +112,7 @@ def measure(name: str) -> dict[str, float]:
     from fenics_gears.system.progress import LineProgress
 
     beside = next((path.parent for path in DEMOS if path.stem == name), ROOT)
-    scene = scene_from_text(text_of(name), name, directory=beside)
+    scene = scene_from_text(cases()[name], name, directory=beside)
     expected = expected_cost(model_of(scene))
     progress = LineProgress(io.StringIO(), clock=time.process_time)
     with tempfile.TemporaryDirectory() as directory:
@@ -177,7 +155,5 @@ def _cell(expected: float, measured: float, stage: str) -> str:
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--measure"]:
         print(json.dumps(measure(sys.argv[2])))
-    elif sys.argv[1:2] == ["--drawn"]:
-        main(drawn(sys.argv[2]))
     else:
         main(sys.argv[1:])

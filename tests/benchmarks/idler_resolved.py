@@ -1,15 +1,12 @@
 """Lag of the last gear of a row of three, in the plane without friction, by this program and by finite elements on the
-whole gears: `python -m tests.benchmarks.idler_resolved`, a minute of a core for each position.
+whole gears (tests/simulation/test_idler_resolved.py), a minute of a core for each position.
 
 Three whole gears in six-node triangles have nothing of this program but the outline of the teeth; both meshes are
 loaded at once, and contact is found on the surfaces as they move (`plain_contact.py`). Where the idler and the last
 gear stand follows from their outlines alone, not from the program's law of phases. The idler's bore turns freely: its
-rotation is the one at which no couple is on it. `--calculix` compares the couples with those of CalculiX (Debian's
-calculix-ccx) at one position, ten minutes.
+rotation is the one at which no couple is on it.
 """
 
-import argparse
-import tempfile
 from dataclasses import dataclass, replace
 from math import pi
 from pathlib import Path
@@ -17,18 +14,15 @@ from pathlib import Path
 import numpy as np
 from tests.benchmarks.plain_contact import couples_of, surface
 from tests.corner_contact_reference.calculix import Placed, placed, wheel_centre
-from tests.corner_contact_reference.calculix import couples_of as by_calculix
 from tests.corner_contact_reference.gear_mesh import GearMesh, MeshSizes, gear_mesh, rotation
 
-from fenics_gears import GearPair, load_train, simulate_train
+from fenics_gears import GearPair, simulate_train
 from fenics_gears.geometry.outline import centreline_angle
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_mesh import layout_of
 
 SCENE = Path(__file__).parents[2] / "demos" / "gear_trains" / "idler.toml"
 SIZES = MeshSizes(flank=0.12, tip=0.12, fillet=0.3, coarse=0.8, body=3.0)
-# Of the first mesh. No tip edge touches in either mesh but at the last one, where the last gear's comes in early.
-PHASES = (0.1, 0.3, 0.71, 0.75)
 MIRROR = np.array([[1.0, 0.0], [0.0, -1.0]])
 # Rotations are changed by so much of themselves to find how the couples change, and are that close in the end.
 CHANGED, CLOSE_ENOUGH = 0.01, 1e-5
@@ -115,15 +109,6 @@ def by_finite_elements(train: TrainScene, at: Position, guess: np.ndarray, sizes
     raise RuntimeError(f"the lags {guess} rad have not settled")
 
 
-def against_calculix(train: TrainScene, at: Position, lags: np.ndarray, sizes: MeshSizes) -> np.ndarray:
-    """Couples (2, 3) on all bores at these lags, by the plain finite elements and by CalculiX."""
-    gears, material = bodies(at, sizes), train.meshes[0].scene.gears.material
-    turned = np.append(0.0, lags * SENSE)
-    with tempfile.TemporaryDirectory() as folder:
-        other = by_calculix(gears, MESHES, material, turned[None], Path(folder))[0]
-    return np.array([couples_of([surface(gear, material) for gear in gears], MESHES, turned), other])
-
-
 def by_this_program(train: TrainScene, positions: list[Position]) -> np.ndarray:
     """Of the idler and the last gear (n, 2). Raises ValueError where its phases are not those of the outlines."""
     run = simulate_train(train)
@@ -139,30 +124,3 @@ def by_this_program(train: TrainScene, positions: list[Position]) -> np.ndarray:
         idler = lags[0]
         found.append((idler, lags[1] + idler * at.pairs[1].rotation_ratio))
     return np.array(found)
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--refinement", type=float, default=1.0, help="factor on all element sizes")
-    parser.add_argument("--calculix", action="store_true", help="couples at one position against CalculiX")
-    options = parser.parse_args()
-    sizes = SIZES.scaled(options.refinement)
-    train = load_train(SCENE)
-    positions = [position(train, phase) for phase in PHASES]
-    own = by_this_program(train, positions)
-    if options.calculix:
-        print("couples on the bores, N mm/mm:", against_calculix(train, positions[0], own[0], sizes))
-        return
-    for at, lags in zip(positions, own):
-        found = by_finite_elements(train, at, lags, sizes)
-        off = lags / found - 1.0
-        print(
-            f"phases {at.phase:.3f}, {at.second[1]:.3f}: lag of the last gear {1e6 * lags[1]:.3f} urad, by finite"
-            f" elements {1e6 * found[1]:.3f}: {off[1]:+.3%}; of the idler {1e6 * lags[0]:.3f}, {1e6 * found[0]:.3f}:"
-            f" {off[0]:+.3%}",
-            flush=True,
-        )
-
-
-if __name__ == "__main__":
-    main()

@@ -5,14 +5,10 @@ import pytest
 from tests.simulation.test_train_loads import torques
 from tests.trains import COARSE, gear_text, mate, split_text
 
-from fenics_gears import SceneError, simulate, simulate_train, train_from_text
-from fenics_gears.contact.joined_meshes import JoinedMeshes
-from fenics_gears.contact.row_in_plane import RowInPlane
+from fenics_gears import SceneError, simulate_train, train_from_text
 from fenics_gears.dynamics.stepping import Stepper
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.train import train_model_of
-from fenics_gears.simulation import row_over_face
-from fenics_gears.simulation import train as simulated
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 
@@ -95,52 +91,11 @@ def test_in_whatever_order_and_of_whatever_hand_meshes_are(cache):
         assert left[mesh] == pytest.approx(right[mesh], rel=1e-7)
 
 
-def test_meshes_that_do_not_feel_each_other_are_pairs(monkeypatch):
-    """Without what is between them two mates on one flank are two pairs, at every step; with it either lags more, since
-    the torque of the other turns the body the same way."""
-    train = train_from_text(two_outputs())
-    felt = simulate_train(train)
-    monkeypatch.setattr(row_over_face, "joined", lambda *of: JoinedMeshes())
-    apart = simulate_train(train)
-    pair = simulate(train.meshes[0].scene)
-    own = apart["transmission_error"].sel(mesh="b").values
-    assert own[: len(pair["time"])] == pytest.approx(pair["transmission_error"].values, rel=1e-9)
-    for mesh in ("b", "c"):
-        more = felt["transmission_error"].sel(mesh=mesh).values / apart["transmission_error"].sel(mesh=mesh).values
-        assert (more > 1.005).all()
-        assert (more < 1.5).all()
-
-
 def test_mates_at_mirrored_places_share_evenly():
     """Turned by half a turn the train of two helical paths is itself: each path carries half, at every step, through
     bodies that both meshes of a gear load on one flank."""
     found = simulate_train(train_from_text(over_face(split_text())))
     assert found["path_share"].values == pytest.approx(np.full((len(found["step"]), 4), 0.5), abs=1e-10)
-
-
-@pytest.mark.nightly
-def test_a_sun_of_five_mates_shares_evenly():
-    """The same of five paths, a fifth of a turn apart."""
-    found = simulate_train(train_from_text(over_face(split_text(5, teeth=(25, 30, 20, 35)))))
-    assert found["path_share"].values == pytest.approx(np.full((len(found["step"]), 10), 0.2), abs=1e-10)
-
-
-def test_spur_mates_that_do_not_vary_along_the_face_feel_each_other_as_in_the_plane(monkeypatch):
-    """Without Poisson's effect a spur body under an even load is in plane strain: what the second mate adds to the lag
-    of the first is that of the plane, but for the coarse section (2 % with elements of two modules, 1 % of one)."""
-    steel = 'material = { youngs_modulus = "206e3 N/mm^2", poissons_ratio = 0.0 }'
-    text = two_outputs().replace('material = "steel"', steel).replace('helix_angle = "15 deg"', "")
-    level = "".join(f'[stages.{name}.misalignment]\nin_plane = "0 um"\n' for name in "bc")
-    trains = [
-        train_from_text(each) for each in (text.replace(COARSE_FACE, COARSER), text.replace("[load]", level + "[load]"))
-    ]
-    felt = [simulate_train(train)["transmission_error"] for train in trains]
-    monkeypatch.setattr(row_over_face, "joined", lambda *of: JoinedMeshes())
-    monkeypatch.setattr(simulated, "RowInPlane", lambda coupled: RowInPlane([]))
-    apart = [simulate_train(train)["transmission_error"] for train in trains]
-    plane, solid = (float((one - other).mean()) for one, other in zip(felt, apart))
-    assert solid == pytest.approx(plane, rel=0.03)
-    assert plane > 2e-3 * float(felt[0].mean())
 
 
 def test_a_gear_has_one_lead_in_all_meshes():

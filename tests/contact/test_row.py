@@ -34,7 +34,7 @@ def overall_errors(model, cycle, steps) -> np.ndarray:
     for step in steps:
         position = cycle.between(step, step - 1)
         record = stepper.in_balance(step, position)
-        found.append(record.state.position[-1] / model.drivetrain.radii[-1])
+        found.append(float(model.drivetrain.angle @ record.state.position))
     return np.array(found)
 
 

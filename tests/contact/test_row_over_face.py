@@ -1,24 +1,18 @@
 """Contact of gears in a row over the face: meshes feel each other through the body of the gear between them."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from tests.contact.test_row import overall_errors
 from tests.trains import helical_row
 
-from fenics_gears import ComputationError, model_of, train_from_text
+from fenics_gears import ComputationError, train_from_text
 from fenics_gears.contact.gear_over_face import GearOverFace, MeshOfGear
 from fenics_gears.contact.row_in_plane import GearInPlane
-from fenics_gears.dynamics.stepping import Stepper
-from fenics_gears.dynamics.train import drivetrain_of_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.face_compliance_data import BetweenMates
 from fenics_gears.geometry.gear_train import SharedGear
-from fenics_gears.model.row_model import RowModel
 from fenics_gears.model.train import train_model_of
 from fenics_gears.model.train_cost import WITH_FACTORS, row_cost
-from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
 
@@ -87,38 +81,6 @@ def test_compliance_is_symmetric_and_positive_and_of_pairs(cycle_of):
         for own, mesh in zip(rows, cycle.meshes):
             alone = mesh.cycle.position(step).operator.compliance
             assert np.array_equal(compliance[np.ix_(own, own)], alone)
-
-
-def test_forces_of_both_meshes_and_their_thrusts(cycle_of):
-    """Without friction each mesh carries torque over base radius, and the thrusts on the idler cancel: its hand is one
-    in both meshes, in which opposite flanks carry."""
-    model, cycle = cycle_of(helical_row([24, 31, 40], [0, 60], 300))
-    stepper = Stepper(cycle, model.equations_of_motion)
-    for step in STEPS:
-        position = cycle.between(step, step - 1.0)
-        forces = stepper.in_balance(step, position).solution.forces
-        thrust = []
-        first = 0
-        for gear, own, mesh in zip((1, 0), model.models, cycle.meshes):
-            nodes = mesh.cycle.between(step, step - 1.0).operator.nodes
-            normal = forces[first : first + nodes].sum()
-            expected = own.scene.load.wheel_torque / own.pair.wheel.base_radius
-            assert normal * own.face.cosine == pytest.approx(expected, rel=1e-9)
-            thrust.append(own.face.axial_share(own.pair.sides[gear], 1.0) * normal)
-            first += nodes
-        assert abs(thrust[0]) == pytest.approx(expected * abs(own.face.slope), rel=1e-9)
-        assert sum(thrust) == pytest.approx(0.0, abs=1e-9 * abs(thrust[0]))
-
-
-def test_a_row_of_one_mesh_is_the_pair_over_the_face(cache):
-    """The rows of a single mesh, joined as those of a row, are those of the pair, to the last digit."""
-    (pair,) = helical_row([24, 31], [0], 300, more=FRICTION).meshes
-    own = model_of(pair.scene)
-    row = RowModel((pair,), (replace(own, drivetrain=drivetrain_of_mesh(own.pair, pair.scene.load.wheel_torque)),))
-    joined = row_cycle(row, SilentProgress(), cache).position(3).operator
-    alone = prepared(own, SilentProgress(), cache)[1].position(3).operator
-    for name in ("compliance", "previous_compliance", "gap", "rigid_slip"):
-        assert np.array_equal(getattr(joined, name), getattr(alone, name)), name
 
 
 def test_a_spur_row_that_does_not_vary_along_the_face_is_the_plane_row(cycle_of):

@@ -3,15 +3,9 @@
 import numpy as np
 import pytest
 from scipy.optimize import root
-from tests.beam_elements import alone
 
-from fenics_gears.dynamics.bearings import Bearing, RollingBearing
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear
+from fenics_gears.dynamics.bearings import RollingBearing
 from fenics_gears.dynamics.rolling_bearing import reaction, secant_stiffness
-from fenics_gears.dynamics.shaft_at_work import at_work
-from fenics_gears.dynamics.shafts import ShaftSection
-
-STEEL = (206e3, 0.3)
 
 
 def deep_groove(clearance):
@@ -94,26 +88,3 @@ def test_stiffness_is_the_derivative_of_loads_and_the_secant_gives_them(rolling)
     assert np.abs(secant @ motion - found.loads).max() < 1e-13 * np.abs(found.loads).max()
     assert np.linalg.eigvalsh(secant / np.outer(size, size))[0] > -1e-12
     assert np.abs(reaction(rolling, np.zeros(5)).loads).max() < 1e-9
-
-
-@pytest.mark.parametrize("force", [5000.0, 3.0], ids=["loaded", "hardly loaded"])
-def test_a_shaft_on_rolling_bearings_rests_where_they_carry_its_load(force):
-    """Equilibrium of the nonlinear bearings with the beam by the linear condensation."""
-    bearings = (
-        Bearing(at=12.0, rolling=RollingBearing(number=9, diameter=12.7, pitch_diameter=65.0, clearance=0.1)),
-        Bearing(at=85.0, rolling=BEARINGS["long rollers"]),
-    )
-    shaft = ElasticShaft(
-        "pinion", (ShaftSection(130.0, 35.0),), STEEL, (SeatedGear("pinion", 114.0, 24.0),), 0.0, bearings
-    )
-    load = force * np.array([-1.0, 0.06, 0.18, 4.0, 8.0])
-    working = at_work(alone(shaft), load)
-    gear = np.linalg.solve(working.gear_stiffness, load)
-    motions = (working.bearings_at_rest @ gear).reshape(2, 5)
-    loads = [reaction(each.rolling, motion).loads for each, motion in zip(bearings, motions)]
-    linear = (working.springs @ working.bearings_at_rest @ gear).reshape(2, 5)
-    # The gear's motion has the round-off of the solution above, of a shaft that is hardly loaded 500 times that of a
-    # loaded one: its condition number is 1e8.
-    round_off = np.linalg.cond(working.gear_stiffness) * np.finfo(float).eps
-    assert np.abs(np.array(loads) - linear).max() < round_off * np.abs(linear).max()
-    assert np.abs(np.sum(loads, axis=0)[:3] - load[:3]).max() < 1e-8 * np.abs(load).max()

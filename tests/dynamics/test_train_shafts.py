@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 from tests.beam_elements import FIVE, assembled
-from tests.dynamics.test_elastic_shaft import LOAD, STIFF, E, G, area, second, shaft, shear
+from tests.dynamics.test_elastic_shaft import E, G, area, second, shaft, shear
 
 from fenics_gears.dynamics.bearings import Bearing
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, SeatedGear
@@ -37,29 +37,6 @@ def test_two_gears_on_a_shaft_have_the_stiffness_of_a_textbooks_elements():
     follows = np.linalg.solve(stiffness[np.ix_(others, others)], stiffness[np.ix_(others, kept)])
     wanted = stiffness[np.ix_(kept, kept)] - stiffness[np.ix_(kept, others)] @ follows
     assert found.stiffness == pytest.approx(wanted, rel=1e-8, abs=1e-9 * np.abs(wanted).max())
-
-
-def test_one_gears_force_tilts_the_other_as_in_closed_form():
-    """Exact: a beam between two supports with F at c from the left has at x < c the slope F (L - c) (L^2 - (L - c)^2 -
-    3 x^2) / 6 E I L, shear or not, and F (2 c - L) / k L^2 by the supports."""
-    length, diameter, x, c = 120.0, 24.0, 30.0, 80.0
-    sections = (ShaftSection(length, diameter),)
-    bearings = (Bearing(0.0, STIFF, 1e5), Bearing(length, STIFF))
-    found, _ = two_gears(sections, bearings, (x, c))
-    moved = np.linalg.solve(found.stiffness, LOAD * np.eye(2 * FIVE)[FIVE])
-    b = length - c
-    slope = b * (length**2 - b**2 - 3.0 * x**2) / (6.0 * E * second(diameter) * length)
-    slope += (2.0 * c - length) / (STIFF * length**2)
-    assert moved[4] == pytest.approx(LOAD * slope, rel=1e-9)
-
-
-def test_two_gears_on_a_twist_2_against_each_other_as_its_sections():
-    """Exact: G J over length, section by section between the gears."""
-    found, _ = two_gears()
-    lengths = (20.0, 30.0), (60.0, 42.0)
-    polar = [2.0 * second(30.0, 10.0), 2.0 * second(42.0)]
-    yielding = sum(length / (G * each) for (length, _), each in zip(lengths, polar))
-    assert found.torsional_stiffness(found.shafts[0]) == pytest.approx(1.0 / yielding, rel=1e-9)
 
 
 def test_three_gears_and_a_coupling_twist_as_springs_in_a_row():

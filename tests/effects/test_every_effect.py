@@ -1,11 +1,15 @@
 """What must hold of every effect in the list."""
 
 import ast
+import contextlib
 import inspect
+import io
 import itertools
 import json
 import re
 import sys
+import tempfile
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -39,18 +43,14 @@ def may_stand_together(sections):
 
 
 def alone():
-    """Nothing, and every effect on elastic teeth, and on rigid flanks where it can be."""
-    each = [(), *(with_needs(section) for section in SECTIONS), *(with_needs(section, TEETH) for section in SECTIONS)]
-    return list(filter(may_stand_together, dict.fromkeys(each)))
+    """Nothing, and every effect, on rigid flanks where it can be."""
+    return list(dict.fromkeys([(), *(with_needs(section) for section in SECTIONS)]))
 
 
 def pairs():
-    """Every pair of effects that may stand together."""
-    return list(
-        filter(
-            may_stand_together, dict.fromkeys(with_needs(*pair, TEETH) for pair in itertools.combinations(SECTIONS, 2))
-        )
-    )
+    """Every pair of effects that may stand together on elastic teeth, and every one of them."""
+    each = itertools.combinations_with_replacement(SECTIONS, 2)
+    return list(filter(may_stand_together, dict.fromkeys(with_needs(*pair, TEETH) for pair in each)))
 
 
 def crowds():
@@ -87,16 +87,21 @@ def test_effects_run_together_and_the_result_has_their_variables_and_no_others(s
     assert set(result.data_vars) == {variable.name for variable in result_variables(scene)} | proposed
 
 
-@pytest.mark.parametrize("section", SECTIONS)
-def test_check_names_it_on_with_what_it_adds_and_off_with_what_is_without_it(section, capsys, tmp_path):
-    """docs/promises.md on `gears check`."""
-    lines = {}
-    for state, sections in (("on", with_needs(section)), ("off", ())):
-        file = tmp_path / f"{state}.toml"
+@cache
+def checked(sections):
+    """What `gears check` says of effects."""
+    with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()) as said:
+        file = Path(folder) / "scene.toml"
         file.write_text(text_of(*sections))
         assert main(["check", str(file)]) == 0
-        after = capsys.readouterr().out.partition("\nEffects\n")[2].splitlines()
-        lines[state] = next(line for line in after if line.split()[:1] == [section])
+    return said.getvalue().partition("\nEffects\n")[2].splitlines()
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+def test_check_names_it_on_with_what_it_adds_and_off_with_what_is_without_it(section):
+    """docs/promises.md on `gears check`."""
+    told = {"on": checked(with_needs(section)), "off": checked(())}
+    lines = {state: next(line for line in each if line.split()[:1] == [section]) for state, each in told.items()}
     assert lines["on"].split()[1] == "on" and lines["off"].split()[1] == "off"
     assert effect_named(section).absent in lines["off"]
     there = {variable.name for variable in result_variables(scene_of(*with_needs(section)))}

@@ -5,21 +5,19 @@ from math import cos, pi
 
 import numpy as np
 import pytest
-from tests.coarse import COARSE, coarse_scene, frictionless, rigid_pair, teeth_alone
+from tests.coarse import rigid_pair
 from tests.effects.examples import text_of
 from tests.effects.hats import hat_mean
 from tests.stand_in import stand_in_compliance
 
-from fenics_gears import Load, SceneError, model_of, scene_from_text, simulate
+from fenics_gears import SceneError, model_of, scene_from_text, simulate
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.flank_gaps import flank_gaps
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import COAST, Flanks
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.effects import result_variables
 from fenics_gears.geometry.flank_errors import FlankErrors, GearErrors, Waviness
-from fenics_gears.geometry.misalignment import Misalignment
 from fenics_gears.scene.data import Accuracy, Motion
 
 STEPS, PERIOD = 20, 48
@@ -235,23 +233,3 @@ def test_a_table_with_helix_deviations_is_of_a_scene_with_a_face(tmp_path, monke
     )
     with pytest.raises(SceneError, match="the column helix_form is of three-dimensional scenes"):
         model_of(scene_from_text(ELASTIC + table))
-
-
-def test_constant_helix_slope_is_a_misalignment(paper_scene):
-    """Identity: linear along the face, the mean zero."""
-    scene = frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1)))
-    accuracy = replace(COARSE, steps_per_mesh_cycle=5, contact_nodes=14, slices=4, layers=2, body_element_size=2.5)
-    scene = replace(scene, accuracy=accuracy, load=Load(0.3 * scene.load.wheel_torque), motion=Motion(200.0, 1, 1))
-    errors = FlankErrors(pinion=GearErrors(helix_slope=(0.008,) * 16))
-    by_errors = simulate(replace(scene, flank_errors=errors, misalignment=Misalignment()))
-    by_axes = simulate(replace(scene, misalignment=Misalignment(in_plane=-0.008)))
-    assert float(np.ptp(by_axes.line_load.isel(contact_time=0).values.max(axis=0))) > 50.0
-    assert by_errors.line_load.values == pytest.approx(by_axes.line_load.values, abs=1e-6)
-    assert by_errors.transmission_error.values == pytest.approx(by_axes.transmission_error.values, rel=1e-9)
-    assert set(by_errors.data_vars) == {
-        each.name for each in result_variables(replace(scene, flank_errors=errors, misalignment=Misalignment()))
-    }
-    assert (
-        by_errors.pinion_helix_slope.values == pytest.approx(np.full(16, 0.008))
-        and not by_errors.wheel_helix_form.values.any()
-    )

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from tests.coarse_sector import relative
-from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
 from fenics_gears import ComputationError
 from fenics_gears.elasticity.cut_chain import chain_is_quicker, chain_response, joined, run_of
@@ -82,17 +81,6 @@ def test_a_ring_that_nothing_holds_is_refused():
     """House rule; without stiffness of its own a cut has no response."""
     with pytest.raises(ComputationError, match="is the hub held"):
         chain_response(np.zeros((4, 4)), 100, 1)
-
-
-def test_every_tooth_is_the_same_and_teeth_behind_are_the_transpose(pinion, steel, coarse_sector):
-    """Exact identities: isotropy under whole pitches; Betti's theorem for the tooth behind."""
-    whole = whole_gear_mesh(coarse_sector("P2"), pinion.teeth)
-    first = whole_gear_compliance(whole, pinion, steel, tooth_offsets=pinion.teeth - 1)
-    fifth = whole_gear_compliance(whole, pinion, steel, loaded_tooth=5, tooth_offsets=2)
-    assert relative(first.blocks[:3] - fifth.blocks, fifth.blocks) < 1e-9
-    for offset in (1, 2):
-        behind = first.blocks[pinion.teeth - offset]
-        assert relative(behind - fifth.block(-offset), behind) < 1e-9
 
 
 def test_cuts_that_do_not_match_are_refused(pinion, coarse_sector):

@@ -1,10 +1,9 @@
 """Runs of a pinion in its ring over the face: the plane, the mirror, helicoids drawn by hand, statics and energy."""
 
-from math import cos, pi, radians, sin, sqrt, tan
+from math import cos, pi, radians, sqrt, tan
 
 import numpy as np
 import pytest
-from tests.benchmarks.third_dimension.pairs import in_plane
 from tests.geometry.test_internal_pairs import involute
 from tests.internal import internal_scene, moving
 
@@ -24,7 +23,6 @@ contact_length = "4 mm"
 contact_nodes = 21
 steps_per_mesh_cycle = 10
 """
-PARALLEL = '[misalignment]\nin_plane = "0 um"\n'
 TILTING = moving(
     2, 'axial_stiffness = "200 kN/mm"\nplaces = { pinion = ["-40 mm", "60 mm"], wheel = ["-45 mm", "50 mm"] }'
 )
@@ -66,26 +64,6 @@ def test_gaps_are_those_of_two_helicoids_drawn_one_in_the_other():
             checked += known.sum()
             np.testing.assert_allclose(found[known], (other - pinion)[known], rtol=0.0, atol=1e-9)
     assert checked > 40
-
-
-def test_overlap_and_base_helix_are_those_of_the_standard():
-    """ISO 21771: eps_beta = b sin(beta)/(pi m_n), sin(beta_b) = sin(beta) cos(alpha_n), for a ring too."""
-    pair = gear_pair(scene_of().gears)
-    assert pair.overlap_ratio == pytest.approx(50.0 * sin(radians(HELIX)) / (4.0 * pi), rel=1e-12)
-    leaning = sin(radians(HELIX)) * cos(radians(20.0))
-    assert pair.slope == pytest.approx(leaning / sqrt(1.0 - leaning**2), rel=1e-12)
-    assert pair.wheel.angular_pitch < 0.0 and model_of(scene_of()).pair.wheel.internal
-
-
-def test_without_poissons_ratio_a_spur_pair_is_the_plane_one():
-    """Exact identity: nothing varies along the face; the load on each width is T/(rb b), on the ring too."""
-    bare = 'material = { youngs_modulus = "206 GPa", poissons_ratio = 0 }'
-    more = COARSE.replace('body_element_size = "4 mm"\n', "").replace("layers = 2", "layers = 1") + PARALLEL
-    scene = scene_from_text(internal_scene(more=more).replace('material = "steel"', bare))
-    face, plane = simulate(scene), simulate(in_plane(scene))
-    np.testing.assert_allclose(face.transmission_error, plane.transmission_error, rtol=1e-10)
-    torque = 500e3 / (44.0 * cos(radians(20.0)) * 50.0)
-    np.testing.assert_allclose(face.line_load.sum("slot"), torque, rtol=1e-9)
 
 
 @pytest.fixture(scope="module")
@@ -133,17 +111,6 @@ def test_a_ring_that_leans_away_is_a_helix_slope(helical):
     assert np.all(np.diff(right.values) < 0.0)
 
 
-def test_a_whole_overlap_has_little_transmission_error():
-    """Textbooks: with an overlap of 1 the lines of contact are as long together at all positions, and a helical ring
-    is quieter than a spur one by far."""
-    whole = float(np.degrees(np.arcsin(4.0 * pi / 50.0)))
-    fine = COARSE.replace("slices = 5", "slices = 12")
-    helical, spur = (simulate(scene_of(fine + PARALLEL, helix=helix)) for helix in (whole, 0.0))
-    numbers = [each.attrs["peak_to_peak_transmission_error"] for each in (helical, spur)]
-    assert gear_pair(scene_of(helix=whole).gears).overlap_ratio == pytest.approx(1.0, rel=1e-9)
-    assert numbers[0] < 0.15 * numbers[1]
-
-
 def test_energy_and_thrust_balance_with_friction_inertia_and_tilting():
     """Energy: what goes in, out, is damped, rubbed and stored adds up to round-off, of gears that tilt and move along
     their axes."""
@@ -153,36 +120,3 @@ def test_energy_and_thrust_balance_with_friction_inertia_and_tilting():
     assert result.work_friction.values[-1] > 0.0
     moved = result.axial_position.values
     assert moved[:, 0].min() > 0.0 > moved[:, 1].max()
-
-
-def rack_like(teeth: int) -> float:
-    """Mean transmission error, um along the line of action, of a helical pinion against a wheel of so many teeth,
-    negative for a ring, whose rims are alike."""
-    sign = -1 if teeth < 0 else 1
-    diameter = 4.0 * abs(teeth) / cos(radians(HELIX))
-    rim, tip = (diameter + size for size in (-30 * sign, 6 * sign))
-    body = f'bore_diameter = "{rim} mm"' if teeth > 0 else f'outer_diameter = "{rim} mm", support = "held"'
-    wheel = f'teeth = {teeth}, profile_shift = 0, {body}, rack_tip_radius = 0.2, tip_diameter = "{tip} mm"'
-    result = simulate(
-        scene_from_text(f"""
-[gears]
-module = "4 mm"
-pressure_angle = "20 deg"
-helix_angle = "{HELIX} deg"
-face_width = "20 mm"
-material = "steel"
-pinion = {{ teeth = 22, profile_shift = 0.3, bore_diameter = "40 mm" }}
-wheel = {{ {wheel} }}
-[load]
-pinion_torque = "200 N m"
-{COARSE}""")
-    )
-    return float(result.attrs["mean_transmission_error"] * result.attrs["base_radius_wheel"]) * 1e3
-
-
-@pytest.mark.nightly
-def test_helical_ring_and_wheel_meet_at_the_rack():
-    """Limit: with growing numbers of teeth ring and external wheel both become a helical rack; their transmission
-    errors approach each other as 1/z2."""
-    apart = [rack_like(teeth) - rack_like(-teeth) for teeth in (125, 250)]
-    assert apart[0] / apart[1] == pytest.approx(2.0, rel=0.15)

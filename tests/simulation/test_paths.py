@@ -4,14 +4,12 @@ from math import asin, degrees, radians, sin
 
 import numpy as np
 import pytest
+from tests.contact.test_row import overall_errors
 from tests.scene.test_paths import loop_of_gears
-from tests.simulation.test_train_motion import FRICTION
-from tests.trains import COARSE, gear_text, helical_paths, mate, split_text
+from tests.trains import COARSE, gear_text, mate, split_text
 
 from fenics_gears import simulate_train, train_from_text
-from fenics_gears.dynamics.stepping import Stepper
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.model.row_model import RowModel
 from fenics_gears.model.train import train_model_of
 from fenics_gears.simulation.train import row_cycle
 from fenics_gears.system.progress import SilentProgress
@@ -50,15 +48,6 @@ def test_equal_paths_have_the_transmission_error_of_one_under_its_part():
     lag = alone["overall_transmission_error"].values
     assert found["overall_transmission_error"].values == pytest.approx(lag, rel=1e-9)
     assert found.attrs["mean_overall_transmission_error"] == pytest.approx(lag[:-1].mean(), rel=1e-9)
-
-
-def test_helical_paths_whose_gears_are_their_own_share_evenly():
-    """Over the face, two gears side by side on the first shaft and two on the last: equal paths carry half each. The
-    second gear of the last shaft is driven: turned ahead it gives way, and its path carries less."""
-    even = run(helical_paths())
-    assert even["path_share"].values == pytest.approx(np.full((len(even["step"]), 4), 0.5), abs=1e-9)
-    turned = run(helical_paths('clocking = "1e-4 rad"'))
-    assert (turned["path_share"].isel(mesh=[1, 3]) < 0.49).all()
 
 
 def test_clocking_moves_load_from_path_to_path():
@@ -132,14 +121,18 @@ def test_a_loop_of_gears_driven_from_its_other_end_has_the_same_transmission_err
     text = reversed_loop(one, other)
     mirrored = train_from_text(text)
     cache = Cache(tmp_path)
+
+    def errors(model, steps):
+        return overall_errors(model, row_cycle(model, SilentProgress(), cache), steps)
+
     steps = np.array([3.0, 5.75, 10.0, 14.5, 17.25])
     (model,) = train_model_of(driven).rows
     # The mesh that is the last in the first train is the first in the other.
     phase = mirrored.layout.phases[1]
     ahead = model.models[0].pair.contact_ratio - steps / 20.0 - phase
-    found = errors(model, steps, cache) * 60.0 / 20.0
+    found = errors(model, steps) * 60.0 / 20.0
     (model,) = train_model_of(mirrored).rows
-    assert errors(model, (ahead % 1.0) * 20.0, cache) == pytest.approx(found, rel=1e-8)
+    assert errors(model, (ahead % 1.0) * 20.0) == pytest.approx(found, rel=1e-8)
 
 
 def reversed_loop(one: float, other: float) -> str:
@@ -148,23 +141,3 @@ def reversed_loop(one: float, other: float) -> str:
     text = mate("b", last, idler, 180.0 + other) + mate("a", '"b.wheel"', first, 180.0 - one)
     text += mate("d", '"b.pinion"', idler, 180.0 - other) + mate("c", '"d.wheel"', '"a.wheel"', 180.0 + one)
     return f'{text}\n[load]\noutput_torque = "{400.0 / 3.0!r} N m"\n[accuracy]\n{COARSE}'
-
-
-def errors(model: RowModel, steps: np.ndarray, cache: Cache) -> np.ndarray:
-    """Overall transmission error (rad) at rest at places between steps, each by itself."""
-    cycle = row_cycle(model, SilentProgress(), cache)
-    stepper = Stepper(cycle, model.equations_of_motion)
-    drivetrain = model.drivetrain
-    found = []
-    for step in steps:
-        record = stepper.in_balance(step, cycle.between(step, step - 1))
-        found.append(float(drivetrain.angle @ record.state.position))
-    return np.array(found)
-
-
-def test_the_compliance_of_a_loop_is_symmetric_and_positive():
-    """Betti's theorem, and the energy of any load, of a loop of meshes."""
-    (model,) = train_model_of(train_from_text(split_text(more=FRICTION))).rows
-    compliance = row_cycle(model, SilentProgress(), None).position(3).operator.compliance
-    assert np.array_equal(compliance, compliance.T)
-    assert np.linalg.eigvalsh(compliance).min() > 0.0

@@ -1,17 +1,9 @@
 """Internal gears in trains."""
 
-import numpy as np
 import pytest
 from tests.planets import written_out
 
-from fenics_gears import GearsError, simulate_train
-
-
-@pytest.fixture(scope="module")
-def star():
-    """Two planets of 18 teeth between 17 and 53, on one line, and its result."""
-    scene = written_out((17, 18, 53), [0.0, 180.0])
-    return scene, simulate_train(scene)
+from fenics_gears import GearsError
 
 
 @pytest.mark.parametrize(("angle", "off"), [(180.0, 0.0), (144.0, 0.0), (100.0, 70.0 * 100.0 / 360.0 - 19.0)])
@@ -27,21 +19,11 @@ def test_planets_assemble_where_the_teeth_of_sun_and_ring_add_up(angle, off):
         written_out((17, 18, 53), angles)
 
 
-def test_an_internal_gear_turns_as_its_mate(star):
+def test_an_internal_gear_turns_as_its_mate():
     """Counter-clockwise sun, clockwise planets and ring; turns by numbers of teeth."""
-    scene, _ = star
+    scene = written_out((17, 18, 53), [0.0, 180.0])
     assert list(scene.graph.senses) == [1, -1, -1, -1]
     assert scene.turns == pytest.approx([1.0, 17 / 18, 17 / 18, 17 / 53])
-
-
-def test_each_planet_hands_on_its_force(star):
-    """Without friction both forces on a planet have one lever arm, its base radius: they are equal at every instant.
-    Those on the ring add up to its torque."""
-    scene, found = star
-    forces = found["normal_force"].values.reshape(-1, 2, 2)
-    np.testing.assert_allclose(forces[..., 0], forces[..., 1], rtol=1e-12)
-    ring = abs(scene.meshes[1].pair.wheel.base_radius)
-    np.testing.assert_allclose(forces[..., 1].sum(axis=1) * ring, 2e6, rtol=1e-12)
 
 
 def test_a_ring_of_another_centre_distance_is_refused():

@@ -8,7 +8,7 @@ import pytest
 from tests.planets import in_time
 from tests.simulation.test_train_motion import BEARINGS, FRICTION, INERTIA, motion, shaft
 from tests.simulation.test_train_shafts import all_bent, cut_in
-from tests.trains import COARSE, bent_two_stages, helical_row, row, row_section, split_text, stage, two_stages
+from tests.trains import COARSE, bent_two_stages, helical_row, row_section, split_text, stage, two_stages
 
 from fenics_gears import train_from_text
 from fenics_gears.dynamics.energy_account import account, quadratic
@@ -37,9 +37,9 @@ def stages_behind_an_idler() -> TrainScene:
     return train_from_text(idlers + stage("second", 3.0, (20, 40)) + load + more)
 
 
-def clocked_paths(more: str = "") -> TrainScene:
+def clocked_paths() -> TrainScene:
     shaft = 'clocking = "1e-4 rad"\ntorsional_stiffness = "1e8 N mm/rad"'
-    return train_from_text(split_text(of_shaft=shaft, more=FRICTION + more))
+    return train_from_text(split_text(of_shaft=shaft, more=FRICTION + MOVING))
 
 
 def bent_clocked_paths() -> TrainScene:
@@ -66,14 +66,12 @@ def set_at_speed() -> TrainScene:
 
 
 CASES = {
-    "idler": (lambda: row([24, 31, 40], [0, 60], 300, more=FRICTION), 1e9),
     "helical idler": (helical_idler, 1e9),
     "stages behind an idler": (stages_behind_an_idler, 1e9),
     "a speed ramp": (lambda: train_from_text(two_stages(more=MOVING + FRICTION + RAMP).text), 1e9),
     "several loads": (several_loads, 1e9),
     "no positions kept": (stages_behind_an_idler, 0.0),
     "clocked paths": (clocked_paths, 1e9),
-    "clocked paths that move": (lambda: clocked_paths(MOVING), 1e9),
     "a planetary set": (set_at_speed, 1e9),
     "shafts that bend": (lambda: bent_two_stages(1.0, MOVING + FRICTION), 1e9),
     "teeth cut into a shaft that bends": (lambda: cut_in(bent_two_stages(1.0, MOVING + FRICTION)), 1e9),

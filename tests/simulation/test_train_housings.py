@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag
 from tests.dynamics.test_shaft_elements import coupled
-from tests.simulation.test_train_shafts import LINEAR, ROLLING, pair_and_train
+from tests.elastic_shaft_scenes import ELASTIC
+from tests.simulation.test_train_shafts import ON_ROLLING, pair_and_train
 from tests.trains import bent_two_stages
 
 from fenics_gears import SceneError, scene_from_text, simulate, simulate_train, train_from_text
@@ -29,11 +30,11 @@ def in_space(matrix, along):
 
 
 @pytest.mark.parametrize(
-    ("bearings", "vibrating"), [(LINEAR, False), pytest.param(ROLLING, True, marks=pytest.mark.nightly)]
+    ("shafts", "vibrating"), [(ELASTIC, False), pytest.param(ON_ROLLING, True, marks=pytest.mark.nightly)]
 )
-def test_a_train_of_one_mesh_in_one_housing_is_the_pair(tmp_path, bearings, vibrating):
+def test_a_train_of_one_mesh_in_one_housing_is_the_pair(tmp_path, shafts, vibrating):
     """Two ways to the same equations: both shafts in a housing in which every seat moves every other one."""
-    pair, train = pair_and_train(15.0, bearings, vibrating)
+    pair, train = pair_and_train(15.0, shafts, vibrating)
     housing = np.zeros((24, 24))
     housing[np.ix_(~TURNING, ~TURNING)] = coupled()
     written(tmp_path, housing)

@@ -2,13 +2,11 @@
 
 import numpy as np
 import pytest
-from tests.trains import COARSE, gear_text, mate, stage, two_stages
+from tests.trains import COARSE, stage, two_stages
 
 from fenics_gears import simulate_train, train_from_text
 
 SHORT = f"[accuracy]\n{COARSE}\n"
-INERTIA = '[inertia]\ndensity = "7.85 g/cm^3"\n[damping]\nratio = 0.05\n'
-MOTION = '[motion]\ninput_speed = "1500 rpm"\nmesh_cycles = {}\n'
 
 
 def branches(load: str, more: str = "") -> str:
@@ -71,17 +69,4 @@ def test_a_torque_between_stages_loads_those_before_it():
     found = simulate_train(train)
     for mesh, torque in zip(train.meshes, (400.0 / 2.0 + 50.0, 400.0)):
         force = found["normal_force"].sel(mesh=mesh.name).dropna("step").values
-        assert force == pytest.approx(1e3 * torque / mesh.pair.wheel.base_radius, rel=1e-9)
-
-
-def test_a_gear_that_drives_two_outputs():
-    """One pinion with two mates: both are loaded on the same flanks; without friction either mesh has the torque of its
-    output over the base radius."""
-    table = gear_text(20, 2.0)
-    text = mate("a", table, gear_text(30, 2.0), 0.0) + mate("b", '"a.pinion"', gear_text(40, 2.0), 150.0)
-    load = f"[load]\n{torques(('a.wheel', 60.0), ('b.wheel', 120.0))}\n{SHORT}"
-    train = train_from_text(text + load)
-    found = simulate_train(train)
-    for mesh, torque in zip(train.meshes, (60.0, 120.0)):
-        force = found["normal_force"].sel(mesh=mesh.name).values
         assert force == pytest.approx(1e3 * torque / mesh.pair.wheel.base_radius, rel=1e-9)

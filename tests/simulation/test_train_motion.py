@@ -1,17 +1,10 @@
 """Trains whose stages move together: masses, bearings, and shafts that twist."""
 
-from functools import reduce
-
 import numpy as np
 import pytest
 from tests.trains import COARSE, row, row_section, stage, two_stages
 
 from fenics_gears import scene_from_text, simulate, simulate_train, train_from_text
-from fenics_gears.dynamics.march import Marcher
-from fenics_gears.dynamics.steps import Steps
-from fenics_gears.model.row_model import RowModel
-from fenics_gears.simulation.train import row_cycle
-from fenics_gears.system.progress import SilentProgress
 
 INERTIA = '\n[inertia]\ndensity = "7.85 g/cm^3"\n[inertia.load]\nmoment_of_inertia = "0.05 kg m^2"\n'
 BEARINGS = '\n[bearings]\nstiffness = "2e5 N/mm"\n'
@@ -46,32 +39,6 @@ def test_a_train_of_one_mesh_vibrates_as_the_pair(damping):
     assert float(found["friction_loss"]) == pytest.approx(expected.attrs["friction_loss"], rel=1e-9)
 
 
-def test_a_helical_train_of_one_mesh_vibrates_as_the_pair():
-    """The same over the face, where rows of the compliance are formed as nodes close, with damping by modes, in which
-    the normal leans along the axis."""
-    more = 'helix_angle = "15 deg"\n[{}.accuracy]\nslices = 6\nlayers = 4\nsteps_per_mesh_cycle = 20'
-    gears = stage("one", 3.0, (20, 40), more.format("stages.one"))
-    damped = f"{INERTIA}[damping]\nratio = 0.05\n"
-    train = train_from_text(f'{gears}[load]\noutput_torque = "400 N m"{motion(900, 1)}{damped}')
-    gears = (
-        stage("one", 3.0, (20, 40), more.format("X")).replace("stages.one", "gears").replace("X.accuracy", "accuracy")
-    )
-    of_pair = '[load]\nwheel_torque = "400 N m"\n[motion]\npinion_speed = "900 rpm"\nmesh_cycles = 1\n'
-    expected = simulate(scene_from_text(f"{gears}{of_pair}{damped}"))
-    found = simulate_train(train).isel(mesh=0)
-    for name in ("transmission_error", "normal_force", "line_load", "rotation"):
-        assert found[name].values == pytest.approx(expected[name].values, rel=1e-8, abs=1e-12), name
-
-
-def marched(model: RowModel, memory: float) -> Steps:
-    cycle = row_cycle(model, SilentProgress(), None)
-    cycle.share(memory)
-    blocks: list[Steps] = []
-    march = Marcher(cycle, model.equations_of_motion)
-    march.run(model.steps, 1, observe=lambda solved, so_far: blocks.append(solved))
-    return reduce(Steps.followed_by, blocks)
-
-
 def test_a_shaft_that_twists_at_rest_adds_its_twist():
     """Without masses the torque of a shaft is constant: its stages have what they have on rigid shafts, and the last
     gear lags by the shaft's twist through the ratio behind it besides."""
@@ -85,15 +52,6 @@ def test_a_shaft_that_twists_at_rest_adds_its_twist():
     lag = twisting["overall_transmission_error"].values
     errors = twisting["transmission_error"].values
     assert lag == pytest.approx(errors[:, 1] + 0.5 * (errors[:, 0] + twist), rel=1e-9)
-
-
-def test_slow_stages_move_as_at_rest():
-    """Far below the lowest natural frequency masses change nothing."""
-    at_rest = simulate_train(two_stages(more=shaft("middle", '"first.wheel", "second.pinion"', 1e8)))
-    more = INERTIA + shaft("middle", '"first.wheel", "second.pinion"', 1e8) + "[damping]\nratio = 0.1" + motion(0.3, 1)
-    slow = simulate_train(two_stages(more=more))
-    expected = at_rest["overall_transmission_error"].values
-    assert slow["overall_transmission_error"].values == pytest.approx(expected, abs=2e-3 * np.ptp(expected))
 
 
 @pytest.mark.parametrize("direction", [0.0, 60.0, -80.0])
@@ -125,13 +83,12 @@ def test_a_row_behind_a_stage_is_its_mirror_image():
     assert (behind.shared(3, 1, 2).tooth - alone.shared(1, 0, 1).tooth) % 31 == 0
 
 
-@pytest.mark.parametrize("ends", [(), ("input", "output")])
-def test_a_train_of_one_mesh_on_a_ramp_is_the_pair(ends):
-    """Identity: the same times of steps and inertia forces of the accelerating motion, also of shafts that twist."""
+def test_a_train_of_one_mesh_on_a_ramp_is_the_pair():
+    """Identity: the same times of steps and inertia forces of the accelerating motion, on shafts that twist."""
     gears = stage("one", 3.0, (20, 40))
     both = f"{INERTIA}[damping]\nratio = 0.05\n{FRICTION}[accuracy]\n{COARSE}\n"
     of_train = of_pair = ""
-    for name, gear, stiffness in zip(ends, ("pinion", "wheel"), (1e8, 2e8)):
+    for name, gear, stiffness in zip(("input", "output"), ("pinion", "wheel"), (1e8, 2e8)):
         of_train += shaft(name, f'"one.{gear}"', stiffness)
         of_pair += f'[shafts.{name}]\ntorsional_stiffness = "{stiffness} N mm/rad"\n'
     ramp = '[speed_ramp]\nend_speed = "2400 rpm"\nhold_cycles = 1\n'

@@ -69,17 +69,6 @@ def test_a_ring_on_soft_springs_moves_as_a_rigid_one():
     assert moved == pytest.approx(61.0 / (soft * STEEL.youngs_modulus * area), rel=2e-3)
 
 
-def test_hands_mirror_each_other():
-    """Exact symmetry: z -> -z turns hands."""
-    gear = ring(foundation=SPRINGS)
-    right, left = (face_compliance(gear, STEEL, replace(FACE, twist=sign * FACE.twist), Reach(1)) for sign in (1, -1))
-    nodes, heights = len(right.roll_angle), len(right.heights)
-    flip = np.kron(np.eye(heights)[::-1], np.kron(np.eye(nodes), np.diag([1.0, 1.0, -1.0])))
-    for one, other in zip(right.blocks, left.blocks):
-        assert relative(flip @ one @ flip.T - other, other) < 1e-10
-    assert right.ends.softness == left.ends.softness[::-1]
-
-
 def test_few_nodes_of_a_cut_near_the_rim_stand_for_all(monkeypatch):
     """Brute force: the same ring with all nodes of the cuts; as expected before, within a fifth."""
     gear = ring(teeth=24, tip=46.0, outer=70.0, cutter=None)
