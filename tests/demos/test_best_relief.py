@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from demos.best_relief import compare
-from demos.best_relief.compare import ERROR, compared
+from demos.best_relief.compare import ERROR, LENGTH, compared
 
 pytestmark = pytest.mark.nightly
 
@@ -43,3 +43,12 @@ def test_what_is_found_is_as_good_as_the_best_of_the_map(every):
     for each in every.values():
         assert each.found.chosen.goals[ERROR] <= each.least_of_map[2]
         assert each.found.chosen.goals[ERROR] < each.found.before.goals[ERROR]
+
+
+def test_picture_and_table_have_every_condition(every, tmp_path):
+    """The README."""
+    picture, table = compare.written(every, tmp_path)
+    assert picture.stat().st_size > 50_000
+    text = table.read_text()
+    assert all(f"| {words} |" in text for words in (compare.NAMES[name] for name in every))
+    assert f"| {every['friction'].found.chosen.values[LENGTH]:.2f} |" in text

@@ -7,6 +7,8 @@ import shutil
 import pytest
 import xarray as xr
 from demos.cluster_study import speed_and_load
+from demos.cluster_study.gain import FREQUENCIES, gain, table
+from demos.cluster_study.picture import draw
 from demos.cluster_study.stopped import done, run
 from tests.programs import environment
 
@@ -62,3 +64,19 @@ def test_a_stopped_study_goes_on_and_ends_like_one_alone(folder, stopped):
         xr.open_dataset(folder / name / "study.nc", engine="h5netcdf").load() for name in ("out", "alone")
     )
     assert together.drop_vars("wall_time").equals(alone.drop_vars("wall_time"))
+
+
+@pytest.mark.nightly
+def test_picture_and_table_show_it(folder, stopped):
+    """Axes with units; a row for each torque."""
+    pictures = speed_and_load.shown(folder / "out")
+    assert {path.name for path in pictures} == {speed_and_load.PICTURE, speed_and_load.TABLE}
+    found = gain(folder / "out" / "study.nc")
+    maps = [axes for axes in draw(found).axes if axes.get_title(loc="left")]
+    assert len(maps) == 3
+    assert maps[0].get_ylabel() == "Torque on the wheel (N m)" and all(
+        axes.get_xlabel() == "Mesh frequency (Hz)" for axes in maps
+    )
+    rows = table(found).splitlines()
+    assert len(rows) == 2 + len(TORQUES_RUN) and len(FREQUENCIES) >= 4
+    assert f"{found.with_relief[2, 0]:.1f} / {found.without_relief[2, 0]:.1f}" in rows[-1]

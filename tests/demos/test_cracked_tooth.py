@@ -7,7 +7,8 @@ import pytest
 from demos.cracked_tooth.depths import CRACKED_TOOTH, HERE, ITS_CYCLE, cracked, healthy, turn
 from demos.cracked_tooth.opening import CrackedBody
 from demos.cracked_tooth.opening import table as opening_table
-from demos.cracked_tooth.turns import ALONE, table
+from demos.cracked_tooth.picture import draw
+from demos.cracked_tooth.turns import ALONE, SHOWN, table
 
 from fenics_gears import load_scene, model_of
 from fenics_gears.elasticity.element_sizes import element_sizes
@@ -15,7 +16,7 @@ from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.outline import whole_body
 from fenics_gears.scene.data import Accuracy
-from meshes.root_crack import RootCrack
+from meshes.root_crack import RootCrack, cracked_sector_mesh
 
 COARSE = Accuracy(
     element="P2",
@@ -63,6 +64,22 @@ def test_the_bump_comes_with_the_cracked_tooth_and_fills_the_orders_between_thos
     assert after.amplitudes[between & (after.orders < 16)].min() > 1e-3 * after.amplitudes.max()
     rows = table(turns, 16)
     assert rows[2].startswith("| no crack |") and "+0.0%" in rows[2] and rows[3].startswith("| crack of 3 mm |")
+
+
+@pytest.mark.nightly
+def test_the_picture_shows_every_depth_with_its_units(turns, scene):
+    """A legend entry for each run; quantity and unit on every axis; the crack is drawn."""
+    gear = model_of(healthy(scene)).pair.pinion
+    sector = cracked_sector_mesh(gear, element_sizes(gear, ELEMENTS["P2"], 0.4), SHOWN)
+    figure = draw(turns, gear, sector, SHOWN)
+    panels = {axes.get_title(loc="left"): axes for axes in figure.axes}
+    assert [text.get_text() for text in panels["A turn of the pinion"].get_legend().get_texts()] == [
+        "no crack",
+        "crack of 3 mm",
+    ]
+    assert all(axes.get_xlabel() and axes.get_ylabel() for axes in figure.axes)
+    length = np.linalg.norm(np.diff(panels["Its root, enlarged"].lines[-1].get_xydata(), axis=0))
+    assert length == pytest.approx(SHOWN.depth)
 
 
 @pytest.mark.nightly

@@ -2,8 +2,10 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from demos.speed_ramp import sweeps
+from demos.speed_ramp.picture import draw
 from tests.coarse import COARSE
 
 from fenics_gears import load_scene, model_of
@@ -50,3 +52,18 @@ def test_two_steady_vibrations_at_one_speed(monkeypatch, frequency):
         assert above > 4.0 * below
     else:
         assert above == pytest.approx(below, rel=0.05)
+
+
+def test_the_picture_has_both_ways():
+    """Two lines, two rows of rings."""
+    frequency = np.linspace(150.0, 260.0, 12)
+    passed = {
+        "up": sweeps.Sweep(frequency, 1e-3 * frequency / 200.0),
+        "down": sweeps.Sweep(frequency[::-1], 1e-3 * np.ones(12)),
+    }
+    (axes,) = draw(
+        passed, np.array([180.0, 200.0]), {"up": np.array([1e-3, 2e-3]), "down": np.array([3e-3, 4e-3])}, 50.0
+    ).axes
+    assert [list(line.get_xdata()) for line in axes.get_lines()][1] == [180.0, 200.0]
+    assert len(axes.get_lines()) == 4 and axes.get_xlim() == (150.0, 260.0)
+    assert list(axes.get_lines()[2].get_ydata()) == pytest.approx([50.0] * 12)

@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 from demos.undamped_resonance import resonance
+from demos.undamped_resonance.drawing import draw
 from demos.undamped_resonance.sweeps import WITH, WITHOUT, sweeps
 
 
@@ -38,3 +39,19 @@ def test_contact_is_kept_far_from_resonance_and_lost_at_it(small):
     assert found[WITH].amplitude[0] == pytest.approx(found[WITHOUT].amplitude[0], rel=5e-3)
     assert not found[WITH].meaningless.any()
     assert list(found[WITHOUT].meaningless) == list(found[WITHOUT].opening > 0.099)
+
+
+@pytest.mark.nightly
+def test_picture_shows_both_curves_and_marks_what_was_lost(small):
+    """Axes with units; marks exactly where contact was lost."""
+    assert small[1].name == "undamped_resonance.png" and small[1].stat().st_size > 10_000
+    found = sweeps(small[0])
+    above, below = draw(found).get_axes()
+    assert "(µm)" in above.get_ylabel() and "(%)" in below.get_ylabel() and "(Hz)" in below.get_xlabel()
+    assert {WITH, WITHOUT} <= {text.get_text() for text in above.get_legend().get_texts()}
+    crossed = [
+        list(line.get_xdata()) for line in above.get_lines() if line.get_marker() == "x" and len(line.get_xdata())
+    ]
+    assert crossed == [[at] for at in found[WITHOUT].frequency[found[WITHOUT].meaningless]]
+    shares = [list(line.get_ydata()) for line in below.get_lines()]
+    assert shares == [list(100.0 * curve.share) for curve in found.values()]
