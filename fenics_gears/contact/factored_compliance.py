@@ -202,42 +202,20 @@ def _put_motions(factored, system):
 def _eliminate(factored, slipping):
     """Put factors into the place of the matrix; returns whether they are safely regular."""
     matrix, least, largest = factored.matrix, np.inf, 0.0
-    regular = _factor_whole(factored) if slipping else _factor_parts(matrix, factored.table[POTRF])
+    # A letter is the first byte of its number.
+    numbers = np.array([LOWER, len(matrix), 0], dtype=np.int32)
+    at, address = np.int64(numbers.ctypes.data), matrix.ctypes.data
+    size, info = at + INT, at + 2 * INT
+    if slipping:
+        call(factored.table[GETRF], (size, size, address, size, factored.table[PIVOTS], info))
+    else:
+        call(factored.table[POTRF], (at, size, address, size, info))
     for j in range(len(matrix)):
         # Cholesky's diagonal has the roots of pivots.
         pivot = abs(matrix[j, j]) if slipping else matrix[j, j] ** 2
         least, largest = min(least, pivot), max(largest, pivot)
     # Not regular where nodes depend on each other.
-    return regular and least >= LEAST_PIVOT * largest
-
-
-@njit(cache=True)
-def _factor_whole(factored):
-    numbers = np.array([len(factored.matrix), 0], dtype=np.int32)
-    size, address = np.int64(numbers.ctypes.data), factored.matrix.ctypes.data
-    call(factored.table[GETRF], (size, size, address, size, factored.table[PIVOTS], size + INT))
-    return numbers[1] == 0
-
-
-@njit(cache=True)
-def _factor_parts(matrix, potrf):
-    """Put Cholesky's factors into place, of each part of the nodes that feels no other by itself: meshes that have no
-    gear in common are such parts."""
-    # A letter is the first byte of its number.
-    numbers = np.array([LOWER, 0, len(matrix), 0], dtype=np.int32)
-    at, begin, reach = np.int64(numbers.ctypes.data), 0, 0
-    for row in range(len(matrix)):
-        last = len(matrix) - 1
-        while last > reach and matrix[row, last] == 0.0:
-            last -= 1
-        reach = max(reach, last)
-        if reach == row:
-            numbers[1] = row + 1 - begin
-            call(potrf, (at, at + INT, matrix[begin:, begin:].ctypes.data, at + 2 * INT, at + 3 * INT))
-            if numbers[3] != 0:
-                return False
-            begin = row + 1
-    return True
+    return numbers[2] == 0 and least >= LEAST_PIVOT * largest
 
 
 @njit(cache=True)

@@ -73,8 +73,6 @@ class _Source(NamedTuple):
 # latter 0 between other nodes than those of one position; then address and shape of each array, the last being the
 # flags that say which rows are formed.
 ARRAYS = 35
-# Columns of a row that are stored together.
-PIECE = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,10 +234,10 @@ def _form(source, group, nodes):
     add_ends(found, rows, source.fine, group, nodes)
     layer = source.fine.layers[rows.groups[SLICE, group]] * source.fine.shares[rows.groups[SLICE, group]]
     # Each value is stored at once, never added to: the system hands out a page twice where it is read before it is
-    # written. A few columns at a time, so that rows are written in pieces.
-    for e, first in np.ndindex((others, (m + PIECE - 1) // PIECE)):
-        for d, number in np.ndindex((kinds, count)):
-            for j in range(first * PIECE, min((first + 1) * PIECE, m)):
+    # written.
+    for e, j in np.ndindex((others, m)):
+        for d in range(kinds):
+            for number in range(count):
                 matrix[d * n + nodes[number], e * m + j] = found[e, j, d * count + number]
     if layer != 0.0:
         for d in range(kinds):
@@ -271,19 +269,17 @@ def _put_body(lines, blocks, own, other, low, directions):
     """Compliance of a body between flank nodes i of a group, the first of them `low`, and those under all groups: by
     `directions`, of the group (d, 5) and of all groups (Q, e, 5), into `lines` (i, d, e, j)."""
     (axes, across), (teeth, sections, _, nodes, _, size) = directions, blocks.shape
-    kinds, others, room = len(axes), across.shape[1], lines.shape[3]
-    numbers, found, products = blocks.reshape(-1), lines.reshape(-1), np.empty((kinds, others, size))
-    for q in range(len(across)):
-        for d, e, a, b in np.ndindex((kinds, others, 3, 3)):
-            products[d, e, 3 * a + b] = axes[d, a] * across[q, e, b]
-        tile = (teeth // 2 + own[TOOTH] - other[TOOTH, q]) * sections + own[SECTION]
-        row = (tile * sections + other[SECTION, q]) * nodes + own[NODE] + low
-        # Numbers lie far apart in memory from group to group: all directions take them as they come.
+    numbers, found, products = blocks.reshape(-1), lines.reshape(-1), np.empty((len(across), size))
+    for d, e in np.ndindex((len(axes), across.shape[1])):
+        for q, a, b in np.ndindex((len(across), 3, 3)):
+            products[q, 3 * a + b] = axes[d, a] * across[q, e, b]
         for i in range(len(lines)):
-            at = ((row + i) * nodes + other[NODE, q]) * size
-            for d, e in np.ndindex((kinds, others)):
-                line = ((i * kinds + d) * others + e) * room + other[PLACE, q]
-                _put_products(found, line, other[WIDTH, q], products[d, e], numbers, at)
+            line = ((i * len(axes) + d) * across.shape[1] + e) * lines.shape[3]
+            for q in range(len(across)):
+                tile = (teeth // 2 + own[TOOTH] - other[TOOTH, q]) * sections + own[SECTION]
+                row = (tile * sections + other[SECTION, q]) * nodes + own[NODE] + low + i
+                at = (row * nodes + other[NODE, q]) * size
+                _put_products(found, line + other[PLACE, q], other[WIDTH, q], products[q], numbers, at)
 
 
 @njit(cache=True)
