@@ -24,9 +24,10 @@ from .addresses import GAP, NODES
 from .face import one_slice
 from .kinematics import nodes_before
 from .mesh import Mesh, contact_operators
+from .mixed_form import StepEquations
 from .operator import Passage, Position, StepRows
 from .places import counted_from
-from .step_solver import StepProblem, StepSolution
+from .step_solver import StepSolution
 from .tooth_pair import Nodes, PairNodes, over_nodes
 
 # Shares of the memory for contact operators: of those kept, and of a block of steps of a march, twice.
@@ -202,7 +203,7 @@ class Cycle:
         return step // self.steps - index
 
     def solve(
-        self, position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+        self, position: Position, problem: StepEquations, status: np.ndarray, last: StepSolution | None
     ) -> StepSolution:
         """Solve a step at a position from the sets `status` (n,), as the mesh does; `last`: the step before, None at
         the start. Raises ContactNotConverged."""

@@ -17,9 +17,10 @@ import numpy as np
 from .idler import Part, RowCompliance
 from .mesh import Mesh
 from .mesh_cycle import Cycle, Deviation, Gaps, Kept
+from .mixed_form import StepEquations
 from .operator import ContactOperator, Position
 from .places import counted_from
-from .step_solver import StepProblem, StepSolution, solve_step
+from .step_solver import StepSolution, solve_step
 from .tooth_pair import PairNodes
 
 
@@ -196,7 +197,7 @@ class RowCycle(Cycle):
         return there
 
     def solve(
-        self, position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+        self, position: Position, problem: StepEquations, status: np.ndarray, last: StepSolution | None
     ) -> StepSolution:
         return solve_step(problem, status)
 
