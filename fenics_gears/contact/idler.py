@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from .mesh_cycle import Cycle, Kept
+from .kept import Kept
+from .mesh_cycle import Cycle
 from .operator import Position
 from .tooth_pair import PairNodes, count_of
 

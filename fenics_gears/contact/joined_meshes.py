@@ -12,7 +12,8 @@ from .addresses import form_rows
 from .formed_rows import FormedRows
 from .idler import Part
 from .joined_rows import AllRows, Coupling, Joined, joined_rows
-from .mesh_cycle import Cycle, Kept
+from .kept import Kept
+from .mesh_cycle import Cycle
 
 
 class CouplingGear(Protocol):

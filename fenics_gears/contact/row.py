@@ -15,8 +15,9 @@ from math import floor, lcm
 import numpy as np
 
 from .idler import Part, RowCompliance
+from .kept import Kept
 from .mesh import Mesh
-from .mesh_cycle import Cycle, Deviation, Gaps, Kept
+from .mesh_cycle import Cycle, Deviation, Gaps
 from .mixed_form import StepEquations
 from .operator import ContactOperator, Position
 from .places import counted_from

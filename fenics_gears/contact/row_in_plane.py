@@ -13,7 +13,8 @@ from fenics_gears.elasticity.compliance import BothFlanksCompliance, FlankCompli
 from fenics_gears.geometry.gear_train import SharedGear
 
 from .idler import Part
-from .mesh_cycle import Cycle, Kept
+from .kept import Kept
+from .mesh_cycle import Cycle
 from .pairing import Blocks, FlankTable, Numbered, add_products
 
 

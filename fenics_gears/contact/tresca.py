@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import qr
@@ -139,8 +139,7 @@ def frozen_friction(problem, bounds: np.ndarray, first: np.ndarray, work: Work) 
 
 def _of_nodes(problem, nodes: np.ndarray, rows: np.ndarray):
     """The step without the other contact nodes."""
-    return replace(
-        problem,
+    return problem._replace(
         compliance=problem.compliance[np.ix_(rows, rows)],
         jacobian=problem.jacobian[rows],
         gap=problem.gap[nodes],

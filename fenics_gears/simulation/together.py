@@ -9,7 +9,8 @@ from functools import partial
 import numpy as np
 
 from fenics_gears.contact.gaps_of_rows import GapsOfRows
-from fenics_gears.contact.mesh_cycle import SHARE_KEPT, SHARE_OF_A_BLOCK, Cycle, Gaps
+from fenics_gears.contact.kept import SHARE_KEPT, SHARE_OF_A_BLOCK
+from fenics_gears.contact.mesh_cycle import Cycle, Gaps
 from fenics_gears.contact.relief_gaps import Profiles
 from fenics_gears.contact.row import RowCycle
 from fenics_gears.contact.run_out import RunOut

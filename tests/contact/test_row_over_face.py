@@ -10,8 +10,8 @@ from tests.trains import helical_row
 from fenics_gears import ComputationError, model_of, train_from_text
 from fenics_gears.contact.gear_over_face import GearOverFace, MeshOfGear
 from fenics_gears.contact.row_in_plane import GearInPlane
+from fenics_gears.dynamics.mesh_in_train import drivetrain_of_mesh
 from fenics_gears.dynamics.stepping import Stepper
-from fenics_gears.dynamics.train import drivetrain_of_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.face_compliance_data import BetweenMates
 from fenics_gears.geometry.gear_train import SharedGear

@@ -9,8 +9,8 @@ from tests.trains import COARSE, helical_row, row, stage, two_stages
 
 from fenics_gears import model_of, simulate, simulate_train, train_from_text
 from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.mesh_in_train import drivetrain_of_mesh
 from fenics_gears.dynamics.steps import Steps
-from fenics_gears.dynamics.train import drivetrain_of_mesh
 from fenics_gears.model.row_model import RowModel
 from fenics_gears.scene.train_mesh import layout_of
 from fenics_gears.simulation.train import row_cycle
