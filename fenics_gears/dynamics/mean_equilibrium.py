@@ -13,7 +13,7 @@ position.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -113,14 +113,7 @@ def _holder(cycle: Cycle, friction: float, tolerance: Tolerance, slid: float) ->
             rows=operator.stored.address,
         )
         solution = cycle.solve(position, problem, cold_start(gap, operator.node_pair), None)
-        return StepSolution(
-            solution.forces,
-            coordinates,
-            solution.displacement + moved,
-            solution.status,
-            solution.iterations,
-            solution.method,
-        )
+        return replace(solution, coordinates=coordinates, displacement=solution.displacement + moved)
 
     return held
 

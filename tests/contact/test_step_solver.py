@@ -241,7 +241,7 @@ def crowded_with_friction(slid, nodes=160):
     rubbing = np.kron(np.array([[1.0, 0.1], [0.1, 1.0]]), close.compliance)
     jacobian = np.concatenate((close.jacobian, 0.5 * close.jacobian))
     way = np.where(np.arange(nodes) < nodes // 2 + 1, -slid, 0.3 * slid)
-    return replace(close, gap=1e3 * close.gap, compliance=rubbing, jacobian=jacobian, slip_before=way, friction=0.2)
+    return close._replace(gap=1e3 * close.gap, compliance=rubbing, jacobian=jacobian, slip_before=way, friction=0.2)
 
 
 def last_alone(problem):
