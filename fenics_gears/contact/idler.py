@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from .kept import Kept
+from fenics_gears.system.memory import Kept
+
 from .mesh_cycle import Cycle
 from .operator import Position
 from .tooth_pair import PairNodes, count_of

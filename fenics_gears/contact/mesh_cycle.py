@@ -18,11 +18,10 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from fenics_gears.system.memory import give_back
+from fenics_gears.system.memory import Kept, give_back
 
 from .addresses import GAP, NODES
 from .face import one_slice
-from .kept import Kept
 from .kinematics import nodes_before
 from .mesh import Mesh, contact_operators
 from .mixed_form import StepEquations

@@ -14,8 +14,9 @@ from math import floor, lcm
 
 import numpy as np
 
+from fenics_gears.system.memory import Kept
+
 from .idler import Part, RowCompliance
-from .kept import Kept
 from .mesh import Mesh
 from .mesh_cycle import Cycle, Deviation, Gaps
 from .mixed_form import StepEquations

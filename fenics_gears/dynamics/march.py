@@ -14,9 +14,9 @@ from threadpoolctl import ThreadpoolController
 
 from fenics_gears.contact.addresses import march_with_inertia
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.kept import SHARE_OF_A_BLOCK
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.errors import MemoryEnded
+from fenics_gears.system.memory import SHARE_OF_A_BLOCK
 
 from .batch import Batch, Block, OpenedNodes
 from .marched import March
