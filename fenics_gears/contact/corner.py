@@ -22,7 +22,7 @@ from fenics_gears.geometry.tip_edge import TipEdge, form_edge, tip_edge
 from .flank_at_height import flank_at_height
 from .interpolation import INTERPOLATIONS
 from .tooth_pair import DRIVE, Flanks, Line, Place, ToothPair, nodes_on_flanks
-from .window import ContactGrid, Ends, node_offsets, window
+from .window import ContactGrid, Ends, node_offsets
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,17 +70,26 @@ class CornerContact:
             gear, edge = beyond
             if abs(theoretical.contact_rolls[gear] - edge.flank_roll) * pair.base_radii[gear] > grid.length:
                 return False
+        return len(self._touching(pair, grid, theoretical)[1]) > 0
+
+    def _touching(self, pair: GearPair, grid: ContactGrid, theoretical: Place) -> tuple[Place, np.ndarray]:
+        """The place along the mate's normal, and offsets (n,), mm, of contact nodes there; none where flanks cannot
+        touch.
+
+        The lines of all nodes pass the centres of both gears on the flanks' side. A line beyond a centre, of a tip far
+        from the path of contact, would turn that gear away from its mate; the involute has no point there.
+        """
         place = corner_place(pair, self, theoretical)
-        return window(self.ends(pair, place), grid) is not None and presses_both(pair, grid, place)
+        presses_both = min(place.line_in(pair).lever_arms) > 0.5 * grid.length
+        return place, node_offsets(self.ends(pair, place), grid) if presses_both else np.empty(0)
 
     def pairs(self, flanks: Flanks, grid: ContactGrid, theoretical: Sequence[Place]) -> list[ToothPair]:
         """The contact nodes of the flanks at those theoretical places, tip edges included, whose window is not
         empty."""
         view = INTERPOLATIONS[grid.interpolation]
         nodes = []
-        for place in (corner_place(flanks.pair, self, each) for each in theoretical):
-            offsets = node_offsets(self.ends(flanks.pair, place), grid)
-            if len(offsets) and presses_both(flanks.pair, grid, place):
+        for place, offsets in (self._touching(flanks.pair, grid, each) for each in theoretical):
+            if len(offsets):
                 at = view.places(offsets, np.array([0, len(offsets)]))
                 nodes.append((place, offsets, *_difference_and_gap(flanks, self, place, at)))
         if not nodes:
@@ -139,15 +148,6 @@ def corner_place(pair: GearPair, corner: CornerContact, place: Place) -> Place:
         axes=_turned(place.axes, cosine, sine),
         line=line,
     )
-
-
-def presses_both(pair: GearPair, grid: ContactGrid, place: Place) -> bool:
-    """Whether the lines of all contact nodes in a place's window pass the centres of both gears on the flanks' side.
-
-    A line beyond a centre, of a tip far from the path of contact, would turn that gear away from its mate; the
-    involute has no point there.
-    """
-    return min(place.line_in(pair).lever_arms) > 0.5 * grid.length
 
 
 def _turned(axes, cosine: float, sine: float):

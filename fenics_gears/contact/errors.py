@@ -8,6 +8,9 @@ from fenics_gears.errors import ComputationError
 
 from .laws import RESIDUAL_NAMES, RESIDUAL_UNITS, STATUS_NAMES
 
+# What becomes of a load that nothing holds; the march says which it is.
+MOVES_FREELY = "the load moves the drivetrain freely"
+
 
 class ContactNotConverged(ComputationError):
     """No solution of a contact step was found: names the step, the methods tried, the residuals and the alternating

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .errors import ContactNotConverged, MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
+from .errors import MOVES_FREELY, ContactNotConverged, MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
 from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD
 from .newton import CYCLED, OUTCOMES
 from .operator import ContactOperator
@@ -75,19 +75,18 @@ def locks(operator: ContactOperator, forces: np.ndarray, wheel: int, load: float
 
 def explained(problem, attempts) -> ContactNotConverged:
     """The error of a step that no method solved, of the kind that says why."""
-    words = problem.free_words or f"a load of {np.abs(problem.load).max(initial=0.0):.4g} N moves the drivetrain freely"
     if not len(problem.gap):
         return NoStaticEquilibrium(
             attempts,
             "no equilibrium: no tooth pair can touch at this position, and nothing else holds the static load:"
-            f" {words}",
+            f" {MOVES_FREELY}",
         )
     motions = _free_motions(problem)
     weights = [balance(problem.jacobian, each, problem.friction, np.sign(problem.slip_before)) for each in motions]
     for motion, each in zip(motions, weights):
         if problem.load @ motion != 0.0 and each.most.max() <= 0.0:
             return NoStaticEquilibrium(
-                attempts, f"no equilibrium: the static load pulls the flanks apart, all gaps open and {words}"
+                attempts, f"no equilibrium: the static load pulls the flanks apart, all gaps open and {MOVES_FREELY}"
             )
     if len(problem.slip_before):
         visited = _visited(attempts)

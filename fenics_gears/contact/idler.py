@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from .mesh_cycle import Cycle, Kept
+from fenics_gears.system.memory import Kept
+
+from .mesh_cycle import Cycle
 from .operator import Position
 from .tooth_pair import PairNodes, count_of
 

@@ -8,11 +8,13 @@ from typing import Protocol
 
 import numpy as np
 
+from fenics_gears.system.memory import Kept
+
 from .addresses import form_rows
 from .formed_rows import FormedRows
 from .idler import Part
 from .joined_rows import AllRows, Coupling, Joined, joined_rows
-from .mesh_cycle import Cycle, Kept
+from .mesh_cycle import Cycle
 
 
 class CouplingGear(Protocol):

@@ -3,7 +3,7 @@ equilibrium, and what is tolerated."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -15,8 +15,7 @@ NO_FORCE = 1e-9
 STATUS_NAMES = ("open", "slips forward", "slips backward", "sticks")
 
 
-@dataclass(frozen=True)
-class Tolerance:
+class Tolerance(NamedTuple):
     """When a solution counts as converged, in physical units (model.md section 4).
 
     `length`: penetration and stick slip, mm; `force`: tension and cone excess, and residual of equilibrium, N.
@@ -94,7 +93,7 @@ def measure(residual, equations, iterate):
     Equilibrium is solved, not iterated: a residual within the round-off of a row's terms is no violation. A slip
     against its friction counts in proportion to that friction, as far as it exceeds the round-off of the forces.
     """
-    _, load, _, _, gap, slip_before, friction, _, _ = equations
+    _, load, _, _, gap, slip_before, friction, _, _, _ = equations
     status, forces, coordinates, displacement = iterate
     n, penetration, tension, excess, stick_slip = len(gap), 0.0, 0.0, 0.0, 0.0
     for j in range(n):
@@ -136,18 +135,19 @@ def _imbalance(equations, iterate):
 
 
 @njit(cache=True)
-def within(residual, equations, coordinates, method):
-    """Whether a residual (5,) is within the tolerances of a `newton.Method`, or round-off."""
+def within(residual, equations, coordinates):
+    """Whether a residual (5,) is within the tolerances of the equations, or round-off."""
     # Equilibrium is solved, not iterated: only the round-off of its largest terms may be left. A gap is a difference of
     # displacements and is known to their round-off only.
     longest = 0.0
     for each in coordinates:
         longest = max(longest, abs(each))
-    length_tolerance, force_tolerance = method.length_tolerance + 1e-14 * longest, method.force_tolerance
+    length, force = equations.tolerance
+    length += 1e-14 * longest
     return (
-        residual[EQUILIBRIUM] <= 1e-2 * force_tolerance + _force_round_off(equations, coordinates)
-        and residual[PENETRATION] <= length_tolerance
-        and residual[STICK_SLIP] <= length_tolerance
-        and residual[TENSION] <= force_tolerance
-        and residual[CONE_EXCESS] <= force_tolerance
+        residual[EQUILIBRIUM] <= 1e-2 * force + _force_round_off(equations, coordinates)
+        and residual[PENETRATION] <= length
+        and residual[STICK_SLIP] <= length
+        and residual[TENSION] <= force
+        and residual[CONE_EXCESS] <= force
     )

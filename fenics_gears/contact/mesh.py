@@ -22,10 +22,11 @@ from .kinematics import (
     points_before,
     slip_of_rigid_flanks,
 )
+from .mixed_form import StepEquations
 from .operator import ContactOperator, Passage, Position, Response
 from .pairing import CompliancePairing
 from .places import pair_places
-from .step_solver import StepProblem, StepSolution, solve_step
+from .step_solver import StepSolution, solve_step
 from .tooth_pair import DRIVE, Flanks, Nodes, PairNodes, Place, ToothPair, count_of, over_nodes, per_node, tooth_pairs
 from .window import ContactGrid
 
@@ -55,7 +56,9 @@ class MeshTraits:
 ELASTIC_FLANKS = MeshTraits(divisible=True)
 
 
-def by_newton(position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
+def by_newton(
+    position: Position, problem: StepEquations, status: np.ndarray, last: StepSolution | None
+) -> StepSolution:
     """Solve a step at a position from the sets `status` (n,) by Newton's method and its fallbacks; `last`: the step
     before, None at the start. Raises ContactNotConverged."""
     return solve_step(problem, status)
@@ -76,7 +79,7 @@ class Mesh:
     grid: ContactGrid
     nodes: Nodes
     responses: Callable[[Sequence[Passage]], list[Response]]
-    solve: Callable[[Position, StepProblem, np.ndarray, StepSolution | None], StepSolution] = by_newton
+    solve: Callable[[Position, StepEquations, np.ndarray, StepSolution | None], StepSolution] = by_newton
     traits: MeshTraits = MeshTraits()
     bodies: tuple[Any, ...] = ()
     coast_flanks: bool = False

@@ -13,44 +13,25 @@ from collections.abc import Callable, Iterable, Sequence
 from copy import copy
 from dataclasses import dataclass
 from itertools import groupby
-from math import ceil, inf
+from math import ceil
 from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from fenics_gears.system.memory import give_back
+from fenics_gears.system.memory import Kept, give_back
 
 from .addresses import GAP, NODES
 from .face import one_slice
 from .kinematics import nodes_before
 from .mesh import Mesh, contact_operators
+from .mixed_form import StepEquations
 from .operator import Passage, Position, StepRows
 from .places import counted_from
-from .step_solver import StepProblem, StepSolution
+from .step_solver import StepSolution
 from .tooth_pair import Nodes, PairNodes, over_nodes
 
-# Shares of the memory for contact operators: of those kept, and of a block of steps of a march, twice.
-SHARE_KEPT = 0.7
-SHARE_OF_A_BLOCK = 0.12
 # Places between steps that runs have in common divide a step by so many.
 COMMON_PLACES = 64
-
-
-@dataclass
-class Kept:
-    """Memory (bytes) that operators may take at `most`, that the kept ones have `taken`, and of `others`, those of
-    other cycles. Operators beyond are made again each time the cycle comes round."""
-
-    most: float = inf
-    taken: float = 0.0
-    others: float = 0.0
-
-    def takes(self, size: float) -> bool:
-        """Whether there is room for this many bytes more, which are then counted."""
-        if self.others + self.taken + size > SHARE_KEPT * self.most:
-            return False
-        self.taken += size
-        return True
 
 
 Value = TypeVar("Value")
@@ -202,7 +183,7 @@ class Cycle:
         return step // self.steps - index
 
     def solve(
-        self, position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+        self, position: Position, problem: StepEquations, status: np.ndarray, last: StepSolution | None
     ) -> StepSolution:
         """Solve a step at a position from the sets `status` (n,), as the mesh does; `last`: the step before, None at
         the start. Raises ContactNotConverged."""

@@ -11,6 +11,8 @@ For the closed nodes (normals), the sticking ones (tangents) and all centre coor
 Eliminating q first would divide by a stiffness that vanishes with growing time step (model.md section 4).
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np
@@ -19,21 +21,22 @@ from numba import carray, cfunc, njit, types
 
 from .addresses import call, form_rows, not_inlined, solver_of, to_number
 from .compliance_product import subtract_displaced
-from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
+from .laws import OPEN, RESIDUAL_NAMES, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance, measure
 
 SMALL_SYSTEM = 40  # unknowns up to which elimination in compiled code is faster than LAPACK
 LEAST_PIVOT = 1e-2  # of forces, in parts of the first one: below it larger ones are looked for
 WEAK_FRICTION = 0.25  # coefficient up to which the compliance's diagonal serves as pivots
 
 
-class Equations(NamedTuple):
-    """The mixed form at one position and time: `stiffness` K (k, k) and `load` F (k,) of the effective drivetrain;
+class StepEquations(NamedTuple):
+    """The equations of a step, in the mixed form: `stiffness` K (k, k) and `load` F (k,) of the effective drivetrain;
     `compliance` C (m, m), `jacobian` G (m, k) and `gap` (n,) of the contact; `slip_before` (n,): w_old, empty without
     friction.
 
     `rows`: address of what forms the rows of nodes that are closed for the first time (`contact.formed_rows`), 0 where
     all are there. `free_motion` (f k,): how the load moves the drivetrain where only the contact of each of f meshes
     holds it, in which case one node of each at least stays closed; empty where the drivetrain holds the load.
+    `tolerance`: within which an iterate is a solution.
     """
 
     stiffness: np.ndarray
@@ -44,7 +47,14 @@ class Equations(NamedTuple):
     slip_before: np.ndarray
     friction: float
     free_motion: np.ndarray
+    tolerance: Tolerance
     rows: int = 0
+
+    def residual(self, iterate: Iterate) -> np.ndarray:
+        """By how much (5,) an iterate violates the laws and equilibrium (`laws.measure`)."""
+        row = np.zeros(len(RESIDUAL_NAMES))
+        measure(row, self, iterate)
+        return row
 
 
 class Iterate(NamedTuple):

@@ -22,8 +22,8 @@ from .addresses import (
     to_number,
     to_set,
 )  # fmt: skip
-from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, measure, next_status, presses, within
-from .mixed_form import Equations, Iterate, relative_displacement, solve_sets
+from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance, measure, next_status, presses, within
+from .mixed_form import Iterate, StepEquations, relative_displacement, solve_sets
 
 CONVERGED, CYCLED, SINGULAR = 0, 1, 2
 OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
@@ -40,19 +40,17 @@ ALL_AT_ONCE, THROUGH_STICK, ONE_AT_A_TIME = 0, 1, 2
 
 
 class Method(NamedTuple):
-    """How sets change: `r_scale` of the projections, the `rule`; and when an iterate is a solution, mm and N."""
+    """How sets change: `r_scale` of the projections, and the `rule`."""
 
     r_scale: float
     rule: int
-    length_tolerance: float
-    force_tolerance: float
 
 
 @njit(cache=True, error_model="numpy")
 def _update_status(equations, iterate, new, r_scale, rule):
     """Put the new sets by the projections into `new` (n,); `r` per node from the elastic compliance. Returns whether
     they changed."""
-    _, _, compliance, _, gap, slip_before, friction, _, _ = equations
+    _, _, compliance, _, gap, slip_before, friction, _, _, _ = equations
     status, forces, _, displacement = iterate
     n, tangential = len(gap), len(slip_before) > 0
     changed = False
@@ -150,7 +148,7 @@ def _newton(equations, iterate, method, history, sets):
         iteration += 1
         if repeated:
             outcome = CYCLED if changed else SINGULAR
-            if within(history[iteration - 1], equations, iterate.coordinates, method):
+            if within(history[iteration - 1], equations, iterate.coordinates):
                 # Sets may also alternate between solutions that are the same within the tolerance.
                 outcome = CONVERGED
             break
@@ -162,9 +160,9 @@ def _newton(equations, iterate, method, history, sets):
 def _without_friction(equations):
     """The equations without friction."""
     slip_before = equations.slip_before[:0]
-    return Equations(
+    return StepEquations(
         equations.stiffness, equations.load, equations.compliance, equations.jacobian, equations.gap, slip_before,
-        0.0, equations.free_motion, equations.rows,
+        0.0, equations.free_motion, equations.tolerance, equations.rows,
     )  # fmt: skip
 
 
@@ -197,7 +195,7 @@ def _newton_over_face(equations, iterate, method, history, sets):
             status[:] = before
     outcome, done = _newton(equations, iterate, method, history, sets)
     if frictional and outcome == CYCLED and done < len(history):
-        through = Method(method.r_scale, np.int64(THROUGH_STICK), method.length_tolerance, method.force_tolerance)
+        through = Method(method.r_scale, np.int64(THROUGH_STICK))
         outcome, more = _newton(equations, iterate, through, history[done:], sets[done:])
         done += more
     if not len(equations.slip_before):
@@ -216,7 +214,7 @@ def _newton_in_place(numbers, method):
     numbers, method = carray(to_integer(numbers), NUMBERS), carray(to_number(method), 4)
     n, m, k, free, slips, most, rows, rule = numbers[:8]
     at = numbers[8:]
-    equations = Equations(
+    equations = StepEquations(
         carray(to_number(at[0]), (k, k)),
         carray(to_number(at[1]), k),
         carray(to_number(at[2]), (m, m)),
@@ -225,13 +223,14 @@ def _newton_in_place(numbers, method):
         carray(to_number(at[5]), slips),
         method[0],
         carray(to_number(at[6]), free),
+        Tolerance(method[2], method[3]),
         rows,
     )
     iterate = Iterate(
         carray(to_set(at[7]), n), carray(to_number(at[8]), m), carray(to_number(at[9]), k), carray(to_number(at[10]), m)
     )
     history, sets = carray(to_number(at[11]), (most, 5)), carray(to_set(at[12]), (most, n))
-    how = Method(method[1], rule, method[2], method[3])
+    how = Method(method[1], rule)
     try:
         outcome, iterations = _newton_over_face(equations, iterate, how, history, sets)
     except Exception:
@@ -245,8 +244,8 @@ def newton_at(solver, numbers, method):
     small step.
 
     `numbers`: how many nodes, rows, coordinates, components of the free motion and slips there are, and most
-    iterations; the address of what forms rows; the rule; then addresses, of the arrays of Equations, of Iterate,
-    `history` and `sets`. `method` (4,): friction, and the Method's numbers but the rule.
+    iterations; the address of what forms rows; the rule; then addresses, of the arrays of StepEquations, of Iterate,
+    `history` and `sets`. `method` (4,): friction, the scale of r, and the tolerances.
     """
     done = call(solver, (numbers.ctypes.data, method.ctypes.data))
     if done == FAILED:
@@ -274,5 +273,5 @@ def newton(solver, equations, iterate, method, history, sets):
     numbers[15], numbers[16] = iterate.status.ctypes.data, iterate.forces.ctypes.data
     numbers[17], numbers[18] = iterate.coordinates.ctypes.data, iterate.displacement.ctypes.data
     numbers[19], numbers[20] = history.ctypes.data, sets.ctypes.data
-    rest = np.array([equations.friction, method.r_scale, method.length_tolerance, method.force_tolerance])
+    rest = np.array([equations.friction, method.r_scale, *equations.tolerance])
     return newton_at(solver, numbers, rest)

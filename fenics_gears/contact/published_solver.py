@@ -8,10 +8,12 @@ from collections.abc import Callable
 import numpy as np
 
 from .laws import OPEN
+from .mixed_form import Iterate as StepIterate
+from .mixed_form import StepEquations
 from .operator import Position
 from .published_newton import Equations, Iterate, iterates
 from .relative_stiffness import RelativeStiffness
-from .step_solver import PUBLISHED, StepProblem, StepSolution, solve_step
+from .step_solver import PUBLISHED, StepSolution, solve_step
 
 MOST_ITERATIONS = 60
 NO_DIRECTION = "no search direction"
@@ -34,7 +36,7 @@ class PublishedSolver:
         self._reduced: dict[tuple[int, bytes], RelativeStiffness] = {}
 
     def __call__(
-        self, position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+        self, position: Position, problem: StepEquations, status: np.ndarray, last: StepSolution | None
     ) -> StepSolution:
         """Solve a step from the last one's solution. Raises ContactNotConverged with the history of every attempt."""
         reduced = self.reduced(position, problem)
@@ -56,7 +58,7 @@ class PublishedSolver:
         coordinates = reduced.coordinates(problem.load, final.displacement)
         return StepSolution(forces, coordinates, final.displacement, sets, len(tried) - 1, PUBLISHED)
 
-    def reduced(self, position: Position, problem: StepProblem) -> RelativeStiffness:
+    def reduced(self, position: Position, problem: StepEquations) -> RelativeStiffness:
         """The equilibrium equations [C.1] of a position and an effective stiffness."""
         key = (position.index, problem.stiffness.tobytes())
         if key not in self._reduced:
@@ -71,7 +73,7 @@ class PublishedSolver:
 
 
 def _start(
-    position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+    position, problem: StepEquations, status: np.ndarray, last: StepSolution | None
 ) -> tuple[np.ndarray, np.ndarray]:
     """The last step's displacement and forces at the nodes that had the same place; at the very first, the closed nodes
     just touch."""
@@ -110,12 +112,14 @@ def _newton(equations: Equations, displacement, forces, force_tolerance: float) 
 
 
 def _attempt(
-    reduced: RelativeStiffness, problem: StepProblem, equations: Equations, tried: list[Iterate], outcome: str
+    reduced: RelativeStiffness, problem: StepEquations, equations: Equations, tried: list[Iterate], outcome: str
 ):
     """An attempt as ContactNotConverged lists it: name, outcome, residuals and sets of every iterate."""
     sets = np.array([equations.status(each.displacement, each.forces) for each in tried], dtype=np.int8)
     history = [
-        problem.residual(status, each.forces, reduced.coordinates(problem.load, each.displacement), each.displacement)
+        problem.residual(
+            StepIterate(status, each.forces, reduced.coordinates(problem.load, each.displacement), each.displacement)
+        )
         for status, each in zip(sets, tried)
     ]
     return PUBLISHED, outcome, np.array(history), sets

@@ -17,12 +17,12 @@ import numpy as np
 from numba import njit
 
 from .addresses import not_inlined
-from .errors import NoStaticEquilibrium
+from .errors import MOVES_FREELY, NoStaticEquilibrium
 from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
-from .mixed_form import Iterate, product, solved, system_of
-from .newton import ALL_AT_ONCE, CONVERGED, SINGULAR, Method
+from .mixed_form import Iterate, StepEquations, product, solved, system_of
+from .newton import CONVERGED, SINGULAR
 from .operator import ContactOperator, Position
-from .step_solver import NEWTON, StepProblem, StepSolution
+from .step_solver import NEWTON, StepSolution
 
 # Gaps (mm) that differ by less are the same: the round-off of positions on the line of action.
 SAME_GAP = 1e-10
@@ -39,7 +39,7 @@ class Sides(NamedTuple):
 
 
 @njit(cache=True)
-def rigid_step(equations, sides, iterate, method):
+def rigid_step(equations, sides, iterate):
     """Solve a step with the first that holds the load: no node touching, the leading node of a side, or of both.
 
     Both sides touch where teeth are wider than the spaces between them and bearings let the centres move. The `iterate`
@@ -54,7 +54,7 @@ def rigid_step(equations, sides, iterate, method):
         touching = leaders if candidate > 2 else leaders[max(candidate - 1, 0) : candidate]
         unit = _unit_forces(equations, sides, touching)
         if _solved(equations, touching, unit, forces, coordinates) and _obeys(
-            equations, leaders, touching, forces, coordinates, method
+            equations, leaders, touching, forces, coordinates
         ):
             for row in range(len(displacement)):
                 displacement[row] = product(equations.jacobian[row], coordinates)
@@ -161,16 +161,16 @@ def _independent(one, other):
 
 
 @njit(cache=True)
-def _obeys(equations, leaders, touching, forces, coordinates, method):
+def _obeys(equations, leaders, touching, forces, coordinates):
     """Whether nothing pulls and nothing penetrates."""
     for node in leaders:
         touches = False
         for other in touching:
             touches = touches or other == node
         if touches:
-            if forces[node] < -method.force_tolerance:
+            if forces[node] < -equations.tolerance.force:
                 return False
-        elif product(equations.jacobian[node], coordinates) - equations.gap[node] > method.length_tolerance:
+        elif product(equations.jacobian[node], coordinates) - equations.gap[node] > equations.tolerance.length:
             return False
     return True
 
@@ -188,28 +188,25 @@ def _set(status, unit):
 
 
 def solve_rigid(
-    position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+    position: Position, problem: StepEquations, status: np.ndarray, last: StepSolution | None
 ) -> StepSolution:
     """A step between rigid flanks, as `mesh.Mesh` solves one. Raises NoStaticEquilibrium where nothing holds the
     load."""
     operator = position.operator
-    tolerance = problem.tolerance
     sliding = np.empty(0) if operator.sliding is None else operator.sliding
     sides = Sides(operator.on_drive_flanks, operator.node_pair, sliding)
-    method = Method(1.0, ALL_AT_ONCE, tolerance.length, tolerance.force)
     m = len(problem.compliance)
     iterate = Iterate(status, np.zeros(m), np.zeros(len(problem.load)), np.zeros(m))
-    outcome, iterations = rigid_step(problem.equations, sides, iterate, method)
+    outcome, iterations = rigid_step(problem, sides, iterate)
     if outcome != CONVERGED:
         raise _no_equilibrium(operator, problem)
     return StepSolution(iterate.forces, iterate.coordinates, iterate.displacement, status, iterations, NEWTON)
 
 
-def _no_equilibrium(operator: ContactOperator, problem: StepProblem) -> NoStaticEquilibrium:
+def _no_equilibrium(operator: ContactOperator, problem: StepEquations) -> NoStaticEquilibrium:
     """The error of a load that no set of nodes holds."""
     drive = operator.on_drive_flanks
-    words = problem.free_words or "the load moves the drivetrain freely"
-    reason = f"no equilibrium: neither the drive flanks nor the coast flanks hold the load: {words}"
+    reason = f"no equilibrium: neither the drive flanks nor the coast flanks hold the load: {MOVES_FREELY}"
     leaders = [nodes[np.argmin(problem.gap[nodes])] for nodes in map(np.flatnonzero, (drive, ~drive)) if len(nodes)]
     play = float(problem.gap[leaders].sum())
     if len(leaders) == 2 and play < 0.0 and np.linalg.matrix_rank(problem.jacobian[leaders], tol=1e-9) < 2:

@@ -14,12 +14,15 @@ from math import floor, lcm
 
 import numpy as np
 
+from fenics_gears.system.memory import Kept
+
 from .idler import Part, RowCompliance
 from .mesh import Mesh
-from .mesh_cycle import Cycle, Deviation, Gaps, Kept
+from .mesh_cycle import Cycle, Deviation, Gaps
+from .mixed_form import StepEquations
 from .operator import ContactOperator, Position
 from .places import counted_from
-from .step_solver import StepProblem, StepSolution, solve_step
+from .step_solver import StepSolution, solve_step
 from .tooth_pair import PairNodes
 
 
@@ -196,7 +199,7 @@ class RowCycle(Cycle):
         return there
 
     def solve(
-        self, position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+        self, position: Position, problem: StepEquations, status: np.ndarray, last: StepSolution | None
     ) -> StepSolution:
         return solve_step(problem, status)
 

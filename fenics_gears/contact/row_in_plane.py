@@ -11,9 +11,10 @@ import numpy as np
 
 from fenics_gears.elasticity.compliance import BothFlanksCompliance, FlankCompliance
 from fenics_gears.geometry.gear_train import SharedGear
+from fenics_gears.system.memory import Kept
 
 from .idler import Part
-from .mesh_cycle import Cycle, Kept
+from .mesh_cycle import Cycle
 from .pairing import Blocks, FlankTable, Numbered, add_products
 
 

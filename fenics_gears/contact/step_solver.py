@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .addresses import form_rows, row_of
-from .laws import OPEN, RESIDUAL_NAMES, SLIP_FORWARD, Tolerance, measure
-from .mixed_form import Equations, Iterate
+from .laws import OPEN, SLIP_FORWARD
+from .mixed_form import Iterate, StepEquations
 from .newton import (
     ALL_AT_ONCE,
     CONVERGED,
@@ -28,41 +28,6 @@ PUBLISHED = "Newton with line search"
 # The march itself divides the step in two where all of these end without a solution.
 HALVED = "step halved"
 METHODS = (*NEWTON_AND_FALLBACKS, PUBLISHED, HALVED)
-
-
-@dataclass(frozen=True)
-class StepProblem:
-    """The mixed form at one position and time: arrays as of `mixed_form.Equations`.
-
-    `slip_before` is empty without friction; `free_motion` (f k,): how the load moves the drivetrain where that alone
-    cannot hold it, by each of f meshes, else empty; `free_words`: the same for an error's message, "the wheel turns
-    freely under ...".
-    """
-
-    stiffness: np.ndarray
-    load: np.ndarray
-    compliance: np.ndarray
-    jacobian: np.ndarray
-    gap: np.ndarray
-    slip_before: np.ndarray
-    friction: float
-    free_motion: np.ndarray
-    tolerance: Tolerance
-    free_words: str = ""
-    rows: int = 0
-
-    def residual(
-        self, status: np.ndarray, forces: np.ndarray, coordinates: np.ndarray, displacement: np.ndarray
-    ) -> np.ndarray:
-        """By how much (5,) a solution with these sets violates the laws and equilibrium (`laws.measure`)."""
-        row = np.zeros(len(RESIDUAL_NAMES))
-        measure(row, self.equations, Iterate(status, forces, coordinates, displacement))
-        return row
-
-    @property
-    def equations(self) -> Equations:
-        """For compiled code."""
-        return Equations(*(getattr(self, name) for name in Equations._fields))
 
 
 @dataclass(frozen=True)
@@ -91,7 +56,7 @@ def cold_start(gap: np.ndarray, node_pair: np.ndarray) -> np.ndarray:
 
 
 def solve_step(
-    problem: StepProblem, status: np.ndarray, max_iterations: int = MOST_ITERATIONS, before: tuple = ()
+    problem: StepEquations, status: np.ndarray, max_iterations: int = MOST_ITERATIONS, before: tuple = ()
 ) -> StepSolution:
     """Solve one step from the sets `status` (n,) int8; `before`: attempts of other methods that failed.
 
@@ -111,7 +76,7 @@ def solve_step(
     raise explained(problem, attempts)
 
 
-def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> Iterator[tuple[str, Callable]]:
+def _methods(problem: StepEquations, status: np.ndarray, max_iterations: int) -> Iterator[tuple[str, Callable]]:
     """The methods that apply, in the order of NEWTON_AND_FALLBACKS; without friction the first and the last two.
 
     Murty's rule stands before Tresca's fixed point: it costs about a hundredth, and its solutions are exact.
@@ -132,18 +97,18 @@ def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> I
         )
 
 
-def _form_all(problem: StepProblem) -> None:
+def _form_all(problem: StepEquations) -> None:
     """Form the whole compliance, which other methods than Newton's read, and what explains their failure."""
     form_rows(problem.rows, np.arange(len(problem.gap)))
 
 
 def run_newton(
-    problem: StepProblem, status: np.ndarray, max_iterations: int, *, r_scale: float = 1.0, rule: int = ALL_AT_ONCE
+    problem: StepEquations, status: np.ndarray, max_iterations: int, *, r_scale: float = 1.0, rule: int = ALL_AT_ONCE
 ):
     """Newton from `status`; returns ((outcome, iterations, forces, coordinates, u, sets), (history, all sets))."""
     history = np.zeros((max_iterations, 5))
     sets = np.full((max_iterations, len(problem.gap)), -1, dtype=np.int8)
-    tolerance, m = problem.tolerance, len(problem.compliance)
+    m = len(problem.compliance)
     iterate = Iterate(status.copy(), np.zeros(m), np.zeros(len(problem.load)), np.zeros(m))
     arrays = (
         problem.stiffness, problem.load, problem.compliance, problem.jacobian, problem.gap, problem.slip_before,
@@ -152,7 +117,7 @@ def run_newton(
     (n, *addresses), held = row_of(len(problem.gap), arrays)
     sizes = n, m, len(problem.load), len(problem.free_motion), len(problem.slip_before), max_iterations
     numbers = np.array([*sizes, problem.rows, rule, *addresses])
-    settings = np.array([problem.friction, r_scale, tolerance.length, tolerance.force])
+    settings = np.array([problem.friction, r_scale, *problem.tolerance])
     outcome, done = newton_at(newton_solver().address, numbers, settings)
     # They are held as long as their addresses are used.
     del held

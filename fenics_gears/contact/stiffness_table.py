@@ -14,9 +14,10 @@ import numpy as np
 
 from .laws import Tolerance
 from .mesh_cycle import Cycle
+from .mixed_form import StepEquations
 from .operator import ContactOperator
 from .spring_mesh import PairSprings
-from .step_solver import StepProblem, cold_start, solve_step
+from .step_solver import cold_start, solve_step
 from .tooth_pair import COAST, DRIVE
 
 # In parts of the scene's load; above the last the curve goes on straight.
@@ -101,7 +102,7 @@ def _curve(
     approach[0] = (gap / along).min()
     status = cold_start(gap, operator.node_pair[nodes])
     for row, load in enumerate(levels[1:], 1):
-        problem = StepProblem(
+        problem = StepEquations(
             stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=compliance, jacobian=along[:, None], gap=gap,
             slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1), tolerance=Tolerance.of_load(load),
         )  # fmt: skip

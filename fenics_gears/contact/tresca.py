@@ -18,13 +18,14 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import qr
 from scipy.optimize import nnls
 
 from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
+from .mixed_form import Iterate
 from .newton import CONVERGED, CYCLED, SINGULAR
 
 LOGGER = logging.getLogger(__name__)
@@ -91,7 +92,7 @@ def tresca(problem, status: np.ndarray, polish: Callable):
             outcome = SINGULAR if work.seconds <= MOST_SECONDS else CYCLED
             break
         displacement = problem.jacobian @ frozen.coordinates - problem.compliance @ frozen.forces
-        history.append(problem.residual(frozen.sets, frozen.forces, frozen.coordinates, displacement))
+        history.append(problem.residual(Iterate(frozen.sets, frozen.forces, frozen.coordinates, displacement)))
         sets.append(frozen.sets)
         key = frozen.sets.tobytes()
         if np.array_equal(frozen.sets, before) and key not in tried:
@@ -138,8 +139,7 @@ def frozen_friction(problem, bounds: np.ndarray, first: np.ndarray, work: Work) 
 
 def _of_nodes(problem, nodes: np.ndarray, rows: np.ndarray):
     """The step without the other contact nodes."""
-    return replace(
-        problem,
+    return problem._replace(
         compliance=problem.compliance[np.ix_(rows, rows)],
         jacobian=problem.jacobian[rows],
         gap=problem.gap[nodes],

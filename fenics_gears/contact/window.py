@@ -110,14 +110,9 @@ def ends_of(pair: GearPair, contact_rolls: np.ndarray) -> np.ndarray:
     return ends
 
 
-def window(ends: Ends, grid: ContactGrid) -> tuple[float, float] | None:
-    """Offsets (mm) between which flanks with these ends exist in the grid's window; None where they do not."""
-    (start,), (end,) = windows(np.array([ends]), grid)
-    return (float(start), float(end)) if exists(start, end, grid) else None
-
-
 def windows(ends: np.ndarray, grid: ContactGrid) -> tuple[np.ndarray, np.ndarray]:
-    """The same of many ends (P, 2, 2): where windows begin and end (P,); those that are not there end too early."""
+    """Offsets (P,), mm, between which flanks with many ends (P, 2, 2) exist in the grid's window; those of flanks that
+    do not end too early."""
     half = 0.5 * grid.length
     return np.maximum(ends[:, 0].max(axis=1), -half), np.minimum(ends[:, 1].min(axis=1), half)
 

@@ -14,30 +14,20 @@ from numba import njit
 from fenics_gears.contact.addresses import arrays_of, form_rows, not_inlined
 from fenics_gears.contact.compliance_product import subtract_displaced
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.mixed_form import Equations, Iterate, product
+from fenics_gears.contact.mixed_form import Iterate, StepEquations, product
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton, newton_solver
 from fenics_gears.contact.rigid_step import Sides, rigid_step
 
-from .drivetrain import Drivetrain
 from .steps import Steps, in_block
-from .time_integration import (
-    average_advanced,
-    average_history,
-    backward_advanced,
-    backward_history,
-    in_turned_frame,
-    turned_velocities,
-    with_history,
-)
+from .time_integration import STATIC, Scheme, advanced, history_of, in_turned_frame, turned_velocities, with_history
 
-STATIC, AVERAGE_ACCELERATION, BACKWARD_EULER = range(3)
 # Sets of a mesh cycle before, where there are none.
 NO_SETS = np.empty(0, dtype=np.int8)
 
 
 class Motion(NamedTuple):
     """The constants of the equations of motion: the `method` in time, the drivetrain's matrices (k, k), the coefficient
-    of friction, tolerances of length (mm) and force (N).
+    of friction, the tolerance.
 
     `free_motion` (f k,): how a load moves the drivetrain where only contact holds it, else empty; `rigid`: steps are
     those of `contact.rigid_step`; `modes`: how many of the coordinates, the last ones, are modes of shafts, which
@@ -51,35 +41,33 @@ class Motion(NamedTuple):
     damping: np.ndarray
     free_motion: np.ndarray
     friction: float
-    length_tolerance: float
-    force_tolerance: float
+    tolerance: Tolerance
     rigid: bool = False
     modes: int = 0
     frame: np.ndarray = np.empty((0, 0, 0))
     frame_step: float = 0.0
 
     @classmethod
-    def of(
-        cls, drivetrain: Drivetrain, method: int, friction: float, tolerance: Tolerance, rigid: bool = False
-    ) -> Motion:
-        """The motion of a drivetrain by a method of time stepping, with its matrices as compiled code takes them."""
+    def of(cls, scheme: Scheme, friction: float, tolerance: Tolerance, rigid: bool = False) -> Motion:
+        """The motion by a method of time stepping, with its drivetrain's matrices as compiled code takes them."""
+        drivetrain = scheme.drivetrain
         nothing = np.zeros_like(drivetrain.stiffness)
         stiffness, mass, damping = (
             nothing if matrix is None else np.ascontiguousarray(matrix)
             for matrix in (drivetrain.stiffness, drivetrain.mass, drivetrain.damping)
         )
-        free = drivetrain.free_motion if method == STATIC else np.empty(0)
-        numbers = float(friction), tolerance.length, tolerance.force, rigid, drivetrain.modes
+        free = np.empty(0) if scheme.inert else drivetrain.free_motion
+        numbers = float(friction), tolerance, rigid, drivetrain.modes
         frame = drivetrain.frame
-        if method == STATIC or frame is None:
-            return cls(method, stiffness, mass, damping, free, *numbers)
-        return cls(method, stiffness, mass, damping, free, *numbers, np.array(frame[:2]), frame.step)
+        if frame is None or not scheme.inert:
+            return cls(scheme.method, stiffness, mass, damping, free, *numbers)
+        return cls(scheme.method, stiffness, mass, damping, free, *numbers, np.array(frame[:2]), frame.step)
 
     @property
     def packed(self) -> np.ndarray:
         """All in one array for compiled code, which `_unpacked` takes apart: to find the types of many arrays takes
         numba longer than a step."""
-        numbers = self.method, self.friction, self.length_tolerance, self.force_tolerance, self.rigid, self.modes
+        numbers = self.method, self.friction, *self.tolerance, self.rigid, self.modes
         arrays = (*self[1:4], self.frame, self.free_motion)
         return np.concatenate([numbers, [self.frame_step], *(array.ravel() for array in arrays)])
 
@@ -166,8 +154,7 @@ def _unpacked(numbers, k):
         matrices[2],
         free_motion,
         numbers[1],
-        numbers[2],
-        numbers[3],
+        Tolerance(numbers[2], numbers[3]),
         numbers[4] != 0.0,
         int(numbers[5]),
         frame,
@@ -184,14 +171,14 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
     turning = len(motion.frame) > 0
     frame, softened = np.zeros((2, 0, 0)), np.zeros((k, k))
     # A number that is written out has `newton` compiled once more.
-    method = Method(1.0, np.int64(ALL_AT_ONCE), motion.length_tolerance, motion.force_tolerance)
+    method = Method(1.0, np.int64(ALL_AT_ONCE))
     residuals, most = np.empty((MOST_ITERATIONS, 5)), np.diff(starts).max()
     all_sets, coordinates = np.empty(MOST_ITERATIONS * most, dtype=np.int8), np.empty(k)
     for s in range(places[0], places[1]):
         if durations[s] != duration:
             duration = durations[s]
             if motion.method != STATIC:
-                history = _history(motion, duration)
+                history = history_of(motion.method, duration, motion.mass, motion.damping)
             if turning:
                 speed = motion.frame_step / duration
                 frame = turned_velocities(duration, motion.mass, motion.damping, speed * motion.frame[0])
@@ -217,42 +204,23 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
         free = turned(motion.free_motion, outer)
         if motion.modes:
             free = moved_by_contact(free, len(outer), moved)
-        equations = Equations(
+        equations = StepEquations(
             modes.stiffness, _left_load(load, modes), contact.compliance, contact.jacobian, contact.gap,
-            slip_before, motion.friction, free, contact.rows,
+            slip_before, motion.friction, free, motion.tolerance, contact.rows,
         )  # fmt: skip
         both = slice(kinds * starts[s], kinds * starts[s + 1])
         iterate = Iterate(nodes, steps.forces[both], coordinates[:moved], steps.displacement[both])
         if motion.rigid:
             sides = Sides(contact.on_drive_flanks, contact.node_pair, contact.sliding)
-            outcome, steps.iterations[s] = rigid_step(equations, sides, iterate, method)
+            outcome, steps.iterations[s] = rigid_step(equations, sides, iterate)
         else:
             sets = all_sets[: MOST_ITERATIONS * n].reshape(MOST_ITERATIONS, n)
             outcome, steps.iterations[s] = newton(solver, equations, iterate, method, residuals, sets)
         if outcome != CONVERGED:
             return
         _put_modes(coordinates, load, modes)
-        states[s] = _advanced(motion.method, duration, begun, coordinates)
+        states[s] = advanced(motion.method, duration, begun, coordinates)
         places[0] = s + 1
-
-
-@njit(cache=True)
-def _history(motion, duration):
-    if motion.method == AVERAGE_ACCELERATION:
-        return average_history(duration, motion.mass, motion.damping)
-    return backward_history(duration, motion.mass, motion.damping)
-
-
-@njit(cache=True)
-def _advanced(method, duration, before, coordinates):
-    """The state (3, k) at the end of a step, from its position (k,)."""
-    if method == AVERAGE_ACCELERATION:
-        return average_advanced(duration, before, coordinates)
-    if method == BACKWARD_EULER:
-        return backward_advanced(duration, before, coordinates)
-    after = before.copy()
-    after[0] = coordinates
-    return after
 
 
 @njit(cache=True)

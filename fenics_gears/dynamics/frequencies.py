@@ -90,13 +90,22 @@ def modes(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray) -> tuple[n
     N/mm: of the mesh, or of each mesh of a train (f,)."""
     normals = drivetrain.mesh.normals
     if np.isinf(mesh_stiffness).any():
-        return _tied_modes(drivetrain, normals)
+        # Flanks are rigid and stay together: nothing moves along the normals.
+        free = null_space(normals)
+        if not free.shape[1]:
+            return np.empty(0), free
+        return modes_within(free, drivetrain.stiffness_at_work, drivetrain.mass)
     springs = np.broadcast_to(
         mesh_stiffness if np.ndim(mesh_stiffness) else mesh_stiffness / len(normals), len(normals)
     )
     stiffness = drivetrain.stiffness_at_work + (normals.T * springs) @ normals
-    squares, shapes = eigh(stiffness, drivetrain.mass)
-    return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * pi), shapes
+    return modes_within(np.eye(len(stiffness)), stiffness, drivetrain.mass)
+
+
+def modes_within(basis: np.ndarray, stiffness: np.ndarray, mass: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Natural frequencies (f,), Hz, ascending, and shapes (k, f) of motions within the span of a basis (k, f)."""
+    squares, shapes = eigh(basis.T @ stiffness @ basis, basis.T @ mass @ basis)
+    return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * pi), basis @ shapes
 
 
 # What most of the energy of a mode may be in: first words of coordinates, and the mode in words.
@@ -129,12 +138,3 @@ def _motions(drivetrain: Drivetrain, frequencies: np.ndarray, shapes: np.ndarray
     in_shafts = np.einsum("ci,cd,di->i", shapes, drivetrain.stiffness_at_work, shapes)
     springs = in_shafts < 0.5 * (2.0 * pi * frequencies) ** 2
     return [" and ".join(filter(None, (words, "the mesh springs" * bool(of)))) for words, of in zip(said, springs)]
-
-
-def _tied_modes(drivetrain: Drivetrain, normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The modes of a drivetrain whose flanks are rigid and stay together: nothing moves along `normals` (r, k)."""
-    free = null_space(normals)
-    if not free.shape[1]:
-        return np.empty(0), free
-    squares, shapes = eigh(free.T @ drivetrain.stiffness_at_work @ free, free.T @ drivetrain.mass @ free)
-    return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * pi), free @ shapes

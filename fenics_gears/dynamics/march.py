@@ -14,8 +14,9 @@ from threadpoolctl import ThreadpoolController
 
 from fenics_gears.contact.addresses import march_with_inertia
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.mesh_cycle import SHARE_OF_A_BLOCK, Cycle
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.errors import MemoryEnded
+from fenics_gears.system.memory import SHARE_OF_A_BLOCK
 
 from .batch import Batch, Block, OpenedNodes
 from .marched import March

@@ -13,15 +13,16 @@ position.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.contact.laws import OPEN, Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.mixed_form import StepEquations
 from fenics_gears.contact.operator import Position
-from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start
+from fenics_gears.contact.step_solver import StepSolution, cold_start
 
 from .drivetrain import Drivetrain
 from .steps import Record
@@ -99,7 +100,7 @@ def _holder(cycle: Cycle, friction: float, tolerance: Tolerance, slid: float) ->
         moved, nodes = operator.jacobian @ coordinates, operator.nodes
         slip_before = nothing if operator.rigid_slip is None else slid * operator.rigid_slip + moved[nodes:]
         gap = operator.gap - moved[:nodes]
-        problem = StepProblem(
+        problem = StepEquations(
             unit,
             np.zeros(1),
             operator.stored.rows,
@@ -112,14 +113,7 @@ def _holder(cycle: Cycle, friction: float, tolerance: Tolerance, slid: float) ->
             rows=operator.stored.address,
         )
         solution = cycle.solve(position, problem, cold_start(gap, operator.node_pair), None)
-        return StepSolution(
-            solution.forces,
-            coordinates,
-            solution.displacement + moved,
-            solution.status,
-            solution.iterations,
-            solution.method,
-        )
+        return replace(solution, coordinates=coordinates, displacement=solution.displacement + moved)
 
     return held
 

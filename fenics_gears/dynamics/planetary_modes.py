@@ -12,7 +12,9 @@ from dataclasses import dataclass
 from math import cos, pi, sin
 
 import numpy as np
-from scipy.linalg import block_diag, eigh
+from scipy.linalg import block_diag
+
+from .frequencies import modes_within
 
 # What sun, ring and carrier do: only turn, only move aside, nothing, or both.
 ROTATIONAL = "rotational"
@@ -132,19 +134,14 @@ def set_modes(lumped: LumpedSet) -> list[SetMode]:
     >>> [sum(each.kind == kind for each in found) for kind in (ROTATIONAL, TRANSLATIONAL, PLANET)]
     [5, 12, 3]
     """
+    matrices = lumped.stiffness, lumped.mass
     if lumped.equally_spaced:
         parts = [(kind, basis) for kind, basis in _by_symmetry(lumped) if basis.shape[1]]
-        found = [SetMode(each, kind) for kind, basis in parts for each in _solved(lumped, basis)[0].tolist()]
+        found = [SetMode(each, kind) for kind, basis in parts for each in modes_within(basis, *matrices)[0].tolist()]
     else:
-        frequencies, shapes = _solved(lumped, lumped.free)
+        frequencies, shapes = modes_within(lumped.free, *matrices)
         found = [SetMode(each, _kind_of(shape)) for each, shape in zip(frequencies.tolist(), shapes.T)]
     return sorted(found, key=lambda each: each.frequency)
-
-
-def _solved(lumped: LumpedSet, basis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Natural frequencies (f,), Hz, and shapes (k, f) of motions within the span of a basis (k, f)."""
-    squares, shapes = eigh(basis.T @ lumped.stiffness @ basis, basis.T @ lumped.mass @ basis)
-    return np.sqrt(np.maximum(squares, 0.0)) / (2.0 * pi), basis @ shapes
 
 
 def _by_symmetry(lumped: LumpedSet) -> list[tuple[str, np.ndarray]]:

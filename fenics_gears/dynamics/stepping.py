@@ -9,18 +9,16 @@ from math import ceil
 
 import numpy as np
 
-from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
+from fenics_gears.contact.errors import MOVES_FREELY, ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle, in_common
+from fenics_gears.contact.mixed_form import StepEquations
 from fenics_gears.contact.operator import Position
-from fenics_gears.contact.step_solver import HALVED, StepProblem, StepSolution, cold_start
+from fenics_gears.contact.step_solver import HALVED, StepSolution, cold_start
 
 from .clock import FOLLOWING, Clock, SteadyClock, TimeScales
 from .compiled_march import (
-    AVERAGE_ACCELERATION,
-    BACKWARD_EULER,
     NO_SETS,
-    STATIC,
     Eliminated,
     Motion,
     begin,
@@ -33,7 +31,7 @@ from .compiled_march import (
 )
 from .drivetrain import Drivetrain
 from .steps import Record
-from .time_integration import AverageAcceleration, BackwardEuler, Scheme, State
+from .time_integration import AVERAGE_ACCELERATION, BACKWARD_EULER, Scheme, State
 
 NO_SLIP = np.empty(0)
 # The start assumes long sliding before it, by this many steps.
@@ -127,13 +125,12 @@ class Stepper:
         drivetrain, time_step, friction = equations.drivetrain, equations.time_step, equations.friction
         self.cycle, self.drivetrain, self.time_step, self.friction = cycle, drivetrain, time_step, friction
         self.clock, self.loads = equations.clock or SteadyClock(time_step), equations.loads
-        averages = equations.time_scales.averages_acceleration
-        self.dynamic = (AverageAcceleration if averages else BackwardEuler)(drivetrain, time_step)
-        self._static_drivetrain = replace(drivetrain, mass=None, damping=None)
-        self.static = AverageAcceleration(self._static_drivetrain, time_step)
+        method = AVERAGE_ACCELERATION if equations.time_scales.averages_acceleration else BACKWARD_EULER
+        self.dynamic = Scheme(drivetrain, time_step, method)
+        self.static = Scheme(replace(drivetrain, mass=None, damping=None), time_step)
         varying = [load(step) for load in self.loads for step in range(cycle.steps)]
         self.tolerance = Tolerance.of_load(float(np.abs([drivetrain.load, *varying]).max()))
-        self._free_motion, self._free_words = drivetrain.free_motion, drivetrain.free_words
+        self._free_motion = drivetrain.free_motion
         self._time_scales = equations.time_scales
         self.begin_anew()
         # Over a face a position at rest is nearer to itself in another run than to the step before.
@@ -146,21 +143,21 @@ class Stepper:
     @cached_property
     def static_motion(self) -> Motion:
         """The motion without inertia, for compiled code."""
-        return Motion.of(self._static_drivetrain, STATIC, self.friction, self.tolerance, self.cycle.traits.rigid)
+        return self._motion(self.static)
 
     @cached_property
     def motion(self) -> Motion:
         """The motion for compiled code."""
-        if not self.dynamic.inert:
-            return self.static_motion
-        method = AVERAGE_ACCELERATION if isinstance(self.dynamic, AverageAcceleration) else BACKWARD_EULER
-        return Motion.of(self.drivetrain, method, self.friction, self.tolerance, self.cycle.traits.rigid)
+        return self._motion(self.dynamic)
+
+    def _motion(self, scheme: Scheme) -> Motion:
+        return Motion.of(scheme, self.friction, self.tolerance, self.cycle.traits.rigid)
 
     def scheme(self, step: int) -> Scheme:
         """The method over the step that ends at `step`; made anew where that step is not as long as the one before."""
         duration = self.clock.duration(step - 1, step)
         if duration != self.dynamic.step:
-            self.dynamic = type(self.dynamic)(self.drivetrain, duration, self.clock.speed(step - 1, step))
+            self.dynamic = self.dynamic.lasting(duration, self.clock.speed(step - 1, step))
         return self.dynamic
 
     def load(self, step: float) -> np.ndarray:
@@ -218,10 +215,9 @@ class Stepper:
         if halvings > MOST_HALVINGS:
             raise failure
         record, parts = last, ()
-        drivetrain = self.drivetrain if scheme.inert else self._static_drivetrain
         for end in (0.5 * (last.step + step), step):
-            last_and_end = record.step, end
-            finer = type(scheme)(drivetrain, self.clock.duration(*last_and_end), self.clock.speed(*last_and_end))
+            first = record.step
+            finer = scheme.lasting(self.clock.duration(first, end), self.clock.speed(first, end))
             try:
                 record = self.part(finer, record, end, self.cycle.between(end, record.step))
             except ContactNotConverged as failed:
@@ -277,17 +273,18 @@ class Stepper:
             return rolling.solved(scheme.stiffness, load, rolling.reference if last is None else state.position, linear)
         except ContactNotConverged as failure:
             failure.time, failure.step = self.clock.time(step), step
+            failure.reason = failure.reason.replace(MOVES_FREELY, self.drivetrain.free_words)
             raise
 
-    def _problem(self, scheme, operator, modes: Eliminated, load: np.ndarray, slip_before) -> StepProblem:
+    def _problem(self, scheme, operator, modes: Eliminated, load: np.ndarray, slip_before) -> StepEquations:
         """The contact problem under a load (k,) of coordinates of which modes are eliminated."""
         (compliance, rows), (jacobian, _) = operator.stored, operator.stored_jacobians
         free = self._moved_freely(scheme, load)
         if self.drivetrain.modes:
             free = moved_by_contact(free, len(load), len(modes.stiffness))
-        return StepProblem(
+        return StepEquations(
             modes.stiffness, left_load(load, modes), compliance, jacobian, operator.gap, slip_before,
-            self.friction, free, self.tolerance, self._free_words, rows,
+            self.friction, free, self.tolerance, rows,
         )  # fmt: skip
 
     def _moved_freely(self, scheme, load: np.ndarray) -> np.ndarray:

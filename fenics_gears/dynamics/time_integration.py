@@ -35,13 +35,14 @@ speed.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from .drivetrain import Drivetrain
+
+STATIC, AVERAGE_ACCELERATION, BACKWARD_EULER = range(3)
 
 
 class State(NamedTuple):
@@ -53,27 +54,34 @@ class State(NamedTuple):
 
 
 class Scheme:
-    """Effective stiffness and load of one step of length `step` (s), by a method's own `history` and `advanced`;
-    `inert` where the scene has inertia. `speed`: of the step's frame over that at the start."""
+    """Effective stiffness and load of one step of a `drivetrain` of length `step` (s), by a `method`; STATIC without
+    inertia. `speed`: of the step's frame over that at the start."""
 
-    _matrices: Callable
-    _advanced: Callable
-
-    def __init__(self, drivetrain: Drivetrain, step: float, speed: float = 1.0):
+    def __init__(self, drivetrain: Drivetrain, step: float, method: int = AVERAGE_ACCELERATION, speed: float = 1.0):
+        self.drivetrain = drivetrain
         self.step = step
-        self.inert = drivetrain.mass is not None
+        self.method = STATIC if drivetrain.mass is None else method
         self.stiffness = drivetrain.stiffness
+        self._frame = None
         if not self.inert:
             return
         mass = drivetrain.mass
         damping = drivetrain.damping if drivetrain.damping is not None else np.zeros_like(mass)
-        self._history = self._matrices(step, mass, damping)
+        self._history = history_of(method, step, mass, damping)
         self.stiffness = drivetrain.stiffness + self._history[0]
-        self._frame = None
         frame = drivetrain.frame
         if frame is not None:
             self._frame = turned_velocities(step, mass, damping, speed * frame.gyroscopic)
             self.stiffness = self.stiffness + (1.0 - speed**2) * frame.softening
+
+    @property
+    def inert(self) -> bool:
+        """Whether the scene has inertia."""
+        return self.method != STATIC
+
+    def lasting(self, step: float, speed: float) -> Scheme:
+        """The same for steps of another length (s) and `speed`."""
+        return Scheme(self.drivetrain, step, self.method, speed)
 
     def load(self, state: State, outer: np.ndarray) -> np.ndarray:
         """Right-hand side (k,), N, of the step that starts from `state`, under the forces `outer` (k,), N."""
@@ -83,9 +91,7 @@ class Scheme:
 
     def advance(self, state: State, position: np.ndarray) -> State:
         """The state at the end of the step, from its position (k,), mm."""
-        if not self.inert:
-            return State(position, state.velocity, state.acceleration)
-        return State(*self._advanced(self.step, self._begun(state), position))
+        return State(*advanced(self.method, self.step, self._begun(state), position))
 
     def _begun(self, state: State) -> np.ndarray:
         """The state (3, k) that a step starts from."""
@@ -114,46 +120,34 @@ def in_turned_frame(states, frame):
 
 
 @njit(cache=True)
-def average_history(step, mass, damping):
+def history_of(method, step, mass, damping):
     """What position, velocity and acceleration at the start of a step add to its load: matrices (3, k, k); the first is
     also what inertia and damping add to the stiffness."""
-    matrices = np.empty((3, *mass.shape))
-    for i, j in np.ndindex(mass.shape):
-        matrices[0, i, j] = 4.0 / (step * step) * mass[i, j] + 2.0 / step * damping[i, j]
-        matrices[1, i, j] = 4.0 / step * mass[i, j] + damping[i, j]
-        matrices[2, i, j] = mass[i, j]
-    return matrices
-
-
-@njit(cache=True)
-def average_advanced(step, before, position):
-    """Position, velocity and acceleration (3, k) at the end of a step from those `before` and the position (k,)."""
-    after = np.empty_like(before)
-    # By numbers: expressions of arrays take compiled code longer to load than they take to run.
-    for c in range(len(position)):
-        change, velocity = 2.0 / step * (position[c] - before[0, c]), before[1, c]
-        after[0, c], after[1, c] = position[c], change - velocity
-        after[2, c] = 2.0 / step * (change - 2.0 * velocity) - before[2, c]
-    return after
-
-
-@njit(cache=True)
-def backward_history(step, mass, damping):
-    """Matrices (3, k, k) of backward Euler, as `average_history` has those of average acceleration."""
     matrices = np.zeros((3, *mass.shape))
     for i, j in np.ndindex(mass.shape):
-        matrices[0, i, j] = mass[i, j] / (step * step) + damping[i, j] / step
-        matrices[1, i, j] = mass[i, j] / step
+        if method == AVERAGE_ACCELERATION:
+            matrices[0, i, j] = 4.0 / (step * step) * mass[i, j] + 2.0 / step * damping[i, j]
+            matrices[1, i, j] = 4.0 / step * mass[i, j] + damping[i, j]
+            matrices[2, i, j] = mass[i, j]
+        else:
+            matrices[0, i, j] = mass[i, j] / (step * step) + damping[i, j] / step
+            matrices[1, i, j] = mass[i, j] / step
     return matrices
 
 
 @njit(cache=True)
-def backward_advanced(step, before, position):
-    """The state (3, k) at the end of a step of backward Euler, as `average_advanced` has it."""
-    after = np.empty_like(before)
+def advanced(method, step, before, position):
+    """Position, velocity and acceleration (3, k) at the end of a step from those `before` and the position (k,)."""
+    after = before.copy()
+    # By numbers: expressions of arrays take compiled code longer to load than they take to run.
     for c in range(len(position)):
-        after[0, c], after[1, c] = position[c], (position[c] - before[0, c]) / step
-        after[2, c] = (after[1, c] - before[1, c]) / step
+        after[0, c], change, velocity = position[c], position[c] - before[0, c], before[1, c]
+        if method == AVERAGE_ACCELERATION:
+            after[1, c] = 2.0 / step * change - velocity
+            after[2, c] = 2.0 / step * (2.0 / step * change - 2.0 * velocity) - before[2, c]
+        elif method == BACKWARD_EULER:
+            after[1, c] = change / step
+            after[2, c] = (after[1, c] - velocity) / step
     return after
 
 
@@ -169,15 +163,3 @@ def with_history(load, history, states):
         for i in range(np.uint64(len(load))):
             result[i] = result[i] + a[i] * of_a + b[i] * of_b + c[i] * of_c
     return result
-
-
-class AverageAcceleration(Scheme):
-    """Average acceleration."""
-
-    _matrices, _advanced = staticmethod(average_history), staticmethod(average_advanced)
-
-
-class BackwardEuler(Scheme):
-    """Backward Euler."""
-
-    _matrices, _advanced = staticmethod(backward_history), staticmethod(backward_advanced)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from math import inf, lcm
+from collections.abc import Iterator, Mapping, Sequence
+from math import inf, isfinite, lcm
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,13 +13,15 @@ from fenics_gears.dynamics.frequencies import PERIOD_ERROR, Vibration
 from fenics_gears.dynamics.guidance import resolved_frequency
 from fenics_gears.effects import common_period
 from fenics_gears.geometry.sliding import sliding_speed
+from fenics_gears.inputs.tree import GEARS
 
 from .drivetrain import lumped_gears
 from .model import Model
 
 if TYPE_CHECKING:
-    from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+    from fenics_gears.dynamics.elastic_shaft import SeatedGear
     from fenics_gears.dynamics.shaft_system import ShaftSystem
+    from fenics_gears.geometry.gear import Gear
 
 Rows = list[tuple[str, object, str]]
 MILLIMETRE = 1e-3  # m
@@ -61,11 +63,6 @@ def inertia_rows(model: Model) -> Rows:
             about = f"kg mm^2, about a diameter{origin}"
             rows.append((f"{name} tilting moment of inertia", 1e3 * lumped.tilting_inertia, about))
         along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
-    for system, shaft in shafts_of(model):
-        modes = sum(name.endswith(f"_{shaft.name}") for name in system.own_modes)
-        lowest = "lowest mode" if modes == 1 else f"{modes} lowest modes"
-        words = f"kg, in addition, with its {lowest}, up to {shaft.up_to:.4g} Hz"
-        rows.append((f"mass of the {shaft.name}'s shaft", 1e3 * shaft.mass_of_all, words))
     twists = "twist_2" in model.drivetrain.coordinates
     if twists or inertia.load is not None:
         place = "far end of the output shaft" if twists else "with the wheel"
@@ -75,33 +72,53 @@ def inertia_rows(model: Model) -> Rows:
     return [*rows, (label, reduced, "kg, of both gears along the line of action")]
 
 
-def shafts_of(model: Model) -> list[tuple[ShaftSystem, ElasticShaft]]:
-    """The shafts that bend, each with the system that it is in."""
-    return [(system, shaft) for system in model.drivetrain.systems for shaft in system.shafts]
-
-
 def unknown_rows(model: Model) -> Rows:
-    """The shafts that bend, with how stiff they are where the gear is, and the motions that are unknown."""
-    rows: Rows = []
-    for system, shaft in shafts_of(model):
-        (seat,) = shaft.seats
-        places = ", ".join(f"{bearing.at:g}" for bearing in shaft.bearings)
-        rows.append((f"shaft of the {seat.gear}", shaft.length, f"mm, on bearings at {places} mm from its left end"))
-        x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(system.stiffness_at(seat)))
-        words = f"{x:.4g} along x, {y:.4g} along y, {axial:.4g} axially"
-        held = "its bearings" if system.housing is None else "its bearings in their housing"
-        rows.append((f"its stiffness at the {seat.gear}", words, f"N/um, with {held}"))
-        if seat.integral:
-            words = "mm, the root diameter, as which the shaft bends and twists within the face"
-            rows.append(
-                (f"the {seat.gear} is cut into its shaft", 2.0 * getattr(model.pair, seat.gear).root_radius, words)
-            )
-        elif seat.hub is not None:
-            words = "mm, the bore, where hub and shaft hold each other without slip and give way together"
-            rows.append((f"press fit of the {seat.gear}", 2.0 * seat.hub.shaft.outer, words))
+    """The shafts that bend, and the motions that are unknown."""
     names = model.drivetrain.of_gears
     motions = ", ".join(map(motion_in_words, names))
-    return [*rows, ("motions of the gears that are unknown", f"{len(names)}:", motions)]
+    gears = {gear: getattr(model.pair, gear) for gear in GEARS}
+    unknown = ("motions of the gears that are unknown", f"{len(names)}:", motions)
+    return [*rows_of_shafts(model.drivetrain.systems, gears), unknown]
+
+
+def rows_of_shafts(systems: Sequence[ShaftSystem], gears: Mapping[str, Gear]) -> Rows:
+    """The shafts that bend, with what is on them, how stiff they are at their `gears`, by their names, and their
+    masses."""
+    rows: Rows = []
+    for system, shaft in [(own, shaft) for own in systems for shaft in own.shafts]:
+        name = f"the {shaft.name}'s shaft" if shaft.name in GEARS else f"shaft {shaft.name}"
+        seats = ", ".join(f"{each.gear} at {each.at:g}" for each in shaft.seats)
+        places = sorted(
+            (each.at, "" if each.rolling is None else f" ({each.rolling.elements})") for each in shaft.bearings
+        )
+        bearings = ", ".join(f"{at:g}{kind}" for at, kind in places)
+        rows.append((name, shaft.length, f"mm, bends; {seats}; bearings at {bearings} mm from its left end"))
+        torsion = system.torsional_stiffness(shaft)
+        if isfinite(torsion):
+            ends = [*(each.gear for each in shaft.seats), "drive or load"][:2]
+            rows.append(("its torsional stiffness", torsion, f"N mm/rad, between {' and '.join(ends)}"))
+        for seat in shaft.seats:
+            rows += _rows_of_seat(system, seat, gears[seat.gear])
+        if shaft.density:
+            modes = sum(each.endswith(f"_{shaft.name}") for each in system.own_modes)
+            words = f"kg, in addition, with {modes} modes up to {shaft.up_to:.4g} Hz"
+            rows.append((f"mass of {name}", 1e3 * shaft.mass_of_all, words))
+    return rows
+
+
+def _rows_of_seat(system: ShaftSystem, seat: SeatedGear, gear: Gear) -> Iterator[tuple[str, object, str]]:
+    """How stiff the shaft is there, and what gives way within the face."""
+    name = f"the {seat.gear}" if seat.gear in GEARS else seat.gear
+    x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(system.stiffness_at(seat)))
+    held = "its bearings" if system.housing is None else "its bearings in their housing"
+    words = f"{x:.4g} along x, {y:.4g} along y, {axial:.4g} axially"
+    yield f"its stiffness at {name}", words, f"N/um, with {held}"
+    if seat.integral:
+        words = "mm, the root diameter, as which the shaft bends and twists within the face"
+        yield f"{name} is cut into its shaft", 2.0 * gear.root_radius, words
+    elif seat.hub is not None:
+        words = "mm, the bore, where hub and shaft hold each other without slip and give way together"
+        yield f"press fit of {name}", 2.0 * seat.hub.shaft.outer, words
 
 
 def period_rows(model: Model) -> Rows:

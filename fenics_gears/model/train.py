@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil
 
-from fenics_gears.dynamics.train import coordinates_of_mesh, drivetrain_of_mesh
+from fenics_gears.dynamics.mesh_in_train import drivetrain_of_mesh
+from fenics_gears.dynamics.train import coordinates_of_mesh
 from fenics_gears.scene.data import Load, Motion, Scene
 from fenics_gears.scene.train import TrainScene
 from fenics_gears.scene.train_mesh import MeshOfScene, rows_of

@@ -10,7 +10,7 @@ import numpy as np
 from fenics_gears.dynamics.frequencies import modes
 from fenics_gears.scene.train_mesh import gear_names
 
-from .motion_rows import Rows, frequency_rows
+from .motion_rows import Rows, frequency_rows, rows_of_shafts
 from .row_model import RowModel
 from .train_parts import parts_of
 
@@ -34,39 +34,14 @@ def motion_rows(row: RowModel) -> Rows:
     for number, torsion in enumerate(parts.torsion, 1):
         if isfinite(torsion) and torsion:
             rows.append((f"shaft {number}: torsional stiffness", torsion, "N mm/rad"))
-    rows += _bent_rows(row)
-    on_bent = [] if row.bent is None else list(row.bent.once)
+    on_bent = []
+    if row.bent is not None:
+        on_bent = list(row.bent.once)
+        of_names = {name: side.gear for mesh in row.meshes for name, side in zip(mesh.gears, mesh.pair.sides)}
+        rows += rows_of_shafts(row.bent.systems, of_names)
     said = [motion_in_words(name, gears) for name in row.drivetrain.coordinates if _on_rigid(name)]
     said += [f"displacements and tilts of {', '.join(on_bent)}"] if on_bent else []
     return [*rows, ("motions that are unknown", len(row.drivetrain.of_gears), ", ".join(said))]
-
-
-def _bent_rows(row: RowModel) -> Rows:
-    """The shafts that bend, with what is on them, and how stiff they are at their gears."""
-    rows: Rows = []
-    shafts = [] if row.bent is None else [(system, each) for system in row.bent.systems for each in system.shafts]
-    for system, shaft in shafts:
-        gears = ", ".join(f"{each.gear} at {each.at:g}" for each in shaft.seats)
-        places = sorted(
-            (each.at, "" if each.rolling is None else f" ({each.rolling.elements})") for each in shaft.bearings
-        )
-        bearings = ", ".join(f"{at:g}{kind}" for at, kind in places)
-        words = f"mm, bends; {gears}; bearings at {bearings} mm from its left end"
-        rows.append((f"shaft {shaft.name}", shaft.length, words))
-        torsion = system.torsional_stiffness(shaft)
-        if isfinite(torsion):
-            ends = [*(each.gear for each in shaft.seats), "drive or load"][:2]
-            rows.append(("its torsional stiffness", torsion, f"N mm/rad, between {' and '.join(ends)}"))
-        for seat in shaft.seats:
-            x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(system.stiffness_at(seat)))
-            said = f"{x:.4g} along x, {y:.4g} along y, {axial:.4g} axially"
-            held = "its bearings" if system.housing is None else "its bearings in their housing"
-            rows.append((f"its stiffness at {seat.gear}", said, f"N/um, with {held}"))
-        if shaft.density:
-            modes = sum(name.endswith(f"_{shaft.name}") for name in system.own_modes)
-            words = f"kg, in addition, with {modes} modes up to {shaft.up_to:.4g} Hz"
-            rows.append((f"mass of shaft {shaft.name}", 1e3 * shaft.mass_of_all, words))
-    return rows
 
 
 def _on_rigid(name: str) -> bool:

@@ -17,8 +17,16 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.laws import NO_FORCE, OPEN
-from fenics_gears.contact.mixed_form import Equations, Iterate, product, put_entries, solve_factored, solved, system_of
+from fenics_gears.contact.laws import NO_FORCE, OPEN, Tolerance
+from fenics_gears.contact.mixed_form import (
+    Iterate,
+    StepEquations,
+    product,
+    put_entries,
+    solve_factored,
+    solved,
+    system_of,
+)
 from fenics_gears.dynamics.steps import Steps, forces_at, in_block, nodes_at, operator_at
 from fenics_gears.model.model import Model
 from fenics_gears.model.modification import kinks
@@ -113,8 +121,11 @@ def _tangent(contact, nodes, faces):
             held = faces[0].copy()
             moved = contact.jacobian[:n, first:].copy()
         nothing = np.empty(0)
+        exact = Tolerance(0.0, 0.0)
         load = np.zeros(len(held))
-        equations = Equations(held, load, compliance, moved, contact.gap, nothing, 0.0, nothing, contact.rows)
+        equations = StepEquations(
+            held, load, compliance, moved, contact.gap, nothing, 0.0, nothing, exact, contact.rows
+        )
         iterate = Iterate(np.empty(0, dtype=np.int8), np.zeros(n), np.zeros(len(held)), nothing)
         if solve_factored(equations, iterate, nodes, nothing, -approach):
             return iterate.forces.sum()

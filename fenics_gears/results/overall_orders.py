@@ -6,7 +6,6 @@ least squares over the recorded cycles, which are whole ones of the slowest mesh
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,13 +60,9 @@ def cycles_of_meshes(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]
     >>> [round(each.order, 9) for each in cycles_of_meshes(simulate_train(train), train)]
     [24.0, 24.0]
     """
-    if train.shafts.ramp is not None:
-        raise SceneError(
-            "speed_ramp: orders of the whole run are of a steady speed. Allowed: without [speed_ramp], or the report,"
-            f" which has them over the speed. {NOTHING_DONE}"
-        )
+    _check_steady(train)
     if train.shafts.moving:
-        return _fitted(result, train)
+        return _fitted(result, train)[0]
     found = []
     behind = train.turns_of_last
     for link in train.links:
@@ -82,23 +77,46 @@ def cycles_of_meshes(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]
     return found
 
 
-def _fitted(result: xr.Dataset, train: TrainScene) -> list[CycleOfMesh]:
-    """The harmonics of each mesh frequency in the overall transmission error; of meshes with one frequency, and of
-    harmonics that another mesh has too, those of the first of them."""
+def _check_steady(train: TrainScene) -> None:
+    if train.shafts.ramp is not None:
+        raise SceneError(
+            "speed_ramp: orders of the whole run are of a steady speed. Allowed: without [speed_ramp], or the report,"
+            f" which has them over the speed. {NOTHING_DONE}"
+        )
+
+
+def _fitted(result: xr.Dataset, train: TrainScene) -> tuple[list[CycleOfMesh], list[OverallOrder]]:
+    """All harmonics in the overall transmission error together: of mesh frequencies, those that several meshes have as
+    the first one's; and of turns of the gears that run out or whose teeth differ."""
     steps = result["steps_per_mesh_cycle"].values.astype(int)
+    meshes = _of_meshes(result, train)
+    turns = _of_turns(train)
     frequencies = [mesh.scene.motion.mesh_frequency for mesh in train.meshes]
-    distinct = _of_meshes(result, train)
-    turns = [n * frequency for _, _, n, frequency in _of_turns(train)]
-    fitted = _harmonics(result, train, [n * frequencies[mesh] for mesh, n in distinct] + turns)
+    last = slice(-1 - train.recorded_cycles * int(steps.max()) if train.shafts.moving else 0, -1)
+    every = [n * frequencies[mesh] for mesh, n in meshes] + [n * frequency for _, _, n, frequency in turns]
+    cycles = np.outer(result["time"].values[last], every)
+    fitted = harmonics(cycles, result["overall_transmission_error"].values[last]).T
     found = []
     for number, (frequency, named) in enumerate(zip(frequencies, train.meshes)):
         phase = 2.0 * np.pi * np.arange(steps[number]) / steps[number]
         values = np.zeros(steps[number])
-        for (own, n), (cosine, sine) in zip(distinct, fitted):
+        for (own, n), (cosine, sine) in zip(meshes, fitted):
             if own == number:
                 values += cosine * np.cos(n * phase) + sine * np.sin(n * phase)
         found.append(CycleOfMesh(named.name, values, frequency, frequency / train.input_speed))
-    return found
+    of_turns = [
+        OverallOrder(name, mesh, n, n * own / train.input_speed, n * own, float(np.hypot(*each)), of_turn=True)
+        for (name, mesh, n, own), each in zip(turns, fitted[len(meshes) :])
+    ]
+    return found, of_turns
+
+
+def harmonics(cycles: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Cosines and sines (2, n, ...) in values (s, ...) beside their mean, by least squares; `cycles` (s, n): of each
+    harmonic since the start."""
+    angles = 2.0 * np.pi * cycles
+    columns = np.hstack([np.ones((len(cycles), 1)), np.cos(angles), np.sin(angles)])
+    return np.linalg.lstsq(columns, values, rcond=None)[0][1:].reshape(2, -1, *values.shape[1:])
 
 
 def _of_meshes(result: xr.Dataset, train: TrainScene) -> list[tuple[int, int]]:
@@ -124,29 +142,6 @@ def _of_turns(train: TrainScene) -> list[tuple[str, int, int, float]]:
     return [(name, mesh, n, frequency) for name, mesh, frequency in found.values() for n in range(1, OF_A_TURN + 1)]
 
 
-def _harmonics(result: xr.Dataset, train: TrainScene, frequencies: Sequence[float]) -> np.ndarray:
-    """Cosines and sines (n, 2), rad, of such frequencies (Hz) in the overall transmission error, together."""
-    steps = int(result["steps_per_mesh_cycle"].max())
-    last = slice(-1 - train.recorded_cycles * steps if train.shafts.moving else 0, -1)
-    times = result["time"].values[last]
-    angles = 2.0 * np.pi * np.outer(times, frequencies)
-    columns = np.hstack([np.ones((len(times), 1)), np.cos(angles), np.sin(angles)])
-    lag = result["overall_transmission_error"].values[last]
-    return np.linalg.lstsq(columns, lag, rcond=None)[0][1:].reshape(2, -1).T
-
-
-def _orders_of_turns(result: xr.Dataset, train: TrainScene) -> Iterator[OverallOrder]:
-    turns = _of_turns(train)
-    if not turns:
-        return
-    frequencies = [mesh.scene.motion.mesh_frequency for mesh in train.meshes]
-    others = [n * frequencies[mesh] for mesh, n in _of_meshes(result, train)]
-    fitted = _harmonics(result, train, [n * frequency for _, _, n, frequency in turns] + others)
-    for (name, mesh, n, own), each in zip(turns, fitted):
-        order = n * own / train.input_speed
-        yield OverallOrder(name, mesh, n, order, n * own, float(np.hypot(*each)), of_turn=True)
-
-
 def overall_orders(result: xr.Dataset, train: TrainScene, *, turns: bool = False) -> list[OverallOrder]:
     """The first harmonics of each mesh frequency in the overall transmission error of a train's result, by their order;
     of meshes that have the same one, which an idler couples, the sum. Each has the `meshes`, the `harmonic`, the
@@ -161,7 +156,9 @@ def overall_orders(result: xr.Dataset, train: TrainScene, *, turns: bool = False
     [24, 48, 72]
     """
     alike: list[list[CycleOfMesh]] = []
-    cycles = cycles_of_meshes(result, train)
+    _check_steady(train)
+    fit = _fitted(result, train) if turns or train.shafts.moving else None
+    cycles = fit[0] if fit is not None and train.shafts.moving else cycles_of_meshes(result, train)
     for each in cycles:
         known = next((group for group in alike if abs(group[0].order / each.order - 1.0) < 1e-9), None)
         if known is None:
@@ -179,5 +176,5 @@ def overall_orders(result: xr.Dataset, train: TrainScene, *, turns: bool = False
             OverallOrder(names, cycles.index(first), n, n * first.order, n * first.frequency, float(amplitude))
             for n, amplitude in enumerate(amplitudes, 1)
         ]
-    found += _orders_of_turns(result, train) if turns else []
+    found += fit[1] if turns and fit is not None else []
     return sorted(found, key=lambda each: each.order)

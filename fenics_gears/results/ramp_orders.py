@@ -12,6 +12,8 @@ import xarray as xr
 
 from fenics_gears.scene.train import TrainScene
 
+from .overall_orders import harmonics
+
 HARMONICS = 3
 WINDOW_CYCLES = 2
 
@@ -43,11 +45,9 @@ def ramp_orders(result: xr.Dataset, train: TrainScene) -> list[RampOrder]:
     starts = range(0, len(lag) - width, width)
     # Mesh cycles of all harmonics at the steps of a window, from its start on.
     cycles = np.outer(np.arange(width), [n / steps[mesh] for mesh, n in orders.values()])
-    columns = np.hstack([np.ones((width, 1)), np.cos(2.0 * np.pi * cycles), np.sin(2.0 * np.pi * cycles)])
     windows = np.array([lag[start : start + width] for start in starts]).reshape(-1, width)
-    fitted = np.linalg.lstsq(columns, windows.T, rcond=None)[0][1:].reshape(2, len(orders), len(windows))
     speeds = np.array([speed[start : start + width].mean() for start in starts])
-    amplitudes = np.hypot(*fitted)
+    amplitudes = np.hypot(*harmonics(cycles, windows.T))
     return [
         RampOrder(train.meshes[mesh].name, n, order, speeds, own)
         for (order, (mesh, n)), own in zip(orders.items(), amplitudes)

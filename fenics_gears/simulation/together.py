@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from fenics_gears.contact.gaps_of_rows import GapsOfRows
-from fenics_gears.contact.mesh_cycle import SHARE_KEPT, SHARE_OF_A_BLOCK, Cycle, Gaps
+from fenics_gears.contact.mesh_cycle import Cycle, Gaps
 from fenics_gears.contact.relief_gaps import Profiles
 from fenics_gears.contact.row import RowCycle
 from fenics_gears.contact.run_out import RunOut
@@ -25,7 +25,7 @@ from fenics_gears.results.extrema import repeating_steps
 from fenics_gears.results.planetary import OF_SETS, result_of_set
 from fenics_gears.results.side_by_side import SideBySide
 from fenics_gears.results.together import OFFERED, NumbersOfRun, equations_of, nodes_of, numbers_together, runs_smoothly
-from fenics_gears.system.memory import give_back
+from fenics_gears.system.memory import SHARE_KEPT, SHARE_OF_A_BLOCK, give_back
 from fenics_gears.system.progress import SilentProgress
 
 from .elastic_route import deviations_of, openings_of, reliefs_apart

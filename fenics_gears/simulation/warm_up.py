@@ -24,15 +24,17 @@ from fenics_gears.contact.interpolation import (
 )
 from fenics_gears.contact.kinematics import nodes_before
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
+from fenics_gears.contact.mixed_form import StepEquations
 from fenics_gears.contact.operator import ContactOperator, Position
 from fenics_gears.contact.rigid_step import solve_rigid
-from fenics_gears.contact.step_solver import NEWTON, StepProblem, solve_step
+from fenics_gears.contact.step_solver import NEWTON, solve_step
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, nodal_gap
 from fenics_gears.contact.window import ContactGrid, node_offsets
-from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, Course, Motion, solve_steps
+from fenics_gears.dynamics.compiled_march import Course, Motion, solve_steps
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.steps import Steps, drive_flanks_touch, smallest_openings
+from fenics_gears.dynamics.time_integration import Scheme
 from fenics_gears.results.contact_variables import energy_of_teeth
 from fenics_gears.results.crests import Searches
 from fenics_gears.results.mesh_curves import stiffness_curves
@@ -58,7 +60,7 @@ def _run_once(tangential: bool, rigid: bool, evaluated: bool = True) -> None:
     status = np.array([SLIP_FORWARD], dtype=np.int8)
     solve_step(problem, status)
     drivetrain = Drivetrain(("rotation_2",), np.ones(1), np.eye(1), np.ones(1), np.eye(1), None)
-    motion = Motion.of(drivetrain, AVERAGE_ACCELERATION, 0.1, problem.tolerance)
+    motion = Motion.of(Scheme(drivetrain, 1.0), 0.1, problem.tolerance)
     solve_steps(steps, 1, 2, motion, Course(np.ones(2), np.ones((2, 1))))
     if rigid:
         solve_rigid(steps.positions[0], problem, status, None)
@@ -92,14 +94,14 @@ def _place_nodes(tangential: bool) -> None:
     compliance_products((positions, flanks, products), near, interpolation.first, axes, responding)
 
 
-def _steps(tangential: bool) -> tuple[Steps, StepProblem]:
+def _steps(tangential: bool) -> tuple[Steps, StepEquations]:
     """Room for two steps of one contact node, and the problem of such a step."""
     kinds = 2 if tangential else 1
     node = np.zeros(1)
     row = np.eye(kinds, 1)
     tolerance = Tolerance.of_load(1.0)
     slip = np.ones(1) if tangential else np.empty(0)
-    problem = StepProblem(np.eye(1), np.ones(1), np.eye(kinds), row, node, slip, 0.1, np.empty(0), tolerance)
+    problem = StepEquations(np.eye(1), np.ones(1), np.eye(kinds), row, node, slip, 0.1, np.empty(0), tolerance)
     place = Place(0, DRIVE, (0.5, 0.5))
     both = np.zeros((2, 1))
     pair = PairNodes(place, node, node, node, both, both)

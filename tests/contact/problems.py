@@ -3,11 +3,12 @@
 import numpy as np
 
 from fenics_gears.contact.laws import OPEN, Tolerance
+from fenics_gears.contact.mixed_form import StepEquations
 from fenics_gears.contact.operator import ContactOperator
-from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start, solve_step
+from fenics_gears.contact.step_solver import StepSolution, cold_start, solve_step
 
 
-def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4, free=False) -> StepProblem:
+def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4, free=False) -> StepEquations:
     """Random positive definite compliance and stiffness; gaps and loads of any sign. `free`: only contact holds the
     load along the first coordinate."""
     rng = np.random.default_rng(seed)
@@ -20,7 +21,7 @@ def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4, f
     load = load_scale * rng.normal(size=coordinates)
     if free:
         stiffness[0], stiffness[:, 0], rigid[:nodes, 0], load[0] = 0.0, 0.0, 1.0, abs(load[0])
-    return StepProblem(
+    return StepEquations(
         stiffness=stiffness,
         load=load,
         compliance=compliance,
@@ -33,13 +34,13 @@ def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4, f
     )
 
 
-def all_open(problem: StepProblem) -> np.ndarray:
+def all_open(problem: StepEquations) -> np.ndarray:
     return np.full(len(problem.gap), OPEN, dtype=np.int8)
 
 
-def only_one_moves(compliance, jacobian, gap, force: float) -> StepProblem:
+def only_one_moves(compliance, jacobian, gap, force: float) -> StepEquations:
     """Without friction or springs, a force (N) on the one coordinate."""
-    return StepProblem(
+    return StepEquations(
         np.zeros((1, 1)),
         np.array([force]),
         compliance,

@@ -5,8 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 
 from fenics_gears.contact.mesh import MeshTraits
+from fenics_gears.contact.mixed_form import StepEquations
 from fenics_gears.contact.operator import Position, Stored
-from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution, solve_step
+from fenics_gears.contact.step_solver import NEWTON, StepSolution, solve_step
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
@@ -21,7 +22,7 @@ class SlidingBlock:
     traits = MeshTraits(divisible=True)
     face = None
 
-    def __init__(self, problem: StepProblem):
+    def __init__(self, problem: StepEquations):
         self.problem, self.steps, self.solved = problem, 100, []
         self.pair = SimpleNamespace(wheel=SimpleNamespace(tip_roll_angle=0.0))
 
@@ -46,7 +47,7 @@ class SlidingBlock:
         return solve_step(problem, status)
 
 
-def block_at_rest(problem: StepProblem, status: np.ndarray) -> tuple[Marcher, Record]:
+def block_at_rest(problem: StepEquations, status: np.ndarray) -> tuple[Marcher, Record]:
     """A block whose first step of 1 ms is the problem, by its mass, and its state before: at rest, sets `status`
     (n,)."""
     step, k = 1e-3, len(problem.load)

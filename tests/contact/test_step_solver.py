@@ -23,7 +23,7 @@ from fenics_gears.contact.tresca import Work, frozen_friction
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import MOST_HALVINGS, EquationsOfMotion
-from fenics_gears.dynamics.time_integration import AverageAcceleration
+from fenics_gears.dynamics.time_integration import Scheme
 from fenics_gears.model.drivetrain import drivetrain
 
 # method: (seed, nodes, friction, free)
@@ -121,12 +121,11 @@ def test_a_step_without_a_solution_is_divided():
     assert record.solution.method == HALVED
     assert marcher.cycle.solved == [1, 1, 0.5, 0.5]  # the state before is a position too
     # The last half: its own slip, from the tangents that its first half left.
-    half = AverageAcceleration(marcher.stepper.drivetrain, 0.5 * marcher.stepper.time_step)
+    half = Scheme(marcher.stepper.drivetrain, 0.5 * marcher.stepper.time_step)
     middle, last = record.parts
     assert (middle.step, last.step) == (0.5, 1)
     tangential = problem.jacobian[6:] @ middle.state.position - problem.compliance[6:] @ middle.solution.forces
-    second = replace(
-        problem,
+    second = problem._replace(
         stiffness=half.stiffness,
         load=half.load(middle.state, marcher.stepper.load(1)),
         slip_before=0.5 * problem.slip_before - tangential,
@@ -242,7 +241,7 @@ def crowded_with_friction(slid, nodes=160):
     rubbing = np.kron(np.array([[1.0, 0.1], [0.1, 1.0]]), close.compliance)
     jacobian = np.concatenate((close.jacobian, 0.5 * close.jacobian))
     way = np.where(np.arange(nodes) < nodes // 2 + 1, -slid, 0.3 * slid)
-    return replace(close, gap=1e3 * close.gap, compliance=rubbing, jacobian=jacobian, slip_before=way, friction=0.2)
+    return close._replace(gap=1e3 * close.gap, compliance=rubbing, jacobian=jacobian, slip_before=way, friction=0.2)
 
 
 def last_alone(problem):

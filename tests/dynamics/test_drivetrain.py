@@ -11,7 +11,7 @@ from fenics_gears.dynamics.damping import Damping, Rayleigh
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
 from fenics_gears.dynamics.inertia import GearInertia, Inertia, LoadInertia
 from fenics_gears.dynamics.shafts import Shaft, Shafts
-from fenics_gears.dynamics.time_integration import AverageAcceleration
+from fenics_gears.dynamics.time_integration import Scheme
 from fenics_gears.geometry.section import gear_section
 from fenics_gears.model.description import describe
 from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness
@@ -29,7 +29,7 @@ def test_effective_stiffness_is_the_papers(paper_scene, paper_pair):
     """[17] and [20]: undamped, with phi3 eliminated."""
     scene = replace(paper_scene, damping=None)
     shafts, step = drivetrain(scene, paper_pair), 5e-5
-    scheme = AverageAcceleration(shafts, step)
+    scheme = Scheme(shafts, step)
     to_angles = np.diag(shafts.radii) @ from_twist(shafts.coordinates)
     effective = to_angles.T @ scheme.stiffness @ to_angles
     condensed = effective[:6, :6] - np.outer(effective[:6, 6], effective[6, :6]) / effective[6, 6]

@@ -12,7 +12,7 @@ from fenics_gears.dynamics.drivetrain import Drivetrain, TurningFrame
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.dynamics.planetary_modes import set_modes
 from fenics_gears.dynamics.set_in_time import RowsOfSet, SetInTime, set_drivetrain
-from fenics_gears.dynamics.time_integration import AverageAcceleration, State
+from fenics_gears.dynamics.time_integration import Scheme, State
 from fenics_gears.geometry.planetary import CARRIER
 from fenics_gears.model.planetary_frequencies import lumped_set
 from fenics_gears.model.row_model import RowModel
@@ -148,7 +148,7 @@ def test_a_mass_on_springs_whirls_at_its_two_frequencies():
     for count in (500, 1000, 2000):
         step = 0.02 / count
         # Along a line in space; the frame turns the velocity half a step before and half a step behind each place.
-        scheme = AverageAcceleration(drivetrain, step)
+        scheme = Scheme(drivetrain, step)
         before = (np.eye(2) + speed * step * quarter) @ np.array([0.0, -speed])
         state = State(np.array([1.0, 0.0]), before, np.zeros(2))
         state = state._replace(acceleration=-drivetrain.stiffness @ state.position / mass)

@@ -7,13 +7,14 @@ from tests.contact.laws_of_contact import law_residual
 from tests.contact.problems import random_problem
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
+from fenics_gears.contact.mixed_form import StepEquations
+from fenics_gears.contact.step_solver import StepSolution, solve_step
 
 REASONS = ("no equilibrium", "self-locking", "more than one solution")
 
 
 @st.composite
-def steps(draw, frictions) -> tuple[StepProblem, np.ndarray]:
+def steps(draw, frictions) -> tuple[StepEquations, np.ndarray]:
     """A problem with 1 to 12 nodes, loads over six decades, held or free, and any sets to start from."""
     seed, nodes, friction = draw(st.integers(0, 10**9)), draw(st.integers(1, 12)), draw(frictions)
     load = 10.0 ** draw(st.floats(-1.0, 5.0))
@@ -22,7 +23,7 @@ def steps(draw, frictions) -> tuple[StepProblem, np.ndarray]:
     return problem, np.array(draw(st.lists(st.integers(0, highest), min_size=nodes, max_size=nodes)), dtype=np.int8)
 
 
-def solved(problem: StepProblem, start: np.ndarray) -> StepSolution | None:
+def solved(problem: StepEquations, start: np.ndarray) -> StepSolution | None:
     """The solution; None where there is a typed error with its reason, which only friction may have."""
     try:
         solution = solve_step(problem, start)
@@ -58,7 +59,7 @@ def judged_steps(measured, drawn, limits, examples: int) -> None:
         measured("random single steps", f"{count['solved']} solved, {count['typed']} errors with their cause", "all")
 
 
-def violations(problem: StepProblem, solution: StepSolution) -> dict[str, float]:
+def violations(problem: StepEquations, solution: StepSolution) -> dict[str, float]:
     """How far a solution misses the laws: lengths in um, forces in parts of the largest, works of that times the
     largest length."""
     forces, n = solution.forces, len(problem.gap)

@@ -1,8 +1,6 @@
 """Row 7: two blocks pressed together by a uniform pressure, with contact nodes of a third spacing. Exact: the
 pressure is the same at every contact node, and the blocks approach by F/W (H1 + H2)(1 - nu^2)/E."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from tests.contact.problems import only_one_moves
@@ -30,8 +28,8 @@ def pressed(name: str, along, offsets, interpolation):
         weights = interpolation(offsets, places, order, sense)
         compliance += weights @ flank @ weights.T
     ones = np.ones((len(offsets), 1))
-    problem = replace(
-        only_one_moves(compliance, ones, np.zeros(len(offsets)), FORCE), tolerance=Tolerance(1e-12, 1e-12)
+    problem = only_one_moves(compliance, ones, np.zeros(len(offsets)), FORCE)._replace(
+        tolerance=Tolerance(1e-12, 1e-12)
     )
     solution = solve_step(problem, cold_start(problem.gap, np.zeros(len(offsets), dtype=int)))
     approach = FORCE * sum(HEIGHTS) * (1.0 - POISSONS_RATIO**2)

@@ -11,12 +11,13 @@ from tests.contact.sliding_block import SlidingBlock
 from tests.frozen_gears import frozen_marcher, pushed
 
 from fenics_gears.contact.laws import SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
-from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution
+from fenics_gears.contact.mixed_form import StepEquations
+from fenics_gears.contact.step_solver import NEWTON, StepSolution
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.steps import Record
-from fenics_gears.dynamics.time_integration import BackwardEuler, State
+from fenics_gears.dynamics.time_integration import BACKWARD_EULER, Scheme, State
 
 
 def tied_solution(rest, shafts, closed, push, duration):
@@ -40,7 +41,7 @@ def orders_of(marcher_with, duration, counts, scheme=None):
         # Small enough a push that no node changes its status.
         rest = record = pushed(marcher, shafts, rotation_1=0.2)
         closed = np.flatnonzero(rest.solution.status == SLIP_FORWARD)
-        stepped = marcher.stepper.dynamic if scheme is None else scheme(shafts, duration / steps)
+        stepped = marcher.stepper.dynamic if scheme is None else Scheme(shafts, duration / steps, scheme)
         exact = tied_solution(rest, shafts, closed, record.state.velocity, duration)
         for step in range(1, steps + 1):
             record = marcher.stepper.step(stepped, record, step)
@@ -51,7 +52,7 @@ def orders_of(marcher_with, duration, counts, scheme=None):
 
 @pytest.mark.parametrize(
     ("words", "order", "coarsest", "scheme"),
-    [("while the contact status is unchanged", 2, 100, None), ("of backward Euler", 1, 400, BackwardEuler)],
+    [("while the contact status is unchanged", 2, 100, None), ("of backward Euler", 1, 400, BACKWARD_EULER)],
 )
 def test_order_while_the_status_stands(
     paper_scene, paper_pair, stand_in_flanks, measured, words, order, coarsest, scheme
@@ -131,7 +132,7 @@ def marched_block(spring: float, inert: bool, steps: int):
     """Friction forces (steps,) of the block, its last position, and its sequence of statuses."""
     duration, bound = LAST / steps, FRICTION * FORCE
     stiffness = np.diag([0.0, spring])
-    problem = StepProblem(
+    problem = StepEquations(
         stiffness,
         np.array([FORCE, 0.0]),
         np.diag([NORMAL, TANGENTIAL]),

@@ -8,8 +8,9 @@ import pytest
 from fenics_gears import model_of
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.mixed_form import StepEquations
 from fenics_gears.contact.published_newton import Equations, iterates, merit
-from fenics_gears.contact.step_solver import PUBLISHED, StepProblem, cold_start, solve_step
+from fenics_gears.contact.step_solver import PUBLISHED, cold_start, solve_step
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.model.resolution import EVERY_STEP
@@ -32,7 +33,7 @@ def random_problem(seed, tangential=True, friction=0.2):
     root = generator.normal(size=(CENTRE, CENTRE))
     stiffness = 1e5 * (root @ root.T + np.eye(CENTRE))
     load = np.array([3e3, *generator.normal(size=CENTRE - 1) * 100.0])
-    problem = StepProblem(
+    problem = StepEquations(
         stiffness=stiffness,
         load=load,
         compliance=compliance,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.relative_stiffness import RelativeStiffness
-from fenics_gears.dynamics.time_integration import AverageAcceleration
+from fenics_gears.dynamics.time_integration import Scheme
 from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.scene.data import Motion
 
@@ -64,7 +64,7 @@ def test_elimination_equals_the_mixed_form(case, tangential, paper_scene, paper_
     """Exact identity: K q + G^T p = F and u = G q - C p satisfy K u + p + f = 0 [C.1]. Where K is singular forces
     are in equilibrium, the free rotation at will."""
     shafts = drivetrain(scene_of(paper_scene, case), paper_pair)
-    effective, generator = AverageAcceleration(shafts, 5e-5).stiffness, np.random.default_rng(7)
+    effective, generator = Scheme(shafts, 5e-5).stiffness, np.random.default_rng(7)
     gears = elastic_gears(3)
     compliance, rigid = mixed_form(gears, shafts.indices, tangential)
     force = shafts.load + generator.normal(size=len(shafts.load))
