@@ -7,7 +7,7 @@ frame is the mirror image, in which the other flanks of the gear between them ar
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from math import floor, lcm
@@ -105,8 +105,7 @@ class JoinedPosition(Position):
 
 
 class RowCycle(Cycle):
-    """Contact equations of all meshes of a train, whose steps are of one length in time; the cycles of those that have
-    a gear in common have as many steps as one another."""
+    """Contact equations of all `meshes` of a train, whose steps are of one length in time."""
 
     def __init__(self, meshes: Sequence[MeshOfRow], compliance: RowCompliance):
         first = meshes[0].cycle
@@ -116,36 +115,20 @@ class RowCycle(Cycle):
         super().__init__(first.mesh, steps, [], first.tangential)
         # Of several lengths, a cycle of all is so long that the last step is nearer.
         self.traits = replace(self.traits, repeats=all(each.cycle.traits.repeats for each in meshes) and alike)
-        self._members = meshes
+        self.meshes = list(meshes)
         self._compliance = compliance
         self._joined: dict[float, JoinedPosition] = {}
         # Of the steps that were built last, for which there may be no room.
         self._around: dict[int, JoinedPosition] = {}
         self._keeps = True
 
-    @property
-    def meshes(self) -> list[MeshOfRow]:
-        """All meshes, also of rows within it."""
-        found = []
-        for each in self._members:
-            found += each.cycle.meshes if isinstance(each.cycle, RowCycle) else [each]
-        return found
-
     def with_gaps_of(self, offsets: Sequence[np.ndarray | None], gaps_of: Sequence[GapsOf]) -> RowCycle:
         """The same operators, which both have in common, with other offsets and gaps of all meshes."""
-        return self._with(zip(offsets, gaps_of))
-
-    def _with(self, of_meshes: Iterator[tuple[np.ndarray | None, GapsOf]]) -> RowCycle:
         other = copy(self)
-        other._members = [
-            replace(each, cycle=each.cycle._with(of_meshes))
-            if isinstance(each.cycle, RowCycle)
-            else each.with_gaps_of(*next(of_meshes))
-            for each in self._members
-        ]
-        meshes = other.meshes
+        other.meshes = [mesh.with_gaps_of(*own) for mesh, *own in zip(self.meshes, offsets, gaps_of)]
         other._joined = {
-            step: _with_gaps_of(_opened(position, meshes), meshes) for step, position in self._joined.items()
+            step: _with_gaps_of(_opened(position, other.meshes), other.meshes)
+            for step, position in self._joined.items()
         }
         other._around = {}
         # What is shared has addresses of gaps.
@@ -154,41 +137,32 @@ class RowCycle(Cycle):
 
     def share(self, memory: float, once: bool = False) -> None:
         """Let operators take so many bytes, those of single meshes among them; those of all meshes are held
-        for a block of steps alone where each position of them is passed `once`. Meshes and rows within it pass theirs
-        more often."""
-        count = len(self._members)
+        for a block of steps alone where each position of them is passed `once`. Meshes pass theirs more often."""
+        count = len(self.meshes)
         # Operators grow with the square of their nodes, and those of all meshes have count times as many; how these
         # feel each other takes as much as each by itself.
         self.kept = Kept(memory * count / (count + 2))
         self._keeps = not once
         self._compliance.kept = Kept(memory / (count + 2))
-        for each in self._members:
-            own = memory / (count * (count + 2))
-            if isinstance(each.cycle, RowCycle):
-                each.cycle.share(own)
-            else:
-                each.cycle.kept = Kept(own)
+        for each in self.meshes:
+            each.cycle.kept = Kept(memory / (count * (count + 2)))
 
-    def position(self, step: int) -> Position:
-        return self._deviating(step, self._alike(step))
+    def position(self, step: int) -> JoinedPosition:
+        return self._deviated(step, self._alike(step))
 
     def build(self, steps: Sequence[int]) -> None:
-        for each in self._members:
+        for each in self.meshes:
             each.cycle.build(steps)
         missing = dict.fromkeys(step % self.steps for step in steps if step % self.steps not in self._joined)
         self._around = {step: self._joined_at(step) for step in missing}
 
-    def between(self, step: float, before: float) -> Position:
-        return self._deviating(step, self.alike_between(step, before))
-
-    def alike_between(self, step: float, before: float) -> JoinedPosition:
-        """As `between`, without what differs from mesh cycle to mesh cycle."""
+    def between(self, step: float, before: float) -> JoinedPosition:
         if step == int(step) and before == step - 1:
-            return self._alike(int(step))
-        return self._at(step, before)
+            return self.position(int(step))
+        return self._deviated(step, self._at(step, before))
 
     def give_up(self) -> bool:
-        given_up = [each.cycle.give_up() for each in self._members]
+        given_up = [each.cycle.give_up() for each in self.meshes]
         there = bool(self._joined) or any(given_up)
         self.kept.most = 0.5 * self.kept.taken
         self.kept.taken = 0.0
@@ -209,12 +183,12 @@ class RowCycle(Cycle):
         found = self._joined.get(key) or self._around.get(key)
         return found or self._joined_at(key)
 
-    def _deviating(self, step: float, position: Position) -> Position:
-        meshes = self.meshes
-        if not isinstance(position, JoinedPosition) or not any(mesh.deviations for mesh in meshes):
+    def _deviated(self, step: float, position: JoinedPosition) -> JoinedPosition:
+        if not any(mesh.deviations for mesh in self.meshes):
             return position
-        of_meshes = tuple((mesh.deviating(step, own), first) for mesh, (own, first) in zip(meshes, position.of_meshes))
-        return _with_gaps_of(replace(position, of_meshes=of_meshes), meshes)
+        both = zip(self.meshes, position.of_meshes)
+        of_meshes = tuple((mesh.deviating(step, own), first) for mesh, (own, first) in both)
+        return _with_gaps_of(replace(position, of_meshes=of_meshes), self.meshes)
 
     def _joined_at(self, step: int) -> JoinedPosition:
         """All meshes at a step of the mesh cycle, kept if there is room."""
@@ -228,22 +202,20 @@ class RowCycle(Cycle):
         parts = []
         first = 0
         first_before = 0
-        for each in self._members:
-            earlier = _pairs_before(each.cycle, step, before)
-            between = each.cycle.alike_between if isinstance(each.cycle, RowCycle) else each.cycle.between
-            parts.append(Part(between(step, before), earlier, first, first_before))
+        for each in self.meshes:
+            parts.append(Part(each.cycle.between(step, before), _before(each.cycle, step, before), first, first_before))
             first += parts[-1].nodes
             first_before += parts[-1].nodes_before
-        cycles = [each.cycle for each in self._members]
+        cycles = [each.cycle for each in self.meshes]
         compliance, compliance_before = self._compliance.of(cycles, parts, (first, first_before), step - before)
         operators = [part.position.operator for part in parts]
-        moved = [each.stored_jacobians[0] @ mesh.moving for each, mesh in zip(operators, self._members)]
+        moved = [each.stored_jacobians[0] @ mesh.moving for each, mesh in zip(operators, self.meshes)]
         jacobian = _stacked(moved, operators)
         rigid_slip = None
         jacobian_before = None
         if self.tangential:
             rigid_slip = np.concatenate([each.rigid_slip for each in operators])
-            stood = [each.stored_jacobians[1] @ mesh.moving for each, mesh in zip(operators, self._members)]
+            stood = [each.stored_jacobians[1] @ mesh.moving for each, mesh in zip(operators, self.meshes)]
             jacobian_before = np.concatenate(stood)
         operator = ContactOperator(
             pairs=tuple(pair for each in operators for pair in each.pairs),
@@ -251,16 +223,16 @@ class RowCycle(Cycle):
             normal_lever_arms=np.concatenate([each.normal_lever_arms for each in operators], axis=1),
             compliance=compliance,
             jacobian=jacobian,
-            gap=np.concatenate([mesh.gap_of(each) for each, mesh in zip(operators, self._members)]),
+            gap=np.concatenate([mesh.gap_of(each) for each, mesh in zip(operators, self.meshes)]),
             rigid_slip=rigid_slip,
             previous_compliance=compliance_before,
             previous_jacobian=jacobian_before,
             dependent_rows=sum(each.dependent_rows for each in operators),
             face=operators[0].face,
-            coordinates=self._members[0].coordinates.shape[1],
+            coordinates=self.meshes[0].coordinates.shape[1],
         )
         before_now = np.concatenate([_moved(part.position.node_before, part.first_before) for part in parts])
-        of_meshes = tuple(each for part in parts for each in _of_meshes(part))
+        of_meshes = tuple((part.position, part.first) for part in parts)
         return JoinedPosition(operator, before_now, step % self.steps, of_meshes=of_meshes)
 
 
@@ -278,19 +250,9 @@ def _with_gaps_of(position: JoinedPosition, meshes: Sequence[MeshOfRow]) -> Join
     return replace(position, operator=position.with_gap(np.concatenate(gaps)).operator)
 
 
-def _of_meshes(part: Part) -> list[tuple[Position, int]]:
-    """Positions of the meshes of a part, and their first nodes among all."""
-    if not isinstance(part.position, JoinedPosition):
-        return [(part.position, part.first)]
-    return [(each, part.first + first) for each, first in part.position.of_meshes]
-
-
-def _pairs_before(cycle: Cycle, step: float, before: float) -> tuple[PairNodes, ...]:
+def _before(cycle: Cycle, step: float, before: float) -> tuple[PairNodes, ...]:
     """Pairs a step before, their index counted from the mesh cycle of the step."""
-    if isinstance(cycle, RowCycle):
-        return tuple(pair for each in cycle.meshes for pair in _pairs_before(each.cycle, step, before))
-    pairs = cycle.pairs_at(before % cycle.steps)
-    return counted_from(int(step // cycle.steps - before // cycle.steps), pairs)
+    return counted_from(int(step // cycle.steps - before // cycle.steps), cycle.pairs_at(before % cycle.steps))
 
 
 def _moved(node_before: np.ndarray, first: int) -> np.ndarray:

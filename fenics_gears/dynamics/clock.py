@@ -3,11 +3,15 @@ time step compare with the drivetrain's vibrations, which decides on the start o
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
+
+if TYPE_CHECKING:
+    from .frequencies import Vibration
 
 
 class Clock(Protocol):
@@ -81,11 +85,12 @@ class TimeScales:
 FOLLOWING = TimeScales()
 
 
-def time_scales(elastic_frequencies: np.ndarray, mesh_frequencies: ArrayLike, time_step: float) -> TimeScales:
-    """The time scales of mesh frequencies (Hz) and a step (s) among a drivetrain's elastic natural frequencies (Hz),
-    ascending."""
+def time_scales(elastic: Sequence[Vibration], mesh_frequencies: ArrayLike, time_step: float) -> TimeScales:
+    """The time scales of mesh frequencies (Hz) and a step (s) among a drivetrain's elastic modes by frequency."""
+    if not elastic:
+        return FOLLOWING
     return TimeScales(
-        samples_vibration=2.0 * time_step * elastic_frequencies[0] <= 1.0,
-        follows_statics=bool(np.max(mesh_frequencies) < elastic_frequencies[0]),
-        outruns_vibration=bool(np.min(mesh_frequencies) > elastic_frequencies[-1]),
+        samples_vibration=2.0 * time_step * elastic[0].frequency <= 1.0,
+        follows_statics=bool(np.max(mesh_frequencies) < elastic[0].frequency),
+        outruns_vibration=bool(np.min(mesh_frequencies) > elastic[-1].frequency),
     )

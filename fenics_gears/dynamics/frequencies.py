@@ -55,14 +55,16 @@ def natural_frequencies(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarr
 
 
 def vibrations(drivetrain: Drivetrain, mesh_stiffness: float | np.ndarray, friction: bool = False) -> list[Vibration]:
-    """The elastic modes by frequency, as far as they are right; `friction`: whether contact forces also act across the
-    line of action.
+    """The elastic modes by frequency, as far as they are right; none without masses. `friction`: whether contact forces
+    also act across the line of action.
 
     >>> from fenics_gears import load_scene, model_of
     >>> drivetrain = model_of(load_scene("demos/lundvall2004.toml")).drivetrain
     >>> [round(each.frequency) for each in vibrations(drivetrain, 1e6) if each.excited]
     [227, 510, 688, 3851]
     """
+    if drivetrain.mass is None:
+        return []
     frequencies, shapes = modes(drivetrain, mesh_stiffness)
     along = drivetrain.mesh.normals
     directions = np.concatenate([along, drivetrain.mesh.across]) if friction else along

@@ -14,7 +14,7 @@ import numpy as np
 
 from fenics_gears.contact.face import Face, one_slice
 from fenics_gears.contact.places import Touching, touching
-from fenics_gears.dynamics.clock import FOLLOWING, Clock, SteadyClock, TimeScales, time_scales
+from fenics_gears.dynamics.clock import Clock, SteadyClock, TimeScales, time_scales
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
 from fenics_gears.dynamics.guidance import judged_frequency, time_step_warnings
@@ -55,10 +55,9 @@ class Model:
         """Of all meshes, as of a train: this one."""
         return [self]
 
-    @property
-    def bare(self) -> Model:
-        """The same without what it has computed of itself."""
-        return replace(self)
+    def changed(self, change: Callable[[Model], Model]) -> Model:
+        """The same with the models of all meshes changed, as of a train: this one."""
+        return change(self)
 
     @cached_property
     def clock(self) -> Clock:
@@ -140,9 +139,7 @@ class Model:
 
     def solid_discretisation(self, gear: int) -> FaceDiscretisation | None:
         """How the body of the pinion (0) or the wheel (1) is divided over its face; None of a plane scene."""
-        if not self.scene.three_dimensional:
-            return None
-        return _over_face().face_discretisation(self, gear)
+        return _over_face().face_discretisation(self, gear) if self.scene.three_dimensional else None
 
     def transmission_error(self, position: np.ndarray) -> np.ndarray:
         """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k); positive where the wheel
@@ -169,15 +166,12 @@ class Model:
     @cached_property
     def vibrations(self) -> list[Vibration]:
         """The drivetrain's elastic modes with one tooth pair in mesh, about; empty without inertia."""
-        if self.drivetrain.mass is None:
-            return []
         return vibrations(self.drivetrain, mesh_stiffness(self.scene, self.pair), self.scene.friction is not None)
 
     @cached_property
     def time_scales(self) -> TimeScales:
         """How mesh frequency and time step compare with the drivetrain's vibrations."""
-        elastic = np.array([vibration.frequency for vibration in self.vibrations])
-        scales = time_scales(elastic, self.scene.motion.mesh_frequency, self.time_step) if len(elastic) else FOLLOWING
+        scales = time_scales(self.vibrations, self.scene.motion.mesh_frequency, self.time_step)
         if self.scene.tooth_elasticity is not None or self.drivetrain.mass is None:
             return scales
         # Above its drivetrain's vibrations a pair with rigid flanks still moves as its geometry says.

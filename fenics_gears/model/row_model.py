@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import lcm, pi
@@ -9,13 +10,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.dynamics.clock import FOLLOWING, SteadyClock, TimeScales, time_scales
+from fenics_gears.dynamics.clock import TimeScales, time_scales
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
 from fenics_gears.dynamics.guidance import time_step_warnings
 from fenics_gears.dynamics.set_in_time import set_drivetrain
 from fenics_gears.dynamics.speed_ramp import RampClock, centrifugal_forces, inertia_forces
-from fenics_gears.dynamics.stepping import EquationsOfMotion
+from fenics_gears.dynamics.stepping import EquationsOfMotion, VaryingLoad
 from fenics_gears.dynamics.train import train_drivetrain
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
@@ -52,6 +53,10 @@ class RowModel(OfMeshes):
     shafts: TrainShafts = TrainShafts()
     recorded: int = 0
 
+    def changed(self, change: Callable[[Model], Model]) -> RowModel:
+        """The same with the models of all meshes changed."""
+        return replace(self, models=tuple(map(change, self.models)))
+
     @property
     def single(self) -> bool:
         """Whether it is a pair by itself."""
@@ -86,16 +91,16 @@ class RowModel(OfMeshes):
 
     @property
     def equations_of_motion(self) -> EquationsOfMotion:
-        first = self.models[0]
-        common = self.drivetrain, first.time_step, first.friction_coefficient, self.time_scales
+        """Those of the first mesh, with the drivetrain of all."""
+        loads: tuple[VaryingLoad, ...] = ()
         ramp = self.ramp
-        if ramp is None or self.drivetrain.mass is None:
-            return EquationsOfMotion(*common, SteadyClock(first.time_step))
-        turned = self.input_speed / ramp.start
-        loads = [inertia_forces(ramp, turned * self.drivetrain.nominal_momentum)]
-        if self.drivetrain.frame is not None:
-            loads.append(centrifugal_forces(ramp, self.drivetrain.frame.load))
-        return EquationsOfMotion(*common, ramp, tuple(loads))
+        if ramp is not None:
+            turned = self.input_speed / ramp.start
+            loads = (inertia_forces(ramp, turned * self.drivetrain.nominal_momentum),)
+            if self.drivetrain.frame is not None:
+                loads = (*loads, centrifugal_forces(ramp, self.drivetrain.frame.load))
+        own = self.models[0].equations_of_motion
+        return replace(own, drivetrain=self.drivetrain, time_scales=self.time_scales, loads=loads)
 
     @property
     def slowest(self) -> Model:
@@ -131,18 +136,13 @@ class RowModel(OfMeshes):
     @cached_property
     def vibrations(self) -> list[Vibration]:
         """The elastic modes with one tooth pair in each mesh, about; empty without inertia."""
-        if self.drivetrain.mass is None:
-            return []
         return vibrations(self.drivetrain, self.mesh_stiffness, self.models[0].scene.friction is not None)
 
     @property
     def time_scales(self) -> TimeScales:
         """How mesh frequencies and time step compare with the vibrations."""
-        if not self.vibrations:
-            return FOLLOWING
-        elastic = np.array([each.frequency for each in self.vibrations])
         frequencies = [model.scene.motion.mesh_frequency * part for model in self.models for part in self._speeds]
-        return time_scales(elastic, frequencies, self.models[0].time_step)
+        return time_scales(self.vibrations, frequencies, self.models[0].time_step)
 
     @property
     def _speeds(self) -> tuple[float, float]:
@@ -180,11 +180,6 @@ class RowModel(OfMeshes):
     def over_face(self) -> bool:
         """Whether flanks are resolved over the face: of all meshes or of none."""
         return self.models[0].scene.three_dimensional
-
-    @property
-    def members(self) -> list[list[int]]:
-        """Numbers of its meshes, those together that have a gear in common."""
-        return self.graph.members
 
     @property
     def placed(self) -> list[tuple[np.ndarray, np.ndarray]]:

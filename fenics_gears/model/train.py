@@ -7,7 +7,7 @@ that twist.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil
@@ -43,11 +43,9 @@ class TrainModel:
         rows = iter(self.rows)
         return [TrainModel(part, tuple(next(rows) for _ in part.rows)) for part in self.scene.parts]
 
-    @property
-    def bare(self) -> TrainModel:
-        """The same without what its models have computed of themselves."""
-        rows = (replace(row, models=tuple(each.bare for each in row.models)) for row in self.rows)
-        return replace(self, rows=tuple(rows))
+    def changed(self, change: Callable[[Model], Model]) -> TrainModel:
+        """The same with the models of all meshes changed."""
+        return replace(self, rows=tuple(row.changed(change) for row in self.rows))
 
     @property
     def warnings(self) -> list[str]:
@@ -113,7 +111,7 @@ def together(meshes: Sequence[MeshOfScene], shafts: TrainShafts, recorded_cycles
     recorded = recorded_cycles * max(steps) if shafts.moving else 0
     row = RowModel(tuple(meshes), tuple(found), shafts, recorded)
     ramp = row.ramp
-    return row if ramp is None else replace(row, models=tuple(replace(each, own_clock=ramp) for each in found))
+    return row if ramp is None else row.changed(lambda own: replace(own, own_clock=ramp))
 
 
 def _flank_sizes(meshes: Sequence[MeshOfScene], models: Sequence[Model]) -> list[float]:

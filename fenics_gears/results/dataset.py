@@ -187,7 +187,7 @@ def _numbers(recorder: Recorder, march: March, result: RunResult, first: int) ->
     if not recorder.steps:
         return {"contact_loss_count": 0}
     model = recorder.model
-    counted = {name: result[name][first:] for name, (dims, _) in recorder.stored.items() if dims[0] == "time"}
+    counted = recorder.counted(first)
     error = counted["transmission_error"]
     lost = [separation for separation in march.separations if separation[0] > first or first == 0]
     numbers = loss_attributes(lost, first, march.steps, model.clock)

@@ -127,6 +127,10 @@ class Recorder:
         self.arrays = {name: self.kept.get(name, self.steps) for name in self.stored}
         self.watched = {name: self.kept.get(f"{WATCHED}{name}", self.steps) for name in self._watched}
 
+    def counted(self, first: int) -> dict[str, np.ndarray]:
+        """Curves over all steps from the first one that counts."""
+        return {name: self.arrays[name][first:] for name, (dims, _) in self.stored.items() if dims[0] == "time"}
+
     def recall(self, recorded: Recorded) -> None:
         """Take over what a journal holds, in place of a march."""
         self.kept = recorded

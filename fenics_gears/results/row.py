@@ -22,7 +22,7 @@ from .recorder import Recorder
 from .train import OF_ENERGY, MeshResult
 
 if TYPE_CHECKING:
-    from .train_shafts import ShaftsOfTrain
+    from .train_shafts import ResultOfShafts
 
 
 class RowResult:
@@ -35,17 +35,14 @@ class RowResult:
         self._lost: list[np.ndarray] = []
         self._driven: list[np.ndarray] = []
         self._last: Steps | None = None
-        self._shafts = _shafts_of(row)
-        # Of a planetary set, of its members.
+        # Of shafts that bend, or of a planetary set.
         self._states: list[np.ndarray] = []
 
     def take(self, solved: Steps, of_meshes: Sequence[Steps]) -> None:
         """The next steps, of all meshes together and of each."""
         for recorder, own in zip(self._recorders, of_meshes):
             recorder.take(own)
-        if self._shafts is not None:
-            self._shafts.take(solved.states[:, 0])
-        if self._row.shafts.carrier is not None:
+        if self._row.bent is not None or self._row.shafts.carrier is not None:
             self._states.append(solved.states[:, 0])
         if self._row.models[0].scene.friction is None:
             return
@@ -76,16 +73,21 @@ class RowResult:
             found.append(MeshResult(mesh.name, own, numbers, said, seconds))
         if self._row.models[0].scene.friction is not None:
             found[-1].numbers["friction_loss"] = self._friction_loss()
-        if self._shafts is not None:
-            found[0] = replace(found[0], shafts=self._shafts.result(self._row.recorded))
-        if self._row.shafts.carrier is not None:
-            # Trains of pairs have none.
+        if self._states:
+            found[0] = replace(found[0], shafts=self._of_shafts(np.concatenate(self._states)))
+        return found
+
+    def _of_shafts(self, states: np.ndarray) -> ResultOfShafts:
+        """What the states (steps, k) say of a planetary set, or of shafts that bend; other trains load neither."""
+        row = self._row
+        carrier = row.shafts.carrier
+        if carrier is not None:
             from .planetary import result_of_set
 
-            arrays = [recorder.arrays for recorder in self._recorders]
-            of_set = result_of_set(self._row, self._row.shafts.carrier, np.concatenate(self._states), arrays)
-            found[0] = replace(found[0], shafts=of_set)
-        return found
+            return result_of_set(row, carrier, states, [recorder.arrays for recorder in self._recorders])
+        from .train_shafts import ShaftsOfTrain
+
+        return ShaftsOfTrain(row.drivetrain, row.bent, states).result(row.recorded)
 
     def _friction_loss(self) -> float:
         """Part of the driving work that friction takes in the recorded steps."""
@@ -103,9 +105,7 @@ class RowResult:
         cycle = recorder.cycle.steps
         last = recorder.steps - 1
         first = max(last - cycle * (self._row.recorded // cycle), 0) if self._row.recorded else 0
-        counted = {
-            name: recorder.arrays[name][first:] for name, (dims, _) in recorder.stored.items() if dims[0] == "time"
-        }
+        counted = recorder.counted(first)
         model = recorder.model
         error = counted["transmission_error"]
         found = key_numbers(counted, model.pair, None, False) | {
@@ -124,15 +124,6 @@ class RowResult:
         torque = sum(each.scene.load.wheel_torque * abs(each.pair.rotation_ratio) for each in driving)
         first = driving[0]
         return torque * first.pair.pinion.angular_pitch * steps / first.resolution.steps_per_mesh_cycle
-
-
-def _shafts_of(row: RowModel) -> ShaftsOfTrain | None:
-    """What is recorded of shafts that bend; None where there are none."""
-    if row.bent is None:
-        return None
-    from .train_shafts import ShaftsOfTrain
-
-    return ShaftsOfTrain(row.drivetrain, row.bent)
 
 
 def _finite(numbers: Mapping[str, Any]) -> dict[str, Any]:

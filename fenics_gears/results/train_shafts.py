@@ -37,28 +37,23 @@ class ResultOfShafts:
 
 
 class ShaftsOfTrain:
-    """What the states of a train say of its shafts that bend."""
+    """What the states (steps, k) of a train say of its shafts that bend."""
 
-    def __init__(self, drivetrain: Drivetrain, bent: BentShafts):
+    def __init__(self, drivetrain: Drivetrain, bent: BentShafts, states: np.ndarray):
         self._drivetrain = drivetrain
         self._bent = bent
-        self._states: list[np.ndarray] = []
-
-    def take(self, states: np.ndarray) -> None:
-        """The next states (steps, k)."""
-        self._states.append(states)
+        self._states = states
 
     def result(self, recorded: int) -> ResultOfShafts:
         """Loads of all bearings at all steps, and means over the last so many steps of how all shafts bend; 0 for
         all."""
-        states = np.concatenate(self._states)
-        loads = self._bearing_loads(states)
+        loads = self._bearing_loads(self._states)
         units = ("N", "N", "N", "N mm", "N mm")
         variables: Variables = {
             name: (("time", "bearing"), of, {"units": unit, "long_name": words})
             for name, of, unit, words in zip(LOADS, np.moveaxis(loads, -1, 0), units, IN_SPACE)
         }
-        mean = states[-recorded:].mean(axis=0)
+        mean = self._states[-recorded:].mean(axis=0)
         for axis, of, where in zip("xy", self._deflections(mean), ("to the right", "upwards")):
             words = {"units": "mm", "long_name": f"displacement of the shaft's axis {where}, mean"}
             variables[f"shaft_deflection_{axis}"] = (("shaft", "shaft_point"), of, words)

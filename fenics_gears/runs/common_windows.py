@@ -22,17 +22,14 @@ class CommonWindows:
         """The models, of pairs or of trains, with the longest windows that these or others before them asked for and
         that share their operators."""
         for model in models:
-            for each in [model] if isinstance(model, Model) else model.models:
+            for each in model.models:
                 key = _key(each)
                 if key is not None:
                     own = each.resolution.contact_grid.inner_length
                     self._longest[key] = max(own, self._longest.get(key, own))
-        return [self._with_windows(model) for model in models]
+        return [model.changed(self._with_window) for model in models]
 
-    def _with_windows(self, model: Any) -> Any:
-        if not isinstance(model, Model):
-            rows = (replace(row, models=tuple(map(self._with_windows, row.models))) for row in model.rows)
-            return replace(model, rows=tuple(rows))
+    def _with_window(self, model: Model) -> Model:
         grid = model.resolution.contact_grid
         length = self._longest.get(_key(model))
         if grid.inner_length == length:

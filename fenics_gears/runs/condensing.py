@@ -73,8 +73,8 @@ def _tasks(model: Model | TrainModel) -> Iterator[tuple[str, tuple, GearTask | S
             if len(sides) == 1:
                 yield from _of_pair(row.models[mesh], GEARS[side : side + 1])
             else:
-                bare = replace(row, models=tuple(e.bare for e in row.models))
-                yield BODY, row.keys_of_shared(gear), SharedGearTask(bare, gear)
+                # Without what the models have computed of themselves.
+                yield BODY, row.keys_of_shared(gear), SharedGearTask(row.changed(replace), gear)
 
 
 def _of_pair(model: Model, names: Iterable[str]) -> Iterator[tuple[str, tuple, GearTask]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING, Any
 
 from fenics_gears.elasticity.cache import as_json
@@ -57,7 +57,7 @@ class Run:
 
     def __reduce__(self) -> tuple:
         # To another process goes the model without what it has computed of itself.
-        return _received, (self.model.bare, self.key, self.index, self.values)
+        return _received, (self.model.changed(replace), self.key, self.index, self.values)
 
 
 def run_of(model: Model | TrainModel, index: int = 0, values: dict[str, str] | None = None, make: Any = None) -> Run:

@@ -4,7 +4,6 @@ shafts have several paths, masses, bearings or twist."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from functools import partial
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -34,7 +33,7 @@ from fenics_gears.results.train import MeshResult
 from fenics_gears.system.progress import Progress
 
 from .bodies import body_key, gear_bodies, gear_body
-from .elastic_route import cycle_of, gaps_of, mesh_cycle, mesh_of
+from .elastic_route import cycle_of, gaps_of, mesh_of
 from .simulate import MARCH, memory_for_operators
 from .warm_up import compile_kernels, compile_loops
 
@@ -85,49 +84,12 @@ def _cycle_with_room(row: RowModel, room: tuple[float, bool], progress: Progress
 
 def row_cycle(row: RowModel, progress: Progress, cache: Cache) -> RowCycle:
     """The contact equations of all meshes of a train that move together, on the bodies of all gears."""
-    placed = row.placed
-    members = []
-    for numbers in row.members:
-        meshes = (row.meshes[number] for number in numbers)
-        counted = tuple(mesh if mesh.like is None else replace(mesh, like=numbers.index(mesh.like)) for mesh in meshes)
-        own = RowModel(counted, tuple(row.models[number] for number in numbers))
-        of_own = [placed[number] for number in numbers]
-        members.append(_member(own, of_own, row.drivetrain.modes, progress, cache))
-    if len(members) == 1 and isinstance(members[0].cycle, RowCycle):
-        return members[0].cycle
-    return RowCycle(members, JoinedMeshes())
-
-
-def _member(
-    row: RowModel, placed: Sequence[tuple[np.ndarray, np.ndarray]], modes: int, progress: Progress, cache: Cache
-) -> MeshOfRow:
-    """A single mesh, or meshes that have gears in common, over the coordinates of the train; `placed`: `coordinates`
-    and `offset` of each mesh, and how many `modes` there are, as of MeshOfRow."""
-    if len(row.models) == 1:
-        bodies = gear_bodies(row.models[0], progress, cache)
-        return _mesh(row.models[0], mesh_cycle(row.models[0], bodies), placed[0], modes)
-    cycle = _row_of(row, placed, modes, progress, cache)
-    count = placed[0][0].shape[1]
-    # What its meshes have by themselves is in it.
-    return MeshOfRow(cycle, np.eye(count)[: count - modes], modes=modes)
-
-
-def _mesh(model: Model, cycle: Cycle, placed: tuple[np.ndarray, np.ndarray], modes: int) -> MeshOfRow:
-    """A mesh with the gaps of its model."""
-    coordinates, offset = placed
-    return MeshOfRow(cycle, coordinates, None, modes).with_gaps_of(offset, partial(gaps_of, model))
-
-
-def _row_of(
-    row: RowModel, placed: Sequence[tuple[np.ndarray, np.ndarray]], modes: int, progress: Progress, cache: Cache
-) -> RowCycle:
-    """Meshes that have gears in common; arguments as of `_member`."""
     bodies = list(_bodies(row, progress, cache))
     meshes: list[MeshOfRow] = []
-    for number, of_mesh in enumerate(placed):
+    for number, of_mesh in enumerate(row.placed):
         like = _like(row, number, bodies)
         cycle = _cycle(row, number, bodies, None if like is None else meshes[like].cycle)
-        meshes.append(_mesh(row.models[number], cycle, of_mesh, modes))
+        meshes.append(_mesh(row.models[number], cycle, of_mesh, row.drivetrain.modes))
     if row.over_face:
         return RowCycle(meshes, _over_face().joined(row, bodies, [mesh.cycle for mesh in meshes]))
     coupled = [
@@ -137,7 +99,13 @@ def _row_of(
         for gear in row.graph.shared
         for shared in couplings(row.layout, gear)
     ]
-    return RowCycle(meshes, RowInPlane(coupled))
+    return RowCycle(meshes, RowInPlane(coupled) if coupled else JoinedMeshes())
+
+
+def _mesh(model: Model, cycle: Cycle, placed: tuple[np.ndarray, np.ndarray], modes: int) -> MeshOfRow:
+    """A mesh with the gaps of its model."""
+    coordinates, offset = placed
+    return MeshOfRow(cycle, coordinates, None, modes).with_gaps_of(offset, partial(gaps_of, model))
 
 
 def _over_face() -> ModuleType:
@@ -151,15 +119,18 @@ def _bodies(row: RowModel, progress: Progress, cache: Cache) -> Iterator[Body | 
     """The gears of a row, one after the other; those that are alike, as planets are, are one body."""
     known: list[tuple[tuple, Body | SharedBody]] = []
     for gear, sides in enumerate(row.graph.sides):
-        progress.stage(f"condense gear {gear + 1}")
         mesh, side = sides[0]
-        key = row.keys_of_shared(gear) if len(sides) > 1 else (body_key(row.models[mesh], GEARS[side]),)
-        body = next((body for other, body in known if other == key), None)
-        if body is None:
-            alone = len(sides) == 1
-            body = gear_body(row.models[mesh], GEARS[side], cache) if alone else shared_body(row, gear, cache)
-            known.append((key, body))
-        yield body
+        model = row.models[mesh]
+        key = row.keys_of_shared(gear) if len(sides) > 1 else body_key(model, GEARS[side])
+        if all(other != key for other, _ in known):
+            progress.stage(f"condense gear {gear + 1}")
+            if len(sides) > 1:
+                known.append((key, shared_body(row, gear, cache)))
+            elif {*row.graph.gears[mesh]}.isdisjoint(row.graph.shared):
+                known += zip([body_key(model, name) for name in GEARS], gear_bodies(model, progress, cache))
+            else:
+                known.append((key, gear_body(model, GEARS[side], cache)))
+        yield next(body for other, body in known if other == key)
 
 
 def shared_body(row: RowModel, gear: int, cache: Cache) -> Body | SharedBody:
