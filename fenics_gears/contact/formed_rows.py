@@ -56,7 +56,6 @@ from .fine_sections import (
 
 if TYPE_CHECKING:
     from .factored_compliance import Factors
-    from .joined_rows import Coupling, Joined
 
 
 class _Source(NamedTuple):
@@ -70,8 +69,8 @@ class _Source(NamedTuple):
     matrix: np.ndarray
 
 
-# In compiled code it is a table: first the addresses that `addresses.form_rows`, `addresses.solver_of` and
-# `addresses.displacer_of` read, 0 where there is none; then address and shape of each array, the last being the
+# In compiled code it is a table: first the addresses that `addresses.form_rows` and `addresses.solver_of` read, the
+# latter 0 between other nodes than those of one position; then address and shape of each array, the last being the
 # flags that say which rows are formed.
 ARRAYS = 35
 
@@ -82,7 +81,7 @@ class FormedRows:
     give in each slice, and of the fine sections there.
 
     `matrix`: zero where it is not yet `formed` (n,); by columns where asked for. `table` and `arrays`: what rows are
-    formed of. `factors`: between the nodes of one position; `joined`: of several meshes, and how these feel each other.
+    formed of. `factors`: between the nodes of one position.
     """
 
     matrix: np.ndarray
@@ -91,7 +90,6 @@ class FormedRows:
     table: np.ndarray
     arrays: list[np.ndarray]
     factors: Factors | None = None
-    joined: tuple[Sequence[Joined], Sequence[Coupling]] | None = None
 
     @classmethod
     def of(

@@ -15,39 +15,18 @@ from numba import carray, cfunc, njit
 from fenics_gears.system.memory import pages
 
 from .addresses import form_rows, to_flag, to_integer, to_number
-from .factored_compliance import Factors, factored_solver
 from .formed_rows import FormedRows
-from .joined_solver import joined_solver
-from .joined_table import (
-    BETWEEN,
-    COLUMNS,
-    COUNT,
-    COUNT_OF_COLUMNS,
-    COUPLINGS,
-    FIRST,
-    FIRST_COLUMN,
-    FORMED,
-    KINDS,
-    KINDS_OF_COLUMNS,
-    LOADED,
-    MATRIX,
-    MOTIONS,
-    MOTIONS_OF_LOADED,
-    MOVED,
-    MOVED_OF_LOADED,
-    NUMBERS,
-    OWN,
-    PARTS,
-    RESPONDING,
-    ROWS,
-    SIDE,
-    TABLE,
-    TEETH,
-    TEETH_OF_LOADED,
-    TOOTH,
-    TOOTH_OF_LOADED,
-    joined_displacer,
-)
+
+# In the table of all rows after what `addresses` names: how many parts and couplings there are, nodes of all rows and
+# columns, forces of a node in either, addresses of the matrix and of the flags that say which rows are formed.
+PARTS, COUPLINGS, ROWS, COLUMNS, KINDS, KINDS_OF_COLUMNS, MATRIX, FORMED = range(3, 11)
+NUMBERS = 11
+# Of a part: address of its table, of its matrix, its first node among rows and columns, and how many it has.
+TABLE, OWN, FIRST, COUNT, FIRST_COLUMN, COUNT_OF_COLUMNS = range(6)
+# Of a coupling: the part that responds and the one that is loaded; of the nodes of either addresses of what moves them
+# and of the tooth of each; address of what is between teeth; number of motions and of teeth of either.
+RESPONDING, LOADED, MOVED, TOOTH, MOVED_OF_LOADED, TOOTH_OF_LOADED, BETWEEN, MOTIONS, MOTIONS_OF_LOADED = range(9)
+TEETH, TEETH_OF_LOADED = range(9, 11)
 
 
 class AllRows(NamedTuple):
@@ -56,8 +35,6 @@ class AllRows(NamedTuple):
     matrix: np.ndarray
     address: int = 0
     arrays: tuple[np.ndarray, ...] = ()
-    factors: None = None
-    joined: None = None
 
     @property
     def table(self) -> np.ndarray:
@@ -102,75 +79,33 @@ def joined_rows(
 ) -> FormedRows:
     """Rows of all meshes, of so many nodes in rows and columns and forces of each; `by_columns`: rows here are the
     compliance's columns."""
-    parts, couplings = _flat(parts, couplings)
     nodes, columns = shape
     matrix = pages(kinds[0] * nodes, kinds[1] * columns)
     formed = np.zeros(nodes, dtype=bool)
-    by_mesh = kinds == (1, 1) and all(part.rows.factors is not None for part in parts)
-    sides, numbers = _sides(couplings) if by_mesh else ([], {})
-    table = np.zeros((1 + len(parts) + len(couplings) + len(sides), NUMBERS), dtype=np.int64)
-    sizes = len(parts), len(couplings), len(sides), nodes, columns, *kinds
-    table[0, PARTS:] = *sizes, matrix.ctypes.data, formed.ctypes.data
-    table[0, 0] = joined_row_former().address
+    table = np.zeros((1 + len(parts) + len(couplings), NUMBERS), dtype=np.int64)
     factors = None
-    if by_mesh:
-        table[0, 1:4] = joined_solver().address, table.ctypes.data, joined_displacer().address
-    elif not by_columns and any(part.rows.address for part in parts):
+    if not by_columns and any(part.rows.address for part in parts):
+        from .factored_compliance import Factors, factored_solver
+
         factors = Factors(nodes, kinds[0] * nodes)
         table[0, 1:3] = factored_solver().address, factors.table.ctypes.data
-    held = [matrix, formed]
+    table[0, 0] = joined_row_former().address
+    table[0, PARTS:] = len(parts), len(couplings), nodes, columns, *kinds, matrix.ctypes.data, formed.ctypes.data
+    arrays = [matrix, formed]
     for row, part in zip(table[1:], parts):
         counts = [length // kind for length, kind in zip(part.rows.matrix.shape, kinds)]
         own = part.rows.address, part.rows.matrix.ctypes.data
         row[:6] = *own, part.first, counts[0], part.first_column, counts[1]
-        held += [*part.rows.arrays, part.rows.table]
-        if part.rows.factors is not None:
-            held += [*part.rows.factors.arrays, part.rows.factors.table]
+        arrays += [*part.rows.arrays, part.rows.table]
     for row, each in zip(table[1 + len(parts) :], couplings):
         of_nodes = each.nodes.moved, each.nodes.tooth, each.nodes_of_loaded.moved, each.nodes_of_loaded.tooth
         of_both = [np.ascontiguousarray(array) for array in (*of_nodes, each.between)]
         row[:2] = each[:2]
         row[MOVED : BETWEEN + 1] = [array.ctypes.data for array in of_both]
-        row[MOTIONS : TEETH_OF_LOADED + 1] = *each.between.shape[2:], *each.between.shape[:2]
-        if by_mesh:
-            row[SIDE:] = numbers[id(each.nodes)], numbers[id(each.nodes_of_loaded)]
-            place = 1 + len(parts) + len(couplings) + row[SIDE]
-            table[place] = row
-            table[place, :2] = each.responding, sides[row[SIDE]]
-        held += of_both
+        row[MOTIONS:] = *each.between.shape[2:], *each.between.shape[:2]
+        arrays += of_both
     # Nodes of a mesh are in several couplings.
-    arrays = list({id(each): each for each in held}.values())
-    return FormedRows(matrix, formed, by_columns, table, arrays, factors, (parts, couplings))
-
-
-def _flat(parts: Sequence[Joined], couplings: Sequence[Coupling]) -> tuple[list[Joined], list[Coupling]]:
-    """The meshes themselves in place of parts that are joined already, and all couplings of these."""
-    meshes: list[Joined] = []
-    begins = []
-    found = []
-    for part in parts:
-        begin = len(meshes)
-        begins.append(begin)
-        inner, between = part.rows.joined or ([Joined(part.rows, 0, 0)], [])
-        meshes += [Joined(each.rows, part.first + each.first, part.first_column + each.first_column) for each in inner]
-        found += [each._replace(responding=begin + each.responding, loaded=begin + each.loaded) for each in between]
-    found += [each._replace(responding=begins[each.responding], loaded=begins[each.loaded]) for each in couplings]
-    return meshes, found
-
-
-def _sides(couplings: Sequence[Coupling]) -> tuple[list[int], dict[int, int]]:
-    """The gear of each side of a mesh that couplings have, those of few sides first; and the number of a side by the
-    identity of its nodes."""
-    gears: list[list[int]] = []
-    for each in couplings:
-        both = [id(each.nodes), id(each.nodes_of_loaded)]
-        own = next((gear for gear in gears if not set(gear).isdisjoint(both)), None)
-        if own is None:
-            gears.append(own := [])
-        own += [side for side in both if side not in own]
-    gears.sort(key=len)
-    numbers = {side: number for number, side in enumerate(side for gear in gears for side in gear)}
-    return [number for number, gear in enumerate(gears) for _ in gear], numbers
+    return FormedRows(matrix, formed, by_columns, table, list({id(each): each for each in arrays}.values()), factors)
 
 
 @cache
@@ -192,7 +127,7 @@ def _form_joined_rows(address, nodes, count):
         if len(own):
             form_rows(part[TABLE], own - part[FIRST])
             _copy(head, part, own)
-            for coupling in table[1 + head[PARTS] : 1 + head[PARTS] + head[COUPLINGS]]:
+            for coupling in table[1 + head[PARTS] :]:
                 if coupling[RESPONDING] == number:
                     _put_coupled(head, part, table[1 + coupling[LOADED]], coupling, own)
             formed[own] = True

@@ -100,12 +100,6 @@ class JoinedPosition(Position):
 
     of_meshes: tuple[tuple[Position, int], ...] = ()
 
-    @property
-    def bytes(self) -> int:
-        # Without friction over the face meshes are solved one by one, and all together have no operators.
-        alone = self.operator.rigid_slip is None and self.operator.stored.address
-        return sum(each.bytes for each, _ in self.of_meshes) if alone else super().bytes
-
 
 class RowCycle(Cycle):
     """Contact equations of all meshes of a train, whose steps are of one length in time; the cycles of those that have
@@ -161,14 +155,12 @@ class RowCycle(Cycle):
         more often."""
         count = len(self._members)
         # Operators grow with the square of their nodes, and those of all meshes have count times as many; how these
-        # feel each other takes as much as each by itself. Meshes that are solved one by one are all that there is.
-        alone = not self.tangential and len(self.face.widths) > 1
-        together = 1.0 if alone else count
-        self.kept = Kept(memory * together / (together + 2))
+        # feel each other takes as much as each by itself.
+        self.kept = Kept(memory * count / (count + 2))
         self._keeps = not once
-        self._compliance.kept = Kept(memory / (together + 2))
+        self._compliance.kept = Kept(memory / (count + 2))
         for each in self._members:
-            own = memory / (count * (together + 2))
+            own = memory / (count * (count + 2))
             if isinstance(each.cycle, RowCycle):
                 each.cycle.share(own)
             else:
