@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-
 from tests.simulation.reference.published_newton import Equations, Iterate, iterates
 from tests.simulation.reference.relative_stiffness import RelativeStiffness
 
